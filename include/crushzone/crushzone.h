@@ -1,0 +1,22 @@
+/* crushzone: design of the crush zones of railway trains.
+ *
+ *   problem file --> CzProblem --> CzModel --> cz_simulate --> CzRun
+ *                        |
+ *                        +--> CzEvaluator --> cz_evaluate --> CzEvaluation
+ *                                  |
+ *                                  +--> cz_optimise --> CzOutcome --> report
+ *
+ * SI units inside; compression positive, x forward, z up, pitch positive nose-up.
+ */
+#ifndef CRUSHZONE_CRUSHZONE_H
+#define CRUSHZONE_CRUSHZONE_H
+
+#include "crushzone/evaluate.h"
+#include "crushzone/model.h"
+#include "crushzone/optimise.h"
+#include "crushzone/problem.h"
+#include "crushzone/report.h"
+#include "crushzone/simulate.h"
+#include "crushzone/status.h"
+
+#endif

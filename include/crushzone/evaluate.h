@@ -1,0 +1,99 @@
+/* A design problem as numbers: variables in, objective and constraints out. */
+#ifndef CRUSHZONE_EVALUATE_H
+#define CRUSHZONE_EVALUATE_H
+
+#include <stdbool.h>
+
+#include "crushzone/simulate.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One design variable. */
+typedef struct CzVariableInfo {
+    const char *name; /* path or given name */
+    const char *unit; /* as in the file, such as "kN" */
+    double min, max;  /* in that unit */
+    double start;     /* in that unit */
+    double step;      /* catalogue step in that unit; 0 when none */
+} CzVariableInfo;
+
+typedef enum CzVerdict {
+    CZ_VERDICT_PASS,
+    CZ_VERDICT_PROVISIONAL, /* passes a limit that nobody has confirmed yet */
+    CZ_VERDICT_FAIL,
+    CZ_VERDICT_NOT_CHECKED
+} CzVerdict;
+CZ_API const char *cz_verdict_text(CzVerdict verdict);
+
+/* One check of one scenario. Texts are borrowed from the evaluator. */
+typedef struct CzCheckResult {
+    const char *name;
+    const char *scenario;
+    char where[48]; /* place of the worst value */
+    double limit;   /* in `unit` */
+    double value;   /* in `unit`; NaN when not checked */
+    const char *unit;
+    double margin;   /* (limit - value) / max(|limit|, scale), sign turned for lower limits */
+    bool is_minimum; /* the limit is a lower one */
+    CzVerdict verdict;
+    const char *why;                                    /* why it was not checked; NULL otherwise */
+    const char *profile, *clause, *source, *confidence; /* NULL when none */
+} CzCheckResult;
+
+/* What one design answers. Arrays are borrowed from the evaluation and freed with it. */
+typedef struct CzEvaluation {
+    CzStatus status;  /* CZ_OK, or CZ_STATUS_RUN_FAILED when a scenario failed or is incomplete */
+    double objective; /* in the objective's unit; NaN when failed */
+    int n_constraint;
+    double *constraint; /* -(margin - required margin): at most 0 when kept; NaN when failed
+                           (n_constraint) */
+    double violation;   /* largest positive constraint, 0 when feasible, infinite when failed */
+    int n_check;
+    CzCheckResult *check; /* (n_check) */
+    CzVerdict verdict;    /* over all checks */
+    int n_run;
+    CzRun **run; /* one per scenario when asked for, else NULL */
+} CzEvaluation;
+CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
+
+typedef struct CzEvaluatorOptions {
+    int n_job;          /* threads; 0 takes the number of processors */
+    double step_factor; /* factor on every time step; 1 is the record */
+} CzEvaluatorOptions;
+CZ_API CzEvaluatorOptions cz_evaluator_options_default(void);
+
+typedef struct CzEvaluator CzEvaluator;
+
+/* The problem must outlive the evaluator. A problem without `optimise:` has no variables and can
+ * still be checked. Statuses: CZ_OK, CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_evaluator_build(const CzProblem *problem,
+                                                 const CzEvaluatorOptions *options,
+                                                 CzEvaluator **evaluator, CzError *error);
+CZ_API void cz_evaluator_free(CzEvaluator *evaluator);
+
+CZ_API int cz_evaluator_n_variable(const CzEvaluator *evaluator);
+CZ_API const CzVariableInfo *cz_evaluator_variable(const CzEvaluator *evaluator, int variable);
+CZ_API int cz_evaluator_n_constraint(const CzEvaluator *evaluator);
+CZ_API const char *cz_evaluator_constraint_name(const CzEvaluator *evaluator, int constraint);
+CZ_API const char *cz_evaluator_objective_name(const CzEvaluator *evaluator);
+CZ_API const char *cz_evaluator_objective_unit(const CzEvaluator *evaluator);
+
+/* Evaluates n_point designs side by side; x is (n_point x n_variable) in the variables' units, NULL
+ * for the file's own values. `evaluation` is (n_point), filled by the call, each to be freed by the
+ * caller. The answer of a design does not depend on its neighbours, nor on the number of threads.
+ * `keep_runs` records channels and keeps the runs. */
+CZ_MUST_CHECK CZ_API CzStatus cz_evaluate(CzEvaluator *evaluator, int n_point, const double *x,
+                                          bool keep_runs, CzEvaluation *evaluation, CzError *error);
+
+/* Replaces the objective by one of the caller's own; called for each design with all its run
+ * summaries (n_scenario). */
+typedef double (*CzObjective)(int n_scenario, const CzRunSummary *const *summary, void *data);
+CZ_API void cz_evaluator_set_objective(CzEvaluator *evaluator, const char *name, const char *unit,
+                                       CzObjective objective, void *data);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

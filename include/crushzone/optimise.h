@@ -1,0 +1,77 @@
+/* Search for a design that passes: NLopt behind one adapter, our own strategy and incumbent around
+ * it. */
+#ifndef CRUSHZONE_OPTIMISE_H
+#define CRUSHZONE_OPTIMISE_H
+
+#include <signal.h>
+
+#include "crushzone/evaluate.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum CzOutcomeStatus {
+    CZ_OUTCOME_FEASIBLE,
+    CZ_OUTCOME_INFEASIBLE,
+    CZ_OUTCOME_INTERRUPTED
+} CzOutcomeStatus;
+CZ_API const char *cz_outcome_text(CzOutcomeStatus status);
+
+/* What a progress callback gets after each evaluation. */
+typedef struct CzProgress {
+    long n_evaluation, most_evaluations;
+    bool feasible;         /* whether the incumbent is */
+    double best_objective; /* of the incumbent */
+    double best_violation; /* of the incumbent */
+    const char *phase;     /* such as "screen", "descend", "polish" */
+} CzProgress;
+
+typedef struct CzOptimiseOptions {
+    const char *algorithm; /* "auto" or an NLopt name such as "LN_COBYLA"; NULL takes the file's */
+    long evaluations;      /* most evaluations; 0 takes the file's */
+    long seed;             /* -1 takes the file's */
+    const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */
+    void (*progress)(const CzProgress *progress, void *data); /* NULL when none */
+    void *progress_data;
+} CzOptimiseOptions;
+CZ_API CzOptimiseOptions cz_optimise_options_default(void);
+
+/* One evaluation of the search. */
+typedef struct CzTrial {
+    double objective, violation;
+    bool feasible;
+    const char *phase;
+} CzTrial;
+
+/* Open result, owns its memory. The start and best evaluations were made from scratch after the
+ * search. */
+typedef struct CzOutcome {
+    CzOutcomeStatus status;
+    char why_stopped[128];
+    long n_evaluation;
+    int n_variable;
+    double *start,
+        *best; /* in the variables' units; best is snapped to the catalogue steps (n_variable) */
+    bool *at_bound;                                 /* (n_variable) */
+    CzEvaluation start_evaluation, best_evaluation; /* with runs kept */
+    long n_trial;
+    CzTrial *trial; /* history in order (n_trial) */
+    double wall_s;
+} CzOutcome;
+
+/* Statuses: CZ_OK (look at outcome->status), CZ_STATUS_INPUT for an unknown algorithm or no
+ * variables, CZ_STATUS_RUN_FAILED when more than half of the last 50 designs failed,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *options,
+                                          CzOutcome **outcome, CzError *error);
+CZ_API void cz_outcome_free(CzOutcome *outcome);
+
+/* NLopt algorithms that this build can run, by name. */
+CZ_API int cz_n_algorithm(void);
+CZ_API const char *cz_algorithm_name(int index);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

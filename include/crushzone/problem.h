@@ -1,0 +1,75 @@
+/* Problem files: text to SI values, every value with its place in the file. */
+#ifndef CRUSHZONE_PROBLEM_H
+#define CRUSHZONE_PROBLEM_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "crushzone/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A problem file after reading. Immutable; owns all its memory. */
+typedef struct CzProblem CzProblem;
+
+typedef struct CzProblemOptions {
+    const char *const *set; /* "path=value" texts applied after reading, later ones win; (n_set) */
+    int n_set;
+    const char *share_folder; /* folder with catalogue/ and profiles/ that is searched after the
+                                 file's own; NULL: the installed one */
+} CzProblemOptions;
+
+/* Options with nothing set. */
+CZ_API CzProblemOptions cz_problem_options_default(void);
+
+/* Reads a file ("-" is standard input). *problem is made whenever memory allows, even when the
+ * status is not CZ_OK: it then holds every mistake of the file and nothing else can be done with
+ * it. The caller frees it. `error` gets the first mistake. Statuses: CZ_OK, CZ_STATUS_INPUT,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_problem_read(const char *path, const CzProblemOptions *options,
+                                              CzProblem **problem, CzError *error);
+
+/* The same from a text of n_byte bytes; `name` stands for the file's name in messages, relative
+ * paths start at `folder`. */
+CZ_MUST_CHECK CZ_API CzStatus cz_problem_read_text(const char *text, size_t n_byte,
+                                                   const char *name, const char *folder,
+                                                   const CzProblemOptions *options,
+                                                   CzProblem **problem, CzError *error);
+
+/* Frees a problem; NULL is allowed. */
+CZ_API void cz_problem_free(CzProblem *problem);
+
+/* Mistakes and warnings in file order; the error is borrowed from the problem. */
+CZ_API int cz_problem_n_mistake(const CzProblem *problem);
+CZ_API const CzError *cz_problem_mistake(const CzProblem *problem, int index);
+CZ_API int cz_problem_n_warning(const CzProblem *problem);
+CZ_API const CzError *cz_problem_warning(const CzProblem *problem, int index);
+
+/* Source line of an error, without its line end, or NULL; borrowed. For the caret picture. */
+CZ_API const char *cz_problem_source_line(const CzProblem *problem, const CzError *error);
+
+/* Title, file name, content hash (16 hex digits over all files read and all settings); borrowed. */
+CZ_API const char *cz_problem_title(const CzProblem *problem);
+CZ_API const char *cz_problem_file(const CzProblem *problem);
+CZ_API const char *cz_problem_hash(const CzProblem *problem);
+
+/* Scenarios; a problem without a list has one named "collision". */
+CZ_API int cz_problem_n_scenario(const CzProblem *problem);
+CZ_API const char *cz_problem_scenario_name(const CzProblem *problem, int scenario);
+
+/* Writes the resolved file as YAML: all parts, copies and defaults filled in, SI values and origin
+ * in comments. The output is itself a problem file with the same meaning to the last bit. */
+CZ_API void cz_problem_write_resolved(const CzProblem *problem, FILE *stream);
+
+/* Writes the JSON schema (draft-07), the key list for a terminal, and the key reference (Markdown).
+ */
+CZ_API void cz_keys_write_schema(FILE *stream);
+CZ_API void cz_keys_write_help(FILE *stream);
+CZ_API void cz_keys_write_reference(FILE *stream);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,166 @@
+/* One collision: run, events, extrema, energy ledger, recorded channels. */
+#ifndef CRUSHZONE_SIMULATE_H
+#define CRUSHZONE_SIMULATE_H
+
+#include <stdbool.h>
+
+#include "crushzone/model.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum CzEnded {
+#define CZ_ENDED(constant, text) constant,
+#include "crushzone/ended.def"
+#undef CZ_ENDED
+} CzEnded;
+CZ_API const char *cz_ended_text(CzEnded ended);
+
+typedef enum CzEventKind {
+#define CZ_EVENT(constant, text, doc) constant,
+#include "crushzone/events.def"
+#undef CZ_EVENT
+} CzEventKind;
+CZ_API const char *cz_event_text(CzEventKind kind);
+
+/* First occurrence of something at a place. */
+typedef struct CzEvent {
+    double time; /* [s] */
+    CzEventKind what;
+    char where[48]; /* such as "coupler A4" or "A4 wheelset 2" */
+} CzEvent;
+
+/* One energy absorber or connection of an interface. */
+typedef enum CzElementKind {
+#define CZ_ELEMENT(constant, text) constant,
+#include "crushzone/elements.def"
+#undef CZ_ELEMENT
+    CZ_N_ELEMENT_KIND
+} CzElementKind;
+CZ_API const char *cz_element_text(CzElementKind kind);
+
+typedef struct CzElementResult {
+    char name[48]; /* "coupler A4" */
+    CzElementKind kind;
+    int vehicle;   /* vehicle that owns it */
+    double energy; /* net dissipated [J] */
+    double stored; /* still stored at the end [J] */
+    double stroke; /* plastic stroke used: tubes, anti-climber stages or crush zone together [m] */
+    double
+        stroke_used;   /* largest share of any one device's usable stroke [-]; 0 when it has none */
+    double peak_force; /* unfiltered largest force over all steps [N] */
+    double tube_energy; /* part of a coupler's energy that its tubes and shear-off took [J]; all of
+                           it for the others */
+    bool sheared;       /* coupler: shear-off has let go */
+    bool bottomed_out;  /* ran beyond its last point */
+    double zone_energy[3]; /* plastic energy by zone: crush, temporary, occupied [J] */
+} CzElementResult;
+
+enum { CZ_MAX_ELEMENTS = 8 };
+
+typedef struct CzInterfaceResult {
+    char name[48];       /* "A4-B1" */
+    double peak_force;   /* largest total longitudinal force over all steps [N] */
+    double peak_time;    /* [s] */
+    double shortening;   /* largest closure between the bodies at this interface [m] */
+    double energy;       /* dissipated [J] */
+    double energy_share; /* of all that is dissipated [-] */
+    bool bottomed_out;
+    double section_force[2]; /* largest force through the section behind the end, rear vehicle's and
+                                front vehicle's [N] */
+    double min_overlap; /* smallest remaining vertical overlap of the anti-climber faces while they
+                           push [m]; NaN when they never did */
+    double vertical_demand; /* largest vertical force between the anti-climbers [N] */
+    double vertical_margin; /* smallest (capacity - demand) while they push [N]; NaN when they never
+                               did */
+    int n_element;
+    CzElementResult element[CZ_MAX_ELEMENTS];
+} CzInterfaceResult;
+
+typedef struct CzVehicleResult {
+    char name[24];
+    double final_speed;               /* of the body [m/s] */
+    double peak_deceleration;         /* largest |acceleration| of the body, unfiltered [m/s2] */
+    double mean_deceleration_contact; /* largest mean over a window of net contact force [m/s2] */
+    double mean_deceleration_120ms;   /* largest mean over any window of 120 ms or more [m/s2] */
+    double wheel_lift[4];             /* largest lift of each wheelset, rear to front [m] */
+    double wheel_lift_time[4];        /* [s] */
+    double bogie_lift;          /* largest over bogies and time of the lower wheelset's lift [m] */
+    double max_pitch;           /* largest |pitch| of the body [rad] */
+    double link_force;          /* largest traction link force [N] */
+    double survival_shortening; /* stroke of occupied zones, both ends [m]; NaN when no end declares
+                                   an occupied zone */
+    bool checks_override;       /* bump and lift stops are declared, so override can be judged */
+} CzVehicleResult;
+
+/* Energy at the end of the run [J]. */
+typedef struct CzEnergy {
+    double initial;
+    double final_kinetic;
+    double dissipated;   /* plastic, friction, damping: net over the run */
+    double stored;       /* elastic energy above rest, and height */
+    double wheel_rail;   /* part of `dissipated` at wheels and brakes */
+    double running_gear; /* part of `dissipated` in links, stops, suspensions and dampers */
+    double absorbers; /* part of `dissipated` in couplers, anti-climbers, ends and side buffers */
+    double occupied;  /* part of `absorbers` in occupied zones */
+    double balance_error; /* |residual| over the initial energy [-], the largest over the run */
+} CzEnergy;
+
+/* Everything a run answers. Open, borrowed from the run. Failed results are NaN. */
+typedef struct CzRunSummary {
+    const char *scenario;
+    CzStatus status;   /* CZ_OK or CZ_STATUS_RUN_FAILED */
+    char failure[256]; /* car, element and time when failed; empty otherwise */
+    CzEnded ended;
+    double simulated; /* [s] */
+    double time_step; /* [s] */
+    long n_step;
+    CzEnergy energy;
+    double momentum_error;
+    double closing_speed;  /* largest closing speed of neighbours at the end [m/s] */
+    double plastic_energy; /* what a perfectly plastic collision would dissipate, less wheel-rail
+                              work [J] */
+    bool beyond_validity;  /* override happened: later metrics are beyond the model */
+    double beyond_validity_time; /* [s]; NaN when not */
+    int n_interface;
+    const CzInterfaceResult *interface; /* (n_interface) */
+    int n_vehicle;
+    const CzVehicleResult *vehicle; /* (n_vehicle) */
+    int n_event;
+    const CzEvent *event;   /* (n_event), in time order */
+    double setup_s, wall_s; /* for run_info only */
+} CzRunSummary;
+
+typedef struct CzSimulateOptions {
+    double time_step; /* [s]; 0 takes the model's */
+    bool record;      /* keep channels at the output step */
+    const char *isa;  /* "auto", or one of cz_isa_name: for tests and benchmarks */
+} CzSimulateOptions;
+CZ_API CzSimulateOptions cz_simulate_options_default(void);
+
+/* One collision with everything recorded. Opaque, owns its memory. */
+typedef struct CzRun CzRun;
+
+/* Runs the model. A run that goes non-finite, loses its energy balance or does not end is a result,
+ * not an error: the function returns CZ_OK and the summary says so. Statuses: CZ_OK,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_simulate(const CzModel *model, const CzSimulateOptions *options,
+                                          CzRun **run, CzError *error);
+CZ_API void cz_run_free(CzRun *run);
+CZ_API const CzRunSummary *cz_run_summary(const CzRun *run);
+
+/* Recorded channels, names with unit such as "v_A1_m_s"; column 0 is t_ms. Borrowed; n_sample
+ * values each. */
+CZ_API int cz_run_n_channel(const CzRun *run);
+CZ_API int cz_run_n_sample(const CzRun *run);
+CZ_API const char *cz_run_channel_name(const CzRun *run, int channel);
+CZ_API const double *cz_run_channel(const CzRun *run, int channel);
+
+/* Instruction set the kernel of this process takes with "auto". */
+CZ_API const char *cz_isa_name(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

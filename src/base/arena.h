@@ -1,0 +1,21 @@
+/* Arena: many allocations, one free. */
+#ifndef CZ_BASE_ARENA_H
+#define CZ_BASE_ARENA_H
+
+#include <stddef.h>
+
+/* Zero-initialise it before use. */
+typedef struct CzArena {
+    struct CzArenaBlock *block; /* newest block, NULL when empty */
+} CzArena;
+
+/* Zeroed memory for n items, aligned to 64 bytes; NULL when there is none. */
+void *cz_arena_allocate(CzArena *arena, size_t n, size_t size);
+
+/* Copy of a text of n bytes, ended by a zero; NULL when there is no memory. */
+char *cz_arena_copy_text(CzArena *arena, const char *text, size_t n);
+
+/* Frees everything; valid for an empty and for a half-filled arena. */
+void cz_arena_free(CzArena *arena);
+
+#endif

@@ -1,0 +1,5 @@
+# Sources of src/base, one per line.
+set(CZ_SOURCES_base
+    arena.c
+    error.c
+)

@@ -1,0 +1,3 @@
+# Sources of src/cli, one per line.
+set(CZ_SOURCES_cli
+)

@@ -1,0 +1,3 @@
+# Sources of src/evaluate, one per line.
+set(CZ_SOURCES_evaluate
+)

@@ -1,0 +1,3 @@
+# Sources of src/integrate, one per line.
+set(CZ_SOURCES_integrate
+)

@@ -1,0 +1,43 @@
+/* What the model and the evaluator see of a problem: typed records, places in the file, design
+ * targets. */
+#ifndef CZ_PROBLEM_PROBLEM_H
+#define CZ_PROBLEM_PROBLEM_H
+
+#include "crushzone/problem.h"
+#include "problem/input.h"
+
+/* The typed records, borrowed. trains[i].vehicles point into one array of all vehicles, trains in
+ * file order. */
+const CzInput *cz_problem_input(const CzProblem *problem);
+const CzVehicle *cz_problem_vehicles(const CzProblem *problem, int *n_vehicle);
+
+/* Fills file, line, column of the place where a field of the input was written (the innermost
+ * record when the field itself was not), and the status CZ_STATUS_INPUT. `field` is an address
+ * inside the input. */
+void cz_problem_place(const CzProblem *problem, const void *field, CzError *error);
+
+/* One number of the input that a path names. */
+typedef struct CzTarget {
+    int vehicle;        /* index into cz_problem_vehicles */
+    size_t offset;      /* of the double inside CzVehicle [byte] */
+    double value;       /* the file's own value [SI] */
+    double unit;        /* SI value of one unit of the path's key, such as 1000 for kN */
+    const char *suffix; /* unit as typed, such as "kN"; "" when none; borrowed */
+    int match;          /* which match of a [*] this belongs to, from 0 */
+    bool may_vary;      /* the key is one of the kinds an optimiser may change */
+    char place[160];    /* full path of the place, for messages and overlays */
+} CzTarget;
+
+/* All places that a path names. A path through `parts.NAME` names the part's places in every
+ * vehicle that uses it and does not override the key; all places of one part key belong to one
+ * match. `targets` is allocated with malloc and freed by the caller. Statuses: CZ_OK,
+ * CZ_STATUS_INPUT with a did-you-mean, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_problem_find(const CzProblem *problem, const char *path,
+                                       CzTarget **targets, int *n_target, CzError *error);
+
+/* Reads a profile of limits: NAME.yaml in profiles/ beside the problem file, then in the share
+ * folder. Borrowed from the problem, read with it when the problem names one; NULL when it names
+ * none. */
+const CzProfile *cz_problem_profile(const CzProblem *problem);
+
+#endif

@@ -1,0 +1,3 @@
+# Sources of src/problem, one per line.
+set(CZ_SOURCES_problem
+)

@@ -1,0 +1,3 @@
+# Sources of src/report, one per line.
+set(CZ_SOURCES_report
+)

@@ -1,0 +1,3 @@
+# Sources of src/simulate, one per line.
+set(CZ_SOURCES_simulate
+)

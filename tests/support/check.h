@@ -1,0 +1,35 @@
+/* What every test program includes: cmocka and a comparison of doubles that is one. */
+#ifndef CZ_TESTS_CHECK_H
+#define CZ_TESTS_CHECK_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* |a - b| <= absolute + relative * |b|. CZ_TOL_SCALE=0 in the environment prints every residual. */
+#define assert_near(a, b, relative, absolute)                                                      \
+    check_near((a), (b), (relative), (absolute), #a, __FILE__, __LINE__)
+
+static inline void check_near(double a, double b, double relative, double absolute,
+                              const char *what, const char *file, int line) {
+    const char *scale = getenv("CZ_TOL_SCALE");
+    const double allowed = absolute + relative * fabs(b);
+    const double difference = fabs(a - b);
+    if (scale != NULL && strcmp(scale, "0") == 0)
+        printf("%s:%d: %s = %.17g, expected %.17g, difference %.3g, allowed %.3g\n", file, line,
+               what, a, b, difference, allowed);
+    if (!(difference <= allowed)) { /* NaN fails too */
+        print_error("%s:%d: %s = %.17g, expected %.17g, difference %.3g > %.3g\n", file, line, what,
+                    a, b, difference, allowed);
+        _fail(file, line);
+    }
+}
+
+#endif

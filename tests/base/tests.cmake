@@ -1,0 +1,2 @@
+cz_test(test_arena unit test_arena.c)
+cz_test(test_error unit test_error.c)

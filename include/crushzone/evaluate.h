@@ -49,7 +49,9 @@ typedef struct CzEvaluation {
     int n_constraint;
     double *constraint; /* -(margin - required margin): at most 0 when kept; NaN when failed
                            (n_constraint) */
-    double violation;   /* largest positive constraint, 0 when feasible, infinite when failed */
+    CzCheckResult *constraint_check; /* what each constraint was judged by: a check or a target of
+                                        the optimiser (n_constraint) */
+    double violation; /* largest positive constraint, 0 when feasible, infinite when failed */
     int n_check;
     CzCheckResult *check; /* (n_check) */
     CzVerdict verdict;    /* over all checks */
@@ -59,8 +61,10 @@ typedef struct CzEvaluation {
 CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
 
 typedef struct CzEvaluatorOptions {
-    int n_job;          /* threads; 0 takes the number of processors */
-    double step_factor; /* factor on every time step; 1 is the record */
+    int n_job;            /* threads; 0 takes the number of processors */
+    double step_factor;   /* factor on every time step; 1 is the record */
+    const char *scenario; /* run this one only; NULL for all. Checks of the others are then NOT
+                             CHECKED */
 } CzEvaluatorOptions;
 CZ_API CzEvaluatorOptions cz_evaluator_options_default(void);
 
@@ -75,6 +79,17 @@ CZ_API void cz_evaluator_free(CzEvaluator *evaluator);
 
 CZ_API int cz_evaluator_n_variable(const CzEvaluator *evaluator);
 CZ_API const CzVariableInfo *cz_evaluator_variable(const CzEvaluator *evaluator, int variable);
+
+/* Places in the problem file that a variable drives, as paths with their unit that `set:` accepts,
+ * such as trains.A.vehicles.A1.front.stages[0].force_kN; borrowed. factor is the place's value, in
+ * the place's unit, per unit of the variable (1 unless tied places have other units). */
+typedef struct CzVariablePlace {
+    const char *path;
+    double factor;
+} CzVariablePlace;
+CZ_API int cz_evaluator_n_place(const CzEvaluator *evaluator, int variable);
+CZ_API CzVariablePlace cz_evaluator_place(const CzEvaluator *evaluator, int variable, int place);
+
 CZ_API int cz_evaluator_n_constraint(const CzEvaluator *evaluator);
 CZ_API const char *cz_evaluator_constraint_name(const CzEvaluator *evaluator, int constraint);
 CZ_API const char *cz_evaluator_objective_name(const CzEvaluator *evaluator);

@@ -4,6 +4,7 @@
 #define CRUSHZONE_OPTIMISE_H
 
 #include <signal.h>
+#include <stddef.h>
 
 #include "crushzone/evaluate.h"
 
@@ -70,6 +71,9 @@ CZ_API void cz_outcome_free(CzOutcome *outcome);
 /* NLopt algorithms that this build can run, by name. */
 CZ_API int cz_n_algorithm(void);
 CZ_API const char *cz_algorithm_name(int index);
+
+/* Version of the NLopt library in use, such as "2.7.1". Writes at most n bytes. */
+CZ_API void cz_nlopt_version(char *text, size_t n);
 
 #ifdef __cplusplus
 }

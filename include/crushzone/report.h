@@ -1,4 +1,8 @@
-/* Results as text and files: pure functions from const structs to a stream or a folder. */
+/* Results as text and files: pure functions from const structs to a stream or a folder.
+ *
+ * Same input, same bytes: what differs from run to run (time, host, threads) stands only under
+ * `run_info` of the JSON documents. Numbers have a decimal point whatever the locale.
+ */
 #ifndef CRUSHZONE_REPORT_H
 #define CRUSHZONE_REPORT_H
 
@@ -10,25 +14,66 @@
 extern "C" {
 #endif
 
-/* JSON documents `crushzone.summary` and `crushzone.outcome`. Status: CZ_STATUS_OUTPUT when the
- * stream fails. */
+/* How results are written. */
+typedef struct CzReportOptions {
+    char csv_separator;     /* between the fields of a CSV file */
+    char csv_decimal;       /* decimal sign of CSV files */
+    int n_job;              /* threads, for run_info; 0 when unknown */
+    double setup_s;         /* reading and building, for run_info; NaN when unknown */
+    double wall_s;          /* simulating, for run_info; NaN when unknown */
+    const char *const *set; /* "path=value" texts that the problem was read with, so that an
+                               optimum holds them too; (n_set) */
+    int n_set;
+} CzReportOptions;
+CZ_API CzReportOptions cz_report_options_default(void);
+
+/* Version of the library, such as "0.1.0". */
+CZ_API const char *cz_version(void);
+
+/* JSON documents `crushzone.summary` and `crushzone.outcome`. Statuses: CZ_STATUS_OUTPUT when the
+ * stream fails, CZ_STATUS_NO_MEMORY. NULL options are the default ones. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_summary(const CzProblem *problem,
-                                                      const CzEvaluation *evaluation, FILE *stream,
+                                                      const CzEvaluation *evaluation,
+                                                      const CzReportOptions *options, FILE *stream,
                                                       CzError *error);
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome(const CzProblem *problem,
                                                       const CzEvaluator *evaluator,
-                                                      const CzOutcome *outcome, FILE *stream,
+                                                      const CzOutcome *outcome,
+                                                      const CzReportOptions *options, FILE *stream,
                                                       CzError *error);
 
-/* The table of a run on a terminal. `colour` allows escape codes. */
+/* JSON document {"error": first, "errors": [all]} of n_mistake errors. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_mistakes(int n_mistake, const CzError *const *mistake,
+                                                       FILE *stream, CzError *error);
+
+/* The table of a run on a terminal, and the one of a search: before and after, what is still
+ * violated, the new values as YAML. `colour` allows escape codes. */
 CZ_API void cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluation,
                                   bool colour, FILE *stream);
+CZ_API void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,
+                                          const CzOutcome *outcome, bool colour, FILE *stream);
+
+/* The optimum as a problem file for `folder`: `extends:` the problem's file and `set:` the best
+ * values, to the last bit. A problem that came from standard input is written out whole. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_overlay(
+    const CzProblem *problem, const CzEvaluator *evaluator, const CzOutcome *outcome,
+    const CzReportOptions *options, const char *folder, FILE *stream, CzError *error);
+
+/* Whether a result folder can be written there: the place is free, or holds a result folder of our
+ * own with nothing else in it. Status: CZ_STATUS_OUTPUT. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_check_folder(const char *folder, CzError *error);
 
 /* Writes a whole result folder: to a temporary name first, renamed at the end; replaces only a
- * folder of our own. */
+ * folder of our own. Needs runs that were kept. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_folder(const CzProblem *problem,
                                                      const CzEvaluation *evaluation,
+                                                     const CzReportOptions *options,
                                                      const char *folder, CzError *error);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome_folder(const CzProblem *problem,
+                                                             const CzEvaluator *evaluator,
+                                                             const CzOutcome *outcome,
+                                                             const CzReportOptions *options,
+                                                             const char *folder, CzError *error);
 
 #ifdef __cplusplus
 }

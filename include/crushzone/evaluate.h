@@ -30,15 +30,15 @@ CZ_API const char *cz_verdict_text(CzVerdict verdict);
 /* One check of one scenario. Texts are borrowed from the evaluator. */
 typedef struct CzCheckResult {
     const char *name;
-    const char *scenario;
-    char where[48]; /* place of the worst value */
-    double limit;   /* in `unit` */
-    double value;   /* in `unit`; NaN when not checked */
+    const char *scenario; /* "design" for a check of the design itself */
+    char where[48];       /* place of the worst value */
+    double limit;         /* in `unit` */
+    double value;         /* in `unit`; NaN when not checked or when it does not apply */
     const char *unit;
     double margin;   /* (limit - value) / max(|limit|, scale), sign turned for lower limits */
     bool is_minimum; /* the limit is a lower one */
     CzVerdict verdict;
-    const char *why;                                    /* why it was not checked; NULL otherwise */
+    const char *why; /* why it was not checked, or why it does not apply; NULL otherwise */
     const char *profile, *clause, *source, *confidence; /* NULL when none */
 } CzCheckResult;
 

@@ -1,0 +1,55 @@
+/* What a run needs of a model. */
+#ifndef CZ_MODEL_MODEL_H
+#define CZ_MODEL_MODEL_H
+
+#include "base/arena.h"
+#include "crushzone/model.h"
+#include "model/lanes.h"
+#include "problem/problem.h"
+
+/* One car of the scenario, along +x. */
+typedef struct CzCar {
+    char name[24];
+    int vehicle; /* index into the problem's vehicle array */
+    int train;   /* 0: behind, 1: ahead */
+    CzVehicleModel model;
+    const CzBrake
+        *brake; /* of its train, with the scenario's ratio in `brake_ratio`; NULL without */
+    double brake_ratio;
+    double speed;   /* [m/s] */
+    bool has_stops; /* bump and lift stops of primary and secondary are declared */
+} CzCar;
+
+struct CzModel {
+    CzArena arena;
+    const CzProblem *problem;
+    const CzScenario *scenario; /* never NULL: the default one when the file lists none */
+    int n_car;
+    CzCar *car;
+    int colliding;              /* interface between the two trains */
+    char (*interface_name)[48]; /* (n_car - 1) */
+    const CzSimulation *simulation;
+    double friction;  /* peak wheel-rail friction of the scenario */
+    double time_step; /* [s] */
+    double duration;  /* [s]; NaN: ended by rule */
+    double longest;   /* [s] */
+    double hold;      /* time for which the end-of-run conditions must hold: the longest body pitch
+                         period; 0.02 s without full cars (ours) [s] */
+    int n_bound;
+    CzStepBound *bound;     /* smallest first */
+    int n_kink[CZ_N_CURVE]; /* kinks that hold every design: counted from the number of stages or
+                               points */
+    CzVehicleFacts *facts;  /* (n_car) */
+    CzInterfaceFacts *interface_facts; /* (n_car - 1) */
+};
+
+/* Memory for the lanes of n_design designs, neutral everywhere; NULL when there is none. */
+CzLanes *cz_lanes_create(const CzModel *model, int n_design, CzArena *arena);
+
+/* Fills the lanes of one design from a vehicle array (the problem's own or a candidate's). Fails
+ * with CZ_STATUS_INPUT and a sentence when the values make no vehicle (strokes not positive, masses
+ * not positive, ...). */
+CZ_MUST_CHECK CzStatus cz_model_fill(const CzModel *model, const CzVehicle *vehicles, int design,
+                                     CzLanes *lanes, CzError *error);
+
+#endif

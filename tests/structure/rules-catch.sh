@@ -1,0 +1,56 @@
+# Each rule of rules.sh finds what it is there to find: it is shown a small tree that breaks it.
+. "$SOURCE/tests/support/cases.sh"
+. "$SOURCE/tests/structure/rules.sh"
+
+put() { # put FILE TEXT
+    mkdir -p "$(dirname "$1")"
+    printf '%b\n' "$2" >"$1"
+}
+finds() { # finds WORD COMMAND
+    "$2" >found.txt 2>&1
+    cat found.txt
+    grep -q "$1" found.txt
+}
+
+put src/base/number.c '/* n */\n#include "model/model.h"'
+put src/base/sources.cmake 'set(CZ_SOURCES_base\n    gone.c\n)'
+put src/laws/tube.h '/* n */\n#include "base/arena.h"'
+put src/report/table.c '/* n */\n#include "laws/tube.h"\nvoid f(void) {\n    printf("x");\n}'
+put src/report/other.c '#include <nlopt.h>'
+put src/optimise/adapter.c '/* n */\n#include <nlopt.h>'
+put src/cli/helpers.c '/* n */\n#include "report/table.h"'
+put src/integrate/step.c '/* n */\n#include "crushzone/model.h"'
+put src/model/list.c '/* n */\n#include "crushzone/events.def"\n#include "crushzone/problem.h"\n#include "laws/tube.h"'
+put src/physics/new.c '/* n */'
+put tests/model/test_list.c '/* n */\nassert_float_equal(a, b, 0.1);'
+put tests/model/tests.cmake ''
+put include/crushzone/model.h '/* n */\nsize_t cz_model_size(void);'
+put CMakeLists.txt 'project(crushzone VERSION 2.3.4 LANGUAGES C'
+put CHANGELOG.md '## [2.3.3]'
+put demo 'if then'
+awk 'BEGIN { print "/* n */"; for (i = 0; i < 500; i++) print "int a;" }' >src/base/long.c
+
+for file in src/base/number.c:2 src/laws/tube.h:2 src/report/table.c:2 src/integrate/step.c:2; do
+    check "an include against the arrows is found: $file" finds "^$file:" include_arrows
+done
+check "includes along the arrows are let through" sh -c '! grep -qE "src/(model|cli)/" found.txt'
+check "a third-party header in two files is found" finds 'nlopt.h in src/' third_party_headers
+check "a source outside its list is found" finds '^src/base/number.c is not in' unlisted_sources
+check "a listed source that is gone is found" finds 'names gone.c' unlisted_sources
+check "a folder outside the plan is found" finds '^src/physics/ is not' unlisted_sources
+check "a test outside its list is found" finds '^tests/model/test_list.c is not' unlisted_tests
+put src/model/lonely.h '/* n */'
+check "a header that nobody includes is found" finds '^src/model/lonely.h is' unused_headers
+check "a vague name is found" finds 'src/cli/helpers.c' vague_names
+check "a file of 501 lines is found" finds '^src/base/long.c has 501' long_files
+check "printing in the library is found" finds '^src/report/table.c:4:' library_manners
+check "a comparison of floats is found" finds '^tests/model/test_list.c:2:' float_comparisons
+check "a file without a purpose is found" finds '^src/report/other.c:1:' missing_purposes
+check "a version without a changelog entry is found" finds '2.3.4' changelog_gaps
+check "a header that needs another is found" finds 'model.h: ' headers_that_need_others
+check "a broken script is found" finds 'demo' broken_scripts
+if command -v clang-format >/dev/null 2>&1; then
+    put src/base/wide.c '/* n */\nint   wide;'
+    check "an unusual layout is found" finds 'src/base/wide.c differs' unformatted_files
+fi
+finish

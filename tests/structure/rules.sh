@@ -1,0 +1,152 @@
+# The rules of the tree, each a function that prints the offenders, one a line; run from the project's root.
+
+library_folders="base laws problem model dynamics integrate simulate evaluate optimise report"
+folders="$library_folders cli"
+c_files() { # c_files FOLDER...: all C sources, headers and lists in them
+    find "$@" -type f \( -name '*.c' -o -name '*.h' -o -name '*.def' \) 2>/dev/null | sort
+}
+
+# Arrows between the folders go one way: cli, report, optimise, evaluate, simulate, dynamics, model, problem, base. The laws
+# are seen by dynamics and model and see nothing; integrate is seen by simulate and sees base.
+include_arrows() {
+    for folder in $folders; do
+        for file in $(c_files src/$folder); do
+            awk -v from=$folder '
+                BEGIN {
+                    n = split("base problem model dynamics simulate evaluate optimise report cli", order, " ")
+                    for (i = 1; i <= n; i++) { rank[order[i]] = i; public[order[i]] = order[i] }
+                    public["status"] = "base"
+                    public["crushzone"] = "report"
+                }
+                /^[ \t]*#[ \t]*include[ \t]*"/ {
+                    split($0, part, "\"")
+                    if (split(part[2], path, "/") != 2) { offend(); next }
+                    to = path[1]
+                    if (to == "crushzone" && path[2] ~ /\.h$/) {
+                        sub(/\.h$/, "", path[2])
+                        to = public[path[2]]
+                    } else if (to == "crushzone")
+                        next # closed lists that everybody may expand
+                    if (to == from) next
+                    if (from == "laws") { offend(); next }
+                    if (to == "laws") { if (from != "dynamics" && from != "model") offend(); next }
+                    if (from == "integrate") { if (to != "base") offend(); next }
+                    if (to == "integrate") { if (from != "simulate") offend(); next }
+                    if (!(to in rank) || rank[to] > rank[from]) offend()
+                }
+                function offend() { print FILENAME ":" FNR ": " $0 }' "$file"
+        done
+    done
+}
+
+# A third-party library is named in one file, so that it can be replaced.
+third_party_headers() {
+    for header in nlopt.h yaml.h jansson.h 'cvode/' 'arkode/' 'kinsol/' 'sundials/' pthread.h getopt.h; do
+        files=$(grep -rlE "#[[:space:]]*include[[:space:]]*[<\"]$header" src include)
+        [ "$(echo "$files" | wc -l)" -le 1 ] || echo "$header in" $files
+    done
+}
+
+# Every source stands in its folder's list, and every list names what is there.
+unlisted_sources() {
+    for folder in $folders; do
+        for file in $(find src/$folder -name '*.c' | sort); do
+            name=${file#src/$folder/}
+            [ "$file" = src/dynamics/kernel.c ] && continue # compiled once per instruction set by CMakeLists.txt
+            grep -qx "    $name" src/$folder/sources.cmake || echo "$file is not in src/$folder/sources.cmake"
+        done
+        sed -n 's/^    \([^ ]*\.c\)$/\1/p' src/$folder/sources.cmake | while read -r name; do
+            [ -f "src/$folder/$name" ] || echo "src/$folder/sources.cmake names $name, which is not there"
+        done
+    done
+    for folder in src/*/; do
+        case " $folders " in *" $(basename "$folder") "*) ;; *) echo "$folder is not a folder of the project" ;; esac
+    done
+}
+
+unlisted_tests() {
+    for file in $(find tests -type f \( -name '*.c' -o -name '*.sh' \) ! -path 'tests/support/*' | sort); do
+        folder=$(dirname "$file" | cut -d/ -f1-2)
+        name=$(basename "$file")
+        grep -qwF "$name" "$folder/tests.cmake" 2>/dev/null && continue
+        grep -rqwF "$name" "$folder" --include='*.sh' && continue # sourced or run by a listed script
+        echo "$file is not in $folder/tests.cmake"
+    done
+}
+
+# Every header and list is included by somebody.
+unused_headers() {
+    for file in $(find src include -type f \( -name '*.h' -o -name '*.def' \) | sort); do
+        [ "$file" = include/crushzone/crushzone.h ] && continue # the umbrella is for users
+        name=$(echo "$file" | sed 's,^src/,,; s,^include/,,')
+        grep -rqF "#include \"$name\"" src include tests || echo "$file is included by nobody"
+    done
+}
+
+vague_names() {
+    find src include tests examples -type f 2>/dev/null | grep -E '(^|[/_-])(util|utils|common|misc|helper|helpers)([._-]|$)'
+}
+
+long_files() {
+    for file in $(c_files src include tests examples); do
+        n=$(wc -l <"$file")
+        [ "$n" -le 500 ] || echo "$file has $n lines, 500 are allowed"
+    done
+}
+
+# The library returns statuses: it neither prints nor ends the program, and reads no locale and no environment.
+library_manners() {
+    for folder in $library_folders; do
+        c_files src/$folder
+    done | xargs grep -HnE '(^|[^_a-z0-9A-Z"])(printf|puts|putchar|perror|exit|_exit|abort|system|popen|setlocale|getenv|rand|srand|atof|strtod|sscanf)[[:space:]]*\(' \
+        | without_comments
+    for folder in $library_folders; do
+        c_files src/$folder
+    done | xargs grep -HnE '(^|[^_a-z0-9A-Z])(stdout|stderr)([^_a-z0-9A-Z]|$)' | without_comments
+}
+without_comments() {
+    grep -vE '^[^:]*:[0-9]*:[[:space:]]*(/?\*|//)'
+}
+
+# cmocka's comparison of floats is one of float, not of double.
+float_comparisons() {
+    c_files tests | xargs grep -HnE 'assert_(not_)?(float|double)_(not_)?(equal)' | grep -v '^tests/support/check.h:'
+}
+
+# Every file says on its first line what it is for.
+missing_purposes() {
+    for file in $(c_files src include tests examples); do
+        head -n 1 "$file" | grep -qE '^(/\*|//) ?[^ ]' || echo "$file:1: does not begin with a comment that says what it is for"
+    done
+}
+
+# The changelog knows the version of the project.
+changelog_gaps() {
+    version=$(sed -n 's/^project(crushzone VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+    [ -n "$version" ] || echo "CMakeLists.txt: project() has no version"
+    grep -qE "^## \[(Unreleased|$version)\]" CHANGELOG.md || echo "CHANGELOG.md has neither [Unreleased] nor [$version]"
+}
+
+# Public headers stand on their own, in C and in C++ linkage.
+headers_that_need_others() {
+    for file in include/crushzone/*.h; do
+        echo "#include \"crushzone/$(basename "$file")\"" |
+            ${CC:-cc} -std=c11 -Wall -Wextra -Wstrict-prototypes -Werror -Iinclude -fsyntax-only -x c - 2>&1 |
+            sed "s,^,$(basename "$file"): ,"
+        grep -q 'extern "C"' "$file" || [ "$(basename "$file")" = crushzone.h ] || echo "$file lacks extern \"C\""
+    done
+}
+
+unformatted_files() {
+    for file in $(find src include tests examples -type f \( -name '*.c' -o -name '*.h' \) 2>/dev/null | sort); do
+        clang-format --style=file "$file" | cmp -s - "$file" || echo "$file differs from clang-format's layout"
+    done
+}
+
+# Scripts are POSIX shell.
+broken_scripts() {
+    for file in demo test .ci/run scripts/install-packages scripts/run-tests scripts/count-tests \
+        $(find tests examples -name '*.sh' 2>/dev/null); do
+        sh -n "$file" 2>&1
+    done
+}

@@ -1,0 +1,24 @@
+# The tree keeps its own rules.
+. "$SOURCE/tests/support/cases.sh"
+. "$SOURCE/tests/structure/rules.sh"
+cd "$SOURCE"
+
+nothing "include arrows go one way" include_arrows
+nothing "each third-party header is named in one file" third_party_headers
+nothing "every source is in its folder's list and every listed source exists" unlisted_sources
+nothing "every test is in its folder's list" unlisted_tests
+[ ! -x "$PROGRAM" ] || nothing "every header is included by somebody" unused_headers
+nothing "no file has a vague name" vague_names
+nothing "no file is longer than 500 lines" long_files
+nothing "the library does not print, exit, or depend on locale and environment" library_manners
+nothing "doubles are not compared as floats" float_comparisons
+nothing "every file begins with what it is for" missing_purposes
+nothing "the changelog knows the version" changelog_gaps
+nothing "public headers stand on their own" headers_that_need_others
+nothing "scripts are POSIX shell" broken_scripts
+if command -v clang-format >/dev/null 2>&1; then
+    nothing "sources have the layout of clang-format" unformatted_files
+else
+    skipped "sources have the layout of clang-format" "no clang-format here"
+fi
+finish

@@ -1,0 +1,31 @@
+# What the shared library shows to the linker.
+. "$SOURCE/tests/support/cases.sh"
+library=$BUILD/libcrushzone.so
+
+shown() { nm -D --defined-only "$library" | awk '{ print $3 }'; }
+foreign_symbols() { shown | grep -v '^cz_'; }
+declared() {
+    cat "$SOURCE"/include/crushzone/*.h | tr '\n' ' ' | sed 's,/\*[^*]*\*\+\([^/*][^*]*\*\+\)*/,,g' | tr ';' '\n' |
+        sed -n 's/.*CZ_API[^(]*[ *]\(cz_[a-z0-9_]*\) *(.*/\1/p' | sort -u
+}
+undefined_declarations() {
+    shown | sort -u >shown.txt
+    declared >declared.txt
+    comm -13 shown.txt declared.txt
+}
+undeclared_symbols() {
+    shown | sort -u >shown.txt
+    declared >declared.txt
+    comm -23 shown.txt declared.txt
+}
+writable_symbols() { # data that can be written: mutable globals
+    nm "$library" | awk '$2 ~ /^[dDbB]$/ && $3 !~ /^(_|completed\.|__)/ { print $2, $3 }'
+}
+some_are_declared() { [ "$(declared | wc -l)" -gt 30 ]; }
+
+check "the headers declare functions" some_are_declared
+nothing "every symbol of the library begins with cz_" foreign_symbols
+nothing "every function of the headers is in the library" undefined_declarations
+nothing "every symbol of the library is declared in a public header" undeclared_symbols
+nothing "the library has no mutable global" writable_symbols
+finish

@@ -1,0 +1,6 @@
+cz_script(structure structure structure.sh)
+cz_script(structure_rules_catch structure rules-catch.sh)
+if(CZ_IS_WHOLE)
+    cz_script(symbols structure symbols.sh)
+    cz_script(generated structure generated.sh)
+endif()

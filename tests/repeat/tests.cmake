@@ -1,0 +1,3 @@
+if(CZ_IS_WHOLE)
+    cz_script(repeat repeat repeat.sh)
+endif()

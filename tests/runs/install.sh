@@ -1,0 +1,50 @@
+# An outside project is built against an installed tree, by the CMake package and by pkg-config, and runs.
+. "$SOURCE/tests/support/cases.sh"
+prefix=$PWD/prefix
+
+build_by_cmake() {
+    mkdir -p outside
+    cat >outside/CMakeLists.txt <<END
+cmake_minimum_required(VERSION 3.22)
+project(outside LANGUAGES C)
+find_package(crushzone 0.1 REQUIRED)
+add_executable(outside $SOURCE/examples/simulate.c)
+target_link_libraries(outside PRIVATE crushzone::crushzone)
+END
+    cmake -S outside -B outside/build -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$CC" && cmake --build outside/build
+}
+refuses_another_version() {
+    mkdir -p newer
+    printf 'cmake_minimum_required(VERSION 3.22)\nproject(newer LANGUAGES C)\nfind_package(crushzone 99 REQUIRED)\n' \
+        >newer/CMakeLists.txt
+    ! cmake -S newer -B newer/build -DCMAKE_PREFIX_PATH="$prefix"
+}
+pc() {
+    PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name crushzone.pc)") pkg-config "$@" crushzone
+}
+build_by_pkg_config() {
+    # shellcheck disable=SC2046 # flags are words
+    "$CC" -std=c11 "$SOURCE/examples/simulate.c" -o by-pkg-config $(pc --cflags --libs) -Wl,-rpath,"$(pc --variable=libdir)"
+}
+needs_only_the_library() { # what a program that links crushzone names itself
+    ! readelf -d by-pkg-config | grep -E 'NEEDED.*(nlopt|yaml|jansson)'
+}
+installed_program_runs() {
+    "$prefix/bin/crushzone" run "$prefix/share/crushzone/two-cars-25kmh.yaml"
+}
+moved_tree_runs() {
+    mv "$prefix" moved && moved/bin/crushzone run moved/share/crushzone/two-cars-25kmh.yaml
+}
+runs() { "$1" "$SOURCE/problems/two-cars-25kmh.yaml"; }
+
+check "the tree installs" cmake --install "$BUILD" --prefix "$prefix"
+check "an outside project builds with find_package" build_by_cmake
+check "the outside project runs" runs outside/build/outside
+check "a version that is not there is refused" refuses_another_version
+check "an outside program builds with pkg-config" build_by_pkg_config
+check "the outside program runs" runs ./by-pkg-config
+check "the outside program links crushzone alone" needs_only_the_library
+check "pkg-config tells the version" sh -c "grep -q '^## \[Unreleased\]\|^## \[$(pc --modversion)\]' '$SOURCE/CHANGELOG.md'"
+check "the installed program runs a shipped problem" installed_program_runs
+check "an installed tree can be moved" moved_tree_runs
+finish

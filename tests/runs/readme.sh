@@ -1,0 +1,52 @@
+# Every command that README.md and docs/ show is run, in the order of the page, from a copy of the project's root.
+#
+# Commands are the lines of ```sh blocks that begin with "$ "; a line "# exit code N" right after the block's command says
+# that it ends so. Lines between commands are what the command prints: each must be among what it really prints, but for
+# numbers of seconds.
+. "$SOURCE/tests/support/cases.sh"
+
+commands_of() { # commands_of PAGE: one file command.N per command, shown output in shown.N
+    awk '
+        /^```sh$/ { inside = 1; next }
+        /^```/ { inside = 0; next }
+        inside && /^\$ / { n++; print substr($0, 3) > ("command." n); printf "" > ("shown." n); next }
+        inside && n { print > ("shown." n) }
+        END { print n + 0 }' "$1"
+}
+run_as_shown() { # run_as_shown N
+    want=$(sed -n 's/^# exit code \([0-9]*\)$/\1/p' "../shown.$1")
+    sh "../command.$1" >"../real.$1" 2>&1
+    code=$?
+    cat "../real.$1"
+    [ "$code" = "${want:-0}" ] || { echo "exit code $code instead of ${want:-0}"; return 1; }
+    without_seconds <"../real.$1" >../real
+    grep -v '^# exit code ' "../shown.$1" | without_seconds | while read -r line; do
+        case $line in '' | ...) continue ;; esac
+        grep -qxF -- "$line" ../real || { echo "not printed: $line"; exit 1; }
+    done
+}
+without_seconds() {
+    sed 's/[0-9.]* m\{0,1\}s\b/N s/g; s/^ *//; s/ *$//'
+}
+
+PATH=$BUILD:$PATH
+export PATH
+for page in "$SOURCE/README.md" "$SOURCE"/docs/*.md; do
+    rm -rf root command.* shown.*
+    n=$(commands_of "$page")
+    [ "$n" -gt 0 ] || continue
+    mkdir root
+    for entry in "$SOURCE"/* "$SOURCE"/.ci; do
+        case $(basename "$entry") in build | out) ;; *) ln -s "$entry" root/ ;; esac
+    done
+    cd root
+    for i in $(seq "$n"); do
+        command=$(cat "../command.$i")
+        case $command in
+        ./test* | ./demo*) check "$(basename "$page"): $command is there" test -x "${command%% *}" ;;
+        *) check "$(basename "$page"): $command" run_as_shown "$i" ;;
+        esac
+    done
+    cd ..
+done
+finish

@@ -1,0 +1,5 @@
+if(CZ_IS_WHOLE)
+    cz_script(examples runs examples.sh)
+    cz_script(install runs install.sh)
+    cz_script(readme runs readme.sh)
+endif()

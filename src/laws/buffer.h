@@ -1,0 +1,73 @@
+/* Buffer: hysteresis between a loading and an unloading curve, damping of its own rate, draw side
+ * with slack.
+ *
+ *   upper(x) = min(loading(x), k_t max(x, 0))
+ *   lower(x) = min(share * loading(x), k_t max(x, 0))
+ *   static(x, p) = clamp(k_t (x - p), lower, upper) - k_d max(-x - slack, 0)
+ *   p' = x - clamped / k_t
+ *   F = static + (c1 + c2 |x'|) * fade(x) * x'        c2 while loading only
+ *
+ * Inside a series chain the stroke x answers the force, so the law is given linearised about the
+ * committed stroke: over one step of length h,  x_next = x + (F - static) * compliance,  with one
+ * compliance for loading and one for unloading. |x'| is the committed rate. Each is the exact
+ * tangent of the law, so the linearisation is off only in a step that passes a kink, and the next
+ * step starts from the curve again.
+ */
+#ifndef CZ_LAWS_BUFFER_H
+#define CZ_LAWS_BUFFER_H
+
+#include "laws/law.h"
+
+#define CZ_SMALLEST_STIFFNESS                                                                      \
+    1e4 /* stiffness inside the slack, so that the chain has one answer [N/m] (ours) */
+#define CZ_FADE_LENGTH 0.01 /* stroke over which damping sets in [m] (ours) */
+
+typedef struct {
+    double transition;     /* k_t, stiffness between the curves [N/m] */
+    double share;          /* unloading force over loading force [-] */
+    double damping;        /* c1 [N s/m] */
+    double quadratic;      /* c2 [N s2/m2] */
+    double draw_stiffness; /* k_d [N/m] */
+    double draw_slack;     /* [m] */
+} CzBufferLaw;
+
+typedef struct {
+    double force;     /* static force at the committed stroke [N] */
+    double loading;   /* compliance of the step while the stroke grows [m/N] */
+    double unloading; /* compliance of the step while it shrinks [m/N] */
+    double offset;    /* next p [m] */
+} CzBufferResponse;
+
+static inline CzBufferResponse cz_buffer(const CzBufferLaw *law, double curve, double slope,
+                                         double stroke, double rate, double offset, double step) {
+    /* Curves at this stroke, both starting from zero along the transition. */
+    const double line = law->transition * cz_positive_part(stroke);
+    const double lower_curve = law->share * curve;
+    const double upper = cz_smaller(curve, line);
+    const double lower = cz_smaller(lower_curve, line);
+    const double upper_slope = line < curve ? law->transition : slope;
+    const double lower_slope = line < lower_curve ? law->transition : law->share * slope;
+
+    /* Hysteresis by return mapping, and the draw side. */
+    const double inside = cz_clamp(law->transition * (stroke - offset), lower, upper);
+    const double drawn = cz_positive_part(-stroke - law->draw_slack);
+    const double draw_slope = -stroke >= law->draw_slack ? law->draw_stiffness : 0.0;
+
+    /* Tangents: up and down from here. */
+    const double push_up = inside >= upper ? upper_slope : law->transition;
+    const double push_down = inside <= lower ? lower_slope : law->transition;
+    const double up = stroke >= 0.0 ? push_up : draw_slope;
+    const double down = stroke > 0.0 ? push_down : draw_slope;
+    const double fade = cz_fade_in(stroke, CZ_FADE_LENGTH);
+    const double linear = law->damping * fade;
+    const double hydraulic = law->quadratic * cz_positive_part(rate) * fade;
+
+    CzBufferResponse response;
+    response.force = inside - law->draw_stiffness * drawn;
+    response.loading = 1.0 / (cz_larger(up, CZ_SMALLEST_STIFFNESS) + (linear + hydraulic) / step);
+    response.unloading = 1.0 / (cz_larger(down, CZ_SMALLEST_STIFFNESS) + linear / step);
+    response.offset = stroke - inside / law->transition;
+    return response;
+}
+
+#endif

@@ -1,0 +1,60 @@
+/* Crush zone of a vehicle end: loading backbone, two unloading stages, tension along the structure
+ * that is left.
+ *
+ *   loading:    F = backbone(x)                                      x >= x_m, then x_m' = x
+ *   unloading:  F = F_m - Ku1 (x_m - x)                              down to r F_m at x_1
+ *               F = r F_m - Ku2 (x_1 - x)                            down to zero at x_res
+ *               F = -K_t (x_res - x)                                 below, where the end is still
+ * attached and never above backbone(x), so that unloading from the elastic part gives back no more
+ * than it took
+ *
+ * Reloading follows the unloading path. F_m = backbone(x_m), x_m is the largest shortening so far.
+ */
+#ifndef CZ_LAWS_VEHICLE_END_H
+#define CZ_LAWS_VEHICLE_END_H
+
+#include "laws/law.h"
+
+typedef struct {
+    double unloading;        /* Ku1 [N/m] */
+    double share;            /* r [-] */
+    double second_unloading; /* Ku2 [N/m] */
+    double tension;          /* K_t [N/m]; 0 where nothing can pull */
+} CzVehicleEndLaw;
+
+typedef struct {
+    double force;    /* [N] */
+    double slope;    /* of the unloading path here [N/m] */
+    double residual; /* x_res [m] */
+} CzVehicleEndResponse;
+
+/* `backbone` is at the shortening x, `peak` at x_m, where x_m is not below x. */
+static inline CzVehicleEndResponse cz_vehicle_end(const CzVehicleEndLaw *law, double backbone,
+                                                  double peak, double shortening, double largest) {
+    const double turn = largest - (1.0 - law->share) * peak / law->unloading;
+    const double residual = turn - law->share * peak / law->second_unloading;
+    const double first = peak - law->unloading * (largest - shortening);
+    const double second = law->share * peak - law->second_unloading * (turn - shortening);
+    const double pushed = shortening >= turn ? first : second;
+    const double pulled = -law->tension * (residual - shortening);
+    const double below = cz_smaller(pulled, 0.0);
+    const double above = cz_smaller(cz_positive_part(pushed), cz_positive_part(backbone));
+
+    CzVehicleEndResponse response;
+    response.force = shortening < residual ? below : above;
+    response.slope = shortening >= turn ? law->unloading : law->second_unloading;
+    response.residual = residual;
+    return response;
+}
+
+/* Energy that unloading to zero gives back [J]: (1 - r^2) F^2 / (2 Ku1) + (r F)^2 / (2 Ku2), for a
+ * force F on the path. */
+static inline double cz_vehicle_end_stored(const CzVehicleEndLaw *law, double peak, double force) {
+    const double turn_force = law->share * peak;
+    const double low = cz_clamp(force, 0.0, turn_force);
+    const double high = cz_larger(force, turn_force);
+    return low * low / (2.0 * law->second_unloading) +
+           (high * high - turn_force * turn_force) / (2.0 * law->unloading);
+}
+
+#endif

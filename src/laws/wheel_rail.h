@@ -1,0 +1,45 @@
+/* Wheel and rail: Hertzian normal force with lift-off, and a tangential force that rises, peaks and
+ * falls with slip.
+ *
+ *   N = H d^(3/2) for an indentation d > 0, else 0                    (Zhai's vertical law, two
+ * wheels: H = 2 G^-1.5)
+ *
+ *   e' = (e + h w) / (1 + h |V| / a),  |e| <= mu(w) N / k             tangential deflection,
+ * advanced implicitly T  = -k e,   mu(w) = mu_s + (mu_p - mu_s) / (1 + |w| / w_f)
+ *
+ * w is the slip speed of the wheel's contact point, V the speed along the rail, a the contact
+ * length. A rolling wheel carries its deflection away, e = w a / |V|: force proportional to
+ * creepage. A standing wheel keeps it: a spring that slips at mu N. One law for both, without a
+ * smallest speed and without a step bound from friction.
+ */
+#ifndef CZ_LAWS_WHEEL_RAIL_H
+#define CZ_LAWS_WHEEL_RAIL_H
+
+#include "laws/law.h"
+
+static inline double cz_wheel_normal_force(double hertz, double indentation) {
+    const double pressed = cz_positive_part(indentation);
+    return hertz * pressed * sqrt(pressed);
+}
+
+typedef struct {
+    double stiffness;        /* k [N/m] */
+    double length;           /* a [m] */
+    double friction_peak;    /* mu_p [-] */
+    double friction_sliding; /* mu_s [-] */
+    double fall_speed;       /* w_f [m/s] */
+} CzCreepLaw;
+
+/* Next tangential deflection e [m]; the force on the wheel is -k e. `inverse_stiffness` is 1/k, 0
+ * without wheels. */
+static inline double cz_creep_deflection(const CzCreepLaw *law, double inverse_stiffness,
+                                         double deflection, double slip, double speed,
+                                         double normal, double step) {
+    const double carried = (deflection + step * slip) / (1.0 + step * fabs(speed) / law->length);
+    const double fall =
+        (law->friction_peak - law->friction_sliding) / (1.0 + fabs(slip) / law->fall_speed);
+    const double limit = (law->friction_sliding + fall) * normal * inverse_stiffness;
+    return cz_clamp(carried, -limit, limit);
+}
+
+#endif

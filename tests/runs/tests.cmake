@@ -1,3 +1,4 @@
+cz_script(start runs start.sh)
 if(CZ_IS_WHOLE)
     cz_script(examples runs examples.sh)
     cz_script(install runs install.sh)

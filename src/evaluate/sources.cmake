@@ -1,3 +1,12 @@
 # Sources of src/evaluate, one per line.
 set(CZ_SOURCES_evaluate
+    checklist.c
+    checks.c
+    design.c
+    devices.c
+    evaluator.c
+    metric.c
+    place.c
+    scene.c
+    tasks.c
 )

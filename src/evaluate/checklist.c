@@ -1,0 +1,381 @@
+/* Lists the checks of a problem: profile, the user's own limits, closing rules, targets. */
+#include "base/error.h"
+#include "evaluate/checks.h"
+#include "evaluate/devices.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Closing speeds of the service steps [m/s]. */
+static const double buffing_speed = 8 / 3.6;
+static const double service_speed = 15 / 3.6;
+
+typedef struct Builder {
+    const CzProblem *problem;
+    int n_scene;
+    const CzScene *scene;
+    CzArena *arena;
+    CzChecklist *list;
+    int room; /* checks that fit */
+    CzError *error;
+} Builder;
+
+static CzStatus fail_memory(const Builder *builder) {
+    return cz_fail(builder->error, CZ_STATUS_NO_MEMORY, "no memory for the checks");
+}
+
+/* Gives a failure the place of a field of the problem file. */
+static CzStatus place_failure(const Builder *builder, const void *field, CzStatus status) {
+    if (status == CZ_STATUS_INPUT && builder->error != NULL)
+        cz_problem_place(builder->problem, field, builder->error);
+    return status;
+}
+
+static CzStatus append(Builder *builder, const CzCheck *check) {
+    CzChecklist *list = builder->list;
+    if (list->n_check == builder->room) {
+        const int room = builder->room == 0 ? 64 : 2 * builder->room;
+        CzCheck *more = cz_arena_allocate(builder->arena, (size_t)room, sizeof *more);
+        if (more == NULL)
+            return fail_memory(builder);
+        if (list->n_check > 0)
+            memcpy(more, list->check, (size_t)list->n_check * sizeof *more);
+        list->check = more;
+        builder->room = room;
+    }
+    list->check[list->n_check++] = *check;
+    return CZ_OK;
+}
+
+/* ---- limits that are written down
+ * ------------------------------------------------------------------- */
+
+static bool is_listed(const CzTexts *texts, const char *name) {
+    for (int i = 0; i < texts->n_text; i++)
+        if (strcmp(texts->text[i], name) == 0)
+            return true;
+    return false;
+}
+
+/* A limit without scenarios holds in all but the overload cases, which are judged for bottoming
+ * only. */
+static bool holds_in(const CzLimit *limit, const CzScene *scene) {
+    return limit->scenarios.n_text > 0 ? is_listed(&limit->scenarios, scene->name)
+                                       : !scene->is_overload;
+}
+
+static bool is_of_design(const CzMetric *metric) {
+    return metric->kind->level == CZ_LEVEL_END || metric->kind->level == CZ_LEVEL_DESIGN;
+}
+
+/* Adds a check in each of its scenarios. */
+static CzStatus append_in_scenarios(Builder *builder, CzCheck check, const CzLimit *limit) {
+    if (is_of_design(&check.metric)) {
+        check.scenario = CZ_NO_SCENARIO;
+        return append(builder, &check);
+    }
+    bool picks = false;
+    int n_scene = 0;
+    for (int s = 0; s < builder->n_scene; s++) {
+        if (!holds_in(limit, &builder->scene[s]))
+            continue;
+        n_scene++;
+        picks |= cz_metric_picks(&check.metric, &builder->scene[s]);
+        check.scenario = s;
+        CZ_TRY(append(builder, &check));
+    }
+    const bool from_profile = check.profile != NULL;
+    if (n_scene == 0 && !from_profile)
+        return place_failure(builder, &limit->scenarios,
+                             cz_fail(builder->error, CZ_STATUS_INPUT,
+                                     "limit '%s' holds in no scenario of the problem", check.name));
+    if (!picks && !from_profile)
+        return place_failure(builder, &limit->metric,
+                             cz_fail(builder->error, CZ_STATUS_INPUT,
+                                     "'%s' picks nothing in any scenario", limit->metric));
+    return CZ_OK;
+}
+
+/* Whether nobody has confirmed a number yet. */
+static bool is_unconfirmed(const char *confidence) {
+    return confidence == NULL || (strcmp(confidence, "S1") != 0 && strcmp(confidence, "M1") != 0 &&
+                                  strcmp(confidence, "user") != 0);
+}
+
+static CzStatus check_scenarios_exist(const Builder *builder, const CzLimit *limit) {
+    for (int i = 0; i < limit->scenarios.n_text; i++) {
+        bool found = false;
+        for (int s = 0; s < builder->n_scene; s++)
+            found |= strcmp(limit->scenarios.text[i], builder->scene[s].name) == 0;
+        if (!found)
+            return place_failure(builder, &limit->scenarios,
+                                 cz_fail(builder->error, CZ_STATUS_INPUT,
+                                         "limit '%s': there is no scenario '%s'", limit->name,
+                                         limit->scenarios.text[i]));
+    }
+    return CZ_OK;
+}
+
+/* Adds a limit as one or two checks. `profile` is NULL for the user's own. */
+static CzStatus append_limit(Builder *builder, const CzLimit *limit, const char *profile,
+                             bool is_target) {
+    CzCheck check = {.name = limit->name,
+                     .metric_text = limit->metric,
+                     .profile = profile,
+                     .clause = limit->clause,
+                     .source = limit->source,
+                     .confidence = limit->confidence,
+                     .is_target = is_target};
+    if (check.confidence == NULL && profile == NULL)
+        check.confidence = "user";
+    check.is_provisional = is_unconfirmed(check.confidence);
+    CZ_TRY(place_failure(builder, &limit->metric,
+                         cz_metric_parse(limit->metric, &check.metric, builder->error)));
+    if (profile == NULL)
+        CZ_TRY(check_scenarios_exist(builder, limit));
+    if (isnan(limit->max) && isnan(limit->min))
+        return place_failure(builder, &limit->name,
+                             cz_fail(builder->error, CZ_STATUS_INPUT,
+                                     "limit '%s' needs 'max' or 'min'", limit->name));
+    check.scale = isnan(limit->scale) || check.metric.kind->scale == CZ_FLAG_SCALE
+                      ? check.metric.kind->scale
+                      : limit->scale;
+    for (int side = 0; side < 2; side++) {
+        check.is_minimum = side == 1;
+        check.limit = side == 1 ? limit->min : limit->max;
+        if (!isnan(check.limit))
+            CZ_TRY(append_in_scenarios(builder, check, limit));
+    }
+    return CZ_OK;
+}
+
+/* Whether the user set a limit of this name, which then replaces the profile's. */
+static bool user_sets(const CzChecks *checks, const char *name) {
+    for (int i = 0; i < checks->n_limits; i++)
+        if (strcmp(checks->limits[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+static CzStatus append_profile(Builder *builder) {
+    const CzChecks *checks = &cz_problem_input(builder->problem)->checks;
+    const CzProfile *profile = cz_problem_profile(builder->problem);
+    if (profile == NULL)
+        return CZ_OK;
+    if (profile->category != NULL && checks->category != NULL &&
+        strcmp(profile->category, checks->category) != 0)
+        return place_failure(builder, &checks->category,
+                             cz_fail(builder->error, CZ_STATUS_INPUT,
+                                     "profile '%s' is for category '%s', not '%s'", profile->name,
+                                     profile->category, checks->category));
+    for (int i = 0; i < profile->n_limits; i++)
+        if (!user_sets(checks, profile->limits[i].name))
+            CZ_TRY(append_limit(builder, &profile->limits[i], profile->name, false));
+    for (int i = 0; i < profile->not_checked.n_text; i++) {
+        const CzCheck remark = {.name = profile->not_checked.text[i],
+                                .scenario = CZ_NO_SCENARIO,
+                                .limit = NAN,
+                                .profile = profile->name,
+                                .missing = "this program cannot check it",
+                                .is_remark = true};
+        CZ_TRY(append(builder, &remark));
+    }
+    return CZ_OK;
+}
+
+/* ---- closing rules
+ * ------------------------------------------------------------------------------------ */
+
+typedef enum Speeds { DESIGN, EVERY, OVERLOAD, BUFFING, SERVICE, CRASH } Speeds;
+typedef enum Needs { NOTHING, TUBE, SHEAR_OFF, FACE, INNER, N_NEEDS } Needs;
+
+typedef struct Rule {
+    const char *name, *metric;
+    bool is_minimum;
+    double limit;
+    Speeds speeds;
+    Needs needs;
+    const char *doc;
+} Rule;
+
+#define MAX false
+#define MIN true
+#define CZ_RULE(name, metric, bound, limit, speeds, needs, doc)                                    \
+    {name, metric, bound, limit, speeds, needs, doc},
+static const Rule rules[] = {
+#include "evaluate/closing_rules.def"
+};
+#undef CZ_RULE
+#undef MAX
+#undef MIN
+
+static bool rule_holds_in(Speeds speeds, const CzScene *scene) {
+    const double speed = scene->closing_speed * (1 - 1e-9);
+    if (scene->is_overload || speeds == OVERLOAD)
+        return scene->is_overload && speeds == OVERLOAD;
+    switch (speeds) {
+    case EVERY:
+        return true;
+    case BUFFING:
+        return speed <= buffing_speed;
+    case SERVICE:
+        return speed <= service_speed;
+    case CRASH:
+        return speed > service_speed;
+    case DESIGN:
+    case OVERLOAD:
+        break;
+    }
+    return false;
+}
+
+static void note_end(const CzVehicle *vehicle, const CzEnd *end, bool has[N_NEEDS]) {
+    if (!end->given)
+        return;
+    has[TUBE] |= end->coupler.given && end->coupler.tube.given;
+    has[SHEAR_OFF] |= end->coupler.given && end->coupler.shear_off.given;
+    has[FACE] |= end->anti_climber.given && vehicle->model == CZ_MODEL_FULL;
+}
+
+/* What the vehicles of the problem have. */
+static void note_needs(const Builder *builder, bool has[N_NEEDS]) {
+    has[NOTHING] = true;
+    for (int s = 0; s < builder->n_scene; s++) {
+        const CzScene *scene = &builder->scene[s];
+        for (int i = 0; i < scene->n_vehicle; i++) {
+            note_end(scene->vehicle[i], &scene->vehicle[i]->front, has);
+            note_end(scene->vehicle[i], &scene->vehicle[i]->rear, has);
+            has[INNER] |=
+                i > 0 && i - 1 != scene->colliding && scene->vehicle[i]->model == CZ_MODEL_FULL;
+        }
+    }
+}
+
+static CzStatus append_rule(Builder *builder, const Rule *rule) {
+    CzCheck check = {.name = rule->name,
+                     .metric_text = rule->metric,
+                     .limit = rule->limit,
+                     .is_minimum = rule->is_minimum,
+                     .source = rule->doc};
+    CZ_TRY(cz_metric_parse(rule->metric, &check.metric, builder->error));
+    check.scale = check.metric.kind->scale;
+    if (rule->speeds == DESIGN) {
+        check.scenario = CZ_NO_SCENARIO;
+        return append(builder, &check);
+    }
+    for (int s = 0; s < builder->n_scene; s++) {
+        check.scenario = s;
+        if (rule_holds_in(rule->speeds, &builder->scene[s]))
+            CZ_TRY(append(builder, &check));
+    }
+    return CZ_OK;
+}
+
+/* Largest closing speed up to a bound, 0 when there is none [m/s]. */
+static double fastest_up_to(const Builder *builder, double bound) {
+    double fastest = 0;
+    for (int s = 0; s < builder->n_scene; s++) {
+        const CzScene *scene = &builder->scene[s];
+        if (!scene->is_overload && scene->closing_speed * (1 - 1e-9) <= bound)
+            fastest = fmax(fastest, scene->closing_speed);
+    }
+    return fastest;
+}
+
+static bool covers_overload(const Builder *builder) {
+    const double needed = CZ_OVERLOAD_FACTOR * fastest_up_to(builder, INFINITY) * (1 - 1e-9);
+    for (int s = 0; s < builder->n_scene; s++)
+        if (builder->scene[s].is_overload && builder->scene[s].closing_speed >= needed)
+            return true;
+    return false;
+}
+
+/* Whether a scenario lies clearly between the service speed and the fastest. */
+static bool covers_between(const Builder *builder) {
+    const double fastest = fastest_up_to(builder, INFINITY);
+    const double between = fastest_up_to(builder, 0.95 * fastest);
+    return fastest <= 1.1 * service_speed || between > 1.05 * service_speed;
+}
+
+static CzStatus append_missing(Builder *builder, const char *name, const char *missing) {
+    const CzCheck check = {
+        .name = name, .scenario = CZ_NO_SCENARIO, .limit = NAN, .missing = missing};
+    return append(builder, &check);
+}
+
+/* What the rules ask for and no scenario shows is said to be unchecked. */
+static CzStatus append_missing_scenarios(Builder *builder, const bool has[N_NEEDS]) {
+    if (!covers_overload(builder))
+        CZ_TRY(append_missing(builder, "bottoming out under overload",
+                              "no scenario has mass_factor 1.1 and 1.1 times the largest speed"));
+    if (has[TUBE] && fastest_up_to(builder, buffing_speed) < 0.95 * buffing_speed)
+        CZ_TRY(
+            append_missing(builder, "no tube works when buffing", "no scenario closes at 8 km/h"));
+    if (!has[SHEAR_OFF])
+        return CZ_OK;
+    if (fastest_up_to(builder, service_speed) < 0.95 * service_speed)
+        CZ_TRY(append_missing(builder, "no shear-off in service", "no scenario closes at 15 km/h"));
+    if (!covers_between(builder))
+        CZ_TRY(append_missing(builder, "speeds between service and design",
+                              "no scenario lies between 15 km/h and the largest speed"));
+    return CZ_OK;
+}
+
+static CzStatus append_closing_rules(Builder *builder) {
+    bool has[N_NEEDS] = {false};
+    note_needs(builder, has);
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
+        if (has[rules[i].needs])
+            CZ_TRY(append_rule(builder, &rules[i]));
+    return append_missing_scenarios(builder, has);
+}
+
+/* ---- constraints
+ * -------------------------------------------------------------------------------------- */
+
+/* Which checks the optimiser must keep. */
+static CzStatus choose_constraints(Builder *builder) {
+    const CzOptimise *optimise = &cz_problem_input(builder->problem)->optimise;
+    const CzTexts *subject_to = &optimise->subject_to;
+    const bool all = subject_to->n_text == 0 || is_listed(subject_to, "checks");
+    CzChecklist *list = builder->list;
+    for (int i = 0; i < subject_to->n_text; i++) {
+        bool found = strcmp(subject_to->text[i], "checks") == 0;
+        for (int j = 0; j < list->n_check && !found; j++)
+            found = strcmp(list->check[j].name, subject_to->text[i]) == 0;
+        if (!found)
+            return place_failure(builder, subject_to,
+                                 cz_fail(builder->error, CZ_STATUS_INPUT,
+                                         "subject_to: there is no check '%s'",
+                                         subject_to->text[i]));
+    }
+    for (int i = 0; i < list->n_check; i++) {
+        CzCheck *check = &list->check[i];
+        check->is_constraint = check->missing == NULL &&
+                               (check->is_target || all || is_listed(subject_to, check->name));
+        list->n_constraint += check->is_constraint;
+    }
+    list->required_margin = optimise->given ? optimise->margin : 0;
+    return CZ_OK;
+}
+
+CzStatus cz_checklist_build(const CzProblem *problem, int n_scene, const CzScene *scene,
+                            CzArena *arena, CzChecklist *checklist, CzError *error) {
+    *checklist = (CzChecklist){0};
+    Builder builder = {.problem = problem,
+                       .n_scene = n_scene,
+                       .scene = scene,
+                       .arena = arena,
+                       .list = checklist,
+                       .error = error};
+    const CzInput *input = cz_problem_input(problem);
+    CZ_TRY(append_profile(&builder));
+    for (int i = 0; i < input->checks.n_limits; i++)
+        CZ_TRY(append_limit(&builder, &input->checks.limits[i], NULL, false));
+    if (!input->checks.given || input->checks.closing_rules)
+        CZ_TRY(append_closing_rules(&builder));
+    for (int i = 0; input->optimise.given && i < input->optimise.n_targets; i++)
+        CZ_TRY(append_limit(&builder, &input->optimise.targets[i], NULL, true));
+    return choose_constraints(&builder);
+}

@@ -1,0 +1,59 @@
+/* Checks: limits on metrics from the profile, the user, and the closing rules, one per scenario.
+ *
+ *   margin     = (limit - value) / max(|limit|, scale), sign turned for a lower limit
+ *   constraint = -(margin - required margin)
+ */
+#ifndef CZ_EVALUATE_CHECKS_H
+#define CZ_EVALUATE_CHECKS_H
+
+#include "base/arena.h"
+#include "crushzone/evaluate.h"
+#include "evaluate/metric.h"
+
+/* Scenario number of a check of the design itself. */
+enum { CZ_NO_SCENARIO = -1 };
+
+typedef struct CzCheck {
+    const char *name;
+    int scenario; /* or CZ_NO_SCENARIO */
+    const char *metric_text;
+    CzMetric metric; /* unset when `missing` */
+    double limit;    /* in the metric's unit */
+    bool is_minimum;
+    double scale; /* smallest scale of the margin */
+    const char *profile, *clause, *source, *confidence;
+    const char *missing; /* why it can never be checked; NULL otherwise */
+    bool is_remark;      /* listed, but does not count in the verdict */
+    bool is_target;      /* kept by the optimiser only, not listed */
+    bool is_provisional; /* nobody has confirmed the limit */
+    bool is_constraint;
+} CzCheck;
+
+typedef struct CzChecklist {
+    int n_check;
+    CzCheck *check; /* (n_check), of the arena; scenarios in order within each limit */
+    int n_constraint;
+    double required_margin;
+} CzChecklist;
+
+/* Lists all checks and targets of a problem. Memory comes from the arena. Statuses: CZ_OK,
+ * CZ_STATUS_INPUT with the place in the file, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_checklist_build(const CzProblem *problem, int n_scene,
+                                          const CzScene *scene, CzArena *arena,
+                                          CzChecklist *checklist, CzError *error);
+
+/* Margin of a value; `scale` may be CZ_FLAG_SCALE. NaN for NaN. */
+double cz_margin(double value, double limit, bool is_minimum, double scale);
+
+/* Judges one check. `subject` has the run of the check's scenario, NULL run when there is none;
+ * `failure` says why, NULL otherwise. */
+CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, const char *failure);
+
+/* Constraint of a judged check: at most 0 when kept; NaN when it could not be checked. */
+double cz_check_constraint(const CzCheckResult *result, double required_margin);
+
+/* Verdict over all checks: the worst of fail, not checked, provisional, pass; remarks do not count.
+ */
+CzVerdict cz_verdict_over(int n_check, const CzCheck *check, const CzCheckResult *result);
+
+#endif

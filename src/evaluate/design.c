@@ -1,0 +1,361 @@
+/* Design map: variables to places in the vehicle records. */
+#include "evaluate/design.h"
+#include "base/error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What building needs at hand. */
+typedef struct Builder {
+    const CzProblem *problem;
+    const CzVehicle *vehicles; /* as written (n_vehicle) */
+    int n_vehicle;
+    int n_scene;
+    const CzScene *scene;
+    CzArena *arena;
+    CzDesign *design;
+    int most_variables;
+    CzError *error;
+} Builder;
+
+/* Fails at the place of a field of the problem file. */
+__attribute__((format(printf, 3, 4))) static CzStatus
+fail_at(const Builder *builder, const void *field, const char *format, ...) {
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    const CzStatus status = cz_fail(builder->error, CZ_STATUS_INPUT, "%s", text);
+    if (builder->error != NULL)
+        cz_problem_place(builder->problem, field, builder->error);
+    return status;
+}
+
+static CzStatus fail_memory(const Builder *builder) {
+    return cz_fail(builder->error, CZ_STATUS_NO_MEMORY, "no memory for the design variables");
+}
+
+/* ---- the identical partner
+ * ------------------------------------------------------------------------ */
+
+/* Whether two ends are written alike; a record may be a copy with the same texts. */
+static bool ends_are_alike(const CzEnd *a, const CzEnd *b) {
+    return memcmp(a, b, sizeof *a) == 0;
+}
+
+static bool same_number(double a, double b) {
+    return a == b || (isnan(a) && isnan(b));
+}
+
+static bool vehicles_are_alike(const CzVehicle *a, const CzVehicle *b, bool mirrored) {
+    return a->model == b->model && same_number(a->mass, b->mass) &&
+           same_number(a->length, b->length) &&
+           ends_are_alike(&a->front, mirrored ? &b->rear : &b->front) &&
+           ends_are_alike(&a->rear, mirrored ? &b->front : &b->rear);
+}
+
+/* Whether the train ahead is the train behind once more, turned round or not. */
+static bool partner_is_alike(const CzScene *scene, bool mirrored) {
+    const int n = scene->colliding + 1;
+    if (scene->train[0] == scene->train[1] || scene->n_vehicle != 2 * n)
+        return false;
+    for (int i = 0; i < n; i++) {
+        const CzVehicle *twin = scene->vehicle[mirrored ? 2 * n - 1 - i : n + i];
+        if (!vehicles_are_alike(scene->vehicle[i], twin, mirrored))
+            return false;
+    }
+    return true;
+}
+
+/* Offset of the same place in a vehicle that is turned round. */
+static size_t mirrored_offset(size_t offset) {
+    const size_t front = offsetof(CzVehicle, front), rear = offsetof(CzVehicle, rear);
+    if (offset >= front && offset < front + sizeof(CzEnd))
+        return offset - front + rear;
+    if (offset >= rear && offset < rear + sizeof(CzEnd))
+        return offset - rear + front;
+    return offset;
+}
+
+/* The place in the partner that is the same as `place`; false when this vehicle has no twin in this
+ * scene. */
+static bool find_twin(const CzScene *scene, const CzDesignPlace *place, CzDesignPlace *twin) {
+    const bool mirrored = partner_is_alike(scene, true);
+    if (!mirrored && !partner_is_alike(scene, false))
+        return false;
+    const int n = scene->colliding + 1;
+    for (int i = 0; i < 2 * n; i++) {
+        if (scene->record[i] != place->vehicle)
+            continue;
+        const int other = mirrored ? 2 * n - 1 - i : (i + n) % (2 * n);
+        *twin = *place;
+        twin->vehicle = scene->record[other];
+        twin->offset = mirrored ? mirrored_offset(place->offset) : place->offset;
+        return true;
+    }
+    return false;
+}
+
+/* ---- one variable
+ * --------------------------------------------------------------------------------- */
+
+static bool drives(const CzDesignVariable *variable, const CzDesignPlace *place) {
+    for (int i = 0; i < variable->n_place; i++)
+        if (variable->place[i].vehicle == place->vehicle &&
+            variable->place[i].offset == place->offset)
+            return true;
+    return false;
+}
+
+static CzStatus add_place(const Builder *builder, CzDesignVariable *variable,
+                          const CzDesignPlace *place) {
+    const size_t n = (size_t)variable->n_place;
+    if ((n & (n - 1)) == 0) { /* room doubles at powers of two */
+        CzDesignPlace *more = cz_arena_allocate(builder->arena, n == 0 ? 1 : 2 * n, sizeof *more);
+        if (more == NULL)
+            return fail_memory(builder);
+        if (n > 0)
+            memcpy(more, variable->place, n * sizeof *more);
+        variable->place = more;
+    }
+    variable->place[variable->n_place++] = *place;
+    return CZ_OK;
+}
+
+/* Path of a twin's place: the train and vehicle of the twin, the rest as written with the ends
+ * exchanged where the vehicle is turned round. */
+static const char *twin_path(const Builder *builder, const CzDesignPlace *place,
+                             const CzDesignPlace *twin) {
+    const CzInput *input = cz_problem_input(builder->problem);
+    const char *rest = NULL;
+    const char *const ends[] = {".front.", ".rear."};
+    for (int end = 0; end < 2 && rest == NULL; end++) {
+        rest = strstr(place->shown.path, ends[end]);
+        if (rest != NULL)
+            rest += strlen(ends[end]);
+    }
+    const char *end = twin->offset >= offsetof(CzVehicle, rear) &&
+                              twin->offset < offsetof(CzVehicle, rear) + sizeof(CzEnd)
+                          ? "rear"
+                          : "front";
+    const CzVehicle *vehicle = &builder->vehicles[twin->vehicle];
+    for (int train = 0; train < input->n_trains && rest != NULL; train++) {
+        const long index = vehicle - input->trains[train].vehicles;
+        if (index < 0 || index >= input->trains[train].n_vehicles)
+            continue;
+        char path[256];
+        const int n =
+            snprintf(path, sizeof path, "trains.%s.vehicles.%s.%s.%s", input->trains[train].name,
+                     vehicle->name != NULL ? vehicle->name : "", end, rest);
+        return cz_arena_copy_text(builder->arena, path, (size_t)n < sizeof path ? (size_t)n : 0);
+    }
+    return place->shown.path;
+}
+
+/* Adds the twins of all places in every identical partner. */
+static CzStatus add_twins(const Builder *builder, CzDesignVariable *variable) {
+    const int n_written = variable->n_place;
+    for (int i = 0; i < n_written; i++)
+        for (int s = 0; s < builder->n_scene; s++) {
+            CzDesignPlace twin;
+            if (!find_twin(&builder->scene[s], &variable->place[i], &twin) ||
+                drives(variable, &twin))
+                continue;
+            twin.shown.path = twin_path(builder, &variable->place[i], &twin);
+            if (twin.shown.path == NULL)
+                return fail_memory(builder);
+            CZ_TRY(add_place(builder, variable, &twin));
+        }
+    return CZ_OK;
+}
+
+static CzStatus add_target(const Builder *builder, const CzVariable *written,
+                           const CzTarget *target, CzDesignVariable *variable) {
+    const void *field =
+        written->path != NULL ? (const void *)&written->path : (const void *)&written->paths;
+    if (!target->may_vary)
+        return fail_at(builder, field,
+                       "'%s' may not vary: only stage forces and strokes, triggers, shear-off "
+                       "forces and gaps may",
+                       target->place);
+    if (variable->n_place == 0) {
+        variable->info.unit =
+            cz_arena_copy_text(builder->arena, target->suffix, strlen(target->suffix));
+        variable->info.start = target->value / target->unit;
+    }
+    const double unit = variable->n_place == 0 ? target->unit : variable->place[0].scale;
+    CzDesignPlace place = {.vehicle = target->vehicle, .offset = target->offset, .scale = unit};
+    place.shown.factor = unit / target->unit;
+    place.shown.path = cz_arena_copy_text(builder->arena, target->place, strlen(target->place));
+    if (place.shown.path == NULL || variable->info.unit == NULL)
+        return fail_memory(builder);
+    return drives(variable, &place) ? CZ_OK : add_place(builder, variable, &place);
+}
+
+/* Whether a vehicle belongs to the train behind of any scenario. */
+static bool is_own(const Builder *builder, int vehicle) {
+    for (int s = 0; s < builder->n_scene; s++)
+        for (int i = 0; i <= builder->scene[s].colliding; i++)
+            if (builder->scene[s].record[i] == vehicle)
+                return true;
+    return false;
+}
+
+static CzStatus check_variable(const Builder *builder, const CzVariable *written,
+                               const CzDesignVariable *variable) {
+    const CzVariableInfo *info = &variable->info;
+    if (!(info->min < info->max))
+        return fail_at(builder, &written->min, "the lower bound of '%s' is not below the upper one",
+                       info->name);
+    if (!(info->start >= info->min && info->start <= info->max)) {
+        return fail_at(builder, isnan(written->start) ? &written->min : &written->start,
+                       "the starting value %g of '%s' lies outside %g to %g %s", info->start,
+                       info->name, info->min, info->max, info->unit);
+    }
+    bool any_own = false;
+    for (int i = 0; i < variable->n_place; i++)
+        any_own |= is_own(builder, variable->place[i].vehicle);
+    if (!any_own)
+        return fail_at(builder,
+                       written->path != NULL ? (const void *)&written->path
+                                             : (const void *)&written->paths,
+                       "'%s' would only change the partner, and softening the opponent is no "
+                       "design",
+                       info->name);
+    for (const CzDesignVariable *other = builder->design->variable; other != variable; other++)
+        for (int i = 0; i < variable->n_place; i++)
+            if (drives(other, &variable->place[i]))
+                return fail_at(builder, &written->min, "'%s' is driven by two variables",
+                               variable->place[i].shown.path);
+    return CZ_OK;
+}
+
+/* ---- what is written once may be several variables
+ * --------------------------------------------------- */
+
+/* Name of match `match` of a path: the path with its [*] filled in, or a given name with the
+ * number.
+ */
+static const char *name_variable(const Builder *builder, const CzVariable *written, int match,
+                                 int n_match) {
+    const char *path = written->path != NULL ? written->path : written->paths.text[0];
+    const char *name = written->name != NULL ? written->name : path;
+    const char *star = strstr(name, "[*]");
+    char text[256];
+    if (n_match == 1)
+        snprintf(text, sizeof text, "%s", name);
+    else if (star != NULL && strstr(star + 3, "[*]") == NULL)
+        snprintf(text, sizeof text, "%.*s[%d]%s", (int)(star - name), name, match, star + 3);
+    else
+        snprintf(text, sizeof text, "%s[%d]", name, match);
+    return cz_arena_copy_text(builder->arena, text, strlen(text));
+}
+
+static CzStatus add_variable(Builder *builder, const CzVariable *written, int match, int n_match,
+                             int n_target, const CzTarget *target) {
+    CzDesign *design = builder->design;
+    if (design->n_variable == builder->most_variables)
+        return fail_at(builder, &written->min, "there are more than 1000 variables");
+    CzDesignVariable *variable = &design->variable[design->n_variable];
+    variable->info.name = name_variable(builder, written, match, n_match);
+    if (variable->info.name == NULL)
+        return fail_memory(builder);
+    for (int i = 0; i < n_target; i++)
+        if (n_match == 1 || target[i].match == match)
+            CZ_TRY(add_target(builder, written, &target[i], variable));
+    CZ_TRY(add_twins(builder, variable));
+    variable->info.min = written->min;
+    variable->info.max = written->max;
+    variable->info.step = isnan(written->step) ? 0 : written->step;
+    if (!isnan(written->start))
+        variable->info.start = written->start;
+    CZ_TRY(check_variable(builder, written, variable));
+    design->n_variable++;
+    return CZ_OK;
+}
+
+/* A path: one variable per match. */
+static CzStatus add_path(Builder *builder, const CzVariable *written) {
+    CzTarget *target = NULL;
+    int n_target = 0, n_match = 0;
+    CzStatus status =
+        cz_problem_find(builder->problem, written->path, &target, &n_target, builder->error);
+    if (status == CZ_STATUS_INPUT && builder->error != NULL) {
+        CzError place = {0};
+        cz_problem_place(builder->problem, &written->path, &place);
+        memcpy(builder->error->file, place.file, sizeof place.file);
+        builder->error->line = place.line;
+        builder->error->column = place.column;
+    }
+    for (int i = 0; i < n_target; i++)
+        n_match = target[i].match >= n_match ? target[i].match + 1 : n_match;
+    for (int match = 0; match < n_match && status == CZ_OK; match++)
+        status = add_variable(builder, written, match, n_match, n_target, target);
+    free(target);
+    return status;
+}
+
+/* Several paths: one variable for all of their places. */
+static CzStatus add_tied(Builder *builder, const CzVariable *written) {
+    CzTarget *all = NULL;
+    int n_all = 0;
+    CzStatus status = CZ_OK;
+    for (int i = 0; i < written->paths.n_text && status == CZ_OK; i++) {
+        CzTarget *target = NULL;
+        int n_target = 0;
+        status = cz_problem_find(builder->problem, written->paths.text[i], &target, &n_target,
+                                 builder->error);
+        CzTarget *more = realloc(all, (size_t)(n_all + n_target + 1) * sizeof *all);
+        if (more == NULL)
+            status = fail_memory(builder);
+        else
+            all = more;
+        if (status == CZ_OK && n_target > 0)
+            memcpy(all + n_all, target, (size_t)n_target * sizeof *all);
+        n_all += status == CZ_OK ? n_target : 0;
+        free(target);
+    }
+    if (status == CZ_OK)
+        status = add_variable(builder, written, 0, 1, n_all, all);
+    free(all);
+    return status;
+}
+
+CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *scene,
+                         CzArena *arena, CzDesign *design, CzError *error) {
+    const CzOptimise *optimise = &cz_problem_input(problem)->optimise;
+    *design = (CzDesign){0};
+    if (!optimise->given || optimise->n_variables == 0)
+        return CZ_OK;
+    Builder builder = {.problem = problem,
+                       .n_scene = n_scene,
+                       .scene = scene,
+                       .arena = arena,
+                       .design = design,
+                       .most_variables = 1000,
+                       .error = error};
+    builder.vehicles = cz_problem_vehicles(problem, &builder.n_vehicle);
+    design->variable =
+        cz_arena_allocate(arena, (size_t)builder.most_variables, sizeof *design->variable);
+    if (design->variable == NULL)
+        return fail_memory(&builder);
+    for (int i = 0; i < optimise->n_variables; i++) {
+        const CzVariable *written = &optimise->variables[i];
+        if ((written->path == NULL) == (written->paths.n_text == 0))
+            return fail_at(&builder, &written->min, "a variable needs either 'path' or 'paths'");
+        CZ_TRY(written->path != NULL ? add_path(&builder, written) : add_tied(&builder, written));
+    }
+    return CZ_OK;
+}
+
+void cz_design_apply(const CzDesign *design, const double *x, CzVehicle *vehicles) {
+    for (int i = 0; i < design->n_variable; i++)
+        for (int j = 0; j < design->variable[i].n_place; j++) {
+            const CzDesignPlace *place = &design->variable[i].place[j];
+            const double value = x[i] * place->scale;
+            memcpy((char *)&vehicles[place->vehicle] + place->offset, &value, sizeof value);
+        }
+}

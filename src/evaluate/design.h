@@ -1,0 +1,42 @@
+/* Design map: variables to places in the vehicle records.
+ *
+ *   value of a place [SI] = variable [unit of its key] x SI value of one unit
+ *
+ * One variable may drive many places. What may vary is settled by the list of keys; a partner that
+ * is the same train shares every variable, so that an opponent cannot be softened.
+ */
+#ifndef CZ_EVALUATE_DESIGN_H
+#define CZ_EVALUATE_DESIGN_H
+
+#include "base/arena.h"
+#include "crushzone/evaluate.h"
+#include "evaluate/scene.h"
+
+typedef struct CzDesignPlace {
+    int vehicle;   /* index into the vehicle array */
+    size_t offset; /* of the double in CzVehicle [byte] */
+    double scale;  /* SI value of one unit of the variable */
+    CzVariablePlace shown;
+} CzDesignPlace;
+
+typedef struct CzDesignVariable {
+    CzVariableInfo info;
+    int n_place;
+    CzDesignPlace *place; /* (n_place) */
+} CzDesignVariable;
+
+typedef struct CzDesign {
+    int n_variable;
+    CzDesignVariable *variable; /* (n_variable) */
+} CzDesign;
+
+/* Builds the map of a problem; no variables without `optimise:`. Memory comes from the arena.
+ * Statuses: CZ_OK, CZ_STATUS_INPUT naming the place that may not vary or does not exist,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *scene,
+                                       CzArena *arena, CzDesign *design, CzError *error);
+
+/* Writes a design into a copy of the vehicle array; x is (n_variable). */
+void cz_design_apply(const CzDesign *design, const double *x, CzVehicle *vehicles);
+
+#endif

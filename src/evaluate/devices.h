@@ -1,0 +1,30 @@
+/* What the devices of a vehicle end need as written: strokes, forces, room. No run is needed. */
+#ifndef CZ_EVALUATE_DEVICES_H
+#define CZ_EVALUATE_DEVICES_H
+
+#include "problem/input.h"
+
+/* Usable stroke of a device [m]; 0 when it is absent. */
+double cz_buffer_stroke(const CzBuffer *buffer);
+double cz_tube_stroke(const CzTube *tube);
+double cz_anti_climber_stroke(const CzAntiClimber *anti_climber);
+
+/* Stroke of an end's crush zone outside the survival space [m]. */
+double cz_end_stroke(const CzEnd *end);
+
+/* Each of these is a share that may be at most 1, NaN when an end declares too little for it. */
+double cz_stroke_fit(const CzEnd *end);
+double cz_length_used(const CzEnd *end);
+double cz_coupler_length_used(const CzEnd *end);
+double cz_retraction_used(const CzEnd *end);
+
+/* The force ladder. `rate` is the rate of flow that the tube's force is taken at [m/s]. */
+double cz_tube_over_shear_off(const CzEnd *end, double rate);
+double cz_shear_off_over_strength(const CzEnd *end);
+
+/* Sums over the vehicles of a train; part_count counts devices that differ. NaN without devices. */
+double cz_train_installed_length(int n_vehicle, const CzVehicle *vehicle);
+double cz_train_absorber_mass(int n_vehicle, const CzVehicle *vehicle);
+double cz_train_part_count(int n_vehicle, const CzVehicle *vehicle);
+
+#endif

@@ -1,0 +1,254 @@
+/* Metrics: names, parsing, aggregation. */
+#include "evaluate/metric.h"
+#include "base/error.h"
+#include "evaluate/devices.h"
+#include "evaluate/place.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Energies below this count as nothing, so that no share is taken of them [J]. */
+static const double nothing = 100;
+
+static double share_of(double part, double whole) {
+    return whole > nothing ? part / whole : NAN;
+}
+
+/* Rib pitch of the coarser of the two faces at an interface; 0 without faces. */
+static double rib_pitch(const CzPlace *place) {
+    double pitch = 0;
+    for (int side = 0; side < 2; side++) {
+        const int vehicle = place->interface_index + side;
+        const CzVehicle *record = &place->vehicles[place->scene->record[vehicle]];
+        const CzAntiClimber *face =
+            side == 0 ? &record->front.anti_climber : &record->rear.anti_climber;
+        if (face->given && face->rib_count > 0)
+            pitch = fmax(pitch, face->face_height / face->rib_count);
+    }
+    return pitch;
+}
+
+static double overlap_in_ribs(const CzPlace *place) {
+    return place->interface->min_overlap / rib_pitch(place);
+}
+
+/* Closure between the end structures over the room that the folded gangways leave; 0 at the
+ * colliding interface, which has no gangway. */
+static double inner_gap_used(const CzPlace *place) {
+    if (place->interface_index == place->scene->colliding)
+        return 0;
+    double closure = place->interface->shortening;
+    for (int i = 0; i < place->interface->n_element; i++)
+        if (place->interface->element[i].kind == CZ_ELEMENT_END)
+            closure -= place->interface->element[i].stroke;
+    const int *record = &place->scene->record[place->interface_index];
+    const CzEnd *behind = &place->vehicles[record[0]].front;
+    const CzEnd *ahead = &place->vehicles[record[1]].rear;
+    const double room =
+        behind->face_gap - behind->gangway_block + ahead->face_gap - ahead->gangway_block;
+    return room > 0 || isnan(room) ? closure / room : INFINITY;
+}
+
+static double shear_load(const CzPlace *place) {
+    const CzCoupler *coupler = &place->end->coupler;
+    if (place->element->kind != CZ_ELEMENT_COUPLER || !coupler->shear_off.given)
+        return NAN;
+    const double load = place->element->peak_force / coupler->shear_off.force;
+    return place->element->sheared ? fmax(load, 1) : load;
+}
+
+static double largest_wheel_lift(const CzPlace *place) {
+    double lift = place->vehicle->checks_override ? 0 : NAN;
+    for (int i = 0; i < 4; i++)
+        lift = isnan(lift) ? lift : fmax(lift, place->vehicle->wheel_lift[i]);
+    return lift;
+}
+
+/* A climb that was seen is one whatever is declared; that none was seen says something only when
+ * every full vehicle can lift. */
+static double climbed(const CzPlace *place) {
+    if (place->run->beyond_validity)
+        return 1;
+    for (int i = 0; i < place->run->n_vehicle; i++) {
+        const CzVehicle *record = &place->vehicles[place->scene->record[i]];
+        if (record->model == CZ_MODEL_FULL && !place->run->vehicle[i].checks_override)
+            return NAN;
+    }
+    return place->must_declare ? 0 : NAN;
+}
+
+/* The list: one reading function and one row per metric. */
+#define CZ_PASTE(a, b) a##b
+#define CZ_READER(line) CZ_PASTE(read_, line)
+#define CZ_METRIC(level, name, unit, per_unit, scale, absent, expression, doc)                     \
+    static double CZ_READER(__LINE__)(const CzPlace *place) {                                      \
+        return expression;                                                                         \
+    }
+#include "evaluate/metrics.def"
+#undef CZ_METRIC
+
+#define SKIP(why) false, why
+#define UNKNOWN(why) true, why
+#define CZ_METRIC(level, name, unit, per_unit, scale, absent, expression, doc)                     \
+    {CZ_LEVEL_##level, name, unit, per_unit, scale, absent, CZ_READER(__LINE__), doc},
+static const CzMetricKind kinds[] = {
+#include "evaluate/metrics.def"
+};
+#undef CZ_METRIC
+#undef SKIP
+#undef UNKNOWN
+
+enum { N_KIND = sizeof kinds / sizeof kinds[0] };
+
+int cz_n_metric_kind(void) {
+    return N_KIND;
+}
+
+const CzMetricKind *cz_metric_kind(int index) {
+    return &kinds[index];
+}
+
+/* ---- reading the text --------------------------------------------------------------------------
+ */
+
+/* Takes the word behind the last dot off a text of n letters and returns it. */
+static const char *take_last_word(char *text) {
+    char *dot = strrchr(text, '.');
+    if (dot == NULL)
+        return text;
+    *dot = '\0';
+    return dot + 1;
+}
+
+static bool read_aggregate(const char *word, CzAggregate *aggregate) {
+    static const char *const words[] = {[CZ_AGGREGATE_MAX] = "max",
+                                        [CZ_AGGREGATE_MIN] = "min",
+                                        [CZ_AGGREGATE_SUM] = "sum",
+                                        [CZ_AGGREGATE_MEAN] = "mean"};
+    for (int i = CZ_AGGREGATE_MAX; i <= CZ_AGGREGATE_MEAN; i++)
+        if (strcmp(word, words[i]) == 0) {
+            *aggregate = (CzAggregate)i;
+            return true;
+        }
+    return false;
+}
+
+static const CzMetricKind *find_kind(const char *name) {
+    for (int i = 0; i < N_KIND; i++)
+        if (strcmp(kinds[i].name, name) == 0)
+            return &kinds[i];
+    return NULL;
+}
+
+/* Letters that two texts share at the start and at the end: a cheap likeness for a hint. */
+static size_t likeness(const char *a, const char *b) {
+    size_t start = 0, end = 0;
+    const size_t n_a = strlen(a), n_b = strlen(b);
+    while (start < n_a && start < n_b && a[start] == b[start])
+        start++;
+    while (end < n_a - start && end < n_b - start && a[n_a - 1 - end] == b[n_b - 1 - end])
+        end++;
+    return start + end;
+}
+
+static CzStatus fail_unknown(const char *text, const char *name, CzError *error) {
+    const CzMetricKind *nearest = &kinds[0];
+    for (int i = 1; i < N_KIND; i++)
+        if (likeness(name, kinds[i].name) > likeness(name, nearest->name))
+            nearest = &kinds[i];
+    const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no metric '%s'", text);
+    if (error != NULL)
+        snprintf(error->help, sizeof error->help, "did you mean '%s'?", nearest->name);
+    return status;
+}
+
+/* Splits "LEVEL.SELECTOR.NAME" into "LEVEL.NAME" and the selector. */
+static void split_selector(const char *text, char *name, size_t n_name, char *selector,
+                           size_t n_selector) {
+    snprintf(name, n_name, "%s", text);
+    snprintf(selector, n_selector, "*");
+    const char *first = strchr(text, '.');
+    const char *last = strrchr(text, '.');
+    if (first == NULL || first == last)
+        return;
+    snprintf(name, n_name, "%.*s%s", (int)(first - text), text, last);
+    snprintf(selector, n_selector, "%.*s", (int)(last - first - 1), first + 1);
+}
+
+CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzError *error) {
+    char copy[192], name[192];
+    if (strlen(text) >= 90)
+        return cz_fail(error, CZ_STATUS_INPUT, "the metric '%.40s...' is longer than 90 letters",
+                       text);
+    snprintf(copy, sizeof copy, "%s", text);
+    metric->aggregate = CZ_AGGREGATE_WORST;
+    CzAggregate aggregate;
+    if (read_aggregate(take_last_word(copy), &aggregate))
+        metric->aggregate = aggregate;
+    else
+        snprintf(copy, sizeof copy, "%s", text);
+    split_selector(copy, name, sizeof name, metric->selector, sizeof metric->selector);
+    metric->kind = find_kind(name);
+    return metric->kind != NULL ? CZ_OK : fail_unknown(text, name, error);
+}
+
+bool cz_metric_picks(const CzMetric *metric, const CzScene *scene) {
+    return cz_places_count(scene, metric->kind->level, metric->selector) > 0;
+}
+
+/* ---- value --------------------------------------------------------------------------------------
+ */
+
+/* What a walk over the places adds up. */
+typedef struct Sum {
+    const CzMetricKind *kind;
+    bool seeks_max;
+    int n_known;
+    double extreme, total; /* in the unit */
+    char where[48], unknown_where[48];
+    bool any_unknown;
+} Sum;
+
+static void add_place(const CzPlace *place, void *data) {
+    Sum *sum = data;
+    const double value = sum->kind->value(place) / sum->kind->per_unit;
+    if (isnan(value)) {
+        const bool unknown = sum->kind->may_be_unknown && place->must_declare;
+        if (unknown && !sum->any_unknown)
+            memcpy(sum->unknown_where, place->name, sizeof sum->unknown_where);
+        sum->any_unknown |= unknown;
+        return;
+    }
+    const bool first = sum->n_known++ == 0;
+    sum->total += value;
+    if (first || (sum->seeks_max ? value > sum->extreme : value < sum->extreme)) {
+        sum->extreme = value;
+        memcpy(sum->where, place->name, sizeof sum->where);
+    }
+}
+
+static double aggregate_value(const Sum *sum, CzAggregate aggregate) {
+    if (sum->n_known == 0)
+        return NAN;
+    if (aggregate == CZ_AGGREGATE_SUM)
+        return sum->total;
+    return aggregate == CZ_AGGREGATE_MEAN ? sum->total / sum->n_known : sum->extreme;
+}
+
+CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, bool worst_is_max) {
+    const CzAggregate aggregate = metric->aggregate;
+    Sum sum = {.kind = metric->kind,
+               .seeks_max = aggregate == CZ_AGGREGATE_MAX ||
+                            (aggregate != CZ_AGGREGATE_MIN && worst_is_max)};
+    cz_places_visit(subject, metric->kind->level, metric->selector, add_place, &sum);
+    CzMetricValue value = {.known = CZ_KNOWN, .value = aggregate_value(&sum, aggregate)};
+    memcpy(value.where, sum.where, sizeof value.where);
+    memcpy(value.unknown_where, sum.unknown_where, sizeof value.unknown_where);
+    if (sum.any_unknown || (sum.n_known == 0 && metric->kind->may_be_unknown))
+        value.known = CZ_UNKNOWN;
+    else if (sum.n_known == 0)
+        value.known = CZ_DOES_NOT_APPLY;
+    if (value.known != CZ_KNOWN)
+        value.why = metric->kind->absent;
+    return value;
+}

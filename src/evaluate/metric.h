@@ -1,0 +1,111 @@
+/* Metrics: what a text such as "interfaces.A4-B1.peak_force_kN" means, and its value.
+ *
+ *   LEVEL [. SELECTOR] . NAME [. max|min|sum|mean]
+ *
+ * The selector picks places by name, with `*` and `?`; `colliding` stands for the interface between
+ * the trains and `inner` for all others. Elements are picked by their name ("coupler A4", "coupler
+ * *") or by interface and name ("A4-B1 coupler A4", "colliding coupler *"). Without a word at the
+ * end the worst place counts: the largest for an upper limit, the smallest for a lower one.
+ */
+#ifndef CZ_EVALUATE_METRIC_H
+#define CZ_EVALUATE_METRIC_H
+
+#include "crushzone/simulate.h"
+#include "evaluate/scene.h"
+
+typedef enum CzLevel {
+    CZ_LEVEL_RUN,
+    CZ_LEVEL_INTERFACE,
+    CZ_LEVEL_ELEMENT,
+    CZ_LEVEL_VEHICLE,
+    CZ_LEVEL_SECTION,
+    CZ_LEVEL_END,   /* of the design as written */
+    CZ_LEVEL_DESIGN /* likewise */
+} CzLevel;
+
+/* Where a metric is read. Only what its level has is filled. */
+typedef struct CzPlace {
+    const CzScene *scene; /* NULL for the design itself */
+    const CzRunSummary *run;
+    const CzInterfaceResult *interface;
+    int interface_index;
+    const CzElementResult *element;
+    const CzVehicleResult *vehicle;
+    const CzVehicle *vehicles; /* the vehicle array with the design's values */
+    const CzVehicle *record;   /* of the vehicle or end; the first of n_record for DESIGN */
+    int n_record;
+    const CzEnd *end;
+    double section_force; /* [N] */
+    double rate;          /* rate of flow that tube forces are taken at [m/s] */
+    bool must_declare;    /* a full vehicle: what it does not declare is unknown, not absent */
+    char name[48];
+} CzPlace;
+
+typedef struct CzMetricKind {
+    CzLevel level;
+    const char *name, *unit;
+    double per_unit; /* SI value of one unit */
+    double scale;    /* smallest scale of a margin, in the unit; CZ_FLAG_SCALE for a yes or no */
+    bool may_be_unknown;
+    const char *absent; /* why it does not apply, or what is not declared */
+    double (*value)(const CzPlace *place);
+    const char *doc;
+} CzMetricKind;
+
+/* Scale that marks a yes or no. */
+#define CZ_FLAG_SCALE (-1.0)
+
+typedef enum CzAggregate {
+    CZ_AGGREGATE_WORST,
+    CZ_AGGREGATE_MAX,
+    CZ_AGGREGATE_MIN,
+    CZ_AGGREGATE_SUM,
+    CZ_AGGREGATE_MEAN
+} CzAggregate;
+
+typedef struct CzMetric {
+    const CzMetricKind *kind;
+    CzAggregate aggregate;
+    char selector[96]; /* "*" for all */
+} CzMetric;
+
+/* What a metric is read from: one run of a scenario, or the design alone. */
+typedef struct CzSubject {
+    const CzScene *scene;    /* NULL: the design alone */
+    const CzRunSummary *run; /* of that scenario; NULL: the design alone */
+    const CzVehicle
+        *vehicles; /* the problem's vehicle array with the design's values (n_vehicle) */
+    int n_vehicle;
+    int n_first_train;    /* the first n vehicles of the array are the first train */
+    const CzInput *input; /* for names of trains */
+    double rate;          /* rate of flow that tube forces are taken at [m/s] */
+} CzSubject;
+
+typedef enum CzKnown {
+    CZ_KNOWN,
+    CZ_DOES_NOT_APPLY,
+    CZ_UNKNOWN /* `value` is the worst of what is known, NaN when nothing is */
+} CzKnown;
+
+typedef struct CzMetricValue {
+    CzKnown known;
+    double value;           /* in the metric's unit */
+    char where[48];         /* place of the worst value */
+    char unknown_where[48]; /* first place that does not declare enough; empty when none */
+    const char *why;        /* when not known; static */
+} CzMetricValue;
+
+/* Reads a metric's text. Status: CZ_STATUS_INPUT with the nearest name as help. */
+CZ_MUST_CHECK CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzError *error);
+
+/* Value over all places that the selector picks; `worst_is_max` settles CZ_AGGREGATE_WORST. */
+CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, bool worst_is_max);
+
+/* Whether the selector picks anything in this scene, as written. */
+bool cz_metric_picks(const CzMetric *metric, const CzScene *scene);
+
+/* All kinds, for documents and tests. */
+int cz_n_metric_kind(void);
+const CzMetricKind *cz_metric_kind(int index);
+
+#endif

@@ -1,0 +1,243 @@
+/* Places that a metric may be read at, and the selectors that pick them. */
+#include "evaluate/place.h"
+
+#include <stdio.h>
+#include <string.h>
+
+bool cz_matches(const char *pattern, const char *text) {
+    const char *star = NULL, *resume = NULL;
+    while (*text != '\0') {
+        if (*pattern == '*') {
+            star = pattern++;
+            resume = text;
+        } else if (*pattern == '?' || *pattern == *text) {
+            pattern++;
+            text++;
+        } else if (star != NULL) {
+            pattern = star + 1;
+            text = ++resume;
+        } else {
+            return false;
+        }
+    }
+    while (*pattern == '*')
+        pattern++;
+    return *pattern == '\0';
+}
+
+/* Whether a selector picks an interface: by name, or as `colliding` or `inner`. */
+static bool picks_interface(const char *selector, const char *name, bool is_colliding) {
+    return cz_matches(selector, name) || (is_colliding && strcmp(selector, "colliding") == 0) ||
+           (!is_colliding && strcmp(selector, "inner") == 0);
+}
+
+/* Whether a selector picks an element: by its name, or by interface and name. */
+static bool picks_element(const char *selector, const char *interface, const char *element,
+                          bool is_colliding) {
+    if (cz_matches(selector, element))
+        return true;
+    const char *alias = is_colliding ? "colliding " : "inner ";
+    const size_t n = strlen(alias);
+    if (strncmp(selector, alias, n) == 0)
+        return cz_matches(selector + n, element);
+    char name[128];
+    snprintf(name, sizeof name, "%s %s", interface, element);
+    return cz_matches(selector, name);
+}
+
+/* A walk over places. */
+typedef struct Walk {
+    const CzSubject *subject;
+    CzLevel level;
+    const char *selector;
+    CzPlaceVisitor visit;
+    void *data;
+    int n_place;
+    CzPlace place;
+} Walk;
+
+static void call(Walk *walk, const char *name) {
+    const size_t most = sizeof walk->place.name - 1; /* longer names are cut */
+    const size_t n = strlen(name) < most ? strlen(name) : most;
+    memcpy(walk->place.name, name, n);
+    walk->place.name[n] = '\0';
+    walk->n_place++;
+    walk->visit(&walk->place, walk->data);
+}
+
+/* The record of a vehicle of the scene with the design's values. */
+static const CzVehicle *record_of(const CzSubject *subject, int vehicle) {
+    return &subject->vehicles[subject->scene->record[vehicle]];
+}
+
+static void visit_vehicles(Walk *walk) {
+    const CzRunSummary *run = walk->subject->run;
+    for (int i = 0; i < run->n_vehicle; i++) {
+        const CzVehicle *record = record_of(walk->subject, i);
+        if (record->model == CZ_MODEL_FIXED || !cz_matches(walk->selector, run->vehicle[i].name))
+            continue;
+        walk->place.vehicle = &run->vehicle[i];
+        walk->place.record = record;
+        walk->place.must_declare = record->model == CZ_MODEL_FULL;
+        call(walk, run->vehicle[i].name);
+    }
+}
+
+static void visit_elements(Walk *walk, bool is_colliding) {
+    const CzInterfaceResult *interface = walk->place.interface;
+    for (int i = 0; i < interface->n_element; i++) {
+        const CzElementResult *element = &interface->element[i];
+        if (!picks_element(walk->selector, interface->name, element->name, is_colliding))
+            continue;
+        const CzVehicle *record = record_of(walk->subject, element->vehicle);
+        walk->place.element = element;
+        walk->place.record = record;
+        walk->place.end =
+            element->vehicle == walk->place.interface_index ? &record->front : &record->rear;
+        walk->place.must_declare = record->model == CZ_MODEL_FULL;
+        call(walk, element->name);
+    }
+}
+
+static void visit_sections(Walk *walk, bool is_colliding) {
+    const CzInterfaceResult *interface = walk->place.interface;
+    if (!picks_interface(walk->selector, interface->name, is_colliding))
+        return;
+    for (int side = 0; side < 2; side++) {
+        const int vehicle = walk->place.interface_index + side;
+        const CzVehicle *record = record_of(walk->subject, vehicle);
+        if (record->model == CZ_MODEL_FIXED)
+            continue;
+        walk->place.record = record;
+        walk->place.end = side == 0 ? &record->front : &record->rear;
+        walk->place.section_force = interface->section_force[side];
+        walk->place.must_declare = record->model == CZ_MODEL_FULL;
+        char name[64];
+        snprintf(name, sizeof name, "%s %s", walk->subject->run->vehicle[vehicle].name,
+                 side == 0 ? "front" : "rear");
+        call(walk, name);
+    }
+}
+
+static void visit_interfaces(Walk *walk) {
+    const CzRunSummary *run = walk->subject->run;
+    for (int i = 0; i < run->n_interface; i++) {
+        const bool is_colliding = i == walk->subject->scene->colliding;
+        walk->place.interface = &run->interface[i];
+        walk->place.interface_index = i;
+        if (walk->level == CZ_LEVEL_ELEMENT) {
+            visit_elements(walk, is_colliding);
+        } else if (walk->level == CZ_LEVEL_SECTION) {
+            visit_sections(walk, is_colliding);
+        } else if (picks_interface(walk->selector, run->interface[i].name, is_colliding)) {
+            walk->place.must_declare = record_of(walk->subject, i)->model == CZ_MODEL_FULL ||
+                                       record_of(walk->subject, i + 1)->model == CZ_MODEL_FULL;
+            call(walk, run->interface[i].name);
+        }
+    }
+}
+
+static void visit_ends(Walk *walk) {
+    const CzSubject *subject = walk->subject;
+    for (int i = 0; i < 2 * subject->n_vehicle; i++) {
+        const CzVehicle *record = &subject->vehicles[i / 2];
+        const CzEnd *end = i % 2 == 0 ? &record->rear : &record->front;
+        char name[64];
+        snprintf(name, sizeof name, "%s %s", record->name != NULL ? record->name : "",
+                 i % 2 == 0 ? "rear" : "front");
+        if (!end->given || record->model == CZ_MODEL_FIXED || !cz_matches(walk->selector, name))
+            continue;
+        walk->place.record = record;
+        walk->place.end = end;
+        walk->place.must_declare = record->model == CZ_MODEL_FULL;
+        call(walk, name);
+    }
+}
+
+static bool any_vehicle_is_full(const CzSubject *subject) {
+    for (int i = 0; i < subject->n_vehicle; i++)
+        if (subject->vehicles[i].model == CZ_MODEL_FULL)
+            return true;
+    return false;
+}
+
+int cz_places_visit(const CzSubject *subject, CzLevel level, const char *selector,
+                    CzPlaceVisitor visit, void *data) {
+    Walk walk = {.subject = subject,
+                 .level = level,
+                 .selector = selector,
+                 .visit = visit,
+                 .data = data,
+                 .place = {.scene = subject->scene, .run = subject->run, .rate = subject->rate}};
+    walk.place.vehicles = subject->vehicles;
+    switch (level) {
+    case CZ_LEVEL_RUN:
+        walk.place.must_declare = any_vehicle_is_full(subject);
+        call(&walk, "");
+        break;
+    case CZ_LEVEL_DESIGN:
+        walk.place.record = subject->vehicles;
+        walk.place.n_record = subject->n_first_train;
+        call(&walk, "");
+        break;
+    case CZ_LEVEL_VEHICLE:
+        visit_vehicles(&walk);
+        break;
+    case CZ_LEVEL_END:
+        visit_ends(&walk);
+        break;
+    case CZ_LEVEL_INTERFACE:
+    case CZ_LEVEL_ELEMENT:
+    case CZ_LEVEL_SECTION:
+        visit_interfaces(&walk);
+        break;
+    }
+    return walk.n_place;
+}
+
+/* How many elements of one end as written a selector picks. */
+static int count_elements(const CzEnd *end, const char *vehicle, const char *interface,
+                          const char *selector, bool is_colliding) {
+    const bool has[CZ_N_ELEMENT_KIND] = {
+        [CZ_ELEMENT_COUPLER] = end->given && end->coupler.given,
+        [CZ_ELEMENT_ANTI_CLIMBER] = end->given && end->anti_climber.given,
+        [CZ_ELEMENT_END] = end->given,
+        [CZ_ELEMENT_SIDE_BUFFERS] = end->given && end->side_buffers.given};
+    int n = 0;
+    for (int kind = 0; kind < CZ_N_ELEMENT_KIND; kind++) {
+        char name[96];
+        snprintf(name, sizeof name, "%s %s", cz_element_text((CzElementKind)kind), vehicle);
+        n += has[kind] && picks_element(selector, interface, name, is_colliding);
+    }
+    return n;
+}
+
+static const char *vehicle_name(const CzVehicle *vehicle) {
+    return vehicle->name != NULL ? vehicle->name : "";
+}
+
+int cz_places_count(const CzScene *scene, CzLevel level, const char *selector) {
+    if (level == CZ_LEVEL_RUN || level == CZ_LEVEL_DESIGN)
+        return 1;
+    int n = 0;
+    if (level == CZ_LEVEL_VEHICLE) {
+        for (int i = 0; i < scene->n_vehicle; i++)
+            n += cz_matches(selector, vehicle_name(scene->vehicle[i]));
+        return n;
+    }
+    for (int i = 0; i + 1 < scene->n_vehicle; i++) {
+        const CzVehicle *behind = scene->vehicle[i], *ahead = scene->vehicle[i + 1];
+        const bool is_colliding = i == scene->colliding;
+        char name[64];
+        snprintf(name, sizeof name, "%s-%s", vehicle_name(behind), vehicle_name(ahead));
+        if (level == CZ_LEVEL_ELEMENT) {
+            n += count_elements(&behind->front, vehicle_name(behind), name, selector, is_colliding);
+            n += count_elements(&ahead->rear, vehicle_name(ahead), name, selector, is_colliding);
+        } else if (level == CZ_LEVEL_END) {
+            n += 1; /* any selector of ends is left to the design */
+        } else {
+            n += picks_interface(selector, name, is_colliding);
+        }
+    }
+    return n;
+}

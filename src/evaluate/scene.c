@@ -1,0 +1,85 @@
+/* Who collides with whom in a scenario. */
+#include "evaluate/scene.h"
+#include "base/error.h"
+
+#include <string.h>
+
+/* Number of the train with this name, or -1. */
+static int find_train(const CzInput *input, const char *name) {
+    for (int train = 0; train < input->n_trains; train++)
+        if (strcmp(input->trains[train].name, name) == 0)
+            return train;
+    return -1;
+}
+
+/* The scenario's own value, or the one that it falls back on. */
+static double value_or(double value, double fallback) {
+    return isnan(value) ? fallback : value;
+}
+
+static CzStatus choose_trains(const CzProblem *problem, const CzScenario *scenario, int train[2],
+                              CzError *error) {
+    const CzInput *input = cz_problem_input(problem);
+    for (int side = 0; side < 2; side++) {
+        train[side] = side;
+        if (scenario != NULL && scenario->trains.n_text == 2)
+            train[side] = find_train(input, scenario->trains.text[side]);
+        if (train[side] < 0 || train[side] >= input->n_trains)
+            return cz_fail(error, CZ_STATUS_INPUT, "scenario '%s' needs two trains of the problem",
+                           scenario != NULL ? scenario->name : "collision");
+    }
+    return CZ_OK;
+}
+
+static CzStatus list_vehicles(const CzProblem *problem, CzArena *arena, CzScene *scene,
+                              CzError *error) {
+    const CzInput *input = cz_problem_input(problem);
+    int n_record = 0;
+    const CzVehicle *first = cz_problem_vehicles(problem, &n_record);
+    const CzTrain *behind = &input->trains[scene->train[0]];
+    const CzTrain *ahead = &input->trains[scene->train[1]];
+    scene->n_vehicle = behind->n_vehicles + ahead->n_vehicles;
+    scene->colliding = behind->n_vehicles - 1;
+    const size_t n = (size_t)scene->n_vehicle;
+    const CzVehicle **vehicle = cz_arena_allocate(arena, n, sizeof *vehicle);
+    int *record = cz_arena_allocate(arena, n, sizeof *record);
+    if (vehicle == NULL || record == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d vehicles", scene->n_vehicle);
+    for (int i = 0; i < scene->n_vehicle; i++) {
+        vehicle[i] = i < behind->n_vehicles ? &behind->vehicles[i]
+                                            : &ahead->vehicles[i - behind->n_vehicles];
+        record[i] = (int)(vehicle[i] - first);
+    }
+    scene->vehicle = vehicle;
+    scene->record = record;
+    return CZ_OK;
+}
+
+static CzStatus build_scene(const CzProblem *problem, int index, CzArena *arena, CzScene *scene,
+                            CzError *error) {
+    const CzInput *input = cz_problem_input(problem);
+    const CzScenario *scenario = input->n_scenarios > 0 ? &input->scenarios[index] : NULL;
+    scene->name = cz_problem_scenario_name(problem, index);
+    CZ_TRY(choose_trains(problem, scenario, scene->train, error));
+    CZ_TRY(list_vehicles(problem, arena, scene, error));
+    double speed = input->trains[scene->train[0]].speed;
+    double partner_speed = input->trains[scene->train[1]].speed;
+    if (scenario != NULL) {
+        speed = value_or(scenario->speed, speed);
+        partner_speed = value_or(scenario->partner_speed, partner_speed);
+        scene->is_overload = scenario->mass_factor >= CZ_OVERLOAD_FACTOR * (1 - 1e-9);
+    }
+    scene->closing_speed = speed - partner_speed;
+    return CZ_OK;
+}
+
+CzStatus cz_scenes_build(const CzProblem *problem, CzArena *arena, int *n_scene, CzScene **scene,
+                         CzError *error) {
+    *n_scene = cz_problem_n_scenario(problem);
+    *scene = cz_arena_allocate(arena, (size_t)*n_scene, sizeof **scene);
+    if (*scene == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d scenarios", *n_scene);
+    for (int index = 0; index < *n_scene; index++)
+        CZ_TRY(build_scene(problem, index, arena, &(*scene)[index], error));
+    return CZ_OK;
+}

@@ -3,9 +3,13 @@
  *
  *   upper(x) = min(loading(x), k_t max(x, 0))
  *   lower(x) = min(share * loading(x), k_t max(x, 0))
- *   static(x, p) = clamp(k_t (x - p), lower, upper) - k_d max(-x - slack, 0)
+ *   static(x, p) = clamp(k_t (x - p), lower, upper) + k_b max(x - s, 0) - k_d max(-x - slack, 0)
  *   p' = x - clamped / k_t
  *   F = static + (c1 + c2 |x'|) * fade(x) * x'        c2 while loading only
+ *
+ * loading(x) rises nowhere faster than k_t, or a cycle between the curves would create energy.
+ * Beyond the usable stroke s it stays what it is there: what bottoms out is an elastic stop k_b in
+ * parallel, stiff and without hysteresis.
  *
  * Inside a series chain the stroke x answers the force, so the law is given linearised about the
  * committed stroke: over one step of length h,  x_next = x + (F - static) * compliance,  with one
@@ -29,6 +33,7 @@ typedef struct {
     double quadratic;      /* c2 [N s2/m2] */
     double draw_stiffness; /* k_d [N/m] */
     double draw_slack;     /* [m] */
+    double usable;         /* s, stroke at which it bottoms out [m]; 1e30 for none */
 } CzBufferLaw;
 
 typedef struct {
@@ -38,15 +43,20 @@ typedef struct {
     double offset;    /* next p [m] */
 } CzBufferResponse;
 
+/* `curve` and `slope` are those of the loading curve with its stop, at the committed stroke. */
 static inline CzBufferResponse cz_buffer(const CzBufferLaw *law, double curve, double slope,
                                          double stroke, double rate, double offset, double step) {
-    /* Curves at this stroke, both starting from zero along the transition. */
+    /* The stop, and the curves at this stroke, both starting from zero along the transition. */
+    const double stop_slope = stroke >= law->usable ? slope : 0.0;
+    const double stop = stop_slope * cz_positive_part(stroke - law->usable);
     const double line = law->transition * cz_positive_part(stroke);
-    const double lower_curve = law->share * curve;
-    const double upper = cz_smaller(curve, line);
+    const double upper_curve = curve - stop;
+    const double lower_curve = law->share * upper_curve;
+    const double curve_slope = slope - stop_slope;
+    const double upper = cz_smaller(upper_curve, line);
     const double lower = cz_smaller(lower_curve, line);
-    const double upper_slope = line < curve ? law->transition : slope;
-    const double lower_slope = line < lower_curve ? law->transition : law->share * slope;
+    const double upper_slope = line < upper_curve ? law->transition : curve_slope;
+    const double lower_slope = line < lower_curve ? law->transition : law->share * curve_slope;
 
     /* Hysteresis by return mapping, and the draw side. */
     const double inside = cz_clamp(law->transition * (stroke - offset), lower, upper);
@@ -54,8 +64,8 @@ static inline CzBufferResponse cz_buffer(const CzBufferLaw *law, double curve, d
     const double draw_slope = -stroke >= law->draw_slack ? law->draw_stiffness : 0.0;
 
     /* Tangents: up and down from here. */
-    const double push_up = inside >= upper ? upper_slope : law->transition;
-    const double push_down = inside <= lower ? lower_slope : law->transition;
+    const double push_up = stop_slope + (inside >= upper ? upper_slope : law->transition);
+    const double push_down = stop_slope + (inside <= lower ? lower_slope : law->transition);
     const double up = stroke >= 0.0 ? push_up : draw_slope;
     const double down = stroke > 0.0 ? push_down : draw_slope;
     const double fade = cz_fade_in(stroke, CZ_FADE_LENGTH);
@@ -63,7 +73,7 @@ static inline CzBufferResponse cz_buffer(const CzBufferLaw *law, double curve, d
     const double hydraulic = law->quadratic * cz_positive_part(rate) * fade;
 
     CzBufferResponse response;
-    response.force = inside - law->draw_stiffness * drawn;
+    response.force = inside + stop - law->draw_stiffness * drawn;
     response.loading = 1.0 / (cz_larger(up, CZ_SMALLEST_STIFFNESS) + (linear + hydraulic) / step);
     response.unloading = 1.0 / (cz_larger(down, CZ_SMALLEST_STIFFNESS) + linear / step);
     response.offset = stroke - inside / law->transition;

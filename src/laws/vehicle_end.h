@@ -1,14 +1,16 @@
 /* Crush zone of a vehicle end: loading backbone, two unloading stages, tension along the structure
  * that is left.
  *
- *   loading:    F = backbone(x)                                      x >= x_m, then x_m' = x
- *   unloading:  F = F_m - Ku1 (x_m - x)                              down to r F_m at x_1
- *               F = r F_m - Ku2 (x_1 - x)                            down to zero at x_res
- *               F = -K_t (x_res - x)                                 below, where the end is still
- * attached and never above backbone(x), so that unloading from the elastic part gives back no more
- * than it took
+ *   x >= x_m:  F = backbone(x)                 loading
+ *   x <  x_m:  F = F_m - Ku1 (x_m - x)         unloading, down to r F_m at x_1
+ *              F = r F_m - Ku2 (x_1 - x)       down to zero at x_res
+ *              F = -K_t (x_res - x)            below, where the end is still attached
  *
- * Reloading follows the unloading path. F_m = backbone(x_m), x_m is the largest shortening so far.
+ * Reloading follows the unloading path. F_m = backbone(x_m); x_m is the largest shortening so far,
+ * but not beyond the end of the last stage: from there on the end stands on a stop that gives back
+ * what it took. The unloading path is never above backbone(x), and x_res never below zero, so that
+ * the elastic part of the backbone gives back no more than it took. For the same reason no stage
+ * may rise faster than cz_vehicle_end_steepest says.
  */
 #ifndef CZ_LAWS_VEHICLE_END_H
 #define CZ_LAWS_VEHICLE_END_H
@@ -28,17 +30,19 @@ typedef struct {
     double residual; /* x_res [m] */
 } CzVehicleEndResponse;
 
-/* `backbone` is at the shortening x, `peak` at x_m, where x_m is not below x. */
+/* `backbone` is at the shortening x, `peak` at x_m. */
 static inline CzVehicleEndResponse cz_vehicle_end(const CzVehicleEndLaw *law, double backbone,
                                                   double peak, double shortening, double largest) {
     const double turn = largest - (1.0 - law->share) * peak / law->unloading;
-    const double residual = turn - law->share * peak / law->second_unloading;
+    const double set = turn - law->share * peak / law->second_unloading;
+    const double residual = cz_positive_part(set);
     const double first = peak - law->unloading * (largest - shortening);
     const double second = law->share * peak - law->second_unloading * (turn - shortening);
     const double pushed = shortening >= turn ? first : second;
     const double pulled = -law->tension * (residual - shortening);
     const double below = cz_smaller(pulled, 0.0);
-    const double above = cz_smaller(cz_positive_part(pushed), cz_positive_part(backbone));
+    const double path = cz_smaller(cz_positive_part(pushed), cz_positive_part(backbone));
+    const double above = shortening < largest ? path : cz_positive_part(backbone);
 
     CzVehicleEndResponse response;
     response.force = shortening < residual ? below : above;
@@ -55,6 +59,13 @@ static inline double cz_vehicle_end_stored(const CzVehicleEndLaw *law, double pe
     const double high = cz_larger(force, turn_force);
     return low * low / (2.0 * law->second_unloading) +
            (high * high - turn_force * turn_force) / (2.0 * law->unloading);
+}
+
+/* Slope [N/m] above which a stage after the first would store more on its unloading path than the
+ * work done on it: 1 / ((1 - r^2) / Ku1 + r^2 / Ku2). */
+static inline double cz_vehicle_end_steepest(const CzVehicleEndLaw *law) {
+    const double square = law->share * law->share;
+    return 1.0 / ((1.0 - square) / law->unloading + square / law->second_unloading);
 }
 
 #endif

@@ -1,12 +1,15 @@
 /* Wheel and rail: Hertzian normal force with lift-off, and a tangential force that rises, peaks and
  * falls with slip.
  *
- *   N = H d^(3/2) for an indentation d > 0, else 0                    (Zhai's vertical law, two
- * wheels: H = 2 G^-1.5)
+ *   N = H d^(3/2) for an indentation d > 0, else 0
  *
- *   e' = (e + h w) / (1 + h |V| / a),  |e| <= mu(w) N / k             tangential deflection,
- * advanced implicitly T  = -k e,   mu(w) = mu_s + (mu_p - mu_s) / (1 + |w| / w_f)
+ * is Zhai's vertical law, for the two wheels of a wheelset: H = 2 G^-1.5. Tangentially
  *
+ *   e' = (e + h w) / (1 + h |V| / a),  held within |e'| <= mu(w) N / k
+ *   T  = -k e'
+ *   mu(w) = mu_s + (mu_p - mu_s) / (1 + |w| / w_f)
+ *
+ * with a deflection e that is advanced implicitly over the step h.
  * w is the slip speed of the wheel's contact point, V the speed along the rail, a the contact
  * length. A rolling wheel carries its deflection away, e = w a / |V|: force proportional to
  * creepage. A standing wheel keeps it: a spring that slips at mu N. One law for both, without a

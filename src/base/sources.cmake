@@ -2,4 +2,6 @@
 set(CZ_SOURCES_base
     arena.c
     error.c
+    number.c
+    suggest.c
 )

@@ -1,3 +1,21 @@
 # Sources of src/problem, one per line.
 set(CZ_SOURCES_problem
+    bind.c
+    bind_table.c
+    bind_value.c
+    find.c
+    keys.c
+    load.c
+    merge.c
+    mistakes.c
+    node.c
+    path.c
+    problem.c
+    profile.c
+    reduce_curve.c
+    rules.c
+    settings.c
+    source.c
+    trains.c
+    yaml_document.c
 )

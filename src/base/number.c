@@ -1,0 +1,116 @@
+/* Numbers as text: the thread's locale is the C locale while a number is read or written. */
+#include "base/number.h"
+
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+typedef struct {
+    locale_t c, before;
+} LocaleGuard;
+
+static LocaleGuard locale_enter(void) {
+    LocaleGuard guard = {newlocale(LC_ALL_MASK, "C", (locale_t)0), (locale_t)0};
+    if (guard.c != (locale_t)0)
+        guard.before = uselocale(guard.c);
+    return guard;
+}
+
+static void locale_leave(LocaleGuard guard) {
+    if (guard.c == (locale_t)0)
+        return;
+    uselocale(guard.before);
+    freelocale(guard.c);
+}
+
+static bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+static const char *skip_digits(const char *text) {
+    while (is_digit(*text))
+        text++;
+    return text;
+}
+
+/* End of the longest decimal number at the start of a text, or NULL when there is none. */
+static const char *decimal_end(const char *text) {
+    const char *at = text + (*text == '+' || *text == '-');
+    const char *whole = at;
+    at = skip_digits(at);
+    size_t n_digit = (size_t)(at - whole);
+    if (*at == '.') {
+        const char *fraction = skip_digits(at + 1);
+        n_digit += (size_t)(fraction - (at + 1));
+        at = fraction;
+    }
+    if (n_digit == 0)
+        return NULL;
+    if (*at == 'e' || *at == 'E') {
+        const char *exponent = at + 1 + (at[1] == '+' || at[1] == '-');
+        if (is_digit(*exponent))
+            at = skip_digits(exponent);
+    }
+    return at;
+}
+
+static bool is_word(const char *text, const char *const *words) {
+    const char *bare = text + (*text == '+' || *text == '-');
+    for (int i = 0; words[i] != NULL; i++)
+        if (strcasecmp(bare, words[i]) == 0)
+            return true;
+    return false;
+}
+
+/* Why a text that is no decimal number is none. */
+static const char *what_is_wrong(const char *text, const char *end) {
+    static const char *const not_finite[] = {".nan", "nan", ".inf", "inf", "infinity", NULL};
+    const char *bare = text + (*text == '+' || *text == '-');
+    if (is_word(text, not_finite))
+        return "is not a finite number";
+    if (bare[0] == '0' && (bare[1] == 'x' || bare[1] == 'X' || bare[1] == 'o'))
+        return "is not a decimal number";
+    if (end == NULL)
+        return "is not a number";
+    if (*end == '_')
+        return "is not a number: digits are not grouped with '_'";
+    if (*end == ',')
+        return "is not a number: the decimal sign is a point";
+    if (*end == ':')
+        return "is not a number: ':' has no meaning in one";
+    return "is not a number alone: a unit belongs to the key, not to the value";
+}
+
+const char *cz_number_parse(const char *text, double *value) {
+    const char *end = decimal_end(text);
+    if (end == NULL || *end != '\0')
+        return what_is_wrong(text, end);
+    const char *bare = text + (*text == '+' || *text == '-');
+    if (bare[0] == '0' && is_digit(bare[1]))
+        return "begins with a needless zero; write it without";
+    const LocaleGuard guard = locale_enter();
+    *value = strtod(text, NULL);
+    locale_leave(guard);
+    return isfinite(*value) ? NULL : "is too large for a number";
+}
+
+const char *cz_number_print(char text[CZ_NUMBER_TEXT], double value) {
+    const LocaleGuard guard = locale_enter();
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(text, CZ_NUMBER_TEXT, "%.*g", digits, value);
+        if (!isfinite(value) || strtod(text, NULL) == value)
+            break;
+    }
+    locale_leave(guard);
+    return text;
+}
+
+const char *cz_number_print_short(char text[CZ_NUMBER_TEXT], double value) {
+    const LocaleGuard guard = locale_enter();
+    snprintf(text, CZ_NUMBER_TEXT, "%.6g", value);
+    locale_leave(guard);
+    return text;
+}

@@ -1,0 +1,21 @@
+/* Numbers as text, whatever the host program's locale is: a decimal comma must never get in. */
+#ifndef CZ_BASE_NUMBER_H
+#define CZ_BASE_NUMBER_H
+
+#include <stdbool.h>
+
+enum { CZ_NUMBER_TEXT = 32 }; /* room for any number that cz_number_print writes [byte] */
+
+/* Reads a whole text as a decimal number: sign, digits with a point, exponent. On success *value is
+ * finite and NULL is returned; otherwise the end of a sentence that begins with the text, such as
+ * "is not finite". */
+const char *cz_number_parse(const char *text, double *value);
+
+/* Writes the shortest text that reads back to the same bits; NaN and infinities are written as
+ * "nan", "inf", "-inf". Returns `text`. */
+const char *cz_number_print(char text[CZ_NUMBER_TEXT], double value);
+
+/* Writes a number for a sentence: at most six significant digits. Returns `text`. */
+const char *cz_number_print_short(char text[CZ_NUMBER_TEXT], double value);
+
+#endif

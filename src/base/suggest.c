@@ -1,0 +1,54 @@
+/* Did-you-mean by edit distance: insert, delete, replace and swap of neighbours, two each; a change
+ * of case costs one. Words beyond LONGEST letters are not compared. */
+#include "base/suggest.h"
+
+#include <stddef.h>
+#include <string.h>
+
+enum { LONGEST = 96, EDIT = 2, CASE = 1 };
+
+static int lower(char c) {
+    return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : (unsigned char)c;
+}
+
+static int smaller(int a, int b) {
+    return a < b ? a : b;
+}
+
+static int replace_cost(char a, char b) {
+    if (a == b)
+        return 0;
+    return lower(a) == lower(b) ? CASE : EDIT;
+}
+
+/* Edit distance of two words of at most LONGEST letters; three rows of the table are kept. */
+static int edit_distance(const char *a, int n_a, const char *b, int n_b) {
+    int row[3][LONGEST + 1];
+    for (int j = 0; j <= n_b; j++)
+        row[0][j] = EDIT * j;
+    for (int i = 1; i <= n_a; i++) {
+        int *now = row[i % 3], *above = row[(i + 2) % 3], *two_above = row[(i + 1) % 3];
+        now[0] = EDIT * i;
+        for (int j = 1; j <= n_b; j++) {
+            const int replaced = above[j - 1] + replace_cost(a[i - 1], b[j - 1]);
+            now[j] = smaller(replaced, smaller(above[j], now[j - 1]) + EDIT);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                now[j] = smaller(now[j], two_above[j - 2] + EDIT);
+        }
+    }
+    return row[n_a % 3][n_b];
+}
+
+void cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known) {
+    const size_t n_typed = strlen(typed), n_known = strlen(known);
+    if (n_typed == 0 || n_known == 0 || n_typed > LONGEST || n_known > LONGEST)
+        return;
+    const int distance = edit_distance(typed, (int)n_typed, known, (int)n_known);
+    const int allowed = EDIT * (int)(n_known < 4 ? 1 : (n_known + 2) / 3);
+    if (distance > allowed || distance >= EDIT * (int)n_known)
+        return;
+    if (suggestion->best != NULL && distance >= suggestion->distance)
+        return;
+    suggestion->best = known;
+    suggestion->distance = distance;
+}

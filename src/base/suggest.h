@@ -1,0 +1,15 @@
+/* Did-you-mean: the known word that is nearest to a mistyped one. */
+#ifndef CZ_BASE_SUGGEST_H
+#define CZ_BASE_SUGGEST_H
+
+/* The nearest word so far; zero-initialise it, offer every known word, read `best`. */
+typedef struct CzSuggestion {
+    const char *best; /* NULL when nothing is near; borrowed */
+    int distance;     /* edits from the typed word to the best one */
+} CzSuggestion;
+
+/* Offers a known word. It is taken when it is nearer than the best so far and near enough to be a
+ * slip of the hand: at most a third of its letters, a change of case counting little. */
+void cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known);
+
+#endif

@@ -1,0 +1,376 @@
+/* Trees to typed records, driven by the table of keys. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/suggest.h"
+#include "problem/reader.h"
+
+enum { MOST_KEYS = 64 };
+
+/* What a record is read with. */
+typedef struct {
+    CzReader *reader;
+    const CzTree *tree;
+    bool is_full; /* inside a full vehicle */
+} Binder;
+
+/* The record at hand. */
+typedef struct {
+    const CzRecord *record;
+    const CzNode *node;
+    const CzTrail *trail;
+    char *memory;
+    const CzNode *seen[MOST_KEYS]; /* key as typed, NULL when not there yet (n_key) */
+} Record;
+
+static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const CzTrail *trail,
+                        void *memory);
+
+/* ---- places ---- */
+
+void cz_places_add(CzReader *reader, CzPlace place) {
+    CzPlaces *places = &reader->places;
+    if (places->n_place == places->n_allocated) {
+        const int n = places->n_allocated > 0 ? 2 * places->n_allocated : 1024;
+        CzPlace *larger = realloc(places->place, (size_t)n * sizeof *larger);
+        if (larger == NULL) {
+            reader->mistakes.out_of_memory = true;
+            return;
+        }
+        places->place = larger;
+        places->n_allocated = n;
+    }
+    places->place[places->n_place++] = place;
+}
+
+const CzPlace *cz_places_find(const CzPlaces *places, const void *field) {
+    const CzPlace *record = NULL;
+    const uintptr_t at = (uintptr_t)field;
+    for (int i = 0; i < places->n_place; i++) {
+        const CzPlace *place = &places->place[i];
+        const uintptr_t start = (uintptr_t)place->address;
+        if (place->size == 0 && start == at)
+            return place;
+        if (place->size > 0 && start <= at && at < start + place->size &&
+            (record == NULL || place->size < record->size))
+            record = place;
+    }
+    return record;
+}
+
+/* ---- records that are absent ---- */
+
+static void fill_absent(const CzKey *key, char *memory) {
+    switch (key->kind) {
+    case CZ_KEY_NUMBER:
+        *(double *)(memory + key->offset) = key->absent;
+        break;
+    case CZ_KEY_COUNT:
+    case CZ_KEY_CHOICE:
+        *(int *)(memory + key->offset) = (int)key->absent;
+        break;
+    case CZ_KEY_FLAG:
+        *(bool *)(memory + key->offset) = key->absent != 0;
+        break;
+    case CZ_KEY_CHILD:
+        cz_bind_absent(key->child, memory + key->offset);
+        break;
+    default: /* texts, tables and lists are empty: zero */
+        break;
+    }
+}
+
+void cz_bind_absent(CzRecordId record, void *record_memory) {
+    for (int i = 0; i < cz_records[record].n_key; i++)
+        fill_absent(&cz_records[record].key[i], record_memory);
+}
+
+/* ---- keys that are not what they should be ---- */
+
+/* The nearest key of a record, spelled out in `text`. */
+static const CzKey *nearest_key(const CzRecord *record, const char *typed, char *text,
+                                size_t size) {
+    CzSuggestion suggestion = {0};
+    const CzKey *nearest = NULL;
+    char spelled[96];
+    text[0] = '\0';
+    for (int i = 0; i < record->n_key; i++) {
+        const CzKey *key = &record->key[i];
+        for (int u = 0; u < cz_n_unit; u++) {
+            const bool is_number = key->kind == CZ_KEY_NUMBER;
+            if (cz_units[u].dimension != (is_number ? key->dimension : CZ_DIMENSION_NONE))
+                continue;
+            snprintf(spelled, sizeof spelled, "%s%s%s", key->stem,
+                     cz_units[u].suffix[0] != '\0' ? "_" : "", cz_units[u].suffix);
+            cz_suggest(&suggestion, typed, spelled);
+            if (suggestion.best != spelled)
+                continue;
+            snprintf(text, size, "%s", spelled);
+            suggestion.best = text;
+            nearest = key;
+        }
+    }
+    return nearest;
+}
+
+/* The longest stem of a number that a key begins with, when only its unit is amiss. */
+static const CzKey *key_of_stem(const CzRecord *record, const char *typed) {
+    const CzKey *best = NULL;
+    for (int i = 0; i < record->n_key; i++) {
+        const CzKey *key = &record->key[i];
+        const size_t n = strlen(key->stem);
+        if (key->kind != CZ_KEY_NUMBER || strncmp(key->stem, typed, n) != 0)
+            continue;
+        const bool is_bare = typed[n] == '\0';
+        const bool is_unit = typed[n] == '_' && strlen(typed + n + 1) <= 8;
+        if ((is_bare || is_unit) && (best == NULL || n > strlen(best->stem)))
+            best = key;
+    }
+    return best;
+}
+
+/* Says where a key that reuses belongs. */
+static const CzReuseKey *find_reuse_key(const char *typed) {
+    for (int i = 0; i < cz_n_reuse_key; i++)
+        if (strcmp(cz_reuse_keys[i].key, typed) == 0)
+            return &cz_reuse_keys[i];
+    return NULL;
+}
+
+static void report_unit(Binder binder, const Record *record, const CzNode *typed, const CzKey *key,
+                        const CzTrail *trail) {
+    char spellings[200];
+    cz_key_spellings(spellings, sizeof spellings, key->stem, key->dimension);
+    const char *suffix = typed->text + strlen(key->stem);
+    if (key->dimension == CZ_DIMENSION_NONE)
+        cz_mistake(&binder.reader->mistakes, typed, trail, "key '%s' in %s takes no unit",
+                   typed->text, record->record->name);
+    else if (*suffix == '\0')
+        cz_mistake(&binder.reader->mistakes, typed, trail, "key '%s' in %s needs a unit",
+                   typed->text, record->record->name);
+    else
+        cz_mistake(&binder.reader->mistakes, typed, trail, "key '%s' in %s: '%s' is no unit of %s",
+                   typed->text, record->record->name, suffix + 1,
+                   cz_dimension_text[key->dimension]);
+    cz_mistake_help(&binder.reader->mistakes, "write %s", spellings);
+}
+
+/* Reports a key that the record does not have; the key that was meant, when that is plain. */
+static const CzKey *report_unknown(Binder binder, const Record *record, const CzNode *typed,
+                                   const CzTrail *trail) {
+    char nearest[96];
+    const CzKey *near = nearest_key(record->record, typed->text, nearest, sizeof nearest);
+    const CzKey *stem = key_of_stem(record->record, typed->text);
+    const CzReuseKey *reuse = find_reuse_key(typed->text);
+    if (stem != NULL && (near == NULL || near == stem)) {
+        report_unit(binder, record, typed, stem, trail);
+        return stem;
+    }
+    cz_mistake(&binder.reader->mistakes, typed, trail, "unknown key '%s' in %s", typed->text,
+               record->record->name);
+    if (reuse != NULL && reuse->record[0] != '\0')
+        cz_mistake_help(&binder.reader->mistakes, "'%s' belongs to a %s", typed->text,
+                        reuse->record);
+    else if (near != NULL)
+        cz_mistake_suggest(&binder.reader->mistakes, nearest);
+    return NULL;
+}
+
+static void report_missing(Binder binder, const Record *record, const CzKey *key) {
+    char spellings[200];
+    const char *what = key->presence == CZ_PRESENCE_REQUIRED_FULL ? " of a full vehicle" : "";
+    cz_mistake(&binder.reader->mistakes, record->node, record->trail, "%s%s lacks '%s': %s",
+               record->record->name, what, key->stem, key->doc);
+    if (key->kind != CZ_KEY_NUMBER || key->dimension == CZ_DIMENSION_NONE)
+        return;
+    cz_key_spellings(spellings, sizeof spellings, key->stem, key->dimension);
+    cz_mistake_help(&binder.reader->mistakes, "write %s", spellings);
+}
+
+static bool is_list(Binder binder, const CzNode *key, const CzNode *value, const CzTrail *trail) {
+    if (value->kind == CZ_NODE_LIST)
+        return true;
+    cz_mistake(&binder.reader->mistakes, value, trail, "'%s' needs a list, but this is %s",
+               key->text, cz_node_what(value));
+    cz_mistake_help(&binder.reader->mistakes, "begin each item with '-', or write [first, second]");
+    return false;
+}
+
+/* ---- values of one key ---- */
+
+static void bind_stages(Binder binder, const Record *record, const CzKey *key, const CzEntry *entry,
+                        const CzTrail *trail) {
+    const CzNode *list = entry->value;
+    CzStage *stage = (CzStage *)(void *)(record->memory + key->offset);
+    if (!is_list(binder, entry->key, list, trail))
+        return;
+    if (list->n_entry > CZ_MAX_STAGES) {
+        cz_mistake(&binder.reader->mistakes, list, trail, "'%s' has %d stages; %d is the most",
+                   key->stem, list->n_entry, (int)CZ_MAX_STAGES);
+        return;
+    }
+    if (list->n_entry == 0)
+        cz_mistake(&binder.reader->mistakes, list, trail, "'%s' has no stage", key->stem);
+    for (int i = 0; i < list->n_entry; i++)
+        bind_record(binder, CZ_RECORD_CzStage, list->entry[i].value,
+                    cz_entry_trail(&list->entry[i], trail), &stage[i]);
+    *(int *)(void *)(record->memory + key->n_offset) = list->n_entry;
+}
+
+static void bind_list(Binder binder, const Record *record, const CzKey *key, const CzEntry *entry,
+                      const CzTrail *trail) {
+    const CzNode *list = entry->value;
+    const size_t size = cz_records[key->child].size;
+    if (!is_list(binder, entry->key, list, trail))
+        return;
+    if (list->n_entry == 0 && key->presence == CZ_PRESENCE_REQUIRED)
+        cz_mistake(&binder.reader->mistakes, list, trail, "'%s' is empty", key->stem);
+    if (list->n_entry == 0)
+        return;
+    int *n_item = (int *)(void *)(record->memory + key->n_offset);
+    char **items = (char **)(void *)(record->memory + key->offset);
+    if (*items == NULL) /* trains and vehicles have their room already */
+        *items = cz_reader_allocate(binder.reader, (size_t)list->n_entry, size);
+    if (*items == NULL)
+        return;
+    for (int i = 0; i < list->n_entry; i++)
+        bind_record(binder, key->child, list->entry[i].value,
+                    cz_entry_trail(&list->entry[i], trail), *items + (size_t)i * size);
+    *n_item = list->n_entry;
+}
+
+static void bind_texts(Binder binder, const Record *record, const CzKey *key, const CzEntry *entry,
+                       const CzTrail *trail) {
+    const CzNode *list = entry->value;
+    if (!is_list(binder, entry->key, list, trail))
+        return;
+    const char **text = cz_reader_allocate(binder.reader, (size_t)list->n_entry, sizeof *text);
+    for (int i = 0; text != NULL && i < list->n_entry; i++) {
+        text[i] = cz_bind_text(binder.reader, key->stem, list->entry[i].value,
+                               cz_entry_trail(&list->entry[i], trail));
+        if (text[i] == NULL)
+            return;
+        cz_places_add(binder.reader, (CzPlace){.address = &text[i],
+                                               .node = list->entry[i].value,
+                                               .value = list->entry[i].value,
+                                               .trail = trail,
+                                               .key = key});
+    }
+    *(CzTexts *)(void *)(record->memory + key->offset) =
+        (CzTexts){text != NULL ? list->n_entry : 0, text};
+}
+
+static void bind_value(Binder binder, const Record *record, const CzKey *key, const CzUnit *unit,
+                       const CzEntry *entry) {
+    CzReader *reader = binder.reader;
+    const CzTrail *trail = cz_entry_trail(entry, record->trail);
+    void *field = record->memory + key->offset;
+    switch (key->kind) {
+    case CZ_KEY_NUMBER:
+        cz_bind_number(reader, key, unit, entry->key, entry->value, trail, field);
+        break;
+    case CZ_KEY_COUNT:
+        cz_bind_count(reader, key, entry->value, trail, field);
+        break;
+    case CZ_KEY_CHOICE:
+        cz_bind_choice(reader, key, entry->value, trail, field);
+        break;
+    case CZ_KEY_FLAG:
+        cz_bind_flag(reader, key->stem, entry->value, trail, field);
+        break;
+    case CZ_KEY_TEXT:
+        *(const char **)field = cz_bind_text(reader, key->stem, entry->value, trail);
+        break;
+    case CZ_KEY_CHILD:
+        bind_record(binder, key->child, entry->value, trail, field);
+        break;
+    case CZ_KEY_STAGES:
+        bind_stages(binder, record, key, entry, trail);
+        break;
+    case CZ_KEY_TABLE: {
+        const CzNode *node = cz_take_part(reader, binder.tree, entry->value, trail);
+        if (node != NULL)
+            cz_bind_table(reader, key, node, trail, field);
+        break;
+    }
+    case CZ_KEY_LIST:
+        bind_list(binder, record, key, entry, trail);
+        break;
+    case CZ_KEY_TEXTS:
+        bind_texts(binder, record, key, entry, trail);
+        break;
+    }
+    cz_places_add(reader, (CzPlace){.address = field,
+                                    .node = entry->key,
+                                    .value = entry->value,
+                                    .trail = trail,
+                                    .key = key,
+                                    .unit = unit});
+}
+
+/* Finds the key that an entry names and reads its value. */
+static void bind_entry(Binder binder, Record *record, const CzEntry *entry) {
+    const CzUnit *unit = NULL;
+    const CzTrail *trail = cz_entry_trail(entry, record->trail);
+    const CzKey *key = cz_record_match(record->record, entry->key->text, &unit);
+    if (key == NULL) {
+        key = report_unknown(binder, record, entry->key, trail);
+        if (key != NULL)
+            record->seen[key - record->record->key] = entry->key;
+        return;
+    }
+    const CzNode **seen = &record->seen[key - record->record->key];
+    if (*seen != NULL) {
+        cz_mistake(&binder.reader->mistakes, entry->key, trail,
+                   "'%s' is there twice, as '%s' and as '%s'", key->stem, (*seen)->text,
+                   entry->key->text);
+        return;
+    }
+    *seen = entry->key;
+    bind_value(binder, record, key, unit, entry);
+}
+
+static bool is_full_vehicle(const CzNode *node) {
+    const char *model = cz_node_find_text(node, "model");
+    return model == NULL ||
+           (strcmp(model, cz_word_sets[CZ_WORDS_MODEL].word[CZ_MODEL_RIGID].word) != 0 &&
+            strcmp(model, cz_word_sets[CZ_WORDS_MODEL].word[CZ_MODEL_FIXED].word) != 0);
+}
+
+static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const CzTrail *trail,
+                        void *memory) {
+    Record record = {.record = &cz_records[id], .trail = trail, .memory = memory};
+    cz_bind_absent(id, memory);
+    if (node->kind != CZ_NODE_MAPPING) {
+        cz_mistake(&binder.reader->mistakes, node, trail,
+                   "%s needs keys with values, but this is %s", record.record->name,
+                   cz_node_what(node));
+        return;
+    }
+    record.node = cz_take_part(binder.reader, binder.tree, node, trail);
+    if (record.node == NULL)
+        return;
+    if (id == CZ_RECORD_CzVehicle)
+        binder.is_full = is_full_vehicle(record.node);
+    *(bool *)memory = true; /* `given` is the first member of every record */
+    cz_places_add(binder.reader, (CzPlace){.address = memory,
+                                           .size = record.record->size,
+                                           .node = record.node,
+                                           .trail = trail});
+    for (int i = 0; i < record.node->n_entry; i++)
+        bind_entry(binder, &record, &record.node->entry[i]);
+    for (int i = 0; i < record.record->n_key; i++) {
+        const CzKey *key = &record.record->key[i];
+        const bool is_needed = key->presence == CZ_PRESENCE_REQUIRED ||
+                               (key->presence == CZ_PRESENCE_REQUIRED_FULL && binder.is_full);
+        if (is_needed && record.seen[i] == NULL)
+            report_missing(binder, &record, key);
+    }
+}
+
+void cz_bind_record(CzReader *reader, const CzTree *tree, CzRecordId record, const CzNode *node,
+                    const CzTrail *trail, void *record_memory) {
+    bind_record((Binder){reader, tree, false}, record, node, trail, record_memory);
+}

@@ -1,0 +1,128 @@
+/* Places that a path names, found by putting stand-in values under the path and reading again: so a
+ * path names exactly what setting it would change. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "problem/reader.h"
+
+/* Settings of parts come before the rest, so the stand-ins take their turn among the settings. */
+static bool put_stand_ins(CzProblem *trial, const CzProblem *problem, const char *path,
+                          const CzNode *place, CzTree *tree, CzMatches *matches) {
+    CzReader *reader = &trial->reader;
+    const bool is_part = strncmp(path, "parts.", 6) == 0;
+    int n_part_setting = 0;
+    CzSetting *ordered = cz_reader_allocate(reader, (size_t)problem->n_setting, sizeof *ordered);
+    if (ordered == NULL)
+        return false;
+    for (int pass = 0, n = 0; pass < 2; pass++) {
+        for (int i = 0; i < problem->n_setting; i++)
+            if ((strncmp(problem->setting[i].path, "parts.", 6) == 0) == (pass == 0))
+                ordered[n++] = problem->setting[i];
+        n_part_setting = pass == 0 ? n : n_part_setting;
+    }
+    const int n_before = is_part ? n_part_setting : problem->n_setting;
+    *tree = cz_settings_apply(reader, &problem->tree, ordered, n_before);
+    if (!cz_path_put(reader, tree, path, place, NULL, matches))
+        return false;
+    trial->setting = ordered + n_before;
+    trial->n_setting = problem->n_setting - n_before;
+    return true;
+}
+
+/* First mistake that the path itself made, or NULL. */
+static const CzError *first_mistake(const CzReader *reader, const CzNode *place) {
+    for (int i = 0; i < reader->mistakes.n_mistake; i++)
+        if (strcmp(reader->mistakes.mistake[i]->error.file, place->source->name) == 0)
+            return &reader->mistakes.mistake[i]->error;
+    return NULL;
+}
+
+/* Whether a place is a stand-in inside the vehicles. */
+static bool is_target(const CzProblem *trial, const CzPlace *place) {
+    const char *start = (const char *)trial->vehicle;
+    const char *end = start + (size_t)trial->n_vehicle * sizeof(CzVehicle);
+    const char *at = place->address;
+    return place->key != NULL && place->key->kind == CZ_KEY_NUMBER && place->value->match > 0 &&
+           (uintptr_t)at >= (uintptr_t)start && (uintptr_t)at < (uintptr_t)end;
+}
+
+static CzTarget make_target(const CzProblem *problem, const CzProblem *trial, const CzPlace *place,
+                            const CzMatches *matches) {
+    CzTarget target = {0};
+    const size_t at = (size_t)((const char *)place->address - (const char *)trial->vehicle);
+    target.vehicle = (int)(at / sizeof(CzVehicle));
+    target.offset = at % sizeof(CzVehicle);
+    target.value = *(const double *)(const void *)((const char *)&problem->vehicle[target.vehicle] +
+                                                   target.offset);
+    target.unit = place->unit->si;
+    target.suffix = place->unit->suffix;
+    target.match = place->value->match - 1;
+    target.may_vary = place->key->varies;
+    memcpy(target.place, matches->place[target.match], sizeof target.place);
+    return target;
+}
+
+static int compare_targets(const void *a, const void *b) {
+    const CzTarget *first = a, *second = b;
+    if (first->match != second->match)
+        return first->match - second->match;
+    if (first->vehicle != second->vehicle)
+        return first->vehicle - second->vehicle;
+    return (first->offset > second->offset) - (first->offset < second->offset);
+}
+
+static CzStatus collect(const CzProblem *problem, const CzProblem *trial, const CzMatches *matches,
+                        CzTarget **targets, int *n_target, CzError *error) {
+    const CzPlaces *places = &trial->reader.places;
+    *targets = malloc(((size_t)places->n_place + 1) * sizeof **targets);
+    if (*targets == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
+    for (int i = 0; i < places->n_place; i++)
+        if (is_target(trial, &places->place[i]))
+            (*targets)[(*n_target)++] = make_target(problem, trial, &places->place[i], matches);
+    qsort(*targets, (size_t)*n_target, sizeof **targets, compare_targets);
+    return CZ_OK;
+}
+
+static CzStatus find(const CzProblem *problem, CzProblem *trial, const char *path,
+                     CzTarget **targets, int *n_target, CzError *error) {
+    CzReader *reader = &trial->reader;
+    CzMatches matches = {0};
+    CzTree tree;
+    const CzSource *source = cz_sources_add(&reader->sources, "(path)", ".", path, strlen(path));
+    const CzNode place = {.source = source, .line = 1, .column = 1};
+    if (source != NULL && put_stand_ins(trial, problem, path, &place, &tree, &matches))
+        cz_problem_bind(trial, &tree);
+    if (source == NULL || reader->mistakes.out_of_memory)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
+    const CzError *mistake = first_mistake(reader, &place);
+    if (mistake != NULL) {
+        cz_fail(error, CZ_STATUS_INPUT, "path '%s': %s", path, mistake->message);
+        if (error != NULL)
+            memcpy(error->help, mistake->help, sizeof error->help);
+        return CZ_STATUS_INPUT;
+    }
+    CZ_TRY(collect(problem, trial, &matches, targets, n_target, error));
+    if (*n_target > 0)
+        return CZ_OK;
+    free(*targets);
+    *targets = NULL;
+    return cz_fail(error, CZ_STATUS_INPUT, "path '%s' names no number of any vehicle", path);
+}
+
+CzStatus cz_problem_find(const CzProblem *problem, const char *path, CzTarget **targets,
+                         int *n_target, CzError *error) {
+    *targets = NULL;
+    *n_target = 0;
+    CzProblem *trial = calloc(1, sizeof *trial);
+    if (trial == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
+    CzReader *reader = &trial->reader;
+    reader->mistakes.arena = reader->warnings.arena = reader->sources.arena = &reader->arena;
+    reader->share_folder = problem->reader.share_folder;
+    const CzStatus status = find(problem, trial, path, targets, n_target, error);
+    cz_problem_free(trial);
+    return status;
+}

@@ -1,0 +1,197 @@
+/* The tables of keys, expanded from the lists. */
+#include "problem/keys.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "problem/input.h"
+
+enum { CZ_DATA = 0, CZ_VARIES = 1 };
+
+/* ---- units ---- */
+
+#define CZ_DIMENSION(dimension, text)
+#define CZ_UNIT(dimension, suffix, si) {CZ_DIMENSION_##dimension, suffix, si},
+const CzUnit cz_units[] = {
+#include "problem/units.def"
+};
+#undef CZ_DIMENSION
+#undef CZ_UNIT
+const int cz_n_unit = sizeof cz_units / sizeof cz_units[0];
+
+#define CZ_DIMENSION(dimension, text) text,
+#define CZ_UNIT(dimension, suffix, si)
+const char *const cz_dimension_text[CZ_N_DIMENSION] = {
+#include "problem/units.def"
+};
+#undef CZ_DIMENSION
+#undef CZ_UNIT
+
+/* ---- words ---- */
+
+#define CZ_CHOICE_SET(set, type) static const CzWord words_##set[] = {
+#define CZ_WORD(set, constant, word, doc) {word, doc},
+#define CZ_CHOICE_SET_END(set, type)                                                               \
+    }                                                                                              \
+    ;
+#include "problem/choices.def"
+#undef CZ_CHOICE_SET
+#undef CZ_WORD
+#undef CZ_CHOICE_SET_END
+
+#define CZ_CHOICE_SET(set, type) {#set, sizeof words_##set / sizeof words_##set[0], words_##set},
+#define CZ_WORD(set, constant, word, doc)
+#define CZ_CHOICE_SET_END(set, type)
+const CzWordSet cz_word_sets[CZ_N_WORDS] = {
+#include "problem/choices.def"
+};
+#undef CZ_CHOICE_SET
+#undef CZ_WORD
+#undef CZ_CHOICE_SET_END
+
+/* ---- records ---- */
+
+#define CZ_RECORD(type, record, text) static const CzKey type##_keys[] = {
+#define FIELD(key_kind, type, field, required, text)                                               \
+    .kind = key_kind, .stem = #field, .presence = CZ_PRESENCE_##required, .doc = text,             \
+    .offset = offsetof(type, field)
+#define CZ_NUMBER(type, stem, of, from, to, presence, without, kind, doc)                          \
+    {FIELD(CZ_KEY_NUMBER, type, stem, presence, doc),                                              \
+     .dimension = CZ_DIMENSION_##of,                                                               \
+     .lo = from,                                                                                   \
+     .hi = to,                                                                                     \
+     .absent = CZ_PRESENCE_##presence == CZ_PRESENCE_DEFAULT ? (without) : NAN,                    \
+     .varies = CZ_##kind},
+#define CZ_COUNT(type, stem, from, to, presence, without, doc)                                     \
+    {FIELD(CZ_KEY_COUNT, type, stem, presence, doc), .lo = from, .hi = to, .absent = without},
+#define CZ_CHOICE(type, stem, set, presence, without, doc)                                         \
+    {FIELD(CZ_KEY_CHOICE, type, stem, presence, doc), .words = CZ_WORDS_##set, .absent = without},
+#define CZ_FLAG(type, stem, without, doc)                                                          \
+    {FIELD(CZ_KEY_FLAG, type, stem, DEFAULT, doc), .absent = without},
+#define CZ_TEXT(type, stem, presence, doc) {FIELD(CZ_KEY_TEXT, type, stem, presence, doc)},
+#define CZ_CHILD(type, stem, inside, presence, doc)                                                \
+    {FIELD(CZ_KEY_CHILD, type, stem, presence, doc), .child = CZ_RECORD_##inside},
+#define CZ_STAGES(type, stem, presence, doc)                                                       \
+    {FIELD(CZ_KEY_STAGES, type, stem, presence, doc), .child = CZ_RECORD_CzStage,                  \
+     .n_offset = offsetof(type, n_##stem)},
+#define CZ_TABLE(type, stem, x_stem, x_dimension, y_stem, of_y, presence, doc)                     \
+    {FIELD(CZ_KEY_TABLE, type, stem, presence, doc), .dimension = CZ_DIMENSION_##x_dimension,      \
+     .x = #x_stem, .y = #y_stem, .y_dimension = CZ_DIMENSION_##of_y},
+#define CZ_LIST(type, stem, inside, presence, doc)                                                 \
+    {FIELD(CZ_KEY_LIST, type, stem, presence, doc), .child = CZ_RECORD_##inside,                   \
+     .n_offset = offsetof(type, n_##stem)},
+#define CZ_TEXTS(type, stem, presence, doc) {FIELD(CZ_KEY_TEXTS, type, stem, presence, doc)},
+#define CZ_RECORD_END(type)                                                                        \
+    }                                                                                              \
+    ;
+#include "problem/keys.def"
+#include "problem/keys_undefine.def"
+#undef FIELD
+
+#define CZ_RECORD(type, record, text)                                                              \
+    {.name = #record,                                                                              \
+     .doc = text,                                                                                  \
+     .size = sizeof(type),                                                                         \
+     .n_key = sizeof type##_keys / sizeof type##_keys[0],                                          \
+     .key = type##_keys},
+#define CZ_NUMBER(type, stem, dimension, lo, hi, presence, absent, kind, doc)
+#define CZ_COUNT(type, stem, lo, hi, presence, absent, doc)
+#define CZ_CHOICE(type, stem, set, presence, absent, doc)
+#define CZ_FLAG(type, stem, absent, doc)
+#define CZ_TEXT(type, stem, presence, doc)
+#define CZ_CHILD(type, stem, child, presence, doc)
+#define CZ_STAGES(type, stem, presence, doc)
+#define CZ_TABLE(type, stem, x, x_dimension, y, y_dimension, presence, doc)
+#define CZ_LIST(type, stem, child, presence, doc)
+#define CZ_TEXTS(type, stem, presence, doc)
+#define CZ_RECORD_END(type)
+const CzRecord cz_records[CZ_N_RECORD] = {
+#include "problem/keys.def"
+};
+#include "problem/keys_undefine.def"
+
+/* ---- reuse ---- */
+
+#define CZ_REUSE(record, key, schema, doc) {record, #key, schema, doc},
+const CzReuseKey cz_reuse_keys[] = {
+#include "problem/reuse.def"
+};
+#undef CZ_REUSE
+const int cz_n_reuse_key = sizeof cz_reuse_keys / sizeof cz_reuse_keys[0];
+
+/* ---- looking up ---- */
+
+const CzUnit *cz_unit_si(CzDimension dimension) {
+    int unit = 0;
+    while (cz_units[unit].dimension != dimension)
+        unit++;
+    return &cz_units[unit];
+}
+
+const CzUnit *cz_unit_find(CzDimension dimension, const char *suffix) {
+    for (int i = 0; i < cz_n_unit; i++)
+        if (cz_units[i].dimension == dimension && strcmp(cz_units[i].suffix, suffix) == 0)
+            return &cz_units[i];
+    return NULL;
+}
+
+bool cz_unit_is_suffix(const char *text) {
+    for (int i = 0; i < cz_n_unit; i++)
+        if (cz_units[i].suffix[0] != '\0' && strcmp(cz_units[i].suffix, text) == 0)
+            return true;
+    return false;
+}
+
+size_t cz_key_stem_length(const char *key) {
+    const size_t n = strlen(key);
+    for (const char *at = strchr(key, '_'); at != NULL; at = strchr(at + 1, '_'))
+        if (at > key && cz_unit_is_suffix(at + 1))
+            return (size_t)(at - key); /* the first cut leaves the longest suffix */
+    return n;
+}
+
+bool cz_key_same_stem(const char *a, const char *b) {
+    const size_t n = cz_key_stem_length(a);
+    return n == cz_key_stem_length(b) && memcmp(a, b, n) == 0 && (a[n] == '\0') == (b[n] == '\0');
+}
+
+void cz_key_spellings(char *text, size_t size, const char *stem, CzDimension dimension) {
+    size_t n = 0;
+    text[0] = '\0';
+    for (int i = 0; i < cz_n_unit; i++) {
+        if (cz_units[i].dimension != dimension)
+            continue;
+        const bool is_first = n == 0;
+        const bool is_last = i + 1 == cz_n_unit || cz_units[i + 1].dimension != dimension;
+        const char *before = is_first ? "" : is_last ? " or " : ", ";
+        const int more = snprintf(text + n, size - n, "%s%s%s%s", before, stem,
+                                  cz_units[i].suffix[0] != '\0' ? "_" : "", cz_units[i].suffix);
+        n = n + (size_t)more < size ? n + (size_t)more : size - 1;
+    }
+}
+
+const CzKey *cz_record_key(const CzRecord *record, const char *stem) {
+    for (int i = 0; i < record->n_key; i++)
+        if (strcmp(record->key[i].stem, stem) == 0)
+            return &record->key[i];
+    return NULL;
+}
+
+const CzKey *cz_record_match(const CzRecord *record, const char *typed, const CzUnit **unit) {
+    for (int i = 0; i < record->n_key; i++) {
+        const CzKey *key = &record->key[i];
+        const size_t n = strlen(key->stem);
+        *unit = NULL;
+        if (strncmp(key->stem, typed, n) != 0)
+            continue;
+        if (key->kind == CZ_KEY_NUMBER && typed[n] == '_')
+            *unit = cz_unit_find(key->dimension, typed + n + 1);
+        else if (key->kind == CZ_KEY_NUMBER && typed[n] == '\0')
+            *unit = cz_unit_find(key->dimension, "");
+        if (*unit != NULL || (key->kind != CZ_KEY_NUMBER && typed[n] == '\0'))
+            return key;
+    }
+    *unit = NULL;
+    return NULL;
+}

@@ -1,0 +1,150 @@
+/* The keys of keys.def as tables: for reading, schema, help and reference. */
+#ifndef CZ_PROBLEM_KEYS_H
+#define CZ_PROBLEM_KEYS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* ---- dimensions and units (units.def) ---- */
+
+#define CZ_DIMENSION(dimension, text) CZ_DIMENSION_##dimension,
+#define CZ_UNIT(dimension, suffix, si)
+typedef enum CzDimension {
+#include "problem/units.def"
+    CZ_N_DIMENSION
+} CzDimension;
+#undef CZ_DIMENSION
+#undef CZ_UNIT
+
+typedef struct CzUnit {
+    CzDimension dimension;
+    const char *suffix; /* "" for none */
+    double si;          /* SI value of one unit */
+} CzUnit;
+
+extern const CzUnit cz_units[]; /* those of one dimension stand together, the SI one first */
+extern const int cz_n_unit;
+extern const char *const cz_dimension_text[CZ_N_DIMENSION];
+
+const CzUnit *cz_unit_si(CzDimension dimension);
+/* Unit of a dimension by its suffix; NULL when it is not one of its units. */
+const CzUnit *cz_unit_find(CzDimension dimension, const char *suffix);
+/* Whether a text is the suffix of any unit. */
+bool cz_unit_is_suffix(const char *text);
+/* Length of a key without the longest unit suffix at its end [byte]. */
+size_t cz_key_stem_length(const char *key);
+/* Whether two keys are one stem, perhaps in two units. */
+bool cz_key_same_stem(const char *a, const char *b);
+/* Writes the spellings of a stem: "stroke_m or stroke_mm". */
+void cz_key_spellings(char *text, size_t size, const char *stem, CzDimension dimension);
+
+/* ---- closed sets of words (choices.def) ---- */
+
+typedef struct CzWord {
+    const char *word, *doc;
+} CzWord;
+
+typedef struct CzWordSet {
+    const char *name; /* such as "ZONE" */
+    int n_word;
+    const CzWord *word; /* the index of a word is its enum's value */
+} CzWordSet;
+
+#define CZ_CHOICE_SET(set, type) CZ_WORDS_##set,
+#define CZ_WORD(set, constant, word, doc)
+#define CZ_CHOICE_SET_END(set, type)
+enum {
+#include "problem/choices.def"
+    CZ_N_WORDS
+};
+#undef CZ_CHOICE_SET
+#undef CZ_WORD
+#undef CZ_CHOICE_SET_END
+
+extern const CzWordSet cz_word_sets[CZ_N_WORDS];
+
+/* ---- records (keys.def) ---- */
+
+#define CZ_RECORD(type, name, doc) CZ_RECORD_##type,
+#define CZ_NUMBER(type, stem, dimension, lo, hi, presence, absent, kind, doc)
+#define CZ_COUNT(type, stem, lo, hi, presence, absent, doc)
+#define CZ_CHOICE(type, stem, set, presence, absent, doc)
+#define CZ_FLAG(type, stem, absent, doc)
+#define CZ_TEXT(type, stem, presence, doc)
+#define CZ_CHILD(type, stem, child, presence, doc)
+#define CZ_STAGES(type, stem, presence, doc)
+#define CZ_TABLE(type, stem, x, x_dimension, y, y_dimension, presence, doc)
+#define CZ_LIST(type, stem, child, presence, doc)
+#define CZ_TEXTS(type, stem, presence, doc)
+#define CZ_RECORD_END(type)
+typedef enum CzRecordId {
+#include "problem/keys.def"
+    CZ_N_RECORD
+} CzRecordId;
+#include "problem/keys_undefine.def"
+
+typedef enum CzKeyKind {
+    CZ_KEY_NUMBER,
+    CZ_KEY_COUNT,
+    CZ_KEY_CHOICE,
+    CZ_KEY_FLAG,
+    CZ_KEY_TEXT,
+    CZ_KEY_CHILD,
+    CZ_KEY_STAGES,
+    CZ_KEY_TABLE,
+    CZ_KEY_LIST,
+    CZ_KEY_TEXTS
+} CzKeyKind;
+
+typedef enum CzPresence {
+    CZ_PRESENCE_REQUIRED,
+    CZ_PRESENCE_REQUIRED_FULL,
+    CZ_PRESENCE_OPTIONAL,
+    CZ_PRESENCE_DEFAULT
+} CzPresence;
+
+/* One key of a record. */
+typedef struct CzKey {
+    CzKeyKind kind;
+    const char *stem;
+    CzPresence presence;
+    const char *doc;
+    size_t offset;         /* of the field in its record [byte] */
+    CzDimension dimension; /* number: its own; table: of x */
+    double lo, hi;         /* number and count: range [SI] */
+    double absent;         /* number, count, choice, flag: value when absent */
+    bool varies;           /* number: an optimiser may change it */
+    int words;             /* choice: index into cz_word_sets */
+    CzRecordId child;      /* child, list, stages: record inside */
+    size_t n_offset;       /* list, stages: of the count of items [byte] */
+    const char *x, *y;     /* table: stems of the columns */
+    CzDimension y_dimension;
+} CzKey;
+
+typedef struct CzRecord {
+    const char *name, *doc;
+    size_t size; /* [byte] */
+    int n_key;
+    const CzKey *key;
+} CzRecord;
+
+extern const CzRecord cz_records[CZ_N_RECORD];
+
+/* Key of a record by its stem; NULL when there is none. */
+const CzKey *cz_record_key(const CzRecord *record, const char *stem);
+/* Key that a key as typed names, with its unit for numbers; NULL when there is none. */
+const CzKey *cz_record_match(const CzRecord *record, const char *typed, const CzUnit **unit);
+
+/* ---- keys that reuse (reuse.def) ---- */
+
+typedef struct CzReuseKey {
+    const char *record; /* name of the record it belongs to; "" for any */
+    const char *key;
+    const char *schema; /* JSON schema of its value */
+    const char *doc;
+} CzReuseKey;
+
+extern const CzReuseKey cz_reuse_keys[];
+extern const int cz_n_reuse_key;
+
+#endif

@@ -1,0 +1,48 @@
+/* All mistakes of a problem file, collected in one pass. */
+#ifndef CZ_PROBLEM_MISTAKES_H
+#define CZ_PROBLEM_MISTAKES_H
+
+#include "crushzone/status.h"
+#include "problem/node.h"
+
+enum { CZ_MAX_MISTAKES = 100 }; /* further ones are counted only */
+
+typedef struct CzMistake {
+    CzError error;
+    int order;    /* of the source, for sorting */
+    int n_stated; /* bytes of the message before the trail, for comparing */
+} CzMistake;
+
+/* Zero-initialise it and set the arena. */
+typedef struct CzMistakes {
+    CzArena *arena;
+    CzMistake *mistake[CZ_MAX_MISTAKES + 1]; /* one more tells how many are left out */
+    int n_mistake;
+    int n_left_out;
+    bool out_of_memory;
+} CzMistakes;
+
+/* Adds a mistake at the place of a node. When the node came through a part, the sentence goes on to
+ * say so. The same sentence at the same place is kept once. */
+void cz_mistake(CzMistakes *mistakes, const CzNode *place, const CzTrail *trail, const char *format,
+                ...) __attribute__((format(printf, 4, 5)));
+
+/* Adds one at a line and column of a source (0: the source as a whole). */
+void cz_mistake_at(CzMistakes *mistakes, const CzSource *source, int line, int column,
+                   const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+/* Gives the mistake added last a hint, unless it was known before or left out. */
+void cz_mistake_help(CzMistakes *mistakes, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Adds a hint "did you mean 'best'?" when there is a best word. */
+void cz_mistake_suggest(CzMistakes *mistakes, const char *best);
+
+/* Puts the mistakes into the order of files, lines and columns, and adds one that counts those left
+ * out. */
+void cz_mistakes_finish(CzMistakes *mistakes);
+
+/* Puts file, line and column of a node into an error. */
+void cz_error_place(CzError *error, const CzNode *place);
+
+#endif

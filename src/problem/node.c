@@ -1,0 +1,59 @@
+/* Trees of nodes: finding and copying. */
+#include "problem/node.h"
+
+#include <string.h>
+
+const CzEntry *cz_node_find(const CzNode *mapping, const char *key) {
+    if (mapping == NULL || mapping->kind != CZ_NODE_MAPPING)
+        return NULL;
+    for (int i = 0; i < mapping->n_entry; i++)
+        if (strcmp(mapping->entry[i].key->text, key) == 0)
+            return &mapping->entry[i];
+    return NULL;
+}
+
+const char *cz_node_find_text(const CzNode *mapping, const char *key) {
+    const CzEntry *entry = cz_node_find(mapping, key);
+    return entry != NULL && entry->value->kind == CZ_NODE_TEXT ? entry->value->text : NULL;
+}
+
+const CzNode *cz_node_text(CzArena *arena, const char *text, const CzNode *place) {
+    CzNode *node = cz_arena_allocate(arena, 1, sizeof *node);
+    if (node == NULL)
+        return NULL;
+    node->kind = CZ_NODE_TEXT;
+    node->source = place->source;
+    node->line = place->line;
+    node->column = place->column;
+    node->text = cz_arena_copy_text(arena, text, strlen(text));
+    return node->text != NULL ? node : NULL;
+}
+
+CzNode *cz_node_copy(CzArena *arena, const CzNode *node, int n_more) {
+    CzNode *copy = cz_arena_allocate(arena, 1, sizeof *copy);
+    if (copy == NULL)
+        return NULL;
+    *copy = *node;
+    copy->entry = cz_arena_allocate(arena, (size_t)(node->n_entry + n_more), sizeof *copy->entry);
+    if (copy->entry == NULL)
+        return NULL;
+    if (node->n_entry > 0)
+        memcpy(copy->entry, node->entry, (size_t)node->n_entry * sizeof *copy->entry);
+    return copy;
+}
+
+CzNode *cz_node_without(CzArena *arena, const CzNode *mapping, const char *key) {
+    CzNode *copy = cz_node_copy(arena, mapping, 0);
+    if (copy == NULL)
+        return NULL;
+    copy->n_entry = 0;
+    for (int i = 0; i < mapping->n_entry; i++)
+        if (strcmp(mapping->entry[i].key->text, key) != 0)
+            copy->entry[copy->n_entry++] = mapping->entry[i];
+    return copy;
+}
+
+const char *cz_node_what(const CzNode *node) {
+    static const char *const what[] = {"a text", "a list", "a mapping"};
+    return what[node->kind];
+}

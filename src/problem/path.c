@@ -1,0 +1,454 @@
+/* Paths into a problem: trains.A.vehicles.A1.front.stages[0].force_kN, parts.front-zone.gap_mm.
+ *
+ * Keys and names are parted by points; [2] is an item of a list, counted from 0, [*] or * every
+ * item. Putting a value under a path makes new mappings along the path and shares the rest. What a
+ * part gives on the way is taken first, so a value can be put beside `use` at any depth. Beyond a *
+ * items without the record that the path goes through are passed over.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/suggest.h"
+#include "problem/reader.h"
+
+enum { MOST_SEGMENTS = 24, LONGEST_NAME = 96, MOST_MATCHES = 10000 };
+
+typedef enum { SEGMENT_NAME, SEGMENT_INDEX, SEGMENT_ALL } SegmentKind;
+
+typedef struct {
+    SegmentKind kind;
+    char name[LONGEST_NAME];
+    int index;
+    int offset; /* in the path [byte] */
+} Segment;
+
+typedef struct {
+    CzReader *reader;
+    const CzTree *tree;
+    int n_segment;
+    Segment segment[MOST_SEGMENTS];
+    const CzNode *place; /* of the path */
+    const CzNode *value;
+    CzMatches *matches;
+    int n_found, n_room;
+    bool failed;
+    const char *train;     /* name of the train on the way, for its vehicles */
+    char at[CZ_MAX_PLACE]; /* concrete path so far */
+} Walk;
+
+/* A point on the way: how far the path is worked off. */
+typedef struct {
+    const CzRecord *record; /* of the mapping, or of the list's items; NULL: not known */
+    const CzTrail *trail;
+    int level;    /* segment at hand */
+    bool is_open; /* beyond a * */
+} Step;
+
+/* ---- reading a path ---- */
+
+static bool is_end(char c) {
+    return c == '\0' || c == '.' || c == '[' || c == ']';
+}
+
+/* Reads one segment; the rest of the path, or NULL when it is none. */
+static const char *read_segment(Segment *segment, const char *path, const char *start) {
+    segment->offset = (int)(path - start);
+    if (strncmp(path, "[*]", 3) == 0) {
+        segment->kind = SEGMENT_ALL;
+        return path + 3;
+    }
+    if (*path == '[') {
+        int n_read = 0;
+        segment->kind = SEGMENT_INDEX;
+        if (path[1] < '0' || path[1] > '9' ||
+            sscanf(path, "[%5d]%n", &segment->index, &n_read) != 1 || n_read == 0)
+            return NULL;
+        return path + n_read;
+    }
+    size_t n = 0;
+    while (!is_end(path[n]))
+        n++;
+    if (n == 0 || n >= LONGEST_NAME)
+        return NULL;
+    memcpy(segment->name, path, n);
+    segment->name[n] = '\0';
+    segment->kind = strcmp(segment->name, "*") == 0 ? SEGMENT_ALL : SEGMENT_NAME;
+    return path + n;
+}
+
+/* A node at the place of a segment, for mistakes. */
+static CzNode place_of(const Walk *walk, int level) {
+    CzNode place = *walk->place;
+    if (level < walk->n_segment)
+        place.column += walk->segment[level].offset + place.quoted;
+    return place;
+}
+
+static bool read_path(Walk *walk, const char *path) {
+    const char *at = path;
+    bool is_path = *path != '\0';
+    while (is_path && *at != '\0') {
+        if (walk->n_segment > 0 && *at == '.')
+            at++;
+        else if (walk->n_segment > 0 && *at != '[')
+            is_path = false;
+        if (walk->n_segment == MOST_SEGMENTS)
+            is_path = false;
+        const char *rest = is_path ? read_segment(&walk->segment[walk->n_segment], at, path) : NULL;
+        is_path = rest != NULL;
+        if (is_path) {
+            walk->n_segment++;
+            at = rest;
+        }
+    }
+    if (is_path)
+        return true;
+    cz_mistake(&walk->reader->mistakes, walk->place, NULL, "'%s' is not a path", path);
+    cz_mistake_help(&walk->reader->mistakes,
+                    "paths look like trains.A.vehicles.A1.front.stages[0].force_kN");
+    return false;
+}
+
+/* ---- walking ---- */
+
+static const CzNode *walk_on(Walk *walk, const CzNode *node, Step step);
+
+/* Appends to the concrete path; the length before, to cut it again. */
+static size_t enter(Walk *walk, const char *format, const char *name, int index) {
+    const size_t before = strlen(walk->at);
+    const char *point = before > 0 && format[0] != '[' ? "." : "";
+    const size_t n =
+        before + (size_t)snprintf(walk->at + before, sizeof walk->at - before, "%s", point);
+    if (n < sizeof walk->at && format[0] == '[')
+        snprintf(walk->at + n, sizeof walk->at - n, "[%d]", index);
+    else if (n < sizeof walk->at)
+        snprintf(walk->at + n, sizeof walk->at - n, "%s", name);
+    return before;
+}
+
+static void leave(Walk *walk, size_t before) {
+    walk->at[before] = '\0';
+}
+
+/* The value to put in: the setting's own, or a node that stands for any number. */
+static const CzNode *value_to_put(Walk *walk) {
+    CzMatches *matches = walk->matches;
+    walk->n_found++;
+    if (matches == NULL)
+        return walk->value;
+    if (matches->n_match == MOST_MATCHES) {
+        if (!walk->failed)
+            cz_mistake(&walk->reader->mistakes, walk->place, NULL,
+                       "the path names more than %d places", (int)MOST_MATCHES);
+        walk->failed = true;
+        return walk->value;
+    }
+    if (matches->n_match == walk->n_room) {
+        const int n_room = walk->n_room > 0 ? 2 * walk->n_room : 8;
+        char(*larger)[CZ_MAX_PLACE] =
+            cz_reader_allocate(walk->reader, (size_t)n_room, CZ_MAX_PLACE);
+        if (larger == NULL)
+            return NULL;
+        if (matches->n_match > 0)
+            memcpy(larger, matches->place, (size_t)matches->n_match * CZ_MAX_PLACE);
+        matches->place = larger;
+        walk->n_room = n_room;
+    }
+    CzNode *marker = cz_reader_allocate(walk->reader, 1, sizeof *marker);
+    if (marker == NULL)
+        return NULL;
+    *marker = place_of(walk, walk->n_segment - 1);
+    marker->kind = CZ_NODE_TEXT;
+    marker->text = "0";
+    marker->quoted = false;
+    memcpy(matches->place[matches->n_match], walk->at, CZ_MAX_PLACE);
+    marker->match = ++matches->n_match;
+    return marker;
+}
+
+static bool is_fixed_key(const char *key) {
+    static const char *const fixed[] = {"use", "extends", "catalogue", "parts", "set"};
+    for (int i = 0; i < 5; i++)
+        if (strcmp(fixed[i], key) == 0)
+            return true;
+    return false;
+}
+
+/* Puts the value under the path's last key. */
+static const CzNode *put_value(Walk *walk, const CzNode *mapping, Step step) {
+    const char *name = walk->segment[step.level].name;
+    const CzNode place = place_of(walk, step.level);
+    if (is_fixed_key(name)) {
+        cz_mistake(&walk->reader->mistakes, &place, NULL, "'%s' cannot be set by a path", name);
+        walk->failed = true;
+        return mapping;
+    }
+    const size_t before = enter(walk, "", name, 0);
+    CzNode *changed = cz_node_copy(&walk->reader->arena, mapping, 1);
+    const CzEntry entry = {cz_node_text(&walk->reader->arena, name, &place), value_to_put(walk),
+                           &cz_no_trail};
+    leave(walk, before);
+    if (changed == NULL || entry.key == NULL || entry.value == NULL)
+        return NULL;
+    int at = 0;
+    while (at < changed->n_entry && !cz_key_same_stem(changed->entry[at].key->text, name))
+        at++;
+    changed->n_entry += at == changed->n_entry;
+    changed->entry[at] = entry;
+    return changed;
+}
+
+static bool needs_nothing(const CzRecord *record) {
+    for (int i = 0; i < record->n_key; i++)
+        if (record->key[i].presence <= CZ_PRESENCE_REQUIRED_FULL)
+            return false;
+    return true;
+}
+
+static void report_unknown(Walk *walk, const CzNode *mapping, Step step) {
+    const char *name = walk->segment[step.level].name;
+    const CzNode place = place_of(walk, step.level);
+    CzSuggestion suggestion = {0};
+    for (int i = 0; i < mapping->n_entry; i++)
+        cz_suggest(&suggestion, name, mapping->entry[i].key->text);
+    for (int i = 0; step.record != NULL && i < step.record->n_key; i++)
+        if (step.record->key[i].kind >= CZ_KEY_CHILD)
+            cz_suggest(&suggestion, name, step.record->key[i].stem);
+    const bool is_known =
+        suggestion.best != NULL && strcmp(suggestion.best, name) == 0; /* a key, but not there */
+    cz_mistake(&walk->reader->mistakes, &place, NULL, "there is no '%s' in %s", name,
+               walk->at[0] != '\0' ? walk->at : "the problem");
+    if (!is_known)
+        cz_mistake_suggest(&walk->reader->mistakes, suggestion.best);
+    walk->failed = true;
+}
+
+/* A train that copies another has no vehicles of its own to change. */
+static bool is_copied(Walk *walk, const CzNode *mapping, Step step) {
+    const char *copied = cz_node_find_text(mapping, "copy");
+    if (step.record != &cz_records[CZ_RECORD_CzTrain] || copied == NULL ||
+        strcmp(walk->segment[step.level].name, "vehicles") != 0)
+        return false;
+    if (step.is_open)
+        return true;
+    const CzNode place = place_of(walk, step.level);
+    cz_mistake(&walk->reader->mistakes, &place, NULL,
+               "%s copies train '%s' and has no vehicles of its own", walk->at, copied);
+    cz_mistake_help(&walk->reader->mistakes, "trains.%s.vehicles names those of both trains",
+                    copied);
+    walk->failed = true;
+    return true;
+}
+
+static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) {
+    const Segment *segment = &walk->segment[step.level];
+    if (segment->kind != SEGMENT_NAME) {
+        const CzNode place = place_of(walk, step.level);
+        cz_mistake(&walk->reader->mistakes, &place, NULL, "%s is no list: a key must follow",
+                   walk->at[0] != '\0' ? walk->at : "the problem");
+        walk->failed = true;
+        return mapping;
+    }
+    if (step.level == walk->n_segment - 1)
+        return put_value(walk, mapping, step);
+    if (is_copied(walk, mapping, step))
+        return mapping;
+    const CzKey *key = step.record != NULL ? cz_record_key(step.record, segment->name) : NULL;
+    const CzRecord *inside = key != NULL && (key->kind == CZ_KEY_CHILD ||
+                                             key->kind == CZ_KEY_LIST || key->kind == CZ_KEY_STAGES)
+                                 ? &cz_records[key->child]
+                                 : NULL;
+    const CzEntry *entry = cz_node_find(mapping, segment->name);
+    const bool is_new = entry == NULL;
+    if (is_new && step.is_open)
+        return mapping;
+    if (is_new && (walk->matches != NULL || key == NULL || key->kind != CZ_KEY_CHILD ||
+                   !needs_nothing(inside))) {
+        report_unknown(walk, mapping, step);
+        return mapping;
+    }
+    CzNode *changed = cz_node_copy(&walk->reader->arena, mapping, 1);
+    if (changed == NULL)
+        return NULL;
+    const CzNode place = place_of(walk, step.level);
+    CzNode empty = place;
+    empty.kind = CZ_NODE_MAPPING;
+    empty.n_entry = 0;
+    const int at = is_new ? changed->n_entry++ : (int)(entry - mapping->entry);
+    if (is_new)
+        changed->entry[at] = (CzEntry){cz_node_text(&walk->reader->arena, segment->name, &place),
+                                       &empty, &cz_no_trail};
+    if (step.record == &cz_records[CZ_RECORD_CzTrain])
+        walk->train = cz_node_find_text(mapping, "name");
+    const size_t before = enter(walk, "", segment->name, 0);
+    const Step next = {inside, cz_entry_trail(&changed->entry[at], step.trail), step.level + 1,
+                       step.is_open};
+    changed->entry[at].value = walk_on(walk, changed->entry[at].value, next);
+    leave(walk, before);
+    if (changed->entry[at].value == &empty) /* nothing was put in */
+        changed->n_entry--;
+    return changed->entry[at].key != NULL && changed->entry[at].value != NULL ? changed : NULL;
+}
+
+/* ---- items of lists ---- */
+
+/* Name that a path gives an item: its own, or for a vehicle the counted one. */
+static const char *name_of_item(Walk *walk, const CzNode *item, const CzRecord *record,
+                                int position, char *text, size_t size) {
+    if (record == &cz_records[CZ_RECORD_CzVehicle] && walk->train != NULL) {
+        cz_vehicle_name(text, size, item, walk->train, position, 0);
+        return text;
+    }
+    return cz_node_find_text(item, "name");
+}
+
+static void report_no_item(Walk *walk, const CzNode *list, Step step) {
+    const Segment *segment = &walk->segment[step.level];
+    const CzNode place = place_of(walk, step.level);
+    CzMistakes *mistakes = &walk->reader->mistakes;
+    walk->failed = true;
+    if (segment->kind == SEGMENT_INDEX) {
+        cz_mistake(mistakes, &place, NULL, "%s has %d items, counted from 0; there is no [%d]",
+                   walk->at, list->n_entry, segment->index);
+        return;
+    }
+    CzSuggestion suggestion = {0};
+    char best[LONGEST_NAME] = "", text[LONGEST_NAME];
+    for (int i = 0, position = 1; i < list->n_entry; i++) {
+        const CzNode *item = list->entry[i].value;
+        const int n_repeat =
+            step.record == &cz_records[CZ_RECORD_CzVehicle] ? cz_vehicle_repeat(item) : 1;
+        for (int k = 1; k < n_repeat && walk->train != NULL; k++) {
+            cz_vehicle_name(text, sizeof text, item, walk->train, position, k);
+            if (strcmp(text, segment->name) == 0) {
+                cz_vehicle_name(text, sizeof text, item, walk->train, position, 0);
+                cz_mistake(mistakes, &place, NULL,
+                           "vehicle '%s' is '%s' repeated and has no values of its own",
+                           segment->name, text);
+                cz_mistake_help(mistakes, "'%s' names all %d of them", text, n_repeat);
+                return;
+            }
+        }
+        const char *name = name_of_item(walk, item, step.record, position, text, sizeof text);
+        if (name != NULL)
+            cz_suggest(&suggestion, segment->name, name);
+        if (name != NULL && suggestion.best == name)
+            suggestion.best = strcpy(best, strlen(name) < sizeof best ? name : "");
+        position += n_repeat;
+    }
+    cz_mistake(mistakes, &place, NULL, "there is no '%s' in %s", segment->name, walk->at);
+    cz_mistake_suggest(mistakes, suggestion.best);
+}
+
+/* Goes on into one item, or puts the value in its place when the path ends there. */
+static const CzNode *walk_item(Walk *walk, const CzNode *item, Step step) {
+    if (step.level + 1 < walk->n_segment) {
+        step.level++;
+        return walk_on(walk, item, step);
+    }
+    if (item->kind == CZ_NODE_TEXT)
+        return value_to_put(walk);
+    const CzNode place = place_of(walk, step.level);
+    cz_mistake(&walk->reader->mistakes, &place, NULL, "%s is %s: a key must follow", walk->at,
+               cz_node_what(item));
+    walk->failed = true;
+    return item;
+}
+
+static const CzNode *walk_list(Walk *walk, const CzNode *list, Step step) {
+    const Segment *segment = &walk->segment[step.level];
+    CzNode *changed = cz_node_copy(&walk->reader->arena, list, 0);
+    bool is_found = segment->kind == SEGMENT_ALL;
+    for (int i = 0, position = 1; changed != NULL && i < list->n_entry; i++) {
+        char text[LONGEST_NAME];
+        const CzTrail *trail = cz_entry_trail(&list->entry[i], step.trail);
+        const CzNode *item = cz_take_part(walk->reader, walk->tree, list->entry[i].value, trail);
+        if (item == NULL)
+            return NULL;
+        const char *name = name_of_item(walk, item, step.record, position, text, sizeof text);
+        position += step.record == &cz_records[CZ_RECORD_CzVehicle] ? cz_vehicle_repeat(item) : 1;
+        if (segment->kind == SEGMENT_NAME && (name == NULL || strcmp(name, segment->name) != 0))
+            continue;
+        if (segment->kind == SEGMENT_INDEX && segment->index != i)
+            continue;
+        is_found = true;
+        const size_t before = enter(walk, name != NULL ? "" : "[", name, i);
+        const Step next = {step.record, trail, step.level,
+                           step.is_open || segment->kind == SEGMENT_ALL};
+        changed->entry[i].value = walk_item(walk, item, next);
+        leave(walk, before);
+        if (changed->entry[i].value == NULL)
+            return NULL;
+    }
+    if (!is_found)
+        report_no_item(walk, list, step);
+    return changed;
+}
+
+static const CzNode *walk_on(Walk *walk, const CzNode *node, Step step) {
+    const CzNode *taken = cz_take_part(walk->reader, walk->tree, node, step.trail);
+    if (taken == NULL || walk->failed)
+        return taken;
+    if (taken->kind == CZ_NODE_MAPPING)
+        return walk_mapping(walk, taken, step);
+    if (taken->kind == CZ_NODE_LIST)
+        return walk_list(walk, taken, step);
+    const CzNode place = place_of(walk, step.level);
+    cz_mistake(&walk->reader->mistakes, &place, NULL, "%s is a value: nothing can follow it",
+               walk->at);
+    walk->failed = true;
+    return taken;
+}
+
+/* ---- the top ---- */
+
+static bool put_into_part(Walk *walk, CzTree *tree) {
+    const Segment *segment = &walk->segment[1];
+    CzSuggestion suggestion = {0};
+    for (int i = 0; walk->n_segment > 2 && i < tree->n_part; i++) {
+        CzPart *part = &tree->part[i];
+        cz_suggest(&suggestion, segment->name, part->name);
+        if (segment->kind != SEGMENT_NAME || strcmp(part->name, segment->name) != 0)
+            continue;
+        CzTrail *trail = cz_reader_allocate(walk->reader, 1, sizeof *trail);
+        if (trail == NULL)
+            return false;
+        *trail = (CzTrail){part->name, part->written, part->written, &cz_no_trail};
+        snprintf(walk->at, sizeof walk->at, "parts.%s", part->name);
+        const CzNode *changed = walk_on(walk, part->node, (Step){NULL, trail, 2, false});
+        if (changed != NULL)
+            part->node = changed;
+        return changed != NULL;
+    }
+    const CzNode place = place_of(walk, walk->n_segment > 1 ? 1 : 0);
+    walk->failed = true;
+    if (walk->n_segment > 2 && segment->kind == SEGMENT_NAME)
+        cz_mistake(&walk->reader->mistakes, &place, NULL, "there is no part '%s'", segment->name);
+    else
+        cz_mistake(&walk->reader->mistakes, &place, NULL,
+                   "'parts' is followed by the name of a part and one of its keys");
+    cz_mistake_suggest(&walk->reader->mistakes, suggestion.best);
+    return true;
+}
+
+bool cz_path_put(CzReader *reader, CzTree *tree, const char *path, const CzNode *place,
+                 const CzNode *value, CzMatches *matches) {
+    Walk walk = {
+        .reader = reader, .tree = tree, .place = place, .value = value, .matches = matches};
+    if (!read_path(&walk, path))
+        return false;
+    bool has_memory;
+    if (walk.segment[0].kind == SEGMENT_NAME && strcmp(walk.segment[0].name, "parts") == 0) {
+        has_memory = put_into_part(&walk, tree);
+    } else {
+        const Step top = {&cz_records[CZ_RECORD_CzInput], &cz_no_trail, 0, false};
+        const CzNode *root = walk_on(&walk, tree->root, top);
+        has_memory = root != NULL;
+        tree->root = has_memory ? root : tree->root;
+    }
+    if (!has_memory)
+        reader->mistakes.out_of_memory = true;
+    if (!walk.failed && has_memory && walk.n_found == 0)
+        cz_mistake(&reader->mistakes, place, NULL, "'%s' names no place of this problem", path);
+    return has_memory && !walk.failed && walk.n_found > 0;
+}

@@ -1,0 +1,6 @@
+/* Profiles of limits. */
+#include "problem/reader.h"
+
+void cz_profile_read(CzProblem *problem) {
+    (void)problem;
+}

@@ -1,0 +1,20 @@
+/* Fewer points for a measured curve.
+ *
+ * The point whose removal changes the curve least (smallest area of the triangle with its
+ * neighbours) goes first. End points and the highest point stay. The energy that this costs is
+ * given back by scaling the other kept points together, so that the area under the curve is the
+ * same.
+ */
+#ifndef CZ_PROBLEM_REDUCE_CURVE_H
+#define CZ_PROBLEM_REDUCE_CURVE_H
+
+typedef struct CzCurveChange {
+    double area;               /* under the curve, before and after [SI of x times y] */
+    double largest_difference; /* of y at the points of the full curve [SI] */
+} CzCurveChange;
+
+/* Reduces a curve with rising x to at most n_most points, at least 3. x, y (*n_point) are changed
+ * in place; `kept` is scratch (*n_point). Without need nothing changes. */
+CzCurveChange cz_reduce_curve(double *x, double *y, int *n_point, int n_most, int *kept);
+
+#endif

@@ -1,0 +1,126 @@
+/* Values put in by path: `set:` of the file and --set of the command line.
+ *
+ * A setting means what typing the value at that place would mean. So settings of parts come first,
+ * and what a vehicle says for itself goes before its part, whatever the order of the settings;
+ * among settings of one place the later wins.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "problem/reader.h"
+
+/* Text of all settings of the options, one per line. NULL without memory. */
+static char *join_lines(const CzProblemOptions *options, size_t *n_byte) {
+    size_t n = 1;
+    for (int i = 0; i < options->n_set; i++)
+        n += strlen(options->set[i]) + 1;
+    char *text = malloc(n);
+    *n_byte = 0;
+    for (int i = 0; text != NULL && i < options->n_set; i++) {
+        const size_t n_line = strlen(options->set[i]);
+        memcpy(text + *n_byte, options->set[i], n_line);
+        for (size_t k = 0; k < n_line; k++)
+            if (text[*n_byte + k] == '\n')
+                text[*n_byte + k] = ' ';
+        *n_byte += n_line;
+        text[(*n_byte)++] = '\n';
+    }
+    return text;
+}
+
+/* A value as typed: text in quotes stays text. */
+static const CzNode *value_of(CzReader *reader, const char *text, const CzNode *place) {
+    const size_t n = strlen(text);
+    const bool is_quoted = n >= 2 && (text[0] == '"' || text[0] == '\'') && text[n - 1] == text[0];
+    CzNode *node = cz_reader_allocate(reader, 1, sizeof *node);
+    if (node == NULL)
+        return NULL;
+    *node = *place;
+    node->quoted = is_quoted;
+    node->text = cz_arena_copy_text(&reader->arena, text + is_quoted, n - 2 * (size_t)is_quoted);
+    return node->text != NULL ? node : NULL;
+}
+
+/* Cuts "path=value". */
+static bool read_setting(CzReader *reader, const CzSource *source, int line, CzSetting *setting) {
+    const char *text = source->line[line];
+    const char *equals = strchr(text, '=');
+    if (equals == NULL || equals == text || equals[1] == '\0') {
+        cz_mistake_at(&reader->mistakes, source, line + 1, 1, "'%s' is not path=value", text);
+        return false;
+    }
+    const CzNode place = {.source = source, .line = line + 1, .column = 1};
+    CzNode value_place = place;
+    value_place.column = (int)(equals - text) + 2;
+    setting->path = cz_arena_copy_text(&reader->arena, text, (size_t)(equals - text));
+    if (setting->path != NULL)
+        setting->place = cz_node_text(&reader->arena, setting->path, &place);
+    setting->value = value_of(reader, equals + 1, &value_place);
+    if (setting->path != NULL && setting->place != NULL && setting->value != NULL)
+        return true;
+    reader->mistakes.out_of_memory = true;
+    return false;
+}
+
+static int gather_options(CzReader *reader, const CzProblemOptions *options, CzSetting *setting) {
+    size_t n_byte = 0;
+    char *text = join_lines(options, &n_byte);
+    const CzSource *source =
+        text != NULL ? cz_sources_add(&reader->sources, "--set", ".", text, n_byte) : NULL;
+    int n_setting = 0;
+    if (source == NULL)
+        reader->mistakes.out_of_memory = true;
+    else if (cz_source_is_text(&reader->mistakes, source, text, n_byte))
+        for (int i = 0; i < options->n_set; i++)
+            n_setting += read_setting(reader, source, i, &setting[n_setting]);
+    free(text);
+    return n_setting;
+}
+
+const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root,
+                                    const CzProblemOptions *options, int *n_setting) {
+    const CzEntry *set = cz_node_find(root, "set");
+    const int n_own = set != NULL && set->value->kind == CZ_NODE_MAPPING ? set->value->n_entry : 0;
+    CzSetting *setting =
+        cz_reader_allocate(reader, (size_t)(n_own + options->n_set), sizeof *setting);
+    *n_setting = 0;
+    if (setting == NULL)
+        return NULL;
+    if (set != NULL && set->value->kind != CZ_NODE_MAPPING)
+        cz_mistake(&reader->mistakes, set->value, NULL,
+                   "'set' needs a mapping of paths to values, but this is %s",
+                   cz_node_what(set->value));
+    for (int i = 0; i < n_own; i++) {
+        const CzEntry *entry = &set->value->entry[i];
+        if (entry->value->kind == CZ_NODE_TEXT)
+            setting[(*n_setting)++] = (CzSetting){entry->key->text, entry->key, entry->value};
+        else
+            cz_mistake(&reader->mistakes, entry->value, NULL,
+                       "'%s' is set to %s; it needs one value", entry->key->text,
+                       cz_node_what(entry->value));
+    }
+    if (options->n_set > 0)
+        *n_setting += gather_options(reader, options, &setting[*n_setting]);
+    return setting;
+}
+
+CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
+                         int n_setting) {
+    CzTree changed = *tree;
+    changed.part = cz_reader_allocate(reader, (size_t)tree->n_part, sizeof *changed.part);
+    if (cz_node_find(tree->root, "set") != NULL)
+        changed.root = cz_node_without(&reader->arena, tree->root, "set");
+    if (changed.part == NULL || changed.root == NULL) {
+        reader->mistakes.out_of_memory = true;
+        return *tree;
+    }
+    if (tree->n_part > 0)
+        memcpy(changed.part, tree->part, (size_t)tree->n_part * sizeof *changed.part);
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < n_setting; i++)
+            if ((strncmp(setting[i].path, "parts.", 6) == 0) == (pass == 0))
+                cz_path_put(reader, &changed, setting[i].path, setting[i].place, setting[i].value,
+                            NULL);
+    return changed;
+}

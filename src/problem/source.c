@@ -1,0 +1,218 @@
+/* Files as text. */
+#include "problem/source.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+void cz_sources_hash(CzSources *sources, const char *bytes, size_t n_byte) {
+    const uint64_t prime = UINT64_C(1099511628211);
+    uint64_t hash = sources->hash;
+    for (size_t i = 0; i < n_byte; i++)
+        hash = (hash ^ (unsigned char)bytes[i]) * prime;
+    sources->hash = (hash ^ 0xff) * prime; /* no text holds a byte 0xff */
+}
+
+/* Cuts a copy of the text into lines. */
+static bool cut_lines(CzArena *arena, CzSource *source, const char *text, size_t n_byte) {
+    char *copy = cz_arena_copy_text(arena, text, n_byte);
+    if (copy == NULL)
+        return false;
+    int n_line = 1;
+    for (size_t i = 0; i < n_byte; i++)
+        n_line += copy[i] == '\n';
+    const char **line = cz_arena_allocate(arena, (size_t)n_line, sizeof *line);
+    if (line == NULL)
+        return false;
+    line[0] = copy;
+    source->n_line = 1;
+    for (size_t i = 0; i < n_byte; i++) {
+        if (copy[i] == '\r' && copy[i + 1] == '\n')
+            copy[i] = '\0';
+        if (copy[i] != '\n')
+            continue;
+        copy[i] = '\0';
+        line[source->n_line++] = &copy[i + 1];
+    }
+    source->line = line;
+    return true;
+}
+
+CzSource *cz_sources_add(CzSources *sources, const char *name, const char *folder, const char *text,
+                         size_t n_byte) {
+    CzSource *source = cz_arena_allocate(sources->arena, 1, sizeof *source);
+    if (source == NULL)
+        return NULL;
+    source->name = cz_arena_copy_text(sources->arena, name, strlen(name));
+    source->folder = cz_arena_copy_text(sources->arena, folder, strlen(folder));
+    if (source->name == NULL || source->folder == NULL ||
+        !cut_lines(sources->arena, source, text, n_byte))
+        return NULL;
+    source->order = sources->n_source++;
+    if (sources->last != NULL)
+        sources->last->next = source;
+    else
+        sources->first = source;
+    sources->last = source;
+    cz_sources_hash(sources, text, n_byte);
+    return source;
+}
+
+/* Reads a stream to its end or one byte beyond the limit; NULL without memory. */
+static char *read_stream(FILE *stream, size_t *n_byte) {
+    size_t size = 64 * 1024;
+    char *text = malloc(size);
+    *n_byte = 0;
+    while (text != NULL) {
+        *n_byte += fread(text + *n_byte, 1, size - *n_byte, stream);
+        if (*n_byte < size || *n_byte > CZ_MOST_BYTES)
+            break;
+        size *= 2;
+        char *larger = realloc(text, size);
+        if (larger == NULL)
+            free(text);
+        text = larger;
+    }
+    return text;
+}
+
+/* Opens a file; NULL with a sentence's end when it cannot be read. */
+static FILE *open_file(const char *path, const char **why) {
+    struct stat status;
+    if (strcmp(path, "-") == 0)
+        return stdin;
+    *why = NULL;
+    if (stat(path, &status) != 0)
+        *why = errno == ENOENT ? "there is no such file" : strerror(errno);
+    else if (S_ISDIR(status.st_mode))
+        *why = "it is a folder";
+    else if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
+        *why = "it is not a regular file";
+    else if (status.st_size > CZ_MOST_BYTES)
+        *why = "it is larger than 16 MiB";
+    if (*why != NULL)
+        return NULL;
+    FILE *stream = fopen(path, "rb");
+    if (stream == NULL)
+        *why = strerror(errno);
+    return stream;
+}
+
+static void refuse_file(CzMistakes *mistakes, const char *path, const CzNode *place,
+                        const char *why) {
+    const CzSource itself = {.name = path};
+    if (place != NULL)
+        cz_mistake(mistakes, place, NULL, "cannot read '%s': %s", path, why);
+    else
+        cz_mistake_at(mistakes, &itself, 0, 0, "cannot read '%s': %s", path, why);
+}
+
+/* Folder of a path: what stands before its last slash, "." without one. */
+static const char *folder_of(CzArena *arena, const char *path) {
+    const char *slash = strrchr(path, '/');
+    if (slash == NULL)
+        return ".";
+    return cz_arena_copy_text(arena, path, slash == path ? 1 : (size_t)(slash - path));
+}
+
+CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *path,
+                          const CzNode *place, char **text, size_t *n_byte) {
+    const char *why = NULL;
+    *text = NULL;
+    FILE *stream = open_file(path, &why);
+    if (stream == NULL) {
+        refuse_file(mistakes, path, place, why);
+        return NULL;
+    }
+    errno = 0;
+    *text = read_stream(stream, n_byte);
+    if (*text != NULL && ferror(stream))
+        why = errno != 0 ? strerror(errno) : "reading failed";
+    else if (*text != NULL && *n_byte > CZ_MOST_BYTES)
+        why = "it is larger than 16 MiB";
+    else if (*text != NULL && *n_byte == 0)
+        why = "it is empty";
+    if (stream != stdin)
+        fclose(stream);
+    const char *folder = folder_of(sources->arena, path);
+    CzSource *source = NULL;
+    if (why != NULL)
+        refuse_file(mistakes, path, place, why);
+    else if (*text != NULL && folder != NULL)
+        source = cz_sources_add(sources, strcmp(path, "-") == 0 ? "standard input" : path, folder,
+                                *text, *n_byte);
+    if (why == NULL && source == NULL)
+        mistakes->out_of_memory = true;
+    if (source == NULL) {
+        free(*text);
+        *text = NULL;
+    }
+    return source;
+}
+
+/* Bytes of the UTF-8 character at the start of a text; 0 when there is none. */
+static size_t character_length(const unsigned char *text, size_t n_byte) {
+    const unsigned char first = text[0];
+    const size_t n = first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+    if (n == 0 || n > n_byte || first > 0xf4)
+        return 0;
+    for (size_t i = 1; i < n; i++)
+        if ((text[i] & 0xc0) != 0x80)
+            return 0;
+    const bool is_overlong = (first == 0xe0 && text[1] < 0xa0) || (first == 0xf0 && text[1] < 0x90);
+    const bool is_beyond = (first == 0xed && text[1] >= 0xa0) || (first == 0xf4 && text[1] >= 0x90);
+    return is_overlong || is_beyond ? 0 : n;
+}
+
+/* Whether the character at the start of a text is a control character other than tab and the ends
+ * of lines, or one of those beyond ASCII that YAML does not print. */
+static bool is_control(const unsigned char *text, size_t n) {
+    if (n == 1)
+        return (text[0] < 0x20 && text[0] != '\t' && text[0] != '\n' && text[0] != '\r') ||
+               text[0] == 0x7f;
+    return (n == 2 && text[0] == 0xc2 && text[1] < 0xa0 && text[1] != 0x85) ||
+           (n == 3 && text[0] == 0xef && text[1] == 0xbf && text[2] >= 0xbe);
+}
+
+bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char *text,
+                       size_t n_byte) {
+    const unsigned char *at = (const unsigned char *)text, *end = at + n_byte;
+    int line = 1, column = 1;
+    while (at < end) {
+        const size_t n = character_length(at, (size_t)(end - at));
+        if (n == 0) {
+            cz_mistake_at(mistakes, source, line, column,
+                          "the file is not UTF-8 text: byte 0x%02x begins no character", at[0]);
+            return false;
+        }
+        if (is_control(at, n)) {
+            cz_mistake_at(mistakes, source, line, column,
+                          "the file is not text: it holds the control character 0x%02x", at[n - 1]);
+            return false;
+        }
+        column = *at == '\n' ? 1 : column + 1;
+        line += *at == '\n';
+        at += n;
+    }
+    return true;
+}
+
+const char *cz_path_join(CzArena *arena, const char *folder, const char *path) {
+    const size_t n_folder = strlen(folder), n_path = strlen(path);
+    if (path[0] == '/' || strcmp(folder, ".") == 0)
+        return cz_arena_copy_text(arena, path, n_path);
+    char *joined = cz_arena_allocate(arena, n_folder + n_path + 2, 1);
+    if (joined == NULL)
+        return NULL;
+    memcpy(joined, folder, n_folder);
+    joined[n_folder] = '/';
+    memcpy(joined + n_folder + 1, path, n_path);
+    return joined;
+}
+
+bool cz_path_exists(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0;
+}

@@ -1,0 +1,45 @@
+/* Files as text: reading with limits, lines for messages, a hash over all that was read. */
+#ifndef CZ_PROBLEM_SOURCE_H
+#define CZ_PROBLEM_SOURCE_H
+
+#include <stdint.h>
+
+#include "problem/mistakes.h"
+
+enum { CZ_MOST_BYTES = 16 * 1024 * 1024 }; /* of one file */
+
+/* All sources of a problem. Zero-initialise it and set arena and hash. */
+typedef struct CzSources {
+    CzArena *arena;
+    CzSource *first, *last;
+    int n_source;
+    uint64_t hash; /* FNV-1a over names of what was read and its bytes; begin with CZ_HASH_START */
+} CzSources;
+
+#define CZ_HASH_START UINT64_C(14695981039346656037)
+
+/* Adds bytes and a separator to the hash. */
+void cz_sources_hash(CzSources *sources, const char *bytes, size_t n_byte);
+
+/* Adds a text as a source. NULL without memory. */
+CzSource *cz_sources_add(CzSources *sources, const char *name, const char *folder, const char *text,
+                         size_t n_byte);
+
+/* Reads a file ("-" is standard input) and adds it. *text is allocated with malloc and freed by the
+ * caller. When it cannot be read, a mistake is added at `place` (NULL: at the file itself), *text
+ * is NULL, and so is the result. */
+CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *path,
+                          const CzNode *place, char **text, size_t *n_byte);
+
+/* Whether the text is UTF-8 without control characters; otherwise a mistake says where not. */
+bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char *text,
+                       size_t n_byte);
+
+/* Path of a file that another file names: relative to `folder` unless it begins with '/'. NULL
+ * without memory. */
+const char *cz_path_join(CzArena *arena, const char *folder, const char *path);
+
+/* Whether something is there under a path. */
+bool cz_path_exists(const char *path);
+
+#endif

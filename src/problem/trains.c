@@ -1,0 +1,335 @@
+/* Trains written out: `copy`, `repeat` and `reversed` become plain vehicles with names.
+ *
+ * Vehicles are listed along +x. A repeated vehicle counts its name on (A2 three times: A2, A3, A4).
+ * A train that is reversed has its last vehicle first and every vehicle turned. A copy has the
+ * other's vehicles; names that begin with the other train's name are lettered anew along +x, so
+ * that the copy of A1 to A6 is B1 to B6 whichever way round; other names get the train's name in
+ * front.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/suggest.h"
+#include "problem/reader.h"
+
+enum { MOST_REPEATS = 200, LONGEST_NAME = 64, DEEPEST_COPY = 8 };
+
+/* One vehicle of a train. */
+typedef struct {
+    const CzNode *node; /* with its parts taken */
+    const CzTrail *trail;
+    const CzNode *name_place;
+    char name[LONGEST_NAME];
+    bool is_turned;
+} Vehicle;
+
+typedef struct {
+    const CzNode *node;
+    const CzTrail *trail;
+    const char *name; /* NULL when it has none */
+    const CzEntry *copy;
+    int n_vehicle;
+    Vehicle *vehicle;
+} Train;
+
+typedef struct {
+    CzReader *reader;
+    const CzTree *tree;
+    int n_train;
+    Train *train;
+    int n_vehicle; /* of all trains */
+} Trains;
+
+/* ---- names ---- */
+
+int cz_vehicle_repeat(const CzNode *vehicle) {
+    const char *text = cz_node_find_text(vehicle, "repeat");
+    const long n = text != NULL ? strtol(text, NULL, 10) : 1;
+    return n >= 1 && n <= MOST_REPEATS ? (int)n : 1;
+}
+
+/* A name counted on by k; digits at its end are the number to count from. */
+static void count_on(char *text, size_t size, const char *name, int k) {
+    size_t n = strlen(name);
+    while (n > 0 && name[n - 1] >= '0' && name[n - 1] <= '9' && strlen(name) - n < 6)
+        n--;
+    const int width = (int)(strlen(name) - n);
+    const int number = width > 0 ? atoi(name + n) : 1;
+    snprintf(text, size, "%.*s%0*d", (int)(n < size ? n : size - 1), name, width, number + k);
+}
+
+void cz_vehicle_name(char *text, size_t size, const CzNode *vehicle, const char *train,
+                     int position, int k) {
+    const char *given = cz_node_find_text(vehicle, "name");
+    if (given == NULL)
+        snprintf(text, size, "%s%d", train, position + k);
+    else if (cz_vehicle_repeat(vehicle) > 1)
+        count_on(text, size, given, k);
+    else
+        snprintf(text, size, "%s", given);
+}
+
+/* ---- vehicles of one train ---- */
+
+static bool read_reversed(CzReader *reader, const CzNode *node, const CzTrail *trail) {
+    bool is_reversed = false;
+    const CzEntry *entry = cz_node_find(node, "reversed");
+    if (entry != NULL)
+        cz_bind_flag(reader, "reversed", entry->value, cz_entry_trail(entry, trail), &is_reversed);
+    return is_reversed;
+}
+
+static int read_repeat(CzReader *reader, const CzNode *node, const CzTrail *trail) {
+    static const CzKey key = {.kind = CZ_KEY_COUNT, .stem = "repeat", .lo = 1, .hi = MOST_REPEATS};
+    int n_repeat = 1;
+    const CzEntry *entry = cz_node_find(node, "repeat");
+    if (entry != NULL &&
+        !cz_bind_count(reader, &key, entry->value, cz_entry_trail(entry, trail), &n_repeat))
+        n_repeat = 1;
+    return n_repeat;
+}
+
+/* Room for the vehicles of a train; false when there are too many. */
+static bool make_room(Trains *trains, Train *train, int n_vehicle, const CzNode *place) {
+    if (trains->n_vehicle + n_vehicle > CZ_MOST_VEHICLES) {
+        cz_mistake(&trains->reader->mistakes, place, NULL, "the trains have more than %d vehicles",
+                   (int)CZ_MOST_VEHICLES);
+        return false;
+    }
+    trains->n_vehicle += n_vehicle;
+    train->vehicle = cz_reader_allocate(trains->reader, (size_t)n_vehicle, sizeof(Vehicle));
+    return train->vehicle != NULL;
+}
+
+static void list_vehicles(Trains *trains, Train *train, const CzEntry *list) {
+    CzReader *reader = trains->reader;
+    const CzTrail *list_trail = cz_entry_trail(list, train->trail);
+    CzNode *taken = cz_node_copy(&reader->arena, list->value, 0);
+    int n_vehicle = 0;
+    for (int i = 0; taken != NULL && i < taken->n_entry; i++) {
+        CzEntry *entry = &taken->entry[i];
+        entry->trail = cz_entry_trail(entry, list_trail);
+        entry->value = cz_take_part(reader, trains->tree, entry->value, entry->trail);
+        if (entry->value == NULL)
+            return;
+        n_vehicle += read_repeat(reader, entry->value, entry->trail);
+    }
+    if (taken == NULL || !make_room(trains, train, n_vehicle, list->key))
+        return;
+    for (int i = 0; i < taken->n_entry; i++) {
+        const CzNode *node = taken->entry[i].value;
+        const bool is_turned = read_reversed(reader, node, taken->entry[i].trail);
+        const int n_repeat = cz_vehicle_repeat(node), position = train->n_vehicle + 1;
+        const CzEntry *named = cz_node_find(node, "name");
+        for (int k = 0; k < n_repeat && train->n_vehicle < n_vehicle; k++) {
+            Vehicle *vehicle = &train->vehicle[train->n_vehicle++];
+            *vehicle =
+                (Vehicle){.node = node, .trail = taken->entry[i].trail, .is_turned = is_turned};
+            vehicle->name_place = named != NULL ? named->value : node;
+            cz_vehicle_name(vehicle->name, sizeof vehicle->name, node,
+                            train->name != NULL ? train->name : "", position, k);
+        }
+    }
+}
+
+static void turn_round(Train *train) {
+    for (int i = 0, k = train->n_vehicle - 1; i < k; i++, k--) {
+        const Vehicle first = train->vehicle[i];
+        train->vehicle[i] = train->vehicle[k];
+        train->vehicle[k] = first;
+    }
+    for (int i = 0; i < train->n_vehicle; i++)
+        train->vehicle[i].is_turned = !train->vehicle[i].is_turned;
+}
+
+/* Names of a copy: `names` are those of the original along +x. */
+static void letter_anew(Train *train, const Train *original) {
+    const size_t n = strlen(original->name);
+    bool all_lettered = true;
+    for (int i = 0; i < original->n_vehicle; i++)
+        all_lettered &= strncmp(original->vehicle[i].name, original->name, n) == 0;
+    for (int i = 0; i < train->n_vehicle; i++) {
+        Vehicle *vehicle = &train->vehicle[i];
+        char own[LONGEST_NAME];
+        memcpy(own, vehicle->name, sizeof own);
+        const char *rest = all_lettered ? original->vehicle[i].name + n : own;
+        snprintf(vehicle->name, sizeof vehicle->name, "%.30s%s%.30s", train->name,
+                 all_lettered ? "" : "-", rest);
+    }
+}
+
+static Train *find_original(Trains *trains, const Train *train) {
+    CzReader *reader = trains->reader;
+    const CzTrail *trail = cz_entry_trail(train->copy, train->trail);
+    const char *name = cz_bind_text(reader, "copy", train->copy->value, trail);
+    CzSuggestion suggestion = {0};
+    for (int i = 0; name != NULL && i < trains->n_train; i++) {
+        Train *other = &trains->train[i];
+        if (other->name == NULL || other == train)
+            continue;
+        if (strcmp(other->name, name) == 0)
+            return other;
+        cz_suggest(&suggestion, name, other->name);
+    }
+    if (name != NULL && train->name != NULL && strcmp(name, train->name) == 0) {
+        cz_mistake(&reader->mistakes, train->copy->value, trail, "train '%s' copies itself", name);
+    } else if (name != NULL) {
+        cz_mistake(&reader->mistakes, train->copy->value, trail, "there is no train '%s' to copy",
+                   name);
+        cz_mistake_suggest(&reader->mistakes, suggestion.best);
+    }
+    return NULL;
+}
+
+static void write_out_train(Trains *trains, Train *train, int depth);
+
+static void copy_vehicles(Trains *trains, Train *train, int depth) {
+    const CzTrail *trail = cz_entry_trail(train->copy, train->trail);
+    Train *original = find_original(trains, train);
+    if (original == NULL || train->name == NULL)
+        return;
+    if (depth == DEEPEST_COPY) {
+        cz_mistake(&trains->reader->mistakes, train->copy->value, trail,
+                   "the trains copy one another in a circle");
+        return;
+    }
+    write_out_train(trains, original, depth + 1);
+    if (original->n_vehicle == 0 ||
+        !make_room(trains, train, original->n_vehicle, train->copy->key))
+        return;
+    train->n_vehicle = original->n_vehicle;
+    memcpy(train->vehicle, original->vehicle, (size_t)train->n_vehicle * sizeof(Vehicle));
+}
+
+static void write_out_train(Trains *trains, Train *train, int depth) {
+    CzReader *reader = trains->reader;
+    const CzEntry *list = cz_node_find(train->node, "vehicles");
+    if (train->n_vehicle > 0) /* done before, for a copy */
+        return;
+    if (train->copy != NULL && list != NULL) {
+        cz_mistake(&reader->mistakes, list->key, cz_entry_trail(list, train->trail),
+                   "a train has 'vehicles' or copies another, not both");
+        return;
+    }
+    if (train->copy != NULL)
+        copy_vehicles(trains, train, depth);
+    else if (list != NULL && list->value->kind == CZ_NODE_LIST)
+        list_vehicles(trains, train, list);
+    if (read_reversed(reader, train->node, train->trail))
+        turn_round(train);
+    const Train *original = train->copy != NULL ? find_original(trains, train) : NULL;
+    if (original != NULL && train->n_vehicle > 0 && original->n_vehicle == train->n_vehicle)
+        letter_anew(train, original);
+}
+
+/* ---- nodes ---- */
+
+static const char *turned_key(const char *key) {
+    if (strcmp(key, "front") == 0)
+        return "rear";
+    return strcmp(key, "rear") == 0 ? "front" : key;
+}
+
+static bool is_worked_off(const char *key) {
+    return strcmp(key, "repeat") == 0 || strcmp(key, "reversed") == 0 || strcmp(key, "name") == 0;
+}
+
+/* The mapping of one vehicle: its name, then its keys, front and rear swapped when it is turned. */
+static const CzNode *vehicle_node(CzReader *reader, const Vehicle *vehicle) {
+    CzArena *arena = &reader->arena;
+    if (vehicle->node->kind != CZ_NODE_MAPPING)
+        return vehicle->node;
+    CzNode *node = cz_node_copy(arena, vehicle->node, 1);
+    if (node == NULL)
+        return NULL;
+    const CzEntry name = {cz_node_text(arena, "name", vehicle->name_place),
+                          cz_node_text(arena, vehicle->name, vehicle->name_place), vehicle->trail};
+    if (name.key == NULL || name.value == NULL)
+        return NULL;
+    node->n_entry = 0;
+    node->entry[node->n_entry++] = name;
+    for (int i = 0; i < vehicle->node->n_entry; i++) {
+        CzEntry entry = vehicle->node->entry[i];
+        if (is_worked_off(entry.key->text))
+            continue;
+        const char *key = vehicle->is_turned ? turned_key(entry.key->text) : entry.key->text;
+        if (key != entry.key->text)
+            entry.key = cz_node_text(arena, key, entry.key);
+        if (entry.key == NULL)
+            return NULL;
+        node->entry[node->n_entry++] = entry;
+    }
+    return node;
+}
+
+static const CzNode *train_node(CzReader *reader, const Train *train) {
+    const CzEntry *own = cz_node_find(train->node, "vehicles");
+    if (train->node->kind != CZ_NODE_MAPPING)
+        return train->node;
+    CzNode *node = cz_node_copy(&reader->arena, train->node, 1);
+    CzNode *list = cz_reader_allocate(reader, 1, sizeof *list);
+    if (node == NULL || list == NULL)
+        return NULL;
+    const CzNode *place = own != NULL           ? own->key
+                          : train->copy != NULL ? train->copy->key
+                                                : train->node;
+    *list = (CzNode){.kind = CZ_NODE_LIST,
+                     .line = place->line,
+                     .column = place->column,
+                     .source = place->source,
+                     .n_entry = train->n_vehicle};
+    list->entry = cz_reader_allocate(reader, (size_t)train->n_vehicle, sizeof *list->entry);
+    if (list->entry == NULL)
+        return NULL;
+    for (int i = 0; i < train->n_vehicle; i++) {
+        list->entry[i] = (CzEntry){.value = vehicle_node(reader, &train->vehicle[i]),
+                                   .trail = train->vehicle[i].trail};
+        if (list->entry[i].value == NULL)
+            return NULL;
+    }
+    node->n_entry = 0;
+    for (int i = 0; i < train->node->n_entry; i++) {
+        const CzEntry *entry = &train->node->entry[i];
+        const bool is_replaced = entry == own && train->n_vehicle > 0;
+        if (strcmp(entry->key->text, "copy") != 0 && strcmp(entry->key->text, "reversed") != 0 &&
+            !is_replaced)
+            node->entry[node->n_entry++] = *entry;
+    }
+    if (train->n_vehicle == 0 && (own != NULL || train->copy == NULL))
+        return node; /* the mistake is told when the records are read */
+    const CzNode *key = cz_node_text(&reader->arena, "vehicles", place);
+    node->entry[node->n_entry++] = (CzEntry){key, list, train->trail};
+    return key != NULL ? node : NULL;
+}
+
+const CzNode *cz_trains_write_out(CzReader *reader, const CzTree *tree) {
+    const CzEntry *entry = cz_node_find(tree->root, "trains");
+    if (entry == NULL || entry->value->kind != CZ_NODE_LIST)
+        return tree->root;
+    Trains trains = {.reader = reader, .tree = tree, .n_train = entry->value->n_entry};
+    trains.train = cz_reader_allocate(reader, (size_t)trains.n_train, sizeof(Train));
+    CzNode *root = cz_node_copy(&reader->arena, tree->root, 0);
+    CzNode *list = cz_node_copy(&reader->arena, entry->value, 0);
+    if (trains.train == NULL || root == NULL || list == NULL)
+        return NULL;
+    const CzTrail *list_trail = cz_entry_trail(entry, &cz_no_trail);
+    for (int i = 0; i < trains.n_train; i++) {
+        Train *train = &trains.train[i];
+        train->trail = cz_entry_trail(&list->entry[i], list_trail);
+        train->node = cz_take_part(reader, tree, list->entry[i].value, train->trail);
+        if (train->node == NULL)
+            return NULL;
+        train->name = cz_node_find_text(train->node, "name");
+        train->copy = cz_node_find(train->node, "copy");
+    }
+    for (int i = 0; i < trains.n_train; i++)
+        write_out_train(&trains, &trains.train[i], 0);
+    for (int i = 0; i < trains.n_train; i++) {
+        list->entry[i].value = train_node(reader, &trains.train[i]);
+        if (list->entry[i].value == NULL)
+            return NULL;
+    }
+    root->entry[entry - tree->root->entry].value = list;
+    return root;
+}

@@ -1,0 +1,318 @@
+/* The only file that knows libyaml: its events become nodes.
+ *
+ * A failed read stops at the first syntax error, for what follows is guesswork; refused features
+ * and duplicate keys are reported all and reading goes on.
+ */
+#include "problem/yaml_document.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include <yaml.h>
+
+enum { DEEPEST = 32, MOST_NODES = 250000, MOST_ENTRIES = 20000, MOST_KEYS = 2000 };
+
+typedef struct {
+    CzMistakes *mistakes;
+    const CzSource *source;
+    yaml_parser_t parser;
+    yaml_event_t event; /* the one at hand */
+    int n_node;
+    bool failed;
+} Document;
+
+/* A growing list of entries; entries move to the arena when the list is complete. */
+typedef struct Chunk {
+    struct Chunk *before;
+    CzEntry entry[64];
+    int n_entry;
+} Chunk;
+
+static int line_of(yaml_mark_t mark) {
+    return (int)mark.line + 1;
+}
+
+static int column_of(yaml_mark_t mark) {
+    return (int)mark.column + 1;
+}
+
+static void fail_without_memory(Document *document) {
+    document->mistakes->out_of_memory = true;
+    document->failed = true;
+}
+
+/* Says why libyaml cannot read the text. */
+static void report_syntax(Document *document) {
+    const yaml_parser_t *parser = &document->parser;
+    document->failed = true;
+    if (parser->error == YAML_MEMORY_ERROR) {
+        document->mistakes->out_of_memory = true;
+        return;
+    }
+    const char *problem = parser->problem != NULL ? parser->problem : "unreadable";
+    if (parser->context != NULL)
+        cz_mistake_at(document->mistakes, document->source, line_of(parser->problem_mark),
+                      column_of(parser->problem_mark),
+                      "this is not YAML: %s %s, which began at line %d", problem, parser->context,
+                      line_of(parser->context_mark));
+    else
+        cz_mistake_at(document->mistakes, document->source, line_of(parser->problem_mark),
+                      column_of(parser->problem_mark), "this is not YAML: %s", problem);
+    if (strstr(problem, "cannot start any token") != NULL)
+        cz_mistake_help(document->mistakes,
+                        "tabs cannot indent, and texts that begin with @, ` or %% need quotes");
+    else if (strstr(problem, "mapping values are not allowed") != NULL)
+        cz_mistake_help(document->mistakes, "is a line indented too far, or a ':' without quotes?");
+    else if (strstr(problem, "did not find expected key") != NULL)
+        cz_mistake_help(document->mistakes, "keys of one mapping begin in the same column");
+}
+
+/* Takes the next event; false at a failure. */
+static bool next_event(Document *document) {
+    if (document->failed)
+        return false;
+    yaml_event_delete(&document->event);
+    if (yaml_parser_parse(&document->parser, &document->event))
+        return true;
+    memset(&document->event, 0, sizeof document->event);
+    report_syntax(document);
+    return false;
+}
+
+static void refuse(Document *document, const char *sentence) {
+    cz_mistake_at(document->mistakes, document->source, line_of(document->event.start_mark),
+                  column_of(document->event.start_mark), "%s", sentence);
+}
+
+static void refuse_decorations(Document *document, const yaml_char_t *anchor,
+                               const yaml_char_t *tag) {
+    if (anchor != NULL) {
+        refuse(document, "anchors ('&') are not read here");
+        cz_mistake_help(document->mistakes, "name a part under 'parts:' and take it with 'use:'");
+    }
+    if (tag != NULL)
+        refuse(document, "tags ('!') are not read here");
+}
+
+static CzNode *node_create(Document *document, CzNodeKind kind) {
+    if (++document->n_node > MOST_NODES) {
+        if (!document->failed)
+            cz_mistake_at(document->mistakes, document->source, line_of(document->event.start_mark),
+                          column_of(document->event.start_mark), "the file has more than %d values",
+                          (int)MOST_NODES);
+        document->failed = true;
+        return NULL;
+    }
+    CzNode *node = cz_arena_allocate(document->mistakes->arena, 1, sizeof *node);
+    if (node == NULL) {
+        fail_without_memory(document);
+        return NULL;
+    }
+    node->kind = kind;
+    node->source = document->source;
+    node->line = line_of(document->event.start_mark);
+    node->column = column_of(document->event.start_mark);
+    return node;
+}
+
+static CzNode *read_text(Document *document) {
+    refuse_decorations(document, document->event.data.scalar.anchor,
+                       document->event.data.scalar.tag);
+    CzNode *node = node_create(document, CZ_NODE_TEXT);
+    if (node == NULL)
+        return NULL;
+    node->quoted = document->event.data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
+    node->text = cz_arena_copy_text(document->mistakes->arena,
+                                    (const char *)document->event.data.scalar.value,
+                                    document->event.data.scalar.length);
+    if (node->text == NULL)
+        fail_without_memory(document);
+    else if (strlen(node->text) != document->event.data.scalar.length)
+        refuse(document, "a text cannot hold a zero byte");
+    return node;
+}
+
+/* Stands for an alias, which is refused, so that reading can go on. */
+static CzNode *read_alias(Document *document) {
+    refuse(document, "aliases ('*') are not read here");
+    cz_mistake_help(document->mistakes, "name a part under 'parts:' and take it with 'use:'");
+    CzNode *node = node_create(document, CZ_NODE_TEXT);
+    if (node != NULL)
+        node->text = "";
+    return node;
+}
+
+static bool push(Document *document, Chunk **chunk, CzEntry entry) {
+    if (*chunk == NULL || (*chunk)->n_entry == (int)(sizeof(*chunk)->entry / sizeof entry)) {
+        Chunk *more = cz_arena_allocate(document->mistakes->arena, 1, sizeof *more);
+        if (more == NULL) {
+            fail_without_memory(document);
+            return false;
+        }
+        more->before = *chunk;
+        *chunk = more;
+    }
+    (*chunk)->entry[(*chunk)->n_entry++] = entry;
+    return true;
+}
+
+static void gather(Document *document, CzNode *node, const Chunk *chunk) {
+    int n_entry = 0;
+    for (const Chunk *c = chunk; c != NULL; c = c->before)
+        n_entry += c->n_entry;
+    node->entry = cz_arena_allocate(document->mistakes->arena, (size_t)n_entry, sizeof(CzEntry));
+    if (node->entry == NULL && n_entry > 0) {
+        fail_without_memory(document);
+        return;
+    }
+    node->n_entry = n_entry;
+    for (const Chunk *c = chunk; c != NULL; c = c->before) {
+        n_entry -= c->n_entry;
+        memcpy(&node->entry[n_entry], c->entry, (size_t)c->n_entry * sizeof(CzEntry));
+    }
+}
+
+static CzNode *read_node(Document *document, int depth);
+
+static CzNode *read_list(Document *document, int depth) {
+    refuse_decorations(document, document->event.data.sequence_start.anchor,
+                       document->event.data.sequence_start.tag);
+    CzNode *list = node_create(document, CZ_NODE_LIST);
+    Chunk *chunk = NULL;
+    int n_item = 0;
+    while (next_event(document) && document->event.type != YAML_SEQUENCE_END_EVENT) {
+        CzNode *item = read_node(document, depth + 1);
+        if (item == NULL || !push(document, &chunk, (CzEntry){.value = item}))
+            return NULL;
+        if (++n_item > MOST_ENTRIES) {
+            cz_mistake(document->mistakes, item, NULL, "a list has more than %d items",
+                       (int)MOST_ENTRIES);
+            document->failed = true;
+        }
+    }
+    if (list == NULL || document->failed)
+        return NULL;
+    gather(document, list, chunk);
+    return list;
+}
+
+static const CzNode *find_key(const Chunk *chunk, const char *key) {
+    for (; chunk != NULL; chunk = chunk->before)
+        for (int i = 0; i < chunk->n_entry; i++)
+            if (strcmp(chunk->entry[i].key->text, key) == 0)
+                return chunk->entry[i].key;
+    return NULL;
+}
+
+/* Reads a key; *is_kept is false when it is refused and its value must be passed over. */
+static CzNode *read_key(Document *document, const Chunk *chunk, int depth, bool *is_kept) {
+    *is_kept = false;
+    if (document->event.type != YAML_SCALAR_EVENT) {
+        refuse(document, "a key must be a text");
+        return read_node(document, depth + 1);
+    }
+    CzNode *key = read_text(document);
+    if (key == NULL || document->failed)
+        return NULL;
+    const CzNode *first = find_key(chunk, key->text);
+    if (strcmp(key->text, "<<") == 0) {
+        cz_mistake(document->mistakes, key, NULL, "merge keys ('<<') are not read here");
+        cz_mistake_help(document->mistakes, "name a part under 'parts:' and take it with 'use:'");
+    } else if (first != NULL) {
+        cz_mistake(document->mistakes, key, NULL, "key '%s' is there twice, first at line %d",
+                   key->text, first->line);
+    } else {
+        *is_kept = true;
+    }
+    return key;
+}
+
+static CzNode *read_mapping(Document *document, int depth) {
+    refuse_decorations(document, document->event.data.mapping_start.anchor,
+                       document->event.data.mapping_start.tag);
+    CzNode *mapping = node_create(document, CZ_NODE_MAPPING);
+    Chunk *chunk = NULL;
+    int n_key = 0;
+    while (next_event(document) && document->event.type != YAML_MAPPING_END_EVENT) {
+        bool is_kept = false;
+        CzNode *key = read_key(document, chunk, depth, &is_kept);
+        if (key == NULL || !next_event(document))
+            return NULL;
+        CzNode *value = read_node(document, depth + 1);
+        if (value == NULL)
+            return NULL;
+        if (is_kept && !push(document, &chunk, (CzEntry){.key = key, .value = value}))
+            return NULL;
+        if (++n_key > MOST_KEYS) {
+            cz_mistake(document->mistakes, key, NULL, "a mapping has more than %d keys",
+                       (int)MOST_KEYS);
+            document->failed = true;
+        }
+    }
+    if (mapping == NULL || document->failed)
+        return NULL;
+    gather(document, mapping, chunk);
+    return mapping;
+}
+
+/* Reads the node that the event at hand begins. NULL at a failure. */
+static CzNode *read_node(Document *document, int depth) {
+    if (depth > DEEPEST) {
+        char sentence[80];
+        snprintf(sentence, sizeof sentence, "records and lists are nested more than %d deep",
+                 (int)DEEPEST);
+        refuse(document, sentence);
+        document->failed = true;
+        return NULL;
+    }
+    switch (document->event.type) {
+    case YAML_SCALAR_EVENT:
+        return read_text(document);
+    case YAML_SEQUENCE_START_EVENT:
+        return read_list(document, depth);
+    case YAML_MAPPING_START_EVENT:
+        return read_mapping(document, depth);
+    default:
+        return read_alias(document);
+    }
+}
+
+static const CzNode *read_top(Document *document) {
+    if (!next_event(document) || !next_event(document)) /* start of stream, start of document */
+        return NULL;
+    if (document->event.type == YAML_STREAM_END_EVENT) {
+        cz_mistake_at(document->mistakes, document->source, 1, 1,
+                      "the file holds nothing but comments");
+        return NULL;
+    }
+    if (!next_event(document))
+        return NULL;
+    CzNode *top = read_node(document, 0);
+    if (top == NULL || !next_event(document) || !next_event(document)) /* ends of both */
+        return NULL;
+    if (document->event.type != YAML_STREAM_END_EVENT) {
+        refuse(document, "a second document begins here; a file holds one");
+        return NULL;
+    }
+    if (top->kind != CZ_NODE_MAPPING) {
+        cz_mistake(document->mistakes, top, NULL, "a file is a mapping of keys, but this is %s",
+                   cz_node_what(top));
+        return NULL;
+    }
+    return top;
+}
+
+const CzNode *cz_yaml_document(CzMistakes *mistakes, const CzSource *source, const char *text,
+                               size_t n_byte) {
+    Document document = {.mistakes = mistakes, .source = source};
+    if (!yaml_parser_initialize(&document.parser)) {
+        mistakes->out_of_memory = true;
+        return NULL;
+    }
+    yaml_parser_set_encoding(&document.parser, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(&document.parser, (const unsigned char *)text, n_byte);
+    const CzNode *top = read_top(&document);
+    yaml_event_delete(&document.event);
+    yaml_parser_delete(&document.parser);
+    return top;
+}

@@ -1,0 +1,1 @@
+cz_test(problem-read unit test_read.c)

@@ -25,13 +25,15 @@ typedef struct CzTarget {
     const char *suffix; /* unit as typed, such as "kN"; "" when none; borrowed */
     int match;          /* which match of a [*] this belongs to, from 0 */
     bool may_vary;      /* the key is one of the kinds an optimiser may change */
-    char place[160];    /* full path of the place, for messages and overlays */
+    char place[160];    /* path of this match without any *, as `set:` takes it; the targets of one
+                           match share it */
 } CzTarget;
 
-/* All places that a path names. A path through `parts.NAME` names the part's places in every
- * vehicle that uses it and does not override the key; all places of one part key belong to one
- * match. `targets` is allocated with malloc and freed by the caller. Statuses: CZ_OK,
- * CZ_STATUS_INPUT with a did-you-mean, CZ_STATUS_NO_MEMORY. */
+/* All numbers of vehicles that setting a path would change, ordered by match. Through `parts.NAME`
+ * those of every vehicle that uses the part and does not override the key; through a vehicle of a
+ * train those of this vehicle and of all that repeat or copy it (they have no values of their own);
+ * beyond a * the items that have the record. `targets` is allocated with malloc and freed by the
+ * caller. Statuses: CZ_OK, CZ_STATUS_INPUT with a did-you-mean, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_problem_find(const CzProblem *problem, const char *path,
                                        CzTarget **targets, int *n_target, CzError *error);
 

@@ -5,7 +5,7 @@
  * Runs are stored by design and scenario and composed in that order, so that neither the number of
  * threads nor the neighbours of a design change a bit of its answer.
  */
-#include "crushzone/evaluate.h"
+#include "evaluate/evaluator.h"
 #include "base/error.h"
 #include "evaluate/checks.h"
 #include "evaluate/design.h"
@@ -181,6 +181,14 @@ const char *cz_evaluator_objective_name(const CzEvaluator *evaluator) {
 
 const char *cz_evaluator_objective_unit(const CzEvaluator *evaluator) {
     return evaluator->objective_unit;
+}
+
+const CzProblem *cz_evaluator_problem(const CzEvaluator *evaluator) {
+    return evaluator->problem;
+}
+
+bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator) {
+    return evaluator->own_objective == NULL && evaluator->objective.kind == NULL;
 }
 
 void cz_evaluator_set_objective(CzEvaluator *evaluator, const char *name, const char *unit,

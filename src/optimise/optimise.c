@@ -1,0 +1,212 @@
+/* Search for a design that passes: from an evaluator to an outcome. */
+#include "crushzone/optimise.h"
+#include "base/error.h"
+#include "evaluate/evaluator.h"
+#include "optimise/nlopt_adapter.h"
+#include "optimise/strategy.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+const char *cz_outcome_text(CzOutcomeStatus status) {
+    static const char *const texts[] = {[CZ_OUTCOME_FEASIBLE] = "feasible",
+                                        [CZ_OUTCOME_INFEASIBLE] = "infeasible",
+                                        [CZ_OUTCOME_INTERRUPTED] = "interrupted"};
+    return texts[status];
+}
+
+CzOptimiseOptions cz_optimise_options_default(void) {
+    return (CzOptimiseOptions){.seed = -1};
+}
+
+/* ---- the evaluator as a function of numbers
+ * --------------------------------------------------------- */
+
+static CzStatus evaluate_designs(void *data, int n_point, const double *x, double *objective,
+                                 double *constraint, CzError *error) {
+    CzEvaluator *evaluator = data;
+    CzEvaluation *evaluation = calloc((size_t)n_point, sizeof *evaluation);
+    if (evaluation == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_point);
+    const CzStatus status = cz_evaluate(evaluator, n_point, x, false, evaluation, error);
+    for (int i = 0; i < n_point && status == CZ_OK; i++) {
+        const size_t m = (size_t)evaluation[i].n_constraint;
+        objective[i] = evaluation[i].objective;
+        memcpy(constraint + (size_t)i * m, evaluation[i].constraint, m * sizeof *constraint);
+        cz_evaluation_free(&evaluation[i]);
+    }
+    free(evaluation);
+    return status;
+}
+
+/* Fills a function from an evaluator; `numbers` is (4 x n_variable). */
+static CzFunction function_of(CzEvaluator *evaluator, double *numbers) {
+    const int n = cz_evaluator_n_variable(evaluator);
+    for (int i = 0; i < n; i++) {
+        const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
+        numbers[i] = info->min;
+        numbers[n + i] = info->max;
+        numbers[2 * n + i] = info->start;
+        numbers[3 * n + i] = info->step;
+    }
+    return (CzFunction){.n_variable = n,
+                        .n_constraint = cz_evaluator_n_constraint(evaluator),
+                        .min = numbers,
+                        .max = numbers + n,
+                        .start = numbers + 2 * n,
+                        .step = numbers + 3 * n,
+                        .is_minimax = cz_evaluator_maximises_margin(evaluator),
+                        .evaluate = evaluate_designs,
+                        .data = evaluator};
+}
+
+/* ---- the outcome
+ * ---------------------------------------------------------------------------------------- */
+
+/* The record that counts: on the catalogue steps when there are any. */
+static long chosen_record(const CzSearch *search) {
+    return cz_search_has_steps(search) ? search->best_on_grid : search->best;
+}
+
+static CzStatus copy_history(const CzSearch *search, CzOutcome *outcome, CzError *error) {
+    outcome->n_evaluation = outcome->n_trial = search->n_record;
+    outcome->trial = calloc((size_t)search->n_record + 1, sizeof *outcome->trial);
+    if (outcome->trial == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the history");
+    for (long i = 0; i < search->n_record; i++)
+        outcome->trial[i] = (CzTrial){.objective = search->record[i].objective,
+                                      .violation = search->record[i].violation,
+                                      .feasible = search->record[i].violation <= 0,
+                                      .phase = search->record[i].phase};
+    return CZ_OK;
+}
+
+/* Evaluates start and best once more, from the file's numbers, with everything recorded. */
+static CzStatus confirm(CzEvaluator *evaluator, const CzSearch *search, CzOutcome *outcome,
+                        CzError *error) {
+    const CzFunction *function = search->function;
+    const size_t n = (size_t)function->n_variable;
+    const long best = chosen_record(search);
+    outcome->n_variable = function->n_variable;
+    outcome->start = calloc(n, sizeof *outcome->start);
+    outcome->best = calloc(n, sizeof *outcome->best);
+    outcome->at_bound = calloc(n, sizeof *outcome->at_bound);
+    if (outcome->start == NULL || outcome->best == NULL || outcome->at_bound == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the outcome");
+    memcpy(outcome->start, function->start, n * sizeof *outcome->start);
+    if (best >= 0)
+        memcpy(outcome->best, cz_search_x(search, best), n * sizeof *outcome->best);
+    else
+        cz_search_round(search, function->start, outcome->best);
+    for (size_t i = 0; i < n; i++) {
+        const double nearness = fmax(1e-6 * (function->max[i] - function->min[i]), 0);
+        outcome->at_bound[i] = outcome->best[i] <= function->min[i] + nearness ||
+                               outcome->best[i] >= function->max[i] - nearness;
+    }
+    CZ_TRY(cz_evaluate(evaluator, 1, outcome->start, true, &outcome->start_evaluation, error));
+    return cz_evaluate(evaluator, 1, outcome->best, true, &outcome->best_evaluation, error);
+}
+
+static void conclude(const CzSearch *search, CzOutcome *outcome) {
+    const bool feasible =
+        outcome->best_evaluation.status == CZ_OK && outcome->best_evaluation.violation <= 0;
+    outcome->status = feasible ? CZ_OUTCOME_FEASIBLE : CZ_OUTCOME_INFEASIBLE;
+    if (search->status == CZ_STATUS_INTERRUPTED)
+        outcome->status = CZ_OUTCOME_INTERRUPTED;
+    snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%s",
+             search->is_over ? search->why : "nothing was left to gain");
+}
+
+/* ---- the search
+ * ------------------------------------------------------------------------------------------ */
+
+static CzStatus settle_options(const CzEvaluator *evaluator, const CzOptimiseOptions *given,
+                               CzOptimiseOptions *options, CzError *error) {
+    const CzOptimise *written = &cz_problem_input(cz_evaluator_problem(evaluator))->optimise;
+    *options = given != NULL ? *given : cz_optimise_options_default();
+    if (cz_evaluator_n_variable(evaluator) == 0)
+        return cz_fail(
+            error, CZ_STATUS_INPUT,
+            "the problem names no design variables: write 'optimise:' with 'variables:'");
+    if (options->algorithm == NULL)
+        options->algorithm = written->algorithm != NULL ? written->algorithm : "auto";
+    if (options->evaluations == 0)
+        options->evaluations = written->evaluations;
+    if (options->seed < 0)
+        options->seed = written->seed;
+    if (options->evaluations < 1)
+        return cz_fail(error, CZ_STATUS_INPUT, "the limit of %ld evaluations is below 1",
+                       options->evaluations);
+    return strcmp(options->algorithm, "auto") == 0 ? CZ_OK
+                                                   : cz_nlopt_check(options->algorithm, error);
+}
+
+static CzStatus lead(CzSearch *search, const CzOptimiseOptions *options, CzError *error) {
+    const unsigned long seed = (unsigned long)options->seed;
+    const CzStatus status = strcmp(options->algorithm, "auto") == 0
+                                ? cz_strategy_auto(search, seed, error)
+                                : cz_strategy_named(search, options->algorithm, seed, error);
+    if (status != CZ_OK || search->status == CZ_OK || search->status == CZ_STATUS_INTERRUPTED)
+        return status;
+    if (search->status == CZ_STATUS_RUN_FAILED)
+        return cz_fail(error, search->status, "%s: the bounds of the variables may be too wide",
+                       search->why);
+    if (error != NULL)
+        *error = search->error;
+    return search->status;
+}
+
+static double now_s(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzOutcome **outcome,
+                     CzError *error) {
+    *outcome = NULL;
+    CzOptimiseOptions options;
+    CZ_TRY(settle_options(evaluator, given, &options, error));
+    const double began = now_s();
+    double *numbers = calloc(4 * (size_t)cz_evaluator_n_variable(evaluator), sizeof *numbers);
+    CzOutcome *made = calloc(1, sizeof *made);
+    CzStatus status = CZ_OK;
+    if (numbers == NULL || made == NULL) {
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the search");
+    } else {
+        const CzFunction function = function_of(evaluator, numbers);
+        CzSearch search;
+        cz_search_init(&search, &function, &options);
+        status = lead(&search, &options, error);
+        if (status == CZ_OK)
+            status = copy_history(&search, made, error);
+        if (status == CZ_OK)
+            status = confirm(evaluator, &search, made, error);
+        if (status == CZ_OK)
+            conclude(&search, made);
+        made->wall_s = now_s() - began;
+        cz_search_free(&search);
+    }
+    free(numbers);
+    if (status != CZ_OK) {
+        cz_outcome_free(made);
+        return status;
+    }
+    *outcome = made;
+    return CZ_OK;
+}
+
+void cz_outcome_free(CzOutcome *outcome) {
+    if (outcome == NULL)
+        return;
+    free(outcome->start);
+    free(outcome->best);
+    free(outcome->at_bound);
+    cz_evaluation_free(&outcome->start_evaluation);
+    cz_evaluation_free(&outcome->best_evaluation);
+    free(outcome->trial);
+    free(outcome);
+}

@@ -1,0 +1,264 @@
+/* One search: budget, history, best design so far, the wish to stop. */
+#include "optimise/search.h"
+#include "base/error.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A search whose designs fail this often is not looking at a collision any more. */
+enum { WINDOW_OF_FAILURES = 50, MOST_FAILURES = 25 };
+
+void cz_search_init(CzSearch *search, const CzFunction *function,
+                    const CzOptimiseOptions *options) {
+    *search = (CzSearch){.function = function,
+                         .most_evaluations = options->evaluations,
+                         .stop = options->stop,
+                         .progress = options->progress,
+                         .progress_data = options->progress_data,
+                         .best = -1,
+                         .best_on_grid = -1,
+                         .worst_objective = -INFINITY,
+                         .worst_constraint = 0};
+}
+
+void cz_search_free(CzSearch *search) {
+    free(search->record);
+    free(search->x);
+    search->record = NULL;
+    search->x = NULL;
+}
+
+static void finish(CzSearch *search, CzStatus status, const char *why) {
+    search->is_over = true;
+    search->status = status;
+    snprintf(search->why, sizeof search->why, "%s", why);
+}
+
+long cz_search_left(const CzSearch *search) {
+    return search->is_over ? 0 : search->most_evaluations - search->n_record;
+}
+
+bool cz_search_is_stopped(CzSearch *search) {
+    if (!search->is_over && search->stop != NULL && *search->stop != 0)
+        finish(search, CZ_STATUS_INTERRUPTED, "interrupted");
+    return search->is_over;
+}
+
+const double *cz_search_x(const CzSearch *search, long record) {
+    return search->x + record * search->function->n_variable;
+}
+
+void cz_search_unscale(const CzSearch *search, const double *u, double *x) {
+    const CzFunction *function = search->function;
+    for (int i = 0; i < function->n_variable; i++) {
+        const double lo = function->min[i], hi = function->max[i];
+        const double value = lo + u[i] * (hi - lo);
+        x[i] = value < lo ? lo : value > hi || u[i] >= 1 ? hi : value;
+    }
+}
+
+void cz_search_scale(const CzSearch *search, const double *x, double *u) {
+    const CzFunction *function = search->function;
+    for (int i = 0; i < function->n_variable; i++)
+        u[i] = (x[i] - function->min[i]) / (function->max[i] - function->min[i]);
+}
+
+void cz_search_round(const CzSearch *search, const double *x, double *rounded) {
+    const CzFunction *function = search->function;
+    for (int i = 0; i < function->n_variable; i++) {
+        const double step = function->step[i], lo = function->min[i], hi = function->max[i];
+        rounded[i] = x[i];
+        if (!(step > 0))
+            continue;
+        double value = round(x[i] / step) * step;
+        if (value > hi)
+            value = floor(hi / step * (1 + 1e-12)) * step;
+        if (value < lo)
+            value = ceil(lo / step * (1 - 1e-12)) * step;
+        rounded[i] = value < lo || value > hi ? lo : value; /* no step within the bounds */
+    }
+}
+
+bool cz_search_has_steps(const CzSearch *search) {
+    for (int i = 0; i < search->function->n_variable; i++)
+        if (search->function->step[i] > 0)
+            return true;
+    return false;
+}
+
+/* ---- history and best design
+ * ----------------------------------------------------------------------- */
+
+bool cz_search_is_better(const CzSearch *search, long record, long other) {
+    if (other < 0 || record < 0)
+        return record >= 0;
+    const CzRecord *a = &search->record[record], *b = &search->record[other];
+    const double violation_a = fmax(a->violation, 0), violation_b = fmax(b->violation, 0);
+    if (violation_a != violation_b)
+        return violation_a < violation_b;
+    return a->objective < b->objective; /* false for NaN */
+}
+
+long cz_search_find(const CzSearch *search, const double *x) {
+    const size_t size = (size_t)search->function->n_variable * sizeof *x;
+    for (long record = search->n_record - 1; record >= 0; record--)
+        if (memcmp(cz_search_x(search, record), x, size) == 0)
+            return record;
+    return -1;
+}
+
+static bool make_room(CzSearch *search, long n) {
+    if (search->n_record + n <= search->room)
+        return true;
+    const long room = 2 * (search->n_record + n) + 64;
+    const size_t n_variable = (size_t)search->function->n_variable;
+    CzRecord *record = realloc(search->record, (size_t)room * sizeof *record);
+    if (record != NULL)
+        search->record = record;
+    double *x = realloc(search->x, (size_t)room * n_variable * sizeof *x);
+    if (x != NULL)
+        search->x = x;
+    if (record != NULL && x != NULL)
+        search->room = room;
+    return record != NULL && x != NULL;
+}
+
+/* Whether the new best is worth waiting for more. */
+static bool is_gain(const CzSearch *search, long record) {
+    if (search->best < 0)
+        return true;
+    const CzRecord *a = &search->record[record], *b = &search->record[search->best];
+    if (b->violation > 0)
+        return a->violation < 0.99 * b->violation;
+    return a->objective < b->objective - 1e-3 * fabs(b->objective);
+}
+
+static void add_record(CzSearch *search, const char *phase, const double *x, double objective,
+                       double violation) {
+    const int n = search->function->n_variable;
+    double *kept = search->x + search->n_record * n;
+    memcpy(kept, x, (size_t)n * sizeof *x);
+    const long record = search->n_record++;
+    CzRecord *written = &search->record[record];
+    *written = (CzRecord){.objective = objective, .violation = violation, .phase = phase};
+    written->on_grid = true;
+    for (int i = 0; i < n; i++) {
+        const double step = search->function->step[i];
+        written->on_grid &= !(step > 0) || round(x[i] / step) * step == x[i];
+    }
+    if (isnan(objective))
+        return;
+    if (cz_search_is_better(search, record, search->best)) {
+        if (is_gain(search, record))
+            search->last_gain = search->n_record;
+        search->best = record;
+    }
+    if (written->on_grid && cz_search_is_better(search, record, search->best_on_grid))
+        search->best_on_grid = record;
+}
+
+static void report_progress(const CzSearch *search, const char *phase) {
+    if (search->progress == NULL)
+        return;
+    CzProgress progress = {.n_evaluation = search->n_record,
+                           .most_evaluations = search->most_evaluations,
+                           .best_objective = NAN,
+                           .best_violation = INFINITY,
+                           .phase = phase};
+    if (search->best >= 0) {
+        progress.best_objective = search->record[search->best].objective;
+        progress.best_violation = search->record[search->best].violation;
+        progress.feasible = progress.best_violation <= 0;
+    }
+    search->progress(&progress, search->progress_data);
+}
+
+static void watch_failures(CzSearch *search) {
+    if (search->n_record < WINDOW_OF_FAILURES)
+        return;
+    int n_failed = 0;
+    for (long i = search->n_record - WINDOW_OF_FAILURES; i < search->n_record; i++)
+        n_failed += isnan(search->record[i].objective);
+    if (n_failed <= MOST_FAILURES)
+        return;
+    char why[128];
+    snprintf(why, sizeof why, "%d of the last %d designs failed in simulation", n_failed,
+             WINDOW_OF_FAILURES);
+    finish(search, CZ_STATUS_RUN_FAILED, why);
+}
+
+/* ---- evaluating
+ * ---------------------------------------------------------------------------------------- */
+
+static double compressed(double constraint) {
+    return constraint <= 1 ? constraint : 1 + log(constraint);
+}
+
+/* Distance of a design from the best one, in scaled variables; 0 when there is no best one. */
+static double distance_from_best(const CzSearch *search, const double *x) {
+    if (search->best < 0)
+        return 0;
+    const double *best = cz_search_x(search, search->best);
+    double sum = 0;
+    for (int i = 0; i < search->function->n_variable; i++) {
+        const double range = search->function->max[i] - search->function->min[i];
+        const double difference = (x[i] - best[i]) / range;
+        sum += difference * difference;
+    }
+    return sqrt(sum);
+}
+
+/* Takes one answer into the history and makes it fit for an algorithm. */
+static void take_answer(CzSearch *search, const char *phase, const double *x, double *objective,
+                        double *constraint) {
+    const int m = search->function->n_constraint;
+    bool failed = !isfinite(*objective);
+    double violation = 0;
+    for (int j = 0; j < m; j++) {
+        failed |= isnan(constraint[j]);
+        violation = fmax(violation, constraint[j]);
+    }
+    add_record(search, phase, x, failed ? NAN : *objective, failed ? INFINITY : violation);
+    if (failed) {
+        const double ramp = 1 + distance_from_best(search, x);
+        const double top = isfinite(search->worst_objective) ? search->worst_objective : 1;
+        *objective = top + fmax(fabs(top), 1) * ramp;
+        for (int j = 0; j < m; j++)
+            constraint[j] = search->worst_constraint + ramp;
+        return;
+    }
+    search->worst_objective = fmax(search->worst_objective, *objective);
+    for (int j = 0; j < m; j++) {
+        constraint[j] = compressed(constraint[j]);
+        search->worst_constraint = fmax(search->worst_constraint, constraint[j]);
+    }
+}
+
+bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double *x,
+                        double *objective, double *constraint) {
+    if (cz_search_is_stopped(search))
+        return false;
+    const CzFunction *function = search->function;
+    if (cz_search_left(search) < n) {
+        finish(search, CZ_OK, "the limit of evaluations is reached");
+        return false;
+    }
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    if (make_room(search, n))
+        status = function->evaluate(function->data, n, x, objective, constraint, &search->error);
+    else
+        cz_fail(&search->error, status, "no memory for the history");
+    if (status != CZ_OK) {
+        finish(search, status, "an evaluation could not be made");
+        return false;
+    }
+    for (int i = 0; i < n; i++) {
+        take_answer(search, phase, x + i * function->n_variable, &objective[i],
+                    constraint + i * function->n_constraint);
+        report_progress(search, phase);
+    }
+    watch_failures(search);
+    return true;
+}

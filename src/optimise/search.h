@@ -1,0 +1,93 @@
+/* One search: every evaluation passes here, so that the budget, the history, the best design so far
+ * and the wish to stop are kept in one place, whatever algorithm asks.
+ *
+ * Algorithms see variables scaled to 0..1 and finite numbers only. A design that failed is answered
+ * by a ramp above everything seen, rising with the distance from the best design, and is never
+ * the best one.
+ */
+#ifndef CZ_OPTIMISE_SEARCH_H
+#define CZ_OPTIMISE_SEARCH_H
+
+#include <stdbool.h>
+
+#include "crushzone/optimise.h"
+
+/* What is searched. Arrays are borrowed. */
+typedef struct CzFunction {
+    int n_variable, n_constraint;
+    const double *min, *max, *start; /* in the variables' units (n_variable) */
+    const double *step;              /* catalogue steps, 0 for none (n_variable) */
+    bool is_minimax;                 /* the objective is the largest constraint, up to a constant */
+
+    /* Answers n_point designs: x is (n_point x n_variable), objective (n_point) with NaN for a
+     * failed design, constraint (n_point x n_constraint), kept when at most 0. The answer of a
+     * design must not depend on its neighbours. */
+    CzStatus (*evaluate)(void *data, int n_point, const double *x, double *objective,
+                         double *constraint, CzError *error);
+    void *data;
+} CzFunction;
+
+/* One evaluated design. */
+typedef struct CzRecord {
+    double objective; /* NaN when failed */
+    double violation; /* largest positive constraint; infinite when failed */
+    const char *phase;
+    bool on_grid; /* every variable lies on its catalogue step */
+} CzRecord;
+
+typedef struct CzSearch {
+    const CzFunction *function;
+    long most_evaluations;
+    const volatile sig_atomic_t *stop; /* NULL when none */
+    void (*progress)(const CzProgress *progress, void *data);
+    void *progress_data;
+
+    long n_record, room;
+    CzRecord *record;  /* history in order (n_record) */
+    double *x;         /* (n_record x n_variable) */
+    long best;         /* record of the best design so far, -1 when none */
+    long best_on_grid; /* likewise among those on the catalogue steps */
+    long last_gain;    /* number of evaluations when the best last improved by more than 0.1 % */
+
+    double worst_objective, worst_constraint; /* over the designs that did not fail */
+    bool is_over; /* nothing more may be evaluated; `status` and `why` say why */
+    CzStatus status;
+    CzError error;
+    char why[128];
+} CzSearch;
+
+/* Starts a search; `options` gives limit, stop flag and progress. Frees nothing of the function. */
+void cz_search_init(CzSearch *search, const CzFunction *function, const CzOptimiseOptions *options);
+void cz_search_free(CzSearch *search);
+
+/* Evaluations left; 0 when the search is over. */
+long cz_search_left(const CzSearch *search);
+
+/* Ends the search when the stop flag is up. */
+bool cz_search_is_stopped(CzSearch *search);
+
+/* Evaluates n designs, x in the variables' units (n x n_variable), in order. objective (n) and
+ * constraint (n x n_constraint) get finite numbers; constraints above 1 are compressed to
+ * 1 + log(constraint). Returns false when the search ended before all were evaluated; the outputs
+ * are then not set. */
+bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double *x,
+                        double *objective, double *constraint);
+
+/* Scaled to natural variables: u in 0..1 is clamped. */
+void cz_search_unscale(const CzSearch *search, const double *u, double *x);
+void cz_search_scale(const CzSearch *search, const double *x, double *u);
+
+/* Variables of a record (n_variable). */
+const double *cz_search_x(const CzSearch *search, long record);
+
+/* Whether a record is better: kept constraints first, then the objective; else the violation. */
+bool cz_search_is_better(const CzSearch *search, long record, long other);
+
+/* Record with exactly these variables, -1 when there is none. */
+long cz_search_find(const CzSearch *search, const double *x);
+
+/* Nearest design on the catalogue steps within the bounds. */
+void cz_search_round(const CzSearch *search, const double *x, double *rounded);
+bool cz_search_has_steps(const CzSearch *search);
+
+#endif

@@ -1,0 +1,206 @@
+/* The usual strategy, and one algorithm by name.
+ *
+ *   screen    the start, then points that fill the box and a smaller one around the start
+ *   descend   elastic SLSQP on secants from the best points that lie apart
+ *   polish    COBYLA from the best, with a small first step
+ *   snap      to the catalogue steps
+ *
+ * The gain of a long train's rattling is in secants: local derivatives are exact and useless.
+ */
+#include "optimise/strategy.h"
+#include "optimise/nlopt_adapter.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_STARTS = 6, SCREEN_BATCH = 16 };
+
+/* Half width of the smaller box around the start that every other screening point is drawn from. */
+static const double near_start = 0.2;
+
+/* Evaluates scaled points in one batch. */
+static bool evaluate_scaled(CzSearch *search, const char *phase, int n_point, const double *u) {
+    const size_t n = (size_t)search->function->n_variable;
+    const size_t m = (size_t)search->function->n_constraint + 1;
+    double *x = calloc((size_t)n_point * (n + 1 + m), sizeof *x);
+    bool done = false;
+    if (x != NULL) {
+        for (int i = 0; i < n_point; i++)
+            cz_search_unscale(search, u + (size_t)i * n, x + (size_t)i * n);
+        double *objective = x + (size_t)n_point * n;
+        done = cz_search_evaluate(search, phase, n_point, x, objective, objective + n_point);
+    }
+    free(x);
+    return done;
+}
+
+/* The start as it is written, to the last bit. */
+static bool evaluate_start(CzSearch *search) {
+    double objective,
+        *constraint = calloc((size_t)search->function->n_constraint + 1, sizeof(double));
+    const bool done =
+        constraint != NULL &&
+        cz_search_evaluate(search, "start", 1, search->function->start, &objective, constraint);
+    free(constraint);
+    return done;
+}
+
+static void screen(CzSearch *search, unsigned long seed, long n_point) {
+    const int n = search->function->n_variable;
+    double *u = calloc((size_t)(SCREEN_BATCH + 1) * (size_t)n, sizeof *u);
+    if (u == NULL)
+        return;
+    double *start = u + SCREEN_BATCH * n;
+    cz_search_scale(search, search->function->start, start);
+    for (long first = 0; first < n_point; first += SCREEN_BATCH) {
+        const long left = n_point - first;
+        const int batch = left < SCREEN_BATCH ? (int)left : SCREEN_BATCH;
+        for (int i = 0; i < batch; i++) {
+            double *point = u + i * n;
+            cz_sample_point(seed, first + i, n, point);
+            for (int j = 0; j < n && i % 2 == 1; j++) {
+                point[j] = start[j] + near_start * (2 * point[j] - 1);
+                point[j] = fmin(fmax(point[j], 0), 1);
+            }
+        }
+        if (!evaluate_scaled(search, "screen", batch, u))
+            break;
+    }
+    free(u);
+}
+
+static double distance(const double *a, const double *b, int n) {
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sqrt(sum / n);
+}
+
+/* The best record that lies apart from all chosen points, -1 when there is none. */
+static long best_apart(const CzSearch *search, int n_chosen, const double *chosen, double apart,
+                       double *u) {
+    const int n = search->function->n_variable;
+    long best = -1;
+    for (long record = 0; record < search->n_record; record++) {
+        if (isnan(search->record[record].objective) || !cz_search_is_better(search, record, best))
+            continue;
+        cz_search_scale(search, cz_search_x(search, record), u);
+        bool is_apart = true;
+        for (int i = 0; i < n_chosen && is_apart; i++)
+            is_apart = distance(u, chosen + i * n, n) >= apart;
+        if (is_apart)
+            best = record;
+    }
+    return best;
+}
+
+/* Elastic SLSQP from the best screened points that lie apart, then from the best of all with a
+ * finer secant. */
+static CzStatus descend(CzSearch *search, long evaluations, CzError *error) {
+    const int n = search->function->n_variable;
+    const long limit = search->n_record + evaluations;
+    const long share = evaluations / 3 > 8L * (n + 1) ? evaluations / 3 : 8L * (n + 1);
+    double *chosen = calloc((size_t)(MOST_STARTS + 1) * (size_t)n, sizeof *chosen);
+    if (chosen == NULL)
+        return CZ_OK;
+    CzStatus status = CZ_OK;
+    CzNloptRun run = cz_nlopt_run_default("LD_SLSQP");
+    run.phase = "descend";
+    run.form = CZ_FORM_ELASTIC;
+    double *u = chosen + MOST_STARTS * n;
+    for (int start = 0; start < MOST_STARTS && status == CZ_OK; start++) {
+        const long record = best_apart(search, start, chosen, start == 0 ? 0 : 0.15, u);
+        const long left = limit - search->n_record;
+        if (record < 0 || left < n + 1 || cz_search_left(search) == 0)
+            break;
+        cz_search_scale(search, cz_search_x(search, record), u);
+        memcpy(chosen + start * n, u, (size_t)n * sizeof *u);
+        run.evaluations = share < left ? share : left;
+        run.secant = start % 2 == 0 ? 1e-2 : 1e-3;
+        status = cz_nlopt_run(search, &run, u, error);
+    }
+    free(chosen);
+    return status;
+}
+
+/* One more run from the best design; returns whether it gained. */
+static CzStatus run_from_best(CzSearch *search, const CzNloptRun *run, bool *gained,
+                              CzError *error) {
+    const long before = search->last_gain;
+    double *u = calloc((size_t)search->function->n_variable, sizeof *u);
+    if (u == NULL || search->best < 0) {
+        free(u);
+        *gained = false;
+        return CZ_OK;
+    }
+    cz_search_scale(search, cz_search_x(search, search->best), u);
+    const CzStatus status = cz_nlopt_run(search, run, u, error);
+    free(u);
+    *gained = search->last_gain != before;
+    return status;
+}
+
+/* COBYLA and elastic SLSQP by turns from the best design, with smaller and smaller steps, until
+ * neither gains. */
+static CzStatus polish(CzSearch *search, long reserve, CzError *error) {
+    const int n = search->function->n_variable;
+    double step = 0.05, secant = 3e-3;
+    int n_idle = 0;
+    while (n_idle < 4) {
+        const long left = cz_search_left(search) - reserve;
+        if (left < n + 2)
+            break;
+        const bool by_values = n_idle % 2 == 0;
+        CzNloptRun run = cz_nlopt_run_default(by_values ? "LN_COBYLA" : "LD_SLSQP");
+        run.phase = "polish";
+        run.form = CZ_FORM_ELASTIC;
+        run.first_step = by_values ? step : 0;
+        run.secant = secant;
+        run.evaluations = left < 12L * (n + 1) ? left : 12L * (n + 1);
+        bool gained;
+        const CzStatus status = run_from_best(search, &run, &gained, error);
+        if (status != CZ_OK)
+            return status;
+        n_idle = gained ? 0 : n_idle + 1;
+        if (!gained && !by_values) {
+            step /= 3;
+            secant /= 3;
+        }
+    }
+    return CZ_OK;
+}
+
+CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, CzError *error) {
+    const long reserve = cz_snap_reserve(search);
+    const long total = search->most_evaluations - reserve;
+    CzStatus status = CZ_OK;
+    if (evaluate_start(search)) {
+        screen(search, seed, total / 6);
+        status = descend(search, total / 2, error);
+        if (status == CZ_OK)
+            status = polish(search, reserve, error);
+    }
+    if (status == CZ_OK)
+        cz_snap(search, cz_search_left(search));
+    return status;
+}
+
+CzStatus cz_strategy_named(CzSearch *search, const char *algorithm, unsigned long seed,
+                           CzError *error) {
+    const long reserve = cz_snap_reserve(search);
+    CzNloptRun run = cz_nlopt_run_default(algorithm);
+    run.seed = seed;
+    CzStatus status = CZ_OK;
+    bool gained = evaluate_start(search);
+    while (gained && status == CZ_OK) {
+        run.evaluations = cz_search_left(search) - reserve;
+        if (run.evaluations < 1)
+            break;
+        status = run_from_best(search, &run, &gained, error);
+        run.seed++;
+    }
+    if (status == CZ_OK)
+        cz_snap(search, cz_search_left(search));
+    return status;
+}

@@ -1,0 +1,29 @@
+/* How a search is led: the usual strategy, one algorithm by name, and the way to catalogue steps.
+ */
+#ifndef CZ_OPTIMISE_STRATEGY_H
+#define CZ_OPTIMISE_STRATEGY_H
+
+#include "optimise/search.h"
+
+/* Screen, descend, polish, snap. Statuses of the NLopt adapter; how the search ended stands in it.
+ */
+CZ_MUST_CHECK CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, CzError *error);
+
+/* One NLopt algorithm from the start, begun anew from the best design while that gains, then snap.
+ */
+CZ_MUST_CHECK CzStatus cz_strategy_named(CzSearch *search, const char *algorithm,
+                                         unsigned long seed, CzError *error);
+
+/* Moves from the best design to the best one on the catalogue steps, with at most this many
+ * evaluations: rounds it, then tries single steps of each variable, and pairs of them while
+ * something is still violated, until nothing gains. */
+void cz_snap(CzSearch *search, long evaluations);
+
+/* Evaluations that a strategy sets aside for the catalogue steps. */
+long cz_snap_reserve(const CzSearch *search);
+
+/* Point of a sequence that fills the unit cube evenly (Roberts' additive recurrence), shifted by
+ * the seed. */
+void cz_sample_point(unsigned long seed, long index, int n, double *u);
+
+#endif

@@ -1,0 +1,1 @@
+cz_test(test_strategy optimise test_strategy.c)

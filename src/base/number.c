@@ -97,10 +97,21 @@ const char *cz_number_parse(const char *text, double *value) {
     return isfinite(*value) ? NULL : "is too large for a number";
 }
 
+/* Writes `digits` significant digits, without an exponent where people would not write one. */
+static void print_digits(char text[CZ_NUMBER_TEXT], int digits, double value) {
+    snprintf(text, CZ_NUMBER_TEXT, "%.*e", digits - 1, value);
+    const char *exponent = strchr(text, 'e');
+    const int power = exponent != NULL ? atoi(exponent + 1) : 0;
+    if (exponent == NULL || power < -5 || power > 8)
+        return;
+    const int n_decimal = digits - 1 - power;
+    snprintf(text, CZ_NUMBER_TEXT, "%.*f", n_decimal > 0 ? n_decimal : 0, value);
+}
+
 const char *cz_number_print(char text[CZ_NUMBER_TEXT], double value) {
     const LocaleGuard guard = locale_enter();
     for (int digits = 1; digits <= 17; digits++) {
-        snprintf(text, CZ_NUMBER_TEXT, "%.*g", digits, value);
+        print_digits(text, digits, value);
         if (!isfinite(value) || strtod(text, NULL) == value)
             break;
     }

@@ -140,7 +140,7 @@ const CzKey *cz_record_match(const CzRecord *record, const char *typed, const Cz
 typedef struct CzReuseKey {
     const char *record; /* name of the record it belongs to; "" for any */
     const char *key;
-    const char *schema; /* JSON schema of its value */
+    const char *schema; /* JSON schema of its value, without the braces */
     const char *doc;
 } CzReuseKey;
 

@@ -17,5 +17,8 @@ set(CZ_SOURCES_problem
     settings.c
     source.c
     trains.c
+    write_keys.c
+    write_resolved.c
+    write_schema.c
     yaml_document.c
 )

@@ -1,0 +1,177 @@
+/* The keys for people: a list for the terminal and the reference in Markdown. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "problem/reader.h"
+
+/* Writes what may stand for a key: "stroke_m or stroke_mm". */
+static void spell(char *text, size_t size, const CzKey *key) {
+    if (key->kind == CZ_KEY_NUMBER)
+        cz_key_spellings(text, size, key->stem, key->dimension);
+    else
+        snprintf(text, size, "%s", key->stem);
+}
+
+/* Writes what kind of value a key takes: "number, 0 to 10 m". */
+static void write_kind(FILE *stream, const CzKey *key) {
+    char lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT];
+    const CzWordSet *set = &cz_word_sets[key->words];
+    switch (key->kind) {
+    case CZ_KEY_NUMBER:
+        fprintf(stream, "%s to %s%s%s", cz_number_print_short(lo, key->lo),
+                cz_number_print_short(hi, key->hi), key->dimension != CZ_DIMENSION_NONE ? " " : "",
+                cz_unit_si(key->dimension)->suffix);
+        break;
+    case CZ_KEY_COUNT:
+        fprintf(stream, "whole number, %.0f to %.0f", key->lo, key->hi);
+        break;
+    case CZ_KEY_CHOICE:
+        for (int i = 0; i < set->n_word; i++)
+            fprintf(stream, "%s%s",
+                    i == 0                ? ""
+                    : i + 1 < set->n_word ? ", "
+                                          : " or ",
+                    set->word[i].word);
+        break;
+    case CZ_KEY_FLAG:
+        fputs("true or false", stream);
+        break;
+    case CZ_KEY_TEXT:
+        fputs("text", stream);
+        break;
+    case CZ_KEY_CHILD:
+        fprintf(stream, "record: %s", cz_records[key->child].name);
+        break;
+    case CZ_KEY_STAGES:
+    case CZ_KEY_LIST:
+        fprintf(stream, "list of %s", cz_records[key->child].name);
+        break;
+    case CZ_KEY_TABLE:
+        fputs("points: {columns, points, basis} or {file, basis}", stream);
+        break;
+    case CZ_KEY_TEXTS:
+        fputs("list of texts", stream);
+        break;
+    }
+}
+
+/* Writes whether a key must be there, or what holds without it. */
+static void write_presence(FILE *stream, const CzKey *key) {
+    char number[CZ_NUMBER_TEXT];
+    if (key->presence == CZ_PRESENCE_REQUIRED)
+        fputs("required", stream);
+    else if (key->presence == CZ_PRESENCE_REQUIRED_FULL)
+        fputs("required for a full vehicle", stream);
+    else if (key->presence == CZ_PRESENCE_OPTIONAL)
+        fputs("optional", stream);
+    else if (key->kind == CZ_KEY_CHOICE)
+        fprintf(stream, "default %s", cz_word_sets[key->words].word[(int)key->absent].word);
+    else if (key->kind == CZ_KEY_FLAG)
+        fprintf(stream, "default %s", key->absent != 0 ? "true" : "false");
+    else
+        fprintf(stream, "default %s%s%s", cz_number_print_short(number, key->absent),
+                key->dimension != CZ_DIMENSION_NONE ? " " : "", cz_unit_si(key->dimension)->suffix);
+}
+
+static bool belongs_to(const CzReuseKey *reuse, const CzRecord *record) {
+    return strcmp(reuse->record, record->name) == 0;
+}
+
+void cz_keys_write_help(FILE *stream) {
+    char spelled[200];
+    fputs("Keys of a problem file. Every number with a dimension carries its unit in the key.\n"
+          "Any record may also `use: PART`, with keys of its own laid over the part's.\n",
+          stream);
+    for (int r = 0; r < CZ_N_RECORD; r++) {
+        const CzRecord *record = &cz_records[r];
+        fprintf(stream, "\n%s: %s\n", record->name, record->doc);
+        for (int i = 0; i < record->n_key; i++) {
+            const CzKey *key = &record->key[i];
+            spell(spelled, sizeof spelled, key);
+            fprintf(stream, "  %s\n      %s\n      ", spelled, key->doc);
+            write_kind(stream, key);
+            fputs("; ", stream);
+            write_presence(stream, key);
+            fputs(key->varies ? "; may be a design variable\n" : "\n", stream);
+        }
+        for (int i = 0; i < cz_n_reuse_key; i++)
+            if (belongs_to(&cz_reuse_keys[i], record))
+                fprintf(stream, "  %s\n      %s\n", cz_reuse_keys[i].key, cz_reuse_keys[i].doc);
+    }
+}
+
+static void write_units(FILE *stream) {
+    fputs("\n## Units\n\n| dimension | units |\n|---|---|\n", stream);
+    for (int d = 0; d < CZ_N_DIMENSION; d++) {
+        const char *before = "";
+        if (d == CZ_DIMENSION_NONE)
+            continue;
+        fprintf(stream, "| %s | ", cz_dimension_text[d]);
+        for (int i = 0; i < cz_n_unit; i++) {
+            if ((int)cz_units[i].dimension != d)
+                continue;
+            fprintf(stream, "%s`%s`", before, cz_units[i].suffix);
+            before = ", ";
+        }
+        fputs(" |\n", stream);
+    }
+}
+
+static void write_reuse(FILE *stream) {
+    fputs("\n## Reuse\n\n| key | where | meaning |\n|---|---|---|\n", stream);
+    for (int i = 0; i < cz_n_reuse_key; i++) {
+        const CzReuseKey *reuse = &cz_reuse_keys[i];
+        fprintf(stream, "| `%s` | %s | %s |\n", reuse->key,
+                reuse->record[0] != '\0' ? reuse->record : "any record", reuse->doc);
+    }
+    fputs(
+        "\n"
+        "A record that has `use` takes all keys of the part; keys beside `use` override, inner "
+        "records key by key, lists as a whole.\n"
+        "An inner record with a `use` of its own replaces the part's, and so does a curve.\n"
+        "`key: null` lets go what the part or the base file has.\n"
+        "A value in another unit overrides the same stem.\n"
+        "\n"
+        "A path names places: keys and names parted by points, `[0]` for an item of a list, `[*]` "
+        "or `*` for every item.\n"
+        "A setting means what typing the value at that place would mean: through `parts.NAME` it "
+        "changes every vehicle that uses the part and does not override the key; through a vehicle "
+        "it changes this vehicle and those that repeat or copy it.\n",
+        stream);
+}
+
+void cz_keys_write_reference(FILE *stream) {
+    char spelled[200];
+    fputs(
+        "# Problem file\n\n"
+        "This page is generated from the reader's own tables by `crushzone help keys --markdown`.\n"
+        "\n"
+        "A problem file is YAML, or JSON, which is nearly a subset of it.\n"
+        "Every number with a dimension carries its unit in its key, such as `force_kN`; ranges and "
+        "defaults below are in SI units.\n"
+        "Anchors, aliases, tags and merge keys are refused; what is written once is used again by "
+        "the keys under Reuse.\n",
+        stream);
+    for (int r = CZ_N_RECORD - 1; r >= 0; r--) {
+        const CzRecord *record = &cz_records[r];
+        fprintf(stream,
+                "\n## %s\n\n%c%s.\n\n| key | value | presence | meaning |\n|---|---|---|---|\n",
+                record->name,
+                record->doc[0] - ('a' <= record->doc[0] && record->doc[0] <= 'z' ? 32 : 0),
+                record->doc + 1);
+        for (int i = 0; i < record->n_key; i++) {
+            const CzKey *key = &record->key[i];
+            spell(spelled, sizeof spelled, key);
+            fprintf(stream, "| `%s` | ", spelled);
+            write_kind(stream, key);
+            fputs(" | ", stream);
+            write_presence(stream, key);
+            fprintf(stream, " | %s%s |\n", key->doc,
+                    key->varies ? "; may be a design variable" : "");
+        }
+    }
+    write_reuse(stream);
+    write_units(stream);
+}

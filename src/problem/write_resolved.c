@@ -1,0 +1,204 @@
+/* The resolved problem as YAML: parts, copies and defaults filled in, values in SI, origins in
+ * comments. Reading it gives the same input to the last bit. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "problem/reader.h"
+
+enum { COMMENT_COLUMN = 44 };
+
+typedef struct {
+    const CzProblem *problem;
+    FILE *stream;
+    const char *lead; /* "# " while a record that the file has not is shown */
+} Writer;
+
+static void write_record(const Writer *writer, const CzRecord *record, const char *memory,
+                         int indent, const char *dash);
+
+/* ---- texts ---- */
+
+/* Whether a text can stand without quotes. */
+static bool is_plain(const char *text) {
+    const bool has_letter =
+        (text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z');
+    return has_letter && strcmp(text, "null") != 0 &&
+           text[strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-")] ==
+               '\0';
+}
+
+static void write_text(FILE *stream, const char *text) {
+    if (is_plain(text)) {
+        fputs(text, stream);
+        return;
+    }
+    fputc('"', stream);
+    for (const char *c = text; *c != '\0'; c++) {
+        if (*c == '"' || *c == '\\')
+            fprintf(stream, "\\%c", *c);
+        else if ((unsigned char)*c < 0x20)
+            fprintf(stream, "\\x%02x", (unsigned)(unsigned char)*c);
+        else
+            fputc(*c, stream);
+    }
+    fputc('"', stream);
+}
+
+/* ---- origins ---- */
+
+/* Where a field was written, or that it is a default. */
+static void write_origin(const Writer *writer, const CzKey *key, const void *field, int column) {
+    const CzPlace *place = cz_places_find(&writer->problem->reader.places, field);
+    fprintf(writer->stream, "%*s # ", column < COMMENT_COLUMN ? COMMENT_COLUMN - column : 0, "");
+    if (place == NULL || place->address != field || place->key != key) {
+        fputs(strstr(key->doc, "(ours") != NULL ? "default (ours)\n" : "default\n", writer->stream);
+        return;
+    }
+    fprintf(writer->stream, "%s:%d", place->node->source->name, place->node->line);
+    if (place->unit != NULL && place->unit->si != 1)
+        fprintf(writer->stream, ", %s: %s", place->node->text, place->value->text);
+    for (const CzTrail *trail = place->trail; trail != NULL && trail->part != NULL;
+         trail = trail->from)
+        fprintf(writer->stream, ", part %s", trail->part);
+    fputc('\n', writer->stream);
+}
+
+/* ---- values ---- */
+
+static int write_key(const Writer *writer, const char *key, const char *suffix, int indent,
+                     const char *dash) {
+    return fprintf(writer->stream, "%s%*s%s%s%s%s:", writer->lead, indent - (int)strlen(dash), "",
+                   dash, key, suffix[0] != '\0' ? "_" : "", suffix);
+}
+
+/* Writes "key: value # origin" for the keys of one value; false when the key is absent. */
+static bool write_value(const Writer *writer, const CzKey *key, const char *field, int indent,
+                        const char *dash) {
+    char number[CZ_NUMBER_TEXT];
+    const char *value = number;
+    const char *suffix = "";
+    if (key->kind == CZ_KEY_NUMBER) {
+        const double si = *(const double *)(const void *)field;
+        if (isnan(si))
+            return false;
+        suffix = cz_unit_si(key->dimension)->suffix;
+        cz_number_print(number, si);
+    } else if (key->kind == CZ_KEY_COUNT) {
+        const int count = *(const int *)(const void *)field;
+        if (count < key->lo)
+            return false;
+        snprintf(number, sizeof number, "%d", count);
+    } else if (key->kind == CZ_KEY_CHOICE) {
+        value = cz_word_sets[key->words].word[*(const int *)(const void *)field].word;
+    } else if (key->kind == CZ_KEY_FLAG) {
+        value = *(const bool *)field ? "true" : "false";
+    } else {
+        value = *(const char *const *)(const void *)field;
+        if (value == NULL)
+            return false;
+    }
+    int column = write_key(writer, key->stem, suffix, indent, dash);
+    column += fprintf(writer->stream, " ") + (int)strlen(value);
+    if (key->kind == CZ_KEY_TEXT)
+        write_text(writer->stream, value);
+    else
+        fputs(value, writer->stream);
+    write_origin(writer, key, field, column);
+    return true;
+}
+
+static void write_texts(const Writer *writer, const CzKey *key, const CzTexts *texts, int indent) {
+    int column = write_key(writer, key->stem, "", indent, "");
+    column += fprintf(writer->stream, " [");
+    for (int i = 0; i < texts->n_text; i++) {
+        fputs(i > 0 ? ", " : "", writer->stream);
+        write_text(writer->stream, texts->text[i]);
+        column += 2 + (int)strlen(texts->text[i]);
+    }
+    fputc(']', writer->stream);
+    write_origin(writer, key, texts, column);
+}
+
+static void write_table(const Writer *writer, const CzKey *key, const CzTable *table, int indent) {
+    char x[CZ_NUMBER_TEXT], y[CZ_NUMBER_TEXT];
+    const int column = write_key(writer, key->stem, "", indent, "");
+    write_origin(writer, key, table, column);
+    fprintf(writer->stream, "%*sbasis: %s\n", indent + 2, "",
+            table->basis == CZ_BASIS_DYNAMIC ? "dynamic" : "static");
+    fprintf(writer->stream, "%*scolumns: [%s_%s, %s_%s]\n", indent + 2, "", key->x,
+            cz_unit_si(key->dimension)->suffix, key->y, cz_unit_si(key->y_dimension)->suffix);
+    fprintf(writer->stream, "%*spoints:\n", indent + 2, "");
+    for (int i = 0; i < table->n_point; i++)
+        fprintf(writer->stream, "%*s- [%s, %s]\n", indent + 4, "", cz_number_print(x, table->x[i]),
+                cz_number_print(y, table->y[i]));
+}
+
+/* Records of a list: stages by value, others by pointer. */
+static void write_list(const Writer *writer, const CzKey *key, const char *memory, int indent) {
+    const CzRecord *record = &cz_records[key->child];
+    const int n_item = *(const int *)(const void *)(memory + key->n_offset);
+    const char *item = memory + key->offset;
+    if (key->kind == CZ_KEY_LIST)
+        item = *(const char *const *)(const void *)item;
+    const int column = write_key(writer, key->stem, "", indent, "");
+    write_origin(writer, key, memory + key->offset, column);
+    for (int i = 0; i < n_item; i++)
+        write_record(writer, record, item + (size_t)i * record->size, indent + 4, "- ");
+}
+
+static void write_child(const Writer *writer, const CzKey *key, const char *field, int indent) {
+    const CzRecord *record = &cz_records[key->child];
+    const bool is_given = *(const bool *)field;
+    Writer inside = *writer;
+    if (!is_given && key->child != CZ_RECORD_CzSimulation && key->child != CZ_RECORD_CzChecks)
+        return;
+    if (!is_given) /* these hold without being written */
+        inside.lead = "# ";
+    const int column = write_key(&inside, key->stem, "", indent, "");
+    write_origin(writer, key, field, column);
+    write_record(&inside, record, field, indent + 2, "");
+}
+
+/* Writes the keys of a record; `dash` goes before the first. */
+static void write_record(const Writer *writer, const CzRecord *record, const char *memory,
+                         int indent, const char *dash) {
+    for (int i = 0; i < record->n_key; i++) {
+        const CzKey *key = &record->key[i];
+        const char *field = memory + key->offset;
+        switch (key->kind) {
+        case CZ_KEY_CHILD:
+            write_child(writer, key, field, indent);
+            break;
+        case CZ_KEY_STAGES:
+        case CZ_KEY_LIST:
+            if (*(const int *)(const void *)(memory + key->n_offset) > 0)
+                write_list(writer, key, memory, indent);
+            break;
+        case CZ_KEY_TABLE:
+            if (((const CzTable *)(const void *)field)->given)
+                write_table(writer, key, (const CzTable *)(const void *)field, indent);
+            break;
+        case CZ_KEY_TEXTS:
+            if (((const CzTexts *)(const void *)field)->n_text > 0)
+                write_texts(writer, key, (const CzTexts *)(const void *)field, indent);
+            break;
+        default:
+            if (write_value(writer, key, field, indent, dash))
+                dash = "";
+        }
+    }
+}
+
+void cz_problem_write_resolved(const CzProblem *problem, FILE *stream) {
+    const Writer writer = {problem, stream, ""};
+    fprintf(stream,
+            "# %s resolved: parts, copies and defaults filled in, values in SI.\n"
+            "# Behind each value: where it was written, or that it is a default.\n",
+            problem->file);
+    for (const CzSource *source = problem->reader.sources.first; source != NULL;
+         source = source->next)
+        fprintf(stream, "# read: %s\n", source->name);
+    write_record(&writer, &cz_records[CZ_RECORD_CzInput], (const char *)&problem->input, 0, "");
+}

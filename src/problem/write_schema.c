@@ -1,0 +1,198 @@
+/* JSON schema (draft-07) of a problem file, for completion and checks in editors.
+ *
+ * Overrides beside `use` and overlays leave keys out, so only a stage, which is always whole, has
+ * required keys. No stem may stand in two units.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "problem/reader.h"
+
+static void write_json_text(FILE *stream, const char *text) {
+    fputc('"', stream);
+    for (const char *c = text; *c != '\0'; c++)
+        fprintf(stream, *c == '"' || *c == '\\' ? "\\%c" : "%c", *c);
+    fputc('"', stream);
+}
+
+static void open_property(FILE *stream, bool *is_first, const char *stem, const char *suffix,
+                          const char *doc) {
+    fprintf(stream, "%s\n        \"%s%s%s\": {\"description\": ", *is_first ? "" : ",", stem,
+            suffix[0] != '\0' ? "_" : "", suffix);
+    write_json_text(stream, doc);
+    *is_first = false;
+}
+
+/* A limit in a unit, with the digits that a person would write. */
+static const char *in_unit(char text[CZ_NUMBER_TEXT], double si, double unit) {
+    return cz_number_print_short(text, si / unit);
+}
+
+static void write_number(FILE *stream, bool *is_first, const CzKey *key) {
+    char lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT];
+    for (int i = 0; i < cz_n_unit; i++) {
+        if (cz_units[i].dimension != key->dimension)
+            continue;
+        open_property(stream, is_first, key->stem, cz_units[i].suffix, key->doc);
+        fprintf(stream, ", \"type\": \"number\", \"minimum\": %s, \"maximum\": %s}",
+                in_unit(lo, key->lo, cz_units[i].si), in_unit(hi, key->hi, cz_units[i].si));
+    }
+}
+
+static void write_words(FILE *stream, const CzWordSet *set) {
+    fputs(", \"enum\": [", stream);
+    for (int i = 0; i < set->n_word; i++)
+        fprintf(stream, "%s\"%s\"", i > 0 ? ", " : "", set->word[i].word);
+    fputs("]}", stream);
+}
+
+static void write_table(FILE *stream) {
+    fputs(
+        ", \"type\": \"object\", \"additionalProperties\": false, \"properties\": {"
+        "\"columns\": {\"type\": \"array\", \"items\": {\"type\": \"string\"}, \"minItems\": 2, "
+        "\"maxItems\": 2}, "
+        "\"points\": {\"type\": \"array\", \"items\": {\"type\": \"array\", \"items\": {\"type\": "
+        "\"number\"}, \"minItems\": 2, \"maxItems\": 2}, \"minItems\": 2}, "
+        "\"file\": {\"type\": \"string\"}, "
+        "\"basis\": {\"enum\": [\"static\", \"dynamic\"]}}, "
+        "\"required\": [\"basis\"], "
+        "\"oneOf\": [{\"required\": [\"columns\", \"points\"]}, {\"required\": [\"file\"]}]}",
+        stream);
+}
+
+static void write_key(FILE *stream, bool *is_first, const CzKey *key) {
+    if (key->kind == CZ_KEY_NUMBER) {
+        write_number(stream, is_first, key);
+        return;
+    }
+    open_property(stream, is_first, key->stem, "", key->doc);
+    switch (key->kind) {
+    case CZ_KEY_COUNT:
+        fprintf(stream, ", \"type\": \"integer\", \"minimum\": %.0f, \"maximum\": %.0f}", key->lo,
+                key->hi);
+        break;
+    case CZ_KEY_CHOICE:
+        write_words(stream, &cz_word_sets[key->words]);
+        break;
+    case CZ_KEY_FLAG:
+        fputs(", \"type\": \"boolean\"}", stream);
+        break;
+    case CZ_KEY_CHILD: /* a description beside $ref is not read in draft-07, hence allOf */
+        fprintf(stream, ", \"allOf\": [{\"$ref\": \"#/definitions/%s\"}]}",
+                cz_records[key->child].name);
+        break;
+    case CZ_KEY_STAGES:
+        fprintf(stream,
+                ", \"type\": [\"array\", \"null\"], \"minItems\": 1, \"maxItems\": %d, \"items\": "
+                "{\"$ref\": "
+                "\"#/definitions/stage\"}}",
+                (int)CZ_MAX_STAGES);
+        break;
+    case CZ_KEY_LIST:
+        fprintf(stream, ", \"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/%s\"}}",
+                cz_records[key->child].name);
+        break;
+    case CZ_KEY_TEXTS:
+        fputs(", \"type\": \"array\", \"items\": {\"type\": \"string\"}}", stream);
+        break;
+    case CZ_KEY_TABLE:
+        write_table(stream);
+        break;
+    default:
+        fputs(", \"type\": \"string\"}", stream);
+    }
+}
+
+/* One alternative per unit of a required stem. */
+static void write_required(FILE *stream, const CzKey *key) {
+    const char *before = "";
+    fputs("{\"oneOf\": [", stream);
+    for (int i = 0; i < cz_n_unit; i++) {
+        if (cz_units[i].dimension != key->dimension)
+            continue;
+        fprintf(stream, "%s{\"required\": [\"%s%s%s\"]}", before, key->stem,
+                cz_units[i].suffix[0] != '\0' ? "_" : "", cz_units[i].suffix);
+        before = ", ";
+    }
+    fputs("]}", stream);
+}
+
+/* Each pair of units of each stem is forbidden. */
+static void write_pairs(FILE *stream, const CzRecord *record) {
+    const char *before = "";
+    for (int k = 0; k < record->n_key; k++) {
+        const CzKey *key = &record->key[k];
+        for (int i = 0; key->kind == CZ_KEY_NUMBER && i < cz_n_unit; i++)
+            for (int j = i + 1; j < cz_n_unit; j++) {
+                if (cz_units[i].dimension != key->dimension ||
+                    cz_units[j].dimension != key->dimension)
+                    continue;
+                fprintf(stream, "%s\n        {\"not\": {\"required\": [\"%s_%s\", \"%s_%s\"]}}",
+                        before, key->stem, cz_units[i].suffix, key->stem, cz_units[j].suffix);
+                before = ",";
+            }
+    }
+    if (record != &cz_records[CZ_RECORD_CzStage])
+        return;
+    fprintf(stream, "%s\n        {\"anyOf\": [{\"required\": [\"use\"]}, {\"allOf\": [", before);
+    const char *between = "";
+    for (int k = 0; k < record->n_key; k++) {
+        if (record->key[k].presence != CZ_PRESENCE_REQUIRED)
+            continue;
+        fputs(between, stream);
+        write_required(stream, &record->key[k]);
+        between = ", ";
+    }
+    fputs("]}]}", stream);
+}
+
+static bool has_pairs(const CzRecord *record) {
+    for (int k = 0; k < record->n_key; k++)
+        if (record->key[k].kind == CZ_KEY_NUMBER && record->key[k].dimension != CZ_DIMENSION_NONE)
+            return true;
+    return false;
+}
+
+static void write_reuse(FILE *stream, bool *is_first, const CzRecord *record) {
+    for (int i = 0; i < cz_n_reuse_key; i++) {
+        const CzReuseKey *reuse = &cz_reuse_keys[i];
+        if (reuse->record[0] != '\0' && strcmp(reuse->record, record->name) != 0)
+            continue;
+        open_property(stream, is_first, reuse->key, "", reuse->doc);
+        fprintf(stream, ", %s}", reuse->schema);
+    }
+}
+
+static void write_record(FILE *stream, const CzRecord *record) {
+    bool is_first = true;
+    fprintf(stream,
+            "    \"%s\": {\n      \"type\": [\"object\", \"null\"],\n      \"description\": ",
+            record->name);
+    write_json_text(stream, record->doc);
+    fputs(",\n      \"additionalProperties\": false,\n      \"properties\": {", stream);
+    for (int i = 0; i < record->n_key; i++)
+        write_key(stream, &is_first, &record->key[i]);
+    write_reuse(stream, &is_first, record);
+    fputs("\n      }", stream);
+    if (has_pairs(record)) {
+        fputs(",\n      \"allOf\": [", stream);
+        write_pairs(stream, record);
+        fputs("\n      ]", stream);
+    }
+    fputs("\n    }", stream);
+}
+
+void cz_keys_write_schema(FILE *stream) {
+    fputs("{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
+          "  \"title\": \"crushzone problem file\",\n"
+          "  \"allOf\": [{\"$ref\": \"#/definitions/problem\"}],\n"
+          "  \"type\": \"object\",\n"
+          "  \"definitions\": {\n",
+          stream);
+    for (int i = 0; i < CZ_N_RECORD; i++) {
+        write_record(stream, &cz_records[i]);
+        fputs(i + 1 < CZ_N_RECORD ? ",\n" : "\n", stream);
+    }
+    fputs("  }\n}\n", stream);
+}

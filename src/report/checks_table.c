@@ -1,0 +1,164 @@
+/* The table of checks: what was asked, what came out, how far away. */
+#include "report/checks_table.h"
+
+#include "base/number.h"
+#include "report/grid.h"
+#include "report/runs.h"
+#include "report/figure.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Words for people: capital letters for whatever is not a plain pass. */
+static const char *const verdict_words[] = {[CZ_VERDICT_PASS] = "pass",
+                                            [CZ_VERDICT_PROVISIONAL] = "PROVISIONAL",
+                                            [CZ_VERDICT_FAIL] = "FAIL",
+                                            [CZ_VERDICT_NOT_CHECKED] = "NOT CHECKED"};
+
+static const CzStyle verdict_styles[] = {[CZ_VERDICT_PASS] = CZ_STYLE_GOOD,
+                                         [CZ_VERDICT_PROVISIONAL] = CZ_STYLE_CAREFUL,
+                                         [CZ_VERDICT_FAIL] = CZ_STYLE_BAD,
+                                         [CZ_VERDICT_NOT_CHECKED] = CZ_STYLE_CAREFUL};
+
+static const char *spaced_unit(const CzCheckResult *check, char room[32]) {
+    if (check->unit == NULL || check->unit[0] == '\0')
+        return "";
+    snprintf(room, 32, " %s", check->unit);
+    return room;
+}
+
+void cz_checks_format_limit(const CzCheckResult *check, size_t room, char *text) {
+    char number[CZ_FIGURE_ROOM], unit[32];
+    if (!isfinite(check->limit)) {
+        snprintf(text, room, "-");
+        return;
+    }
+    snprintf(text, room, "%s%s%s", check->is_minimum ? "min " : "",
+             cz_figure_digits(number, 6, check->limit), spaced_unit(check, unit));
+}
+
+void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text) {
+    char number[CZ_FIGURE_ROOM], unit[32];
+    cz_figure_plain(number, check->value);
+    if (!isfinite(check->value)) {
+        snprintf(text, room, "%s", number);
+        return;
+    }
+    /* A value that breaks its limit must not read as if it stood on it. */
+    const bool breaks =
+        check->is_minimum ? check->value < check->limit : check->value > check->limit;
+    double shown;
+    for (int digits = 5; breaks && digits <= 17; digits++) {
+        if (cz_number_parse(number, &shown) == NULL && shown != check->limit)
+            break;
+        cz_figure_digits(number, digits, check->value);
+    }
+    snprintf(text, room, "%s%s", number, spaced_unit(check, unit));
+}
+
+/* A check may pass because there is nothing that it could be about. */
+static bool does_not_apply(const CzCheckResult *check) {
+    return isnan(check->value) &&
+           (check->verdict == CZ_VERDICT_PASS || check->verdict == CZ_VERDICT_PROVISIONAL);
+}
+
+/* Order of badness: fails by margin, then what was not checked, then passes by margin. */
+static double rank(const CzCheckResult *check) {
+    if (check->verdict == CZ_VERDICT_NOT_CHECKED)
+        return 0;
+    if (does_not_apply(check))
+        return 4e9;
+    const double margin = fmin(fmax(check->margin, -1e9), 1e9);
+    return check->verdict == CZ_VERDICT_FAIL ? -2e9 + margin : 2e9 + margin;
+}
+
+/* Whether check i is the worst of its name, the first of equals. */
+static bool is_worst_of_name(const CzEvaluation *evaluation, int i) {
+    const CzCheckResult *check = evaluation->check;
+    for (int k = 0; k < evaluation->n_check; k++) {
+        if (k == i || strcmp(check[k].name, check[i].name) != 0)
+            continue;
+        if (rank(&check[k]) < rank(&check[i]) || (rank(&check[k]) == rank(&check[i]) && k < i))
+            return false;
+    }
+    return true;
+}
+
+static const char *or_empty(const char *text) {
+    return text != NULL ? text : "";
+}
+
+static void put_check(CzGrid *grid, const CzCheckResult *check, const CzCheckResult *before,
+                      bool with_scenario) {
+    char text[96];
+    cz_grid_put(grid, check->name, CZ_STYLE_PLAIN);
+    cz_grid_put(grid, check->where, CZ_STYLE_PLAIN);
+    cz_grid_put(grid, with_scenario ? or_empty(check->scenario) : "", CZ_STYLE_PLAIN);
+    cz_checks_format_limit(check, sizeof text, text);
+    cz_grid_put(grid, text, CZ_STYLE_PLAIN);
+    if (before != NULL)
+        cz_checks_format_value(before, sizeof text, text);
+    cz_grid_put(grid, before != NULL ? text : "",
+                before != NULL && before->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD
+                                                                     : CZ_STYLE_PLAIN);
+    cz_checks_format_value(check, sizeof text, text);
+    cz_grid_put(grid, text, CZ_STYLE_PLAIN);
+    cz_grid_put(grid, cz_figure_margin(text, check->margin), CZ_STYLE_PLAIN);
+    if (does_not_apply(check))
+        cz_grid_put(grid, "n/a", CZ_STYLE_PLAIN);
+    else
+        cz_grid_put(grid, verdict_words[check->verdict], verdict_styles[check->verdict]);
+    cz_grid_put(grid, or_empty(check->why), CZ_STYLE_PLAIN);
+}
+
+static void write_count(const CzEvaluation *evaluation, bool colour, FILE *stream) {
+    int n[4] = {0};
+    for (int i = 0; i < evaluation->n_check; i++)
+        n[evaluation->check[i].verdict]++;
+    static const CzVerdict order[] = {CZ_VERDICT_FAIL, CZ_VERDICT_NOT_CHECKED,
+                                      CZ_VERDICT_PROVISIONAL, CZ_VERDICT_PASS};
+    const char *between = ": ";
+    fprintf(stream, "%d check%s", evaluation->n_check, evaluation->n_check == 1 ? "" : "s");
+    for (int i = 0; i < 4; i++) {
+        if (n[order[i]] == 0)
+            continue;
+        fprintf(stream, "%s%d ", between, n[order[i]]);
+        cz_grid_write_text(verdict_words[order[i]], verdict_styles[order[i]], colour, stream);
+        between = ", ";
+    }
+    fputs(". Verdict: ", stream);
+    cz_grid_write_text(verdict_words[evaluation->verdict], verdict_styles[evaluation->verdict],
+                       colour, stream);
+    fputs(".\n", stream);
+}
+
+void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
+                           FILE *stream) {
+    if (evaluation->n_check == 0) {
+        fputs("No checks: NOTHING WAS JUDGED. Add `checks:` to the problem file.\n", stream);
+        return;
+    }
+    const bool several = cz_n_kept_run(evaluation) > 1;
+    const bool with_before = before != NULL && before->n_check == evaluation->n_check;
+    const char *const names[] = {"check",
+                                 "where",
+                                 several ? "scenario" : "",
+                                 "limit",
+                                 with_before ? "before" : "",
+                                 with_before ? "after" : "value",
+                                 "margin",
+                                 "",
+                                 ""};
+    CzGrid grid;
+    cz_grid_begin(&grid, "lllrrrrll");
+    for (int i = 0; i < 9; i++)
+        cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
+    for (int i = 0; i < evaluation->n_check; i++) {
+        const CzCheckResult *check = &evaluation->check[i];
+        if (several && check->verdict != CZ_VERDICT_FAIL && !is_worst_of_name(evaluation, i))
+            continue;
+        put_check(&grid, check, with_before ? &before->check[i] : NULL, several);
+    }
+    cz_grid_write(&grid, colour, stream);
+    write_count(evaluation, colour, stream);
+}

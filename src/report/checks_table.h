@@ -1,0 +1,21 @@
+/* The table of checks, with or without a column for the design before. */
+#ifndef CZ_REPORT_CHECKS_TABLE_H
+#define CZ_REPORT_CHECKS_TABLE_H
+
+#include <stdio.h>
+
+#include "crushzone/report.h"
+
+/* One line per check of a single scenario; of several scenarios the worst line of each check and
+ * every failure. `before` (NULL for none) is an evaluation with the same checks. Ends with a line
+ * that counts the verdicts. */
+void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
+                           FILE *stream);
+
+/* A value in its unit, with as many digits as set it apart from its limit when it breaks it. */
+void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text);
+
+/* The limit in its unit; a lower one says so. */
+void cz_checks_format_limit(const CzCheckResult *check, size_t room, char *text);
+
+#endif

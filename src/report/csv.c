@@ -1,0 +1,167 @@
+/* CSV tables, one function each, over a writer of fields. */
+#include "report/csv.h"
+
+#include "report/figure.h"
+#include "report/units.h"
+
+#include <math.h>
+#include <string.h>
+
+/* One table being written; a row ends with end_row. */
+typedef struct Table {
+    FILE *stream;
+    char separator, decimal;
+    bool in_row; /* the row has a field already */
+} Table;
+
+static Table table_of(const CzReportOptions *options, FILE *stream) {
+    return (Table){
+        .stream = stream, .separator = options->csv_separator, .decimal = options->csv_decimal};
+}
+
+static void begin_field(Table *table) {
+    if (table->in_row)
+        fputc(table->separator, table->stream);
+    table->in_row = true;
+}
+
+static void put_text(Table *table, const char *text) {
+    begin_field(table);
+    if (text == NULL)
+        return;
+    const char special[] = {table->separator, '"', '\r', '\n', '\0'};
+    if (strpbrk(text, special) == NULL) {
+        fputs(text, table->stream);
+        return;
+    }
+    fputc('"', table->stream);
+    for (; *text != '\0'; text++) {
+        if (*text == '"')
+            fputc('"', table->stream);
+        fputc(*text, table->stream);
+    }
+    fputc('"', table->stream);
+}
+
+static void put_number(Table *table, double value) {
+    char text[CZ_FIGURE_ROOM];
+    begin_field(table);
+    if (!isfinite(value))
+        return;
+    cz_figure_digits(text, 9, value);
+    char *point = strchr(text, '.');
+    if (point != NULL)
+        *point = table->decimal;
+    fputs(text, table->stream);
+}
+
+static void put_flag(Table *table, bool value) {
+    put_text(table, value ? "yes" : "no");
+}
+
+static void end_row(Table *table) {
+    fputs("\r\n", table->stream);
+    table->in_row = false;
+}
+
+static void put_names(Table *table, int n, const char *const *name) {
+    for (int i = 0; i < n; i++)
+        put_text(table, name[i]);
+    end_row(table);
+}
+
+void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *options,
+                         FILE *stream) {
+    static const char *const names[] = {"name",    "scenario", "where",  "kind",      "limit",
+                                        "value",   "unit",     "margin", "verdict",   "why",
+                                        "profile", "clause",   "source", "confidence"};
+    Table table = table_of(options, stream);
+    put_names(&table, (int)(sizeof names / sizeof *names), names);
+    for (int i = 0; i < evaluation->n_check; i++) {
+        const CzCheckResult *check = &evaluation->check[i];
+        put_text(&table, check->name);
+        put_text(&table, check->scenario);
+        put_text(&table, check->where);
+        put_text(&table, check->is_minimum ? "min" : "max");
+        put_number(&table, check->limit);
+        put_number(&table, check->value);
+        put_text(&table, check->unit);
+        put_number(&table, check->margin);
+        put_text(&table, cz_verdict_text(check->verdict));
+        put_text(&table, check->why);
+        put_text(&table, check->profile);
+        put_text(&table, check->clause);
+        put_text(&table, check->source);
+        put_text(&table, check->confidence);
+        end_row(&table);
+    }
+}
+
+/* One row per element, after one for the interface as a whole with an empty element. */
+void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *options,
+                             FILE *stream) {
+    static const char *const names[] = {
+        "interface",   "element",   "peak_force_kN", "peak_time_ms", "shortening_mm", "stroke_mm",
+        "stroke_used", "energy_kJ", "energy_share",  "stored_kJ",    "bottomed_out"};
+    Table table = table_of(options, stream);
+    put_names(&table, (int)(sizeof names / sizeof *names), names);
+    for (int i = 0; i < run->n_interface; i++) {
+        const CzInterfaceResult *interface = &run->interface[i];
+        put_text(&table, interface->name);
+        put_text(&table, NULL);
+        put_number(&table, interface->peak_force / CZ_KILO);
+        put_number(&table, interface->peak_time * CZ_MILLI_PER_UNIT);
+        put_number(&table, interface->shortening * CZ_MILLI_PER_UNIT);
+        put_text(&table, NULL);
+        put_text(&table, NULL);
+        put_number(&table, interface->energy / CZ_KILO);
+        put_number(&table, interface->energy_share);
+        put_text(&table, NULL);
+        put_flag(&table, interface->bottomed_out);
+        end_row(&table);
+        for (int k = 0; k < interface->n_element; k++) {
+            const CzElementResult *element = &interface->element[k];
+            put_text(&table, interface->name);
+            put_text(&table, element->name);
+            put_number(&table, element->peak_force / CZ_KILO);
+            put_text(&table, NULL);
+            put_text(&table, NULL);
+            put_number(&table, element->stroke * CZ_MILLI_PER_UNIT);
+            put_number(&table, element->stroke_used);
+            put_number(&table, element->energy / CZ_KILO);
+            put_text(&table, NULL);
+            put_number(&table, element->stored / CZ_KILO);
+            put_flag(&table, element->bottomed_out);
+            end_row(&table);
+        }
+    }
+}
+
+void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FILE *stream) {
+    Table table = table_of(options, stream);
+    const int n_channel = cz_run_n_channel(run);
+    for (int channel = 0; channel < n_channel; channel++)
+        put_text(&table, cz_run_channel_name(run, channel));
+    end_row(&table);
+    for (int sample = 0; sample < cz_run_n_sample(run); sample++) {
+        for (int channel = 0; channel < n_channel; channel++)
+            put_number(&table, cz_run_channel(run, channel)[sample]);
+        end_row(&table);
+    }
+}
+
+void cz_csv_write_history(const CzOutcome *outcome, const CzReportOptions *options, FILE *stream) {
+    static const char *const names[] = {"evaluation", "phase", "objective", "violation",
+                                        "feasible"};
+    Table table = table_of(options, stream);
+    put_names(&table, (int)(sizeof names / sizeof *names), names);
+    for (long i = 0; i < outcome->n_trial; i++) {
+        const CzTrial *trial = &outcome->trial[i];
+        put_number(&table, (double)(i + 1));
+        put_text(&table, trial->phase);
+        put_number(&table, trial->objective);
+        put_number(&table, trial->violation);
+        put_flag(&table, trial->feasible);
+        end_row(&table);
+    }
+}

@@ -1,0 +1,20 @@
+/* Parts that the JSON documents share. */
+#ifndef CZ_REPORT_DOCUMENTS_H
+#define CZ_REPORT_DOCUMENTS_H
+
+#include "crushzone/problem.h"
+#include "report/json.h"
+
+/* format, version, program and problem. */
+void cz_document_head(CzJson *json, const char *format, const CzProblem *problem);
+
+/* The one place for timing, host and instruction set; n_job is 0 when unknown. */
+void cz_document_run_info(CzJson *json, double wall_s, double setup_s, int n_job);
+
+/* List of the problem's warnings. */
+void cz_document_warnings(CzJson *json, const CzProblem *problem);
+
+/* One mistake or warning with its place; key is NULL inside a list. */
+void cz_document_mistake(CzJson *json, const char *key, const CzError *mistake);
+
+#endif

@@ -1,0 +1,22 @@
+/* Numbers as people read them, with a decimal point whatever the locale of the host program. */
+#ifndef CZ_REPORT_FIGURE_H
+#define CZ_REPORT_FIGURE_H
+
+enum { CZ_FIGURE_ROOM = 48 }; /* bytes that hold any number written here */
+
+/* `digits` significant digits, as %.*g. Returns text, as the others do. */
+const char *cz_figure_digits(char text[CZ_FIGURE_ROOM], int digits, double value);
+
+/* `decimals` places after the point, as %.*f; numbers from 1e15 on as %.15g. */
+const char *cz_figure_fixed(char text[CZ_FIGURE_ROOM], int decimals, double value);
+
+/* Three to four digits for a person: 3483, 21.5, 2.31; "-" when it is not finite. */
+const char *cz_figure_plain(char text[CZ_FIGURE_ROOM], double value);
+
+/* Share as a percentage: "56 %", "0.5 %"; "-" when it is not finite. */
+const char *cz_figure_percent(char text[CZ_FIGURE_ROOM], double share);
+
+/* The same with its sign: "+54 %", "-0.03 %"; a negative share never reads as zero. */
+const char *cz_figure_margin(char text[CZ_FIGURE_ROOM], double share);
+
+#endif

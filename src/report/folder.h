@@ -1,0 +1,44 @@
+/* A folder of result files that appears whole or not at all.
+ *
+ * Files are written into a folder of a temporary name beside the final one, which is renamed at the
+ * end. A folder that is there already is replaced only when we wrote it: it holds a marker that
+ * lists its files, and nothing that the marker does not list.
+ */
+#ifndef CZ_REPORT_FOLDER_H
+#define CZ_REPORT_FOLDER_H
+
+#include <limits.h>
+#include <stdio.h>
+
+#include "crushzone/status.h"
+
+typedef struct CzFolder {
+    char target[PATH_MAX];    /* final path */
+    char temporary[PATH_MAX]; /* path while it is being written; empty when there is none */
+    FILE *marker;             /* list of files, open while writing */
+    FILE *file;               /* file being written, NULL between files */
+    char file_name[PATH_MAX];
+} CzFolder;
+
+/* Whether a folder could be written there. Status: CZ_STATUS_OUTPUT. */
+CZ_MUST_CHECK CzStatus cz_folder_check(const char *path, CzError *error);
+
+/* Starts a folder; the folders above it are made when they are not there. After a success the
+ * caller ends with cz_folder_finish or cz_folder_abandon. Status: CZ_STATUS_OUTPUT. */
+CZ_MUST_CHECK CzStatus cz_folder_begin(CzFolder *folder, const char *path, CzError *error);
+
+/* Opens the next file, such as "summary.json" or "25kmh/channels.csv". The stream belongs to the
+ * folder. */
+CZ_MUST_CHECK CzStatus cz_folder_open(CzFolder *folder, const char *name, FILE **stream,
+                                      CzError *error);
+
+/* Closes the file; fails when anything of it could not be written. */
+CZ_MUST_CHECK CzStatus cz_folder_close(CzFolder *folder, CzError *error);
+
+/* Puts the folder in its place; on failure it is abandoned. */
+CZ_MUST_CHECK CzStatus cz_folder_finish(CzFolder *folder, CzError *error);
+
+/* Removes what was written. */
+void cz_folder_abandon(CzFolder *folder);
+
+#endif

@@ -1,0 +1,101 @@
+/* The documents `crushzone.outcome` and that of mistakes. */
+#include "crushzone/report.h"
+
+#include "report/documents.h"
+
+#include <math.h>
+
+static void put_variables(CzJson *json, const CzEvaluator *evaluator, const CzOutcome *outcome) {
+    cz_json_open_list(json, "variables");
+    for (int i = 0; i < outcome->n_variable; i++) {
+        const CzVariableInfo *variable = cz_evaluator_variable(evaluator, i);
+        cz_json_open_object(json, NULL);
+        cz_json_text(json, "name", variable->name);
+        cz_json_text(json, "unit", variable->unit);
+        cz_json_real(json, "min", variable->min);
+        cz_json_real(json, "max", variable->max);
+        cz_json_real(json, "start", outcome->start[i]);
+        cz_json_real(json, "value", outcome->best[i]);
+        cz_json_flag(json, "at_bound", outcome->at_bound[i]);
+        cz_json_close(json);
+    }
+    cz_json_close(json);
+}
+
+static void put_objective(CzJson *json, const CzEvaluator *evaluator, const CzOutcome *outcome) {
+    cz_json_open_object(json, "objective");
+    cz_json_text(json, "name", cz_evaluator_objective_name(evaluator));
+    cz_json_text(json, "unit", cz_evaluator_objective_unit(evaluator));
+    cz_json_real(json, "start", outcome->start_evaluation.objective);
+    cz_json_real(json, "value", outcome->best_evaluation.objective);
+    cz_json_close(json);
+}
+
+static void put_constraint(CzJson *json, const CzEvaluator *evaluator, const CzOutcome *outcome,
+                           int i) {
+    const CzEvaluation *start = &outcome->start_evaluation, *best = &outcome->best_evaluation;
+    const CzCheckResult *check = best->constraint_check != NULL ? &best->constraint_check[i] : NULL;
+
+    cz_json_open_object(json, NULL);
+    cz_json_text(json, "name", cz_evaluator_constraint_name(evaluator, i));
+    cz_json_text(json, "scenario", check != NULL ? check->scenario : NULL);
+    cz_json_text(json, "where", check != NULL ? check->where : NULL);
+    cz_json_text(json, "kind", check != NULL && check->is_minimum ? "min" : "max");
+    cz_json_real(json, "limit", check != NULL ? check->limit : NAN);
+    cz_json_real(json, "start",
+                 start->constraint_check != NULL && i < start->n_constraint
+                     ? start->constraint_check[i].value
+                     : NAN);
+    cz_json_real(json, "value", check != NULL ? check->value : NAN);
+    cz_json_text(json, "unit", check != NULL ? check->unit : NULL);
+    cz_json_real(json, "margin", check != NULL ? check->margin : NAN);
+    cz_json_flag(json, "violated", !(best->constraint[i] <= 0));
+    cz_json_close(json);
+}
+
+CzStatus cz_report_write_outcome(const CzProblem *problem, const CzEvaluator *evaluator,
+                                 const CzOutcome *outcome, const CzReportOptions *options,
+                                 FILE *stream, CzError *error) {
+    const CzReportOptions absent = cz_report_options_default();
+    if (options == NULL)
+        options = &absent;
+
+    CzJson *json = cz_json_create();
+    cz_document_head(json, "crushzone.outcome", problem);
+    cz_json_text(json, "status", cz_outcome_text(outcome->status));
+    cz_json_text(json, "why_stopped", outcome->why_stopped);
+    cz_json_whole(json, "evaluations", outcome->n_evaluation);
+    cz_document_run_info(json, outcome->wall_s, options->setup_s, options->n_job);
+    cz_document_warnings(json, problem);
+    cz_json_flag(json, "best_is_feasible",
+                 outcome->best_evaluation.status == CZ_OK &&
+                     outcome->best_evaluation.violation <= 0);
+    cz_json_real(json, "violation", outcome->best_evaluation.violation);
+    put_variables(json, evaluator, outcome);
+    put_objective(json, evaluator, outcome);
+    cz_json_open_list(json, "constraints");
+    for (int i = 0; i < outcome->best_evaluation.n_constraint; i++)
+        put_constraint(json, evaluator, outcome, i);
+    cz_json_close(json);
+
+    /* The independent checks of the optimum need a second solver and an elastic track. */
+    cz_json_open_object(json, "verification");
+    cz_json_text(json, "half_step_change", NULL);
+    cz_json_text(json, "reference_change", NULL);
+    cz_json_text(json, "full_track_change", NULL);
+    cz_json_text(json, "verdict", cz_verdict_text(CZ_VERDICT_NOT_CHECKED));
+    cz_json_close(json);
+    return cz_json_finish(json, stream, error);
+}
+
+CzStatus cz_report_write_mistakes(int n_mistake, const CzError *const *mistake, FILE *stream,
+                                  CzError *error) {
+    CzJson *json = cz_json_create();
+    if (n_mistake > 0)
+        cz_document_mistake(json, "error", mistake[0]);
+    cz_json_open_list(json, "errors");
+    for (int i = 0; i < n_mistake; i++)
+        cz_document_mistake(json, NULL, mistake[i]);
+    cz_json_close(json);
+    return cz_json_finish(json, stream, error);
+}

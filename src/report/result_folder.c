@@ -1,0 +1,204 @@
+/* The files of a result folder: summary and checks on top, histories per scenario. */
+#include "crushzone/report.h"
+
+#include "report/csv.h"
+#include "report/folder.h"
+#include "report/overlay.h"
+#include "report/runs.h"
+
+#include <string.h>
+
+/* Everything that the files are made of. `outcome` and `evaluator` are NULL for a run. */
+typedef struct Results {
+    const CzProblem *problem;
+    const CzEvaluator *evaluator;
+    const CzOutcome *outcome;
+    const CzEvaluation *evaluation;
+    const CzReportOptions *options;
+    const CzRun *run;   /* of the scenario at hand */
+    const char *folder; /* final path */
+} Results;
+
+typedef CzStatus (*Writer)(const Results *results, FILE *stream, CzError *error);
+
+static CzStatus write_summary(const Results *results, FILE *stream, CzError *error) {
+    return cz_report_write_summary(results->problem, results->evaluation, results->options, stream,
+                                   error);
+}
+
+static CzStatus write_outcome(const Results *results, FILE *stream, CzError *error) {
+    return cz_report_write_outcome(results->problem, results->evaluator, results->outcome,
+                                   results->options, stream, error);
+}
+
+static CzStatus write_overlay(const Results *results, FILE *stream, CzError *error) {
+    return cz_report_write_overlay(results->problem, results->evaluator, results->outcome,
+                                   results->options, results->folder, stream, error);
+}
+
+static CzStatus write_checks(const Results *results, FILE *stream, CzError *error) {
+    (void)error; /* a full disk shows when the file is closed */
+    cz_csv_write_checks(results->evaluation, results->options, stream);
+    return CZ_OK;
+}
+
+static CzStatus write_history(const Results *results, FILE *stream, CzError *error) {
+    (void)error;
+    cz_csv_write_history(results->outcome, results->options, stream);
+    return CZ_OK;
+}
+
+static CzStatus write_interfaces(const Results *results, FILE *stream, CzError *error) {
+    (void)error;
+    cz_csv_write_interfaces(cz_run_summary(results->run), results->options, stream);
+    return CZ_OK;
+}
+
+static CzStatus write_channels(const Results *results, FILE *stream, CzError *error) {
+    (void)error;
+    cz_csv_write_channels(results->run, results->options, stream);
+    return CZ_OK;
+}
+
+/* The problem that gives these results when it is run alone: of a search, with the best values. */
+static CzStatus write_resolved(const Results *results, FILE *stream, CzError *error) {
+    (void)error;
+    cz_problem_write_resolved(results->problem, stream);
+    if (results->outcome != NULL)
+        cz_overlay_write_set(results->evaluator, results->outcome, NULL, stream);
+    return CZ_OK;
+}
+
+static void write_notice(const CzError *notice, FILE *stream) {
+    if (notice->file[0] != '\0')
+        fprintf(stream, "%s:%d:%d: ", notice->file, notice->line, notice->column);
+    fprintf(stream, "warning: %s\n", notice->message);
+    if (notice->help[0] != '\0')
+        fprintf(stream, "  help: %s\n", notice->help);
+}
+
+/* What was done, without times: the log of the same run is the same. */
+static CzStatus write_log(const Results *results, FILE *stream, CzError *error) {
+    (void)error;
+    char nlopt[32] = "";
+    cz_nlopt_version(nlopt, sizeof nlopt);
+    fprintf(stream, "crushzone %s, NLopt %s\n", cz_version(), nlopt);
+    fprintf(stream, "problem %s (%s), hash %s\n", cz_problem_title(results->problem),
+            cz_problem_file(results->problem), cz_problem_hash(results->problem));
+    for (int i = 0; i < results->options->n_set; i++)
+        fprintf(stream, "set %s\n", results->options->set[i]);
+    for (int i = 0; i < cz_problem_n_warning(results->problem); i++)
+        write_notice(cz_problem_warning(results->problem, i), stream);
+    if (results->outcome != NULL)
+        fprintf(stream, "optimise: %s after %ld evaluations: %s\n",
+                cz_outcome_text(results->outcome->status), results->outcome->n_evaluation,
+                results->outcome->why_stopped);
+    const CzEvaluation *evaluation = results->evaluation;
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        if (run == NULL)
+            continue;
+        fprintf(stream, "scenario %s: %s, %ld steps, ended %s%s%s\n", run->scenario,
+                run->status == CZ_OK ? "completed" : "FAILED", run->n_step,
+                cz_ended_text(run->ended), run->failure[0] != '\0' ? ": " : "", run->failure);
+    }
+    fprintf(stream, "verdict: %s\n", cz_verdict_text(evaluation->verdict));
+    return CZ_OK;
+}
+
+static CzStatus write_file(CzFolder *folder, const char *name, Writer writer,
+                           const Results *results, CzError *error) {
+    FILE *stream = NULL;
+    CzStatus status = cz_folder_open(folder, name, &stream, error);
+    if (status != CZ_OK)
+        return status;
+    status = writer(results, stream, error);
+    /* What could not be written is told with the name of the file. */
+    const bool tells = status == CZ_OK || status == CZ_STATUS_OUTPUT;
+    const CzStatus closed = cz_folder_close(folder, tells ? error : NULL);
+    return status != CZ_OK ? status : closed;
+}
+
+/* A scenario's name as the name of a folder. */
+static void folder_name(const char *scenario, char name[128]) {
+    snprintf(name, 128, "%s", scenario);
+    for (char *c = name; *c != '\0'; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f || strchr("/\\:*?\"<>|", *c) != NULL)
+            *c = '_';
+    if (name[0] == '.')
+        name[0] = '_';
+}
+
+static CzStatus write_run(CzFolder *folder, Results *results, int i, CzError *error) {
+    const bool several = cz_n_kept_run(results->evaluation) > 1;
+    char scenario[128], name[192];
+    results->run = results->evaluation->run[i];
+    folder_name(cz_run_summary(results->run)->scenario, scenario);
+    snprintf(name, sizeof name, "%s%s%s", several ? scenario : "", several ? "/" : "",
+             "interfaces.csv");
+    CzStatus status = write_file(folder, name, write_interfaces, results, error);
+    snprintf(name, sizeof name, "%s%s%s", several ? scenario : "", several ? "/" : "",
+             "channels.csv");
+    return status != CZ_OK ? status : write_file(folder, name, write_channels, results, error);
+}
+
+static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
+    static const struct {
+        const char *name;
+        Writer writer;
+        bool of_search;
+    } files[] = {
+        {"summary.json", write_summary, false},   {"checks.csv", write_checks, false},
+        {"resolved.yaml", write_resolved, false}, {"run.log", write_log, false},
+        {"outcome.json", write_outcome, true},    {"optimised.yaml", write_overlay, true},
+        {"history.csv", write_history, true},
+    };
+    CzStatus status = CZ_OK;
+    for (size_t i = 0; i < sizeof files / sizeof *files && status == CZ_OK; i++)
+        if (!files[i].of_search || results->outcome != NULL)
+            status = write_file(folder, files[i].name, files[i].writer, results, error);
+    for (int i = 0; i < results->evaluation->n_run && status == CZ_OK; i++)
+        if (cz_kept_run(results->evaluation, i) != NULL)
+            status = write_run(folder, results, i, error);
+    return status;
+}
+
+static CzStatus write_folder(Results *results, CzError *error) {
+    CzFolder folder;
+    CzStatus status = cz_folder_begin(&folder, results->folder, error);
+    if (status != CZ_OK)
+        return status;
+    status = write_all(&folder, results, error);
+    if (status == CZ_OK)
+        return cz_folder_finish(&folder, error);
+    cz_folder_abandon(&folder);
+    return status;
+}
+
+CzStatus cz_report_check_folder(const char *folder, CzError *error) {
+    return cz_folder_check(folder, error);
+}
+
+CzStatus cz_report_write_folder(const CzProblem *problem, const CzEvaluation *evaluation,
+                                const CzReportOptions *options, const char *folder,
+                                CzError *error) {
+    const CzReportOptions absent = cz_report_options_default();
+    Results results = {.problem = problem,
+                       .evaluation = evaluation,
+                       .options = options != NULL ? options : &absent,
+                       .folder = folder};
+    return write_folder(&results, error);
+}
+
+CzStatus cz_report_write_outcome_folder(const CzProblem *problem, const CzEvaluator *evaluator,
+                                        const CzOutcome *outcome, const CzReportOptions *options,
+                                        const char *folder, CzError *error) {
+    const CzReportOptions absent = cz_report_options_default();
+    Results results = {.problem = problem,
+                       .evaluator = evaluator,
+                       .outcome = outcome,
+                       .evaluation = &outcome->best_evaluation,
+                       .options = options != NULL ? options : &absent,
+                       .folder = folder};
+    return write_folder(&results, error);
+}

@@ -1,0 +1,180 @@
+/* What a run answers, on a terminal: who absorbed what, what was broken, what passes. */
+#include "crushzone/report.h"
+
+#include "problem/problem.h"
+#include "report/checks_table.h"
+#include "report/grid.h"
+#include "report/runs.h"
+#include "report/figure.h"
+#include "report/units.h"
+
+#include <math.h>
+#include <string.h>
+
+static double given_or(double given, double otherwise) {
+    return isnan(given) ? otherwise : given;
+}
+
+static const CzTrain *train_named(const CzInput *input, const char *name) {
+    for (int i = 0; i < input->n_trains; i++)
+        if (strcmp(input->trains[i].name, name) == 0)
+            return &input->trains[i];
+    return NULL;
+}
+
+/* Speeds of the two trains of a scenario as the file says them, such as "36 km/h -> 0 km/h". */
+static void write_speeds(const CzProblem *problem, const char *name, FILE *stream) {
+    const CzInput *input = cz_problem_input(problem);
+    const CzTrain *train[2] = {input->n_trains > 0 ? &input->trains[0] : NULL,
+                               input->n_trains > 1 ? &input->trains[1] : NULL};
+    double speed[2] = {NAN, NAN};
+    for (int i = 0; i < input->n_scenarios; i++) {
+        const CzScenario *scenario = &input->scenarios[i];
+        if (strcmp(scenario->name, name) != 0)
+            continue;
+        for (int side = 0; side < scenario->trains.n_text && side < 2; side++)
+            train[side] = train_named(input, scenario->trains.text[side]);
+        speed[0] = scenario->speed;
+        speed[1] = scenario->partner_speed;
+    }
+    if (train[0] == NULL || train[1] == NULL)
+        return;
+    char text[2][CZ_FIGURE_ROOM];
+    for (int side = 0; side < 2; side++)
+        cz_figure_digits(text[side], 4,
+                         given_or(speed[side], train[side]->speed) * CZ_KM_H_PER_M_S);
+    fprintf(stream, "   %s km/h -> %s km/h", text[0], text[1]);
+}
+
+static void write_run_head(const CzProblem *problem, const CzRunSummary *run, bool colour,
+                           FILE *stream) {
+    char simulated[CZ_FIGURE_ROOM], balance[CZ_FIGURE_ROOM];
+    cz_grid_write_text(run->scenario, CZ_STYLE_PLAIN, colour, stream);
+    write_speeds(problem, run->scenario, stream);
+    if (run->status != CZ_OK) {
+        fputs("   ", stream);
+        cz_grid_write_text("RUN FAILED", CZ_STYLE_BAD, colour, stream);
+        fputs(": ", stream);
+        cz_grid_write_text(run->failure, CZ_STYLE_PLAIN, colour, stream);
+        fputc('\n', stream);
+        return;
+    }
+    fprintf(stream, "   %s s simulated, ", cz_figure_digits(simulated, 3, run->simulated));
+    const bool cut = run->ended == CZ_ENDED_INCOMPLETE;
+    if (!cut)
+        fputs("ended ", stream);
+    cz_grid_write_text(cut ? "INCOMPLETE: not at an end yet" : cz_ended_text(run->ended),
+                       cut ? CZ_STYLE_BAD : CZ_STYLE_PLAIN, colour, stream);
+    fprintf(stream, "   energy balance %s\n",
+            cz_figure_percent(balance, run->energy.balance_error));
+}
+
+/* Whether an event happened to an element of an interface. */
+static bool happened_at(const CzEvent *event, const CzInterfaceResult *interface) {
+    if (strcmp(event->where, interface->name) == 0)
+        return true;
+    for (int i = 0; i < interface->n_element; i++)
+        if (strcmp(event->where, interface->element[i].name) == 0)
+            return true;
+    return false;
+}
+
+/* What was overrun or let go at an interface, and when. */
+static void describe_damage(const CzRunSummary *run, const CzInterfaceResult *interface,
+                            size_t room, char *text) {
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < run->n_event && used < room; i++) {
+        const CzEvent *event = &run->event[i];
+        const bool bottomed = event->what == CZ_EVENT_BOTTOMED_OUT;
+        if ((!bottomed && event->what != CZ_EVENT_SHEAR_OFF) || !happened_at(event, interface))
+            continue;
+        char time[CZ_FIGURE_ROOM];
+        const int n = snprintf(text + used, room - used, "%s%s %s at %s ms", used > 0 ? ", " : "",
+                               event->where, bottomed ? "BOTTOMED OUT" : "sheared off",
+                               cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
+        used += n > 0 ? (size_t)n : 0;
+    }
+    if (text[0] == '\0' && interface->bottomed_out)
+        snprintf(text, room, "BOTTOMED OUT");
+}
+
+static void put_interface(CzGrid *grid, const CzRunSummary *run,
+                          const CzInterfaceResult *interface) {
+    char number[CZ_FIGURE_ROOM], damage[160], used_text[CZ_FIGURE_ROOM + 2];
+    const CzStyle style = interface->bottomed_out ? CZ_STYLE_BAD : CZ_STYLE_PLAIN;
+    double used = 0;
+    for (int i = 0; i < interface->n_element; i++)
+        used = fmax(used, interface->element[i].stroke_used);
+    snprintf(used_text, sizeof used_text, "%s%s", cz_figure_percent(number, used),
+             interface->bottomed_out ? " !" : "");
+    describe_damage(run, interface, sizeof damage, damage);
+
+    cz_grid_put(grid, interface->name, CZ_STYLE_PLAIN);
+    cz_grid_put(grid, cz_figure_fixed(number, 0, interface->peak_force / CZ_KILO), CZ_STYLE_PLAIN);
+    cz_grid_put(grid, cz_figure_fixed(number, 0, interface->shortening * CZ_MILLI_PER_UNIT),
+                CZ_STYLE_PLAIN);
+    cz_grid_put(grid, used_text, style);
+    cz_grid_put(grid, cz_figure_plain(number, interface->energy / CZ_KILO), CZ_STYLE_PLAIN);
+    cz_grid_put(grid, cz_figure_percent(number, interface->energy_share), CZ_STYLE_PLAIN);
+    cz_grid_put(grid, damage, style);
+}
+
+/* Interfaces of a run; a compact table keeps the one with the highest force and the overrun. */
+static void write_interfaces(const CzRunSummary *run, bool compact, bool colour, FILE *stream) {
+    static const char *const names[] = {"interface", "peak kN", "crush mm", "used",
+                                        "energy kJ", "share",   ""};
+    int worst = 0;
+    for (int i = 1; i < run->n_interface; i++)
+        if (run->interface[i].peak_force > run->interface[worst].peak_force)
+            worst = i;
+
+    CzGrid grid;
+    cz_grid_begin(&grid, "lrrrrrl");
+    for (int i = 0; i < 7; i++)
+        cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
+    for (int i = 0; i < run->n_interface; i++)
+        if (!compact || i == worst || run->interface[i].bottomed_out)
+            put_interface(&grid, run, &run->interface[i]);
+    cz_grid_write(&grid, colour, stream);
+}
+
+/* Wheel lift and override are about the run as a whole. */
+static void write_climbing(const CzRunSummary *run, bool colour, FILE *stream) {
+    char text[160], time[CZ_FIGURE_ROOM];
+    for (int i = 0; i < run->n_event; i++) {
+        const CzEvent *event = &run->event[i];
+        const bool override = event->what == CZ_EVENT_OVERRIDE;
+        if (!override && event->what != CZ_EVENT_WHEEL_LIFT)
+            continue;
+        snprintf(text, sizeof text, "%s: %s at %s ms\n", override ? "OVERRIDE" : "wheel lift",
+                 event->where, cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
+        text[strlen(text) - 1] = '\0';
+        cz_grid_write_text(text, override ? CZ_STYLE_BAD : CZ_STYLE_PLAIN, colour, stream);
+        fputc('\n', stream);
+    }
+    if (!run->beyond_validity)
+        return;
+    snprintf(text, sizeof text, "From %s ms on this run is beyond what the model can say.",
+             cz_figure_fixed(time, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
+    cz_grid_write_text(text, CZ_STYLE_BAD, colour, stream);
+    fputc('\n', stream);
+}
+
+void cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluation, bool colour,
+                           FILE *stream) {
+    cz_grid_write_text(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
+    fputs("\n\n", stream);
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        if (run == NULL)
+            continue;
+        write_run_head(problem, run, colour, stream);
+        if (run->status == CZ_OK) {
+            write_interfaces(run, cz_n_kept_run(evaluation) > 1, colour, stream);
+            write_climbing(run, colour, stream);
+        }
+        fputc('\n', stream);
+    }
+    cz_checks_write_table(evaluation, NULL, colour, stream);
+}

@@ -1,0 +1,10 @@
+/* Units that results are written in; inside everything is SI. */
+#ifndef CZ_REPORT_UNITS_H
+#define CZ_REPORT_UNITS_H
+
+#define CZ_KILO 1e3           /* units in a kilo-unit */
+#define CZ_MILLI_PER_UNIT 1e3 /* milli-units in a unit */
+#define CZ_KM_H_PER_M_S 3.6
+#define CZ_GRAVITY 9.80665 /* standard gravity [m/s2] */
+
+#endif

@@ -1,0 +1,239 @@
+/* The terminal tables: what a person reads, and that nothing bad is painted over. */
+#include "support/check.h"
+
+#include "report/figure.h"
+#include "report/stand_in.h"
+
+/* A text that grows while it is written. */
+typedef struct Text {
+    char *text;
+    size_t n;
+    FILE *stream;
+} Text;
+
+static Text *text_begin(void) {
+    Text *text = calloc(1, sizeof *text);
+    text->stream = open_memstream(&text->text, &text->n);
+    return text;
+}
+
+/* What was written; freed by the caller. */
+static char *text_end(Text *text) {
+    fclose(text->stream);
+    char *written = text->text;
+    free(text);
+    return written;
+}
+
+static char *table_text(const StandIn *s, bool colour) {
+    Text *text = text_begin();
+    cz_report_write_table(stand_in_problem, &s->evaluation, colour, text->stream);
+    return text_end(text);
+}
+
+static char *outcome_text(const StandIn *s) {
+    Text *text = text_begin();
+    cz_report_write_outcome_table(stand_in_problem, stand_in_evaluator, &s->outcome, false,
+                                  text->stream);
+    return text_end(text);
+}
+
+static void assert_has(const char *text, const char *part) {
+    if (strstr(text, part) == NULL)
+        print_error("no '%s' in\n%s\n", part, text);
+    assert_non_null(strstr(text, part));
+}
+
+static void assert_lacks(const char *text, const char *part) {
+    if (strstr(text, part) != NULL)
+        print_error("'%s' in\n%s\n", part, text);
+    assert_null(strstr(text, part));
+}
+
+static void table_tells_interfaces_checks_and_verdict(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    char *text = table_text(&s, false);
+    assert_has(text, "Zwei Züge, 36 km/h\n");
+    assert_has(text, "36   36 km/h -> 0 km/h   0.62 s simulated, ended by rule   energy balance "
+                     "0.02 %\n");
+    assert_has(text, "interface   peak kN   crush mm      used   energy kJ   share\n");
+    assert_has(text, "A1-B1          3483        659   101 % !         689    17 %   coupler A1 "
+                     "sheared off at 100 ms, coupler A1 BOTTOMED OUT at 372 ms\n");
+    assert_has(text, "wheel lift: A1 wheelset 2 at 500 ms\n");
+    assert_has(text, "interface force     A1-B1     1500 kN    3483 kN   -132 %   FAIL\n");
+    assert_has(text, "mean deceleration   A1            5 g     2.31 g    +54 %   PROVISIONAL\n");
+    assert_has(text, "NOT CHECKED   no stops are declared\n");
+    assert_has(text, "min 30 mm          -        -   n/a");
+    assert_has(text, "5 checks: 1 FAIL, 1 NOT CHECKED, 1 PROVISIONAL, 2 pass. Verdict: FAIL.\n");
+    free(text);
+}
+
+static void without_colour_there_is_no_escape_code(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    char *plain = table_text(&s, false), *painted = table_text(&s, true);
+    assert_lacks(plain, "\033");
+    assert_has(painted, "\033[1;31mFAIL\033[0m");
+    assert_has(painted, "\033[1;31m101 % !\033[0m");
+    free(plain);
+    free(painted);
+}
+
+static void names_cannot_send_escape_codes(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    s.check[0].name = "evil\033[2Jname";
+    char *text = table_text(&s, false);
+    assert_lacks(text, "\033");
+    assert_has(text, "evil?[2Jname");
+    free(text);
+}
+
+static void several_scenarios_show_the_worst_lines_and_every_failure(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    s.evaluation.n_run = 2;
+    s.check[1].name = s.check[3].name = "closing speed"; /* margins 0.538 and 0: the second stays */
+    s.check[1].scenario = "18/low";
+    s.check[2].name = "interface force"; /* not checked there, but failed elsewhere */
+    char *text = table_text(&s, false);
+    assert_has(text, "36   36 km/h -> 0 km/h");
+    assert_has(text, "18/low   18 km/h -> 0 km/h");
+    assert_lacks(text, "B1-B2"); /* neither the highest force nor bottomed out */
+    assert_lacks(text, "2.31 g");
+    assert_lacks(text, "no stops are declared");
+    assert_has(text, "0.10 m/s");
+    assert_has(text, "3483 kN");
+    free(text);
+}
+
+static void a_value_that_breaks_its_limit_does_not_read_as_if_it_kept_it(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    s.check[0].value = 1500.0001;
+    s.check[0].margin = -0.0001 / 1500;
+    s.check[3].is_minimum = true;
+    s.check[3].verdict = CZ_VERDICT_FAIL;
+    s.check[3].value = 0.0999999;
+    s.check[3].margin = -1e-6;
+    char *text = table_text(&s, false);
+    assert_has(text, "1500.0001 kN");
+    assert_has(text, "0.0999999 m/s");
+    assert_has(text, "-6.7e-06 %");
+    free(text);
+}
+
+static void failed_and_incomplete_runs_say_so(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    s.run[0].summary.status = CZ_STATUS_RUN_FAILED;
+    snprintf(s.run[0].summary.failure, sizeof s.run[0].summary.failure, "car A1 at 3 ms");
+    char *text = table_text(&s, false);
+    assert_has(text, "RUN FAILED: car A1 at 3 ms\n");
+    free(text);
+    s.run[0].summary.status = CZ_OK;
+    s.run[0].summary.ended = CZ_ENDED_INCOMPLETE;
+    s.run[0].summary.beyond_validity = true;
+    s.run[0].summary.beyond_validity_time = 0.4;
+    text = table_text(&s, false);
+    assert_has(text, "INCOMPLETE");
+    assert_has(text, "From 400 ms on this run is beyond what the model can say.");
+    free(text);
+}
+
+static void without_checks_nothing_is_judged(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    s.evaluation.n_check = 0;
+    char *text = table_text(&s, false);
+    assert_has(text, "NOTHING WAS JUDGED");
+    free(text);
+}
+
+static void a_search_shows_before_and_after_and_the_new_values(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    s.constraint[0] = 0;
+    s.check[0].value = 1432;
+    s.check[0].verdict = CZ_VERDICT_PASS;
+    s.outcome.best_evaluation.violation = 0;
+    s.outcome.best_evaluation.objective = 1432;
+    char *text = outcome_text(&s);
+    assert_has(text, "FEASIBLE after 214 evaluations: the evaluations are used up\n");
+    assert_has(text, "objective interfaces.peak_force_kN: 3483 -> 1432 kN\n");
+    assert_has(text, "tube force    kN     500   900      700       900   at its bound\n");
+    assert_has(text, "limit     before      after");
+    assert_has(text, "3483 kN    1432 kN");
+    assert_lacks(text, "violated");
+    assert_has(text,
+               "set:\n  \"trains.A.vehicles.A1.front.coupler.tube.stages[0].force_kN\": 900\n");
+    free(text);
+}
+
+static void a_search_without_success_lists_what_is_violated(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    s.outcome.status = CZ_OUTCOME_INFEASIBLE;
+    char *text = outcome_text(&s);
+    assert_has(text, "NOTHING FEASIBLE FOUND after 214 evaluations");
+    assert_has(text, "interface force, 36   A1-B1   36         1500 kN   3483 kN   -132 %\n");
+    assert_lacks(text, "deceleration, 36");
+    s.outcome.status = CZ_OUTCOME_INTERRUPTED;
+    free(text);
+    text = outcome_text(&s);
+    assert_has(text, "INTERRUPTED");
+    assert_has(text, "the best so far is NOT feasible");
+    free(text);
+}
+
+static void figures_are_short_and_honest(void **state) {
+    (void)state;
+    static const struct {
+        double value;
+        const char *plain, *percent, *margin;
+    } rows[] = {{0, "0", "0 %", "+0 %"},
+                {3483.4, "3483", "348340 %", "+348340 %"},
+                {21.04, "21.0", "2104 %", "+2104 %"},
+                {2.314, "2.31", "231 %", "+231 %"},
+                {-0.132, "-0.13", "-13 %", "-13 %"},
+                {0.0567, "0.06", "5.7 %", "+5.7 %"},
+                {-0.0003, "-0.0003", "-0.03 %", "-0.03 %"},
+                {-1e-9, "-1e-09", "-1e-07 %", "-1e-07 %"}};
+    char text[CZ_FIGURE_ROOM];
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_string_equal(cz_figure_plain(text, rows[i].value), rows[i].plain);
+        assert_string_equal(cz_figure_percent(text, rows[i].value), rows[i].percent);
+        assert_string_equal(cz_figure_margin(text, rows[i].value), rows[i].margin);
+    }
+    assert_string_equal(cz_figure_percent(text, 0.167), "17 %");
+    assert_string_equal(cz_figure_percent(text, 2e-4), "0.02 %");
+    assert_string_equal(cz_figure_plain(text, NAN), "-");
+    assert_string_equal(cz_figure_margin(text, NAN), "-");
+    assert_string_equal(cz_figure_plain(text, 1e300), "1e+300");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(table_tells_interfaces_checks_and_verdict),
+        cmocka_unit_test(without_colour_there_is_no_escape_code),
+        cmocka_unit_test(names_cannot_send_escape_codes),
+        cmocka_unit_test(several_scenarios_show_the_worst_lines_and_every_failure),
+        cmocka_unit_test(a_value_that_breaks_its_limit_does_not_read_as_if_it_kept_it),
+        cmocka_unit_test(failed_and_incomplete_runs_say_so),
+        cmocka_unit_test(without_checks_nothing_is_judged),
+        cmocka_unit_test(a_search_shows_before_and_after_and_the_new_values),
+        cmocka_unit_test(a_search_without_success_lists_what_is_violated),
+        cmocka_unit_test(figures_are_short_and_honest),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

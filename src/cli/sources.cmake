@@ -1,3 +1,14 @@
 # Sources of src/cli, one per line.
 set(CZ_SOURCES_cli
+    ../base/suggest.c
+    arguments.c
+    command_new.c
+    command_optimise.c
+    command_problem.c
+    command_run.c
+    help.c
+    main.c
+    messages.c
+    progress.c
+    session.c
 )

@@ -1,0 +1,287 @@
+/* The command line: command first, then options and operands in any order. */
+#include "cli/arguments.h"
+
+#include "base/suggest.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const CzCommandInfo cz_commands[CZ_N_COMMAND] = {
+#define CZ_COMMAND(constant, name, operands, fewest, most, doc) {name, operands, doc, fewest, most},
+#include "cli/commands.def"
+#undef CZ_COMMAND
+};
+
+#define IN(command) (1U << CZ_COMMAND_##command)
+const CzOptionInfo cz_options[CZ_N_OPTION] = {
+#define CZ_OPTION(constant, name, letter, value, commands, doc)                                    \
+    {name, value, doc, letter, commands},
+#include "cli/options.def"
+#undef CZ_OPTION
+};
+#undef IN
+
+/* Where reading stands. */
+typedef struct Reader {
+    int argc, next; /* next: index of the next word */
+    char **argv;
+    bool only_operands; /* after -- */
+    CzArguments *arguments;
+    CzError *error;
+} Reader;
+
+__attribute__((format(printf, 2, 3))) static CzStatus misuse(CzError *error, const char *format,
+                                                             ...) {
+    memset(error, 0, sizeof *error);
+    error->status = CZ_STATUS_INPUT;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error->message, sizeof error->message, format, arguments);
+    va_end(arguments);
+    return CZ_STATUS_INPUT;
+}
+
+CzCommand cz_command_named(const char *name) {
+    if (strcmp(name, "optimize") == 0)
+        return CZ_COMMAND_OPTIMISE;
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
+        return CZ_COMMAND_HELP;
+    if (strcmp(name, "--version") == 0)
+        return CZ_COMMAND_VERSION;
+    CzCommand command = 0;
+    while (command < CZ_N_COMMAND && strcmp(cz_commands[command].name, name) != 0)
+        command++;
+    return command;
+}
+
+static CzStatus unknown_command(const char *name, CzError *error) {
+    CzSuggestion suggestion = {0};
+    for (int i = 0; i < CZ_N_COMMAND; i++)
+        cz_suggest(&suggestion, name, cz_commands[i].name);
+    misuse(error, "there is no command '%.100s'", name);
+    if (suggestion.best != NULL)
+        snprintf(error->help, sizeof error->help, "did you mean 'crushzone %s'?", suggestion.best);
+    else
+        snprintf(error->help, sizeof error->help, "'crushzone help' lists the commands");
+    return CZ_STATUS_INPUT;
+}
+
+static bool takes(CzCommand command, int option) {
+    return (cz_options[option].commands & (1U << command)) != 0;
+}
+
+/* The option that a long name means for this command, or an error with the nearest name. */
+static CzStatus find_long(CzCommand command, const char *name, size_t n, int *option,
+                          CzError *error) {
+    char typed[64];
+    CzSuggestion suggestion = {0};
+    const char *longer = NULL; /* an option that begins with what was typed */
+    snprintf(typed, sizeof typed, "%.*s", (int)n, name);
+    for (int i = 0; i < CZ_N_OPTION; i++) {
+        const char *known = cz_options[i].name;
+        if (strlen(known) == n && strncmp(known, name, n) == 0) {
+            *option = i;
+            if (takes(command, i))
+                return CZ_OK;
+            return misuse(error, "'crushzone %s' takes no option '--%s'", cz_commands[command].name,
+                          known);
+        }
+        if (!takes(command, i))
+            continue;
+        cz_suggest(&suggestion, typed, known);
+        if (n > 0 && strncmp(known, name, n) == 0)
+            longer = known;
+    }
+    misuse(error, "there is no option '--%s'%s", typed,
+           longer != NULL ? "; options are not abbreviated" : "");
+    const char *best = longer != NULL ? longer : suggestion.best;
+    if (best != NULL)
+        snprintf(error->help, sizeof error->help, "did you mean '--%s'?", best);
+    else
+        snprintf(error->help, sizeof error->help, "'crushzone help %s' lists its options",
+                 cz_commands[command].name);
+    return CZ_STATUS_INPUT;
+}
+
+static CzStatus find_letter(CzCommand command, char letter, int *option, CzError *error) {
+    for (int i = 0; i < CZ_N_OPTION; i++)
+        if (cz_options[i].letter == letter && takes(command, i)) {
+            *option = i;
+            return CZ_OK;
+        }
+    misuse(error, "'crushzone %s' takes no option '-%c'", cz_commands[command].name, letter);
+    snprintf(error->help, sizeof error->help, "'crushzone help %s' lists its options",
+             cz_commands[command].name);
+    return CZ_STATUS_INPUT;
+}
+
+/* Keeps an option; `value` is what stood in the same word after it, NULL when nothing did. */
+static CzStatus keep_option(Reader *reader, int option, const char *value) {
+    const CzOptionInfo *info = &cz_options[option];
+    CzArguments *arguments = reader->arguments;
+    if (info->value == NULL && value != NULL)
+        return misuse(reader->error, "'--%s' takes no value", info->name);
+    if (info->value != NULL && value == NULL) {
+        if (reader->next == reader->argc)
+            return misuse(reader->error, "'--%s' needs a value: --%s %s", info->name, info->name,
+                          info->value);
+        value = reader->argv[reader->next++];
+    }
+    arguments->text[option] = value != NULL ? value : "";
+    if (option == CZ_OPTION_SET)
+        arguments->set[arguments->n_set++] = value;
+    return CZ_OK;
+}
+
+static CzStatus read_word(Reader *reader) {
+    const char *word = reader->argv[reader->next++];
+    const CzCommand command = reader->arguments->command;
+    int option = 0;
+    if (reader->only_operands || word[0] != '-' || word[1] == '\0') {
+        reader->arguments->operand[reader->arguments->n_operand++] = word;
+        return CZ_OK;
+    }
+    if (strcmp(word, "--") == 0) {
+        reader->only_operands = true;
+        return CZ_OK;
+    }
+    if (word[1] == '-') {
+        const char *equals = strchr(word, '=');
+        const size_t n = equals != NULL ? (size_t)(equals - word) - 2 : strlen(word) - 2;
+        const CzStatus status = find_long(command, word + 2, n, &option, reader->error);
+        if (status != CZ_OK)
+            return status;
+        return keep_option(reader, option, equals != NULL ? equals + 1 : NULL);
+    }
+    const CzStatus status = find_letter(command, word[1], &option, reader->error);
+    if (status != CZ_OK)
+        return status;
+    return keep_option(reader, option, word[2] != '\0' ? word + 2 : NULL);
+}
+
+static CzStatus read_whole(const CzArguments *arguments, CzOption option, long lo, long hi,
+                           long *value, CzError *error) {
+    const char *text = arguments->text[option];
+    if (text == NULL)
+        return CZ_OK;
+    char *end = NULL;
+    errno = 0;
+    *value = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || errno != 0 || *value < lo || *value > hi)
+        return misuse(error, "'--%s %.40s' is no whole number from %ld to %ld",
+                      cz_options[option].name, text, lo, hi);
+    return CZ_OK;
+}
+
+/* One of the words; *index is left alone when the option is absent. */
+static CzStatus read_choice(const CzArguments *arguments, CzOption option, int n,
+                            const char *const *words, int *index, CzError *error) {
+    const char *text = arguments->text[option];
+    for (int i = 0; text != NULL && i < n; i++)
+        if (strcmp(text, words[i]) == 0) {
+            *index = i;
+            return CZ_OK;
+        }
+    if (text == NULL)
+        return CZ_OK;
+    misuse(error, "'--%s %.40s' is not known", cz_options[option].name, text);
+    snprintf(error->help, sizeof error->help, "it takes %s", words[0]);
+    for (int i = 1; i < n; i++) {
+        const size_t used = strlen(error->help);
+        snprintf(error->help + used, sizeof error->help - used, " or %s", words[i]);
+    }
+    return CZ_STATUS_INPUT;
+}
+
+/* Values of options as what they mean. */
+static CzStatus read_values(CzArguments *arguments, CzError *error) {
+    static const char *const colours[] = {"auto", "always", "never"};
+    static const char *const separators[] = {",", ";", "tab"};
+    static const char *const decimals[] = {".", ","};
+    int colour = 0, separator = 0, decimal = 0;
+    long n_job = 0;
+    CzStatus status = CZ_OK;
+    if (status == CZ_OK)
+        status = read_whole(arguments, CZ_OPTION_JOBS, 1, 1024, &n_job, error);
+    if (status == CZ_OK)
+        status = read_whole(arguments, CZ_OPTION_EVALUATIONS, 1, 100000000, &arguments->evaluations,
+                            error);
+    if (status == CZ_OK)
+        status = read_whole(arguments, CZ_OPTION_SEED, 0, 2000000000, &arguments->seed, error);
+    if (status == CZ_OK)
+        status = read_choice(arguments, CZ_OPTION_COLOR, 3, colours, &colour, error);
+    if (status == CZ_OK)
+        status = read_choice(arguments, CZ_OPTION_CSV_SEP, 3, separators, &separator, error);
+    if (status == CZ_OK)
+        status = read_choice(arguments, CZ_OPTION_CSV_DECIMAL, 2, decimals, &decimal, error);
+    if (status != CZ_OK)
+        return status;
+    arguments->n_job = (int)n_job;
+    arguments->colour = (CzColour)colour;
+    arguments->csv_separator = ",;\t"[separator];
+    arguments->csv_decimal = ".,"[decimal];
+    if (arguments->csv_separator == arguments->csv_decimal) {
+        misuse(error, "CSV files cannot have a comma both between fields and in numbers");
+        snprintf(error->help, sizeof error->help, "add --csv-sep ';'");
+        return CZ_STATUS_INPUT;
+    }
+    if (arguments->text[CZ_OPTION_TIME_STEP_MS] != NULL) {
+        snprintf(arguments->time_step, sizeof arguments->time_step, "simulation.time_step_ms=%.30s",
+                 arguments->text[CZ_OPTION_TIME_STEP_MS]);
+        arguments->set[arguments->n_set++] = arguments->time_step;
+    }
+    return CZ_OK;
+}
+
+static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
+    const CzCommandInfo *info = &cz_commands[arguments->command];
+    if (arguments->text[CZ_OPTION_HELP] != NULL)
+        return CZ_OK;
+    if (arguments->n_operand < info->fewest)
+        return misuse(error, "'crushzone %s' needs %s", info->name, info->operands);
+    if (arguments->n_operand > info->most)
+        return misuse(error, "'crushzone %s' does not know what to do with '%.100s'", info->name,
+                      arguments->operand[info->most]);
+    for (int i = 0; i < arguments->n_set; i++)
+        if (strchr(arguments->set[i], '=') == NULL || arguments->set[i][0] == '=')
+            return misuse(error, "'--set %.100s' is not of the form PATH=VALUE", arguments->set[i]);
+    if (arguments->text[CZ_OPTION_JSON] != NULL && arguments->n_operand > 1)
+        return misuse(error, "with --json 'crushzone %s' takes one FILE: it prints one document",
+                      info->name);
+    return CZ_OK;
+}
+
+CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzError *error) {
+    memset(arguments, 0, sizeof *arguments);
+    arguments->seed = -1;
+    arguments->csv_separator = ',';
+    arguments->csv_decimal = '.';
+    arguments->nothing = argc < 2;
+    if (arguments->nothing)
+        return CZ_OK;
+    arguments->command = cz_command_named(argv[1]);
+    if (arguments->command == CZ_N_COMMAND)
+        return unknown_command(argv[1], error);
+    arguments->operand = calloc((size_t)argc, sizeof *arguments->operand);
+    arguments->set = calloc((size_t)argc + 1, sizeof *arguments->set);
+    if (arguments->operand == NULL || arguments->set == NULL) {
+        misuse(error, "no memory for the command line");
+        return error->status = CZ_STATUS_NO_MEMORY;
+    }
+    Reader reader = {.argc = argc, .next = 2, .argv = argv, .arguments = arguments, .error = error};
+    CzStatus status = CZ_OK;
+    while (reader.next < argc && status == CZ_OK)
+        status = read_word(&reader);
+    if (status == CZ_OK)
+        status = read_values(arguments, error);
+    return status != CZ_OK ? status : check_operands(arguments, error);
+}
+
+void cz_arguments_free(CzArguments *arguments) {
+    free(arguments->operand);
+    free(arguments->set);
+    arguments->operand = arguments->set = NULL;
+}

@@ -1,0 +1,66 @@
+/* The command line, read against one table of commands and one of options. */
+#ifndef CZ_CLI_ARGUMENTS_H
+#define CZ_CLI_ARGUMENTS_H
+
+#include <stdbool.h>
+
+#include "crushzone/status.h"
+
+typedef enum CzCommand {
+#define CZ_COMMAND(constant, name, operands, fewest, most, doc) CZ_COMMAND_##constant,
+#include "cli/commands.def"
+#undef CZ_COMMAND
+    CZ_N_COMMAND
+} CzCommand;
+
+typedef enum CzOption {
+#define CZ_OPTION(constant, name, letter, value, commands, doc) CZ_OPTION_##constant,
+#include "cli/options.def"
+#undef CZ_OPTION
+    CZ_N_OPTION
+} CzOption;
+
+typedef struct CzCommandInfo {
+    const char *name, *operands, *doc;
+    int fewest, most; /* operands */
+} CzCommandInfo;
+
+typedef struct CzOptionInfo {
+    const char *name, *value, *doc; /* value: what follows it, NULL for a flag */
+    char letter;                    /* 0 when it has none */
+    unsigned commands;              /* bit 1 << CzCommand for each command that takes it */
+} CzOptionInfo;
+
+extern const CzCommandInfo cz_commands[CZ_N_COMMAND];
+extern const CzOptionInfo cz_options[CZ_N_OPTION];
+
+typedef enum CzColour { CZ_COLOUR_AUTO, CZ_COLOUR_ALWAYS, CZ_COLOUR_NEVER } CzColour;
+
+/* What was asked for. Texts are borrowed from argv; arrays are owned. */
+typedef struct CzArguments {
+    bool nothing; /* no command at all */
+    CzCommand command;
+    const char *text[CZ_N_OPTION]; /* value of each option, NULL when absent; "" for a flag */
+    const char **operand;          /* file names, topic or template (n_operand) */
+    int n_operand;
+    const char **set; /* "path=value" texts in order (n_set) */
+    int n_set;
+    char time_step[64]; /* room for the setting that --time-step-ms stands for */
+    int n_job;          /* 0: as many as there are processors */
+    long evaluations;   /* 0: the file's */
+    long seed;          /* -1: the file's */
+    char csv_separator, csv_decimal;
+    CzColour colour;
+} CzArguments;
+
+/* Reads the command line. Names must be written out: an abbreviation that works today would change
+ * its meaning when an option is added. Free with cz_arguments_free also after a failure. Statuses:
+ * CZ_OK, CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments,
+                                         CzError *error);
+void cz_arguments_free(CzArguments *arguments);
+
+/* The command of a name or of another spelling of it, CZ_N_COMMAND when there is none. */
+CzCommand cz_command_named(const char *name);
+
+#endif

@@ -1,0 +1,116 @@
+/* `optimise`: search, keep the best on the first signal, print before and after. */
+#include "cli/command.h"
+#include "cli/messages.h"
+#include "cli/progress.h"
+#include "cli/session.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <unistd.h>
+
+static const char default_folder[] = "out";
+
+/* The signal that asked the search to stop, 0 when none did. */
+static volatile sig_atomic_t stop_signal;
+
+/* The first signal stops the search and the best design is written; the second ends at once. */
+static void on_signal(int signal_number) {
+    if (stop_signal != 0)
+        _exit(128 + signal_number);
+    stop_signal = signal_number;
+}
+
+static void catch_signals(void) {
+    struct sigaction action = {.sa_handler = on_signal};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+static CzStatus search(CzSession *session, CzOutcome **outcome, CzError *error) {
+    const CzArguments *arguments = session->arguments;
+    CzProgressLine line;
+    CzOptimiseOptions options = cz_optimise_options_default();
+    if (arguments->text[CZ_OPTION_ALGORITHM] != NULL)
+        options.algorithm = arguments->text[CZ_OPTION_ALGORITHM];
+    if (arguments->evaluations > 0)
+        options.evaluations = arguments->evaluations;
+    if (arguments->seed >= 0)
+        options.seed = arguments->seed;
+    options.stop = &stop_signal;
+    options.progress = cz_progress_show;
+    options.progress_data = &line;
+
+    catch_signals();
+    cz_progress_begin(&line, arguments, cz_evaluator_objective_unit(session->evaluator));
+    const CzStatus status = cz_optimise(session->evaluator, &options, outcome, error);
+    cz_progress_end(&line);
+    return status;
+}
+
+static int judge(const CzOutcome *outcome) {
+    switch (outcome->status) {
+    case CZ_OUTCOME_FEASIBLE:
+        return 0;
+    case CZ_OUTCOME_INFEASIBLE:
+        return cz_status_exit_code(CZ_STATUS_VIOLATED);
+    case CZ_OUTCOME_INTERRUPTED:
+        return 128 + (stop_signal != 0 ? (int)stop_signal : SIGINT);
+    }
+    return cz_status_exit_code(CZ_STATUS_INTERNAL);
+}
+
+/* The folder comes first: whatever happens to the terminal, the best design is kept. */
+static int answer(const CzSession *session, const CzOutcome *outcome, const char *folder) {
+    const CzArguments *arguments = session->arguments;
+    const CzReportOptions options = cz_session_report_options(session, outcome->wall_s);
+    CzError error = {0};
+    CzStatus status = cz_report_write_outcome_folder(session->problem, session->evaluator, outcome,
+                                                     &options, folder, &error);
+    const bool is_kept = status == CZ_OK;
+    if (!is_kept)
+        cz_print_mistake(arguments, "error", NULL, &error);
+    if (arguments->text[CZ_OPTION_JSON] != NULL) {
+        const CzStatus written = cz_report_write_outcome(session->problem, session->evaluator,
+                                                         outcome, &options, stdout, &error);
+        if (written != CZ_OK)
+            cz_print_mistake(arguments, "error", NULL, &error);
+        status = is_kept ? written : status;
+    } else {
+        cz_report_write_outcome_table(session->problem, session->evaluator, outcome,
+                                      cz_wants_colour(arguments, STDOUT_FILENO), stdout);
+    }
+    if (is_kept)
+        cz_tell(arguments,
+                "results in %s, computed in %.3g s; run the best design with: crushzone "
+                "check %s/optimised.yaml",
+                folder, outcome->wall_s, folder);
+    return status != CZ_OK ? cz_status_exit_code(status) : judge(outcome);
+}
+
+int cz_command_optimise(const CzArguments *arguments) {
+    const char *folder = arguments->text[CZ_OPTION_OUTPUT];
+    CzError error = {0};
+    if (folder == NULL)
+        folder = default_folder;
+    if (cz_report_check_folder(folder, &error) != CZ_OK)
+        return cz_tell_error(arguments, &error);
+
+    CzSession session;
+    CzOutcome *outcome = NULL;
+    int code = cz_session_begin(&session, arguments, arguments->operand[0]);
+    if (code == 0) {
+        const CzStatus status = search(&session, &outcome, &error);
+        if (outcome != NULL)
+            code = answer(&session, outcome, folder);
+        if (status != CZ_OK && outcome != NULL) {
+            cz_print_mistake(arguments, "error", NULL, &error);
+            code = cz_status_exit_code(status);
+        } else if (status != CZ_OK) {
+            code = cz_session_fail(&session, &error);
+        }
+    }
+    cz_outcome_free(outcome);
+    cz_session_end(&session);
+    return code;
+}

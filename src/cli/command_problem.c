@@ -1,0 +1,155 @@
+/* `validate` and `show`: what can be said of a problem without running it. */
+#include "cli/command.h"
+#include "cli/messages.h"
+#include "cli/session.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A coupler that pushes harder than its strut can stand folds before its tube has done its work. */
+static void warn_of_folding(const CzArguments *arguments, const char *scenario,
+                            const CzModel *model) {
+    for (int i = 0; i < cz_model_n_interface(model); i++) {
+        const CzInterfaceFacts facts = cz_model_interface_facts(model, i);
+        if (facts.tube_force > facts.critical_force)
+            cz_tell(arguments,
+                    "warning: %s, interface %s: the tubes push with up to %.0f kN, more than the "
+                    "F_crit = %.0f kN at which the coupler strut folds",
+                    scenario, cz_model_interface_name(model, i), 1e-3 * facts.tube_force,
+                    1e-3 * facts.critical_force);
+    }
+}
+
+/* Builds the model of every scenario: the last rules are found there. */
+static int build_models(const CzSession *session, int *n_vehicle) {
+    for (int i = 0; i < cz_problem_n_scenario(session->problem); i++) {
+        CzModel *model = NULL;
+        CzError error = {0};
+        if (cz_model_build(session->problem, i, &model, &error) != CZ_OK)
+            return cz_session_fail(session, &error);
+        *n_vehicle = cz_model_n_vehicle(model);
+        warn_of_folding(session->arguments, cz_problem_scenario_name(session->problem, i), model);
+        cz_model_free(model);
+    }
+    return 0;
+}
+
+static int validate_file(const CzArguments *arguments, const char *file) {
+    CzSession session;
+    int n_vehicle = 0;
+    int code = cz_session_begin(&session, arguments, file);
+    if (code == 0)
+        code = build_models(&session, &n_vehicle);
+    if (code == 0 && arguments->text[CZ_OPTION_JSON] != NULL)
+        printf("{\"format\": \"crushzone.validation\", \"version\": 1, \"status\": \"ok\", "
+               "\"hash\": \"%s\", \"scenarios\": %d, \"vehicles\": %d, \"variables\": %d}\n",
+               cz_problem_hash(session.problem), cz_problem_n_scenario(session.problem), n_vehicle,
+               cz_evaluator_n_variable(session.evaluator));
+    else if (code == 0)
+        printf("%s: ok, %d scenarios, %d vehicles, %d design variables\n", file,
+               cz_problem_n_scenario(session.problem), n_vehicle,
+               cz_evaluator_n_variable(session.evaluator));
+    cz_session_end(&session);
+    return code;
+}
+
+int cz_command_validate(const CzArguments *arguments) {
+    int worst = 0;
+    for (int i = 0; i < arguments->n_operand; i++) {
+        const int code = validate_file(arguments, arguments->operand[i]);
+        worst = code > worst ? code : worst;
+    }
+    return worst;
+}
+
+static void put_number(double value, double unit, int decimals) {
+    if (isnan(value))
+        printf(" %9s", "-");
+    else
+        printf(" %9.*f", decimals, value / unit);
+}
+
+static void show_vehicles(const CzModel *model) {
+    printf("#\n# %-9s %9s %9s %9s %9s %9s %9s %9s %9s\n", "vehicle", "mass t", "axle 1 kN",
+           "axle 2 kN", "axle 3 kN", "axle 4 kN", "second mm", "bounce Hz", "pitch Hz");
+    for (int i = 0; i < cz_model_n_vehicle(model); i++) {
+        const CzVehicleFacts facts = cz_model_vehicle_facts(model, i);
+        printf("# %-9s", cz_model_vehicle_name(model, i));
+        put_number(facts.mass, 1e3, 3);
+        for (int axle = 0; axle < 4; axle++)
+            put_number(facts.axle_load[axle], 1e3, 1);
+        put_number(facts.secondary_deflection[0], 1e-3, 1);
+        put_number(facts.bounce_frequency, 1, 3);
+        put_number(facts.pitch_frequency, 1, 3);
+        putchar('\n');
+    }
+}
+
+static void show_interfaces(const CzModel *model) {
+    printf("#\n# %-11s %9s %9s %9s %9s\n", "interface", "strut mm", "F_crit kN", "tube kN",
+           "gap mm");
+    for (int i = 0; i < cz_model_n_interface(model); i++) {
+        const CzInterfaceFacts facts = cz_model_interface_facts(model, i);
+        printf("# %-11s", cz_model_interface_name(model, i));
+        put_number(facts.strut_length, 1e-3, 0);
+        put_number(facts.critical_force, 1e3, 0);
+        put_number(facts.tube_force, 1e3, 0);
+        put_number(facts.anti_climber_gap, 1e-3, 0);
+        printf("%s\n", i == cz_model_colliding_interface(model) ? "   colliding" : "");
+        if (facts.tube_force > facts.critical_force)
+            printf("#   warning: the tubes push harder than F_crit, at which the strut folds\n");
+    }
+}
+
+static void show_steps(const CzModel *model) {
+    enum { SHOWN = 8 };
+    printf("#\n# time step %.6g ms; largest stable steps:\n", 1e3 * cz_model_time_step(model));
+    for (int i = 0; i < cz_model_n_step_bound(model) && i < SHOWN; i++) {
+        const CzStepBound *bound = cz_model_step_bound(model, i);
+        printf("#   %10.6g ms  %s\n", 1e3 * bound->bound, bound->element);
+    }
+}
+
+/* The scenario that the facts are shown for: the first unless one was asked for; -1 when there is
+ * none of that name. */
+static int chosen_scenario(const CzSession *session) {
+    const char *name = session->arguments->text[CZ_OPTION_SCENARIO];
+    if (name == NULL)
+        return 0;
+    for (int i = 0; i < cz_problem_n_scenario(session->problem); i++)
+        if (strcmp(cz_problem_scenario_name(session->problem, i), name) == 0)
+            return i;
+    return -1;
+}
+
+static int show_facts(const CzSession *session) {
+    CzModel *model = NULL;
+    CzError error = {0};
+    const int scenario = chosen_scenario(session);
+    if (scenario < 0) {
+        error.status = CZ_STATUS_INPUT;
+        snprintf(error.message, sizeof error.message, "there is no scenario '%.200s'",
+                 session->arguments->text[CZ_OPTION_SCENARIO]);
+        return cz_session_fail(session, &error);
+    }
+    if (cz_model_build(session->problem, scenario, &model, &error) != CZ_OK)
+        return cz_session_fail(session, &error);
+    cz_problem_write_resolved(session->problem, stdout);
+    printf("\n# Known before the run, scenario %s; axles and ends are counted from the rear.\n",
+           cz_problem_scenario_name(session->problem, scenario));
+    show_vehicles(model);
+    show_interfaces(model);
+    show_steps(model);
+    cz_model_free(model);
+    return 0;
+}
+
+int cz_command_show(const CzArguments *arguments) {
+    CzSession session;
+    int code = cz_session_read(&session, arguments, arguments->operand[0]);
+    if (code == 0)
+        code = show_facts(&session);
+    cz_session_end(&session);
+    return code;
+}

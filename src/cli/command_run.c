@@ -1,0 +1,115 @@
+/* `run` and `check`: simulate every scenario, print the table, write the result folder. */
+#include "cli/command.h"
+#include "cli/messages.h"
+#include "cli/progress.h"
+#include "cli/session.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char default_folder[] = "out";
+
+/* Where the results of one of the files go, NULL when they go nowhere. `room` holds a name that is
+ * made up: with several files each gets a folder of its own inside. */
+static const char *folder_of(const CzArguments *arguments, const char *file, char room[4096]) {
+    const char *folder = arguments->text[CZ_OPTION_OUTPUT];
+    const bool by_default =
+        arguments->command == CZ_COMMAND_RUN && arguments->text[CZ_OPTION_JSON] == NULL;
+    if (folder == NULL && by_default)
+        folder = default_folder;
+    if (folder == NULL || arguments->n_operand == 1)
+        return folder;
+    const char *slash = strrchr(file, '/');
+    const char *name = slash != NULL ? slash + 1 : file;
+    const char *dot = strrchr(name, '.');
+    snprintf(room, 4096, "%s/%.*s", folder,
+             dot != NULL && dot != name ? (int)(dot - name) : (int)strlen(name), name);
+    return room;
+}
+
+static void tell_runs(const CzArguments *arguments, const CzEvaluation *evaluation) {
+    for (int i = 0; i < evaluation->n_run; i++) {
+        if (evaluation->run == NULL || evaluation->run[i] == NULL)
+            continue; /* a scenario that was left out */
+        const CzRunSummary *run = cz_run_summary(evaluation->run[i]);
+        cz_tell(arguments, "%s: %ld steps of %.3g ms in %.3g s, momentum error %.2g", run->scenario,
+                run->n_step, 1e3 * run->time_step, run->wall_s, run->momentum_error);
+    }
+}
+
+/* Only `check`, or `run --strict`, judges by exit code. What could not be judged is no pass. */
+static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
+    if (evaluation->status != CZ_OK) {
+        cz_tell(arguments, "a run failed or is incomplete: its results are no basis for a design");
+        return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
+    }
+    const bool judges =
+        arguments->command == CZ_COMMAND_CHECK || arguments->text[CZ_OPTION_STRICT] != NULL;
+    const bool passes =
+        evaluation->verdict == CZ_VERDICT_PASS || evaluation->verdict == CZ_VERDICT_PROVISIONAL;
+    if (!judges || passes)
+        return 0;
+    if (evaluation->verdict == CZ_VERDICT_NOT_CHECKED)
+        cz_tell(arguments, "not everything could be checked, so this is no pass");
+    return cz_status_exit_code(CZ_STATUS_VIOLATED);
+}
+
+static int answer(const CzSession *session, const CzEvaluation *evaluation, double wall_s,
+                  const char *folder) {
+    const CzArguments *arguments = session->arguments;
+    const CzReportOptions options = cz_session_report_options(session, wall_s);
+    CzError error = {0};
+    CzStatus status = CZ_OK;
+    if (arguments->text[CZ_OPTION_JSON] != NULL)
+        status = cz_report_write_summary(session->problem, evaluation, &options, stdout, &error);
+    else
+        cz_report_write_table(session->problem, evaluation,
+                              cz_wants_colour(arguments, STDOUT_FILENO), stdout);
+    if (status == CZ_OK && folder != NULL)
+        status = cz_report_write_folder(session->problem, evaluation, &options, folder, &error);
+    if (status != CZ_OK) {
+        cz_print_mistake(arguments, "error", NULL, &error);
+        return cz_status_exit_code(status);
+    }
+    if (folder != NULL)
+        cz_tell(arguments, "results in %s, computed in %.2g s", folder, wall_s);
+    return judge(arguments, evaluation);
+}
+
+static int run_file(const CzArguments *arguments, const char *file) {
+    char room[4096];
+    const char *folder = folder_of(arguments, file, room);
+    CzError error = {0};
+    if (folder != NULL && cz_report_check_folder(folder, &error) != CZ_OK)
+        return cz_tell_error(arguments, &error);
+
+    CzSession session;
+    int code = cz_session_begin(&session, arguments, file);
+    if (code == 0) {
+        CzEvaluation evaluation = {0};
+        const double started = cz_clock();
+        if (cz_evaluate(session.evaluator, 1, NULL, true, &evaluation, &error) != CZ_OK) {
+            code = cz_session_fail(&session, &error);
+        } else {
+            const double wall_s = cz_clock() - started;
+            if (arguments->text[CZ_OPTION_VERBOSE] != NULL)
+                tell_runs(arguments, &evaluation);
+            code = answer(&session, &evaluation, wall_s, folder);
+        }
+        cz_evaluation_free(&evaluation);
+    }
+    cz_session_end(&session);
+    return code;
+}
+
+int cz_command_run(const CzArguments *arguments) {
+    int worst = 0;
+    for (int i = 0; i < arguments->n_operand; i++) {
+        if (i > 0)
+            fputc('\n', stdout);
+        const int code = run_file(arguments, arguments->operand[i]);
+        worst = code > worst ? code : worst;
+    }
+    return worst;
+}

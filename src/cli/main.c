@@ -1,0 +1,73 @@
+/* The program crushzone: finds the command, runs it, ends with its exit code. */
+#include "cli/command.h"
+#include "cli/messages.h"
+#include "crushzone/report.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+int cz_command_schema(const CzArguments *arguments) {
+    (void)arguments;
+    cz_keys_write_schema(stdout);
+    return 0;
+}
+
+int cz_command_version(const CzArguments *arguments) {
+    char nlopt[32] = "";
+    cz_nlopt_version(nlopt, sizeof nlopt);
+    if (arguments->text[CZ_OPTION_JSON] != NULL)
+        printf("{\"format\": \"crushzone.version\", \"version\": \"%s\", \"sundials\": null, "
+               "\"nlopt\": \"%s\", \"isa\": \"%s\"}\n",
+               cz_version(), nlopt, cz_isa_name());
+    else
+        printf("crushzone %s (NLopt %s, kernel for %s)\n", cz_version(), nlopt, cz_isa_name());
+    return 0;
+}
+
+static int (*const commands[CZ_N_COMMAND])(const CzArguments *) = {
+    [CZ_COMMAND_RUN] = cz_command_run,           [CZ_COMMAND_CHECK] = cz_command_run,
+    [CZ_COMMAND_OPTIMISE] = cz_command_optimise, [CZ_COMMAND_VALIDATE] = cz_command_validate,
+    [CZ_COMMAND_SHOW] = cz_command_show,         [CZ_COMMAND_NEW] = cz_command_new,
+    [CZ_COMMAND_SCHEMA] = cz_command_schema,     [CZ_COMMAND_HELP] = cz_command_help,
+    [CZ_COMMAND_VERSION] = cz_command_version};
+
+/* Whether --json stands anywhere: a mistake in the command line is a JSON document then too. */
+static bool asks_for_json(int argc, char **argv) {
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
+        if (strcmp(argv[i], "--json") == 0)
+            return true;
+    return false;
+}
+
+static int dispatch(const CzArguments *arguments) {
+    if (arguments->nothing) {
+        cz_help_write_greeting();
+        return 0;
+    }
+    if (arguments->text[CZ_OPTION_HELP] != NULL) {
+        cz_help_write_command(arguments->command);
+        return 0;
+    }
+    return commands[arguments->command](arguments);
+}
+
+int main(int argc, char **argv) {
+    /* A closed pipe and a full disk are errors of writing, not reasons to vanish. */
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+
+    CzArguments arguments;
+    CzError error = {0};
+    int code;
+    if (cz_arguments_read(argc, argv, &arguments, &error) == CZ_OK) {
+        code = dispatch(&arguments);
+    } else {
+        if (asks_for_json(argc, argv))
+            arguments.text[CZ_OPTION_JSON] = "";
+        code = cz_tell_error(&arguments, &error);
+    }
+    code = cz_end_output(&arguments, code);
+    cz_arguments_free(&arguments);
+    return code;
+}

@@ -1,0 +1,25 @@
+/* How far a search is: one rewritten line on a terminal, else a line every ten seconds. */
+#ifndef CZ_CLI_PROGRESS_H
+#define CZ_CLI_PROGRESS_H
+
+#include "cli/arguments.h"
+#include "crushzone/optimise.h"
+
+typedef struct CzProgressLine {
+    bool is_silent, is_terminal;
+    const char *unit;      /* of the objective */
+    double started, shown; /* [s], of a steady clock */
+} CzProgressLine;
+
+void cz_progress_begin(CzProgressLine *line, const CzArguments *arguments, const char *unit);
+
+/* The callback of CzOptimiseOptions; `data` is the CzProgressLine. */
+void cz_progress_show(const CzProgress *progress, void *data);
+
+/* Clears the line. */
+void cz_progress_end(CzProgressLine *line);
+
+/* A steady clock [s]. */
+double cz_clock(void);
+
+#endif

@@ -1,0 +1,32 @@
+/* One problem file on its way through a command. */
+#ifndef CZ_CLI_SESSION_H
+#define CZ_CLI_SESSION_H
+
+#include "cli/arguments.h"
+#include "crushzone/report.h"
+
+typedef struct CzSession {
+    const CzArguments *arguments;
+    const char *file;
+    CzProblem *problem;
+    CzEvaluator *evaluator;
+    double setup_s; /* reading and building [s] */
+} CzSession;
+
+/* Reads a problem file with the settings of the command line and tells its mistakes and warnings.
+ * Returns the exit code, 0 when all is well; end with cz_session_end in any case. */
+CZ_MUST_CHECK int cz_session_read(CzSession *session, const CzArguments *arguments,
+                                  const char *file);
+
+/* The same, with an evaluator. */
+CZ_MUST_CHECK int cz_session_begin(CzSession *session, const CzArguments *arguments,
+                                   const char *file);
+void cz_session_end(CzSession *session);
+
+/* How the results of this session are written. */
+CzReportOptions cz_session_report_options(const CzSession *session, double wall_s);
+
+/* Tells a failure of this session's problem; returns its exit code. */
+int cz_session_fail(const CzSession *session, const CzError *error);
+
+#endif

@@ -1,3 +1,4 @@
-# Sources of src/dynamics, one per line.
+# Sources of src/dynamics, one per line. kernel.c is compiled once per instruction set.
 set(CZ_SOURCES_dynamics
+    dynamics.c
 )

@@ -1,3 +1,4 @@
 # Sources of src/integrate, one per line.
 set(CZ_SOURCES_integrate
+    two_step.c
 )

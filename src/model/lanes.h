@@ -53,6 +53,7 @@ typedef struct CzLanes {
     double *velocity;     /* at t = 0 [m/s, rad/s] (CZ_N_DOF x stride) */
     int has_side_buffers; /* any interface has them */
     int has_couplers;     /* any interface has them */
+    int has_full_cars;    /* any car is a full one */
 } CzLanes;
 
 #endif

@@ -1,3 +1,12 @@
 # Sources of src/simulate, one per line.
 set(CZ_SOURCES_simulate
+    balance.c
+    batch.c
+    channels.c
+    elements.c
+    ending.c
+    history.c
+    run.c
+    summary.c
+    watch.c
 )

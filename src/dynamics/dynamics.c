@@ -1,0 +1,99 @@
+/* Memory of a run's moving part, and the choice of the kernel. */
+#include "dynamics/dynamics.h"
+
+#include <string.h>
+
+extern const CzKernel cz_kernel_baseline;
+#ifdef CZ_HAS_KERNEL_V3
+extern const CzKernel cz_kernel_v3;
+#endif
+#ifdef CZ_HAS_KERNEL_V4
+extern const CzKernel cz_kernel_v4;
+#endif
+
+static int runs_always(void) {
+    return 1;
+}
+
+#ifdef CZ_HAS_KERNEL_V3
+static int runs_v3(void) {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+           __builtin_cpu_supports("bmi2");
+}
+#endif
+
+#ifdef CZ_HAS_KERNEL_V4
+static int runs_v4(void) {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
+}
+#endif
+
+/* Copies of the kernel, the fastest first. */
+static const struct {
+    const CzKernel *kernel;
+    int (*runs)(void); /* whether this processor can */
+} kernels[] = {
+#ifdef CZ_HAS_KERNEL_V4
+    {&cz_kernel_v4, runs_v4},
+#endif
+#ifdef CZ_HAS_KERNEL_V3
+    {&cz_kernel_v3, runs_v3},
+#endif
+    {&cz_kernel_baseline, runs_always},
+};
+
+const CzKernel *cz_kernel(const char *isa) {
+    const int any = isa == NULL || strcmp(isa, "auto") == 0;
+    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; ++i)
+        if ((any || strcmp(isa, kernels[i].kernel->isa) == 0) && kernels[i].runs())
+            return kernels[i].kernel;
+    return NULL;
+}
+
+/* Rows of doubles, all zero. */
+static double *rows(CzArena *arena, int n_row, size_t stride, int *missing) {
+    double *array = cz_arena_allocate(arena, (size_t)n_row * stride, sizeof(double));
+    *missing |= array == NULL;
+    return array;
+}
+
+/* Extremes start below anything that a run can reach. */
+static void start_extremes(CzDynamics *dynamics) {
+    static const double start[CZ_N_EXTREME] = {
+#define CZ_EXTREME(name, start, doc) start,
+#include "dynamics/extremes.def"
+#undef CZ_EXTREME
+    };
+    for (int row = 0; row < CZ_N_EXTREME; ++row)
+        for (size_t lane = 0; lane < dynamics->stride; ++lane)
+            cz_row(dynamics->extreme, dynamics->stride, row)[lane] = start[row];
+}
+
+CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena) {
+    CzDynamics *dynamics = cz_arena_allocate(arena, 1, sizeof *dynamics);
+    if (dynamics == NULL)
+        return NULL;
+    const size_t stride = lanes->stride;
+    int missing = 0;
+    dynamics->lanes = lanes;
+    dynamics->stride = stride;
+    dynamics->position = rows(arena, CZ_N_ROW, stride, &missing);
+    dynamics->velocity = rows(arena, CZ_N_ROW, stride, &missing);
+    dynamics->acceleration = rows(arena, CZ_N_ROW, stride, &missing);
+    dynamics->last_acceleration = rows(arena, CZ_N_ROW, stride, &missing);
+    dynamics->memory = rows(arena, CZ_N_MEMORY, stride, &missing);
+    dynamics->next_memory = rows(arena, CZ_N_MEMORY, stride, &missing);
+    dynamics->power = rows(arena, CZ_N_LEDGER, stride, &missing);
+    dynamics->last_power = rows(arena, CZ_N_LEDGER, stride, &missing);
+    dynamics->work = rows(arena, CZ_N_LEDGER, stride, &missing);
+    dynamics->extreme = rows(arena, CZ_N_EXTREME, stride, &missing);
+    dynamics->force = rows(arena, CZ_N_DOF, stride, &missing);
+    dynamics->scratch = rows(arena, CZ_N_SCRATCH, stride, &missing);
+    if (missing)
+        return NULL;
+    memcpy(dynamics->velocity, lanes->velocity, CZ_N_DOF * stride * sizeof(double));
+    start_extremes(dynamics);
+    return dynamics;
+}

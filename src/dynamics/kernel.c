@@ -1,0 +1,238 @@
+/* The force evaluation and the commit of a step, compiled once per instruction set.
+ *
+ * An evaluation is a sequence of passes over all lanes: rotations, couplers, anti-climbers, side
+ * buffers, crush zones, running gear, and the division by the masses. Each pass gathers rows, calls
+ * laws and scatters forces; between the passes there are only rows. No allocation, no library call,
+ * no branch on data: every lane does the same arithmetic, and a lane's bits do not depend on what
+ * the others hold or on how many a register takes.
+ */
+#include "dynamics/dynamics.h"
+
+#include <string.h>
+
+#include "dynamics/kernel_car.h"
+#include "dynamics/kernel_coupler.h"
+#include "dynamics/kernel_face.h"
+#include "dynamics/kernel_rows.h"
+
+#ifndef CZ_ISA
+#define CZ_ISA baseline
+#endif
+#define PASTE(a, b) a##b
+#define KERNEL_NAME(isa) PASTE(cz_kernel_, isa)
+#define TEXT(a) #a
+#define ISA_TEXT(isa) TEXT(isa)
+
+extern const CzKernel KERNEL_NAME(CZ_ISA);
+
+/* Sets to zero what the passes add to. */
+static void clear(CzDynamics *d) {
+    const size_t row = d->stride * sizeof(double);
+    memset(d->force, 0, CZ_N_DOF * row);
+    memset(d->power, 0, CZ_N_LEDGER * row);
+    memset(S(INTERFACE_FORCE), 0, row);
+    memset(S(SECTION_REAR), 0, row);
+    memset(S(SECTION_FRONT), 0, row);
+    memset(S(ADHESION), 0, row);
+    memset(S(RESIDUAL), 0, row);
+}
+
+static void rotations(CzDynamics *d) {
+    rotate(d->stride, X(BODY_PITCH), S(BODY_COS), S(BODY_SIN));
+    rotate(d->stride, X(END_PITCH_REAR), S(END_COS_REAR), S(END_SIN_REAR));
+    rotate(d->stride, X(END_PITCH_FRONT), S(END_COS_FRONT), S(END_SIN_FRONT));
+}
+
+/* Row = force * inverse mass. */
+static void divide(CzDynamics *d, int dof, const double *restrict inverse) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict force = cz_row(d->force, d->stride, dof);
+    double *restrict acceleration = cz_row(d->acceleration, d->stride, dof);
+    CZ_LANES(i, n)
+    { acceleration[i] = force[i] * inverse[i]; }
+}
+
+/* Body and end masses along x: ends without mass move with the body and hand their force to it.
+ * What acts on a vehicle that cannot move, and what acts at the wheels, is the external force. */
+static void divide_longitudinal(CzDynamics *d) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict slaved = P(SLAVED_ENDS), *restrict inverse = P(INVERSE_BODY_MASS);
+    const double *restrict inverse_rear = P(INVERSE_END_MASS_REAR), *restrict inverse_front =
+                                                                        P(INVERSE_END_MASS_FRONT);
+    const double *restrict body = G(BODY_X), *restrict rear = G(END_X_REAR),
+                           *restrict front = G(END_X_FRONT);
+    const double *restrict adhesion = S(ADHESION);
+    double *restrict a_body = cz_row(d->acceleration, d->stride, CZ_DOF_BODY_X);
+    double *restrict a_rear = cz_row(d->acceleration, d->stride, CZ_DOF_END_X_REAR);
+    double *restrict a_front = cz_row(d->acceleration, d->stride, CZ_DOF_END_X_FRONT);
+    double *restrict external = cz_row(d->acceleration, d->stride, CZ_ROW_IMPULSE);
+    CZ_LANES(i, n)
+    {
+        const double handed = slaved[i] * (rear[i] + front[i]);
+        const double total = body[i] + handed;
+        const double a = total * inverse[i];
+        a_body[i] = a;
+        a_rear[i] = slaved[i] * a + (1.0 - slaved[i]) * rear[i] * inverse_rear[i];
+        a_front[i] = slaved[i] * a + (1.0 - slaved[i]) * front[i] * inverse_front[i];
+        external[i] = adhesion[i] - (inverse[i] > 0.0 ? 0.0 : total);
+    }
+}
+
+static void divide_by_masses(CzDynamics *d) {
+    divide_longitudinal(d);
+    divide(d, CZ_DOF_BODY_Z, P(INVERSE_BODY_MASS));
+    divide(d, CZ_DOF_BODY_PITCH, P(INVERSE_BODY_INERTIA));
+    for (int end = 0; end < 2; ++end) {
+        divide(d, CZ_DOF_END_Z_REAR + 3 * end, P_AT(INVERSE_END_MASS_REAR, end));
+        divide(d, CZ_DOF_END_PITCH_REAR + 3 * end, P_AT(INVERSE_END_INERTIA_REAR, end));
+    }
+    for (int bogie = 0; bogie < 2; ++bogie) {
+        divide(d, CZ_DOF_BOGIE_X_REAR + 3 * bogie, P(INVERSE_BOGIE_MASS));
+        divide(d, CZ_DOF_BOGIE_Z_REAR + 3 * bogie, P(INVERSE_BOGIE_MASS));
+        divide(d, CZ_DOF_BOGIE_PITCH_REAR + 3 * bogie, P(INVERSE_BOGIE_INERTIA));
+    }
+    for (int axle = 0; axle < 4; ++axle) {
+        divide(d, CZ_DOF_WHEEL_X_0 + 3 * axle, P(INVERSE_WHEELSET_MASS));
+        divide(d, CZ_DOF_WHEEL_Z_0 + 3 * axle, P(INVERSE_WHEELSET_MASS));
+        divide(d, CZ_DOF_WHEEL_SPIN_0 + 3 * axle, P(INVERSE_WHEELSET_INERTIA));
+    }
+}
+
+static void evaluate(CzDynamics *d, double step) {
+    clear(d);
+    rotations(d);
+    if (d->lanes->has_couplers)
+        couplers(d, step);
+    faces(d, step);
+    if (d->lanes->has_side_buffers)
+        side_buffers(d, step);
+    if (d->lanes->has_full_cars) {
+        for (int end = 0; end < 2; ++end)
+            vehicle_end(d, end);
+        for (int bogie = 0; bogie < 2; ++bogie)
+            bogie_to_body(d, bogie);
+        for (int axle = 0; axle < 4; ++axle)
+            axle_to_bogie(d, axle);
+        for (int axle = 0; axle < 4; ++axle)
+            wheel(d, axle, step);
+    }
+    divide_by_masses(d);
+}
+
+/* Extremes: larger of what was and what is. */
+static void keep_larger(const CzDynamics *d, int extreme, const double *restrict value) {
+    const size_t n = d->lanes->n_lane;
+    double *restrict kept = cz_row(d->extreme, d->stride, extreme);
+    CZ_LANES(i, n)
+    { kept[i] = cz_larger(kept[i], value[i]); }
+}
+
+static void keep_larger_size(const CzDynamics *d, int extreme, const double *restrict value) {
+    const size_t n = d->lanes->n_lane;
+    double *restrict kept = cz_row(d->extreme, d->stride, extreme);
+    CZ_LANES(i, n)
+    { kept[i] = cz_larger(kept[i], fabs(value[i])); }
+}
+
+#define E(name) cz_row(d->extreme, d->stride, CZ_E_##name)
+
+static void interface_extremes(const CzDynamics *d, double time) {
+    const size_t n = d->lanes->n_lane, ahead = (size_t)d->lanes->n_design;
+    const double *restrict total = S(INTERFACE_FORCE), *restrict x = X(BODY_X),
+                           *restrict x_ahead = X(BODY_X) + ahead;
+    double *restrict peak = E(INTERFACE_FORCE), *restrict when = E(INTERFACE_TIME);
+    double *restrict shortening = E(INTERFACE_SHORTENING);
+    CZ_LANES(i, n)
+    {
+        const double size = fabs(total[i]);
+        when[i] = size > peak[i] ? time : when[i];
+        peak[i] = cz_larger(size, peak[i]);
+        shortening[i] = cz_larger(shortening[i], x[i] - x_ahead[i]);
+    }
+    const double *restrict normal = S(FACE_FORCE), *restrict remaining = S(FACE_REMAINING);
+    const double *restrict demand = S(FACE_DEMAND), *restrict capacity = S(FACE_CAPACITY),
+                           *restrict chain = M(FACE_FORCE);
+    double *restrict lost_overlap = E(FACE_LOST_OVERLAP), *restrict lost_margin =
+                                                              E(FACE_LOST_MARGIN);
+    double *restrict climbed = E(FACE_CLIMBED), *restrict climb_time = E(CLIMB_TIME);
+    CZ_LANES(i, n)
+    {
+        const double pushing =
+            chain[i] > 1e4
+                ? 1.0
+                : 0.0; /* the chain's own force: it is still there once the faces passed */
+        const double gone = remaining[i] <= 0.0 ? pushing : 0.0;
+        const double engaged = normal[i] > 1e4 ? 1.0 : 0.0;
+        const double excess = fabs(demand[i]) - capacity[i];
+        lost_overlap[i] = cz_larger(lost_overlap[i], pushing > 0.0 ? -remaining[i] : -1e300);
+        lost_margin[i] = cz_larger(lost_margin[i], engaged > 0.0 ? excess : -1e300);
+        climbed[i] = cz_larger(climbed[i], gone);
+        climb_time[i] = cz_larger(climb_time[i], gone > 0.0 ? -time : -1e300);
+    }
+}
+
+static void car_extremes(const CzDynamics *d, double time) {
+    const size_t n = d->lanes->n_lane;
+    for (int axle = 0; axle < 4; ++axle) {
+        const double *restrict z = X_AT(WHEEL_Z_0, 3 * axle), *restrict indentation =
+                                                                  P_AT(INDENTATION_0, axle);
+        double *restrict lift = cz_row(d->extreme, d->stride, CZ_E_LIFT_0 + axle);
+        double *restrict when = cz_row(d->extreme, d->stride, CZ_E_LIFT_TIME_0 + axle);
+        CZ_LANES(i, n)
+        {
+            const double now = z[i] - indentation[i];
+            when[i] = now > lift[i] ? time : when[i];
+            lift[i] = cz_larger(lift[i], now);
+        }
+    }
+    for (int bogie = 0; bogie < 2; ++bogie) {
+        const double *restrict z0 = X_AT(WHEEL_Z_0, 6 * bogie), *restrict z1 =
+                                                                    X_AT(WHEEL_Z_0, 6 * bogie + 3);
+        const double *restrict i0 = P_AT(INDENTATION_0, 2 * bogie), *restrict i1 =
+                                                                        P_AT(INDENTATION_0,
+                                                                             2 * bogie + 1);
+        double *restrict lift = cz_row(d->extreme, d->stride, CZ_E_BOGIE_LIFT_REAR + bogie);
+        CZ_LANES(i, n)
+        { lift[i] = cz_larger(lift[i], cz_smaller(z0[i] - i0[i], z1[i] - i1[i])); }
+        keep_larger_size(d, CZ_E_LINK_FORCE, S_AT(LINK_REAR, bogie));
+    }
+    keep_larger_size(d, CZ_E_BODY_PITCH, X(BODY_PITCH));
+    keep_larger(d, CZ_E_END_FORCE_REAR, S(END_REAR));
+    keep_larger(d, CZ_E_END_FORCE_FRONT, S(END_FRONT));
+}
+
+/* Work over the step by the mean of the powers at its ends. */
+static void add_work(CzDynamics *d, double step) {
+    const size_t n = CZ_N_LEDGER * d->stride;
+    const double *restrict last = d->last_power, *restrict power = d->power;
+    double *restrict work = d->work;
+    CZ_LANES(i, n)
+    { work[i] += 0.5 * step * (last[i] + power[i]); }
+}
+
+static void swap(double **a, double **b) {
+    double *c = *a;
+    *a = *b;
+    *b = c;
+}
+
+static void commit(CzDynamics *d, double step, double time) {
+    add_work(d, step);
+    swap(&d->power, &d->last_power);
+    swap(&d->memory, &d->next_memory);
+    interface_extremes(d, time);
+    if (d->lanes->has_couplers)
+        keep_larger_size(d, CZ_E_COUPLER_FORCE, S(COUPLER_FORCE));
+    keep_larger(d, CZ_E_FACE_FORCE, S(FACE_FORCE));
+    keep_larger_size(d, CZ_E_FACE_DEMAND, S(FACE_DEMAND));
+    if (d->lanes->has_side_buffers)
+        keep_larger(d, CZ_E_SIDE_FORCE, S(SIDE_FORCE));
+    keep_larger(d, CZ_E_SECTION_REAR, S(SECTION_REAR));
+    keep_larger(d, CZ_E_SECTION_FRONT, S(SECTION_FRONT));
+    keep_larger_size(d, CZ_E_BODY_ACCELERATION, cz_row(d->acceleration, d->stride, CZ_DOF_BODY_X));
+    keep_larger(d, CZ_E_CHAIN_RESIDUAL, S(RESIDUAL));
+    if (d->lanes->has_full_cars)
+        car_extremes(d, time);
+}
+
+const CzKernel KERNEL_NAME(CZ_ISA) = {ISA_TEXT(CZ_ISA), evaluate, commit};

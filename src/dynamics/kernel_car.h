@@ -1,0 +1,338 @@
+/* What happens inside one car: crush zones, suspensions, traction links, wheels. Part of kernel.c
+ * only.
+ *
+ * Every force acts at one point on both bodies: arms are taken from that point to the present
+ * centres of gravity.
+ */
+#ifndef CZ_DYNAMICS_KERNEL_CAR_H
+#define CZ_DYNAMICS_KERNEL_CAR_H
+
+#include "dynamics/kernel_rows.h"
+#include "laws/buffer.h"
+#include "laws/slider.h"
+#include "laws/suspension.h"
+#include "laws/vehicle_end.h"
+#include "laws/wheel_rail.h"
+
+/* Shortening of the crush zone of one end along the body's axis, its rate, and the same across the
+ * axis: into END_STROKE, RATE, SLIP, SLIP_RATE; the point of action (on the end mass) from the body
+ * and from the end mass. */
+static void end_geometry(CzDynamics *d, int end) {
+    const size_t n = d->lanes->n_lane;
+    const double sign = end == 0 ? -1.0 : 1.0;
+    const double *restrict at = P_AT(END_X_REAR, end), *restrict body_z =
+                                                           P_AT(END_BODY_Z_REAR, end);
+    const double *restrict mass_z = P_AT(END_MASS_Z_REAR, end);
+    const double *restrict c = S(BODY_COS), *restrict s = S(BODY_SIN);
+    const double *restrict ce = S_AT(END_COS_REAR, 2 * end), *restrict se =
+                                                                 S_AT(END_SIN_REAR, 2 * end);
+    const double *restrict xb = X(BODY_X), *restrict zb = X(BODY_Z);
+    const double *restrict vxb = V(BODY_X), *restrict vzb = V(BODY_Z),
+                           *restrict turn = V(BODY_PITCH);
+    const double *restrict xe = X_AT(END_X_REAR, 3 * end), *restrict ze = X_AT(END_Z_REAR, 3 * end);
+    const double *restrict vxe = V_AT(END_X_REAR, 3 * end), *restrict vze =
+                                                                V_AT(END_Z_REAR, 3 * end);
+    const double *restrict turn_e = V_AT(END_PITCH_REAR, 3 * end);
+    double *restrict stroke = S_AT(END_STROKE_REAR, end), *restrict rate = S(RATE);
+    double *restrict slip = S(SLIP), *restrict slip_rate = S(SLIP_RATE);
+    double *restrict arm_x = S(ARM_X_A), *restrict arm_z = S(ARM_Z_A);
+    double *restrict arm_x_e = S(ARM_X_B), *restrict arm_z_e = S(ARM_Z_B);
+    CZ_LANES(i, n)
+    {
+        const double bx = at[i] * c[i] - body_z[i] * s[i], bz = at[i] * s[i] + body_z[i] * c[i];
+        const double ex = -mass_z[i] * se[i], ez = mass_z[i] * ce[i];
+        const double qx = (xe[i] + ex) - (xb[i] + (bx - at[i]));
+        const double qz = (ze[i] + (ez - mass_z[i])) - (zb[i] + (bz - body_z[i]));
+        const double px = bx + qx, pz = bz + qz;
+        const double vx = (vxe[i] - ez * turn_e[i]) - (vxb[i] - pz * turn[i]);
+        const double vz = (vze[i] + ex * turn_e[i]) - (vzb[i] + px * turn[i]);
+        stroke[i] = -sign * (c[i] * qx + s[i] * qz);
+        rate[i] = -sign * (c[i] * vx + s[i] * vz);
+        slip[i] = c[i] * qz - s[i] * qx;
+        slip_rate[i] = c[i] * vz - s[i] * vx;
+        arm_x[i] = px;
+        arm_z[i] = pz;
+        arm_x_e[i] = ex;
+        arm_z_e[i] = ez;
+    }
+}
+
+/* Force of the crush zone along the axis, into END_REAR/FRONT; its damping is in CHAIN_FORCE. */
+static void end_crush(CzDynamics *d, int end) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict stroke = S_AT(END_STROKE_REAR, end), *restrict rate = S(RATE);
+    const double *restrict before = M_AT(END_PEAK_REAR, end);
+    double *restrict next = NEXT_AT(END_PEAK_REAR, end), *restrict largest = S(LARGEST);
+    CZ_LANES(i, n)
+    {
+        next[i] = cz_larger(before[i], stroke[i]);
+        largest[i] = next[i];
+    }
+    double *restrict curve = S(CURVE_VALUE), *restrict peak = S(CURVE_PEAK),
+                     *restrict slope = S(CURVE_SLOPE);
+    evaluate_curve(d, CZ_CURVE_END_REAR + end, largest, peak, slope);
+    evaluate_curve(d, CZ_CURVE_END_REAR + end, stroke, curve, slope);
+    const double *restrict unloading = P_AT(END_UNLOADING_REAR, end), *restrict share =
+                                                                          P_AT(END_SHARE_REAR, end);
+    const double *restrict second = P_AT(END_SECOND_UNLOADING_REAR, end);
+    const double *restrict tension = P_AT(END_TENSION_REAR, end), *restrict damping =
+                                                                      P_AT(END_DAMPING_REAR, end);
+    double *restrict force = S_AT(END_REAR, end), *restrict damped = S(CHAIN_FORCE);
+    double *restrict power = POWER_AT(END_REAR, end), *restrict lost = POWER(END_DAMPING);
+    CZ_LANES(i, n)
+    {
+        const CzVehicleEndLaw law = {cz_larger(unloading[i], 1.0), share[i],
+                                     cz_larger(second[i], 1.0), tension[i]};
+        const CzVehicleEndResponse response =
+            cz_vehicle_end(&law, curve[i], peak[i], stroke[i], largest[i]);
+        damped[i] = damping[i] * rate[i] * cz_fade_in(stroke[i], CZ_FADE_LENGTH);
+        force[i] = response.force + damped[i];
+        power[i] = response.force * rate[i];
+        lost[i] += damped[i] * rate[i];
+    }
+}
+
+/* Guidance across the axis (into CHAIN_FORCE) and folding moment (into CHAIN_LOWEST) of one end. */
+static void end_guidance(CzDynamics *d, int end) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict slip = S(SLIP), *restrict slip_rate = S(SLIP_RATE);
+    const double *restrict k = P_AT(GUIDE_STIFFNESS_REAR, end), *restrict c =
+                                                                    P_AT(GUIDE_DAMPING_REAR, end);
+    const double *restrict fold = P_AT(FOLD_STIFFNESS_REAR, end), *restrict fold_c =
+                                                                      P_AT(FOLD_DAMPING_REAR, end);
+    const double *restrict capacity = P_AT(FOLD_MOMENT_REAR, end), *restrict folded =
+                                                                       M_AT(FOLD_REAR, end);
+    const double *restrict pitch = X(BODY_PITCH), *restrict turn = V(BODY_PITCH);
+    const double *restrict pitch_e = X_AT(END_PITCH_REAR, 3 * end), *restrict turn_e = V_AT(
+                                                                        END_PITCH_REAR, 3 * end);
+    double *restrict next = NEXT_AT(FOLD_REAR, end);
+    double *restrict across = S(CHAIN_FORCE), *restrict moment = S(CHAIN_LOWEST);
+    double *restrict guide = POWER(GUIDE), *restrict guide_lost = POWER(GUIDE_DAMPING);
+    double *restrict folding = POWER(FOLD), *restrict folding_lost = POWER(FOLD_DAMPING);
+    CZ_LANES(i, n)
+    {
+        const double spring = k[i] * slip[i], damper = c[i] * slip_rate[i];
+        const CzSliderResponse hinge =
+            cz_slider(fold[i], capacity[i], pitch_e[i] - pitch[i], folded[i]);
+        const double opening = turn_e[i] - turn[i], resisting = fold_c[i] * opening;
+        next[i] = hinge.offset;
+        across[i] = spring + damper;
+        moment[i] = hinge.force + resisting;
+        guide[i] += spring * slip_rate[i];
+        guide_lost[i] += damper * slip_rate[i];
+        folding[i] += hinge.force * opening;
+        folding_lost[i] += resisting * opening;
+    }
+}
+
+/* Crush zone, guidance and folding of one end, put on end mass and body. */
+static void vehicle_end(CzDynamics *d, int end) {
+    const size_t n = d->lanes->n_lane;
+    const double sign = end == 0 ? -1.0 : 1.0;
+    end_geometry(d, end);
+    end_crush(d, end);
+    end_guidance(d, end);
+    const double *restrict c = S(BODY_COS), *restrict s = S(BODY_SIN);
+    const double *restrict force = S_AT(END_REAR, end);
+    const double *restrict across = S(CHAIN_FORCE), *restrict moment = S(CHAIN_LOWEST);
+    const double *restrict arm_x = S(ARM_X_A), *restrict arm_z = S(ARM_Z_A);
+    const double *restrict arm_x_e = S(ARM_X_B), *restrict arm_z_e = S(ARM_Z_B);
+    double *restrict gx = G(BODY_X), *restrict gz = G(BODY_Z), *restrict gm = G(BODY_PITCH);
+    double *restrict ex = G_AT(END_X_REAR, 3 * end), *restrict ez = G_AT(END_Z_REAR, 3 * end);
+    double *restrict em = G_AT(END_PITCH_REAR, 3 * end), *restrict section =
+                                                             S_AT(SECTION_REAR, end);
+    CZ_LANES(i, n)
+    { /* on the end mass */
+        const double fx = sign * force[i] * c[i] + across[i] * s[i];
+        const double fz = sign * force[i] * s[i] - across[i] * c[i];
+        ex[i] += fx;
+        ez[i] += fz;
+        em[i] += arm_x_e[i] * fz - arm_z_e[i] * fx - moment[i];
+        gx[i] -= fx;
+        gz[i] -= fz;
+        gm[i] -= arm_x[i] * fz - arm_z[i] * fx - moment[i];
+        section[i] += force[i];
+    }
+}
+
+/* Secondary suspension and traction link of one bogie. */
+static void bogie_to_body(CzDynamics *d, int bogie) {
+    const size_t n = d->lanes->n_lane;
+    const double sign = bogie == 0 ? -1.0 : 1.0;
+    const double *restrict half = P(BOGIE_X), *restrict s = S(BODY_SIN), *restrict c = S(BODY_COS);
+    const double *restrict xb = X(BODY_X), *restrict zb = X(BODY_Z);
+    const double *restrict vxb = V(BODY_X), *restrict vzb = V(BODY_Z),
+                           *restrict turn = V(BODY_PITCH);
+    const double *restrict xt = X_AT(BOGIE_X_REAR, 3 * bogie), *restrict zt =
+                                                                   X_AT(BOGIE_Z_REAR, 3 * bogie);
+    const double *restrict pitch_t = X_AT(BOGIE_PITCH_REAR, 3 * bogie);
+    const double *restrict vxt = V_AT(BOGIE_X_REAR, 3 * bogie), *restrict vzt =
+                                                                    V_AT(BOGIE_Z_REAR, 3 * bogie);
+    const double *restrict turn_t = V_AT(BOGIE_PITCH_REAR, 3 * bogie);
+    const double *restrict k = P(SECONDARY_STIFFNESS), *restrict preload =
+                                                           P_AT(SECONDARY_PRELOAD_REAR, bogie);
+    const double *restrict bump = P(SECONDARY_BUMP_GAP), *restrict bump_k =
+                                                             P(SECONDARY_BUMP_STIFFNESS);
+    const double *restrict lift = P(SECONDARY_LIFT_GAP), *restrict lift_k =
+                                                             P(SECONDARY_LIFT_STIFFNESS);
+    const double *restrict damping = P(SECONDARY_DAMPING), *restrict blow_off =
+                                                               P(SECONDARY_BLOW_OFF_RATE);
+    const double *restrict beyond = P(SECONDARY_DAMPING_BEYOND);
+    const double *restrict link_body = P(LINK_BODY_Z), *restrict link_bogie = P(LINK_BOGIE_Z);
+    const double *restrict link_k = P(LINK_STIFFNESS), *restrict link_c = P(LINK_DAMPING);
+    double *restrict gxb = G(BODY_X), *restrict gzb = G(BODY_Z), *restrict gmb = G(BODY_PITCH);
+    double *restrict gxt = G_AT(BOGIE_X_REAR, 3 * bogie), *restrict gzt =
+                                                              G_AT(BOGIE_Z_REAR, 3 * bogie);
+    double *restrict gmt = G_AT(BOGIE_PITCH_REAR, 3 * bogie);
+    double *restrict kept = S_AT(LINK_REAR, bogie);
+    double *restrict spring_power = POWER(SECONDARY), *restrict damper_power =
+                                                          POWER(SECONDARY_DAMPING);
+    double *restrict link_power = POWER(LINK), *restrict link_lost = POWER(LINK_DAMPING);
+    CZ_LANES(i, n)
+    {
+        /* Vertical: at the bogie's centre. */
+        const CzSuspensionLaw law = {k[i],      preload[i], bump[i],     bump_k[i], lift[i],
+                                     lift_k[i], damping[i], blow_off[i], beyond[i]};
+        const double arm = sign * half[i] + (xt[i] - xb[i]);
+        const double compression = zt[i] - (zb[i] + sign * half[i] * s[i]);
+        const double rate = vzt[i] - (vzb[i] + arm * turn[i]);
+        const double spring = cz_suspension_spring(&law, compression);
+        const double damper = cz_suspension_damper(&law, rate);
+        const double lifted = spring + damper;
+
+        /* Longitudinal: at the link's height on the bogie. */
+        const double turned = link_bogie[i] * pitch_t[i];
+        const double body_way = xb[i] + sign * half[i] * (c[i] - 1.0) - link_body[i] * s[i];
+        const double stretch = body_way - (xt[i] - turned);
+        const double height = link_body[i] + (zt[i] - zb[i]);
+        const double stretching =
+            (vxb[i] - height * turn[i]) - (vxt[i] - link_bogie[i] * turn_t[i]);
+        const double held = link_k[i] * stretch, resisted = link_c[i] * stretching;
+        const double pull = held + resisted; /* forward on the bogie */
+
+        gzb[i] += lifted;
+        gzt[i] -= lifted;
+        gxb[i] -= pull;
+        gxt[i] += pull;
+        gmb[i] += arm * lifted + height * pull;
+        gmt[i] -= link_bogie[i] * pull;
+        kept[i] = pull;
+        spring_power[i] += spring * rate;
+        damper_power[i] += damper * rate;
+        link_power[i] += held * stretching;
+        link_lost[i] += resisted * stretching;
+    }
+}
+
+/* Primary suspension and axle guidance of one axle, counted from the rear of the car. */
+static void axle_to_bogie(CzDynamics *d, int axle) {
+    const size_t n = d->lanes->n_lane;
+    const int bogie = axle / 2;
+    const double sign = axle % 2 == 0 ? -1.0 : 1.0;
+    const double *restrict half = P(AXLE_X), *restrict axle_z = P(AXLE_Z);
+    const double *restrict xt = X_AT(BOGIE_X_REAR, 3 * bogie), *restrict zt =
+                                                                   X_AT(BOGIE_Z_REAR, 3 * bogie);
+    const double *restrict pitch = X_AT(BOGIE_PITCH_REAR, 3 * bogie);
+    const double *restrict vxt = V_AT(BOGIE_X_REAR, 3 * bogie), *restrict vzt =
+                                                                    V_AT(BOGIE_Z_REAR, 3 * bogie);
+    const double *restrict turn = V_AT(BOGIE_PITCH_REAR, 3 * bogie);
+    const double *restrict xw = X_AT(WHEEL_X_0, 3 * axle), *restrict zw = X_AT(WHEEL_Z_0, 3 * axle);
+    const double *restrict vxw = V_AT(WHEEL_X_0, 3 * axle), *restrict vzw =
+                                                                V_AT(WHEEL_Z_0, 3 * axle);
+    const double *restrict k = P(PRIMARY_STIFFNESS), *restrict preload =
+                                                         P_AT(PRIMARY_PRELOAD_0, axle);
+    const double *restrict bump = P(PRIMARY_BUMP_GAP), *restrict bump_k = P(PRIMARY_BUMP_STIFFNESS);
+    const double *restrict lift = P(PRIMARY_LIFT_GAP), *restrict lift_k = P(PRIMARY_LIFT_STIFFNESS);
+    const double *restrict damping = P(PRIMARY_DAMPING), *restrict blow_off =
+                                                             P(PRIMARY_BLOW_OFF_RATE);
+    const double *restrict beyond = P(PRIMARY_DAMPING_BEYOND);
+    const double *restrict guide_k = P(AXLE_GUIDANCE_STIFFNESS), *restrict guide_c =
+                                                                     P(AXLE_GUIDANCE_DAMPING);
+    double *restrict gxt = G_AT(BOGIE_X_REAR, 3 * bogie), *restrict gzt =
+                                                              G_AT(BOGIE_Z_REAR, 3 * bogie);
+    double *restrict gmt = G_AT(BOGIE_PITCH_REAR, 3 * bogie);
+    double *restrict gxw = G_AT(WHEEL_X_0, 3 * axle), *restrict gzw = G_AT(WHEEL_Z_0, 3 * axle);
+    double *restrict spring_power = POWER(PRIMARY), *restrict damper_power = POWER(PRIMARY_DAMPING);
+    double *restrict guide_power = POWER(AXLE_GUIDANCE), *restrict guide_lost =
+                                                             POWER(AXLE_GUIDANCE_DAMPING);
+    CZ_LANES(i, n)
+    {
+        /* Vertical: at the axle. */
+        const CzSuspensionLaw law = {k[i],      preload[i], bump[i],     bump_k[i], lift[i],
+                                     lift_k[i], damping[i], blow_off[i], beyond[i]};
+        const double arm = sign * half[i] + (xw[i] - xt[i]);
+        const double compression = zw[i] - (zt[i] + sign * half[i] * pitch[i]);
+        const double rate = vzw[i] - (vzt[i] + arm * turn[i]);
+        const double spring = cz_suspension_spring(&law, compression);
+        const double damper = cz_suspension_damper(&law, rate);
+        const double lifted = spring + damper;
+
+        /* Longitudinal: at the axle. */
+        const double height = axle_z[i] + (zw[i] - zt[i]);
+        const double stretch = (xt[i] - axle_z[i] * pitch[i]) - xw[i];
+        const double stretching = (vxt[i] - height * turn[i]) - vxw[i];
+        const double held = guide_k[i] * stretch, resisted = guide_c[i] * stretching;
+        const double pull = held + resisted; /* forward on the wheelset */
+
+        gzt[i] += lifted;
+        gzw[i] -= lifted;
+        gxt[i] -= pull;
+        gxw[i] += pull;
+        gmt[i] += arm * lifted + height * pull;
+        spring_power[i] += spring * rate;
+        damper_power[i] += damper * rate;
+        guide_power[i] += held * stretching;
+        guide_lost[i] += resisted * stretching;
+    }
+}
+
+/* Wheel and rail, and the brake, of one axle. */
+static void wheel(CzDynamics *d, int axle, double step) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict hertz = P(HERTZ), *restrict indentation = P_AT(INDENTATION_0, axle);
+    const double *restrict radius = P(WHEEL_RADIUS), *restrict k = P(CREEP_STIFFNESS),
+                           *restrict length = P(CREEP_LENGTH);
+    const double *restrict peak = P(FRICTION_PEAK), *restrict sliding = P(FRICTION_SLIDING);
+    const double *restrict fall = P(FRICTION_FALL_SPEED);
+    const double *restrict brake_k = P(BRAKE_STIFFNESS), *restrict brake =
+                                                             P_AT(BRAKE_MOMENT_0, axle);
+    const double *restrict zw = X_AT(WHEEL_Z_0, 3 * axle), *restrict vzw =
+                                                               V_AT(WHEEL_Z_0, 3 * axle);
+    const double *restrict vxw = V_AT(WHEEL_X_0, 3 * axle);
+    const double *restrict angle = X_AT(WHEEL_SPIN_0, 3 * axle), *restrict spin =
+                                                                     V_AT(WHEEL_SPIN_0, 3 * axle);
+    const double *restrict deflection = M_AT(CREEP_0, axle), *restrict slipped =
+                                                                 M_AT(BRAKE_0, axle);
+    double *restrict next_deflection = NEXT_AT(CREEP_0, axle), *restrict next_slipped =
+                                                                   NEXT_AT(BRAKE_0, axle);
+    double *restrict gxw = G_AT(WHEEL_X_0, 3 * axle), *restrict gzw = G_AT(WHEEL_Z_0, 3 * axle);
+    double *restrict torque = G_AT(WHEEL_SPIN_0, 3 * axle), *restrict gmt = G_AT(BOGIE_PITCH_REAR,
+                                                                                 3 * (axle / 2));
+    double *restrict adhesion = S(ADHESION);
+    double *restrict normal_power = POWER(WHEEL_NORMAL), *restrict creep_power = POWER(WHEEL_CREEP);
+    double *restrict brake_power = POWER(BRAKE);
+    CZ_LANES(i, n)
+    {
+        const double normal = cz_wheel_normal_force(hertz[i], indentation[i] - zw[i]);
+        const double more = normal - cz_wheel_normal_force(hertz[i], indentation[i]);
+        const CzCreepLaw law = {k[i], cz_larger(length[i], 1e-6), peak[i], sliding[i],
+                                cz_larger(fall[i], 1e-6)};
+        const double inverse = k[i] > 0.0 ? 1.0 / cz_larger(k[i], 1.0) : 0.0;
+        const double slip = vxw[i] - radius[i] * spin[i];
+        next_deflection[i] =
+            cz_creep_deflection(&law, inverse, deflection[i], slip, vxw[i], normal, step);
+        const double tangential = -k[i] * next_deflection[i];
+        const CzSliderResponse held = cz_slider(brake_k[i], brake[i], angle[i], slipped[i]);
+        next_slipped[i] = held.offset;
+        gxw[i] += tangential;
+        gzw[i] += more;
+        torque[i] -= radius[i] * tangential + held.force;
+        gmt[i] -= held.force;
+        adhesion[i] += tangential;
+        normal_power[i] -= more * vzw[i];
+        creep_power[i] -= tangential * slip;
+        brake_power[i] += held.force * spin[i];
+    }
+}
+
+#endif

@@ -1,0 +1,247 @@
+/* Couplers: a massless strut between two pivots, whose length is a series chain of buffers, tubes
+ * and shear-offs, and whose ends turn against hinges. Part of kernel.c only.
+ *
+ *   closure = free length - |r_B - r_A|,   force along the current line,   theta its angle
+ *   hinge i:  M_i = engaged * (slider(theta - beta_i) + swing stop),  reacted by transverse forces
+ * (M_A + M_B) / length
+ */
+#ifndef CZ_DYNAMICS_KERNEL_COUPLER_H
+#define CZ_DYNAMICS_KERNEL_COUPLER_H
+
+#include "dynamics/kernel_chain.h"
+#include "dynamics/kernel_contact.h"
+#include "laws/shear_off.h"
+#include "laws/slider.h"
+
+#define LARGEST_PULL                                                                               \
+    1e8 /* tension that whole coupled couplers carry [N]: more than any train asks for (ours) */
+#define ENGAGING_CLOSURE                                                                           \
+    0.005 /* closure over which faces that are not coupled take up hinge moments [m] (ours) */
+
+static const Chain coupler_chain = {6, CZ_M_COUPLER_FORCE, CZ_M_BUFFER_A, CZ_M_TUBE_A,
+                                    CZ_P_COUPLER_COMPLIANCE};
+static const BufferRows coupler_buffer = {
+    CZ_CURVE_BUFFER_A,        CZ_P_BUFFER_TRANSITION_A, CZ_P_BUFFER_SHARE_A,
+    CZ_P_BUFFER_DAMPING_A,    CZ_P_BUFFER_QUADRATIC_A,  CZ_P_BUFFER_DRAW_STIFFNESS_A,
+    CZ_P_BUFFER_DRAW_SLACK_A, CZ_M_BUFFER_RATE_A,       CZ_M_BUFFER_OFFSET_A};
+
+/* Chooses one row of the carrier: the end mass's where the pivot is fixed to it, else the body's.
+ */
+static void choose(size_t n, const double *restrict on_end, const double *restrict end,
+                   const double *restrict body, double *restrict chosen) {
+    CZ_LANES(i, n)
+    { chosen[i] = on_end[i] > 0.5 ? end[i] : body[i]; }
+}
+
+/* Rows of the coupler's carrier: side A is this car's front, side B the rear of the car ahead. */
+static Carrier coupler_carrier(CzDynamics *d, int side) {
+    const size_t n = d->lanes->n_lane;
+    const size_t shift = side == 0 ? 0 : (size_t)d->lanes->n_design;
+    const int end = side == 0 ? CZ_DOF_END_X_FRONT : CZ_DOF_END_X_REAR;
+    const double *on_end = P_AT(COUPLER_ON_END_A, side);
+    double *rows = side == 0 ? S(CARRIER_A) : S(CARRIER_B);
+    for (int k = 0; k < 3; ++k) {
+        choose(n, on_end, cz_row(d->position, d->stride, end + k) + shift, X_AT(BODY_X, k) + shift,
+               rows + (size_t)k * d->stride);
+        choose(n, on_end, cz_row(d->velocity, d->stride, end + k) + shift, V_AT(BODY_X, k) + shift,
+               rows + (size_t)(k + 3) * d->stride);
+    }
+    const double *end_rotation = side == 0 ? S(END_COS_FRONT) : S(END_COS_REAR);
+    for (int k = 0; k < 2; ++k)
+        choose(n, on_end, end_rotation + (size_t)k * d->stride + shift, S_AT(BODY_COS, k) + shift,
+               rows + (size_t)(k + 6) * d->stride);
+    const size_t stride = d->stride;
+    return (Carrier){rows,
+                     rows + stride,
+                     rows + 2 * stride,
+                     rows + 3 * stride,
+                     rows + 4 * stride,
+                     rows + 5 * stride,
+                     rows + 6 * stride,
+                     rows + 7 * stride};
+}
+
+/* Line between the pivots: closure, rate, direction, angle's rate (in SLIP_RATE), length, arms. */
+static void coupler_geometry(CzDynamics *d, const Carrier *a, const Carrier *b) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict x_a = P(PIVOT_X_A), *restrict z_a = P(PIVOT_Z_A);
+    const double *restrict x_b = P(PIVOT_X_B), *restrict z_b = P(PIVOT_Z_B);
+    const double *restrict distance = P(PIVOT_DISTANCE), *restrict rise = P(PIVOT_RISE);
+    const double *restrict free_length = P(COUPLER_LENGTH);
+    const Carrier ca = *a, cb = *b;
+    double *restrict closure = S(CLOSURE), *restrict rate = S(RATE), *restrict turn = S(SLIP_RATE);
+    double *restrict direction_x = S(NORMAL_X), *restrict direction_z = S(NORMAL_Z),
+                     *restrict length = S(LENGTH);
+    double *restrict arm_x_a = S(ARM_X_A), *restrict arm_z_a = S(ARM_Z_A);
+    double *restrict arm_x_b = S(ARM_X_B), *restrict arm_z_b = S(ARM_Z_B);
+    CZ_LANES(i, n)
+    {
+        const double ax = x_a[i] * ca.cosine[i] - z_a[i] * ca.sine[i];
+        const double az = x_a[i] * ca.sine[i] + z_a[i] * ca.cosine[i];
+        const double bx = x_b[i] * cb.cosine[i] - z_b[i] * cb.sine[i];
+        const double bz = x_b[i] * cb.sine[i] + z_b[i] * cb.cosine[i];
+        const double dx = distance[i] + (cb.x[i] - ca.x[i]) + (bx - x_b[i]) - (ax - x_a[i]);
+        const double dz = rise[i] + (cb.z[i] - ca.z[i]) + (bz - z_b[i]) - (az - z_a[i]);
+        const double vx = (cb.vx[i] - bz * cb.turn[i]) - (ca.vx[i] - az * ca.turn[i]);
+        const double vz = (cb.vz[i] + bx * cb.turn[i]) - (ca.vz[i] + ax * ca.turn[i]);
+        const double l = sqrt(dx * dx + dz * dz);
+        const double nx = dx / l, nz = dz / l;
+        closure[i] = free_length[i] - l;
+        rate[i] = -(nx * vx + nz * vz);
+        turn[i] = (nx * vz - nz * vx) / l;
+        direction_x[i] = nx;
+        direction_z[i] = nz;
+        length[i] = l;
+        arm_x_a[i] = ax;
+        arm_z_a[i] = az;
+        arm_x_b[i] = bx;
+        arm_z_b[i] = bz;
+    }
+}
+
+/* Shear-off of one side as a plastic member, and the damage that it has done. */
+static void prepare_shear_off(CzDynamics *d, int side, double step) {
+    const size_t n = d->lanes->n_lane;
+    const int member = 4 + side;
+    const double *restrict force = P_AT(SHEAR_FORCE_A, side), *restrict softening =
+                                                                  P_AT(SHEAR_SOFTENING_A, side);
+    const double *restrict space = P_AT(SHEAR_SPACE_A, side), *restrict bottom =
+                                                                  P_AT(SHEAR_BOTTOM_A, side);
+    const double *restrict travel = M_AT(SHEAR_A, side);
+    double *restrict strength = S_AT(STRENGTH_0, member), *restrict flow = S_AT(FLOW_0, member);
+    double *restrict damage = S(DAMAGE);
+    CZ_LANES(i, n)
+    {
+        const CzShearOffResponse response =
+            cz_shear_off(force[i], cz_larger(softening[i], 1e-6), space[i], bottom[i], travel[i]);
+        strength[i] = response.strength;
+        flow[i] = cz_plastic_compliance(response.strength, response.slope, 0.0, step);
+        damage[i] = cz_larger(damage[i], response.damage);
+    }
+}
+
+/* Force of the chain, and the members moved on. */
+static void coupler_chain_force(CzDynamics *d, double step) {
+    const size_t n = d->lanes->n_lane;
+    static const int tube_rates[4] = {CZ_P_TUBE_RATE_A, CZ_P_TUBE_RATE_B, CZ_P_SECOND_TUBE_RATE_A,
+                                      CZ_P_SECOND_TUBE_RATE_B};
+    for (int side = 0; side < 2; ++side)
+        prepare_buffer(d, &coupler_chain, &coupler_buffer, side, step);
+    for (int member = 0; member < 4; ++member)
+        prepare_plastic(d, &coupler_chain, member, CZ_CURVE_TUBE_A + member, S(ZERO),
+                        cz_row(d->lanes->parameter, d->stride, tube_rates[member]), step);
+    {
+        double *restrict damage = S(DAMAGE);
+        CZ_LANES(i, n)
+        { damage[i] = 0.0; }
+    }
+    for (int side = 0; side < 2; ++side)
+        prepare_shear_off(d, side, step);
+    {
+        const double *restrict coupled = P(COUPLED), *restrict exists = P(COUPLER),
+                               *restrict damage = S(DAMAGE);
+        double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
+        CZ_LANES(i, n)
+        {
+            lowest[i] = -LARGEST_PULL * coupled[i] * (1.0 - damage[i]);
+            active[i] = exists[i];
+        }
+    }
+    solve_chain(d, &coupler_chain, S(CLOSURE));
+    move_members(d, &coupler_chain, CZ_M_COUPLER_ENERGY_A, CZ_M_TUBE_ENERGY_A);
+    keep_rates(d, &coupler_chain, CZ_M_BUFFER_RATE_A, step);
+}
+
+/* Moment of the hinge of one side on its carrier, into SPRING_UP of the side; its power is added
+ * up. */
+static void hinge_moment(CzDynamics *d, int side, const Carrier *carrier) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict stiffness = P_AT(HINGE_STIFFNESS_A, side), *restrict capacity = P_AT(
+                                                                          HINGE_MOMENT_A, side);
+    const double *restrict range = P_AT(SWING_STOP_A, side), *restrict stop =
+                                                                 P_AT(SWING_STIFFNESS_A, side);
+    const double *restrict exists = P(COUPLER), *restrict coupled = P(COUPLED);
+    const double *restrict rise = P(PIVOT_RISE), *restrict distance = P(PIVOT_DISTANCE);
+    const double *restrict closure = S(CLOSURE), *restrict damage = S(DAMAGE),
+                           *restrict nz = S(NORMAL_Z);
+    const double *restrict line_turn = S(SLIP_RATE), *restrict yielded = M_AT(HINGE_A, side);
+    const double *restrict pitch = carrier->pitch, *restrict turn = carrier->turn;
+    double *restrict next = NEXT_AT(HINGE_A, side), *restrict moment = S_AT(SPRING_UP_A, side);
+    double *restrict power = POWER(HINGE);
+    CZ_LANES(i, n)
+    {
+        const double mated = cz_fade_in(cz_positive_part(closure[i]), ENGAGING_CLOSURE);
+        const double engaged = exists[i] * (coupled[i] > 0.5 ? 1.0 : mated) * (1.0 - damage[i]);
+        const double angle = nz[i] * (1.0 + nz[i] * nz[i] * (1.0 / 6.0));
+        const double swing = angle - coupled[i] * rise[i] / distance[i] - pitch[i];
+        const CzSliderResponse hinge = cz_slider(stiffness[i], capacity[i], swing, yielded[i]);
+        next[i] = engaged >= 1.0 ? hinge.offset : yielded[i];
+        moment[i] = engaged * (hinge.force + cz_stop(stop[i], range[i], swing));
+        power[i] += moment[i] * (line_turn[i] - turn[i]);
+    }
+}
+
+/* Adds the share of a row that goes to the end mass or to the body. */
+static void share(size_t n, const double *restrict on_end, const double *restrict row, double sign,
+                  double *restrict end, double *restrict body) {
+    CZ_LANES(i, n)
+    {
+        const double to_end = on_end[i] * row[i];
+        end[i] += sign * to_end;
+        body[i] += sign * (row[i] - to_end);
+    }
+}
+
+/* Puts strut force and hinge moments on the carriers, and the strut force into the sections behind
+ * them. */
+static void coupler_forces(CzDynamics *d) {
+    const size_t n = d->lanes->n_lane, ahead = (size_t)d->lanes->n_design;
+    const double *restrict force = S(CHAIN_FORCE), *restrict length = S(LENGTH),
+                           *restrict rate = S(RATE);
+    const double *restrict nx = S(NORMAL_X), *restrict nz = S(NORMAL_Z);
+    const double *restrict moment_a = S(SPRING_UP_A), *restrict moment_b = S(SPRING_UP_B);
+    double *restrict fx = S(CURVE_VALUE), *restrict fz = S(CURVE_SLOPE),
+                     *restrict total = S(INTERFACE_FORCE);
+    double *restrict kept = S(COUPLER_FORCE), *restrict power = POWER(COUPLER);
+    CZ_LANES(i, n)
+    { /* on side B */
+        const double transverse = (moment_a[i] + moment_b[i]) / length[i];
+        fx[i] = force[i] * nx[i] + transverse * nz[i];
+        fz[i] = force[i] * nz[i] - transverse * nx[i];
+        total[i] += fx[i];
+        kept[i] = force[i];
+        power[i] += force[i] * rate[i];
+    }
+    double *turning = S(LARGEST);
+    for (int side = 0; side < 2; ++side) {
+        const double sign = side == 0 ? -1.0 : 1.0;
+        const size_t shift = side == 0 ? 0 : ahead;
+        const double *restrict arm_x = side == 0 ? S(ARM_X_A) : S(ARM_X_B);
+        const double *restrict arm_z = side == 0 ? S(ARM_Z_A) : S(ARM_Z_B);
+        const double *restrict moment = side == 0 ? moment_a : moment_b;
+        const double *restrict on_end = P_AT(COUPLER_ON_END_A, side);
+        double *restrict moments = turning;
+        CZ_LANES(i, n)
+        { moments[i] = sign * (arm_x[i] * fz[i] - arm_z[i] * fx[i]) + moment[i]; }
+        const int end = side == 0 ? CZ_DOF_END_X_FRONT : CZ_DOF_END_X_REAR;
+        double *section = (side == 0 ? S(SECTION_FRONT) : S(SECTION_REAR)) + shift;
+        share(n, on_end, fx, sign, cz_row(d->force, d->stride, end) + shift, G(BODY_X) + shift);
+        share(n, on_end, fz, sign, cz_row(d->force, d->stride, end + 1) + shift, G(BODY_Z) + shift);
+        share(n, on_end, moments, 1.0, cz_row(d->force, d->stride, end + 2) + shift,
+              G(BODY_PITCH) + shift);
+        share(n, on_end, fx, 1.0, S(UNUSED), section);
+    }
+}
+
+/* All couplers. */
+static void couplers(CzDynamics *d, double step) {
+    const Carrier a = coupler_carrier(d, 0);
+    const Carrier b = coupler_carrier(d, 1);
+    coupler_geometry(d, &a, &b);
+    coupler_chain_force(d, step);
+    hinge_moment(d, 0, &a);
+    hinge_moment(d, 1, &b);
+    coupler_forces(d);
+}
+
+#endif

@@ -1,0 +1,230 @@
+/* Anti-climbers (or the bare ends) and side buffers: contact of faces, along the normal a series
+ * chain, across it ribs and friction. Part of kernel.c only. */
+#ifndef CZ_DYNAMICS_KERNEL_FACE_H
+#define CZ_DYNAMICS_KERNEL_FACE_H
+
+#include "dynamics/kernel_chain.h"
+#include "dynamics/kernel_contact.h"
+#include "laws/slider.h"
+
+#define GRIP_FORCE 1e4 /* normal force at which ribs and damping are fully engaged [N] (ours) */
+
+static const Chain face_chain = {2, CZ_M_FACE_FORCE, CZ_M_LIMP_A, CZ_M_FACE_A,
+                                 CZ_P_FACE_COMPLIANCE};
+static const ContactRows face_contact = {CZ_P_FACE_X_A, CZ_P_FACE_Z_A, CZ_P_FACE_X_B,
+                                         CZ_P_FACE_Z_B, CZ_P_FACE_GAP, CZ_P_FACE_RISE};
+static const Chain side_chain = {2, CZ_M_SIDE_FORCE, CZ_M_SIDE_BUFFER_A, CZ_M_SIDE_TUBE_A,
+                                 CZ_P_SIDE_COMPLIANCE};
+static const BufferRows side_buffer = {CZ_CURVE_SIDE_BUFFER_A,
+                                       CZ_P_SIDE_TRANSITION_A,
+                                       CZ_P_SIDE_SHARE_A,
+                                       CZ_P_SIDE_DAMPING_A,
+                                       CZ_P_SIDE_QUADRATIC_A,
+                                       -1,
+                                       -1,
+                                       CZ_M_SIDE_RATE_A,
+                                       CZ_M_SIDE_OFFSET_A};
+static const ContactRows side_contact = {CZ_P_SIDE_X_A, CZ_P_SIDE_Z_A, CZ_P_SIDE_X_B,
+                                         CZ_P_SIDE_Z_B, CZ_P_SIDE_GAP, CZ_P_SIDE_RISE};
+
+/* Rows of three degrees of freedom as a carrier, moved on by `shift` lanes. */
+static Carrier carrier_rows(CzDynamics *d, int dof, int rotation, size_t shift) {
+    const double *x = cz_row(d->position, d->stride, dof) + shift;
+    const double *v = cz_row(d->velocity, d->stride, dof) + shift;
+    const double *r = cz_row(d->scratch, d->stride, rotation) + shift;
+    return (Carrier){x, x + d->stride, x + 2 * d->stride, v, v + d->stride, v + 2 * d->stride,
+                     r, r + d->stride};
+}
+
+static CarrierForce carrier_force(CzDynamics *d, int dof, size_t shift) {
+    double *g = cz_row(d->force, d->stride, dof) + shift;
+    return (CarrierForce){g, g + d->stride, g + 2 * d->stride};
+}
+
+/* A crush zone without end mass as spring member `side`; its largest shortening is in LIMP_PEAK. */
+static void prepare_limp_end(CzDynamics *d, int side) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict shortening = M_AT(LIMP_A, side), *restrict largest =
+                                                                M_AT(LIMP_PEAK_A, side);
+    double *restrict curve = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
+    double *restrict peak = S(CURVE_PEAK), *restrict unused = S(LARGEST);
+    evaluate_curve(d, CZ_CURVE_LIMP_END_A + side, largest, peak, unused);
+    evaluate_curve(d, CZ_CURVE_LIMP_END_A + side, shortening, curve, slope);
+    const double *restrict unloading = P_AT(LIMP_UNLOADING_A, side), *restrict share =
+                                                                         P_AT(LIMP_SHARE_A, side);
+    const double *restrict second = P_AT(LIMP_SECOND_UNLOADING_A, side);
+    double *restrict rest = S_AT(SPRING_FORCE_A, side);
+    double *restrict up = S_AT(SPRING_UP_A, side), *restrict down = S_AT(SPRING_DOWN_A, side);
+    CZ_LANES(i, n)
+    {
+        const CzVehicleEndLaw law = {cz_larger(unloading[i], 1.0), share[i],
+                                     cz_larger(second[i], 1.0), 0.0};
+        const CzVehicleEndResponse response =
+            cz_vehicle_end(&law, curve[i], peak[i], shortening[i], largest[i]);
+        const double loading = cz_larger(slope[i], CZ_SMALLEST_STIFFNESS);
+        const double back =
+            response.force < curve[i] ? response.slope : cz_larger(slope[i], response.slope);
+        const double unload = shortening[i] > 0.0 ? back : loading;
+        rest[i] = response.force;
+        up[i] =
+            1.0 / (shortening[i] >= largest[i] ? loading : cz_larger(back, CZ_SMALLEST_STIFFNESS));
+        down[i] = 1.0 / cz_larger(unload, CZ_SMALLEST_STIFFNESS);
+    }
+}
+
+/* The closing speed at first contact is frozen; the factor of one side follows from it, into
+ * LARGEST. */
+static void speed_factor(CzDynamics *d, int side) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict closure = S(CLOSURE), *restrict rate = S(RATE),
+                           *restrict speed = M(FACE_SPEED);
+    const double *restrict factor = P_AT(SPEED_FACTOR_A, side);
+    double *restrict next = NEXT(FACE_SPEED), *restrict rise = S(LARGEST);
+    CZ_LANES(i, n)
+    {
+        const double touching = closure[i] > 0.0 ? cz_larger(rate[i], 1e-9) : 0.0;
+        next[i] = speed[i] > 0.0 ? speed[i] : touching;
+        rise[i] = factor[i] * next[i];
+    }
+}
+
+/* Normal force of the faces: chain, damping, and what is left of them while the overlap runs out.
+ */
+static void face_normal(CzDynamics *d) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict chain = S(CHAIN_FORCE), *restrict closure = S(CLOSURE),
+                           *restrict rate = S(RATE);
+    const double *restrict damping = P(FACE_DAMPING), *restrict level = P(FACE_OVERLAP),
+                           *restrict pitch = P(RIB_PITCH);
+    const double *restrict slip = S(SLIP);
+    double *restrict normal = S(FACE_FORCE), *restrict remaining = S(FACE_REMAINING);
+    double *restrict power = POWER(FACE), *restrict lost = POWER(FACE_DAMPING);
+    CZ_LANES(i, n)
+    {
+        const double wanted =
+            damping[i] * cz_positive_part(rate[i]) * cz_fade_in(closure[i], CZ_FADE_LENGTH);
+        const double damped = cz_smaller(wanted, chain[i]);
+        const double overlap = level[i] - fabs(slip[i]);
+        const double held = cz_clamp(overlap / pitch[i], 0.0, 1.0);
+        remaining[i] = overlap;
+        normal[i] = held * (chain[i] + damped);
+        power[i] += held * chain[i] * rate[i];
+        lost[i] += held * damped * rate[i];
+    }
+}
+
+/* Vertical force of the faces: they stick, by ribs and friction, up to a capacity. */
+static void face_tangential(CzDynamics *d) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict normal = S(FACE_FORCE), *restrict closure = S(CLOSURE),
+                           *restrict slip = S(SLIP);
+    const double *restrict slip_rate = S(SLIP_RATE), *restrict remaining = S(FACE_REMAINING);
+    const double *restrict level = P(FACE_OVERLAP), *restrict depth = P(RIB_DEPTH),
+                           *restrict ribs = P(RIB_CAPACITY);
+    const double *restrict friction = P(FACE_FRICTION), *restrict stiffness =
+                                                            P(FACE_VERTICAL_STIFFNESS);
+    const double *restrict offset = M(FACE_SLIP);
+    double *restrict next = NEXT(FACE_SLIP), *restrict capacity = S(FACE_CAPACITY),
+                     *restrict tangential = S(FACE_DEMAND);
+    double *restrict power = POWER(FACE_SLIDING);
+    CZ_LANES(i, n)
+    {
+        const double meshed = cz_clamp(remaining[i] / level[i], 0.0, 1.0);
+        const double engaged =
+            cz_clamp(closure[i] / depth[i], 0.0, 1.0) * cz_clamp(normal[i] / GRIP_FORCE, 0.0, 1.0);
+        capacity[i] = meshed * engaged * ribs[i] + friction[i] * normal[i];
+        const CzSliderResponse grip = cz_slider(stiffness[i], capacity[i], slip[i], offset[i]);
+        next[i] = grip.offset;
+        tangential[i] = grip.force;
+        power[i] += grip.force * slip_rate[i];
+    }
+}
+
+/* All anti-climbers and bare ends. */
+static void faces(CzDynamics *d, double step) {
+    const size_t n = d->lanes->n_lane, ahead = (size_t)d->lanes->n_design;
+    const Carrier a = carrier_rows(d, CZ_DOF_END_X_FRONT, CZ_S_END_COS_FRONT, 0);
+    const Carrier b = carrier_rows(d, CZ_DOF_END_X_REAR, CZ_S_END_COS_REAR, ahead);
+    contact_geometry(d, &a, &b, &face_contact);
+    for (int side = 0; side < 2; ++side) {
+        prepare_limp_end(d, side);
+        speed_factor(d, side);
+        prepare_plastic(d, &face_chain, side, CZ_CURVE_FACE_A + side, S(LARGEST),
+                        P_AT(FACE_RATE_A, side), step);
+    }
+    double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
+    CZ_LANES(i, n)
+    {
+        lowest[i] = 0.0;
+        active[i] = 1.0;
+    }
+    solve_chain(d, &face_chain, S(CLOSURE));
+    move_members(d, &face_chain, CZ_M_LIMP_ENERGY_A, CZ_M_FACE_ENERGY_A);
+    for (int side = 0; side < 2; ++side) {
+        const double *restrict before = M_AT(LIMP_PEAK_A, side), *restrict now =
+                                                                     NEXT_AT(LIMP_A, side);
+        double *restrict next = NEXT_AT(LIMP_PEAK_A, side);
+        CZ_LANES(i, n)
+        { next[i] = cz_larger(before[i], now[i]); }
+    }
+    face_normal(d);
+    face_tangential(d);
+    const CarrierForce on_a = carrier_force(d, CZ_DOF_END_X_FRONT, 0);
+    const CarrierForce on_b = carrier_force(d, CZ_DOF_END_X_REAR, ahead);
+    contact_forces(d, &on_a, &on_b, S(FACE_FORCE), S(FACE_DEMAND));
+    /* Where the ends have no mass, the force goes straight into the body's section. */
+    add(n, S(SECTION_FRONT), P(SLAVED_ENDS), S(CURVE_VALUE));
+    add(n, S(SECTION_REAR) + ahead, P(SLAVED_ENDS) + ahead, S(CURVE_VALUE));
+}
+
+/* All side buffers. */
+static void side_buffers(CzDynamics *d, double step) {
+    const size_t n = d->lanes->n_lane, ahead = (size_t)d->lanes->n_design;
+    const Carrier a = carrier_rows(d, CZ_DOF_BODY_X, CZ_S_BODY_COS, 0);
+    const Carrier b = carrier_rows(d, CZ_DOF_BODY_X, CZ_S_BODY_COS, ahead);
+    contact_geometry(d, &a, &b, &side_contact);
+    for (int side = 0; side < 2; ++side) {
+        prepare_buffer(d, &side_chain, &side_buffer, side, step);
+        prepare_plastic(d, &side_chain, side, CZ_CURVE_SIDE_TUBE_A + side, S(ZERO),
+                        P_AT(SIDE_RATE_A, side), step);
+    }
+    double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
+    const double *restrict exists = P(SIDE_BUFFERS);
+    CZ_LANES(i, n)
+    {
+        lowest[i] = 0.0;
+        active[i] = exists[i];
+    }
+    solve_chain(d, &side_chain, S(CLOSURE));
+    move_members(d, &side_chain, CZ_M_SIDE_ENERGY_A, CZ_M_SIDE_TUBE_ENERGY_A);
+    keep_rates(d, &side_chain, CZ_M_SIDE_RATE_A, step);
+
+    /* Friction of the plates. */
+    const double *restrict force = S(CHAIN_FORCE), *restrict friction = P(SIDE_FRICTION);
+    const double *restrict slip = S(SLIP), *restrict rate = S(RATE),
+                           *restrict slip_rate = S(SLIP_RATE);
+    const double *restrict offset = M(SIDE_SLIP);
+    double *restrict next = NEXT(SIDE_SLIP), *restrict kept = S(SIDE_FORCE),
+                     *restrict tangential = S(LENGTH);
+    double *restrict power = POWER(SIDE), *restrict sliding = POWER(SIDE_SLIDING);
+    CZ_LANES(i, n)
+    {
+        const CzSliderResponse grip = cz_slider(2e7, friction[i] * force[i], slip[i], offset[i]);
+        next[i] = grip.offset;
+        kept[i] = force[i];
+        tangential[i] = grip.force;
+        power[i] += force[i] * rate[i];
+        sliding[i] += grip.force * slip_rate[i];
+    }
+    const CarrierForce on_a = carrier_force(d, CZ_DOF_BODY_X, 0);
+    const CarrierForce on_b = carrier_force(d, CZ_DOF_BODY_X, ahead);
+    contact_forces(d, &on_a, &on_b, S(SIDE_FORCE), S(LENGTH));
+    double *restrict front = S(SECTION_FRONT), *restrict rear = S(SECTION_REAR) + ahead;
+    const double *restrict fx = S(CURVE_VALUE);
+    CZ_LANES(i, n)
+    { front[i] += fx[i]; }
+    CZ_LANES(i, n)
+    { rear[i] += fx[i]; }
+}
+
+#endif

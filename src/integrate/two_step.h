@@ -1,0 +1,20 @@
+/* The explicit two-step scheme of Zhai (Int. J. Numer. Meth. Engng 39, 1996), psi = phi = 1/2.
+ *
+ *   x' = x + v h + (1/2 + psi) a h^2 - psi a_last h^2
+ *   v' = v + (1 + phi) a h - phi a_last h                  the first step has psi = phi = 0
+ *   a' = M^-1 F(x', v')                                    one force evaluation a step
+ *
+ * Second order, without numerical damping, stable for w h < 2 without physical damping.
+ */
+#ifndef CZ_INTEGRATE_TWO_STEP_H
+#define CZ_INTEGRATE_TWO_STEP_H
+
+#include <stddef.h>
+
+/* Advances n positions and velocities by one step of length h. `acceleration` is a at the start of
+ * the step; `last` is a one step earlier, and takes over the present one. `first` marks the first
+ * step. */
+void cz_two_step_advance(size_t n, double h, int first, double *position, double *velocity,
+                         const double *acceleration, double *last);
+
+#endif

@@ -1,0 +1,229 @@
+/* A collision from first contact to its end, for one design or for several side by side. */
+#include "simulate/batch.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/error.h"
+#include "integrate/two_step.h"
+#include "simulate/run.h"
+
+enum {
+    STEPS_BETWEEN_LOOKS = 32, /* energy and end of run are looked at this often (ours) */
+    LANES_THAT_FILL = 96      /* lanes of a batch that still stay in the first caches (measured) */
+};
+#define SAMPLING 1e-3 /* of the history for mean decelerations [s] (ours) */
+
+static double seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+CzSimulateOptions cz_simulate_options_default(void) {
+    return (CzSimulateOptions){0.0, true, "auto"};
+}
+
+int cz_simulate_batch_width(const CzModel *model) {
+    const int width = LANES_THAT_FILL / model->n_car;
+    return width > 1 ? width : 1;
+}
+
+const char *cz_isa_name(void) {
+    return cz_kernel(NULL)->isa;
+}
+
+/* Fills all lanes. A design that makes no model is over before it begins; its lanes hold the file's
+ * own values. */
+static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *error) {
+    for (int design = 0; design < batch->n_design; ++design) {
+        CzProgressOfDesign *progress = &batch->design[design];
+        CzError problem = {0};
+        if (cz_model_fill(batch->model, batch->vehicles[design], design, batch->lanes, &problem) ==
+            CZ_OK)
+            continue;
+        snprintf(progress->failure, sizeof progress->failure, "no model: %.230s", problem.message);
+        progress->over = true;
+        progress->ended = CZ_ENDED_INCOMPLETE;
+        CZ_TRY(cz_model_fill(batch->model, own, design, batch->lanes, error));
+    }
+    return CZ_OK;
+}
+
+/* Memory, lanes and state at t = 0. */
+static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
+                      const CzVehicle *const *vehicles, const CzSimulateOptions *options,
+                      CzError *error) {
+    memset(batch, 0, sizeof *batch);
+    batch->model = model;
+    batch->kernel = cz_kernel(options->isa);
+    if (batch->kernel == NULL)
+        return cz_fail(error, CZ_STATUS_INPUT, "no kernel for instruction set '%s' here",
+                       options->isa);
+    batch->n_design = n_design;
+    batch->step = options->time_step > 0.0 ? options->time_step : model->time_step;
+    int n_vehicle;
+    const CzVehicle *own = cz_problem_vehicles(model->problem, &n_vehicle);
+    const CzVehicle **used = cz_arena_allocate(&batch->arena, (size_t)n_design, sizeof *used);
+    batch->design = cz_arena_allocate(&batch->arena, (size_t)n_design, sizeof *batch->design);
+    batch->lanes = cz_lanes_create(model, n_design, &batch->arena);
+    if (used == NULL || batch->design == NULL || batch->lanes == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_design);
+    for (int design = 0; design < n_design; ++design) {
+        used[design] = vehicles != NULL && vehicles[design] != NULL ? vehicles[design] : own;
+        batch->design[design].override_time = NAN;
+        batch->design[design].quiet_since = NAN;
+    }
+    batch->vehicles = used;
+    CZ_TRY(fill_designs(batch, own, error));
+    batch->dynamics = cz_dynamics_create(batch->lanes, &batch->arena);
+    if (batch->dynamics == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_design);
+    const double samples = fmax(1.0, round(SAMPLING / batch->step));
+    batch->history.stride = batch->dynamics->stride;
+    batch->history.step = samples * batch->step;
+    for (int design = 0; design < n_design; ++design)
+        batch->design[design].initial_energy = cz_kinetic_energy(batch, design);
+    batch->kernel->evaluate(batch->dynamics, batch->step);
+    batch->kernel->commit(batch->dynamics, 0.0, 0.0);
+    return CZ_OK;
+}
+
+static void step(CzBatch *batch) {
+    CzDynamics *dynamics = batch->dynamics;
+    cz_two_step_advance((size_t)CZ_N_ROW * dynamics->stride, batch->step, batch->n_step == 0,
+                        dynamics->position, dynamics->velocity, dynamics->acceleration,
+                        dynamics->last_acceleration);
+    ++batch->n_step;
+    batch->time = (double)batch->n_step * batch->step;
+    batch->kernel->evaluate(dynamics, batch->step);
+    batch->kernel->commit(dynamics, batch->step, batch->time);
+}
+
+/* Recording of a single design: channels at the output step, events at every step. */
+typedef struct {
+    CzRun *run;
+    CzWatch *watch;
+    long every; /* steps between samples */
+} Recording;
+
+static CzStatus record_begin(Recording *recording, CzBatch *batch, CzRun *run, CzError *error) {
+    recording->run = run;
+    const double wanted = batch->model->simulation->output_step / batch->step;
+    recording->every = wanted > 1.0 ? lround(wanted) : 1;
+    recording->watch = cz_watch_begin(batch, &run->arena);
+    if (recording->watch == NULL || cz_channels_begin(&run->channels, batch) != CZ_OK ||
+        cz_channels_add(&run->channels, batch) != CZ_OK)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the recording");
+    return CZ_OK;
+}
+
+static CzStatus record_step(Recording *recording, const CzBatch *batch) {
+    cz_watch_look(recording->watch, batch);
+    return batch->n_step % recording->every == 0 ? cz_channels_add(&recording->run->channels, batch)
+                                                 : CZ_OK;
+}
+
+static void record_end(Recording *recording) {
+    CzRunSummary *summary = &recording->run->summary;
+    summary->event = cz_watch_events(recording->watch, &summary->n_event);
+}
+
+/* Writes the summaries of the designs that are over and have none yet. */
+static CzStatus finish(const CzBatch *batch, CzRun **run, bool *written) {
+    for (int design = 0; design < batch->n_design; ++design) {
+        if (!batch->design[design].over || written[design])
+            continue;
+        written[design] = true;
+        if (cz_summary_fill(batch, design, run[design]) != CZ_OK)
+            return CZ_STATUS_NO_MEMORY;
+    }
+    return CZ_OK;
+}
+
+/* Steps until every design is over. */
+static CzStatus march(CzBatch *batch, CzRun **run, Recording *recording, CzError *error) {
+    bool *written = cz_arena_allocate(&batch->arena, (size_t)batch->n_design, sizeof *written);
+    if (written == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the run");
+    const long every = lround(batch->history.step / batch->step);
+    const double length = batch->model->duration;
+    const long last = isnan(length) ? 0 : lround(length / batch->step);
+    CzStatus status = cz_history_add(&batch->history, batch);
+    bool all_over = false;
+    while (status == CZ_OK && !all_over) {
+        step(batch);
+        if (batch->n_step % every == 0)
+            status = cz_history_add(&batch->history, batch);
+        if (status == CZ_OK && recording != NULL)
+            status = record_step(recording, batch);
+        if (status == CZ_OK &&
+            (batch->n_step % STEPS_BETWEEN_LOOKS == 0 || batch->n_step == last)) {
+            all_over = cz_ending_look(batch);
+            status = finish(batch, run, written);
+        }
+    }
+    return status == CZ_OK ? CZ_OK : cz_fail(error, status, "no memory for the run");
+}
+
+static void batch_free(CzBatch *batch) {
+    cz_history_free(&batch->history);
+    cz_arena_free(&batch->arena);
+}
+
+static void free_runs(int n_design, CzRun **run) {
+    for (int design = 0; design < n_design; ++design) {
+        cz_run_free(run[design]);
+        run[design] = NULL;
+    }
+}
+
+CzStatus cz_simulate_batch(const CzModel *model, int n_design, const CzVehicle *const *vehicles,
+                           const CzSimulateOptions *options, CzRun **run, CzError *error) {
+    const CzSimulateOptions chosen = options != NULL ? *options : cz_simulate_options_default();
+    const double t0 = seconds();
+    CzStatus status = CZ_OK;
+    for (int design = 0; design < n_design; ++design) {
+        run[design] = calloc(1, sizeof **run);
+        if (run[design] == NULL)
+            status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d runs", n_design);
+    }
+    CzBatch batch = {0};
+    Recording recording = {0};
+    const bool records = chosen.record && n_design == 1;
+    if (status == CZ_OK)
+        status = begin(&batch, model, n_design, vehicles, &chosen, error);
+    if (status == CZ_OK && records)
+        status = record_begin(&recording, &batch, run[0], error);
+    const double t1 = seconds();
+    if (status == CZ_OK)
+        status = march(&batch, run, records ? &recording : NULL, error);
+    if (status == CZ_OK && records)
+        record_end(&recording);
+    const double t2 = seconds();
+    batch_free(&batch);
+    if (status != CZ_OK)
+        free_runs(n_design, run);
+    else
+        for (int design = 0; design < n_design; ++design) {
+            run[design]->summary.setup_s = (t1 - t0) / n_design;
+            run[design]->summary.wall_s = (t2 - t1) / n_design;
+        }
+    return status;
+}
+
+CzStatus cz_simulate(const CzModel *model, const CzSimulateOptions *options, CzRun **run,
+                     CzError *error) {
+    return cz_simulate_batch(model, 1, NULL, options, run, error);
+}
+
+void cz_run_free(CzRun *run) {
+    if (run == NULL)
+        return;
+    cz_channels_free(&run->channels);
+    cz_arena_free(&run->arena);
+    free(run);
+}

@@ -1,0 +1,239 @@
+/* What each element, interface and vehicle went through. */
+#include "simulate/run.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define MISSING 1e29 /* strengths and strokes from here on stand for a member that is not there */
+
+/* Usable stroke of a curve in a lane; infinite when it has none. */
+static double usable(const CzBatch *batch, int curve, size_t lane) {
+    const double stroke = batch->lanes->curve[curve].usable[lane];
+    return stroke < MISSING ? stroke : INFINITY;
+}
+
+static double used(double stroke, double whole) {
+    return isfinite(whole) && whole > 0.0 ? stroke / whole : 0.0;
+}
+
+static void name_element(CzElementResult *result, CzElementKind kind, const CzBatch *batch,
+                         int car) {
+    result->kind = kind;
+    result->vehicle = car;
+    snprintf(result->name, sizeof result->name, "%s %s", cz_element_text(kind),
+             batch->model->car[car].name);
+}
+
+/* Coupler of side A (0) or B (1) of the interface in a lane. */
+static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
+                         CzElementResult *result) {
+    if (cz_parameter(batch, CZ_P_COUPLER, lane) < 0.5 ||
+        batch->model->car[car].model == CZ_MODEL_FIXED)
+        return false;
+    name_element(result, CZ_ELEMENT_COUPLER, batch, car);
+    const double tube = cz_memory(batch, CZ_M_TUBE_A + side, lane);
+    const double second = cz_memory(batch, CZ_M_SECOND_TUBE_A + side, lane);
+    const double travel = cz_memory(batch, CZ_M_SHEAR_A + side, lane);
+    const double space = cz_parameter(batch, CZ_P_SHEAR_SPACE_A + side, lane);
+    const double tube_usable = usable(batch, CZ_CURVE_TUBE_A + side, lane);
+    const double second_usable = usable(batch, CZ_CURVE_SECOND_TUBE_A + side, lane);
+    result->stored = cz_coupler_stored(batch, lane, side);
+    result->energy = cz_memory(batch, CZ_M_COUPLER_ENERGY_A + side, lane) - result->stored;
+    result->tube_energy = cz_memory(batch, CZ_M_TUBE_ENERGY_A + side, lane);
+    result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
+    result->stroke = tube + second;
+    result->stroke_used = fmax(used(tube, tube_usable), used(second, second_usable));
+    result->peak_force = cz_extreme(batch, CZ_E_COUPLER_FORCE, lane);
+    result->sheared = travel >= cz_parameter(batch, CZ_P_SHEAR_SOFTENING_A + side, lane);
+    result->bottomed_out = tube > tube_usable || second > second_usable || travel > space;
+    return true;
+}
+
+static bool fill_anti_climber(const CzBatch *batch, size_t lane, int side, int car,
+                              CzElementResult *result) {
+    if (batch->lanes->curve[CZ_CURVE_FACE_A + side].start[lane] > MISSING)
+        return false;
+    name_element(result, CZ_ELEMENT_ANTI_CLIMBER, batch, car);
+    const double stroke = cz_memory(batch, CZ_M_FACE_A + side, lane);
+    const double whole = usable(batch, CZ_CURVE_FACE_A + side, lane);
+    const double shared =
+        cz_work(batch, CZ_L_FACE_DAMPING, lane) + cz_work(batch, CZ_L_FACE_SLIDING, lane);
+    result->stored = cz_face_stored(batch, lane, side);
+    result->energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane) + 0.5 * shared;
+    result->tube_energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane);
+    result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
+    result->stroke = stroke;
+    result->stroke_used = used(stroke, whole);
+    result->peak_force = cz_extreme(batch, CZ_E_FACE_FORCE, lane);
+    result->bottomed_out = stroke > whole;
+    return true;
+}
+
+static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int car,
+                              CzElementResult *result) {
+    if (cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) < 0.5 ||
+        batch->model->car[car].model == CZ_MODEL_FIXED)
+        return false;
+    name_element(result, CZ_ELEMENT_SIDE_BUFFERS, batch, car);
+    const double stroke = cz_memory(batch, CZ_M_SIDE_TUBE_A + side, lane);
+    const double whole = usable(batch, CZ_CURVE_SIDE_TUBE_A + side, lane);
+    const double reversible = usable(batch, CZ_CURVE_SIDE_BUFFER_A + side, lane);
+    const bool alone = batch->lanes->curve[CZ_CURVE_SIDE_TUBE_A + side].start[lane] > MISSING;
+    result->stored = cz_side_stored(batch, lane, side);
+    result->energy = cz_memory(batch, CZ_M_SIDE_ENERGY_A + side, lane) - result->stored +
+                     0.5 * cz_work(batch, CZ_L_SIDE_SLIDING, lane);
+    result->tube_energy = cz_memory(batch, CZ_M_SIDE_TUBE_ENERGY_A + side, lane);
+    result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
+    result->stroke = stroke;
+    result->stroke_used = used(stroke, whole);
+    result->peak_force = cz_extreme(batch, CZ_E_SIDE_FORCE, lane);
+    result->bottomed_out =
+        stroke > whole || (alone && cz_memory(batch, CZ_M_SIDE_BUFFER_A + side, lane) > reversible);
+    return true;
+}
+
+static const CzEnd *end_of(const CzBatch *batch, int car, int design, int side) {
+    const CzVehicle *vehicle = &batch->vehicles[design][batch->model->car[car].vehicle];
+    return side == 0 ? &vehicle->front : &vehicle->rear; /* side A is a front end */
+}
+
+/* Energy under the backbone between two shortenings. */
+static double area(const CzBatch *batch, int curve, size_t lane, double from, double to) {
+    const CzCurveLanes *lanes = &batch->lanes->curve[curve];
+    const double stride_to = cz_curve_integral(lanes, batch->lanes->stride, lane, to);
+    return to > from ? stride_to - cz_curve_integral(lanes, batch->lanes->stride, lane, from) : 0.0;
+}
+
+/* Splits the plastic energy of a crush zone among the zones of its stages, in proportion to the
+ * areas; what lies beyond the last stage is occupied space. */
+static void split_zones(const CzBatch *batch, const CzEnd *end, int curve, size_t lane,
+                        double largest, double energy, double zone_energy[3]) {
+    double areas[3] = {0.0, 0.0, 0.0}, from = 0.0;
+    const double whole = usable(batch, curve, lane);
+    if (end->n_stages == 0)
+        areas[CZ_ZONE_CRUSH] = area(batch, curve, lane, 0.0, fmin(largest, whole));
+    for (int k = 0; k < end->n_stages; ++k) {
+        const double to = from + end->stages[k].stroke;
+        areas[end->stages[k].zone] += area(batch, curve, lane, from, fmin(to, largest));
+        from = to;
+    }
+    if (isfinite(whole))
+        areas[CZ_ZONE_OCCUPIED] += area(batch, curve, lane, whole, largest);
+    const double sum = areas[0] + areas[1] + areas[2];
+    for (int zone = 0; zone < 3; ++zone)
+        zone_energy[zone] = sum > 0.0 ? fmax(energy, 0.0) * areas[zone] / sum : 0.0;
+}
+
+/* Crush zone of the end at side A (0) or B (1); `lane` is the interface's, `car` the owner. */
+static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int design,
+                     CzElementResult *result) {
+    const CzEnd *end = end_of(batch, car, design, side);
+    if (!end->given || (end->n_stages == 0 && !end->curve.given))
+        return false;
+    name_element(result, CZ_ELEMENT_END, batch, car);
+    const bool slaved = batch->model->car[car].model != CZ_MODEL_FULL;
+    const size_t own = cz_lane(batch, car, design);
+    const int which = side == 0 ? 1 : 0; /* front or rear end of the car */
+    const int curve = slaved ? CZ_CURVE_LIMP_END_A + side : CZ_CURVE_END_REAR + which;
+    const size_t curve_lane = slaved ? lane : own;
+    const double largest = slaved ? cz_memory(batch, CZ_M_LIMP_PEAK_A + side, lane)
+                                  : cz_memory(batch, CZ_M_END_PEAK_REAR + which, own);
+    const double whole = usable(batch, curve, curve_lane);
+    result->stored = slaved ? cz_limp_stored(batch, lane, side) : cz_end_stored(batch, own, which);
+    const double work = slaved ? cz_memory(batch, CZ_M_LIMP_ENERGY_A + side, lane)
+                               : cz_work(batch, CZ_L_END_REAR + which, own);
+    const double shared = slaved ? 0.0 : cz_work(batch, CZ_L_END_DAMPING, own);
+    result->tube_energy = work - result->stored;
+    result->energy = result->tube_energy + 0.5 * shared;
+    result->stroke = largest;
+    result->stroke_used = used(largest, whole);
+    result->peak_force = slaved ? cz_extreme(batch, CZ_E_FACE_FORCE, lane)
+                                : cz_extreme(batch, CZ_E_END_FORCE_REAR + which, own);
+    result->bottomed_out = largest > whole;
+    split_zones(batch, end, curve, curve_lane, largest, result->tube_energy, result->zone_energy);
+    return true;
+}
+
+void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result) {
+    const CzModel *model = batch->model;
+    const size_t lane = cz_lane(batch, interface, design);
+    snprintf(result->name, sizeof result->name, "%s", model->interface_name[interface]);
+    result->peak_force = cz_extreme(batch, CZ_E_INTERFACE_FORCE, lane);
+    result->peak_time = cz_extreme(batch, CZ_E_INTERFACE_TIME, lane);
+    result->shortening = cz_extreme(batch, CZ_E_INTERFACE_SHORTENING, lane);
+    result->section_force[0] = cz_extreme(batch, CZ_E_SECTION_FRONT, lane);
+    result->section_force[1] =
+        cz_extreme(batch, CZ_E_SECTION_REAR, cz_lane(batch, interface + 1, design));
+    const double lost_overlap = cz_extreme(batch, CZ_E_FACE_LOST_OVERLAP, lane);
+    const double lost_margin = cz_extreme(batch, CZ_E_FACE_LOST_MARGIN, lane);
+    const bool can_climb = cz_parameter(batch, CZ_P_FACE_OVERLAP, lane) < MISSING;
+    result->min_overlap = can_climb && lost_overlap > -1e299 ? -lost_overlap : NAN;
+    result->vertical_margin = can_climb && lost_margin > -1e299 ? -lost_margin : NAN;
+    result->vertical_demand = cz_extreme(batch, CZ_E_FACE_DEMAND, lane);
+    result->n_element = 0;
+    for (int side = 0; side < 2; ++side) {
+        const int car = interface + side;
+        CzElementResult *next = &result->element[result->n_element];
+        next += fill_coupler(batch, lane, side, car, next);
+        next += fill_anti_climber(batch, lane, side, car, next);
+        next += fill_end(batch, lane, side, car, design, next);
+        next += fill_side_buffers(batch, lane, side, car, next);
+        result->n_element = (int)(next - result->element);
+    }
+    for (int k = 0; k < result->n_element; ++k) {
+        result->energy += result->element[k].energy;
+        result->bottomed_out |= result->element[k].bottomed_out;
+    }
+}
+
+/* Stroke that the ends took from occupied space; NaN when none declares such a zone and none went
+ * beyond its stages. */
+static double survival_shortening(const CzBatch *batch, int car, int design) {
+    double lost = NAN;
+    for (int side = 0; side < 2; ++side) {
+        const CzEnd *end = end_of(batch, car, design, side);
+        const int interface = side == 0 ? car : car - 1;
+        CzElementResult result = {0};
+        if (interface < 0 || interface >= batch->model->n_car - 1 ||
+            !fill_end(batch, cz_lane(batch, interface, design), side, car, design, &result))
+            continue;
+        double from = 0.0, taken = 0.0;
+        bool declares = result.bottomed_out;
+        for (int k = 0; k < end->n_stages; ++k) {
+            const double to = from + end->stages[k].stroke;
+            if (end->stages[k].zone == CZ_ZONE_OCCUPIED) {
+                declares = true;
+                taken += fmax(fmin(result.stroke, to) - from, 0.0);
+            }
+            from = to;
+        }
+        if (result.bottomed_out)
+            taken += result.stroke - result.stroke / result.stroke_used;
+        if (declares)
+            lost = (isnan(lost) ? 0.0 : lost) + taken;
+    }
+    return lost;
+}
+
+void cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleResult *result) {
+    const CzCar *description = &batch->model->car[car];
+    const size_t lane = cz_lane(batch, car, design);
+    snprintf(result->name, sizeof result->name, "%s", description->name);
+    result->final_speed = cz_velocity(batch, CZ_DOF_BODY_X, lane);
+    result->peak_deceleration = cz_extreme(batch, CZ_E_BODY_ACCELERATION, lane);
+    cz_history_decelerations(batch, car, design, &result->mean_deceleration_contact,
+                             &result->mean_deceleration_120ms);
+    const bool full = description->model == CZ_MODEL_FULL;
+    for (int axle = 0; axle < 4; ++axle) {
+        result->wheel_lift[axle] = full ? cz_extreme(batch, CZ_E_LIFT_0 + axle, lane) : NAN;
+        result->wheel_lift_time[axle] =
+            full ? cz_extreme(batch, CZ_E_LIFT_TIME_0 + axle, lane) : NAN;
+    }
+    result->bogie_lift = full ? fmax(cz_extreme(batch, CZ_E_BOGIE_LIFT_REAR, lane),
+                                     cz_extreme(batch, CZ_E_BOGIE_LIFT_FRONT, lane))
+                              : NAN;
+    result->max_pitch = full ? cz_extreme(batch, CZ_E_BODY_PITCH, lane) : NAN;
+    result->link_force = full ? cz_extreme(batch, CZ_E_LINK_FORCE, lane) : NAN;
+    result->survival_shortening = survival_shortening(batch, car, design);
+    result->checks_override = full && description->has_stops;
+}

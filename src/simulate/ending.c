@@ -1,0 +1,181 @@
+/* When a run ends: by rule, after its duration, or because it failed.
+ *
+ * By rule: no neighbouring cars close in faster than CLOSING_SPEED, no plastic element has flowed,
+ * every wheel is on the rail, and all of that for one body pitch period.
+ */
+#include "simulate/run.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define CLOSING_SPEED 0.1      /* [m/s] */
+#define FLOW 1e-6              /* growth of the plastic strokes that counts as flow [m] (ours) */
+#define LARGEST_IMBALANCE 1e-2 /* of the initial energy */
+#define LARGEST_RESIDUAL 1e-6  /* closure that a chain may leave unbalanced [m] (ours) */
+
+static const char *const dof_text[CZ_N_DOF] = {
+#define CZ_DOF(name) #name,
+#include "model/dof.def"
+#undef CZ_DOF
+};
+
+static const char *const ledger_text[CZ_N_LEDGER] = {
+#define CZ_LEDGER(name, class, doc) doc,
+#include "dynamics/ledger.def"
+#undef CZ_LEDGER
+};
+
+static void fail(CzBatch *batch, int design, const char *car, const char *element,
+                 const char *what) {
+    CzProgressOfDesign *progress = &batch->design[design];
+    snprintf(progress->failure, sizeof progress->failure, "%s: %s: %s at %.3f ms", car, element,
+             what, 1e3 * batch->time);
+    progress->ended = CZ_ENDED_INCOMPLETE;
+    progress->over = true;
+}
+
+/* Fails the design when a number is no longer one; names the first degree of freedom. */
+static bool fails_to_be_finite(CzBatch *batch, int design) {
+    for (int car = 0; car < batch->model->n_car; ++car)
+        for (int dof = 0; dof < CZ_N_DOF; ++dof) {
+            const size_t lane = cz_lane(batch, car, design);
+            if (isfinite(cz_velocity(batch, dof, lane)) && isfinite(cz_position(batch, dof, lane)))
+                continue;
+            fail(batch, design, batch->model->car[car].name, dof_text[dof], "not a finite number");
+            return true;
+        }
+    return false;
+}
+
+/* Fails the design when the energy books do not close; names the kind of element with the most
+ * work. */
+static bool fails_to_balance(CzBatch *batch, int design) {
+    CzProgressOfDesign *progress = &batch->design[design];
+    const double residual = fabs(cz_kinetic_energy(batch, design) + cz_total_work(batch, design) -
+                                 progress->initial_energy);
+    progress->balance = fmax(progress->balance, residual);
+    if (residual <= LARGEST_IMBALANCE * progress->initial_energy) /* not a number fails too */
+        return false;
+    int worst_car = 0, worst_row = 0;
+    double largest = 0.0;
+    for (int car = 0; car < batch->model->n_car; ++car)
+        for (int row = 0; row < CZ_N_LEDGER; ++row) {
+            const double work = fabs(cz_work(batch, row, cz_lane(batch, car, design)));
+            if (work > largest) {
+                largest = work;
+                worst_car = car;
+                worst_row = row;
+            }
+        }
+    fail(batch, design, batch->model->car[worst_car].name, ledger_text[worst_row],
+         "energy balance lost (most work here)");
+    return true;
+}
+
+static bool fails_to_solve(CzBatch *batch, int design) {
+    for (int car = 0; car + 1 < batch->model->n_car; ++car)
+        if (cz_extreme(batch, CZ_E_CHAIN_RESIDUAL, cz_lane(batch, car, design)) >
+            LARGEST_RESIDUAL) {
+            fail(batch, design, batch->model->interface_name[car], "series chain",
+                 "no balance of forces found");
+            return true;
+        }
+    return false;
+}
+
+/* Sum of all plastic strokes: it grows while anything flows. */
+static double plastic_strokes(const CzBatch *batch, int design) {
+    static const int rows[] = {CZ_M_TUBE_A,        CZ_M_TUBE_B,        CZ_M_SECOND_TUBE_A,
+                               CZ_M_SECOND_TUBE_B, CZ_M_SHEAR_A,       CZ_M_SHEAR_B,
+                               CZ_M_FACE_A,        CZ_M_FACE_B,        CZ_M_LIMP_PEAK_A,
+                               CZ_M_LIMP_PEAK_B,   CZ_M_SIDE_TUBE_A,   CZ_M_SIDE_TUBE_B,
+                               CZ_M_END_PEAK_REAR, CZ_M_END_PEAK_FRONT};
+    double sum = 0.0;
+    for (int car = 0; car < batch->model->n_car; ++car)
+        for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k)
+            sum += cz_memory(batch, rows[k], cz_lane(batch, car, design));
+    return sum;
+}
+
+static bool closes_in(const CzBatch *batch, int design) {
+    for (int car = 0; car + 1 < batch->model->n_car; ++car) {
+        const double behind = cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, car, design));
+        const double ahead = cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, car + 1, design));
+        if (behind - ahead > CLOSING_SPEED)
+            return true;
+    }
+    return false;
+}
+
+/* Looks at the wheels: off the rail now, and higher than their flange ever. */
+static bool wheels_are_off(CzBatch *batch, int design) {
+    CzProgressOfDesign *progress = &batch->design[design];
+    bool off = false;
+    for (int car = 0; car < batch->model->n_car; ++car) {
+        const CzCar *description = &batch->model->car[car];
+        if (description->model != CZ_MODEL_FULL)
+            continue;
+        const size_t lane = cz_lane(batch, car, design);
+        const double flange = batch->vehicles[design][description->vehicle].bogie.flange_height;
+        for (int axle = 0; axle < 4; ++axle) {
+            const double lift = cz_position(batch, CZ_DOF_WHEEL_Z_0 + 3 * axle, lane) -
+                                cz_parameter(batch, CZ_P_INDENTATION_0 + axle, lane);
+            off |= lift > 0.0;
+            if (isnan(progress->override_time) &&
+                cz_extreme(batch, CZ_E_LIFT_0 + axle, lane) > flange)
+                progress->override_time = batch->time;
+        }
+    }
+    return off;
+}
+
+static void look_for_climbing(CzBatch *batch, int design) {
+    CzProgressOfDesign *progress = &batch->design[design];
+    for (int car = 0; car + 1 < batch->model->n_car; ++car) {
+        const size_t lane = cz_lane(batch, car, design);
+        if (cz_extreme(batch, CZ_E_FACE_CLIMBED, lane) > 0.0)
+            progress->override_time =
+                fmin(isnan(progress->override_time) ? INFINITY : progress->override_time,
+                     -cz_extreme(batch, CZ_E_CLIMB_TIME, lane));
+    }
+}
+
+static void look_at(CzBatch *batch, int design) {
+    CzProgressOfDesign *progress = &batch->design[design];
+    if (fails_to_be_finite(batch, design) || fails_to_balance(batch, design) ||
+        fails_to_solve(batch, design))
+        return;
+    look_for_climbing(batch, design);
+    const double strokes = plastic_strokes(batch, design);
+    const bool flows = strokes - progress->plastic > FLOW;
+    progress->plastic = strokes;
+    const bool restless = wheels_are_off(batch, design) || flows || closes_in(batch, design);
+    if (restless)
+        progress->quiet_since = NAN;
+    else if (isnan(progress->quiet_since))
+        progress->quiet_since = batch->time;
+
+    const CzModel *model = batch->model;
+    if (!isnan(model->duration)) {
+        if (batch->time >= model->duration - 0.5 * batch->step) {
+            progress->ended = CZ_ENDED_DURATION;
+            progress->over = true;
+        }
+    } else if (!restless && batch->time - progress->quiet_since >= model->hold) {
+        progress->ended = CZ_ENDED_BY_RULE;
+        progress->over = true;
+    } else if (batch->time >= model->longest) {
+        progress->ended = CZ_ENDED_INCOMPLETE;
+        progress->over = true;
+    }
+}
+
+bool cz_ending_look(CzBatch *batch) {
+    bool all_over = true;
+    for (int design = 0; design < batch->n_design; ++design) {
+        if (!batch->design[design].over)
+            look_at(batch, design);
+        all_over &= batch->design[design].over;
+    }
+    return all_over;
+}

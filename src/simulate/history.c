@@ -1,0 +1,117 @@
+/* Body speeds and interface forces over time, and the mean decelerations that follow from them. */
+#include "simulate/run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SHORTEST_CONTACT 0.03 /* a contact window counts from this length on [s] (ours) */
+#define WINDOW 0.12           /* [s] */
+#define FORCE_FLOOR 0.01 /* share of the largest net force below which there is no contact (ours)  \
+                          */
+
+CzStatus cz_history_add(CzHistory *history, const CzBatch *batch) {
+    const CzDynamics *dynamics = batch->dynamics;
+    const size_t row = dynamics->stride;
+    if (history->n_sample == history->n_chunk * CZ_CHUNK) {
+        double **chunks = realloc(history->chunk, (size_t)(history->n_chunk + 1) * sizeof *chunks);
+        if (chunks == NULL)
+            return CZ_STATUS_NO_MEMORY;
+        history->chunk = chunks;
+        chunks[history->n_chunk] = malloc(2 * CZ_CHUNK * row * sizeof(double));
+        if (chunks[history->n_chunk] == NULL)
+            return CZ_STATUS_NO_MEMORY;
+        ++history->n_chunk;
+    }
+    double *sample =
+        history->chunk[history->n_chunk - 1] + (size_t)(history->n_sample % CZ_CHUNK) * 2 * row;
+    memcpy(sample, cz_row(dynamics->velocity, row, CZ_DOF_BODY_X), row * sizeof(double));
+    memcpy(sample + row, cz_row(dynamics->scratch, row, CZ_S_INTERFACE_FORCE),
+           row * sizeof(double));
+    ++history->n_sample;
+    return CZ_OK;
+}
+
+static const double *sample_at(const CzHistory *history, int sample) {
+    return history->chunk[sample / CZ_CHUNK] + (size_t)(sample % CZ_CHUNK) * 2 * history->stride;
+}
+
+double cz_history_speed(const CzHistory *history, int sample, size_t lane) {
+    return sample_at(history, sample)[lane];
+}
+
+double cz_history_force(const CzHistory *history, int sample, size_t lane) {
+    return sample_at(history, sample)[history->stride + lane];
+}
+
+void cz_history_free(CzHistory *history) {
+    for (int i = 0; i < history->n_chunk; ++i)
+        free(history->chunk[i]);
+    free(history->chunk);
+    history->chunk = NULL;
+    history->n_chunk = history->n_sample = 0;
+}
+
+/* Net contact force on a car: what pushes from behind less what pushes from ahead. */
+static double net_force(const CzBatch *batch, int sample, int car, int design) {
+    const CzHistory *history = &batch->history;
+    const double behind =
+        car > 0 ? cz_history_force(history, sample, cz_lane(batch, car - 1, design)) : 0.0;
+    const bool last = car == batch->model->n_car - 1;
+    const double ahead =
+        last ? 0.0 : cz_history_force(history, sample, cz_lane(batch, car, design));
+    return behind - ahead;
+}
+
+/* Largest |change of speed| / time over the intervals in which the net contact force keeps its sign
+ * above the floor. */
+static double contact_mean(const CzBatch *batch, int car, int design) {
+    const CzHistory *history = &batch->history;
+    const size_t lane = cz_lane(batch, car, design);
+    double peak = 0.0;
+    for (int i = 0; i < history->n_sample; ++i)
+        peak = fmax(peak, fabs(net_force(batch, i, car, design)));
+    double largest = 0.0;
+    int start = -1;
+    double sign = 0.0;
+    for (int i = 0; i < history->n_sample; ++i) {
+        const double force = net_force(batch, i, car, design);
+        const bool pushes = fabs(force) > FORCE_FLOOR * peak;
+        const bool goes_on = start >= 0 && pushes && force * sign > 0.0;
+        if (goes_on && i < history->n_sample - 1)
+            continue;
+        if (start >= 0) {
+            const double length = (i - start) * history->step;
+            const double change =
+                cz_history_speed(history, i, lane) - cz_history_speed(history, start, lane);
+            if (length >= SHORTEST_CONTACT)
+                largest = fmax(largest, fabs(change) / length);
+        }
+        start = pushes ? i : -1;
+        sign = force;
+    }
+    return largest;
+}
+
+/* Largest |change of speed| / time over all windows of at least WINDOW. A longest-mean window is
+ * shorter than twice the smallest length, because a longer one splits into two of which one has at
+ * least its mean. */
+static double window_mean(const CzHistory *history, size_t lane) {
+    const int shortest = (int)ceil(WINDOW / history->step - 1e-9);
+    double largest = 0.0;
+    for (int start = 0; start + shortest < history->n_sample; ++start) {
+        const double v0 = cz_history_speed(history, start, lane);
+        for (int length = shortest; length <= 2 * shortest && start + length < history->n_sample;
+             ++length) {
+            const double change = cz_history_speed(history, start + length, lane) - v0;
+            largest = fmax(largest, fabs(change) / (length * history->step));
+        }
+    }
+    return largest;
+}
+
+void cz_history_decelerations(const CzBatch *batch, int car, int design, double *contact,
+                              double *window) {
+    *contact = contact_mean(batch, car, design);
+    *window = window_mean(&batch->history, cz_lane(batch, car, design));
+}

@@ -1,0 +1,49 @@
+/* What a caller may ask of a run, and the texts of its closed sets. */
+#include "simulate/run.h"
+
+const char *cz_ended_text(CzEnded ended) {
+    static const char *const text[] = {
+#define CZ_ENDED(constant, text) text,
+#include "crushzone/ended.def"
+#undef CZ_ENDED
+    };
+    return text[ended];
+}
+
+const char *cz_event_text(CzEventKind kind) {
+    static const char *const text[] = {
+#define CZ_EVENT(constant, text, doc) text,
+#include "crushzone/events.def"
+#undef CZ_EVENT
+    };
+    return text[kind];
+}
+
+const char *cz_element_text(CzElementKind kind) {
+    static const char *const text[] = {
+#define CZ_ELEMENT(constant, text) text,
+#include "crushzone/elements.def"
+#undef CZ_ELEMENT
+    };
+    return text[kind];
+}
+
+const CzRunSummary *cz_run_summary(const CzRun *run) {
+    return &run->summary;
+}
+
+int cz_run_n_channel(const CzRun *run) {
+    return run->channels.n_channel;
+}
+
+int cz_run_n_sample(const CzRun *run) {
+    return run->channels.n_sample;
+}
+
+const char *cz_run_channel_name(const CzRun *run, int channel) {
+    return run->channels.name[channel];
+}
+
+const double *cz_run_channel(const CzRun *run, int channel) {
+    return run->channels.value[channel];
+}

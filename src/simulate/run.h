@@ -1,0 +1,135 @@
+/* A run while it is made and after: what the files of this folder share. */
+#ifndef CZ_SIMULATE_RUN_H
+#define CZ_SIMULATE_RUN_H
+
+#include "base/arena.h"
+#include "crushzone/simulate.h"
+#include "dynamics/dynamics.h"
+#include "model/model.h"
+
+/* Names and values of the recorded channels. */
+typedef struct CzChannels {
+    int n_channel, n_sample, capacity;
+    char (*name)[48];
+    double **value; /* (n_channel x capacity), each row from malloc */
+} CzChannels;
+
+struct CzRun {
+    CzArena arena; /* results */
+    CzRunSummary summary;
+    CzChannels channels;
+};
+
+/* Body speeds and interface forces at the sampling step, for all lanes of a batch. */
+typedef struct CzHistory {
+    double step; /* [s] */
+    size_t stride;
+    int n_sample;
+    int n_chunk;
+    double **chunk; /* CZ_CHUNK samples each: speeds, then forces */
+} CzHistory;
+enum { CZ_CHUNK = 256 };
+
+/* What one design of a batch is up to. */
+typedef struct CzProgressOfDesign {
+    bool over;
+    CzEnded ended;
+    char failure[256];
+    double initial_energy;
+    double balance;       /* largest |residual| so far [J] */
+    double quiet_since;   /* when the end-of-run conditions began to hold; NaN when they do not */
+    double plastic;       /* sum of the plastic strokes at the last look [m] */
+    double override_time; /* NaN until it happens */
+} CzProgressOfDesign;
+
+/* A batch on its way. */
+typedef struct CzBatch {
+    CzArena arena;
+    const CzModel *model;
+    const CzKernel *kernel;
+    CzLanes *lanes;
+    CzDynamics *dynamics;
+    const CzVehicle *const *vehicles; /* (n_design) */
+    int n_design;
+    double step, time; /* [s] */
+    long n_step;
+    CzHistory history;
+    CzProgressOfDesign *design; /* (n_design) */
+} CzBatch;
+
+/* Lane of a car of a design. */
+static inline size_t cz_lane(const CzBatch *batch, int car, int design) {
+    return (size_t)car * (size_t)batch->n_design + (size_t)design;
+}
+
+/* Values in a lane. */
+static inline double cz_position(const CzBatch *batch, int dof, size_t lane) {
+    return cz_row(batch->dynamics->position, batch->dynamics->stride, dof)[lane];
+}
+static inline double cz_velocity(const CzBatch *batch, int dof, size_t lane) {
+    return cz_row(batch->dynamics->velocity, batch->dynamics->stride, dof)[lane];
+}
+static inline double cz_memory(const CzBatch *batch, int row, size_t lane) {
+    return cz_row(batch->dynamics->memory, batch->dynamics->stride, row)[lane];
+}
+static inline double cz_extreme(const CzBatch *batch, int row, size_t lane) {
+    return cz_row(batch->dynamics->extreme, batch->dynamics->stride, row)[lane];
+}
+static inline double cz_work(const CzBatch *batch, int row, size_t lane) {
+    return cz_row(batch->dynamics->work, batch->dynamics->stride, row)[lane];
+}
+static inline double cz_parameter(const CzBatch *batch, int row, size_t lane) {
+    return cz_row(batch->lanes->parameter, batch->lanes->stride, row)[lane];
+}
+static inline double cz_scratch(const CzBatch *batch, int row, size_t lane) {
+    return cz_row(batch->dynamics->scratch, batch->dynamics->stride, row)[lane];
+}
+
+/* history.c */
+CZ_MUST_CHECK CzStatus cz_history_add(CzHistory *history, const CzBatch *batch);
+double cz_history_speed(const CzHistory *history, int sample, size_t lane);
+double cz_history_force(const CzHistory *history, int sample,
+                        size_t lane); /* of the lane's interface */
+void cz_history_free(CzHistory *history);
+/* Largest mean deceleration of a car over windows of net contact force, and over any window of 120
+ * ms or more. */
+void cz_history_decelerations(const CzBatch *batch, int car, int design, double *contact,
+                              double *window);
+
+/* balance.c */
+double cz_kinetic_energy(const CzBatch *batch, int design);
+double cz_total_work(const CzBatch *batch, int design);
+double cz_momentum_error(const CzBatch *batch, int design);
+/* Elastic energy that the element could still give back [J]. */
+double cz_coupler_stored(const CzBatch *batch, size_t lane, int side);
+double cz_face_stored(const CzBatch *batch, size_t lane, int side);
+double cz_end_stored(const CzBatch *batch, size_t lane, int end);
+double cz_limp_stored(const CzBatch *batch, size_t lane, int side);
+double cz_side_stored(const CzBatch *batch, size_t lane, int side);
+/* Value and integral from 0 of a curve in a lane. */
+double cz_curve_value(const CzCurveLanes *curve, size_t stride, size_t lane, double x);
+double cz_curve_integral(const CzCurveLanes *curve, size_t stride, size_t lane, double x);
+
+/* ending.c: looks at all designs; true when every one is over. */
+bool cz_ending_look(CzBatch *batch);
+
+/* summary.c */
+CZ_MUST_CHECK CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run);
+CzEnergy cz_energy_fill(const CzBatch *batch, int design);
+
+/* elements.c */
+void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result);
+void cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleResult *result);
+
+/* channels.c: a single design only. */
+CZ_MUST_CHECK CzStatus cz_channels_begin(CzChannels *channels, const CzBatch *batch);
+CZ_MUST_CHECK CzStatus cz_channels_add(CzChannels *channels, const CzBatch *batch);
+void cz_channels_free(CzChannels *channels);
+
+/* watch.c: events of a single design. */
+typedef struct CzWatch CzWatch;
+CzWatch *cz_watch_begin(CzBatch *batch, CzArena *arena);
+void cz_watch_look(CzWatch *watch, const CzBatch *batch);
+const CzEvent *cz_watch_events(const CzWatch *watch, int *n_event);
+
+#endif

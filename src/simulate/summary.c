@@ -1,0 +1,168 @@
+/* The summary of a design: energy, interfaces, vehicles, how it ended. */
+#include "simulate/run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Sum of the rows of a ledger class or list over all cars. */
+static double work_of(const CzBatch *batch, int design, int row) {
+    double work = 0.0;
+    for (int car = 0; car < batch->model->n_car; ++car)
+        work += cz_work(batch, row, cz_lane(batch, car, design));
+    return work;
+}
+
+enum { STORED, LOST, MIXED };
+static const int ledger_class[CZ_N_LEDGER] = {
+#define CZ_LEDGER(name, class, doc) class,
+#include "dynamics/ledger.def"
+#undef CZ_LEDGER
+};
+
+/* Elastic energy in elements that store and lose. */
+static double stored_in_mixed(const CzBatch *batch, int design) {
+    double stored = 0.0;
+    for (int car = 0; car < batch->model->n_car; ++car) {
+        const size_t lane = cz_lane(batch, car, design);
+        for (int side = 0; side < 2; ++side) {
+            if (car + 1 < batch->model->n_car)
+                stored += cz_coupler_stored(batch, lane, side) + cz_face_stored(batch, lane, side) +
+                          cz_limp_stored(batch, lane, side) + cz_side_stored(batch, lane, side);
+            stored += cz_end_stored(batch, lane, side);
+        }
+    }
+    return stored;
+}
+
+CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
+    static const int running_gear[] = {CZ_L_SECONDARY_DAMPING, CZ_L_PRIMARY_DAMPING,
+                                       CZ_L_LINK_DAMPING, CZ_L_AXLE_GUIDANCE_DAMPING};
+    CzEnergy energy = {0};
+    double work = 0.0;
+    for (int row = 0; row < CZ_N_LEDGER; ++row) {
+        const double of_row = work_of(batch, design, row);
+        work += of_row;
+        energy.stored += ledger_class[row] == STORED ? of_row : 0.0;
+    }
+    energy.initial = batch->design[design].initial_energy;
+    energy.final_kinetic = cz_kinetic_energy(batch, design);
+    energy.stored += stored_in_mixed(batch, design);
+    energy.dissipated = work - energy.stored;
+    energy.wheel_rail =
+        work_of(batch, design, CZ_L_WHEEL_CREEP) + work_of(batch, design, CZ_L_BRAKE);
+    for (size_t k = 0; k < sizeof running_gear / sizeof running_gear[0]; ++k)
+        energy.running_gear += work_of(batch, design, running_gear[k]);
+    energy.absorbers = energy.dissipated - energy.wheel_rail - energy.running_gear;
+    energy.balance_error =
+        energy.initial > 0.0 ? batch->design[design].balance / energy.initial : 0.0;
+    return energy;
+}
+
+/* Largest closing speed of neighbours. */
+static double closing_speed(const CzBatch *batch, int design) {
+    double largest = 0.0;
+    for (int car = 0; car + 1 < batch->model->n_car; ++car)
+        largest =
+            fmax(largest, cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, car, design)) -
+                              cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, car + 1, design)));
+    return largest;
+}
+
+/* What a perfectly plastic collision of the two trains dissipates: mu dv^2 / 2. */
+static double plastic_energy(const CzBatch *batch, int design) {
+    double mass[2] = {0.0, 0.0}, speed[2] = {0.0, 0.0};
+    bool fixed[2] = {false, false};
+    for (int car = 0; car < batch->model->n_car; ++car) {
+        const int train = batch->model->car[car].train;
+        const size_t lane = cz_lane(batch, car, design);
+        for (int dof = 0; dof < CZ_N_DOF; ++dof) {
+            const double m = cz_row(batch->lanes->mass, batch->lanes->stride, dof)[lane];
+            const bool along = dof == CZ_DOF_BODY_X || dof == CZ_DOF_END_X_REAR ||
+                               dof == CZ_DOF_END_X_FRONT || dof == CZ_DOF_BOGIE_X_REAR ||
+                               dof == CZ_DOF_BOGIE_X_FRONT ||
+                               (dof >= CZ_DOF_WHEEL_X_0 && (dof - CZ_DOF_WHEEL_X_0) % 3 == 0);
+            mass[train] += along ? m : 0.0;
+        }
+        speed[train] = cz_row(batch->lanes->velocity, batch->lanes->stride, CZ_DOF_BODY_X)[lane];
+        fixed[train] |= batch->model->car[car].model == CZ_MODEL_FIXED;
+    }
+    const double dv = speed[0] - speed[1];
+    const double reduced = fixed[0]   ? mass[1]
+                           : fixed[1] ? mass[0]
+                                      : mass[0] * mass[1] / (mass[0] + mass[1]);
+    return 0.5 * reduced * dv * dv;
+}
+
+/* Numbers that a failed run must not show. */
+static void blank_energy(CzEnergy *energy) {
+    *energy = (CzEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+}
+
+static void blank_interface(CzInterfaceResult *result) {
+    result->peak_force = result->peak_time = result->shortening = result->energy =
+        result->energy_share = NAN;
+    result->section_force[0] = result->section_force[1] = NAN;
+    result->min_overlap = result->vertical_demand = result->vertical_margin = NAN;
+    for (int k = 0; k < result->n_element; ++k) {
+        CzElementResult *element = &result->element[k];
+        element->energy = element->stored = element->stroke = element->stroke_used = NAN;
+        element->peak_force = element->tube_energy = NAN;
+        element->zone_energy[0] = element->zone_energy[1] = element->zone_energy[2] = NAN;
+    }
+}
+
+static void blank_vehicle(CzVehicleResult *result) {
+    result->final_speed = result->peak_deceleration = NAN;
+    result->mean_deceleration_contact = result->mean_deceleration_120ms = NAN;
+    for (int axle = 0; axle < 4; ++axle)
+        result->wheel_lift[axle] = result->wheel_lift_time[axle] = NAN;
+    result->bogie_lift = result->max_pitch = result->link_force = result->survival_shortening = NAN;
+}
+
+CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
+    const CzModel *model = batch->model;
+    const CzProgressOfDesign *progress = &batch->design[design];
+    const int n_interface = model->n_car - 1;
+    CzInterfaceResult *interface =
+        cz_arena_allocate(&run->arena, (size_t)n_interface, sizeof *interface);
+    CzVehicleResult *vehicle =
+        cz_arena_allocate(&run->arena, (size_t)model->n_car, sizeof *vehicle);
+    if (interface == NULL || vehicle == NULL)
+        return CZ_STATUS_NO_MEMORY;
+    const bool failed = progress->failure[0] != '\0';
+    CzRunSummary *summary = &run->summary;
+    summary->scenario = model->scenario->name;
+    summary->status = failed ? CZ_STATUS_RUN_FAILED : CZ_OK;
+    memcpy(summary->failure, progress->failure, sizeof summary->failure);
+    summary->ended = progress->ended;
+    summary->simulated = batch->time;
+    summary->time_step = batch->step;
+    summary->n_step = batch->n_step;
+    summary->energy = cz_energy_fill(batch, design);
+    summary->momentum_error = cz_momentum_error(batch, design);
+    summary->closing_speed = closing_speed(batch, design);
+    summary->plastic_energy = plastic_energy(batch, design) - summary->energy.wheel_rail;
+    summary->beyond_validity = !isnan(progress->override_time);
+    summary->beyond_validity_time = progress->override_time;
+    for (int i = 0; i < n_interface; ++i) {
+        cz_interface_fill(batch, i, design, &interface[i]);
+        interface[i].energy_share = interface[i].energy / summary->energy.dissipated;
+        if (failed)
+            blank_interface(&interface[i]);
+    }
+    for (int i = 0; i < model->n_car; ++i) {
+        cz_vehicle_fill(batch, i, design, &vehicle[i]);
+        if (failed)
+            blank_vehicle(&vehicle[i]);
+    }
+    if (failed) {
+        blank_energy(&summary->energy);
+        summary->momentum_error = summary->closing_speed = summary->plastic_energy = NAN;
+    }
+    summary->n_interface = n_interface;
+    summary->interface = interface;
+    summary->n_vehicle = model->n_car;
+    summary->vehicle = vehicle;
+    return CZ_OK;
+}

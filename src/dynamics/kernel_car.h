@@ -64,10 +64,8 @@ static void end_crush(CzDynamics *d, int end) {
     const double *restrict before = M_AT(END_PEAK_REAR, end);
     double *restrict next = NEXT_AT(END_PEAK_REAR, end), *restrict largest = S(LARGEST);
     CZ_LANES(i, n)
-    {
-        next[i] = cz_larger(before[i], stroke[i]);
-        largest[i] = next[i];
-    }
+    { next[i] = cz_larger(before[i], stroke[i]); }
+    largest_of_stages(d, CZ_CURVE_END_REAR + end, next, largest);
     double *restrict curve = S(CURVE_VALUE), *restrict peak = S(CURVE_PEAK),
                      *restrict slope = S(CURVE_SLOPE);
     evaluate_curve(d, CZ_CURVE_END_REAR + end, largest, peak, slope);

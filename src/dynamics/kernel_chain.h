@@ -160,13 +160,19 @@ static void prepare_buffer(CzDynamics *d, const Chain *chain, const BufferRows *
     const double *restrict rate = cz_row(d->memory, d->stride, rows->rate + side);
     const double *restrict offset = cz_row(d->memory, d->stride, rows->offset + side);
     double *restrict next_offset = cz_row(d->next_memory, d->stride, rows->offset + side);
+    const double *restrict usable = d->lanes->curve[rows->curve + side].usable;
     double *restrict rest = S_AT(SPRING_FORCE_A, side);
     double *restrict up = S_AT(SPRING_UP_A, side);
     double *restrict down = S_AT(SPRING_DOWN_A, side);
     CZ_LANES(i, n)
     {
-        const CzBufferLaw law = {
-            cz_larger(transition[i], 1.0), share[i], damping[i], quadratic[i], draw[i], slack[i]};
+        const CzBufferLaw law = {cz_larger(transition[i], 1.0),
+                                 share[i],
+                                 damping[i],
+                                 quadratic[i],
+                                 draw[i],
+                                 slack[i],
+                                 usable[i]};
         const CzBufferResponse response =
             cz_buffer(&law, curve[i], slope[i], stroke[i], rate[i], offset[i], step);
         rest[i] = response.force;

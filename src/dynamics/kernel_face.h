@@ -41,14 +41,14 @@ static CarrierForce carrier_force(CzDynamics *d, int dof, size_t shift) {
     return (CarrierForce){g, g + d->stride, g + 2 * d->stride};
 }
 
-/* A crush zone without end mass as spring member `side`; its largest shortening is in LIMP_PEAK. */
+/* A crush zone without end mass as spring member `side`. */
 static void prepare_limp_end(CzDynamics *d, int side) {
     const size_t n = d->lanes->n_lane;
-    const double *restrict shortening = M_AT(LIMP_A, side), *restrict largest =
-                                                                M_AT(LIMP_PEAK_A, side);
+    const double *restrict shortening = M_AT(LIMP_A, side);
     double *restrict curve = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
-    double *restrict peak = S(CURVE_PEAK), *restrict unused = S(LARGEST);
-    evaluate_curve(d, CZ_CURVE_LIMP_END_A + side, largest, peak, unused);
+    double *restrict peak = S(CURVE_PEAK), *restrict largest = S(LARGEST);
+    largest_of_stages(d, CZ_CURVE_LIMP_END_A + side, M_AT(LIMP_PEAK_A, side), largest);
+    evaluate_curve(d, CZ_CURVE_LIMP_END_A + side, largest, peak, slope);
     evaluate_curve(d, CZ_CURVE_LIMP_END_A + side, shortening, curve, slope);
     const double *restrict unloading = P_AT(LIMP_UNLOADING_A, side), *restrict share =
                                                                          P_AT(LIMP_SHARE_A, side);
@@ -62,13 +62,13 @@ static void prepare_limp_end(CzDynamics *d, int side) {
         const CzVehicleEndResponse response =
             cz_vehicle_end(&law, curve[i], peak[i], shortening[i], largest[i]);
         const double loading = cz_larger(slope[i], CZ_SMALLEST_STIFFNESS);
-        const double back =
+        const double path =
             response.force < curve[i] ? response.slope : cz_larger(slope[i], response.slope);
-        const double unload = shortening[i] > 0.0 ? back : loading;
+        const double stop = shortening[i] > largest[i] ? slope[i] : path;
+        const double back = cz_larger(shortening[i] > 0.0 ? stop : slope[i], CZ_SMALLEST_STIFFNESS);
         rest[i] = response.force;
-        up[i] =
-            1.0 / (shortening[i] >= largest[i] ? loading : cz_larger(back, CZ_SMALLEST_STIFFNESS));
-        down[i] = 1.0 / cz_larger(unload, CZ_SMALLEST_STIFFNESS);
+        up[i] = 1.0 / (shortening[i] >= largest[i] ? loading : back);
+        down[i] = 1.0 / back;
     }
 }
 

@@ -74,6 +74,16 @@ static void evaluate_curve(const CzDynamics *d, int id, const double *restrict x
     }
 }
 
+/* Largest shortening within the stages of a crush zone: beyond the last one it stands on its stop.
+ */
+static void largest_of_stages(const CzDynamics *d, int curve, const double *restrict largest,
+                              double *restrict within) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict usable = d->lanes->curve[curve].usable;
+    CZ_LANES(i, n)
+    { within[i] = cz_smaller(largest[i], usable[i]); }
+}
+
 /* Adds factor * row to target, lane by lane. */
 static void add(size_t n, double *restrict target, const double *restrict factor,
                 const double *restrict row) {

@@ -102,16 +102,23 @@ double cz_side_stored(const CzBatch *batch, size_t lane, int side) {
                                    cz_parameter(batch, CZ_P_SIDE_SHARE_A + side, lane), 0.0, 0.0);
 }
 
-/* Energy that a crush zone gives back from shortening x, its largest being `largest`. */
+/* Energy that a crush zone gives back from shortening x, its largest being `largest`: along the
+ * unloading path, and on the stop beyond the last stage. */
 static double crush_stored(const CzCurveLanes *curve, size_t stride, size_t lane,
                            const CzVehicleEndLaw *law, double x, double largest) {
-    const double backbone = cz_curve_value(curve, stride, lane, x);
-    const double peak = cz_curve_value(curve, stride, lane, largest);
-    const CzVehicleEndResponse response = cz_vehicle_end(law, backbone, peak, x, largest);
+    const double whole = curve->usable[lane];
+    const double held = fmin(largest, whole);
+    const double inside = fmin(x, whole);
+    const double backbone = cz_curve_value(curve, stride, lane, inside);
+    const double peak = cz_curve_value(curve, stride, lane, held);
+    const CzVehicleEndResponse response = cz_vehicle_end(law, backbone, peak, inside, held);
     if (response.force < 0.0)
         return 0.5 * response.force * response.force / fmax(law->tension, 1.0);
     const double path = cz_vehicle_end_stored(law, peak, response.force);
-    return fmin(path, cz_curve_integral(curve, stride, lane, fmax(x, 0.0)));
+    const double stop = x > whole ? cz_curve_integral(curve, stride, lane, x) -
+                                        cz_curve_integral(curve, stride, lane, whole)
+                                  : 0.0;
+    return fmin(path, cz_curve_integral(curve, stride, lane, fmax(inside, 0.0))) + stop;
 }
 
 double cz_end_stored(const CzBatch *batch, size_t lane, int end) {

@@ -7,8 +7,9 @@
 
 #define SHORTEST_CONTACT 0.03 /* a contact window counts from this length on [s] (ours) */
 #define WINDOW 0.12           /* [s] */
-#define FORCE_FLOOR 0.01 /* share of the largest net force below which there is no contact (ours)  \
-                          */
+#define FORCE_FLOOR                                                                                \
+    0.01 /* share of the largest net force below which there is no contact (ours)                  \
+          */
 
 CzStatus cz_history_add(CzHistory *history, const CzBatch *batch) {
     const CzDynamics *dynamics = batch->dynamics;

@@ -24,9 +24,11 @@ struct CzModel {
     CzArena arena;
     const CzProblem *problem;
     const CzScenario *scenario; /* never NULL: the default one when the file lists none */
+    int train[2];               /* of the input: behind, ahead */
     int n_car;
     CzCar *car;
     int colliding;              /* interface between the two trains */
+    int perturbed;              /* inner interface that the scenario perturbs; -1 for none */
     char (*interface_name)[48]; /* (n_car - 1) */
     const CzSimulation *simulation;
     double friction;  /* peak wheel-rail friction of the scenario */

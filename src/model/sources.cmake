@@ -1,3 +1,14 @@
 # Sources of src/model, one per line.
 set(CZ_SOURCES_model
+    build.c
+    curve_sizes.c
+    facts.c
+    fill.c
+    fill_car.c
+    fill_interface.c
+    kinks.c
+    lanes.c
+    statics.c
+    step_bounds.c
+    vertical_modes.c
 )

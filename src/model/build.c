@@ -1,0 +1,302 @@
+/* Building the model of one scenario: its cars along +x, its numbers, its step. */
+#include "base/error.h"
+#include "model/curve_sizes.h"
+#include "model/own_design.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LONGEST_STEP 1e-4  /* default step [s] (ours) */
+#define SHARE_OF_BOUND 0.5 /* default step over the smallest bound (ours) */
+#define SHORTEST_HOLD 0.02 /* without full cars [s] (ours) */
+
+static double given_or(double value, double otherwise) {
+    return isnan(value) ? otherwise : value;
+}
+
+/* ---- what collides ---- */
+
+/* What an absent scenario and an absent simulation record say. */
+static const CzScenario *default_scenario(CzArena *arena) {
+    CzScenario *scenario = cz_arena_allocate(arena, 1, sizeof *scenario);
+    if (scenario == NULL)
+        return NULL;
+    *scenario = (CzScenario){.name = "collision",
+                             .speed = NAN,
+                             .partner_speed = NAN,
+                             .height_offset = NAN,
+                             .brake_ratio = NAN,
+                             .partner_brake_ratio = NAN,
+                             .friction = NAN,
+                             .mass_factor = 1.0,
+                             .duration = NAN};
+    return scenario;
+}
+
+static const CzSimulation *default_simulation(CzArena *arena) {
+    CzSimulation *simulation = cz_arena_allocate(arena, 1, sizeof *simulation);
+    if (simulation == NULL)
+        return NULL;
+    *simulation = (CzSimulation){
+        .track = CZ_TRACK_RIGID,
+        .time_step = NAN,
+        .duration = NAN,
+        .longest = 6.0,
+        .output_step = 1e-3,
+        .adhesion = {.sliding_friction = NAN, .peak_creepage = 0.01, .fall_speed = 3.0}};
+    return simulation;
+}
+
+static CzStatus choose_scenario(CzModel *model, const CzInput *input, int scenario,
+                                CzError *error) {
+    const bool has_default = input->n_scenarios == 0 && scenario == 0;
+    if (!has_default && (scenario < 0 || scenario >= input->n_scenarios))
+        return cz_fail(error, CZ_STATUS_INPUT, "there is no scenario number %d", scenario);
+    model->scenario = has_default ? default_scenario(&model->arena) : &input->scenarios[scenario];
+    model->simulation =
+        input->simulation.given ? &input->simulation : default_simulation(&model->arena);
+    if (model->scenario == NULL || model->simulation == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the model");
+    const CzScenario *chosen = model->scenario;
+    model->friction = given_or(chosen->friction, given_or(model->simulation->adhesion.friction, 0));
+    model->duration = given_or(chosen->duration, model->simulation->duration);
+    model->longest = model->simulation->longest;
+    return CZ_OK;
+}
+
+static int find_train(const CzInput *input, const char *name) {
+    for (int train = 0; train < input->n_trains; train++)
+        if (strcmp(input->trains[train].name, name) == 0)
+            return train;
+    return -1;
+}
+
+static CzStatus choose_trains(CzModel *model, const CzInput *input, CzError *error) {
+    const CzTexts *names = &model->scenario->trains;
+    if (input->n_trains < 2)
+        return cz_fail(error, CZ_STATUS_INPUT, "a collision needs two trains; the file has %d",
+                       input->n_trains);
+    model->train[0] = 0;
+    model->train[1] = 1;
+    if (names->n_text == 0)
+        return CZ_OK;
+    for (int i = 0; i < 2 && names->n_text == 2; i++) {
+        model->train[i] = find_train(input, names->text[i]);
+        if (model->train[i] < 0) {
+            cz_fail(error, CZ_STATUS_INPUT, "scenario '%s' names train '%s', which the file lacks",
+                    model->scenario->name, names->text[i]);
+            cz_problem_place(model->problem, names, error);
+            return CZ_STATUS_INPUT;
+        }
+    }
+    if (names->n_text == 2 && model->train[0] != model->train[1])
+        return CZ_OK;
+    cz_fail(error, CZ_STATUS_INPUT, "scenario '%s' must name two different trains",
+            model->scenario->name);
+    cz_problem_place(model->problem, names, error);
+    return CZ_STATUS_INPUT;
+}
+
+/* ---- cars and interfaces ---- */
+
+static bool has_stops(const CzSuspension *suspension) {
+    return !isnan(suspension->bump_gap) && !isnan(suspension->lift_gap);
+}
+
+/* A train's brake with the ratio that the scenario gives it. */
+static void set_brake(const CzModel *model, CzCar *car, const CzTrain *train) {
+    const double own =
+        car->train == 0 ? model->scenario->brake_ratio : model->scenario->partner_brake_ratio;
+    if (!train->brake.given)
+        return;
+    car->brake = &train->brake;
+    car->brake_ratio = given_or(own, train->brake.ratio);
+}
+
+static void set_car(const CzModel *model, CzCar *car, const CzTrain *train, int index) {
+    const CzVehicle *vehicle = &train->vehicles[index];
+    const double own = car->train == 0 ? model->scenario->speed : model->scenario->partner_speed;
+    int n_vehicle;
+    if (vehicle->name != NULL)
+        snprintf(car->name, sizeof car->name, "%s", vehicle->name);
+    else
+        snprintf(car->name, sizeof car->name, "%.12s%d", train->name, index + 1);
+    car->vehicle = (int)(vehicle - cz_problem_vehicles(model->problem, &n_vehicle));
+    car->model = (CzVehicleModel)vehicle->model;
+    car->speed = given_or(own, train->speed);
+    car->has_stops = vehicle->bogie.given && has_stops(&vehicle->bogie.primary) &&
+                     has_stops(&vehicle->bogie.secondary);
+    set_brake(model, car, train);
+}
+
+static CzStatus check_car(const CzModel *model, const CzCar *car, const CzTrain *train,
+                          CzError *error) {
+    if (car->model != CZ_MODEL_FIXED || car->speed == 0.0)
+        return CZ_OK;
+    cz_fail(error, CZ_STATUS_INPUT, "car %s is fixed, but its train moves at %g m/s", car->name,
+            car->speed);
+    cz_problem_place(model->problem, &train->speed, error);
+    return CZ_STATUS_INPUT;
+}
+
+static CzStatus place_cars(CzModel *model, const CzInput *input, CzError *error) {
+    const CzTrain *behind = &input->trains[model->train[0]];
+    const CzTrain *ahead = &input->trains[model->train[1]];
+    if (behind->n_vehicles < 1 || ahead->n_vehicles < 1)
+        return cz_fail(error, CZ_STATUS_INPUT, "train '%s' has no vehicles",
+                       behind->n_vehicles < 1 ? behind->name : ahead->name);
+    model->n_car = behind->n_vehicles + ahead->n_vehicles;
+    model->colliding = behind->n_vehicles - 1;
+    const size_t n = (size_t)model->n_car;
+    model->car = cz_arena_allocate(&model->arena, n, sizeof *model->car);
+    model->interface_name = cz_arena_allocate(&model->arena, n - 1, sizeof *model->interface_name);
+    if (model->car == NULL || model->interface_name == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d cars", model->n_car);
+
+    for (int i = 0; i < model->n_car; i++) {
+        CzCar *car = &model->car[i];
+        car->train = i > model->colliding;
+        const CzTrain *train = car->train == 0 ? behind : ahead;
+        set_car(model, car, train, car->train == 0 ? i : i - behind->n_vehicles);
+        CZ_TRY(check_car(model, car, train, error));
+        if (i > 0)
+            snprintf(model->interface_name[i - 1], sizeof model->interface_name[i - 1], "%s-%s",
+                     model->car[i - 1].name, car->name);
+    }
+    if (model->car[model->colliding].model == CZ_MODEL_FIXED &&
+        model->car[model->colliding + 1].model == CZ_MODEL_FIXED)
+        return cz_fail(error, CZ_STATUS_INPUT, "interface %s lies between two fixed vehicles",
+                       model->interface_name[model->colliding]);
+    return CZ_OK;
+}
+
+static CzStatus find_perturbed(CzModel *model, CzError *error) {
+    const char *name = model->scenario->perturbed_interface;
+    model->perturbed = -1;
+    if (name == NULL)
+        return CZ_OK;
+    for (int i = 0; i < model->n_car - 1; i++)
+        if (i != model->colliding && strcmp(model->interface_name[i], name) == 0)
+            model->perturbed = i;
+    if (model->perturbed >= 0)
+        return CZ_OK;
+    cz_fail(error, CZ_STATUS_INPUT,
+            "scenario '%s' perturbs '%s', which is no inner interface of it", model->scenario->name,
+            name);
+    cz_problem_place(model->problem, &model->scenario->perturbed_interface, error);
+    return CZ_STATUS_INPUT;
+}
+
+/* ---- step and end of run ---- */
+
+static CzStatus choose_step(CzModel *model, CzError *error) {
+    const double own = model->simulation->time_step;
+    const double smallest = model->n_bound > 0 ? model->bound[0].bound : LONGEST_STEP;
+    model->time_step = given_or(own, fmin(LONGEST_STEP, SHARE_OF_BOUND * smallest));
+    if (isnan(own) || own <= smallest || model->n_bound == 0)
+        return CZ_OK;
+    cz_fail(error, CZ_STATUS_INPUT,
+            "the time step of %g ms is too long: the largest stable step of %s is %g ms", own * 1e3,
+            model->bound[0].element, smallest * 1e3);
+    cz_problem_place(model->problem, &model->simulation->time_step, error);
+    return CZ_STATUS_INPUT;
+}
+
+static void choose_hold(CzModel *model) {
+    model->hold = SHORTEST_HOLD;
+    for (int car = 0; car < model->n_car; car++)
+        if (model->facts[car].pitch_frequency > 0.0)
+            model->hold = fmax(model->hold, 1.0 / model->facts[car].pitch_frequency);
+}
+
+/* Facts and bounds are read off the lanes of the problem's own design. */
+static CzStatus look_at_own_design(CzModel *model, const CzVehicle *vehicles, CzArena *scratch,
+                                   CzError *error) {
+    CzLanes *lanes = cz_lanes_create(model, 1, scratch);
+    if (lanes == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the model");
+    CZ_TRY(cz_model_fill(model, vehicles, 0, lanes, error));
+    CZ_TRY(cz_model_find_facts(model, lanes, error));
+    CZ_TRY(cz_model_find_bounds(model, lanes, error));
+    CZ_TRY(choose_step(model, error));
+    choose_hold(model);
+    return CZ_OK;
+}
+
+static CzStatus build(CzModel *model, int scenario, CzError *error) {
+    const CzInput *input = cz_problem_input(model->problem);
+    int n_vehicle;
+    const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
+    CZ_TRY(choose_scenario(model, input, scenario, error));
+    CZ_TRY(choose_trains(model, input, error));
+    CZ_TRY(place_cars(model, input, error));
+    CZ_TRY(find_perturbed(model, error));
+    cz_model_size_curves(model, vehicles);
+    CzArena scratch = {0};
+    const CzStatus status = look_at_own_design(model, vehicles, &scratch, error);
+    cz_arena_free(&scratch);
+    return status;
+}
+
+CzStatus cz_model_build(const CzProblem *problem, int scenario, CzModel **model, CzError *error) {
+    *model = calloc(1, sizeof **model);
+    if (*model == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the model");
+    (*model)->problem = problem;
+    const CzStatus status = build(*model, scenario, error);
+    if (status != CZ_OK) {
+        cz_model_free(*model);
+        *model = NULL;
+    }
+    return status;
+}
+
+void cz_model_free(CzModel *model) {
+    if (model == NULL)
+        return;
+    cz_arena_free(&model->arena);
+    free(model);
+}
+
+/* ---- questions ---- */
+
+int cz_model_n_vehicle(const CzModel *model) {
+    return model->n_car;
+}
+
+const char *cz_model_vehicle_name(const CzModel *model, int vehicle) {
+    return model->car[vehicle].name;
+}
+
+int cz_model_n_interface(const CzModel *model) {
+    return model->n_car - 1;
+}
+
+const char *cz_model_interface_name(const CzModel *model, int interface) {
+    return model->interface_name[interface];
+}
+
+int cz_model_colliding_interface(const CzModel *model) {
+    return model->colliding;
+}
+
+CzVehicleFacts cz_model_vehicle_facts(const CzModel *model, int vehicle) {
+    return model->facts[vehicle];
+}
+
+CzInterfaceFacts cz_model_interface_facts(const CzModel *model, int interface) {
+    return model->interface_facts[interface];
+}
+
+double cz_model_time_step(const CzModel *model) {
+    return model->time_step;
+}
+
+int cz_model_n_step_bound(const CzModel *model) {
+    return model->n_bound;
+}
+
+const CzStepBound *cz_model_step_bound(const CzModel *model, int index) {
+    return &model->bound[index];
+}

@@ -1,0 +1,64 @@
+/* How many kinks each curve of the lanes needs: counted over all cars and both ends. */
+#include "model/curve_sizes.h"
+
+#include "model/fill.h"
+
+static void need(CzModel *model, CzCurveId id, int n_kink) {
+    if (n_kink > model->n_kink[id])
+        model->n_kink[id] = n_kink;
+}
+
+static int in_tube(const CzTube *tube) {
+    return tube->given ? cz_kinks_in_strength(tube->n_stages, &tube->curve) : 0;
+}
+
+static int in_buffer(const CzBuffer *buffer) {
+    const CzTable none = {.given = false};
+    return buffer->given ? cz_kinks_in_loading(buffer->n_stages, &none) : 0;
+}
+
+static void size_side(CzModel *model, const CzEnd *end, int side) {
+    const CzCoupler *coupler = &end->coupler;
+    if (coupler->given) {
+        need(model, CZ_OF_SIDE(CZ_CURVE_BUFFER, side), in_buffer(&coupler->buffer));
+        need(model, CZ_OF_SIDE(CZ_CURVE_TUBE, side), in_tube(&coupler->tube));
+        need(model, CZ_OF_SIDE(CZ_CURVE_SECOND_TUBE, side), in_tube(&coupler->second_tube));
+    }
+    const CzAntiClimber *anti_climber = &end->anti_climber;
+    if (anti_climber->given)
+        need(model, CZ_OF_SIDE(CZ_CURVE_FACE, side),
+             cz_kinks_in_strength(anti_climber->n_stages, &anti_climber->curve));
+    if (end->side_buffers.given) {
+        need(model, CZ_OF_SIDE(CZ_CURVE_SIDE_BUFFER, side), in_buffer(&end->side_buffers.buffer));
+        need(model, CZ_OF_SIDE(CZ_CURVE_SIDE_TUBE, side), in_tube(&end->side_buffers.tube));
+    }
+}
+
+static void size_end(CzModel *model, const CzEnd *end, int which, bool is_full) {
+    if (!cz_end_crushes(end))
+        return;
+    const int side = which == CZ_FRONT ? CZ_SIDE_A : CZ_SIDE_B;
+    const int n_kink = cz_kinks_in_loading(end->n_stages, &end->curve);
+    need(model, is_full ? CZ_OF_END(CZ_CURVE_END, which) : CZ_OF_SIDE(CZ_CURVE_LIMP_END, side),
+         n_kink);
+}
+
+void cz_model_size_curves(CzModel *model, const CzVehicle *vehicles) {
+    static const CzCurveId springs[] = {
+        CZ_CURVE_END_REAR,   CZ_CURVE_END_FRONT,  CZ_CURVE_BUFFER_A,      CZ_CURVE_BUFFER_B,
+        CZ_CURVE_LIMP_END_A, CZ_CURVE_LIMP_END_B, CZ_CURVE_SIDE_BUFFER_A, CZ_CURVE_SIDE_BUFFER_B,
+    };
+    for (size_t i = 0; i < sizeof springs / sizeof springs[0]; i++)
+        need(model, springs[i], 1);
+    for (int car = 0; car < model->n_car; car++) {
+        const CzVehicle *vehicle = &vehicles[model->car[car].vehicle];
+        const bool is_full = model->car[car].model == CZ_MODEL_FULL;
+        for (int which = CZ_REAR; which <= CZ_FRONT; which++) {
+            const CzEnd *end = cz_end_of(vehicle, which);
+            if (!end->given)
+                continue;
+            size_end(model, end, which, is_full);
+            size_side(model, end, which == CZ_FRONT ? CZ_SIDE_A : CZ_SIDE_B);
+        }
+    }
+}

@@ -1,0 +1,11 @@
+/* How many kinks each curve of the lanes needs. */
+#ifndef CZ_MODEL_CURVE_SIZES_H
+#define CZ_MODEL_CURVE_SIZES_H
+
+#include "model/model.h"
+
+/* Sets model->n_kink so that every design with the stages and points of the problem's own vehicles
+ * fits. */
+void cz_model_size_curves(CzModel *model, const CzVehicle *vehicles);
+
+#endif

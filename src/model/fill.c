@@ -1,0 +1,205 @@
+/* Filling the lanes of one design: refusals, curves of devices, and the way through the cars. */
+#include "model/fill.h"
+
+#include "base/error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+CzStatus cz_fill_refuse(const CzFill *fill, CzPartName part, const void *field, const char *format,
+                        ...) {
+    char sentence[384];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    static const char *const end_names[] = {"", ", rear ", ", front "};
+    cz_fail(fill->error, CZ_STATUS_INPUT, "car %s%s%s: %s", fill->model->car[part.car].name,
+            end_names[part.end + 1], part.what, sentence);
+
+    /* The place of the same field in the problem's own vehicles. */
+    if (fill->error != NULL) {
+        const char *own =
+            (const char *)fill->baseline + ((const char *)field - (const char *)fill->vehicles);
+        cz_problem_place(fill->model->problem, own, fill->error);
+    }
+    return CZ_STATUS_INPUT;
+}
+
+CzStatus cz_fill_curve(const CzFill *fill, CzPartName part, const void *field, CzCurveId id,
+                       const CzKinks *kinks) {
+    CzCurveLanes *curve = &fill->lanes->curve[id];
+    const size_t stride = fill->lanes->stride;
+    const size_t lane = cz_fill_lane(fill, part.lane);
+    if (kinks->n > curve->n_kink)
+        return cz_fill_refuse(fill, part, field, "has more stages than the problem file gives it");
+    curve->start[lane] = kinks->start;
+    curve->usable[lane] = kinks->usable;
+
+    /* The last kink stays last; spare ones come before it. */
+    for (int i = 0; i < curve->n_kink; i++) {
+        const size_t slot = (size_t)i * stride + lane;
+        const bool is_last = i == curve->n_kink - 1 && kinks->n > 0;
+        const int k = is_last ? kinks->n - 1 : i;
+        const bool is_used = is_last || i < kinks->n - 1;
+        curve->at[slot] = is_used ? kinks->at[k] : 0.0;
+        curve->slope_change[slot] = is_used ? kinks->slope_change[k] : 0.0;
+    }
+    return CZ_OK;
+}
+
+/* ---- checks of curves ---- */
+
+static CzStatus check_stages(const CzFill *fill, CzPartName part, const CzStage *stage,
+                             int n_stage) {
+    for (int i = 0; i < n_stage; i++) {
+        if (!(stage[i].stroke > 0.0) || !isfinite(stage[i].stroke))
+            return cz_fill_refuse(fill, part, &stage[i].stroke,
+                                  "stage %d has a stroke of %g mm; it must be positive", i + 1,
+                                  stage[i].stroke * 1e3);
+        if (!(stage[i].force >= 0.0) || !isfinite(stage[i].force))
+            return cz_fill_refuse(fill, part, &stage[i].force,
+                                  "stage %d has a force of %g kN; it must not be negative", i + 1,
+                                  stage[i].force * 1e-3);
+        if (!isnan(stage[i].end_force) && !(stage[i].end_force >= 0.0))
+            return cz_fill_refuse(fill, part, &stage[i].end_force,
+                                  "stage %d ends at %g kN; it must not be negative", i + 1,
+                                  stage[i].end_force * 1e-3);
+    }
+    return CZ_OK;
+}
+
+static CzStatus check_table(const CzFill *fill, CzPartName part, const CzTable *table) {
+    if (table->n_point < 2 || table->x[0] < 0.0)
+        return cz_fill_refuse(fill, part, table,
+                              "the curve needs at least two points, from stroke 0 on");
+    for (int i = 0; i < table->n_point; i++) {
+        if (!(table->y[i] >= 0.0) || !isfinite(table->y[i]))
+            return cz_fill_refuse(fill, part, table,
+                                  "point %d has a force of %g kN; it must not be negative", i + 1,
+                                  table->y[i] * 1e-3);
+        if (i > 0 && !(table->x[i] > table->x[i - 1]))
+            return cz_fill_refuse(fill, part, table, "the strokes must increase; point %d does not",
+                                  i + 1);
+    }
+    return CZ_OK;
+}
+
+/* Stages or a curve, one of them; a dynamic curve without a further rise with the rate. */
+static CzStatus check_strength(const CzFill *fill, CzPartName part, const void *field,
+                               const CzStage *stage, int n_stage, const CzTable *table,
+                               double rise) {
+    if (table->given == (n_stage > 0))
+        return cz_fill_refuse(fill, part, field, "give either stages or a curve, not %s",
+                              table->given ? "both" : "none");
+    if (table->given && table->basis == CZ_BASIS_DYNAMIC && rise != 0.0)
+        return cz_fill_refuse(fill, part, field,
+                              "a dynamic curve already holds the rise with the rate; leave out the "
+                              "rate and speed factors");
+    return table->given ? check_table(fill, part, table) : check_stages(fill, part, stage, n_stage);
+}
+
+/* ---- curves of devices ---- */
+
+CzStatus cz_fill_buffer(const CzFill *fill, CzPartName part, const CzBuffer *buffer, int count,
+                        CzCurveId id) {
+    CzKinks kinks;
+    if (buffer == NULL) {
+        cz_kinks_spring(&kinks, CZ_NEVER);
+        return cz_fill_curve(fill, part, NULL, id, &kinks);
+    }
+    if (buffer->n_stages < 1)
+        return cz_fill_refuse(fill, part, buffer, "has no stages");
+    CZ_TRY(check_stages(fill, part, buffer->stages, buffer->n_stages));
+    double force = buffer->preload;
+    for (int i = 0; i < buffer->n_stages; i++) {
+        const CzStage *stage = &buffer->stages[i];
+        if (!(stage->force > 0.0) || stage->force < force)
+            return cz_fill_refuse(fill, part, &stage->force,
+                                  "stage %d ends at %g kN, after %g kN; a buffer's force must be "
+                                  "positive and must not fall",
+                                  i + 1, stage->force * 1e-3, force * 1e-3);
+        force = stage->force;
+    }
+    const CzTable none = {.given = false};
+    cz_kinks_loading(&kinks, buffer->preload, buffer->stages, buffer->n_stages, &none,
+                     buffer->bottom_stiffness);
+    cz_kinks_scale(&kinks, count);
+    return cz_fill_curve(fill, part, buffer, id, &kinks);
+}
+
+CzStatus cz_fill_tube(const CzFill *fill, CzPartName part, const CzTube *tube, int count,
+                      CzCurveId id) {
+    CzKinks kinks;
+    if (tube == NULL || !tube->given) {
+        cz_kinks_rigid_member(&kinks);
+        return cz_fill_curve(fill, part, tube, id, &kinks);
+    }
+    CZ_TRY(check_strength(fill, part, tube, tube->stages, tube->n_stages, &tube->curve,
+                          tube->rate_factor));
+    if (tube->trigger < 0.0)
+        return cz_fill_refuse(fill, part, &tube->trigger,
+                              "trigger of %g kN; it must not be negative", tube->trigger * 1e-3);
+    cz_kinks_strength(&kinks, tube->stages, tube->n_stages, &tube->curve, tube->trigger,
+                      tube->trigger_length, tube->bottom_stiffness);
+    cz_kinks_scale(&kinks, (double)tube->count * count);
+    return cz_fill_curve(fill, part, tube, id, &kinks);
+}
+
+CzStatus cz_fill_anti_climber(const CzFill *fill, CzPartName part,
+                              const CzAntiClimber *anti_climber, CzCurveId id) {
+    CzKinks kinks;
+    if (anti_climber == NULL || !anti_climber->given) {
+        cz_kinks_rigid_member(&kinks);
+        return cz_fill_curve(fill, part, anti_climber, id, &kinks);
+    }
+    CZ_TRY(check_strength(fill, part, anti_climber, anti_climber->stages, anti_climber->n_stages,
+                          &anti_climber->curve,
+                          anti_climber->rate_factor + anti_climber->speed_factor));
+    if (anti_climber->trigger < 0.0)
+        return cz_fill_refuse(fill, part, &anti_climber->trigger,
+                              "trigger of %g kN; it must not be negative",
+                              anti_climber->trigger * 1e-3);
+    cz_kinks_strength(&kinks, anti_climber->stages, anti_climber->n_stages, &anti_climber->curve,
+                      anti_climber->trigger, anti_climber->trigger_length,
+                      anti_climber->bottom_stiffness);
+    cz_kinks_scale(&kinks, anti_climber->count);
+    return cz_fill_curve(fill, part, anti_climber, id, &kinks);
+}
+
+CzStatus cz_fill_end(const CzFill *fill, CzPartName part, const CzEnd *end, CzCurveId id) {
+    CzKinks kinks;
+    if (!cz_end_crushes(end)) {
+        cz_kinks_spring(&kinks, end->bottom_stiffness);
+        return cz_fill_curve(fill, part, end, id, &kinks);
+    }
+    CZ_TRY(check_strength(fill, part, end, end->stages, end->n_stages, &end->curve, 0.0));
+    if (end->curve.given && (end->curve.x[0] != 0.0 || end->curve.y[0] != 0.0))
+        return cz_fill_refuse(fill, part, &end->curve,
+                              "the curve must start at stroke 0 with force 0");
+    cz_kinks_loading(&kinks, 0.0, end->stages, end->n_stages, &end->curve, end->bottom_stiffness);
+    return cz_fill_curve(fill, part, end, id, &kinks);
+}
+
+/* ---- all cars ---- */
+
+CzStatus cz_model_fill(const CzModel *model, const CzVehicle *vehicles, int design, CzLanes *lanes,
+                       CzError *error) {
+    int n_vehicle;
+    const CzFill fill = {.model = model,
+                         .vehicles = vehicles,
+                         .baseline = cz_problem_vehicles(model->problem, &n_vehicle),
+                         .lanes = lanes,
+                         .design = design,
+                         .error = error};
+    CzStatics behind = {0};
+    for (int car = 0; car < model->n_car; car++) {
+        CzStatics statics;
+        CZ_TRY(cz_fill_statics(&fill, car, &statics));
+        CZ_TRY(cz_fill_car(&fill, car, &statics));
+        if (car > 0)
+            CZ_TRY(cz_fill_interface(&fill, car - 1, &behind, &statics));
+        behind = statics;
+    }
+    return CZ_OK;
+}

@@ -1,0 +1,94 @@
+/* Filling the lanes of one design: what its files share. */
+#ifndef CZ_MODEL_FILL_H
+#define CZ_MODEL_FILL_H
+
+#include "model/kinks.h"
+#include "model/model.h"
+
+/* The two ends of a car; also the two sides of an interface: side A is a front end, B a rear end.
+ */
+enum { CZ_REAR, CZ_FRONT };
+enum { CZ_SIDE_A, CZ_SIDE_B };
+
+/* Parameter or curve of one end or of one side. */
+#define CZ_OF_END(what, end) ((end) == CZ_REAR ? what##_REAR : what##_FRONT)
+#define CZ_OF_SIDE(what, side) ((side) == CZ_SIDE_A ? what##_A : what##_B)
+
+static inline const CzEnd *cz_end_of(const CzVehicle *vehicle, int end) {
+    return end == CZ_REAR ? &vehicle->rear : &vehicle->front;
+}
+
+/* Masses and static loads of one car of a design, and where its foremost planes lie. */
+typedef struct CzStatics {
+    double mass;              /* total with payload and absorbers [kg] */
+    double body_mass;         /* between the crush zones; all of it for a rigid car [kg] */
+    double body_inertia;      /* [kg m2] */
+    double plane[2];          /* foremost planes from the body's centre of gravity [m] */
+    double secondary_load[2]; /* static load of the rear and front secondary suspension [N] */
+    double primary_load[4];   /* per axle, rear to front [N] */
+    double wheel_load[4];     /* of the wheelsets on the rail [N] */
+} CzStatics;
+
+/* One call of cz_model_fill. */
+typedef struct CzFill {
+    const CzModel *model;
+    const CzVehicle *vehicles; /* the candidate's */
+    const CzVehicle *baseline; /* the problem's own */
+    CzLanes *lanes;
+    int design;
+    CzError *error;
+} CzFill;
+
+/* Something that a sentence names: "car A1, front coupler tube". */
+typedef struct CzPartName {
+    int car;
+    int end;  /* -1: the car as a whole */
+    int lane; /* car in whose lane its numbers stand: at interfaces the one behind */
+    const char *what;
+} CzPartName;
+
+static inline const CzVehicle *cz_fill_vehicle(const CzFill *fill, int car) {
+    return &fill->vehicles[fill->model->car[car].vehicle];
+}
+
+static inline size_t cz_fill_lane(const CzFill *fill, int car) {
+    return (size_t)car * (size_t)fill->lanes->n_design + (size_t)fill->design;
+}
+
+static inline void cz_put(const CzFill *fill, int car, CzParameter parameter, double value) {
+    fill->lanes->parameter[(size_t)parameter * fill->lanes->stride + cz_fill_lane(fill, car)] =
+        value;
+}
+
+/* Writes "<part>: <sentence>" with the place of `field`, an address inside the vehicle array. */
+CzStatus cz_fill_refuse(const CzFill *fill, CzPartName part, const void *field, const char *format,
+                        ...) __attribute__((format(printf, 4, 5)));
+
+/* Puts a curve into a lane; fails when it has more kinks than the problem's own. */
+CZ_MUST_CHECK CzStatus cz_fill_curve(const CzFill *fill, CzPartName part, const void *field,
+                                     CzCurveId id, const CzKinks *kinks);
+
+/* Curves of devices, checked; forces of all `count` devices together. */
+CZ_MUST_CHECK CzStatus cz_fill_buffer(const CzFill *fill, CzPartName part, const CzBuffer *buffer,
+                                      int count, CzCurveId id);
+CZ_MUST_CHECK CzStatus cz_fill_tube(const CzFill *fill, CzPartName part, const CzTube *tube,
+                                    int count, CzCurveId id);
+CZ_MUST_CHECK CzStatus cz_fill_anti_climber(const CzFill *fill, CzPartName part,
+                                            const CzAntiClimber *anti_climber, CzCurveId id);
+CZ_MUST_CHECK CzStatus cz_fill_end(const CzFill *fill, CzPartName part, const CzEnd *end,
+                                   CzCurveId id);
+
+/* statics.c */
+CZ_MUST_CHECK CzStatus cz_fill_statics(const CzFill *fill, int car, CzStatics *statics);
+
+/* fill_car.c, fill_interface.c */
+CZ_MUST_CHECK CzStatus cz_fill_car(const CzFill *fill, int car, const CzStatics *statics);
+CZ_MUST_CHECK CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *behind,
+                                         const CzStatics *ahead);
+
+/* True when an end has loading stages or a curve of its own. */
+static inline bool cz_end_crushes(const CzEnd *end) {
+    return end->given && (end->curve.given || end->n_stages > 0);
+}
+
+#endif

@@ -1,0 +1,230 @@
+/* Numbers of one car: inertia, crush zones, running gear, wheels and rails, start velocities.
+ *
+ *   Hertz constant of a wheelset (two wheels):   H = 2 G^-1.5            N = H d^1.5
+ *     G = 3.86 R^-0.115 1e-8 (worn), 4.57 R^-0.149 1e-8 (conical) [m/N^(2/3)]   Zhai, Vehicle-Track
+ *     Coupled Dynamics
+ *   static indentation:                          d = (N_0 / H)^(2/3)
+ */
+#include "model/fill.h"
+
+#include "base/error.h"
+
+#define LOCKED_FREQUENCY 600.0    /* of a locked end guidance [rad/s] (ours) */
+#define GUIDE_DAMPING 0.1         /* damping ratio of the end guidance (ours) */
+#define HELD_AXLE_FREQUENCY 300.0 /* of a held wheelset in torsion [rad/s] (ours) */
+#define CONTACT_LENGTH 0.006      /* that carries tangential deflection away [m] (ours) */
+
+/* base^exponent for 0 <= exponent < 1 from square roots alone: the same bits on every machine. */
+static double power(double base, double exponent) {
+    double result = 1.0, root = base;
+    for (int bit = 0; bit < 53; bit++) {
+        root = sqrt(root);
+        exponent *= 2.0;
+        if (exponent >= 1.0) {
+            result *= root;
+            exponent -= 1.0;
+        }
+    }
+    return result;
+}
+
+static double hertz_constant(double radius, int tread) {
+    const double g =
+        tread == CZ_TREAD_CONICAL ? 4.57e-8 / power(radius, 0.149) : 3.86e-8 / power(radius, 0.115);
+    return 2.0 / (g * sqrt(g));
+}
+
+static double inverse(double value) {
+    return value > 0.0 ? 1.0 / value : 0.0;
+}
+
+static void put_dof(const CzFill *fill, int car, CzDof dof, double mass, double velocity) {
+    const size_t slot = (size_t)dof * fill->lanes->stride + cz_fill_lane(fill, car);
+    fill->lanes->mass[slot] = mass;
+    fill->lanes->velocity[slot] = velocity;
+}
+
+/* ---- crush zones ---- */
+
+static CzStatus fill_crush_zone(const CzFill *fill, int car, int which) {
+    const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
+    const CzEnd *end = cz_end_of(vehicle, which);
+    const double speed = fill->model->car[car].speed;
+    const bool is_rear = which == CZ_REAR;
+
+    cz_put(fill, car, CZ_OF_END(CZ_P_INVERSE_END_MASS, which), 1.0 / end->mass);
+    cz_put(fill, car, CZ_OF_END(CZ_P_INVERSE_END_INERTIA, which), inverse(end->pitch_inertia));
+    cz_put(fill, car, CZ_OF_END(CZ_P_END_X, which), is_rear ? -end->distance : end->distance);
+    cz_put(fill, car, CZ_OF_END(CZ_P_END_BODY_Z, which), end->crush_height - vehicle->cg_height);
+    cz_put(fill, car, CZ_OF_END(CZ_P_END_MASS_Z, which), end->crush_height - end->cg_height);
+    put_dof(fill, car, is_rear ? CZ_DOF_END_X_REAR : CZ_DOF_END_X_FRONT, end->mass, speed);
+    put_dof(fill, car, is_rear ? CZ_DOF_END_Z_REAR : CZ_DOF_END_Z_FRONT, end->mass, 0.0);
+    put_dof(fill, car, is_rear ? CZ_DOF_END_PITCH_REAR : CZ_DOF_END_PITCH_FRONT, end->pitch_inertia,
+            0.0);
+
+    /* Along the car. */
+    CZ_TRY(cz_fill_end(fill, (CzPartName){car, which, car, "end"}, end,
+                       CZ_OF_END(CZ_CURVE_END, which)));
+    const CzCurveLanes *curve = &fill->lanes->curve[CZ_OF_END(CZ_CURVE_END, which)];
+    const size_t lane = cz_fill_lane(fill, car);
+    double first_slope = 0.0;
+    for (int i = 0; i < curve->n_kink; i++) {
+        const size_t slot = (size_t)i * fill->lanes->stride + lane;
+        first_slope += curve->at[slot] == 0.0 ? curve->slope_change[slot] : 0.0;
+    }
+    const double second = isnan(end->second_unloading_stiffness) ? end->unloading_stiffness
+                                                                 : end->second_unloading_stiffness;
+    cz_put(fill, car, CZ_OF_END(CZ_P_END_UNLOADING, which), end->unloading_stiffness);
+    cz_put(fill, car, CZ_OF_END(CZ_P_END_SHARE, which), end->unloading_share);
+    cz_put(fill, car, CZ_OF_END(CZ_P_END_SECOND_UNLOADING, which), second);
+    cz_put(fill, car, CZ_OF_END(CZ_P_END_DAMPING, which), end->damping);
+    cz_put(fill, car, CZ_OF_END(CZ_P_END_TENSION, which), first_slope);
+
+    /* Across it. */
+    const bool z_locked = end->vertical == CZ_GUIDANCE_LOCKED;
+    const bool pitch_locked = end->pitch == CZ_GUIDANCE_LOCKED;
+    const double square = LOCKED_FREQUENCY * LOCKED_FREQUENCY;
+    const double guide = z_locked ? end->mass * square : end->vertical_stiffness;
+    const double fold = pitch_locked ? end->pitch_inertia * square : end->pitch_stiffness;
+    const double fold_damping =
+        pitch_locked ? 2.0 * GUIDE_DAMPING * sqrt(fold * end->pitch_inertia) : end->pitch_damping;
+    cz_put(fill, car, CZ_OF_END(CZ_P_GUIDE_STIFFNESS, which), guide);
+    cz_put(fill, car, CZ_OF_END(CZ_P_GUIDE_DAMPING, which),
+           2.0 * GUIDE_DAMPING * sqrt(guide * end->mass));
+    cz_put(fill, car, CZ_OF_END(CZ_P_FOLD_STIFFNESS, which), fold);
+    cz_put(fill, car, CZ_OF_END(CZ_P_FOLD_DAMPING, which), fold_damping);
+    cz_put(fill, car, CZ_OF_END(CZ_P_FOLD_MOMENT, which),
+           pitch_locked ? CZ_NEVER : end->hinge_moment);
+    return CZ_OK;
+}
+
+/* ---- running gear ---- */
+
+/* Rate at which the relief valve of a damper opens [m/s]. */
+static double blow_off_rate(const CzSuspension *suspension) {
+    if (isnan(suspension->blow_off) || suspension->damping == 0.0)
+        return CZ_NEVER;
+    return suspension->blow_off / suspension->damping;
+}
+
+static double gap_or_never(double gap) {
+    return isnan(gap) ? CZ_NEVER : gap;
+}
+
+static void fill_suspensions(const CzFill *fill, int car, const CzBogie *bogie,
+                             const CzStatics *statics) {
+    const CzSuspension *secondary = &bogie->secondary, *primary = &bogie->primary;
+    cz_put(fill, car, CZ_P_SECONDARY_STIFFNESS, secondary->stiffness);
+    cz_put(fill, car, CZ_P_SECONDARY_PRELOAD_REAR,
+           secondary->carries_tension ? CZ_NEVER : statics->secondary_load[CZ_REAR]);
+    cz_put(fill, car, CZ_P_SECONDARY_PRELOAD_FRONT,
+           secondary->carries_tension ? CZ_NEVER : statics->secondary_load[CZ_FRONT]);
+    cz_put(fill, car, CZ_P_SECONDARY_DAMPING, secondary->damping);
+    cz_put(fill, car, CZ_P_SECONDARY_BLOW_OFF_RATE, blow_off_rate(secondary));
+    cz_put(fill, car, CZ_P_SECONDARY_DAMPING_BEYOND, secondary->damping_beyond);
+    cz_put(fill, car, CZ_P_SECONDARY_BUMP_GAP, gap_or_never(secondary->bump_gap));
+    cz_put(fill, car, CZ_P_SECONDARY_BUMP_STIFFNESS, secondary->bump_stiffness);
+    cz_put(fill, car, CZ_P_SECONDARY_LIFT_GAP, gap_or_never(secondary->lift_gap));
+    cz_put(fill, car, CZ_P_SECONDARY_LIFT_STIFFNESS, secondary->lift_stiffness);
+
+    cz_put(fill, car, CZ_P_PRIMARY_STIFFNESS, primary->stiffness);
+    for (int axle = 0; axle < 4; axle++)
+        cz_put(fill, car, (CzParameter)(CZ_P_PRIMARY_PRELOAD_0 + axle),
+               primary->carries_tension ? CZ_NEVER : statics->primary_load[axle]);
+    cz_put(fill, car, CZ_P_PRIMARY_DAMPING, primary->damping);
+    cz_put(fill, car, CZ_P_PRIMARY_BLOW_OFF_RATE, blow_off_rate(primary));
+    cz_put(fill, car, CZ_P_PRIMARY_DAMPING_BEYOND, primary->damping_beyond);
+    cz_put(fill, car, CZ_P_PRIMARY_BUMP_GAP, gap_or_never(primary->bump_gap));
+    cz_put(fill, car, CZ_P_PRIMARY_BUMP_STIFFNESS, primary->bump_stiffness);
+    cz_put(fill, car, CZ_P_PRIMARY_LIFT_GAP, gap_or_never(primary->lift_gap));
+    cz_put(fill, car, CZ_P_PRIMARY_LIFT_STIFFNESS, primary->lift_stiffness);
+}
+
+static void fill_bogies(const CzFill *fill, int car) {
+    const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
+    const CzBogie *bogie = &vehicle->bogie;
+    const double speed = fill->model->car[car].speed;
+    cz_put(fill, car, CZ_P_INVERSE_BOGIE_MASS, 1.0 / bogie->mass);
+    cz_put(fill, car, CZ_P_INVERSE_BOGIE_INERTIA, 1.0 / bogie->pitch_inertia);
+    cz_put(fill, car, CZ_P_BOGIE_X, vehicle->bogie_spacing / 2.0);
+    cz_put(fill, car, CZ_P_LINK_BODY_Z, bogie->link.height - vehicle->cg_height);
+    cz_put(fill, car, CZ_P_LINK_BOGIE_Z, bogie->link.height - bogie->cg_height);
+    cz_put(fill, car, CZ_P_LINK_STIFFNESS, bogie->link.stiffness);
+    cz_put(fill, car, CZ_P_LINK_DAMPING, bogie->link.damping);
+    cz_put(fill, car, CZ_P_AXLE_X, bogie->axle_spacing / 2.0);
+    cz_put(fill, car, CZ_P_AXLE_Z, bogie->wheel_radius - bogie->cg_height);
+    cz_put(fill, car, CZ_P_AXLE_GUIDANCE_STIFFNESS, bogie->guidance_stiffness);
+    cz_put(fill, car, CZ_P_AXLE_GUIDANCE_DAMPING, bogie->guidance_damping);
+    for (int dof = CZ_DOF_BOGIE_X_REAR; dof <= CZ_DOF_BOGIE_PITCH_FRONT; dof += 3) {
+        put_dof(fill, car, (CzDof)dof, bogie->mass, speed);
+        put_dof(fill, car, (CzDof)(dof + 1), bogie->mass, 0.0);
+        put_dof(fill, car, (CzDof)(dof + 2), bogie->pitch_inertia, 0.0);
+    }
+}
+
+/* Axles are braked from the front of the car on. */
+static int n_braked_axle(const CzBrake *brake) {
+    return brake == NULL ? 0 : (int)(4.0 * brake->axle_share + 0.5);
+}
+
+static void fill_wheels(const CzFill *fill, int car, const CzStatics *statics) {
+    const CzCar *place = &fill->model->car[car];
+    const CzBogie *bogie = &cz_fill_vehicle(fill, car)->bogie;
+    const CzAdhesion *adhesion = &fill->model->simulation->adhesion;
+    const double radius = bogie->wheel_radius;
+    const double hertz = hertz_constant(radius, bogie->tread);
+    const int first_braked = 4 - n_braked_axle(place->brake);
+    double load = 0.0;
+
+    cz_put(fill, car, CZ_P_INVERSE_WHEELSET_MASS, 1.0 / bogie->wheelset_mass);
+    cz_put(fill, car, CZ_P_INVERSE_WHEELSET_INERTIA, 1.0 / bogie->wheelset_inertia);
+    cz_put(fill, car, CZ_P_WHEEL_RADIUS, radius);
+    cz_put(fill, car, CZ_P_HERTZ, hertz);
+    for (int axle = 0; axle < 4; axle++) {
+        const double indentation = cbrt(statics->wheel_load[axle] / hertz);
+        const double moment = place->brake_ratio * statics->wheel_load[axle] * radius;
+        cz_put(fill, car, (CzParameter)(CZ_P_INDENTATION_0 + axle), indentation * indentation);
+        cz_put(fill, car, (CzParameter)(CZ_P_BRAKE_MOMENT_0 + axle),
+               axle >= first_braked ? moment : 0.0);
+        put_dof(fill, car, (CzDof)(CZ_DOF_WHEEL_X_0 + 3 * axle), bogie->wheelset_mass,
+                place->speed);
+        put_dof(fill, car, (CzDof)(CZ_DOF_WHEEL_Z_0 + 3 * axle), bogie->wheelset_mass, 0.0);
+        put_dof(fill, car, (CzDof)(CZ_DOF_WHEEL_SPIN_0 + 3 * axle), bogie->wheelset_inertia,
+                place->speed / radius);
+        load += statics->wheel_load[axle] / 4.0;
+    }
+    cz_put(fill, car, CZ_P_BRAKE_STIFFNESS,
+           bogie->wheelset_inertia * HELD_AXLE_FREQUENCY * HELD_AXLE_FREQUENCY);
+
+    /* A scenario's own peak keeps the share that is left in sliding. */
+    const double peak = fill->model->friction;
+    const bool falls = !isnan(adhesion->sliding_friction) && adhesion->friction > 0.0;
+    const double left = falls ? adhesion->sliding_friction / adhesion->friction : 1.0;
+    cz_put(fill, car, CZ_P_CREEP_STIFFNESS,
+           peak * load / (adhesion->peak_creepage * CONTACT_LENGTH));
+    cz_put(fill, car, CZ_P_CREEP_LENGTH, CONTACT_LENGTH);
+    cz_put(fill, car, CZ_P_FRICTION_PEAK, peak);
+    cz_put(fill, car, CZ_P_FRICTION_SLIDING, peak * left);
+    cz_put(fill, car, CZ_P_FRICTION_FALL_SPEED, adhesion->fall_speed);
+}
+
+CzStatus cz_fill_car(const CzFill *fill, int car, const CzStatics *statics) {
+    const CzCar *place = &fill->model->car[car];
+    cz_put(fill, car, CZ_P_INVERSE_BODY_MASS, inverse(statics->body_mass));
+    cz_put(fill, car, CZ_P_INVERSE_BODY_INERTIA, inverse(statics->body_inertia));
+    put_dof(fill, car, CZ_DOF_BODY_X, statics->body_mass, place->speed);
+    if (place->model != CZ_MODEL_FULL) {
+        put_dof(fill, car, CZ_DOF_END_X_REAR, 0.0, place->speed);
+        put_dof(fill, car, CZ_DOF_END_X_FRONT, 0.0, place->speed);
+        return CZ_OK;
+    }
+    cz_put(fill, car, CZ_P_SLAVED_ENDS, 0.0);
+    put_dof(fill, car, CZ_DOF_BODY_Z, statics->body_mass, 0.0);
+    put_dof(fill, car, CZ_DOF_BODY_PITCH, statics->body_inertia, 0.0);
+    CZ_TRY(fill_crush_zone(fill, car, CZ_REAR));
+    CZ_TRY(fill_crush_zone(fill, car, CZ_FRONT));
+    fill_suspensions(fill, car, &cz_fill_vehicle(fill, car)->bogie, statics);
+    fill_bogies(fill, car);
+    fill_wheels(fill, car, statics);
+    return CZ_OK;
+}

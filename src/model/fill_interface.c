@@ -1,0 +1,427 @@
+/* Numbers of one interface: where the two ends stand at t = 0, and what they are made of.
+ *
+ *   distance of a pair of parts = distance of the foremost planes + gap_A + gap_B
+ *
+ * Inner interfaces: coupled couplers touch face to face; without them the foremost planes touch.
+ * Colliding interface: the nearest pair of parts of one kind touches. A fixed partner without a
+ * part of its own meets the other's with its foremost plane, at the other's height.
+ */
+#include "model/fill.h"
+
+#include "base/error.h"
+
+#define BARE_COMPLIANCE 1e-9 /* of two ends without anti-climbers [m/N] (ours) */
+#define SMALLEST_COMPLIANCE                                                                        \
+    1e-14                      /* where a crush zone in series gives way instead [m/N] (ours)      \
+                                */
+#define PIVOT_BEHIND_PLANE 1.0 /* of a side without a coupler length [m] (ours) */
+#define OVERLAP_TOLERANCE 1e-9 /* of rounding [m] */
+
+/* One side of the interface. */
+typedef struct Side {
+    int car;
+    int which; /* end of that car */
+    bool is_full, is_fixed;
+    const CzVehicle *vehicle;
+    const CzEnd *end;
+    double plane;  /* foremost plane from the body's centre of gravity, outwards [m] */
+    double sign;   /* of outwards along x */
+    double offset; /* how much higher it stands [m] */
+} Side;
+
+typedef struct Pair {
+    const CzFill *fill;
+    int lane; /* car in whose lane the numbers stand */
+    Side side[2];
+    bool has_couplers, has_side_buffers;
+    double distance; /* of the foremost planes at t = 0 [m] */
+} Pair;
+
+static void put(const Pair *pair, CzParameter parameter, double value) {
+    cz_put(pair->fill, pair->lane, parameter, value);
+}
+
+static CzPartName part_name(const Pair *pair, int side, const char *what) {
+    return (CzPartName){pair->side[side].car, pair->side[side].which, pair->lane, what};
+}
+
+static Side make_side(const CzFill *fill, int car, int which, const CzStatics *statics) {
+    const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
+    const CzVehicleModel model = fill->model->car[car].model;
+    return (Side){.car = car,
+                  .which = which,
+                  .is_full = model == CZ_MODEL_FULL,
+                  .is_fixed = model == CZ_MODEL_FIXED,
+                  .vehicle = vehicle,
+                  .end = cz_end_of(vehicle, which),
+                  .plane = statics->plane[which],
+                  .sign = which == CZ_FRONT ? 1.0 : -1.0};
+}
+
+static bool has_coupler(const Side *side) {
+    return side->end->given && side->end->coupler.given;
+}
+
+static bool has_anti_climber(const Side *side) {
+    return side->end->given && side->end->anti_climber.given;
+}
+
+static bool has_side_buffers(const Side *side) {
+    return side->end->given && side->end->side_buffers.given;
+}
+
+/* Parts pair when both sides have them, or one has and the other is fixed. */
+static bool pairs(const Side *side, bool (*has)(const Side *)) {
+    const bool a = has(&side[CZ_SIDE_A]), b = has(&side[CZ_SIDE_B]);
+    return (a && b) || (a && side[CZ_SIDE_B].is_fixed) || (b && side[CZ_SIDE_A].is_fixed);
+}
+
+/* ---- gaps behind the foremost plane, and heights above rail (NaN: as the other side's) ---- */
+
+static double coupler_gap(const Side *side) {
+    return has_coupler(side) ? side->end->coupler.gap : 0.0;
+}
+
+static double coupler_length(const Side *side) {
+    if (!has_coupler(side) || isnan(side->end->coupler.length))
+        return PIVOT_BEHIND_PLANE;
+    return side->end->coupler.length;
+}
+
+static double face_gap(const Side *side) {
+    if (!side->end->given)
+        return 0.0;
+    return has_anti_climber(side) ? side->end->anti_climber.gap : side->end->face_gap;
+}
+
+static double side_buffer_gap(const Side *side) {
+    return has_side_buffers(side) ? side->end->side_buffers.gap : 0.0;
+}
+
+static double coupler_height(const Side *side) {
+    return has_coupler(side) ? side->end->coupler.height : NAN;
+}
+
+static double face_height(const Side *side) {
+    if (!side->end->given)
+        return NAN;
+    return has_anti_climber(side) ? side->end->anti_climber.height : side->end->crush_height;
+}
+
+static double side_buffer_height(const Side *side) {
+    return has_side_buffers(side) ? side->end->side_buffers.height : NAN;
+}
+
+/* Heights of both sides as built, and how much higher B's part stands than A's with the offsets. */
+typedef struct Heights {
+    double side[2]; /* above rail [m] */
+    double rise;    /* [m] */
+} Heights;
+
+static Heights heights_of(const Pair *pair, double (*height)(const Side *)) {
+    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
+    Heights heights = {.side = {height(a), height(b)}};
+    if (isnan(heights.side[0]))
+        heights.side[0] = isnan(heights.side[1]) ? 0.0 : heights.side[1];
+    if (isnan(heights.side[1]))
+        heights.side[1] = heights.side[0];
+    heights.rise = heights.side[1] + b->offset - heights.side[0] - a->offset;
+    return heights;
+}
+
+/* ---- where the two cars stand ---- */
+
+static CzStatus place_cars(Pair *pair) {
+    const CzModel *model = pair->fill->model;
+    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
+    const double couplers = coupler_gap(a) + coupler_gap(b);
+    const double faces = face_gap(a) + face_gap(b);
+    const double side_buffers = side_buffer_gap(a) + side_buffer_gap(b);
+    double nearest = faces;
+    if (pair->has_couplers)
+        nearest = fmin(nearest, couplers);
+    if (pair->has_side_buffers)
+        nearest = fmin(nearest, side_buffers);
+
+    if (pair->lane == model->colliding) {
+        pair->distance = -nearest;
+        return CZ_OK;
+    }
+    pair->distance = pair->has_couplers ? -couplers : 0.0;
+    if (pair->distance + nearest < -OVERLAP_TOLERANCE)
+        return cz_fill_refuse(
+            pair->fill, part_name(pair, CZ_SIDE_A, "coupler"), &a->end->coupler.gap,
+            "other parts of interface %s overlap by %g mm when its couplers touch",
+            model->interface_name[pair->lane], -(pair->distance + nearest) * 1e3);
+    return CZ_OK;
+}
+
+static void set_offsets(Pair *pair) {
+    const CzModel *model = pair->fill->model;
+    const CzInput *input = cz_problem_input(model->problem);
+    const CzScenario *scenario = model->scenario;
+    if (pair->lane == model->colliding) {
+        const double behind = input->trains[model->train[0]].height_offset;
+        const double ahead = input->trains[model->train[1]].height_offset;
+        pair->side[CZ_SIDE_A].offset = behind;
+        pair->side[CZ_SIDE_B].offset =
+            isnan(scenario->height_offset) ? ahead : scenario->height_offset;
+    } else if (pair->lane == model->perturbed)
+        pair->side[CZ_SIDE_B].offset = scenario->perturbation;
+}
+
+/* ---- couplers ---- */
+
+static CzStatus fill_tubes(const Pair *pair, int which, double *compliance) {
+    const Side *side = &pair->side[which];
+    const CzCoupler *coupler = has_coupler(side) ? &side->end->coupler : NULL;
+    const CzTube *first = coupler == NULL ? NULL : &coupler->tube;
+    const CzTube *second = coupler == NULL ? NULL : &coupler->second_tube;
+    CZ_TRY(cz_fill_tube(pair->fill, part_name(pair, which, "coupler tube"), first, 1,
+                        CZ_OF_SIDE(CZ_CURVE_TUBE, which)));
+    CZ_TRY(cz_fill_tube(pair->fill, part_name(pair, which, "second coupler tube"), second, 1,
+                        CZ_OF_SIDE(CZ_CURVE_SECOND_TUBE, which)));
+    if (first != NULL && first->given) {
+        put(pair, CZ_OF_SIDE(CZ_P_TUBE_RATE, which), first->rate_factor);
+        *compliance += 1.0 / (first->stiffness * first->count);
+    }
+    if (second != NULL && second->given) {
+        put(pair, CZ_OF_SIDE(CZ_P_SECOND_TUBE_RATE, which), second->rate_factor);
+        *compliance += 1.0 / (second->stiffness * second->count);
+    }
+    return CZ_OK;
+}
+
+static void fill_coupler_pivot(const Pair *pair, int which, double height) {
+    const Side *side = &pair->side[which];
+    const double behind = coupler_gap(side) + coupler_length(side);
+    const bool on_end =
+        side->is_full && has_coupler(side) && side->end->coupler.anchor == CZ_ANCHOR_END;
+    const double carrier = on_end ? side->end->cg_height : side->vehicle->cg_height;
+    const double arm = side->plane - behind - (on_end ? side->end->distance : 0.0);
+    put(pair, CZ_OF_SIDE(CZ_P_COUPLER_ON_END, which), on_end);
+    put(pair, which == CZ_SIDE_A ? CZ_P_PIVOT_X_A : CZ_P_PIVOT_X_B,
+        side->sign * (side->is_full ? arm : PIVOT_BEHIND_PLANE));
+    put(pair, which == CZ_SIDE_A ? CZ_P_PIVOT_Z_A : CZ_P_PIVOT_Z_B,
+        side->is_full ? height - carrier : 0.0);
+}
+
+static void fill_shear_off(const Pair *pair, int which, const CzShearOff *shear_off) {
+    put(pair, CZ_OF_SIDE(CZ_P_SHEAR_FORCE, which), shear_off->force);
+    put(pair, CZ_OF_SIDE(CZ_P_SHEAR_SOFTENING, which), shear_off->softening_length);
+    put(pair, CZ_OF_SIDE(CZ_P_SHEAR_SPACE, which),
+        shear_off->softening_length + shear_off->retraction_space);
+    put(pair, CZ_OF_SIDE(CZ_P_SHEAR_BOTTOM, which), shear_off->bottom_stiffness);
+}
+
+static CzStatus fill_coupler_side(const Pair *pair, int which) {
+    const Side *side = &pair->side[which];
+    const CzCurveId curve = CZ_OF_SIDE(CZ_CURVE_BUFFER, which);
+    const CzPartName name = part_name(pair, which, "coupler buffer");
+    if (!has_coupler(side))
+        return cz_fill_buffer(pair->fill, name, NULL, 1, curve);
+
+    const CzCoupler *coupler = &side->end->coupler;
+    const CzBuffer *buffer = &coupler->buffer;
+    CZ_TRY(cz_fill_buffer(pair->fill, name, buffer, 1, curve));
+    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_TRANSITION, which), buffer->transition_stiffness);
+    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_SHARE, which), buffer->unloading_share);
+    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_DAMPING, which), buffer->damping);
+    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_QUADRATIC, which), buffer->quadratic_damping);
+    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_DRAW_STIFFNESS, which), buffer->draw_stiffness);
+    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_DRAW_SLACK, which), buffer->draw_slack);
+    if (coupler->shear_off.given)
+        fill_shear_off(pair, which, &coupler->shear_off);
+    if (coupler->hinge.given) {
+        const CzHinge *hinge = &coupler->hinge;
+        put(pair, CZ_OF_SIDE(CZ_P_HINGE_STIFFNESS, which), hinge->stiffness);
+        put(pair, CZ_OF_SIDE(CZ_P_HINGE_MOMENT, which), hinge->moment_capacity);
+        put(pair, CZ_OF_SIDE(CZ_P_SWING_STOP, which), hinge->swing_stop);
+        put(pair, CZ_OF_SIDE(CZ_P_SWING_STIFFNESS, which), hinge->stop_stiffness);
+    }
+    return CZ_OK;
+}
+
+static CzStatus fill_couplers(const Pair *pair) {
+    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
+    if (!pair->has_couplers)
+        return CZ_OK;
+    const Heights heights = heights_of(pair, coupler_height);
+    const double length = coupler_length(a) + coupler_length(b);
+    double compliance = 0.0;
+    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
+        fill_coupler_pivot(pair, which, heights.side[which]);
+        CZ_TRY(fill_coupler_side(pair, which));
+        CZ_TRY(fill_tubes(pair, which, &compliance));
+    }
+    const bool is_inner = pair->lane != pair->fill->model->colliding;
+    put(pair, CZ_P_COUPLER, 1.0);
+    put(pair, CZ_P_COUPLED, is_inner && has_coupler(a) && has_coupler(b));
+    put(pair, CZ_P_PIVOT_DISTANCE, pair->distance + coupler_gap(a) + coupler_gap(b) + length);
+    put(pair, CZ_P_PIVOT_RISE, heights.rise);
+    put(pair, CZ_P_COUPLER_LENGTH, length);
+    put(pair, CZ_P_COUPLER_COMPLIANCE, compliance);
+    pair->fill->lanes->has_couplers = 1;
+    return CZ_OK;
+}
+
+/* ---- anti-climbers and crush zones without end mass ---- */
+
+/* Both sides in series; a side without the part is rigid. */
+static double in_series(double a, double b) {
+    const double sum = a + b;
+    return sum > 0.0 ? a * b / sum : 0.0;
+}
+
+static double value_or_zero(double value) {
+    return isnan(value) ? 0.0 : value;
+}
+
+static CzStatus fill_limp_end(const Pair *pair, int which) {
+    const Side *side = &pair->side[which];
+    const CzEnd *end = side->end;
+    if (side->is_full || !cz_end_crushes(end))
+        return CZ_OK;
+    CZ_TRY(cz_fill_end(pair->fill, part_name(pair, which, "end"), end,
+                       CZ_OF_SIDE(CZ_CURVE_LIMP_END, which)));
+    const double second = isnan(end->second_unloading_stiffness) ? end->unloading_stiffness
+                                                                 : end->second_unloading_stiffness;
+    put(pair, CZ_OF_SIDE(CZ_P_LIMP_END, which), 1.0);
+    put(pair, CZ_OF_SIDE(CZ_P_LIMP_UNLOADING, which), end->unloading_stiffness);
+    put(pair, CZ_OF_SIDE(CZ_P_LIMP_SHARE, which), end->unloading_share);
+    put(pair, CZ_OF_SIDE(CZ_P_LIMP_SECOND_UNLOADING, which), second);
+    return CZ_OK;
+}
+
+static CzStatus fill_face_side(const Pair *pair, int which, double height, double *compliance) {
+    const Side *side = &pair->side[which];
+    const double carrier = side->is_full ? side->end->distance : 0.0;
+    const double arm = side->plane - face_gap(side) - carrier;
+    put(pair, which == CZ_SIDE_A ? CZ_P_FACE_X_A : CZ_P_FACE_X_B, side->sign * arm);
+    put(pair, which == CZ_SIDE_A ? CZ_P_FACE_Z_A : CZ_P_FACE_Z_B,
+        side->is_full ? height - side->end->cg_height : 0.0);
+    const CzAntiClimber *anti_climber = has_anti_climber(side) ? &side->end->anti_climber : NULL;
+    CZ_TRY(cz_fill_anti_climber(pair->fill, part_name(pair, which, "anti-climber"), anti_climber,
+                                CZ_OF_SIDE(CZ_CURVE_FACE, which)));
+    CZ_TRY(fill_limp_end(pair, which));
+    if (anti_climber == NULL)
+        return CZ_OK;
+    put(pair, CZ_OF_SIDE(CZ_P_FACE_RATE, which), anti_climber->rate_factor);
+    put(pair, CZ_OF_SIDE(CZ_P_SPEED_FACTOR, which),
+        anti_climber->speed_factor / anti_climber->speed_reference);
+    *compliance += 1.0 / (anti_climber->stiffness * anti_climber->count);
+    return CZ_OK;
+}
+
+/* What keeps two anti-climbers from sliding over each other. */
+static void fill_ribs(const Pair *pair) {
+    const CzAntiClimber *a = &pair->side[CZ_SIDE_A].end->anti_climber;
+    const CzAntiClimber *b = &pair->side[CZ_SIDE_B].end->anti_climber;
+    const double capacity_a = a->rib_count * a->count * value_or_zero(a->rib_strength);
+    const double capacity_b = b->rib_count * b->count * value_or_zero(b->rib_strength);
+    const double capacity = fmin(capacity_a, capacity_b);
+    put(pair, CZ_P_FACE_FRICTION, fmin(value_or_zero(a->friction), value_or_zero(b->friction)));
+    put(pair, CZ_P_FACE_VERTICAL_STIFFNESS,
+        in_series(a->vertical_stiffness, b->vertical_stiffness));
+    put(pair, CZ_P_RIB_CAPACITY, capacity);
+    if (capacity > 0.0) {
+        put(pair, CZ_P_RIB_PITCH,
+            fmax(a->face_height / a->rib_count, b->face_height / b->rib_count));
+        put(pair, CZ_P_RIB_DEPTH, fmax(a->rib_depth, b->rib_depth));
+    }
+    if (pair->side[CZ_SIDE_A].is_full && pair->side[CZ_SIDE_B].is_full)
+        put(pair, CZ_P_FACE_OVERLAP, (a->face_height + b->face_height) / 2.0);
+}
+
+static CzStatus fill_faces(const Pair *pair) {
+    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
+    const Heights heights = heights_of(pair, face_height);
+    double compliance = 0.0;
+    CZ_TRY(fill_face_side(pair, CZ_SIDE_A, heights.side[CZ_SIDE_A], &compliance));
+    CZ_TRY(fill_face_side(pair, CZ_SIDE_B, heights.side[CZ_SIDE_B], &compliance));
+    const bool a_limps = !a->is_full && cz_end_crushes(a->end);
+    const bool b_limps = !b->is_full && cz_end_crushes(b->end);
+    if (compliance == 0.0)
+        compliance = a_limps || b_limps ? SMALLEST_COMPLIANCE : BARE_COMPLIANCE;
+    put(pair, CZ_P_FACE_GAP, pair->distance + face_gap(a) + face_gap(b));
+    put(pair, CZ_P_FACE_RISE, heights.rise);
+    put(pair, CZ_P_FACE_COMPLIANCE, compliance);
+
+    const bool a_has = has_anti_climber(a), b_has = has_anti_climber(b);
+    const double damping_a =
+        a_has ? a->end->anti_climber.damping * a->end->anti_climber.count : 0.0;
+    const double damping_b =
+        b_has ? b->end->anti_climber.damping * b->end->anti_climber.count : 0.0;
+    put(pair, CZ_P_FACE_DAMPING,
+        a_has && b_has ? in_series(damping_a, damping_b) : damping_a + damping_b);
+    if (a_has && b_has)
+        fill_ribs(pair);
+    return CZ_OK;
+}
+
+/* ---- side buffers ---- */
+
+static CzStatus fill_side_buffer_side(const Pair *pair, int which, double height,
+                                      double *compliance) {
+    const Side *side = &pair->side[which];
+    const CzSideBuffers *set = has_side_buffers(side) ? &side->end->side_buffers : NULL;
+    const CzCurveId curve = CZ_OF_SIDE(CZ_CURVE_SIDE_BUFFER, which);
+    const CzCurveId tube_curve = CZ_OF_SIDE(CZ_CURVE_SIDE_TUBE, which);
+    const CzPartName name = part_name(pair, which, "side buffer");
+    const CzPartName tube_name = part_name(pair, which, "side buffer tube");
+    put(pair, which == CZ_SIDE_A ? CZ_P_SIDE_X_A : CZ_P_SIDE_X_B,
+        side->sign * (side->plane - side_buffer_gap(side)));
+    put(pair, which == CZ_SIDE_A ? CZ_P_SIDE_Z_A : CZ_P_SIDE_Z_B,
+        side->is_full ? height - side->vehicle->cg_height : 0.0);
+    if (set == NULL) {
+        CZ_TRY(cz_fill_buffer(pair->fill, name, NULL, 1, curve));
+        return cz_fill_tube(pair->fill, tube_name, NULL, 1, tube_curve);
+    }
+    const CzBuffer *buffer = &set->buffer;
+    CZ_TRY(cz_fill_buffer(pair->fill, name, buffer, set->count, curve));
+    CZ_TRY(cz_fill_tube(pair->fill, tube_name, &set->tube, set->count, tube_curve));
+    put(pair, CZ_OF_SIDE(CZ_P_SIDE_TRANSITION, which), buffer->transition_stiffness * set->count);
+    put(pair, CZ_OF_SIDE(CZ_P_SIDE_SHARE, which), buffer->unloading_share);
+    put(pair, CZ_OF_SIDE(CZ_P_SIDE_DAMPING, which), buffer->damping * set->count);
+    put(pair, CZ_OF_SIDE(CZ_P_SIDE_QUADRATIC, which), buffer->quadratic_damping * set->count);
+    if (set->tube.given) {
+        put(pair, CZ_OF_SIDE(CZ_P_SIDE_RATE, which), set->tube.rate_factor);
+        *compliance += 1.0 / (set->tube.stiffness * set->tube.count * set->count);
+    }
+    return CZ_OK;
+}
+
+static CzStatus fill_side_buffers(const Pair *pair) {
+    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
+    if (!pair->has_side_buffers)
+        return CZ_OK;
+    const Heights heights = heights_of(pair, side_buffer_height);
+    double compliance = 0.0;
+    CZ_TRY(fill_side_buffer_side(pair, CZ_SIDE_A, heights.side[CZ_SIDE_A], &compliance));
+    CZ_TRY(fill_side_buffer_side(pair, CZ_SIDE_B, heights.side[CZ_SIDE_B], &compliance));
+    put(pair, CZ_P_SIDE_BUFFERS, 1.0);
+    put(pair, CZ_P_SIDE_GAP, pair->distance + side_buffer_gap(a) + side_buffer_gap(b));
+    put(pair, CZ_P_SIDE_RISE, heights.rise);
+    put(pair, CZ_P_SIDE_COMPLIANCE, compliance);
+    if (has_side_buffers(a) && has_side_buffers(b))
+        put(pair, CZ_P_SIDE_FRICTION,
+            fmin(value_or_zero(a->end->side_buffers.friction),
+                 value_or_zero(b->end->side_buffers.friction)));
+    pair->fill->lanes->has_side_buffers = 1;
+    return CZ_OK;
+}
+
+CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *behind,
+                           const CzStatics *ahead) {
+    Pair pair = {.fill = fill,
+                 .lane = interface,
+                 .side = {make_side(fill, interface, CZ_FRONT, behind),
+                          make_side(fill, interface + 1, CZ_REAR, ahead)}};
+    pair.has_couplers = pairs(pair.side, has_coupler);
+    pair.has_side_buffers = pairs(pair.side, has_side_buffers);
+    set_offsets(&pair);
+    CZ_TRY(place_cars(&pair));
+    CZ_TRY(fill_couplers(&pair));
+    CZ_TRY(fill_faces(&pair));
+    return fill_side_buffers(&pair);
+}

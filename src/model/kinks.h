@@ -1,0 +1,57 @@
+/* Force-stroke curves as start value and kinks, made from stages or from a table of points.
+ *
+ *   y(x) = start + sum of slope_change_i * max(x - at_i, 0)
+ *
+ * Strength of tubes and anti-climbers: plateaus from f_i to e_i (e_i = f_i when it is level) over
+ * strokes s_i. A jump between two plateaus becomes a ramp of length r = min(5 mm, s / 10) of the
+ * shorter one (ours), centred on the boundary: the energy of level plateaus is kept exactly, that
+ * of sloping ones to r^2 / 8 times the difference of the slopes. A trigger peak T adds a triangle:
+ * T at the start, falling to the curve over its length l, with energy (T - f_1) l / 2 of its own.
+ *
+ * Buffers and vehicle ends: straight lines through the forces at the ends of the stages.
+ *
+ * The last kink is the one where the stroke is used up and the slope becomes the bottom stiffness.
+ */
+#ifndef CZ_MODEL_KINKS_H
+#define CZ_MODEL_KINKS_H
+
+#include "problem/input.h"
+
+enum { CZ_MAX_KINKS = CZ_MAX_CURVE_POINTS + 2 };
+
+#define CZ_NEVER 1e30 /* a force, gap or stiffness that nothing reaches */
+
+typedef struct CzKinks {
+    int n;
+    double start;                      /* value at 0 [N] */
+    double usable;                     /* stroke at which it bottoms out [m] */
+    double at[CZ_MAX_KINKS];           /* [m] (n) */
+    double slope_change[CZ_MAX_KINKS]; /* [N/m] (n) */
+} CzKinks;
+
+/* Kinks that a strength or a loading curve has, whatever its numbers are. */
+int cz_kinks_in_strength(int n_stage, const CzTable *table);
+int cz_kinks_in_loading(int n_stage, const CzTable *table);
+
+/* Strength over the plastic stroke, from the table when it is given. `trigger` may be NaN. */
+void cz_kinks_strength(CzKinks *kinks, const CzStage *stage, int n_stage, const CzTable *table,
+                       double trigger, double trigger_length, double bottom_stiffness);
+
+/* Loading curve from `first` at no stroke, from the table when it is given (without `first`). */
+void cz_kinks_loading(CzKinks *kinks, double first, const CzStage *stage, int n_stage,
+                      const CzTable *table, double bottom_stiffness);
+
+/* A plastic member that never flows, and a spring of one stiffness (CZ_NEVER: it never gives way).
+ */
+void cz_kinks_rigid_member(CzKinks *kinks);
+void cz_kinks_spring(CzKinks *kinks, double stiffness);
+
+/* Multiplies all forces: `count` devices side by side. */
+void cz_kinks_scale(CzKinks *kinks, double count);
+
+double cz_kinks_value(const CzKinks *kinks, double x);
+
+/* Sum of the strokes of the stages, or the last point of the table [m]. */
+double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *table);
+
+#endif

@@ -1,6 +1,7 @@
 /* Design map: variables to places in the vehicle records. */
 #include "evaluate/design.h"
 #include "base/error.h"
+#include "base/number.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -102,6 +103,10 @@ static bool find_twin(const CzScene *scene, const CzDesignPlace *place, CzDesign
 /* ---- one variable
  * --------------------------------------------------------------------------------- */
 
+static const char *name_of(const CzVehicle *vehicle) {
+    return vehicle->name != NULL ? vehicle->name : "";
+}
+
 static bool drives(const CzDesignVariable *variable, const CzDesignPlace *place) {
     for (int i = 0; i < variable->n_place; i++)
         if (variable->place[i].vehicle == place->vehicle &&
@@ -110,72 +115,70 @@ static bool drives(const CzDesignVariable *variable, const CzDesignPlace *place)
     return false;
 }
 
+/* Room for one more of n items of a size in an arena array that doubles at powers of two. */
+static void *grow(const Builder *builder, void *items, int n, size_t size) {
+    if ((n & (n - 1)) != 0)
+        return items;
+    void *more = cz_arena_allocate(builder->arena, n == 0 ? 1 : 2 * (size_t)n, size);
+    if (more != NULL && n > 0)
+        memcpy(more, items, (size_t)n * size);
+    return more;
+}
+
 static CzStatus add_place(const Builder *builder, CzDesignVariable *variable,
                           const CzDesignPlace *place) {
-    const size_t n = (size_t)variable->n_place;
-    if ((n & (n - 1)) == 0) { /* room doubles at powers of two */
-        CzDesignPlace *more = cz_arena_allocate(builder->arena, n == 0 ? 1 : 2 * n, sizeof *more);
-        if (more == NULL)
-            return fail_memory(builder);
-        if (n > 0)
-            memcpy(more, variable->place, n * sizeof *more);
-        variable->place = more;
-    }
+    CzDesignPlace *places = grow(builder, variable->place, variable->n_place, sizeof *places);
+    if (places == NULL)
+        return fail_memory(builder);
+    variable->place = places;
     variable->place[variable->n_place++] = *place;
     return CZ_OK;
 }
 
-/* Path of a twin's place: the train and vehicle of the twin, the rest as written with the ends
- * exchanged where the vehicle is turned round. */
-static const char *twin_path(const Builder *builder, const CzDesignPlace *place,
-                             const CzDesignPlace *twin) {
-    const CzInput *input = cz_problem_input(builder->problem);
-    const char *rest = NULL;
-    const char *const ends[] = {".front.", ".rear."};
-    for (int end = 0; end < 2 && rest == NULL; end++) {
-        rest = strstr(place->shown.path, ends[end]);
-        if (rest != NULL)
-            rest += strlen(ends[end]);
-    }
-    const char *end = twin->offset >= offsetof(CzVehicle, rear) &&
-                              twin->offset < offsetof(CzVehicle, rear) + sizeof(CzEnd)
-                          ? "rear"
-                          : "front";
-    const CzVehicle *vehicle = &builder->vehicles[twin->vehicle];
-    for (int train = 0; train < input->n_trains && rest != NULL; train++) {
-        const long index = vehicle - input->trains[train].vehicles;
-        if (index < 0 || index >= input->trains[train].n_vehicles)
-            continue;
-        char path[256];
-        const int n =
-            snprintf(path, sizeof path, "trains.%s.vehicles.%s.%s.%s", input->trains[train].name,
-                     vehicle->name != NULL ? vehicle->name : "", end, rest);
-        return cz_arena_copy_text(builder->arena, path, (size_t)n < sizeof path ? (size_t)n : 0);
-    }
-    return place->shown.path;
+/* Adds a path that sets some of the variable's places, once. */
+static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable, const char *path,
+                          double factor) {
+    for (int i = 0; i < variable->n_shown; i++)
+        if (strcmp(variable->shown[i].path, path) == 0)
+            return CZ_OK;
+    CzVariablePlace *shown = grow(builder, variable->shown, variable->n_shown, sizeof *shown);
+    const char *copy = cz_arena_copy_text(builder->arena, path, strlen(path));
+    if (shown == NULL || copy == NULL)
+        return fail_memory(builder);
+    variable->shown = shown;
+    variable->shown[variable->n_shown++] = (CzVariablePlace){.path = copy, .factor = factor};
+    return CZ_OK;
 }
 
-/* Adds the twins of all places in every identical partner. */
-static CzStatus add_twins(const Builder *builder, CzDesignVariable *variable) {
-    const int n_written = variable->n_place;
-    for (int i = 0; i < n_written; i++)
+/* A place whose twin in an identical partner is left out would change one of two identical trains
+ * alone: a way to soften the opponent. */
+static CzStatus check_twins(const Builder *builder, const void *field,
+                            const CzDesignVariable *variable) {
+    for (int i = 0; i < variable->n_place; i++)
         for (int s = 0; s < builder->n_scene; s++) {
             CzDesignPlace twin;
             if (!find_twin(&builder->scene[s], &variable->place[i], &twin) ||
                 drives(variable, &twin))
                 continue;
-            twin.shown.path = twin_path(builder, &variable->place[i], &twin);
-            if (twin.shown.path == NULL)
-                return fail_memory(builder);
-            CZ_TRY(add_place(builder, variable, &twin));
+            return fail_at(builder, field,
+                           "'%s' changes '%s' but not its twin in '%s': the two trains are "
+                           "identical and share every variable; vary a part, or tie both with "
+                           "'paths'",
+                           variable->info.name,
+                           name_of(&builder->vehicles[variable->place[i].vehicle]),
+                           name_of(&builder->vehicles[twin.vehicle]));
         }
     return CZ_OK;
 }
 
+/* The place in the file that a variable's places are named at. */
+static const void *field_of(const CzVariable *written) {
+    return written->path != NULL ? (const void *)&written->path : (const void *)&written->paths;
+}
+
 static CzStatus add_target(const Builder *builder, const CzVariable *written,
                            const CzTarget *target, CzDesignVariable *variable) {
-    const void *field =
-        written->path != NULL ? (const void *)&written->path : (const void *)&written->paths;
+    const void *field = field_of(written);
     if (!target->may_vary)
         return fail_at(builder, field,
                        "'%s' may not vary: only stage forces and strokes, triggers, shear-off "
@@ -187,11 +190,11 @@ static CzStatus add_target(const Builder *builder, const CzVariable *written,
         variable->info.start = target->value / target->unit;
     }
     const double unit = variable->n_place == 0 ? target->unit : variable->place[0].scale;
-    CzDesignPlace place = {.vehicle = target->vehicle, .offset = target->offset, .scale = unit};
-    place.shown.factor = unit / target->unit;
-    place.shown.path = cz_arena_copy_text(builder->arena, target->place, strlen(target->place));
-    if (place.shown.path == NULL || variable->info.unit == NULL)
+    if (variable->info.unit == NULL)
         return fail_memory(builder);
+    CZ_TRY(add_shown(builder, variable, target->place, unit / target->unit));
+    const CzDesignPlace place = {
+        .vehicle = target->vehicle, .offset = target->offset, .scale = unit};
     return drives(variable, &place) ? CZ_OK : add_place(builder, variable, &place);
 }
 
@@ -211,17 +214,18 @@ static CzStatus check_variable(const Builder *builder, const CzVariable *written
         return fail_at(builder, &written->min, "the lower bound of '%s' is not below the upper one",
                        info->name);
     if (!(info->start >= info->min && info->start <= info->max)) {
+        char start[CZ_NUMBER_TEXT], min[CZ_NUMBER_TEXT], max[CZ_NUMBER_TEXT];
         return fail_at(builder, isnan(written->start) ? &written->min : &written->start,
-                       "the starting value %g of '%s' lies outside %g to %g %s", info->start,
-                       info->name, info->min, info->max, info->unit);
+                       "the starting value %s of '%s' lies outside %s to %s %s",
+                       cz_number_print_short(start, info->start), info->name,
+                       cz_number_print_short(min, info->min), cz_number_print_short(max, info->max),
+                       info->unit);
     }
     bool any_own = false;
     for (int i = 0; i < variable->n_place; i++)
         any_own |= is_own(builder, variable->place[i].vehicle);
     if (!any_own)
-        return fail_at(builder,
-                       written->path != NULL ? (const void *)&written->path
-                                             : (const void *)&written->paths,
+        return fail_at(builder, field_of(written),
                        "'%s' would only change the partner, and softening the opponent is no "
                        "design",
                        info->name);
@@ -229,29 +233,30 @@ static CzStatus check_variable(const Builder *builder, const CzVariable *written
         for (int i = 0; i < variable->n_place; i++)
             if (drives(other, &variable->place[i]))
                 return fail_at(builder, &written->min, "'%s' is driven by two variables",
-                               variable->place[i].shown.path);
+                               variable->shown[0].path);
     return CZ_OK;
 }
 
-/* ---- what is written once may be several variables
- * --------------------------------------------------- */
+/* ---- one entry of the file may be several variables ------------------------------------------ */
 
-/* Name of match `match` of a path: the path with its [*] filled in, or a given name with the
- * number.
- */
+/* Name of a variable: as given, with a number when there are several; else its path. */
 static const char *name_variable(const Builder *builder, const CzVariable *written, int match,
-                                 int n_match) {
-    const char *path = written->path != NULL ? written->path : written->paths.text[0];
-    const char *name = written->name != NULL ? written->name : path;
-    const char *star = strstr(name, "[*]");
+                                 int n_match, const char *place) {
     char text[256];
-    if (n_match == 1)
-        snprintf(text, sizeof text, "%s", name);
-    else if (star != NULL && strstr(star + 3, "[*]") == NULL)
-        snprintf(text, sizeof text, "%.*s[%d]%s", (int)(star - name), name, match, star + 3);
+    if (written->name != NULL && n_match > 1)
+        snprintf(text, sizeof text, "%s[%d]", written->name, match);
+    else if (written->name != NULL)
+        snprintf(text, sizeof text, "%s", written->name);
     else
-        snprintf(text, sizeof text, "%s[%d]", name, match);
+        snprintf(text, sizeof text, "%s", n_match == 1 && written->path ? written->path : place);
     return cz_arena_copy_text(builder->arena, text, strlen(text));
+}
+
+/* First target of a match; all targets are one match when `n_match` is 1. */
+static const CzTarget *first_of(const CzTarget *target, int match, int n_match) {
+    while (n_match > 1 && target->match != match)
+        target++;
+    return target;
 }
 
 static CzStatus add_variable(Builder *builder, const CzVariable *written, int match, int n_match,
@@ -260,19 +265,20 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
     if (design->n_variable == builder->most_variables)
         return fail_at(builder, &written->min, "there are more than 1000 variables");
     CzDesignVariable *variable = &design->variable[design->n_variable];
-    variable->info.name = name_variable(builder, written, match, n_match);
+    variable->info.name =
+        name_variable(builder, written, match, n_match, first_of(target, match, n_match)->place);
     if (variable->info.name == NULL)
         return fail_memory(builder);
     for (int i = 0; i < n_target; i++)
         if (n_match == 1 || target[i].match == match)
             CZ_TRY(add_target(builder, written, &target[i], variable));
-    CZ_TRY(add_twins(builder, variable));
     variable->info.min = written->min;
     variable->info.max = written->max;
     variable->info.step = isnan(written->step) ? 0 : written->step;
     if (!isnan(written->start))
         variable->info.start = written->start;
     CZ_TRY(check_variable(builder, written, variable));
+    CZ_TRY(check_twins(builder, field_of(written), variable));
     design->n_variable++;
     return CZ_OK;
 }
@@ -318,7 +324,7 @@ static CzStatus add_tied(Builder *builder, const CzVariable *written) {
         n_all += status == CZ_OK ? n_target : 0;
         free(target);
     }
-    if (status == CZ_OK)
+    if (status == CZ_OK && n_all > 0)
         status = add_variable(builder, written, 0, 1, n_all, all);
     free(all);
     return status;

@@ -16,13 +16,14 @@ typedef struct CzDesignPlace {
     int vehicle;   /* index into the vehicle array */
     size_t offset; /* of the double in CzVehicle [byte] */
     double scale;  /* SI value of one unit of the variable */
-    CzVariablePlace shown;
 } CzDesignPlace;
 
 typedef struct CzDesignVariable {
     CzVariableInfo info;
     int n_place;
     CzDesignPlace *place; /* (n_place) */
+    int n_shown;
+    CzVariablePlace *shown; /* paths that a person would write for them (n_shown) */
 } CzDesignVariable;
 
 typedef struct CzDesign {

@@ -160,11 +160,11 @@ const CzVariableInfo *cz_evaluator_variable(const CzEvaluator *evaluator, int va
 }
 
 int cz_evaluator_n_place(const CzEvaluator *evaluator, int variable) {
-    return evaluator->design.variable[variable].n_place;
+    return evaluator->design.variable[variable].n_shown;
 }
 
 CzVariablePlace cz_evaluator_place(const CzEvaluator *evaluator, int variable, int place) {
-    return evaluator->design.variable[variable].place[place].shown;
+    return evaluator->design.variable[variable].shown[place];
 }
 
 int cz_evaluator_n_constraint(const CzEvaluator *evaluator) {

@@ -1,6 +1,7 @@
 /* Metrics: names, parsing, aggregation. */
 #include "evaluate/metric.h"
 #include "base/error.h"
+#include "base/suggest.h"
 #include "evaluate/devices.h"
 #include "evaluate/place.h"
 
@@ -140,25 +141,13 @@ static const CzMetricKind *find_kind(const char *name) {
     return NULL;
 }
 
-/* Letters that two texts share at the start and at the end: a cheap likeness for a hint. */
-static size_t likeness(const char *a, const char *b) {
-    size_t start = 0, end = 0;
-    const size_t n_a = strlen(a), n_b = strlen(b);
-    while (start < n_a && start < n_b && a[start] == b[start])
-        start++;
-    while (end < n_a - start && end < n_b - start && a[n_a - 1 - end] == b[n_b - 1 - end])
-        end++;
-    return start + end;
-}
-
 static CzStatus fail_unknown(const char *text, const char *name, CzError *error) {
-    const CzMetricKind *nearest = &kinds[0];
-    for (int i = 1; i < N_KIND; i++)
-        if (likeness(name, kinds[i].name) > likeness(name, nearest->name))
-            nearest = &kinds[i];
+    CzSuggestion nearest = {0};
+    for (int i = 0; i < N_KIND; i++)
+        cz_suggest(&nearest, name, kinds[i].name);
     const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no metric '%s'", text);
-    if (error != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean '%s'?", nearest->name);
+    if (error != NULL && nearest.best != NULL)
+        snprintf(error->help, sizeof error->help, "did you mean '%s'?", nearest.best);
     return status;
 }
 

@@ -7,6 +7,7 @@
  */
 #include "optimise/nlopt_adapter.h"
 #include "base/error.h"
+#include "base/suggest.h"
 
 #include <math.h>
 #include <nlopt.h>
@@ -49,14 +50,6 @@ static int find_algorithm(const char *name) {
     return -1;
 }
 
-/* Letters in which two names differ at the same place. */
-static int difference(const char *a, const char *b) {
-    int n = 0;
-    for (; *a != '\0' && *b != '\0'; a++, b++)
-        n += *a != *b;
-    return n + (int)strlen(a) + (int)strlen(b);
-}
-
 CzStatus cz_nlopt_check(const char *algorithm, CzError *error) {
     const int number = find_algorithm(algorithm);
     if (number >= 0 && is_compiled_in((nlopt_algorithm)number))
@@ -65,15 +58,15 @@ CzStatus cz_nlopt_check(const char *algorithm, CzError *error) {
         return cz_fail(error, CZ_STATUS_INPUT,
                        "the NLopt library of this system was built without the algorithm '%s'",
                        algorithm);
-    const char *nearest = cz_algorithm_name(0);
-    for (int i = 1; i < cz_n_algorithm(); i++)
-        if (difference(cz_algorithm_name(i), algorithm) < difference(nearest, algorithm))
-            nearest = cz_algorithm_name(i);
+    CzSuggestion nearest = {0};
+    for (int i = 0; i < cz_n_algorithm(); i++)
+        cz_suggest(&nearest, algorithm, cz_algorithm_name(i));
     const CzStatus status =
         cz_fail(error, CZ_STATUS_INPUT, "there is no algorithm '%s'", algorithm);
     if (error != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean '%s'? 'auto' is the usual choice",
-                 nearest);
+        snprintf(error->help, sizeof error->help, "%s%s%s'auto' is the usual choice",
+                 nearest.best != NULL ? "did you mean '" : "",
+                 nearest.best != NULL ? nearest.best : "", nearest.best != NULL ? "'? " : "");
     return status;
 }
 

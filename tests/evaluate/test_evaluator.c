@@ -1,0 +1,453 @@
+/* The evaluator on a stand-in simulator: margins, verdicts, constraints, failures, repetition. */
+#include "support/check.h"
+
+#include "evaluate/stand_in.h"
+#include "crushzone/evaluate.h"
+
+static const char variables[] =
+    "optimise:\n"
+    "  variables:\n"
+    "    - {path: \"parts.tube.stages[0].force_kN\", min: 400, max: 1500}\n"
+    "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 100, max: 900, step: 50}\n";
+
+typedef struct Case {
+    CzProblem *problem;
+    CzEvaluator *evaluator;
+    CzEvaluation evaluation;
+} Case;
+
+static Case begin(const char *more) {
+    Case made = {0};
+    CzError error = {0};
+    stand_in_reset();
+    made.problem = stand_in_problem(more);
+    const CzEvaluatorOptions options = {.n_job = 2, .step_factor = 1};
+    const CzStatus status = cz_evaluator_build(made.problem, &options, &made.evaluator, &error);
+    if (status != CZ_OK)
+        print_error("%d:%d: %s\n", error.line, error.column, error.message);
+    assert_int_equal(status, CZ_OK);
+    return made;
+}
+
+static void evaluate(Case *made, const double *x) {
+    CzError error = {0};
+    cz_evaluation_free(&made->evaluation);
+    assert_int_equal(cz_evaluate(made->evaluator, 1, x, false, &made->evaluation, &error), CZ_OK);
+}
+
+static void end(Case *made) {
+    cz_evaluation_free(&made->evaluation);
+    cz_evaluator_free(made->evaluator);
+    cz_problem_free(made->problem);
+}
+
+static const CzCheckResult *find(const CzEvaluation *evaluation, const char *name,
+                                 const char *scenario) {
+    for (int i = 0; i < evaluation->n_check; i++)
+        if (strcmp(evaluation->check[i].name, name) == 0 &&
+            strcmp(evaluation->check[i].scenario, scenario) == 0)
+            return &evaluation->check[i];
+    return NULL;
+}
+
+/* Building must fail with this status and a sentence that holds these words. */
+static void expect_refusal(const char *more, const char *words) {
+    CzError error = {0};
+    CzEvaluator *evaluator = NULL;
+    CzProblem *problem = stand_in_problem(more);
+    assert_int_equal(cz_evaluator_build(problem, NULL, &evaluator, &error), CZ_STATUS_INPUT);
+    assert_null(evaluator);
+    if (strstr(error.message, words) == NULL)
+        print_error("'%s' lacks '%s'\n", error.message, words);
+    assert_non_null(strstr(error.message, words));
+    assert_true(error.line > 0);
+    cz_problem_free(problem);
+}
+
+/* 40 t at 25 km/h: 482 kJ are lost, 241 kJ on each side; the tube takes 240 kJ of them. */
+static void margin_is_the_room_over_the_limit(void **state) {
+    (void)state;
+    Case made = begin("checks:\n"
+                      "  closing_rules: false\n"
+                      "  limits:\n"
+                      "    - {name: force, metric: interfaces.peak_force_kN, max: 1500}\n"
+                      "    - {name: work, metric: elements.coupler A1.energy_kJ, min: 200,\n"
+                      "       scenarios: [crash]}\n"
+                      "    - {name: none, metric: elements.end *.energy_kJ, max: 0.1}\n");
+    evaluate(&made, NULL);
+    const CzCheckResult *force = find(&made.evaluation, "force", "crash");
+    assert_near(force->value, 1300, 1e-12, 0);
+    assert_near(force->margin, 200.0 / 1500, 1e-12, 0);
+    assert_string_equal(force->where, "A1-B1");
+    assert_string_equal(force->unit, "kN");
+    assert_string_equal(force->confidence, "user");
+    const CzCheckResult *work = find(&made.evaluation, "work", "crash");
+    assert_near(work->value, 240, 1e-9, 0);
+    assert_near(work->margin, 40.0 / 200, 1e-9, 0);
+    assert_true(work->is_minimum);
+    const CzCheckResult *none = find(&made.evaluation, "none", "crash");
+    assert_near(none->value, 0, 0, 0);
+    assert_near(none->margin, 1, 1e-12, 0);
+    assert_null(find(&made.evaluation, "force", "overload")); /* judged for bottoming only */
+    assert_int_equal(made.evaluation.verdict, CZ_VERDICT_PASS);
+    assert_near(made.evaluation.violation, 0, 0, 0);
+    end(&made);
+}
+
+static void minimum_is_judged_at_the_smallest_place(void **state) {
+    (void)state;
+    Case made =
+        begin("checks:\n"
+              "  closing_rules: false\n"
+              "  limits:\n"
+              "    - {name: each, metric: elements.*.energy_kJ, min: 1, scenarios: [crash]}\n"
+              "    - {name: sum, metric: elements.coupler *.energy_kJ.sum, min: 480,\n"
+              "       scenarios: [crash]}\n");
+    evaluate(&made, NULL);
+    const CzCheckResult *each = find(&made.evaluation, "each", "crash");
+    assert_near(each->value, 0, 0, 0);
+    assert_int_equal(each->verdict, CZ_VERDICT_FAIL);
+    assert_near(find(&made.evaluation, "sum", "crash")->value, 480, 1e-12, 0);
+    assert_int_equal(made.evaluation.verdict, CZ_VERDICT_FAIL);
+    end(&made);
+}
+
+static void unconfirmed_limit_passes_provisionally_until_the_user_sets_it(void **state) {
+    (void)state;
+    const char *limit = "checks:\n"
+                        "  closing_rules: false\n"
+                        "  limits:\n"
+                        "    - {name: force, metric: interfaces.peak_force_kN, max: 1500,\n"
+                        "       confidence: %s}\n";
+    const struct {
+        const char *confidence;
+        CzVerdict verdict;
+    } cases[] = {{"S1", CZ_VERDICT_PASS},       {"M1", CZ_VERDICT_PASS},
+                 {"user", CZ_VERDICT_PASS},     {"S2", CZ_VERDICT_PROVISIONAL},
+                 {"X", CZ_VERDICT_PROVISIONAL}, {"M2", CZ_VERDICT_PROVISIONAL},
+                 {"M3", CZ_VERDICT_PROVISIONAL}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char more[512];
+        snprintf(more, sizeof more, limit, cases[i].confidence);
+        Case made = begin(more);
+        evaluate(&made, NULL);
+        assert_int_equal(made.evaluation.verdict, cases[i].verdict);
+        end(&made);
+    }
+}
+
+static void closing_rules_judge_the_design_and_every_scenario(void **state) {
+    (void)state;
+    Case made = begin("");
+    evaluate(&made, NULL);
+    const CzEvaluation *evaluation = &made.evaluation;
+    /* the tube is used up at 25 km/h and the coupler shears, as it may; at 15 km/h it must not */
+    assert_int_equal(find(evaluation, "no shear-off in service", "service")->verdict,
+                     CZ_VERDICT_PASS);
+    assert_null(find(evaluation, "no shear-off in service", "crash"));
+    /* 24.7 kJ a side at 8 km/h: the stand-in has no buffer, so its tube works */
+    const CzCheckResult *buffing = find(evaluation, "no tube works when buffing", "buffing");
+    assert_near(buffing->value, 40e3 / 8 * (8 / 3.6) * (8 / 3.6) / 1e3, 1e-9, 0);
+    assert_int_equal(buffing->verdict, CZ_VERDICT_FAIL);
+    assert_near(find(evaluation, "shear-off above the tubes", "design")->value, 800.0 / 1300, 1e-12,
+                0);
+    assert_near(find(evaluation, "retraction space", "design")->value, 900.0 / 1500, 1e-12, 0);
+    assert_non_null(find(evaluation, "bottoming out under overload", "overload"));
+    assert_null(find(evaluation, "bottoming out", "overload"));
+    /* no wheels, so nothing can be said of override: that is not a pass */
+    assert_int_equal(find(evaluation, "override", "crash")->verdict, CZ_VERDICT_NOT_CHECKED);
+    end(&made);
+}
+
+static void scenarios_that_a_rule_needs_and_nobody_wrote_are_not_checked(void **state) {
+    (void)state;
+    stand_in_reset();
+    const char *const set[] = {"scenarios[0].speed_km_h=27.5", "scenarios[1].speed_km_h=27.5",
+                               "scenarios[2].speed_km_h=27.5", "scenarios[3].speed_km_h=27.5",
+                               "scenarios[4].mass_factor=1"};
+    CzProblem *problem = NULL;
+    CzError error = {0};
+    assert_int_equal(stand_in_read("", 5, set, &problem, &error), CZ_OK);
+    CzEvaluator *evaluator = NULL;
+    assert_int_equal(cz_evaluator_build(problem, NULL, &evaluator, &error), CZ_OK);
+    CzEvaluation evaluation;
+    assert_int_equal(cz_evaluate(evaluator, 1, NULL, false, &evaluation, &error), CZ_OK);
+    static const char *const names[] = {"bottoming out under overload",
+                                        "no tube works when buffing", "no shear-off in service",
+                                        "speeds between service and design"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const CzCheckResult *check = find(&evaluation, names[i], "design");
+        assert_non_null(check);
+        assert_int_equal(check->verdict, CZ_VERDICT_NOT_CHECKED);
+        assert_non_null(check->why);
+    }
+    cz_evaluation_free(&evaluation);
+    cz_evaluator_free(evaluator);
+    cz_problem_free(problem);
+}
+
+static void failed_run_is_infeasible_and_not_checked(void **state) {
+    (void)state;
+    Case made = begin(variables);
+    stand_in.failing_above = 1e6;
+    const double good[] = {800, 300}, bad[] = {1200, 300};
+    evaluate(&made, good);
+    assert_int_equal(made.evaluation.status, CZ_OK);
+    evaluate(&made, bad);
+    assert_int_equal(made.evaluation.status, CZ_STATUS_RUN_FAILED);
+    assert_true(isnan(made.evaluation.objective) && isinf(made.evaluation.violation));
+    for (int j = 0; j < made.evaluation.n_constraint; j++)
+        assert_true(isnan(made.evaluation.constraint[j]));
+    const CzCheckResult *check = find(&made.evaluation, "stroke used", "crash");
+    assert_int_equal(check->verdict, CZ_VERDICT_NOT_CHECKED);
+    assert_string_equal(check->why, "the run of this scenario failed");
+    assert_int_not_equal(made.evaluation.verdict, CZ_VERDICT_PASS);
+    end(&made);
+}
+
+static void incomplete_run_is_never_a_pass(void **state) {
+    (void)state;
+    Case made = begin(variables);
+    stand_in.incomplete_above = 1e6;
+    const double bad[] = {1200, 300};
+    evaluate(&made, bad);
+    assert_int_equal(made.evaluation.status, CZ_STATUS_RUN_FAILED);
+    assert_int_not_equal(made.evaluation.verdict, CZ_VERDICT_PASS);
+    assert_true(isinf(made.evaluation.violation));
+    end(&made);
+}
+
+static void default_objective_is_the_smallest_margin(void **state) {
+    (void)state;
+    Case made = begin(variables);
+    evaluate(&made, NULL);
+    double smallest = INFINITY;
+    for (int j = 0; j < made.evaluation.n_constraint; j++) {
+        const CzCheckResult *check = &made.evaluation.constraint_check[j];
+        assert_near(made.evaluation.constraint[j],
+                    isnan(check->margin) ? made.evaluation.constraint[j] : -check->margin, 0, 0);
+        smallest = fmin(smallest, check->margin);
+    }
+    assert_near(made.evaluation.objective, -smallest, 0, 0);
+    end(&made);
+}
+
+static void required_margin_is_part_of_the_constraint(void **state) {
+    (void)state;
+    Case made =
+        begin("checks: {closing_rules: false}\n"
+              "optimise:\n"
+              "  minimise: interfaces.peak_force_kN\n"
+              "  margin: 0.1\n"
+              "  variables: [{path: \"parts.tube.stages[0].force_kN\", min: 400, max: 1500}]\n"
+              "  targets:\n"
+              "    - {name: coupler works, metric: elements.colliding coupler *.energy_kJ,\n"
+              "       min: 200, scenarios: [crash]}\n");
+    evaluate(&made, NULL);
+    assert_int_equal(made.evaluation.n_check, 0);
+    assert_int_equal(made.evaluation.n_constraint, 1);
+    assert_near(made.evaluation.constraint[0], 0.1 - 0.2, 1e-9, 0);
+    assert_near(made.evaluation.objective, 1300, 1e-12, 0);
+    assert_string_equal(cz_evaluator_constraint_name(made.evaluator, 0), "coupler works, crash");
+    assert_int_equal(made.evaluation.verdict, CZ_VERDICT_NOT_CHECKED); /* nothing was checked */
+    end(&made);
+}
+
+static void answer_depends_neither_on_neighbours_nor_on_threads(void **state) {
+    (void)state;
+    enum { N = 150 };
+    stand_in_reset();
+    stand_in.rattle = 1;
+    CzProblem *problem = stand_in_problem(variables);
+    double x[2 * N];
+    for (int i = 0; i < N; i++) {
+        x[2 * i] = 400 + 7.3 * i;
+        x[2 * i + 1] = 900 - 5.1 * i;
+    }
+    double objective[3][N];
+    for (int way = 0; way < 3; way++) {
+        const CzEvaluatorOptions options = {.n_job = way == 2 ? 7 : 1, .step_factor = 1};
+        CzEvaluator *evaluator = NULL;
+        CzEvaluation evaluation[N];
+        CzError error = {0};
+        assert_int_equal(cz_evaluator_build(problem, &options, &evaluator, &error), CZ_OK);
+        const int n = way == 0 ? 1 : N; /* one by one, or all at once */
+        for (int first = 0; first < N; first += n) {
+            assert_int_equal(cz_evaluate(evaluator, n, x + 2 * first, false, evaluation, &error),
+                             CZ_OK);
+            for (int i = 0; i < n; i++) {
+                objective[way][first + i] = evaluation[i].objective;
+                cz_evaluation_free(&evaluation[i]);
+            }
+        }
+        cz_evaluator_free(evaluator);
+    }
+    assert_memory_equal(objective[0], objective[1], sizeof objective[0]);
+    assert_memory_equal(objective[0], objective[2], sizeof objective[0]);
+    cz_problem_free(problem);
+}
+
+static double most_force(int n_scenario, const CzRunSummary *const *summary, void *data) {
+    double most = 0;
+    ++*(int *)data;
+    for (int s = 0; s < n_scenario; s++)
+        most = fmax(most, summary[s]->interface[0].peak_force);
+    return most;
+}
+
+static void own_objective_replaces_the_files(void **state) {
+    (void)state;
+    Case made = begin(variables);
+    int n_call = 0;
+    cz_evaluator_set_objective(made.evaluator, "mine", "N", most_force, &n_call);
+    evaluate(&made, NULL);
+    assert_int_equal(n_call, 1);
+    assert_near(made.evaluation.objective, 1300e3, 1e-12, 0);
+    assert_string_equal(cz_evaluator_objective_name(made.evaluator), "mine");
+    end(&made);
+}
+
+static void runs_are_kept_when_asked_for(void **state) {
+    (void)state;
+    Case made = begin("");
+    CzError error = {0};
+    assert_int_equal(cz_evaluate(made.evaluator, 1, NULL, true, &made.evaluation, &error), CZ_OK);
+    assert_int_equal(made.evaluation.n_run, 5);
+    assert_string_equal(cz_run_summary(made.evaluation.run[4])->scenario, "overload");
+    end(&made);
+}
+
+static void one_scenario_alone_leaves_the_others_unchecked(void **state) {
+    (void)state;
+    stand_in_reset();
+    CzProblem *problem = stand_in_problem("");
+    CzEvaluatorOptions options = cz_evaluator_options_default();
+    options.scenario = "service";
+    CzEvaluator *evaluator = NULL;
+    CzEvaluation evaluation;
+    CzError error = {0};
+    assert_int_equal(cz_evaluator_build(problem, &options, &evaluator, &error), CZ_OK);
+    assert_int_equal(cz_evaluate(evaluator, 1, NULL, true, &evaluation, &error), CZ_OK);
+    assert_int_equal(evaluation.n_run, 1);
+    assert_int_equal(find(&evaluation, "stroke used", "service")->verdict, CZ_VERDICT_PASS);
+    assert_int_equal(find(&evaluation, "stroke used", "crash")->verdict, CZ_VERDICT_NOT_CHECKED);
+    assert_string_equal(find(&evaluation, "stroke used", "crash")->why,
+                        "this scenario was not run");
+    cz_evaluation_free(&evaluation);
+    cz_evaluator_free(evaluator);
+    options.scenario = "servce";
+    assert_int_equal(cz_evaluator_build(problem, &options, &evaluator, &error), CZ_STATUS_INPUT);
+    cz_problem_free(problem);
+}
+
+/* ---- variables
+ * ------------------------------------------------------------------------------------------ */
+
+static void variables_have_names_units_bounds_and_places(void **state) {
+    (void)state;
+    Case made = begin(variables);
+    assert_int_equal(cz_evaluator_n_variable(made.evaluator), 2);
+    const CzVariableInfo *force = cz_evaluator_variable(made.evaluator, 0);
+    assert_string_equal(force->name, "parts.tube.stages[0].force_kN");
+    assert_string_equal(force->unit, "kN");
+    assert_near(force->start, 800, 1e-12, 0);
+    assert_near(cz_evaluator_variable(made.evaluator, 1)->step, 50, 0, 0);
+    assert_int_equal(cz_evaluator_n_place(made.evaluator, 0), 1); /* one part, both trains */
+    assert_string_equal(cz_evaluator_place(made.evaluator, 0, 0).path,
+                        "parts.tube.stages[0].force_kN");
+    end(&made);
+}
+
+static void variable_changes_both_trains_through_a_part(void **state) {
+    (void)state;
+    Case made =
+        begin("checks:\n"
+              "  closing_rules: false\n"
+              "  limits:\n"
+              "    - {name: a, metric: elements.coupler A1.peak_force_kN, max: 1e9}\n"
+              "    - {name: b, metric: elements.coupler B1.peak_force_kN, max: 1e9}\n"
+              "optimise:\n"
+              "  variables: [{path: \"parts.tube.stages[0].force_kN\", min: 400, max: 1500}]\n");
+    const double x[] = {1000};
+    evaluate(&made, x);
+    assert_near(find(&made.evaluation, "a", "crash")->value, 1000, 1e-12, 0);
+    assert_near(find(&made.evaluation, "b", "crash")->value, 1000, 1e-12, 0);
+    end(&made);
+}
+
+static void what_may_not_vary_is_refused_by_name(void **state) {
+    (void)state;
+    expect_refusal(
+        "optimise: {variables: [{path: parts.head.proof_strength_kN, min: 1, max: 9}]}\n",
+        "may not vary");
+    expect_refusal(
+        "optimise: {variables: [{path: trains.A.vehicles.A1.mass_t, min: 1, max: 90}]}\n",
+        "may not vary");
+    expect_refusal("optimise: {variables: [{path: parts.tube.stagse, min: 1, max: 9}]}\n", "path");
+}
+
+static void softening_the_opponent_is_refused(void **state) {
+    (void)state;
+    expect_refusal(
+        "optimise: {variables: [{path: \"trains.B.vehicles.B1.rear.coupler.tube.stages[0]"
+        ".force_kN\", min: 400, max: 900}]}\n",
+        "softening the opponent");
+    expect_refusal(
+        "optimise: {variables: [{path: \"trains.A.vehicles.A1.front.coupler.tube.stages[0]"
+        ".force_kN\", min: 400, max: 900}]}\n",
+        "twin");
+}
+
+static void bounds_and_starts_that_do_not_fit_are_refused(void **state) {
+    (void)state;
+    expect_refusal("optimise: {variables: [{path: \"parts.tube.stages[0].force_kN\", min: 900, "
+                   "max: 400}]}\n",
+                   "lower bound");
+    expect_refusal("optimise: {variables: [{path: \"parts.tube.stages[0].force_kN\", min: 900, "
+                   "max: 1400}]}\n",
+                   "starting value 800");
+    expect_refusal("optimise: {variables: [{path: \"parts.tube.stages[0].force_kN\", min: 400, "
+                   "max: 1400}, {path: \"parts.tube.stages[0].force_kN\", min: 400, max: 1400}]}\n",
+                   "two variables");
+}
+
+static void limits_that_name_nothing_are_refused(void **state) {
+    (void)state;
+    expect_refusal("checks: {limits: [{name: a, metric: interfaces.peak_force, max: 1}]}\n",
+                   "no metric 'interfaces.peak_force'");
+    expect_refusal("checks: {limits: [{name: a, metric: interfaces.C1-*.peak_force_kN, max: 1}]}\n",
+                   "picks nothing");
+    expect_refusal("checks: {limits: [{name: a, metric: interfaces.peak_force_kN, max: 1, "
+                   "scenarios: [crush]}]}\n",
+                   "no scenario 'crush'");
+    expect_refusal("checks: {limits: [{name: a, metric: interfaces.peak_force_kN}]}\n",
+                   "needs 'max' or 'min'");
+    expect_refusal("optimise: {subject_to: [nothing], variables: [{path: "
+                   "\"parts.tube.stages[0].force_kN\", min: 400, max: 1400}]}\n",
+                   "no check 'nothing'");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(margin_is_the_room_over_the_limit),
+        cmocka_unit_test(minimum_is_judged_at_the_smallest_place),
+        cmocka_unit_test(unconfirmed_limit_passes_provisionally_until_the_user_sets_it),
+        cmocka_unit_test(closing_rules_judge_the_design_and_every_scenario),
+        cmocka_unit_test(scenarios_that_a_rule_needs_and_nobody_wrote_are_not_checked),
+        cmocka_unit_test(failed_run_is_infeasible_and_not_checked),
+        cmocka_unit_test(incomplete_run_is_never_a_pass),
+        cmocka_unit_test(default_objective_is_the_smallest_margin),
+        cmocka_unit_test(required_margin_is_part_of_the_constraint),
+        cmocka_unit_test(answer_depends_neither_on_neighbours_nor_on_threads),
+        cmocka_unit_test(own_objective_replaces_the_files),
+        cmocka_unit_test(runs_are_kept_when_asked_for),
+        cmocka_unit_test(one_scenario_alone_leaves_the_others_unchecked),
+        cmocka_unit_test(variables_have_names_units_bounds_and_places),
+        cmocka_unit_test(variable_changes_both_trains_through_a_part),
+        cmocka_unit_test(what_may_not_vary_is_refused_by_name),
+        cmocka_unit_test(softening_the_opponent_is_refused),
+        cmocka_unit_test(bounds_and_starts_that_do_not_fit_are_refused),
+        cmocka_unit_test(limits_that_name_nothing_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -2,6 +2,7 @@
 #include "model/fill.h"
 
 #include "base/error.h"
+#include "laws/vehicle_end.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -99,6 +100,50 @@ static CzStatus check_strength(const CzFill *fill, CzPartName part, const void *
     return table->given ? check_table(fill, part, table) : check_stages(fill, part, stage, n_stage);
 }
 
+/* A buffer's force must not fall, nor rise faster than it falls between its two curves. */
+static CzStatus check_rise(const CzFill *fill, CzPartName part, const CzBuffer *buffer) {
+    double force = buffer->preload;
+    for (int i = 0; i < buffer->n_stages; i++) {
+        const CzStage *stage = &buffer->stages[i];
+        const double slope = (stage->force - force) / stage->stroke;
+        if (!(stage->force > 0.0) || stage->force < force)
+            return cz_fill_refuse(fill, part, &stage->force,
+                                  "stage %d ends at %g kN, after %g kN; a buffer's force must be "
+                                  "positive and must not fall",
+                                  i + 1, stage->force * 1e-3, force * 1e-3);
+        if (slope > buffer->transition_stiffness)
+            return cz_fill_refuse(fill, part, &stage->force,
+                                  "stage %d rises by %g MN/m, faster than the transition stiffness "
+                                  "of %g MN/m: a cycle would create energy",
+                                  i + 1, slope * 1e-6, buffer->transition_stiffness * 1e-6);
+        force = stage->force;
+    }
+    return CZ_OK;
+}
+
+/* A stage after the first must not rise so fast that unloading gives back more than it took. */
+static CzStatus check_unloading(const CzFill *fill, CzPartName part, const CzEnd *end) {
+    const CzVehicleEndLaw law = {.unloading = end->unloading_stiffness,
+                                 .share = end->unloading_share,
+                                 .second_unloading = cz_second_unloading(end)};
+    const double steepest = cz_vehicle_end_steepest(&law);
+    const CzTable *table = &end->curve;
+    const int n = table->given ? table->n_point - 1 : end->n_stages;
+    for (int i = 1; i < n; i++) {
+        const double slope =
+            table->given
+                ? (table->y[i + 1] - table->y[i]) / (table->x[i + 1] - table->x[i])
+                : (end->stages[i].force - end->stages[i - 1].force) / end->stages[i].stroke;
+        if (slope > steepest)
+            return cz_fill_refuse(
+                fill, part, table->given ? (const void *)table : &end->stages[i].force,
+                "%s %d rises by %g MN/m; with these unloading stiffnesses more "
+                "than %g MN/m would give back more energy than it took",
+                table->given ? "segment" : "stage", i + 1, slope * 1e-6, steepest * 1e-6);
+    }
+    return CZ_OK;
+}
+
 /* ---- curves of devices ---- */
 
 CzStatus cz_fill_buffer(const CzFill *fill, CzPartName part, const CzBuffer *buffer, int count,
@@ -111,16 +156,7 @@ CzStatus cz_fill_buffer(const CzFill *fill, CzPartName part, const CzBuffer *buf
     if (buffer->n_stages < 1)
         return cz_fill_refuse(fill, part, buffer, "has no stages");
     CZ_TRY(check_stages(fill, part, buffer->stages, buffer->n_stages));
-    double force = buffer->preload;
-    for (int i = 0; i < buffer->n_stages; i++) {
-        const CzStage *stage = &buffer->stages[i];
-        if (!(stage->force > 0.0) || stage->force < force)
-            return cz_fill_refuse(fill, part, &stage->force,
-                                  "stage %d ends at %g kN, after %g kN; a buffer's force must be "
-                                  "positive and must not fall",
-                                  i + 1, stage->force * 1e-3, force * 1e-3);
-        force = stage->force;
-    }
+    CZ_TRY(check_rise(fill, part, buffer));
     const CzTable none = {.given = false};
     cz_kinks_loading(&kinks, buffer->preload, buffer->stages, buffer->n_stages, &none,
                      buffer->bottom_stiffness);
@@ -177,6 +213,7 @@ CzStatus cz_fill_end(const CzFill *fill, CzPartName part, const CzEnd *end, CzCu
     if (end->curve.given && (end->curve.x[0] != 0.0 || end->curve.y[0] != 0.0))
         return cz_fill_refuse(fill, part, &end->curve,
                               "the curve must start at stroke 0 with force 0");
+    CZ_TRY(check_unloading(fill, part, end));
     cz_kinks_loading(&kinks, 0.0, end->stages, end->n_stages, &end->curve, end->bottom_stiffness);
     return cz_fill_curve(fill, part, end, id, &kinks);
 }

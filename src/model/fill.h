@@ -86,6 +86,11 @@ CZ_MUST_CHECK CzStatus cz_fill_car(const CzFill *fill, int car, const CzStatics 
 CZ_MUST_CHECK CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *behind,
                                          const CzStatics *ahead);
 
+static inline double cz_second_unloading(const CzEnd *end) {
+    return isnan(end->second_unloading_stiffness) ? end->unloading_stiffness
+                                                  : end->second_unloading_stiffness;
+}
+
 /* True when an end has loading stages or a curve of its own. */
 static inline bool cz_end_crushes(const CzEnd *end) {
     return end->given && (end->curve.given || end->n_stages > 0);

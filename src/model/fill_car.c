@@ -72,11 +72,9 @@ static CzStatus fill_crush_zone(const CzFill *fill, int car, int which) {
         const size_t slot = (size_t)i * fill->lanes->stride + lane;
         first_slope += curve->at[slot] == 0.0 ? curve->slope_change[slot] : 0.0;
     }
-    const double second = isnan(end->second_unloading_stiffness) ? end->unloading_stiffness
-                                                                 : end->second_unloading_stiffness;
     cz_put(fill, car, CZ_OF_END(CZ_P_END_UNLOADING, which), end->unloading_stiffness);
     cz_put(fill, car, CZ_OF_END(CZ_P_END_SHARE, which), end->unloading_share);
-    cz_put(fill, car, CZ_OF_END(CZ_P_END_SECOND_UNLOADING, which), second);
+    cz_put(fill, car, CZ_OF_END(CZ_P_END_SECOND_UNLOADING, which), cz_second_unloading(end));
     cz_put(fill, car, CZ_OF_END(CZ_P_END_DAMPING, which), end->damping);
     cz_put(fill, car, CZ_OF_END(CZ_P_END_TENSION, which), first_slope);
 
@@ -218,6 +216,7 @@ CzStatus cz_fill_car(const CzFill *fill, int car, const CzStatics *statics) {
         put_dof(fill, car, CZ_DOF_END_X_FRONT, 0.0, place->speed);
         return CZ_OK;
     }
+    fill->lanes->has_full_cars = 1;
     cz_put(fill, car, CZ_P_SLAVED_ENDS, 0.0);
     put_dof(fill, car, CZ_DOF_BODY_Z, statics->body_mass, 0.0);
     put_dof(fill, car, CZ_DOF_BODY_PITCH, statics->body_inertia, 0.0);

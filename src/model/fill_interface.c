@@ -259,7 +259,7 @@ static CzStatus fill_couplers(const Pair *pair) {
     put(pair, CZ_P_COUPLED, is_inner && has_coupler(a) && has_coupler(b));
     put(pair, CZ_P_PIVOT_DISTANCE, pair->distance + coupler_gap(a) + coupler_gap(b) + length);
     put(pair, CZ_P_PIVOT_RISE, heights.rise);
-    put(pair, CZ_P_COUPLER_LENGTH, length);
+    put(pair, CZ_P_COUPLER_LENGTH, sqrt(length * length + heights.rise * heights.rise));
     put(pair, CZ_P_COUPLER_COMPLIANCE, compliance);
     pair->fill->lanes->has_couplers = 1;
     return CZ_OK;
@@ -284,12 +284,10 @@ static CzStatus fill_limp_end(const Pair *pair, int which) {
         return CZ_OK;
     CZ_TRY(cz_fill_end(pair->fill, part_name(pair, which, "end"), end,
                        CZ_OF_SIDE(CZ_CURVE_LIMP_END, which)));
-    const double second = isnan(end->second_unloading_stiffness) ? end->unloading_stiffness
-                                                                 : end->second_unloading_stiffness;
     put(pair, CZ_OF_SIDE(CZ_P_LIMP_END, which), 1.0);
     put(pair, CZ_OF_SIDE(CZ_P_LIMP_UNLOADING, which), end->unloading_stiffness);
     put(pair, CZ_OF_SIDE(CZ_P_LIMP_SHARE, which), end->unloading_share);
-    put(pair, CZ_OF_SIDE(CZ_P_LIMP_SECOND_UNLOADING, which), second);
+    put(pair, CZ_OF_SIDE(CZ_P_LIMP_SECOND_UNLOADING, which), cz_second_unloading(end));
     return CZ_OK;
 }
 

@@ -139,9 +139,9 @@ headers_that_need_others() {
 }
 
 unformatted_files() {
-    for file in $(find src include tests examples -type f \( -name '*.c' -o -name '*.h' \) 2>/dev/null | sort); do
-        clang-format --style=file "$file" | cmp -s - "$file" || echo "$file differs from clang-format's layout"
-    done
+    find src include tests examples -type f \( -name '*.c' -o -name '*.h' \) 2>/dev/null | sort |
+        xargs clang-format --style=file --dry-run 2>&1 |
+        sed -n "s/^\([^:]*\):[0-9].*code should be clang-formatted.*/\1 differs from clang-format's layout/p" | uniq
 }
 
 # Scripts are POSIX shell.

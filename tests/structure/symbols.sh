@@ -18,8 +18,8 @@ undeclared_symbols() {
     declared >declared.txt
     comm -23 shown.txt declared.txt
 }
-writable_symbols() { # data that can be written: mutable globals
-    nm "$library" | awk '$2 ~ /^[dDbB]$/ && $3 !~ /^(_|completed\.|__)/ { print $2, $3 }'
+writable_symbols() { # objects in sections that can be written once the program runs
+    objdump -t "$library" | awk '$0 ~ / O \.(data|bss|tdata|tbss)[ \t]/ && $NF !~ /^(completed\.|__dso_handle$)/ { print $NF }'
 }
 some_are_declared() { [ "$(declared | wc -l)" -gt 30 ]; }
 

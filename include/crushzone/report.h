@@ -24,6 +24,8 @@ typedef struct CzReportOptions {
     const char *const *set; /* "path=value" texts that the problem was read with, so that an
                                optimum holds them too; (n_set) */
     int n_set;
+    const char *text; /* what the problem was read from when that was no file; NULL otherwise */
+    size_t n_text;    /* [byte] */
 } CzReportOptions;
 CZ_API CzReportOptions cz_report_options_default(void);
 

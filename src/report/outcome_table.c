@@ -96,6 +96,12 @@ void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *
     write_variables(evaluator, outcome, colour, stream);
     cz_checks_write_table(&outcome->best_evaluation, &outcome->start_evaluation, colour, stream);
     write_violations(evaluator, outcome, colour, stream);
+
+    CzArena arena = {0};
+    int n_setting;
+    const char **setting = cz_overlay_settings(evaluator, outcome, NULL, &arena, &n_setting);
     fputs("\nNew values:\n", stream);
-    cz_overlay_write_set(evaluator, outcome, NULL, stream);
+    if (setting != NULL)
+        cz_overlay_write_set(n_setting, setting, stream);
+    cz_arena_free(&arena);
 }

@@ -37,47 +37,75 @@ static void write_value(const char *text, FILE *stream) {
         write_quoted(text, strlen(text), stream);
 }
 
-static bool is_driven(const CzEvaluator *evaluator, const char *path, size_t n) {
-    for (int variable = 0; variable < cz_evaluator_n_variable(evaluator); variable++)
-        for (int i = 0; i < cz_evaluator_n_place(evaluator, variable); i++) {
-            const char *place = cz_evaluator_place(evaluator, variable, i).path;
-            if (strlen(place) == n && strncmp(place, path, n) == 0)
-                return true;
+/* Whether a setting is about the path that the first n bytes of `path` are. */
+static bool is_about(const char *setting, const char *path, size_t n) {
+    return strncmp(setting, path, n) == 0 && setting[n] == '=';
+}
+
+/* Adds a setting in place of an earlier one about the same path. */
+static void add_setting(const char **setting, int *n_setting, const char *added) {
+    const size_t n = strcspn(added, "=");
+    for (int i = 0; i < *n_setting; i++)
+        if (is_about(setting[i], added, n)) {
+            setting[i] = added;
+            return;
         }
-    return false;
+    setting[(*n_setting)++] = added;
 }
 
-/* Whether a later setting names the same path. */
-static bool is_overruled(const CzReportOptions *options, int index, size_t n) {
-    for (int i = index + 1; i < options->n_set; i++)
-        if (strncmp(options->set[i], options->set[index], n + 1) == 0)
-            return true;
-    return false;
-}
-
-void cz_overlay_write_set(const CzEvaluator *evaluator, const CzOutcome *outcome,
-                          const CzReportOptions *options, FILE *stream) {
-    fputs("set:\n", stream);
-    for (int i = 0; options != NULL && i < options->n_set; i++) {
-        const char *equals = strchr(options->set[i], '=');
-        const size_t n = equals != NULL ? (size_t)(equals - options->set[i]) : 0;
-        if (n == 0 || is_overruled(options, i, n) || is_driven(evaluator, options->set[i], n))
-            continue;
-        fputs("  ", stream);
-        write_quoted(options->set[i], n, stream);
-        fputs(": ", stream);
-        write_value(equals + 1, stream);
-        fputc('\n', stream);
-    }
+const char **cz_overlay_settings(const CzEvaluator *evaluator, const CzOutcome *outcome,
+                                 const CzReportOptions *options, CzArena *arena, int *n_setting) {
+    const int n_given = options != NULL ? options->n_set : 0;
+    size_t room = (size_t)n_given + 1;
     for (int variable = 0; variable < outcome->n_variable; variable++)
+        room += (size_t)cz_evaluator_n_place(evaluator, variable);
+    const char **setting = cz_arena_allocate(arena, room, sizeof *setting);
+    *n_setting = 0;
+    for (int i = 0; i < n_given && setting != NULL; i++)
+        if (strchr(options->set[i], '=') != NULL)
+            add_setting(setting, n_setting, options->set[i]);
+    for (int variable = 0; variable < outcome->n_variable && setting != NULL; variable++)
         for (int i = 0; i < cz_evaluator_n_place(evaluator, variable); i++) {
             const CzVariablePlace place = cz_evaluator_place(evaluator, variable, i);
-            char number[CZ_NUMBER_TEXT];
-            fputs("  ", stream);
-            write_quoted(place.path, strlen(place.path), stream);
-            fprintf(stream, ": %s\n",
-                    cz_number_print(number, outcome->best[variable] * place.factor));
+            const size_t n = strlen(place.path) + 1 + CZ_NUMBER_TEXT;
+            char number[CZ_NUMBER_TEXT], *text = cz_arena_allocate(arena, n, 1);
+            if (text == NULL)
+                return NULL;
+            cz_number_print(number, outcome->best[variable] * place.factor);
+            snprintf(text, n, "%s=%s", place.path, number);
+            add_setting(setting, n_setting, text);
         }
+    return setting;
+}
+
+void cz_overlay_write_set(int n_setting, const char *const *setting, FILE *stream) {
+    fputs("set:\n", stream);
+    for (int i = 0; i < n_setting; i++) {
+        const size_t n = strcspn(setting[i], "=");
+        fputs("  ", stream);
+        write_quoted(setting[i], n, stream);
+        fputs(": ", stream);
+        write_value(setting[i] + n + 1, stream);
+        fputc('\n', stream);
+    }
+}
+
+CzStatus cz_overlay_read_best(const CzProblem *problem, const CzEvaluator *evaluator,
+                              const CzOutcome *outcome, const CzReportOptions *options,
+                              CzProblem **best, CzError *error) {
+    CzArena arena = {0};
+    CzProblemOptions read = cz_problem_options_default();
+    read.set = cz_overlay_settings(evaluator, outcome, options, &arena, &read.n_set);
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    if (read.set == NULL)
+        cz_fail(error, status, "no memory for the best values");
+    else if (options->text != NULL)
+        status = cz_problem_read_text(options->text, options->n_text, cz_problem_file(problem), ".",
+                                      &read, best, error);
+    else
+        status = cz_problem_read(cz_problem_file(problem), &read, best, error);
+    cz_arena_free(&arena);
+    return status;
 }
 
 /* Path of `target` as seen from `folder`, both absolute and without dots. */
@@ -130,20 +158,35 @@ CzStatus cz_report_write_overlay(const CzProblem *problem, const CzEvaluator *ev
                                  const CzOutcome *outcome, const CzReportOptions *options,
                                  const char *folder, FILE *stream, CzError *error) {
     char file[PATH_MAX], from[PATH_MAX], path[PATH_MAX];
-    const char *name = cz_problem_file(problem);
-    const bool extends = realpath(name, file) != NULL && resolve_folder(folder, from);
+    const CzReportOptions absent = cz_report_options_default();
+    if (options == NULL)
+        options = &absent;
     fprintf(stream, "# The best design of %ld evaluations: %s.\n", outcome->n_evaluation,
             outcome->best_evaluation.violation <= 0 ? "it keeps every constraint"
                                                     : "IT BREAKS A CONSTRAINT");
-    if (extends) {
+    if (options->text == NULL && realpath(cz_problem_file(problem), file) != NULL &&
+        resolve_folder(folder, from)) {
+        CzArena arena = {0};
+        int n_setting;
+        const char **setting =
+            cz_overlay_settings(evaluator, outcome, options, &arena, &n_setting);
         relative_path(from, file, sizeof path, path);
         fputs("extends: ", stream);
         write_quoted(path, strlen(path), stream);
         fputc('\n', stream);
-        cz_overlay_write_set(evaluator, outcome, options, stream);
-    } else { /* nothing to extend, such as standard input */
-        cz_problem_write_resolved(problem, stream);
-        cz_overlay_write_set(evaluator, outcome, NULL, stream);
+        if (setting != NULL)
+            cz_overlay_write_set(n_setting, setting, stream);
+        cz_arena_free(&arena);
+        if (setting == NULL)
+            return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
+    } else { /* nothing to extend */
+        CzProblem *best = NULL;
+        const CzStatus status =
+            cz_overlay_read_best(problem, evaluator, outcome, options, &best, error);
+        if (status == CZ_OK)
+            cz_problem_write_resolved(best, stream);
+        cz_problem_free(best);
+        CZ_TRY(status);
     }
     if (fflush(stream) != 0 || ferror(stream))
         return cz_fail(error, CZ_STATUS_OUTPUT, "the overlay cannot be written: %s",

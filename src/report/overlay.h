@@ -4,11 +4,22 @@
 
 #include <stdio.h>
 
+#include "base/arena.h"
 #include "crushzone/report.h"
 
-/* Writes `set:` with the settings of the command line in `options` (NULL for none) and the best
- * value of every place that a variable drives, exact to the last bit. */
-void cz_overlay_write_set(const CzEvaluator *evaluator, const CzOutcome *outcome,
-                          const CzReportOptions *options, FILE *stream);
+/* Settings "path=value" that turn the problem file into the best design: those of the command line
+ * in `options`, then the best value of every place that a variable drives, exact to the last bit.
+ * No path stands twice. NULL when there is no memory; lives as long as the arena. */
+const char **cz_overlay_settings(const CzEvaluator *evaluator, const CzOutcome *outcome,
+                                 const CzReportOptions *options, CzArena *arena, int *n_setting);
+
+/* Writes settings as the record `set:`. */
+void cz_overlay_write_set(int n_setting, const char *const *setting, FILE *stream);
+
+/* The problem read again with the best values; the caller frees it. Statuses as cz_problem_read. */
+CZ_MUST_CHECK CzStatus cz_overlay_read_best(const CzProblem *problem, const CzEvaluator *evaluator,
+                                            const CzOutcome *outcome,
+                                            const CzReportOptions *options, CzProblem **best,
+                                            CzError *error);
 
 #endif

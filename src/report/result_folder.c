@@ -62,11 +62,17 @@ static CzStatus write_channels(const Results *results, FILE *stream, CzError *er
 
 /* The problem that gives these results when it is run alone: of a search, with the best values. */
 static CzStatus write_resolved(const Results *results, FILE *stream, CzError *error) {
-    (void)error;
-    cz_problem_write_resolved(results->problem, stream);
-    if (results->outcome != NULL)
-        cz_overlay_write_set(results->evaluator, results->outcome, NULL, stream);
-    return CZ_OK;
+    if (results->outcome == NULL) {
+        cz_problem_write_resolved(results->problem, stream);
+        return CZ_OK;
+    }
+    CzProblem *best = NULL;
+    const CzStatus status = cz_overlay_read_best(results->problem, results->evaluator,
+                                                 results->outcome, results->options, &best, error);
+    if (status == CZ_OK)
+        cz_problem_write_resolved(best, stream);
+    cz_problem_free(best);
+    return status;
 }
 
 static void write_notice(const CzError *notice, FILE *stream) {

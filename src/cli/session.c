@@ -4,18 +4,46 @@
 #include "cli/messages.h"
 #include "cli/progress.h"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+enum { LARGEST_INPUT = 20 << 20 }; /* more than any problem file may have [byte] */
+
+/* Reads standard input to its end, or a little more than a problem file may have. */
+static CzStatus read_input(CzSession *session, CzError *error) {
+    session->text = malloc(LARGEST_INPUT);
+    if (session->text == NULL) {
+        snprintf(error->message, sizeof error->message, "no memory for standard input");
+        return error->status = CZ_STATUS_NO_MEMORY;
+    }
+    session->n_text = fread(session->text, 1, LARGEST_INPUT, stdin);
+    if (!ferror(stdin))
+        return CZ_OK;
+    snprintf(error->message, sizeof error->message, "standard input cannot be read");
+    return error->status = CZ_STATUS_INPUT;
+}
+
+static CzStatus read_problem(CzSession *session, CzError *error) {
+    CzProblemOptions options = cz_problem_options_default();
+    options.set = session->arguments->set;
+    options.n_set = session->arguments->n_set;
+    if (strcmp(session->file, "-") != 0)
+        return cz_problem_read(session->file, &options, &session->problem, error);
+    const CzStatus status = read_input(session, error);
+    if (status != CZ_OK)
+        return status;
+    return cz_problem_read_text(session->text, session->n_text, "<standard input>", ".", &options,
+                                &session->problem, error);
+}
 
 int cz_session_read(CzSession *session, const CzArguments *arguments, const char *file) {
     const double started = cz_clock();
     memset(session, 0, sizeof *session);
     session->arguments = arguments;
     session->file = file;
-    CzProblemOptions options = cz_problem_options_default();
-    options.set = arguments->set;
-    options.n_set = arguments->n_set;
     CzError error = {0};
-    if (cz_problem_read(file, &options, &session->problem, &error) != CZ_OK)
+    if (read_problem(session, &error) != CZ_OK)
         return cz_session_fail(session, &error);
     cz_tell_warnings(arguments, session->problem);
     session->setup_s = cz_clock() - started;
@@ -40,7 +68,9 @@ int cz_session_begin(CzSession *session, const CzArguments *arguments, const cha
 void cz_session_end(CzSession *session) {
     cz_evaluator_free(session->evaluator);
     cz_problem_free(session->problem);
+    free(session->text);
     session->evaluator = NULL;
+    session->text = NULL;
     session->problem = NULL;
 }
 
@@ -53,6 +83,8 @@ CzReportOptions cz_session_report_options(const CzSession *session, double wall_
     options.wall_s = wall_s;
     options.set = session->arguments->set;
     options.n_set = session->arguments->n_set;
+    options.text = session->text;
+    options.n_text = session->n_text;
     return options;
 }
 

@@ -10,6 +10,8 @@ typedef struct CzSession {
     const char *file;
     CzProblem *problem;
     CzEvaluator *evaluator;
+    char *text;     /* what came from standard input; NULL when a file was read */
+    size_t n_text;  /* [byte] */
     double setup_s; /* reading and building [s] */
 } CzSession;
 

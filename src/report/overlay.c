@@ -90,22 +90,41 @@ void cz_overlay_write_set(int n_setting, const char *const *setting, FILE *strea
     }
 }
 
-CzStatus cz_overlay_read_best(const CzProblem *problem, const CzEvaluator *evaluator,
-                              const CzOutcome *outcome, const CzReportOptions *options,
-                              CzProblem **best, CzError *error) {
-    CzArena arena = {0};
+/* The problem read again with the best values. */
+static CzStatus read_best(const CzProblem *problem, const CzReportOptions *options, int n_setting,
+                          const char *const *setting, CzProblem **best, CzError *error) {
     CzProblemOptions read = cz_problem_options_default();
-    read.set = cz_overlay_settings(evaluator, outcome, options, &arena, &read.n_set);
-    CzStatus status = CZ_STATUS_NO_MEMORY;
-    if (read.set == NULL)
-        cz_fail(error, status, "no memory for the best values");
-    else if (options->text != NULL)
-        status = cz_problem_read_text(options->text, options->n_text, cz_problem_file(problem), ".",
-                                      &read, best, error);
-    else
-        status = cz_problem_read(cz_problem_file(problem), &read, best, error);
+    read.set = setting;
+    read.n_set = n_setting;
+    if (options->text == NULL)
+        return cz_problem_read(cz_problem_file(problem), &read, best, error);
+    return cz_problem_read_text(options->text, options->n_text, cz_problem_file(problem), ".",
+                                &read, best, error);
+}
+
+CzStatus cz_overlay_write_resolved(const CzProblem *problem, const CzEvaluator *evaluator,
+                                   const CzOutcome *outcome, const CzReportOptions *options,
+                                   FILE *stream, CzError *error) {
+    CzArena arena = {0};
+    int n_setting;
+    const char **setting = cz_overlay_settings(evaluator, outcome, options, &arena, &n_setting);
+    if (setting == NULL) {
+        cz_arena_free(&arena);
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
+    }
+    CzProblem *best = NULL;
+    CzError mistake = {0};
+    const CzStatus status = read_best(problem, options, n_setting, setting, &best, &mistake);
+    if (status == CZ_OK) {
+        cz_problem_write_resolved(best, stream);
+    } else { /* such as a file that has changed meanwhile: the values must not get lost */
+        fprintf(stream, "# The problem cannot be read again (%s), so these are the values alone.\n",
+                mistake.message);
+        cz_overlay_write_set(n_setting, setting, stream);
+    }
+    cz_problem_free(best);
     cz_arena_free(&arena);
-    return status;
+    return CZ_OK;
 }
 
 /* Path of `target` as seen from `folder`, both absolute and without dots. */
@@ -154,6 +173,23 @@ static bool resolve_folder(const char *folder, char resolved[PATH_MAX]) {
     return written > 0 && written < PATH_MAX;
 }
 
+/* The user's file and the settings on top of it. */
+static CzStatus write_extending(const char *path, const CzEvaluator *evaluator,
+                                const CzOutcome *outcome, const CzReportOptions *options,
+                                FILE *stream, CzError *error) {
+    CzArena arena = {0};
+    int n_setting;
+    const char **setting = cz_overlay_settings(evaluator, outcome, options, &arena, &n_setting);
+    fputs("extends: ", stream);
+    write_quoted(path, strlen(path), stream);
+    fputc('\n', stream);
+    if (setting != NULL)
+        cz_overlay_write_set(n_setting, setting, stream);
+    cz_arena_free(&arena);
+    return setting != NULL ? CZ_OK
+                           : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
+}
+
 CzStatus cz_report_write_overlay(const CzProblem *problem, const CzEvaluator *evaluator,
                                  const CzOutcome *outcome, const CzReportOptions *options,
                                  const char *folder, FILE *stream, CzError *error) {
@@ -166,27 +202,10 @@ CzStatus cz_report_write_overlay(const CzProblem *problem, const CzEvaluator *ev
                                                     : "IT BREAKS A CONSTRAINT");
     if (options->text == NULL && realpath(cz_problem_file(problem), file) != NULL &&
         resolve_folder(folder, from)) {
-        CzArena arena = {0};
-        int n_setting;
-        const char **setting =
-            cz_overlay_settings(evaluator, outcome, options, &arena, &n_setting);
         relative_path(from, file, sizeof path, path);
-        fputs("extends: ", stream);
-        write_quoted(path, strlen(path), stream);
-        fputc('\n', stream);
-        if (setting != NULL)
-            cz_overlay_write_set(n_setting, setting, stream);
-        cz_arena_free(&arena);
-        if (setting == NULL)
-            return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
-    } else { /* nothing to extend */
-        CzProblem *best = NULL;
-        const CzStatus status =
-            cz_overlay_read_best(problem, evaluator, outcome, options, &best, error);
-        if (status == CZ_OK)
-            cz_problem_write_resolved(best, stream);
-        cz_problem_free(best);
-        CZ_TRY(status);
+        CZ_TRY(write_extending(path, evaluator, outcome, options, stream, error));
+    } else {
+        CZ_TRY(cz_overlay_write_resolved(problem, evaluator, outcome, options, stream, error));
     }
     if (fflush(stream) != 0 || ferror(stream))
         return cz_fail(error, CZ_STATUS_OUTPUT, "the overlay cannot be written: %s",

@@ -66,13 +66,8 @@ static CzStatus write_resolved(const Results *results, FILE *stream, CzError *er
         cz_problem_write_resolved(results->problem, stream);
         return CZ_OK;
     }
-    CzProblem *best = NULL;
-    const CzStatus status = cz_overlay_read_best(results->problem, results->evaluator,
-                                                 results->outcome, results->options, &best, error);
-    if (status == CZ_OK)
-        cz_problem_write_resolved(best, stream);
-    cz_problem_free(best);
-    return status;
+    return cz_overlay_write_resolved(results->problem, results->evaluator, results->outcome,
+                                     results->options, stream, error);
 }
 
 static void write_notice(const CzError *notice, FILE *stream) {

@@ -48,9 +48,35 @@ const CzError *cz_problem_warning(const CzProblem *problem, int index) {
     (void)index;
     return &warning;
 }
+/* The problem remembers with how many settings it was read last, and shows it when resolved. */
+static int n_setting_read;
+CzProblemOptions cz_problem_options_default(void) {
+    return (CzProblemOptions){0};
+}
+CzStatus cz_problem_read(const char *path, const CzProblemOptions *options, CzProblem **problem,
+                         CzError *error) {
+    (void)path;
+    (void)problem;
+    (void)error;
+    n_setting_read = options->n_set;
+    return CZ_OK;
+}
+CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name, const char *folder,
+                              const CzProblemOptions *options, CzProblem **problem,
+                              CzError *error) {
+    (void)n_byte;
+    (void)folder;
+    if (strcmp(text, "broken") != 0)
+        return cz_problem_read(name, options, problem, error);
+    snprintf(error->message, sizeof error->message, "it is broken");
+    return CZ_STATUS_INPUT;
+}
+void cz_problem_free(CzProblem *problem) {
+    (void)problem;
+}
 void cz_problem_write_resolved(const CzProblem *problem, FILE *stream) {
     (void)problem;
-    fputs("schema: 1\n", stream);
+    fprintf(stream, "schema: 1 # %d settings\n", n_setting_read);
 }
 const CzInput *cz_problem_input(const CzProblem *problem) {
     static CzTrain trains[2] = {{.name = "A", .speed = 10}, {.name = "B", .speed = 0}};

@@ -236,7 +236,7 @@ static void a_search_writes_its_outcome_and_the_optimum(void **state) {
     assert_true(is_there("results/best/outcome.json"));
     assert_true(is_there("results/best/summary.json"));
     text = content("results/best/resolved.yaml");
-    assert_non_null(strstr(text, "schema: 1\nset:\n  \"trains.A.vehicles"));
+    assert_string_equal(text, "schema: 1 # 4 settings\n");
     free(text);
     stand_in_file = "two \"trains\".yaml";
 }
@@ -246,15 +246,32 @@ static void a_problem_from_standard_input_is_written_out_whole(void **state) {
     StandIn s;
     CzError error = {0};
     stand_in_fill(&s);
-    stand_in_file = "-";
+    CzReportOptions options = cz_report_options_default();
+    options.text = "schema: 1\n";
+    options.n_text = strlen(options.text);
     assert_int_equal(cz_report_write_outcome_folder(stand_in_problem, stand_in_evaluator,
-                                                    &s.outcome, NULL, "out", &error),
+                                                    &s.outcome, &options, "out", &error),
                      CZ_OK);
     char *text = content("out/optimised.yaml");
     assert_null(strstr(text, "extends"));
-    assert_non_null(strstr(text, "\nschema: 1\nset:\n"));
+    assert_non_null(strstr(text, "\nschema: 1 # 2 settings\n"));
     free(text);
-    stand_in_file = "two \"trains\".yaml";
+}
+
+static void the_best_values_survive_a_problem_that_cannot_be_read_again(void **state) {
+    (void)state;
+    StandIn s;
+    CzError error = {0};
+    stand_in_fill(&s);
+    CzReportOptions options = cz_report_options_default();
+    options.text = "broken";
+    assert_int_equal(cz_report_write_outcome_folder(stand_in_problem, stand_in_evaluator,
+                                                    &s.outcome, &options, "out", &error),
+                     CZ_OK);
+    char *text = content("out/optimised.yaml");
+    assert_non_null(strstr(text, "cannot be read again (it is broken)"));
+    assert_non_null(strstr(text, "[0].force_kN\": 900\n"));
+    free(text);
 }
 
 #define in_work_folder(test)                                                                       \
@@ -272,6 +289,7 @@ int main(void) {
         in_work_folder(the_log_holds_no_times_and_all_warnings),
         in_work_folder(a_search_writes_its_outcome_and_the_optimum),
         in_work_folder(a_problem_from_standard_input_is_written_out_whole),
+        in_work_folder(the_best_values_survive_a_problem_that_cannot_be_read_again),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,6 +68,7 @@ static size_t numbers_of(const CzRun *run, double *number, size_t n_most) {
 
 static void assert_same_run(const CzRun *a, const CzRun *b) {
     static double first[4096], second[4096];
+    assert_string_equal(cz_run_summary(a)->failure, cz_run_summary(b)->failure);
     const size_t n = numbers_of(a, first, 4096);
     assert_int_equal(numbers_of(b, second, 4096), n);
     for (size_t i = 0; i < n; i++) {
@@ -81,15 +82,15 @@ static void assert_same_run(const CzRun *a, const CzRun *b) {
                             sizeof(double) * (size_t)cz_run_n_sample(a));
 }
 
-static CzRun *run_alone(const CzModel *model, const char *isa) {
+static CzRun *run_alone(const CzModel *model, const char *isa, bool record) {
     CzSimulateOptions options = cz_simulate_options_default();
-    options.record = true;
+    options.record = record;
     options.isa = isa;
     CzRun *run = NULL;
     CzError error = {0};
     if (cz_simulate(model, &options, &run, &error) != CZ_OK)
         fail_msg("%s", error.message);
-    assert_int_equal(cz_run_summary(run)->status, CZ_OK);
+    assert_string_equal(cz_run_summary(run)->failure, "");
     return run;
 }
 
@@ -97,10 +98,10 @@ static void check_instruction_sets(const char *file) {
     /* Each set holds the ones before it. */
     const char *const isa[] = {"baseline", "v3", "v4"};
     Case opened = case_open(file);
-    CzRun *reference = run_alone(opened.model, "auto");
+    CzRun *reference = run_alone(opened.model, "auto", true);
     bool is_here = true;
     for (int i = 0; i < 3 && is_here; i++) {
-        CzRun *run = run_alone(opened.model, isa[i]);
+        CzRun *run = run_alone(opened.model, isa[i], true);
         assert_same_run(reference, run);
         cz_run_free(run);
         is_here = strcmp(cz_isa_name(), isa[i]) != 0;
@@ -152,12 +153,12 @@ static void check_batch(const char *file) {
     }
 
     CzSimulateOptions options = cz_simulate_options_default();
-    options.record = true;
+    options.record = false; /* channels are recorded for one design only */
     CzRun *run[N_DESIGN] = {0};
     CzError error = {0};
     if (cz_simulate_batch(opened.model, N_DESIGN, design, &options, run, &error) != CZ_OK)
         fail_msg("%s", error.message);
-    CzRun *alone = run_alone(opened.model, "auto");
+    CzRun *alone = run_alone(opened.model, "auto", false);
     assert_same_run(run[OWN], alone);
 
     /* The neighbours are others, and are themselves the same alone. */

@@ -19,7 +19,7 @@ undeclared_symbols() {
     comm -23 shown.txt declared.txt
 }
 writable_symbols() { # objects in sections that can be written once the program runs
-    objdump -t "$library" | awk '$0 ~ / O \.(data|bss|tdata|tbss)[ \t]/ && $NF !~ /^(completed\.|__dso_handle$)/ { print $NF }'
+    objdump -t "$library" | awk '$0 ~ / O \.(data|bss|tdata|tbss)[ \t]/ && $NF !~ /^(completed\.|__dso_handle|__TMC_END__|__cpu_)/ { print $NF }'
 }
 some_are_declared() { [ "$(declared | wc -l)" -gt 30 ]; }
 

@@ -78,9 +78,19 @@ static void divide_longitudinal(CzDynamics *d) {
     }
 }
 
+/* Bodies up and down: those whose ends are slaved have their one co-ordinate along the track. */
+static void divide_vertical(CzDynamics *d) {
+    const size_t n = d->lanes->n_lane;
+    const double *restrict slaved = P(SLAVED_ENDS), *restrict inverse = P(INVERSE_BODY_MASS);
+    const double *restrict force = G(BODY_Z);
+    double *restrict acceleration = cz_row(d->acceleration, d->stride, CZ_DOF_BODY_Z);
+    CZ_LANES(i, n)
+    { acceleration[i] = (1.0 - slaved[i]) * force[i] * inverse[i]; }
+}
+
 static void divide_by_masses(CzDynamics *d) {
     divide_longitudinal(d);
-    divide(d, CZ_DOF_BODY_Z, P(INVERSE_BODY_MASS));
+    divide_vertical(d);
     divide(d, CZ_DOF_BODY_PITCH, P(INVERSE_BODY_INERTIA));
     for (int end = 0; end < 2; ++end) {
         divide(d, CZ_DOF_END_Z_REAR + 3 * end, P_AT(INVERSE_END_MASS_REAR, end));

@@ -102,8 +102,13 @@ static void print_digits(char text[CZ_NUMBER_TEXT], int digits, double value) {
     snprintf(text, CZ_NUMBER_TEXT, "%.*e", digits - 1, value);
     const char *exponent = strchr(text, 'e');
     const int power = exponent != NULL ? atoi(exponent + 1) : 0;
-    if (exponent == NULL || power < -5 || power > 8)
+    if (exponent == NULL)
         return;
+    if (power < -5 || power > 15) {
+        if (digits == 1) /* YAML 1.1 takes 1e+20 for text, 1.0e+20 for a number */
+            snprintf(text, CZ_NUMBER_TEXT, "%.1e", value);
+        return;
+    }
     const int n_decimal = digits - 1 - power;
     snprintf(text, CZ_NUMBER_TEXT, "%.*f", n_decimal > 0 ? n_decimal : 0, value);
 }

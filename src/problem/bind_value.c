@@ -57,9 +57,9 @@ static bool is_in_range(CzReader *reader, const CzKey *key, const CzUnit *unit,
 bool cz_bind_number(CzReader *reader, const CzKey *key, const CzUnit *unit, const CzNode *key_node,
                     const CzNode *value, const CzTrail *trail, double *number) {
     double typed;
-    if (value->match > 0) { /* stands for any number */
+    if (value->match > 0) /* stands for any number */
         return true;
-    }
+    *number = NAN; /* what is no number breaks no rule */
     if (!is_bare(reader, key_node->text, "a number", value, trail))
         return false;
     const char *wrong = cz_number_parse(value->text, &typed);

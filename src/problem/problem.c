@@ -108,10 +108,10 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     if (problem->setting == NULL)
         return;
     cz_problem_bind(problem, &problem->tree);
-    if (!reader->mistakes.out_of_memory)
-        cz_profile_read(problem);
-    if (reader->mistakes.n_mistake == 0 && !reader->mistakes.out_of_memory)
-        cz_rules_check(problem);
+    if (reader->mistakes.out_of_memory)
+        return;
+    cz_profile_read(problem);
+    cz_rules_check(problem);
 }
 
 /* Sorts what was found and tells the first mistake. */

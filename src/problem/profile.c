@@ -1,6 +1,154 @@
-/* Profiles of limits. */
+/* Profiles of limits: reading one and keeping what its category asks for. */
+#include <dirent.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/suggest.h"
 #include "problem/reader.h"
 
+enum { LONGEST_NAME = 96 };
+
+/* Offers the names of all profiles in a folder; the nearest is copied to `best`. */
+static void suggest_profiles(CzSuggestion *suggestion, char best[LONGEST_NAME], const char *folder,
+                             const char *name) {
+    char path[512], known[LONGEST_NAME];
+    snprintf(path, sizeof path, "%s/profiles", folder);
+    DIR *directory = opendir(path);
+    if (directory == NULL)
+        return;
+    for (struct dirent *file = readdir(directory); file != NULL; file = readdir(directory)) {
+        const char *end = strstr(file->d_name, ".yaml");
+        if (end == NULL || end[5] != '\0' || end - file->d_name >= LONGEST_NAME)
+            continue;
+        snprintf(known, sizeof known, "%.*s", (int)(end - file->d_name), file->d_name);
+        cz_suggest(suggestion, name, known);
+        if (suggestion->best == known)
+            suggestion->best = strcpy(best, known);
+    }
+    closedir(directory);
+}
+
+/* Path of the profile that `named` names; NULL with a mistake when there is none. */
+static const char *locate(CzReader *reader, const CzPlace *named) {
+    const char *name = named->value->text;
+    const char *folders[] = {named->value->source->folder, reader->share_folder};
+    char file[LONGEST_NAME + 20], best[LONGEST_NAME];
+    CzSuggestion suggestion = {0};
+    snprintf(file, sizeof file, "profiles/%.*s.yaml", LONGEST_NAME, name);
+    for (int i = 0; i < 2; i++) {
+        const char *path =
+            folders[i] != NULL ? cz_path_join(&reader->arena, folders[i], file) : NULL;
+        if (path != NULL && cz_path_exists(path))
+            return path;
+        if (folders[i] != NULL)
+            suggest_profiles(&suggestion, best, folders[i], name);
+    }
+    cz_mistake(&reader->mistakes, named->value, named->trail,
+               "there is no profile '%.96s': no file profiles/%.96s.yaml", name, name);
+    cz_mistake_suggest(&reader->mistakes, suggestion.best);
+    return NULL;
+}
+
+/* ---- categories ---- */
+
+static bool has_text(const CzTexts *texts, const char *text) {
+    for (int i = 0; i < texts->n_text; i++)
+        if (strcmp(texts->text[i], text) == 0)
+            return true;
+    return false;
+}
+
+/* The categories of a profile, for did-you-mean. */
+static void suggest_categories(CzSuggestion *suggestion, const CzProfile *profile,
+                               const char *category, bool *is_known, bool *has_any) {
+    if (profile->category != NULL) {
+        *has_any = true;
+        *is_known |= strcmp(profile->category, category) == 0;
+        cz_suggest(suggestion, category, profile->category);
+    }
+    for (int i = 0; i < profile->n_limits; i++) {
+        const CzTexts *categories = &profile->limits[i].categories;
+        *has_any |= categories->n_text > 0;
+        *is_known |= has_text(categories, category);
+        for (int k = 0; k < categories->n_text; k++)
+            cz_suggest(suggestion, category, categories->text[k]);
+    }
+}
+
+static void check_category(CzReader *reader, const CzProfile *profile, const CzChecks *checks,
+                           const CzPlace *named) {
+    CzSuggestion suggestion = {0};
+    bool is_known = false, has_any = false;
+    const char *category = checks->category != NULL ? checks->category : "";
+    suggest_categories(&suggestion, profile, category, &is_known, &has_any);
+    const CzPlace *place = cz_places_find(&reader->places, &checks->category);
+    if (checks->category == NULL && has_any) {
+        cz_mistake(&reader->mistakes, named->value, named->trail,
+                   "profile '%.96s' has limits by category; 'checks' must name one",
+                   named->value->text);
+    } else if (checks->category != NULL && !has_any) {
+        cz_mistake(&reader->warnings, place->value, place->trail,
+                   "profile '%.96s' knows no categories: all its limits hold for '%.96s'",
+                   named->value->text, category);
+    } else if (checks->category != NULL && !is_known) {
+        cz_mistake(&reader->mistakes, place->value, place->trail,
+                   "profile '%.96s' has no category '%.96s'", named->value->text, category);
+        cz_mistake_suggest(&reader->mistakes, suggestion.best);
+    }
+}
+
+static bool holds_for(const CzLimit *limit, const char *category) {
+    return limit->categories.n_text == 0 ||
+           (category != NULL && has_text(&limit->categories, category));
+}
+
+/* The profile's tree without the limits of other categories; NULL without memory. */
+static const CzNode *keep_category(CzReader *reader, const CzNode *top, const CzProfile *profile,
+                                   const char *category) {
+    CzNode *kept = cz_node_copy(&reader->arena, top, 0);
+    for (int i = 0; kept != NULL && i < kept->n_entry; i++) {
+        if (strcmp(kept->entry[i].key->text, "limits") != 0)
+            continue;
+        CzNode *list = cz_node_copy(&reader->arena, kept->entry[i].value, 0);
+        if (list == NULL)
+            return NULL;
+        list->n_entry = 0;
+        for (int k = 0; k < profile->n_limits; k++)
+            if (holds_for(&profile->limits[k], category))
+                list->entry[list->n_entry++] = kept->entry[i].value->entry[k];
+        kept->entry[i].value = list;
+    }
+    return kept;
+}
+
+static void bind_profile(CzProblem *problem, const CzNode *top, const CzPlace *named) {
+    CzReader *reader = &problem->reader;
+    const CzTree no_parts = {0};
+    const CzChecks *checks = &problem->input.checks;
+    CzProfile all = {0};
+    cz_bind_record(reader, &no_parts, CZ_RECORD_CzProfile, top, &cz_no_trail, &all);
+    check_category(reader, &all, checks, named);
+    const CzNode *kept = keep_category(reader, top, &all, checks->category);
+    if (kept == NULL)
+        reader->mistakes.out_of_memory = true;
+    else
+        cz_bind_record(reader, &no_parts, CZ_RECORD_CzProfile, kept, &cz_no_trail,
+                       &problem->profile);
+}
+
 void cz_profile_read(CzProblem *problem) {
-    (void)problem;
+    CzReader *reader = &problem->reader;
+    const CzChecks *checks = &problem->input.checks;
+    if (!checks->given || checks->profile == NULL)
+        return;
+    const CzPlace named = *cz_places_find(&reader->places, &checks->profile);
+    const char *path = locate(reader, &named);
+    const CzNode *top = path != NULL ? cz_load_file(reader, path, named.value) : NULL;
+    if (top == NULL)
+        return;
+    const CzNode *profile = cz_node_without(&reader->arena, top, "schema");
+    if (profile == NULL)
+        reader->mistakes.out_of_memory = true;
+    else
+        bind_profile(problem, profile, &named);
 }

@@ -171,12 +171,13 @@ void cz_bind_table(CzReader *reader, const CzKey *key, const CzNode *node, const
 
 /* ---- rules ---- */
 
-/* Checks what must hold between the values of a problem without other mistakes. */
+/* Checks what must hold between the values. Values that could not be read are NaN and break no
+ * rule, so that the rules hold even for a problem with other mistakes. */
 void cz_rules_check(CzProblem *problem);
 
 /* ---- profile.c ---- */
 
-/* Reads the profile that the problem names and keeps the limits of its category. */
+/* Reads the profile that the problem names, with the limits of its category. */
 void cz_profile_read(CzProblem *problem);
 
 /* ---- problem.c ---- */

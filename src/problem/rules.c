@@ -1,6 +1,84 @@
-/* What must hold between the values of a problem. */
-#include "problem/reader.h"
+/* What must hold between the values of a problem: going through the records. */
+#include "problem/rules.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "base/number.h"
+
+static void tell(const CzRules *rules, CzMistakes *mistakes, const void *field, const char *format,
+                 va_list arguments) {
+    char sentence[400];
+    const CzPlace *place = cz_places_find(&rules->reader->places, field);
+    if (place == NULL)
+        return;
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    const bool is_value = place->value != NULL && place->value->kind == CZ_NODE_TEXT;
+    cz_mistake(mistakes, is_value ? place->value : place->node, place->trail, "%s", sentence);
+}
+
+void cz_rule_broken(const CzRules *rules, const void *field, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    tell(rules, &rules->reader->mistakes, field, format, arguments);
+    va_end(arguments);
+}
+
+void cz_rule_warning(const CzRules *rules, const void *field, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    tell(rules, &rules->reader->warnings, field, format, arguments);
+    va_end(arguments);
+}
+
+bool cz_rule_is_written(const CzRules *rules, const void *field) {
+    const CzPlace *place = cz_places_find(&rules->reader->places, field);
+    return place != NULL && place->address == field && place->key != NULL;
+}
+
+const char *cz_rule_text(char text[48], double si, const char *unit, double unit_si) {
+    char number[CZ_NUMBER_TEXT];
+    snprintf(text, 48, "%s %s", cz_number_print_short(number, si / unit_si), unit);
+    return text;
+}
+
+double cz_rule_stroke(const CzStage *stages, int n_stage, const CzTable *curve) {
+    if (curve != NULL && curve->given)
+        return curve->x[curve->n_point - 1];
+    double stroke = 0;
+    for (int i = 0; i < n_stage; i++)
+        stroke += stages[i].stroke;
+    return stroke;
+}
+
+/* A step of the simulation cannot be longer than what is written out. */
+static void check_simulation(const CzRules *rules) {
+    const CzSimulation *simulation = &rules->input->simulation;
+    char step[48], output[48];
+    if (simulation->time_step > simulation->output_step)
+        cz_rule_broken(rules, &simulation->time_step,
+                       "a time step of %s is longer than the output step of %s",
+                       cz_rule_text(step, simulation->time_step, "ms", 1e-3),
+                       cz_rule_text(output, simulation->output_step, "ms", 1e-3));
+    const CzAdhesion *adhesion = &simulation->adhesion;
+    if (adhesion->given && adhesion->sliding_friction > adhesion->friction)
+        cz_rule_broken(rules, &adhesion->sliding_friction,
+                       "sliding_friction %g is above the peak friction %g",
+                       adhesion->sliding_friction, adhesion->friction);
+}
 
 void cz_rules_check(CzProblem *problem) {
-    (void)problem;
+    const CzRules rules = {problem, &problem->reader, &problem->input};
+    check_simulation(&rules);
+    for (int i = 0; i < problem->n_vehicle; i++) {
+        const CzVehicle *vehicle = &problem->vehicle[i];
+        if (!vehicle->given)
+            continue;
+        cz_rules_check_vehicle(&rules, vehicle);
+        cz_rules_check_end(&rules, vehicle, &vehicle->front);
+        cz_rules_check_end(&rules, vehicle, &vehicle->rear);
+    }
+    cz_rules_check_trains(&rules);
+    cz_rules_check_scenarios(&rules);
+    cz_rules_check_design(&rules);
 }

@@ -67,7 +67,9 @@ static int gather_options(CzReader *reader, const CzProblemOptions *options, CzS
     size_t n_byte = 0;
     char *text = join_lines(options, &n_byte);
     const CzSource *source =
-        text != NULL ? cz_sources_add(&reader->sources, "--set", ".", text, n_byte) : NULL;
+        text != NULL
+            ? cz_sources_add(&reader->sources, "--set", reader->sources.first->folder, text, n_byte)
+            : NULL;
     int n_setting = 0;
     if (source == NULL)
         reader->mistakes.out_of_memory = true;

@@ -14,6 +14,9 @@ set(CZ_SOURCES_problem
     profile.c
     reduce_curve.c
     rules.c
+    rules_design.c
+    rules_end.c
+    rules_train.c
     settings.c
     source.c
     trains.c

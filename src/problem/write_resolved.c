@@ -2,6 +2,7 @@
  * comments. Reading it gives the same input to the last bit. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -24,8 +25,9 @@ static void write_record(const Writer *writer, const CzRecord *record, const cha
 static bool is_plain(const char *text) {
     const bool has_letter =
         (text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z');
-    return has_letter && strcmp(text, "null") != 0 &&
-           text[strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-")] ==
+    return has_letter && strcmp(text, "null") != 0 && text[strlen(text) - 1] != ' ' &&
+           text[strspn(text,
+                       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./ ")] ==
                '\0';
 }
 
@@ -135,6 +137,121 @@ static void write_table(const Writer *writer, const CzKey *key, const CzTable *t
                 cz_number_print(y, table->y[i]));
 }
 
+/* ---- design variables ----
+ *
+ * Parts and copies are written out, so a variable's path through a part names the vehicles' places
+ * instead, with the unit of its key kept for min and max. */
+
+/* Writes the path of a number inside a record, such as ".front.stages[0].force". */
+static bool write_inner_path(char *text, size_t size, const CzRecord *record, size_t offset) {
+    for (int i = 0; i < record->n_key; i++) {
+        const CzKey *key = &record->key[i];
+        const CzRecord *inside = &cz_records[key->child];
+        char rest[CZ_MAX_PLACE];
+        const size_t at = offset - key->offset;
+        if (key->kind == CZ_KEY_NUMBER && offset == key->offset) {
+            snprintf(text, size, ".%s", key->stem);
+            return true;
+        }
+        if (offset < key->offset)
+            continue;
+        if (key->kind == CZ_KEY_CHILD && at < inside->size &&
+            write_inner_path(rest, sizeof rest, inside, at)) {
+            snprintf(text, size, ".%s%s", key->stem, rest);
+            return true;
+        }
+        if (key->kind == CZ_KEY_STAGES && at < CZ_MAX_STAGES * inside->size &&
+            write_inner_path(rest, sizeof rest, inside, at % inside->size)) {
+            snprintf(text, size, ".%s[%zu]%s", key->stem, at / inside->size, rest);
+            return true;
+        }
+    }
+    return false;
+}
+
+static void write_target(const Writer *writer, const CzTarget *target) {
+    const CzInput *input = &writer->problem->input;
+    char inner[CZ_MAX_PLACE] = "";
+    int train = 0, vehicle = target->vehicle;
+    while (vehicle >= input->trains[train].n_vehicles)
+        vehicle -= input->trains[train++].n_vehicles;
+    write_inner_path(inner, sizeof inner, &cz_records[CZ_RECORD_CzVehicle], target->offset);
+    fprintf(writer->stream, "\"trains.%s.vehicles.%s%s%s%s\"", input->trains[train].name,
+            writer->problem->vehicle[target->vehicle].name, inner,
+            target->suffix[0] != '\0' ? "_" : "", target->suffix);
+}
+
+/* Writes one variable that drives the places of one match, or of all matches when `match` < 0. */
+static void write_variable(const Writer *writer, const CzVariable *variable, const char *name,
+                           const CzTarget *target, int n_target, int match, int indent) {
+    const CzRecord *record = &cz_records[CZ_RECORD_CzVariable];
+    const char *before = "";
+    write_key(writer, "name", "", indent, "- ");
+    fputc(' ', writer->stream);
+    write_text(writer->stream, name);
+    fputc('\n', writer->stream);
+    write_key(writer, "paths", "", indent, "");
+    fputs(" [", writer->stream);
+    for (int i = 0; i < n_target; i++) {
+        if (match >= 0 && target[i].match != match)
+            continue;
+        fputs(before, writer->stream);
+        write_target(writer, &target[i]);
+        before = ", ";
+    }
+    fputs("]\n", writer->stream);
+    for (int i = 0; i < record->n_key; i++)
+        if (record->key[i].kind == CZ_KEY_NUMBER)
+            write_value(writer, &record->key[i], (const char *)variable + record->key[i].offset,
+                        indent, "");
+}
+
+/* Targets of all paths of a variable; false when they cannot be found. */
+static bool find_targets(const CzProblem *problem, const CzVariable *variable, CzTarget **targets,
+                         int *n_target) {
+    const int n_path = variable->path != NULL ? 1 : variable->paths.n_text;
+    *targets = NULL;
+    *n_target = 0;
+    for (int i = 0; i < n_path; i++) {
+        const char *path = variable->path != NULL ? variable->path : variable->paths.text[i];
+        CzTarget *more = NULL;
+        int n_more = 0;
+        if (cz_problem_find(problem, path, &more, &n_more, NULL) != CZ_OK)
+            return false;
+        CzTarget *all = realloc(*targets, (size_t)(*n_target + n_more) * sizeof **targets);
+        if (all != NULL) {
+            memcpy(all + *n_target, more, (size_t)n_more * sizeof **targets);
+            *targets = all;
+            *n_target += n_more;
+        }
+        free(more);
+        if (all == NULL)
+            return false;
+    }
+    return *n_target > 0;
+}
+
+static void write_variables(const Writer *writer, const CzVariable *variable, int indent) {
+    CzTarget *target = NULL;
+    int n_target = 0;
+    const bool is_found = find_targets(writer->problem, variable, &target, &n_target);
+    const int n_match = is_found && variable->path != NULL ? target[n_target - 1].match + 1 : 1;
+    const char *name = variable->name != NULL   ? variable->name
+                       : variable->path != NULL ? variable->path
+                                                : variable->paths.text[0];
+    if (!is_found)
+        write_record(writer, &cz_records[CZ_RECORD_CzVariable], (const char *)variable, indent,
+                     "- ");
+    else if (n_match == 1)
+        write_variable(writer, variable, name, target, n_target, -1, indent);
+    for (int match = 0, i = 0; n_match > 1 && match < n_match; match++) {
+        while (target[i].match != match)
+            i++;
+        write_variable(writer, variable, target[i].place, target, n_target, match, indent);
+    }
+    free(target);
+}
+
 /* Records of a list: stages by value, others by pointer. */
 static void write_list(const Writer *writer, const CzKey *key, const char *memory, int indent) {
     const CzRecord *record = &cz_records[key->child];
@@ -144,7 +261,9 @@ static void write_list(const Writer *writer, const CzKey *key, const char *memor
         item = *(const char *const *)(const void *)item;
     const int column = write_key(writer, key->stem, "", indent, "");
     write_origin(writer, key, memory + key->offset, column);
-    for (int i = 0; i < n_item; i++)
+    for (int i = 0; i < n_item && key->child == CZ_RECORD_CzVariable; i++)
+        write_variables(writer, (const CzVariable *)(const void *)item + i, indent + 4);
+    for (int i = 0; i < n_item && key->child != CZ_RECORD_CzVariable; i++)
         write_record(writer, record, item + (size_t)i * record->size, indent + 4, "- ");
 }
 

@@ -1,0 +1,121 @@
+/* Rules of limits and design variables. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/number.h"
+#include "base/suggest.h"
+#include "problem/rules.h"
+
+/* ---- limits ---- */
+
+static void check_scenario_named(const CzRules *rules, const char *const *name) {
+    CzSuggestion suggestion = {0};
+    for (int i = 0; i < rules->input->n_scenarios; i++) {
+        const char *known = rules->input->scenarios[i].name;
+        if (known != NULL && strcmp(known, *name) == 0)
+            return;
+        if (known != NULL)
+            cz_suggest(&suggestion, *name, known);
+    }
+    cz_rule_broken(rules, name, "there is no scenario '%.48s'", *name);
+    cz_mistake_suggest(&rules->reader->mistakes, suggestion.best);
+}
+
+static void check_limits(const CzRules *rules, const CzLimit *limits, int n_limit) {
+    for (int i = 0; i < n_limit; i++) {
+        const CzLimit *limit = &limits[i];
+        const bool has_min = cz_rule_is_written(rules, &limit->min);
+        const bool has_max = cz_rule_is_written(rules, &limit->max);
+        if (limit->given && has_min == has_max)
+            cz_rule_broken(rules, has_min ? (const void *)&limit->min : limit,
+                           "a limit has 'max' or 'min', and only one of them");
+        for (int k = 0; k < limit->scenarios.n_text; k++)
+            check_scenario_named(rules, &limit->scenarios.text[k]);
+    }
+}
+
+/* ---- variables ---- */
+
+/* Range of a variable against the range of the key that its path ends in. */
+static void check_target(const CzRules *rules, const CzVariable *variable, const char *const *path,
+                         const CzTarget *target) {
+    if (!target->may_vary) {
+        cz_rule_broken(rules, path, "'%.120s' is data, not a design variable", *path);
+        cz_mistake_help(&rules->reader->mistakes,
+                        "stage forces and strokes, trigger and shear-off forces and "
+                        "gaps may vary");
+        return;
+    }
+    const void *field = (const char *)&rules->problem->vehicle[target->vehicle] + target->offset;
+    const CzPlace *place = cz_places_find(&rules->reader->places, field);
+    if (place == NULL || place->address != field || place->key == NULL)
+        return;
+    char limit[CZ_NUMBER_TEXT];
+    const double lo = place->key->lo / target->unit, hi = place->key->hi / target->unit;
+    if (variable->min < lo)
+        cz_rule_broken(rules, &variable->min, "%s can be no smaller than %s %s", place->key->stem,
+                       cz_number_print_short(limit, lo), target->suffix);
+    if (variable->max > hi)
+        cz_rule_broken(rules, &variable->max, "%s can be no larger than %s %s", place->key->stem,
+                       cz_number_print_short(limit, hi), target->suffix);
+}
+
+static void check_path(const CzRules *rules, const CzVariable *variable, const char *const *path) {
+    CzTarget *target = NULL;
+    CzError error = {0};
+    int n_target = 0;
+    const CzStatus status = cz_problem_find(rules->problem, *path, &target, &n_target, &error);
+    if (status == CZ_STATUS_NO_MEMORY)
+        rules->reader->mistakes.out_of_memory = true;
+    if (status == CZ_STATUS_INPUT) {
+        cz_rule_broken(rules, path, "%s", error.message);
+        if (error.help[0] != '\0')
+            cz_mistake_help(&rules->reader->mistakes, "%s", error.help);
+    }
+    for (int i = 0; i < n_target; i++)
+        if (i == 0 || target[i].match != target[i - 1].match)
+            check_target(rules, variable, path, &target[i]);
+    free(target);
+}
+
+static void check_bounds(const CzRules *rules, const CzVariable *variable) {
+    if (variable->min >= variable->max)
+        cz_rule_broken(rules, &variable->min, "min %g must be below max %g", variable->min,
+                       variable->max);
+    else if (variable->start < variable->min || variable->start > variable->max)
+        cz_rule_broken(rules, &variable->start, "start %g must lie within %g to %g",
+                       variable->start, variable->min, variable->max);
+    if (variable->step > variable->max - variable->min)
+        cz_rule_broken(rules, &variable->step,
+                       "a step of %g leaves no second value within %g to %g", variable->step,
+                       variable->min, variable->max);
+}
+
+static void check_variable(const CzRules *rules, const CzVariable *variable) {
+    const bool has_path = cz_rule_is_written(rules, &variable->path);
+    const bool has_paths = cz_rule_is_written(rules, &variable->paths);
+    if (has_path == has_paths)
+        cz_rule_broken(rules, has_path ? (const void *)&variable->paths : variable,
+                       "a variable has 'path' or 'paths', and only one of them");
+    check_bounds(rules, variable);
+    if (variable->path != NULL)
+        check_path(rules, variable, &variable->path);
+    for (int i = 0; i < variable->paths.n_text; i++)
+        check_path(rules, variable, &variable->paths.text[i]);
+}
+
+void cz_rules_check_design(const CzRules *rules) {
+    const CzInput *input = rules->input;
+    check_limits(rules, input->checks.limits, input->checks.n_limits);
+    check_limits(rules, rules->problem->profile.limits, rules->problem->profile.n_limits);
+    check_limits(rules, input->optimise.targets, input->optimise.n_targets);
+    for (int i = 0; i < input->checks.n_limits; i++)
+        if (input->checks.limits[i].categories.n_text > 0)
+            cz_rule_broken(rules, &input->checks.limits[i].categories,
+                           "categories belong to the limits of a profile");
+    for (int i = 0; i < input->optimise.n_variables; i++)
+        if (input->optimise.variables[i].given)
+            check_variable(rules, &input->optimise.variables[i]);
+}

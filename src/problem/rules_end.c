@@ -1,0 +1,252 @@
+/* Rules of one vehicle end and of the devices on it. */
+#include <math.h>
+
+#include "problem/rules.h"
+
+enum { MOST_END_STAGES = 4 };
+
+/* ---- curves ---- */
+
+static bool is_there(const CzRules *rules, const void *field) {
+    return cz_rule_is_written(rules, field);
+}
+
+/* A device needs stages or a curve, and only one of them. */
+static void check_law(const CzRules *rules, const void *record, const char *what,
+                      const CzStage *stages, const CzTable *curve) {
+    const bool has_stages = is_there(rules, stages), has_curve = is_there(rules, curve);
+    if (!has_stages && !has_curve)
+        cz_rule_broken(rules, record, "%s needs 'stages' or a 'curve'", what);
+    if (has_stages && has_curve)
+        cz_rule_broken(rules, curve,
+                       "%s has 'stages' and a 'curve'; one of them must go (stages: null)", what);
+}
+
+static void check_curve_start(const CzRules *rules, const CzTable *curve) {
+    char text[48];
+    if (curve->given && curve->x[0] != 0)
+        cz_rule_broken(rules, curve, "a curve must begin at stroke 0, but this one begins at %s",
+                       CZ_MM(text, curve->x[0]));
+}
+
+/* Plateaus of a tube or an anti-climber carry a force. */
+static void check_plateaus(const CzRules *rules, const CzStage *stages, int n_stage) {
+    for (int i = 0; i < n_stage; i++)
+        if (stages[i].force <= 0)
+            cz_rule_broken(rules, &stages[i].force, "a plateau without force absorbs nothing");
+}
+
+/* The peak that starts the flow is no lower than what follows. */
+static void check_trigger(const CzRules *rules, const double *trigger, const CzStage *stages,
+                          int n_stage, const CzTable *curve) {
+    char peak[48], first[48];
+    const double plateau = curve->given ? curve->y[0] : n_stage > 0 ? stages[0].force : NAN;
+    if (*trigger < plateau)
+        cz_rule_broken(rules, trigger, "a trigger of %s is below the first plateau of %s",
+                       CZ_KN(peak, *trigger), CZ_KN(first, plateau));
+}
+
+/* A curve measured at speed already holds the rise with the rate. */
+static void check_rate(const CzRules *rules, const double *factor, const CzTable *curve) {
+    if (curve->given && curve->basis == CZ_BASIS_DYNAMIC && *factor > 0)
+        cz_rule_broken(
+            rules, factor,
+            "a dynamic curve already holds the rise with the speed; this would count it twice");
+}
+
+/* A device is longer than its usable stroke. */
+static void check_installed(const CzRules *rules, const double *installed, double efficiency,
+                            double stroke) {
+    char stroke_text[48], length[48], usable[48];
+    if (stroke > efficiency * *installed * (1 + 1e-12))
+        cz_rule_broken(rules, installed,
+                       "a stroke of %s does not fit: %s installed at an efficiency of %g give %s",
+                       CZ_MM(stroke_text, stroke), CZ_MM(length, *installed), efficiency,
+                       CZ_MM(usable, efficiency * *installed));
+}
+
+/* ---- devices ---- */
+
+static void check_buffer(const CzRules *rules, const CzBuffer *buffer) {
+    char now[48], before[48];
+    double force = buffer->preload;
+    for (int i = 0; buffer->given && i < buffer->n_stages; i++) {
+        if (buffer->stages[i].force < force)
+            cz_rule_broken(rules, &buffer->stages[i].force,
+                           "a buffer's force cannot fall while it is pressed: %s after %s",
+                           CZ_KN(now, buffer->stages[i].force), CZ_KN(before, force));
+        force = buffer->stages[i].force;
+    }
+}
+
+static void check_tube(const CzRules *rules, const CzTube *tube) {
+    if (!tube->given)
+        return;
+    check_law(rules, tube, "a tube", tube->stages, &tube->curve);
+    check_curve_start(rules, &tube->curve);
+    check_plateaus(rules, tube->stages, tube->n_stages);
+    check_trigger(rules, &tube->trigger, tube->stages, tube->n_stages, &tube->curve);
+    check_rate(rules, &tube->rate_factor, &tube->curve);
+    check_installed(rules, &tube->installed_length, tube->efficiency,
+                    cz_rule_stroke(tube->stages, tube->n_stages, &tube->curve));
+}
+
+static double tube_stroke(const CzTube *tube) {
+    return tube->given ? cz_rule_stroke(tube->stages, tube->n_stages, &tube->curve) : 0;
+}
+
+static double coupler_stroke(const CzCoupler *coupler) {
+    return cz_rule_stroke(coupler->buffer.stages, coupler->buffer.n_stages, NULL) +
+           tube_stroke(&coupler->tube) + tube_stroke(&coupler->second_tube);
+}
+
+static void check_coupler(const CzRules *rules, const CzVehicle *vehicle,
+                          const CzCoupler *coupler) {
+    char stroke[48], length[48];
+    if (!coupler->given)
+        return;
+    check_buffer(rules, &coupler->buffer);
+    check_tube(rules, &coupler->tube);
+    check_tube(rules, &coupler->second_tube);
+    if (coupler_stroke(coupler) >= coupler->length)
+        cz_rule_broken(rules, &coupler->length,
+                       "buffer and tubes have a stroke of %s in a coupler of %s",
+                       CZ_MM(stroke, coupler_stroke(coupler)), CZ_MM(length, coupler->length));
+    if (coupler->anchor == CZ_ANCHOR_END && vehicle->model != CZ_MODEL_FULL)
+        cz_rule_broken(rules, &coupler->anchor,
+                       "only a full vehicle has an end mass that a coupler can be anchored to");
+}
+
+static void check_anti_climber(const CzRules *rules, const CzAntiClimber *device) {
+    if (!device->given)
+        return;
+    check_law(rules, device, "an anti-climber", device->stages, &device->curve);
+    check_curve_start(rules, &device->curve);
+    check_plateaus(rules, device->stages, device->n_stages);
+    check_trigger(rules, &device->trigger, device->stages, device->n_stages, &device->curve);
+    check_rate(rules, &device->rate_factor, &device->curve);
+    check_rate(rules, &device->speed_factor, &device->curve);
+    check_installed(rules, &device->installed_length, device->efficiency,
+                    cz_rule_stroke(device->stages, device->n_stages, &device->curve));
+}
+
+/* ---- the crushable structure ---- */
+
+static void check_zones(const CzRules *rules, const CzEnd *end) {
+    for (int i = 1; i < end->n_stages; i++)
+        if (end->stages[i].zone < end->stages[i - 1].zone)
+            cz_rule_broken(
+                rules, &end->stages[i].zone,
+                "%s space cannot lie behind %s space: the stages go from the front inwards",
+                cz_word_sets[CZ_WORDS_ZONE].word[end->stages[i].zone].word,
+                cz_word_sets[CZ_WORDS_ZONE].word[end->stages[i - 1].zone].word);
+}
+
+/* Steepest rise of the loading curve [N/m]. */
+static double steepest_rise(const CzEnd *end) {
+    double steepest = 0, force = 0;
+    for (int i = 0; i < end->n_stages; i++) {
+        steepest = fmax(steepest, (end->stages[i].force - force) / end->stages[i].stroke);
+        force = end->stages[i].force;
+    }
+    for (int i = 1; i < end->curve.n_point; i++)
+        steepest = fmax(steepest, (end->curve.y[i] - end->curve.y[i - 1]) /
+                                      (end->curve.x[i] - end->curve.x[i - 1]));
+    return steepest;
+}
+
+static void check_unloading(const CzRules *rules, const CzEnd *end) {
+    char stiffness[48], rise[48];
+    const double steepest = steepest_rise(end);
+    if (end->unloading_stiffness < steepest * (1 - 1e-12))
+        cz_rule_broken(
+            rules, &end->unloading_stiffness,
+            "an end cannot unload more softly than it was loaded: %s against %s in its steepest "
+            "stage",
+            cz_rule_text(stiffness, end->unloading_stiffness, "MN/m", 1e6),
+            cz_rule_text(rise, steepest, "MN/m", 1e6));
+}
+
+/* Stroke in front of the occupied space [m]. */
+static double free_stroke(const CzEnd *end) {
+    double stroke = 0;
+    if (end->curve.given)
+        return end->curve.x[end->curve.n_point - 1];
+    for (int i = 0; i < end->n_stages; i++)
+        stroke += end->stages[i].zone == CZ_ZONE_OCCUPIED ? 0 : end->stages[i].stroke;
+    return stroke;
+}
+
+static void check_available(const CzRules *rules, const CzEnd *end) {
+    char stroke_text[48], available[48];
+    const CzAntiClimber *device = &end->anti_climber;
+    double stroke = free_stroke(end);
+    if (device->given)
+        stroke += cz_rule_stroke(device->stages, device->n_stages, &device->curve);
+    if (stroke > end->available_length * (1 + 1e-12))
+        cz_rule_broken(
+            rules, &end->available_length,
+            "anti-climber and end crush %s in front of the occupied space, but only %s are there",
+            CZ_MM(stroke_text, stroke), CZ_MM(available, end->available_length));
+}
+
+static void check_structure(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end) {
+    const bool is_rigid = !is_there(rules, end->stages) && !is_there(rules, &end->curve);
+    if (!is_rigid || vehicle->model == CZ_MODEL_FULL) /* others may have a rigid end */
+        check_law(rules, end, "an end", end->stages, &end->curve);
+    check_curve_start(rules, &end->curve);
+    if (end->n_stages > MOST_END_STAGES)
+        cz_rule_broken(rules, end->stages, "an end has %d stages; %d is the most", end->n_stages,
+                       (int)MOST_END_STAGES);
+    for (int i = 0; i < end->n_stages; i++)
+        if (end->stages[i].force <= 0)
+            cz_rule_broken(rules, &end->stages[i].force, "a stage of an end must end at a force");
+    check_zones(rules, end);
+    check_unloading(rules, end);
+    check_available(rules, end);
+}
+
+/* ---- devices side by side ---- */
+
+static void check_gaps(const CzRules *rules, const CzEnd *end) {
+    char gap[48], other[48];
+    const CzAntiClimber *device = &end->anti_climber;
+    const CzCoupler *coupler = &end->coupler;
+    if (device->given && device->gap >= end->face_gap)
+        cz_rule_broken(
+            rules, &device->gap,
+            "an anti-climber %s behind the foremost plane lies behind the bare end at %s",
+            CZ_MM(gap, device->gap), CZ_MM(other, end->face_gap));
+    if (!device->given || !coupler->given)
+        return;
+    if (device->gap > coupler->gap + coupler->length)
+        cz_rule_broken(
+            rules, &device->gap,
+            "an anti-climber %s behind the foremost plane is never reached: the coupler is only %s "
+            "long",
+            CZ_MM(gap, device->gap), CZ_MM(other, coupler->length));
+    const double travel = coupler_stroke(coupler) + coupler->shear_off.retraction_space;
+    if (coupler->shear_off.given && coupler->gap + travel < device->gap)
+        cz_rule_broken(
+            rules, &coupler->shear_off.retraction_space,
+            "the released coupler comes to its stop after %s, before the anti-climber is met at %s",
+            CZ_MM(other, coupler->gap + travel), CZ_MM(gap, device->gap));
+}
+
+void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end) {
+    char distance[48], half[48];
+    if (!end->given)
+        return;
+    check_structure(rules, vehicle, end);
+    check_coupler(rules, vehicle, &end->coupler);
+    check_anti_climber(rules, &end->anti_climber);
+    if (end->side_buffers.given) {
+        check_buffer(rules, &end->side_buffers.buffer);
+        check_tube(rules, &end->side_buffers.tube);
+    }
+    check_gaps(rules, end);
+    if (end->distance > vehicle->length / 2)
+        cz_rule_broken(rules, &end->distance,
+                       "an end mass %s from the middle lies beyond half the vehicle's length, %s",
+                       CZ_MM(distance, end->distance), CZ_MM(half, vehicle->length / 2));
+}

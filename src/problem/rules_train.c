@@ -1,0 +1,293 @@
+/* Rules of vehicles, trains and scenarios. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/suggest.h"
+#include "problem/rules.h"
+
+enum { LONGEST_NAME = 48 };
+
+/* ---- vehicles ---- */
+
+/* What is left for the body when ends and running gear are taken off [kg]. */
+static double body_mass(const CzVehicle *vehicle) {
+    const CzBogie *bogie = &vehicle->bogie;
+    double mass = vehicle->mass - 2 * (bogie->mass + 2 * bogie->wheelset_mass);
+    mass -= vehicle->front.given ? vehicle->front.mass : 0;
+    return mass - (vehicle->rear.given ? vehicle->rear.mass : 0);
+}
+
+static void check_full_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
+    char first[48], second[48];
+    if (!cz_rule_is_written(rules, &vehicle->length))
+        cz_rule_broken(rules, vehicle, "a full vehicle needs its length: length_m or length_mm");
+    if (body_mass(vehicle) <= 0)
+        cz_rule_broken(rules, &vehicle->mass,
+                       "nothing is left for the body: ends, bogies and wheelsets have %s of %s",
+                       cz_rule_text(first, vehicle->mass - body_mass(vehicle), "t", 1e3),
+                       cz_rule_text(second, vehicle->mass, "t", 1e3));
+    if (vehicle->bogie_spacing + vehicle->bogie.axle_spacing >= vehicle->length)
+        cz_rule_broken(rules, &vehicle->bogie_spacing,
+                       "axles %s apart do not fit under a vehicle of %s",
+                       CZ_MM(first, vehicle->bogie_spacing + vehicle->bogie.axle_spacing),
+                       CZ_MM(second, vehicle->length));
+    if (vehicle->bogie.axle_spacing >= vehicle->bogie_spacing)
+        cz_rule_broken(rules, &vehicle->bogie_spacing,
+                       "bogies %s apart with axles %s apart would stand in one another",
+                       CZ_MM(first, vehicle->bogie_spacing),
+                       CZ_MM(second, vehicle->bogie.axle_spacing));
+    if (vehicle->cg_height <= vehicle->bogie.wheel_radius)
+        cz_rule_broken(rules, &vehicle->cg_height,
+                       "a body with its centre of gravity at %s would lie below the axles at %s",
+                       CZ_MM(first, vehicle->cg_height),
+                       CZ_MM(second, vehicle->bogie.wheel_radius));
+    if (vehicle->bogie.axle_spacing <= 2 * vehicle->bogie.wheel_radius)
+        cz_rule_broken(rules, &vehicle->bogie.axle_spacing,
+                       "wheels with a radius of %s touch one another on axles %s apart",
+                       CZ_MM(first, vehicle->bogie.wheel_radius),
+                       CZ_MM(second, vehicle->bogie.axle_spacing));
+}
+
+void cz_rules_check_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
+    if (vehicle->model != CZ_MODEL_FIXED && !cz_rule_is_written(rules, &vehicle->mass))
+        cz_rule_broken(rules, vehicle, "a %s vehicle needs its mass: mass_kg or mass_t",
+                       cz_word_sets[CZ_WORDS_MODEL].word[vehicle->model].word);
+    if (vehicle->model == CZ_MODEL_FULL)
+        check_full_vehicle(rules, vehicle);
+}
+
+/* ---- names ---- */
+
+/* Names stand in paths, files and folders. */
+static void check_name(const CzRules *rules, const char *const *name, const char *what,
+                       const char *further) {
+    static const char *const allowed =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+";
+    if (*name == NULL)
+        return;
+    if (strlen(*name) > LONGEST_NAME)
+        cz_rule_broken(rules, name, "the name of a %s has at most %d letters", what,
+                       (int)LONGEST_NAME);
+    for (const unsigned char *c = (const unsigned char *)*name; *c != '\0'; c++)
+        if (*c < 0x80 && strchr(allowed, *c) == NULL && strchr(further, *c) == NULL) {
+            cz_rule_broken(rules, name,
+                           "the name of a %s has letters, digits and _-+%s, but '%.48s' has '%c'",
+                           what, further, *name, *c);
+            return;
+        }
+}
+
+/* ---- trains ---- */
+
+static bool is_full_train(const CzTrain *train) {
+    for (int i = 0; i < train->n_vehicles; i++)
+        if (train->vehicles[i].model == CZ_MODEL_FULL)
+            return true;
+    return false;
+}
+
+static bool is_fixed_train(const CzTrain *train) {
+    for (int i = 0; i < train->n_vehicles; i++)
+        if (train->vehicles[i].model == CZ_MODEL_FIXED)
+            return true;
+    return false;
+}
+
+static void check_vehicle_names(const CzRules *rules) {
+    const CzVehicle *vehicle = rules->problem->vehicle;
+    for (int i = 0; i < rules->problem->n_vehicle; i++) {
+        check_name(rules, &vehicle[i].name, "vehicle", "");
+        for (int k = 0; vehicle[i].name != NULL && k < i; k++)
+            if (vehicle[k].name != NULL && strcmp(vehicle[k].name, vehicle[i].name) == 0) {
+                cz_rule_broken(rules, &vehicle[i].name, "there are two vehicles '%.48s'",
+                               vehicle[i].name);
+                break;
+            }
+    }
+}
+
+static void check_train_names(const CzRules *rules) {
+    const CzInput *input = rules->input;
+    for (int i = 0; i < input->n_trains; i++) {
+        check_name(rules, &input->trains[i].name, "train", "");
+        for (int k = 0; input->trains[i].name != NULL && k < i; k++)
+            if (input->trains[k].name != NULL &&
+                strcmp(input->trains[k].name, input->trains[i].name) == 0)
+                cz_rule_broken(rules, &input->trains[i].name, "there are two trains '%.48s'",
+                               input->trains[i].name);
+    }
+}
+
+static bool gives_way(const CzEnd *end) {
+    const bool has_device =
+        end->coupler.given || end->anti_climber.given || end->side_buffers.given;
+    return end->given && (has_device || end->n_stages > 0 || end->curve.given);
+}
+
+/* Two ends that face one another: one of them at least must give way. */
+static void check_facing(const CzRules *rules, const CzVehicle *behind, const CzVehicle *ahead) {
+    if (behind->given && ahead->given && !gives_way(&behind->front) && !gives_way(&ahead->rear))
+        cz_rule_broken(
+            rules, ahead,
+            "nothing can give way between '%.48s' and '%.48s': neither has anything there",
+            behind->name != NULL ? behind->name : "", ahead->name != NULL ? ahead->name : "");
+}
+
+static void check_train(const CzRules *rules, const CzTrain *train) {
+    const CzSimulation *simulation = &rules->input->simulation;
+    if (is_full_train(train) && !cz_rule_is_written(rules, &train->brake))
+        cz_rule_broken(rules, train,
+                       "a train with full vehicles needs 'brake': {ratio, axle_share}");
+    if (is_full_train(train) && !cz_rule_is_written(rules, &simulation->adhesion))
+        cz_rule_broken(
+            rules, rules->input,
+            "a problem with full vehicles needs 'simulation: {adhesion: {friction: ...}}'");
+    if (is_fixed_train(train) && train->speed != 0)
+        cz_rule_broken(rules, &train->speed, "a train with a fixed vehicle stands still");
+    for (int i = 1; i < train->n_vehicles; i++)
+        check_facing(rules, &train->vehicles[i - 1], &train->vehicles[i]);
+}
+
+void cz_rules_check_trains(const CzRules *rules) {
+    const CzInput *input = rules->input;
+    if (input->n_trains == 1)
+        cz_rule_broken(rules, &input->trains, "a collision needs two trains, but there is one");
+    check_train_names(rules);
+    check_vehicle_names(rules);
+    for (int i = 0; i < input->n_trains; i++)
+        check_train(rules, &input->trains[i]);
+}
+
+/* ---- scenarios ---- */
+
+/* A train by its name; NULL with a mistake when there is none. */
+static const CzTrain *find_train(const CzRules *rules, const char *const *name) {
+    CzSuggestion suggestion = {0};
+    for (int i = 0; i < rules->input->n_trains; i++) {
+        const CzTrain *train = &rules->input->trains[i];
+        if (train->name == NULL)
+            continue;
+        if (strcmp(train->name, *name) == 0)
+            return train;
+        cz_suggest(&suggestion, *name, train->name);
+    }
+    cz_rule_broken(rules, name, "there is no train '%.48s'", *name);
+    cz_mistake_suggest(&rules->reader->mistakes, suggestion.best);
+    return NULL;
+}
+
+/* The two trains of a scenario, the one behind first; false when they are not there. */
+static bool find_pair(const CzRules *rules, const CzScenario *scenario, const CzTrain *pair[2]) {
+    const CzTexts *names = &scenario->trains;
+    pair[0] = pair[1] = NULL;
+    if (!cz_rule_is_written(rules, names)) {
+        for (int i = 0; i < 2 && i < rules->input->n_trains; i++)
+            pair[i] = &rules->input->trains[i];
+        return pair[1] != NULL;
+    }
+    if (names->n_text != 2) {
+        cz_rule_broken(rules, names, "a collision needs the names of two trains, but this has %d",
+                       names->n_text);
+        return false;
+    }
+    for (int i = 0; i < 2; i++)
+        pair[i] = find_train(rules, &names->text[i]);
+    if (pair[0] != NULL && pair[0] == pair[1])
+        cz_rule_broken(rules, names, "a train cannot collide with itself");
+    return pair[0] != NULL && pair[1] != NULL && pair[0] != pair[1];
+}
+
+static double chosen(double own, double otherwise) {
+    return isnan(own) ? otherwise : own;
+}
+
+/* The train behind must come nearer to the one ahead. */
+static void check_closing(const CzRules *rules, const CzScenario *scenario,
+                          const CzTrain *const pair[2]) {
+    char first[48], second[48];
+    const double behind = chosen(scenario->speed, pair[0]->speed);
+    const double ahead = chosen(scenario->partner_speed, pair[1]->speed);
+    const void *place = cz_rule_is_written(rules, &scenario->speed) ? (const void *)&scenario->speed
+                        : cz_rule_is_written(rules, &scenario->name)
+                            ? (const void *)&scenario->name
+                            : (const void *)&pair[0]->speed;
+    if (behind <= ahead)
+        cz_rule_broken(rules, place,
+                       "the trains never meet: '%.40s' runs at %s behind '%.40s' at %s",
+                       pair[0]->name != NULL ? pair[0]->name : "",
+                       cz_rule_text(first, behind, "km/h", 1 / 3.6),
+                       pair[1]->name != NULL ? pair[1]->name : "",
+                       cz_rule_text(second, ahead, "km/h", 1 / 3.6));
+    if (is_fixed_train(pair[0]) && scenario->speed != 0 && !isnan(scenario->speed))
+        cz_rule_broken(rules, &scenario->speed, "a train with a fixed vehicle stands still");
+    if (is_fixed_train(pair[1]) && scenario->partner_speed != 0 && !isnan(scenario->partner_speed))
+        cz_rule_broken(rules, &scenario->partner_speed,
+                       "a train with a fixed vehicle stands still");
+}
+
+/* The interface that is perturbed too must be inside one of the two trains. */
+static void check_interface(const CzRules *rules, const CzScenario *scenario,
+                            const CzTrain *const pair[2]) {
+    CzSuggestion suggestion = {0};
+    char known[2 * LONGEST_NAME + 2], best[2 * LONGEST_NAME + 2];
+    if (scenario->perturbed_interface == NULL) {
+        if (scenario->perturbation != 0 && cz_rule_is_written(rules, &scenario->perturbation))
+            cz_rule_broken(rules, &scenario->perturbation,
+                           "a perturbation needs 'perturbed_interface', such as A3-A4");
+        return;
+    }
+    for (int t = 0; t < 2; t++)
+        for (int i = 1; i < pair[t]->n_vehicles; i++) {
+            const char *behind = pair[t]->vehicles[i - 1].name, *ahead = pair[t]->vehicles[i].name;
+            if (behind == NULL || ahead == NULL)
+                continue;
+            snprintf(known, sizeof known, "%.48s-%.48s", behind, ahead);
+            if (strcmp(known, scenario->perturbed_interface) == 0)
+                return;
+            cz_suggest(&suggestion, scenario->perturbed_interface, known);
+            if (suggestion.best == known)
+                suggestion.best = memcpy(best, known, sizeof best);
+        }
+    cz_rule_broken(rules, &scenario->perturbed_interface, "there is no inner interface '%.96s'",
+                   scenario->perturbed_interface);
+    cz_mistake_suggest(&rules->reader->mistakes, suggestion.best);
+}
+
+static void check_brake(const CzRules *rules, const double *ratio, const CzTrain *train) {
+    if (!isnan(*ratio) && !cz_rule_is_written(rules, &train->brake))
+        cz_rule_broken(rules, ratio, "train '%.48s' has no 'brake' whose ratio could be another",
+                       train->name != NULL ? train->name : "");
+}
+
+static void check_scenario_names(const CzRules *rules) {
+    const CzInput *input = rules->input;
+    for (int i = 0; i < input->n_scenarios; i++) {
+        const char *const *name = &input->scenarios[i].name;
+        check_name(rules, name, "scenario", ".");
+        if (*name != NULL && (*name)[0] == '.')
+            cz_rule_broken(rules, name, "the name of a scenario does not begin with a point");
+        for (int k = 0; *name != NULL && k < i; k++)
+            if (input->scenarios[k].name != NULL &&
+                strcasecmp(input->scenarios[k].name, *name) == 0)
+                cz_rule_broken(rules, name, "there are two scenarios '%.48s'", *name);
+    }
+}
+
+void cz_rules_check_scenarios(const CzRules *rules) {
+    const CzInput *input = rules->input;
+    check_scenario_names(rules);
+    for (int i = 0; i < input->n_scenarios; i++) {
+        const CzScenario *scenario = &input->scenarios[i];
+        const CzTrain *pair[2];
+        if (!scenario->given || !find_pair(rules, scenario, pair))
+            continue;
+        check_closing(rules, scenario, pair);
+        check_interface(rules, scenario, pair);
+        check_brake(rules, &scenario->brake_ratio, pair[0]);
+        check_brake(rules, &scenario->partner_brake_ratio, pair[1]);
+        if (pair[0]->n_vehicles > 0 && pair[1]->n_vehicles > 0)
+            check_facing(rules, &pair[0]->vehicles[pair[0]->n_vehicles - 1], &pair[1]->vehicles[0]);
+    }
+}

@@ -40,8 +40,8 @@ void cz_help_write_command(CzCommand command) {
 static void write_exit_codes(const char *before) {
     static const char *const codes[] = {
         "0    done",
-        "1    a check fails or could not be made (check, run --strict), nothing feasible "
-        "(optimise)",
+        ("1    a check fails or could not be made (check, run --strict), nothing feasible "
+         "(optimise)"),
         "2    something is wrong with the command line or a problem file",
         "3    a run failed or is incomplete",
         "4    results cannot be written",

@@ -29,6 +29,8 @@ typedef struct CzEvent {
     double time; /* [s] */
     CzEventKind what;
     char where[48]; /* such as "coupler A4" or "A4 wheelset 2" */
+    int interface;  /* interface that it belongs to: a vehicle has two couplers of one name; -1 when
+                       it happened to a vehicle */
 } CzEvent;
 
 /* One energy absorber or connection of an interface. */

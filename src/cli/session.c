@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { LARGEST_INPUT = 20 << 20 }; /* more than any problem file may have [byte] */
 
@@ -74,11 +75,17 @@ void cz_session_end(CzSession *session) {
     session->problem = NULL;
 }
 
+/* Threads that were at work: as many as asked for, else as there are processors. */
+static int n_job_of(const CzArguments *arguments) {
+    const long n_processor = sysconf(_SC_NPROCESSORS_ONLN);
+    return arguments->n_job > 0 ? arguments->n_job : n_processor > 0 ? (int)n_processor : 0;
+}
+
 CzReportOptions cz_session_report_options(const CzSession *session, double wall_s) {
     CzReportOptions options = cz_report_options_default();
     options.csv_separator = session->arguments->csv_separator;
     options.csv_decimal = session->arguments->csv_decimal;
-    options.n_job = session->arguments->n_job;
+    options.n_job = n_job_of(session->arguments);
     options.setup_s = session->setup_s;
     options.wall_s = wall_s;
     options.set = session->arguments->set;

@@ -160,11 +160,13 @@ static void put_vehicle(CzJson *json, const CzVehicleResult *vehicle) {
     cz_json_close(json);
 }
 
-static void put_event(CzJson *json, const CzEvent *event) {
+static void put_event(CzJson *json, const CzRunSummary *run, const CzEvent *event) {
     cz_json_open_object(json, NULL);
     cz_json_real(json, "time_ms", event->time * CZ_MILLI_PER_UNIT);
     cz_json_text(json, "what", cz_event_text(event->what));
     cz_json_text(json, "where", event->where);
+    cz_json_text(json, "interface",
+                 event->interface >= 0 ? run->interface[event->interface].name : NULL);
     cz_json_close(json);
 }
 
@@ -198,7 +200,7 @@ static void put_scenario(CzJson *json, const CzProblem *problem, const CzRunSumm
     cz_json_close(json);
     cz_json_open_list(json, "events");
     for (int i = 0; i < run->n_event; i++)
-        put_event(json, &run->event[i]);
+        put_event(json, run, &run->event[i]);
     cz_json_close(json);
     cz_json_close(json);
 }

@@ -69,25 +69,14 @@ static void write_run_head(const CzProblem *problem, const CzRunSummary *run, bo
             cz_figure_percent(balance, run->energy.balance_error));
 }
 
-/* Whether an event happened to an element of an interface. */
-static bool happened_at(const CzEvent *event, const CzInterfaceResult *interface) {
-    if (strcmp(event->where, interface->name) == 0)
-        return true;
-    for (int i = 0; i < interface->n_element; i++)
-        if (strcmp(event->where, interface->element[i].name) == 0)
-            return true;
-    return false;
-}
-
 /* What was overrun or let go at an interface, and when. */
-static void describe_damage(const CzRunSummary *run, const CzInterfaceResult *interface,
-                            size_t room, char *text) {
+static void describe_damage(const CzRunSummary *run, int interface, size_t room, char *text) {
     size_t used = 0;
     text[0] = '\0';
     for (int i = 0; i < run->n_event && used < room; i++) {
         const CzEvent *event = &run->event[i];
         const bool bottomed = event->what == CZ_EVENT_BOTTOMED_OUT;
-        if ((!bottomed && event->what != CZ_EVENT_SHEAR_OFF) || !happened_at(event, interface))
+        if ((!bottomed && event->what != CZ_EVENT_SHEAR_OFF) || event->interface != interface)
             continue;
         char time[CZ_FIGURE_ROOM];
         const int n = snprintf(text + used, room - used, "%s%s %s at %s ms", used > 0 ? ", " : "",
@@ -95,12 +84,12 @@ static void describe_damage(const CzRunSummary *run, const CzInterfaceResult *in
                                cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
         used += n > 0 ? (size_t)n : 0;
     }
-    if (text[0] == '\0' && interface->bottomed_out)
+    if (text[0] == '\0' && run->interface[interface].bottomed_out)
         snprintf(text, room, "BOTTOMED OUT");
 }
 
-static void put_interface(CzGrid *grid, const CzRunSummary *run,
-                          const CzInterfaceResult *interface) {
+static void put_interface(CzGrid *grid, const CzRunSummary *run, int index) {
+    const CzInterfaceResult *interface = &run->interface[index];
     char number[CZ_FIGURE_ROOM], damage[160], used_text[CZ_FIGURE_ROOM + 2];
     const CzStyle style = interface->bottomed_out ? CZ_STYLE_BAD : CZ_STYLE_PLAIN;
     double used = 0;
@@ -108,7 +97,7 @@ static void put_interface(CzGrid *grid, const CzRunSummary *run,
         used = fmax(used, interface->element[i].stroke_used);
     snprintf(used_text, sizeof used_text, "%s%s", cz_figure_percent(number, used),
              interface->bottomed_out ? " !" : "");
-    describe_damage(run, interface, sizeof damage, damage);
+    describe_damage(run, index, sizeof damage, damage);
 
     cz_grid_put(grid, interface->name, CZ_STYLE_PLAIN);
     cz_grid_put(grid, cz_figure_fixed(number, 0, interface->peak_force / CZ_KILO), CZ_STYLE_PLAIN);
@@ -135,7 +124,7 @@ static void write_interfaces(const CzRunSummary *run, bool compact, bool colour,
         cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
     for (int i = 0; i < run->n_interface; i++)
         if (!compact || i == worst || run->interface[i].bottomed_out)
-            put_interface(&grid, run, &run->interface[i]);
+            put_interface(&grid, run, i);
     cz_grid_write(&grid, colour, stream);
 }
 

@@ -14,10 +14,12 @@ typedef struct {
     size_t lane;
     double threshold; /* passed when the value is larger */
     char where[48];
+    int interface; /* -1 when it is about a vehicle */
 } Watched;
 
 struct CzWatch {
     int n_watched, n_event;
+    int interface; /* that is being listed; -1 when it is a vehicle */
     Watched *watched;
     CzEvent *event;
 };
@@ -27,7 +29,7 @@ enum { MOST_PER_CAR = 64 };
 static void watch(CzWatch *list, CzEventKind what, Source source, int row, size_t lane,
                   double threshold, const char *kind, const char *name) {
     Watched *next = &list->watched[list->n_watched++];
-    *next = (Watched){what, source, row, lane, threshold, ""};
+    *next = (Watched){what, source, row, lane, threshold, "", list->interface};
     snprintf(next->where, sizeof next->where, "%s%s%s", kind, kind[0] != '\0' ? " " : "", name);
 }
 
@@ -121,8 +123,10 @@ CzWatch *cz_watch_begin(CzBatch *batch, CzArena *arena) {
     if (list->watched == NULL || list->event == NULL)
         return NULL;
     for (int car = 0; car < batch->model->n_car; ++car) {
+        list->interface = car;
         if (car + 1 < batch->model->n_car)
             watch_interface(list, batch, car);
+        list->interface = -1;
         watch_car(list, batch, car);
     }
     return list;
@@ -179,7 +183,7 @@ void cz_watch_look(CzWatch *list, const CzBatch *batch) {
         const Watched *watched = &list->watched[i];
         if (value_of(watched, batch) > watched->threshold) {
             CzEvent *event = &list->event[list->n_event++];
-            *event = (CzEvent){batch->time, watched->what, ""};
+            *event = (CzEvent){batch->time, watched->what, "", watched->interface};
             snprintf(event->where, sizeof event->where, "%s", watched->where);
         } else {
             list->watched[n_left++] = *watched;

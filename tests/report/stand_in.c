@@ -177,7 +177,8 @@ static void fill_run(StandIn *s, int i) {
     s->event[0] = (CzEvent){.time = 0, .what = CZ_EVENT_CONTACT, .where = "A1-B1"};
     s->event[1] = (CzEvent){.time = 0.1, .what = CZ_EVENT_SHEAR_OFF, .where = "coupler A1"};
     s->event[2] = (CzEvent){.time = 0.372, .what = CZ_EVENT_BOTTOMED_OUT, .where = "coupler A1"};
-    s->event[3] = (CzEvent){.time = 0.5, .what = CZ_EVENT_WHEEL_LIFT, .where = "A1 wheelset 2"};
+    s->event[3] = (CzEvent){
+        .time = 0.5, .what = CZ_EVENT_WHEEL_LIFT, .where = "A1 wheelset 2", .interface = -1};
     s->run[i].summary =
         (CzRunSummary){.scenario = i == 0 ? "36" : "18/low",
                        .ended = CZ_ENDED_BY_RULE,

@@ -97,7 +97,7 @@ static void watch_car(CzWatch *list, const CzBatch *batch, int car) {
     if (description->model != CZ_MODEL_FULL)
         return;
     for (int axle = 0; axle < 4; ++axle) {
-        char kind[16];
+        char kind[24];
         snprintf(kind, sizeof kind, "wheelset %d", axle + 1);
         watch(list, CZ_EVENT_WHEEL_LIFT, FROM_EXTREME, CZ_E_LIFT_0 + axle, lane, 1e-3, kind,
               description->name);

@@ -71,6 +71,47 @@ static void start_extremes(CzDynamics *dynamics) {
             cz_row(dynamics->extreme, dynamics->stride, row)[lane] = start[row];
 }
 
+/* Lanes seen from the first lane of a block. */
+static CzLanes *lanes_from(const CzLanes *lanes, size_t base, CzArena *arena) {
+    CzLanes *view = cz_arena_allocate(arena, 1, sizeof *view);
+    if (view == NULL)
+        return NULL;
+    *view = *lanes;
+    view->n_lane = CZ_LANE_BLOCK;
+    view->parameter += base;
+    for (int id = 0; id < CZ_N_CURVE; ++id) {
+        CzCurveLanes *curve = &view->curve[id];
+        curve->start += base;
+        curve->usable += base;
+        if (curve->n_kink > 0) {
+            curve->at += base;
+            curve->slope_change += base;
+        }
+    }
+    return view;
+}
+
+/* Views of all blocks. */
+static int create_blocks(CzDynamics *dynamics, CzArena *arena) {
+    dynamics->n_block = (int)(dynamics->lanes->n_lane / CZ_LANE_BLOCK);
+    dynamics->block = cz_arena_allocate(arena, (size_t)dynamics->n_block, sizeof *dynamics->block);
+    if (dynamics->block == NULL)
+        return 0;
+    for (int i = 0; i < dynamics->n_block; ++i) {
+        const size_t base = (size_t)i * CZ_LANE_BLOCK;
+        CzDynamics *block = &dynamics->block[i];
+        *block = *dynamics;
+        block->lanes = lanes_from(dynamics->lanes, base, arena);
+        block->position += base;
+        block->velocity += base;
+        block->force += base;
+        block->scratch += base;
+        if (block->lanes == NULL)
+            return 0;
+    }
+    return 1;
+}
+
 CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena) {
     CzDynamics *dynamics = cz_arena_allocate(arena, 1, sizeof *dynamics);
     if (dynamics == NULL)
@@ -91,7 +132,7 @@ CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena) {
     dynamics->extreme = rows(arena, CZ_N_EXTREME, stride, &missing);
     dynamics->force = rows(arena, CZ_N_DOF, stride, &missing);
     dynamics->scratch = rows(arena, CZ_N_SCRATCH, stride, &missing);
-    if (missing)
+    if (missing || !create_blocks(dynamics, arena))
         return NULL;
     memcpy(dynamics->velocity, lanes->velocity, CZ_N_DOF * stride * sizeof(double));
     start_extremes(dynamics);

@@ -36,7 +36,8 @@ typedef enum CzExtreme {
  * forces [N s]. */
 enum { CZ_ROW_IMPULSE = CZ_N_DOF, CZ_N_ROW };
 
-typedef struct CzDynamics {
+typedef struct CzDynamics CzDynamics;
+struct CzDynamics {
     const CzLanes *lanes; /* borrowed */
     size_t stride;
     double *position;     /* displacement from rest [m, rad] (CZ_N_ROW x stride); written by the
@@ -51,8 +52,10 @@ typedef struct CzDynamics {
     double *work;              /* committed [J] (CZ_N_LEDGER x stride) */
     double *extreme;           /* committed (CZ_N_EXTREME x stride) */
     double *force;             /* generalised forces of the last evaluation (CZ_N_DOF x stride) */
-    double *scratch; /* values between the passes of an evaluation (CZ_N_SCRATCH x stride) */
-} CzDynamics;
+    double *scratch;   /* values between the passes of an evaluation (CZ_N_SCRATCH x stride) */
+    int n_block;       /* blocks of CZ_LANE_BLOCK lanes */
+    CzDynamics *block; /* the same arrays seen from the first lane of each block (n_block) */
+};
 
 /* Values between the passes that others may look at after an evaluation. */
 typedef enum CzScratch {
@@ -82,6 +85,16 @@ const CzKernel *cz_kernel(const char *isa);
 
 /* State at rest with the lanes' start velocities; NULL when there is no memory. */
 CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena);
+
+/* The arrays seen from a block's first lane, those that a commit swaps included. */
+static inline CzDynamics *cz_block(const CzDynamics *dynamics, int index) {
+    CzDynamics *block = &dynamics->block[index];
+    const size_t base = (size_t)index * CZ_LANE_BLOCK;
+    block->memory = dynamics->memory + base;
+    block->next_memory = dynamics->next_memory + base;
+    block->power = dynamics->power + base;
+    return block;
+}
 
 /* A row of an array. */
 static inline double *cz_row(double *array, size_t stride, int row) {

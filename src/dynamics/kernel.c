@@ -35,6 +35,7 @@ static void clear(CzDynamics *d) {
     memset(S(SECTION_FRONT), 0, row);
     memset(S(ADHESION), 0, row);
     memset(S(RESIDUAL), 0, row);
+    memset(S(PUSHED_X), 0, 3 * row);
 }
 
 static void rotations(CzDynamics *d) {
@@ -108,24 +109,47 @@ static void divide_by_masses(CzDynamics *d) {
     }
 }
 
-static void evaluate(CzDynamics *d, double step) {
-    clear(d);
-    rotations(d);
+/* Interfaces of a block; the bodies ahead may lie in another one. */
+static void evaluate_interfaces(CzDynamics *d, double step) {
     if (d->lanes->has_couplers)
         couplers(d, step);
     faces(d, step);
     if (d->lanes->has_side_buffers)
         side_buffers(d, step);
-    if (d->lanes->has_full_cars) {
-        for (int end = 0; end < 2; ++end)
-            vehicle_end(d, end);
-        for (int bogie = 0; bogie < 2; ++bogie)
-            bogie_to_body(d, bogie);
-        for (int axle = 0; axle < 4; ++axle)
-            axle_to_bogie(d, axle);
-        for (int axle = 0; axle < 4; ++axle)
-            wheel(d, axle, step);
+}
+
+/* Cars of a block. */
+static void evaluate_cars(CzDynamics *d, double step) {
+    for (int end = 0; end < 2; ++end)
+        vehicle_end(d, end);
+    for (int bogie = 0; bogie < 2; ++bogie)
+        bogie_to_body(d, bogie);
+    for (int axle = 0; axle < 4; ++axle)
+        axle_to_bogie(d, axle);
+    for (int axle = 0; axle < 4; ++axle)
+        wheel(d, axle, step);
+}
+
+/* Adds to the bodies what the interfaces behind them push. */
+static void add_pushes(CzDynamics *d) {
+    const size_t n = d->lanes->n_lane;
+    for (int k = 0; k < 3; ++k) {
+        double *restrict body = G_AT(BODY_X, k);
+        const double *restrict pushed = S_AT(PUSHED_X, k);
+        CZ_LANES(i, n)
+        { body[i] += pushed[i]; }
     }
+}
+
+static void evaluate(CzDynamics *d, double step) {
+    clear(d);
+    rotations(d);
+    for (int block = 0; block < d->n_block; ++block)
+        evaluate_interfaces(cz_block(d, block), step);
+    if (d->lanes->has_full_cars)
+        for (int block = 0; block < d->n_block; ++block)
+            evaluate_cars(cz_block(d, block), step);
+    add_pushes(d);
     divide_by_masses(d);
 }
 

@@ -39,7 +39,7 @@ typedef struct {
  * force. */
 static void unbalance(const CzDynamics *d, const Chain *chain, const double *restrict closure,
                       double *restrict sum, double *restrict slope) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict force = S(CHAIN_FORCE);
     const double *restrict compliance = cz_row(d->lanes->parameter, d->stride, chain->compliance);
     CZ_LANES(i, n)
@@ -75,7 +75,7 @@ static void unbalance(const CzDynamics *d, const Chain *chain, const double *res
 
 /* One Newton step in all lanes that have not arrived; returns whether all have. */
 static int improve(const CzDynamics *d, const double *restrict sum, const double *restrict slope) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     double *restrict force = S(CHAIN_FORCE);
     double *restrict low = S(CHAIN_LOW);
     double *restrict high = S(CHAIN_HIGH);
@@ -106,7 +106,7 @@ static int improve(const CzDynamics *d, const double *restrict sum, const double
 /* Finds the chain's force in all lanes: S(CHAIN_FORCE). What is left unbalanced is kept for the run
  * to judge. */
 static void solve_chain(CzDynamics *d, const Chain *chain, const double *closure) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     double *restrict force = S(CHAIN_FORCE);
     double *restrict low = S(CHAIN_LOW);
     double *restrict high = S(CHAIN_HIGH);
@@ -143,7 +143,7 @@ static void solve_chain(CzDynamics *d, const Chain *chain, const double *closure
 /* Sets a buffer as spring member `side` of the chain. */
 static void prepare_buffer(CzDynamics *d, const Chain *chain, const BufferRows *rows, int side,
                            double step) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     double *parameter = d->lanes->parameter;
     const double *restrict stroke = cz_row(d->memory, d->stride, chain->spring + side);
     double *restrict curve = S(CURVE_VALUE);
@@ -186,7 +186,7 @@ static void prepare_buffer(CzDynamics *d, const Chain *chain, const BufferRows *
 static void prepare_plastic(CzDynamics *d, const Chain *chain, int member, int curve_id,
                             const double *restrict factor, const double *restrict rate_factor,
                             double step) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict stroke = cz_row(d->memory, d->stride, chain->plastic + member);
     double *restrict strength = S_AT(STRENGTH_0, member);
     double *restrict flow = S_AT(FLOW_0, member);
@@ -203,7 +203,7 @@ static void prepare_plastic(CzDynamics *d, const Chain *chain, int member, int c
  * `first` is the energy row of side A that gets the way of the springs and plastic members,
  * `second` the one that gets the way of the plastic members alone (-1: none). */
 static void move_members(CzDynamics *d, const Chain *chain, int first, int second) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict force = S(CHAIN_FORCE);
     const double *restrict last = cz_row(d->memory, d->stride, chain->force);
     for (int side = 0; side < 2; ++side) {
@@ -250,7 +250,7 @@ static void move_members(CzDynamics *d, const Chain *chain, int first, int secon
 
 /* Rates of the springs over the step, for the next one. */
 static void keep_rates(CzDynamics *d, const Chain *chain, int rate_row, double step) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     for (int side = 0; side < 2; ++side) {
         const double *restrict before = cz_row(d->memory, d->stride, chain->spring + side);
         const double *restrict after = cz_row(d->next_memory, d->stride, chain->spring + side);

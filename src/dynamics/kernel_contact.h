@@ -17,7 +17,7 @@ typedef struct {
 
 static void contact_geometry(CzDynamics *d, const Carrier *a, const Carrier *b,
                              const ContactRows *rows) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     double *parameter = d->lanes->parameter;
     const double *restrict x_a = cz_row(parameter, d->stride, rows->x_a);
     const double *restrict z_a = cz_row(parameter, d->stride, rows->z_a);
@@ -69,10 +69,24 @@ typedef struct {
     double *x, *z, *pitch;
 } CarrierForce;
 
+static CarrierForce carrier_force(CzDynamics *d, int dof, size_t shift) {
+    double *g = cz_row(d->force, d->stride, dof) + shift;
+    return (CarrierForce){g, g + d->stride, g + 2 * d->stride};
+}
+
+/* The body at side A or B of an interface. Forces of the interface behind a body are gathered in
+ * rows of their own, so that their sum does not depend on how lanes are grouped. */
+static CarrierForce body_force(CzDynamics *d, int side) {
+    if (side == 0)
+        return carrier_force(d, CZ_DOF_BODY_X, 0);
+    double *g = S(PUSHED_X) + (size_t)d->lanes->n_design;
+    return (CarrierForce){g, g + d->stride, g + 2 * d->stride};
+}
+
 /* Puts a force (fx, fz) at an arm on a carrier; sign turns it round for side B. */
-static void put_force(size_t n, const CarrierForce *on, double sign, const double *restrict fx,
-                      const double *restrict fz, const double *restrict arm_x,
-                      const double *restrict arm_z) {
+static inline void put_force(size_t n, const CarrierForce *on, double sign,
+                             const double *restrict fx, const double *restrict fz,
+                             const double *restrict arm_x, const double *restrict arm_z) {
     double *restrict gx = on->x, *restrict gz = on->z, *restrict moment = on->pitch;
     CZ_LANES(i, n)
     {
@@ -86,7 +100,7 @@ static void put_force(size_t n, const CarrierForce *on, double sign, const doubl
  * CURVE_VALUE (x) and CURVE_SLOPE (z) as they act on side B. */
 static void contact_forces(CzDynamics *d, const CarrierForce *on_a, const CarrierForce *on_b,
                            const double *restrict normal, const double *restrict tangential) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict nx = S(NORMAL_X), *restrict nz = S(NORMAL_Z);
     double *restrict fx = S(CURVE_VALUE), *restrict fz = S(CURVE_SLOPE);
     double *restrict total = S(INTERFACE_FORCE);

@@ -27,15 +27,15 @@ static const BufferRows coupler_buffer = {
 
 /* Chooses one row of the carrier: the end mass's where the pivot is fixed to it, else the body's.
  */
-static void choose(size_t n, const double *restrict on_end, const double *restrict end,
-                   const double *restrict body, double *restrict chosen) {
+static inline void choose(size_t n, const double *restrict on_end, const double *restrict end,
+                          const double *restrict body, double *restrict chosen) {
     CZ_LANES(i, n)
     { chosen[i] = on_end[i] > 0.5 ? end[i] : body[i]; }
 }
 
 /* Rows of the coupler's carrier: side A is this car's front, side B the rear of the car ahead. */
 static Carrier coupler_carrier(CzDynamics *d, int side) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const size_t shift = side == 0 ? 0 : (size_t)d->lanes->n_design;
     const int end = side == 0 ? CZ_DOF_END_X_FRONT : CZ_DOF_END_X_REAR;
     const double *on_end = P_AT(COUPLER_ON_END_A, side);
@@ -63,7 +63,7 @@ static Carrier coupler_carrier(CzDynamics *d, int side) {
 
 /* Line between the pivots: closure, rate, direction, angle's rate (in SLIP_RATE), length, arms. */
 static void coupler_geometry(CzDynamics *d, const Carrier *a, const Carrier *b) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict x_a = P(PIVOT_X_A), *restrict z_a = P(PIVOT_Z_A);
     const double *restrict x_b = P(PIVOT_X_B), *restrict z_b = P(PIVOT_Z_B);
     const double *restrict distance = P(PIVOT_DISTANCE), *restrict rise = P(PIVOT_RISE);
@@ -101,7 +101,7 @@ static void coupler_geometry(CzDynamics *d, const Carrier *a, const Carrier *b) 
 
 /* Shear-off of one side as a plastic member, and the damage that it has done. */
 static void prepare_shear_off(CzDynamics *d, int side, double step) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const int member = 4 + side;
     const double *restrict force = P_AT(SHEAR_FORCE_A, side), *restrict softening =
                                                                   P_AT(SHEAR_SOFTENING_A, side);
@@ -122,7 +122,7 @@ static void prepare_shear_off(CzDynamics *d, int side, double step) {
 
 /* Force of the chain, and the members moved on. */
 static void coupler_chain_force(CzDynamics *d, double step) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     static const int tube_rates[4] = {CZ_P_TUBE_RATE_A, CZ_P_TUBE_RATE_B, CZ_P_SECOND_TUBE_RATE_A,
                                       CZ_P_SECOND_TUBE_RATE_B};
     for (int side = 0; side < 2; ++side)
@@ -155,7 +155,7 @@ static void coupler_chain_force(CzDynamics *d, double step) {
 /* Moment of the hinge of one side on its carrier, into SPRING_UP of the side; its power is added
  * up. */
 static void hinge_moment(CzDynamics *d, int side, const Carrier *carrier) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict stiffness = P_AT(HINGE_STIFFNESS_A, side), *restrict capacity = P_AT(
                                                                           HINGE_MOMENT_A, side);
     const double *restrict range = P_AT(SWING_STOP_A, side), *restrict stop =
@@ -182,8 +182,8 @@ static void hinge_moment(CzDynamics *d, int side, const Carrier *carrier) {
 }
 
 /* Adds the share of a row that goes to the end mass or to the body. */
-static void share(size_t n, const double *restrict on_end, const double *restrict row, double sign,
-                  double *restrict end, double *restrict body) {
+static inline void share(size_t n, const double *restrict on_end, const double *restrict row,
+                         double sign, double *restrict end, double *restrict body) {
     CZ_LANES(i, n)
     {
         const double to_end = on_end[i] * row[i];
@@ -195,7 +195,7 @@ static void share(size_t n, const double *restrict on_end, const double *restric
 /* Puts strut force and hinge moments on the carriers, and the strut force into the sections behind
  * them. */
 static void coupler_forces(CzDynamics *d) {
-    const size_t n = d->lanes->n_lane, ahead = (size_t)d->lanes->n_design;
+    const size_t n = CZ_LANE_BLOCK, ahead = (size_t)d->lanes->n_design;
     const double *restrict force = S(CHAIN_FORCE), *restrict length = S(LENGTH),
                            *restrict rate = S(RATE);
     const double *restrict nx = S(NORMAL_X), *restrict nz = S(NORMAL_Z);
@@ -215,7 +215,6 @@ static void coupler_forces(CzDynamics *d) {
     double *turning = S(LARGEST);
     for (int side = 0; side < 2; ++side) {
         const double sign = side == 0 ? -1.0 : 1.0;
-        const size_t shift = side == 0 ? 0 : ahead;
         const double *restrict arm_x = side == 0 ? S(ARM_X_A) : S(ARM_X_B);
         const double *restrict arm_z = side == 0 ? S(ARM_Z_A) : S(ARM_Z_B);
         const double *restrict moment = side == 0 ? moment_a : moment_b;
@@ -223,12 +222,13 @@ static void coupler_forces(CzDynamics *d) {
         double *restrict moments = turning;
         CZ_LANES(i, n)
         { moments[i] = sign * (arm_x[i] * fz[i] - arm_z[i] * fx[i]) + moment[i]; }
-        const int end = side == 0 ? CZ_DOF_END_X_FRONT : CZ_DOF_END_X_REAR;
-        double *section = (side == 0 ? S(SECTION_FRONT) : S(SECTION_REAR)) + shift;
-        share(n, on_end, fx, sign, cz_row(d->force, d->stride, end) + shift, G(BODY_X) + shift);
-        share(n, on_end, fz, sign, cz_row(d->force, d->stride, end + 1) + shift, G(BODY_Z) + shift);
-        share(n, on_end, moments, 1.0, cz_row(d->force, d->stride, end + 2) + shift,
-              G(BODY_PITCH) + shift);
+        const CarrierForce end = side == 0 ? carrier_force(d, CZ_DOF_END_X_FRONT, 0)
+                                           : carrier_force(d, CZ_DOF_END_X_REAR, ahead);
+        const CarrierForce body = body_force(d, side);
+        double *section = side == 0 ? S(SECTION_FRONT) : S(SECTION_REAR) + ahead;
+        share(n, on_end, fx, sign, end.x, body.x);
+        share(n, on_end, fz, sign, end.z, body.z);
+        share(n, on_end, moments, 1.0, end.pitch, body.pitch);
         share(n, on_end, fx, 1.0, S(UNUSED), section);
     }
 }

@@ -5,6 +5,8 @@
 
 #include "dynamics/kernel_chain.h"
 #include "dynamics/kernel_contact.h"
+#include <string.h>
+
 #include "laws/slider.h"
 
 #define GRIP_FORCE 1e4 /* normal force at which ribs and damping are fully engaged [N] (ours) */
@@ -36,14 +38,9 @@ static Carrier carrier_rows(CzDynamics *d, int dof, int rotation, size_t shift) 
                      r, r + d->stride};
 }
 
-static CarrierForce carrier_force(CzDynamics *d, int dof, size_t shift) {
-    double *g = cz_row(d->force, d->stride, dof) + shift;
-    return (CarrierForce){g, g + d->stride, g + 2 * d->stride};
-}
-
 /* A crush zone without end mass as spring member `side`. */
 static void prepare_limp_end(CzDynamics *d, int side) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict shortening = M_AT(LIMP_A, side);
     double *restrict curve = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
     double *restrict peak = S(CURVE_PEAK), *restrict largest = S(LARGEST);
@@ -75,7 +72,7 @@ static void prepare_limp_end(CzDynamics *d, int side) {
 /* The closing speed at first contact is frozen; the factor of one side follows from it, into
  * LARGEST. */
 static void speed_factor(CzDynamics *d, int side) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict closure = S(CLOSURE), *restrict rate = S(RATE),
                            *restrict speed = M(FACE_SPEED);
     const double *restrict factor = P_AT(SPEED_FACTOR_A, side);
@@ -91,7 +88,7 @@ static void speed_factor(CzDynamics *d, int side) {
 /* Normal force of the faces: chain, damping, and what is left of them while the overlap runs out.
  */
 static void face_normal(CzDynamics *d) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict chain = S(CHAIN_FORCE), *restrict closure = S(CLOSURE),
                            *restrict rate = S(RATE);
     const double *restrict damping = P(FACE_DAMPING), *restrict level = P(FACE_OVERLAP),
@@ -115,7 +112,7 @@ static void face_normal(CzDynamics *d) {
 
 /* Vertical force of the faces: they stick, by ribs and friction, up to a capacity. */
 static void face_tangential(CzDynamics *d) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict normal = S(FACE_FORCE), *restrict closure = S(CLOSURE),
                            *restrict slip = S(SLIP);
     const double *restrict slip_rate = S(SLIP_RATE), *restrict remaining = S(FACE_REMAINING);
@@ -140,12 +137,47 @@ static void face_tangential(CzDynamics *d) {
     }
 }
 
+/* Whether no face of the block touches, pushed in the last step or has a crush zone behind it that
+ * may still move: then the chain's answer is known to the last bit. */
+static int faces_are_apart(CzDynamics *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict closure = S(CLOSURE), *restrict force = M(FACE_FORCE);
+    const double *restrict limp_a = M(LIMP_PEAK_A), *restrict limp_b = M(LIMP_PEAK_B);
+    double busy = 0.0;
+    _Pragma("omp simd reduction(+ : busy)") for (size_t i = 0; i < n; ++i) {
+        const double touches = closure[i] >= 0.0 ? 1.0 : 0.0;
+        busy += touches + fabs(force[i]) + limp_a[i] + limp_b[i];
+    }
+    return busy == 0.0;
+}
+
+/* The answer for faces that are apart: no force, memory as it was, ribs that will seat where they
+ * meet. */
+static void leave_faces(CzDynamics *d) {
+    static const int kept[] = {CZ_M_FACE_FORCE,    CZ_M_LIMP_A,        CZ_M_LIMP_B,
+                               CZ_M_LIMP_PEAK_A,   CZ_M_LIMP_PEAK_B,   CZ_M_FACE_A,
+                               CZ_M_FACE_B,        CZ_M_FACE_SPEED,    CZ_M_FACE_ENERGY_A,
+                               CZ_M_FACE_ENERGY_B, CZ_M_LIMP_ENERGY_A, CZ_M_LIMP_ENERGY_B};
+    static const int zero[] = {CZ_S_FACE_FORCE, CZ_S_FACE_DEMAND, CZ_S_FACE_CAPACITY};
+    const size_t size = CZ_LANE_BLOCK * sizeof(double);
+    for (size_t k = 0; k < sizeof kept / sizeof kept[0]; ++k)
+        memcpy(cz_row(d->next_memory, d->stride, kept[k]), cz_row(d->memory, d->stride, kept[k]),
+               size);
+    for (size_t k = 0; k < sizeof zero / sizeof zero[0]; ++k)
+        memset(cz_row(d->scratch, d->stride, zero[k]), 0, size);
+    memcpy(NEXT(FACE_SLIP), S(SLIP), size);
+}
+
 /* All anti-climbers and bare ends. */
 static void faces(CzDynamics *d, double step) {
-    const size_t n = d->lanes->n_lane, ahead = (size_t)d->lanes->n_design;
+    const size_t n = CZ_LANE_BLOCK, ahead = (size_t)d->lanes->n_design;
     const Carrier a = carrier_rows(d, CZ_DOF_END_X_FRONT, CZ_S_END_COS_FRONT, 0);
     const Carrier b = carrier_rows(d, CZ_DOF_END_X_REAR, CZ_S_END_COS_REAR, ahead);
     contact_geometry(d, &a, &b, &face_contact);
+    if (faces_are_apart(d)) {
+        leave_faces(d);
+        return;
+    }
     for (int side = 0; side < 2; ++side) {
         prepare_limp_end(d, side);
         speed_factor(d, side);
@@ -179,7 +211,7 @@ static void faces(CzDynamics *d, double step) {
 
 /* All side buffers. */
 static void side_buffers(CzDynamics *d, double step) {
-    const size_t n = d->lanes->n_lane, ahead = (size_t)d->lanes->n_design;
+    const size_t n = CZ_LANE_BLOCK, ahead = (size_t)d->lanes->n_design;
     const Carrier a = carrier_rows(d, CZ_DOF_BODY_X, CZ_S_BODY_COS, 0);
     const Carrier b = carrier_rows(d, CZ_DOF_BODY_X, CZ_S_BODY_COS, ahead);
     contact_geometry(d, &a, &b, &side_contact);
@@ -216,8 +248,8 @@ static void side_buffers(CzDynamics *d, double step) {
         power[i] += force[i] * rate[i];
         sliding[i] += grip.force * slip_rate[i];
     }
-    const CarrierForce on_a = carrier_force(d, CZ_DOF_BODY_X, 0);
-    const CarrierForce on_b = carrier_force(d, CZ_DOF_BODY_X, ahead);
+    const CarrierForce on_a = body_force(d, 0);
+    const CarrierForce on_b = body_force(d, 1);
     contact_forces(d, &on_a, &on_b, S(SIDE_FORCE), S(LENGTH));
     double *restrict front = S(SECTION_FRONT), *restrict rear = S(SECTION_REAR) + ahead;
     const double *restrict fx = S(CURVE_VALUE);

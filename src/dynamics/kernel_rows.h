@@ -29,7 +29,7 @@
 #define S_AT(name, index) cz_row(d->scratch, d->stride, CZ_S_##name + (index))
 #define POWER_AT(name, index) cz_row(d->power, d->stride, CZ_L_##name + (index))
 
-/* A loop over all lanes whose iterations are independent. */
+/* A loop over lanes whose iterations are independent. */
 #define CZ_LANES(i, n) _Pragma("omp simd") for (size_t i = 0; i < (n); ++i)
 
 /* A body that carries a contact: its rows, moved on by one car for side B. */
@@ -41,8 +41,8 @@ typedef struct {
 
 /* Cosine and sine by series: exact derivatives of each other to pitch^4, and no library call in the
  * loop. */
-static void rotate(size_t n, const double *restrict pitch, double *restrict cosine,
-                   double *restrict sine) {
+static inline void rotate(size_t n, const double *restrict pitch, double *restrict cosine,
+                          double *restrict sine) {
     CZ_LANES(i, n)
     {
         const double square = pitch[i] * pitch[i];
@@ -55,7 +55,7 @@ static void rotate(size_t n, const double *restrict pitch, double *restrict cosi
 static void evaluate_curve(const CzDynamics *d, int id, const double *restrict x,
                            double *restrict value, double *restrict slope) {
     const CzCurveLanes *curve = &d->lanes->curve[id];
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     CZ_LANES(i, n)
     {
         value[i] = curve->start[i];
@@ -78,15 +78,15 @@ static void evaluate_curve(const CzDynamics *d, int id, const double *restrict x
  */
 static void largest_of_stages(const CzDynamics *d, int curve, const double *restrict largest,
                               double *restrict within) {
-    const size_t n = d->lanes->n_lane;
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict usable = d->lanes->curve[curve].usable;
     CZ_LANES(i, n)
     { within[i] = cz_smaller(largest[i], usable[i]); }
 }
 
 /* Adds factor * row to target, lane by lane. */
-static void add(size_t n, double *restrict target, const double *restrict factor,
-                const double *restrict row) {
+static inline void add(size_t n, double *restrict target, const double *restrict factor,
+                       const double *restrict row) {
     CZ_LANES(i, n)
     { target[i] += factor[i] * row[i]; }
 }

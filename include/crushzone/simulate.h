@@ -49,9 +49,9 @@ typedef struct CzElementResult {
     double energy; /* net dissipated [J] */
     double stored; /* still stored at the end [J] */
     double stroke; /* plastic stroke used: tubes, anti-climber stages or crush zone together [m] */
-    double
-        stroke_used;   /* largest share of any one device's usable stroke [-]; 0 when it has none */
-    double peak_force; /* unfiltered largest force over all steps [N] */
+    double stroke_used; /* largest share of any one device's usable stroke [-]; 0 when it has none;
+                           of a coupler that has let go, the share of its room to retract */
+    double peak_force;  /* unfiltered largest force over all steps [N] */
     double tube_energy; /* part of a coupler's energy that its tubes and shear-off took [J]; all of
                            it for the others */
     bool sheared;       /* coupler: shear-off has let go */

@@ -42,10 +42,13 @@ static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
     result->tube_energy = cz_memory(batch, CZ_M_TUBE_ENERGY_A + side, lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
     result->stroke = tube + second;
-    result->stroke_used = fmax(used(tube, tube_usable), used(second, second_usable));
     result->peak_force = cz_extreme(batch, CZ_E_COUPLER_FORCE, lane);
     result->sheared = travel >= cz_parameter(batch, CZ_P_SHEAR_SOFTENING_A + side, lane);
-    result->bottomed_out = tube > tube_usable || second > second_usable || travel > space;
+    /* A tube that is used up is how a coupler comes to let go; from then on the room to retract
+     * counts. */
+    const double of_tubes = fmax(used(tube, tube_usable), used(second, second_usable));
+    result->stroke_used = result->sheared ? used(travel, space) : of_tubes;
+    result->bottomed_out = travel > space || (!result->sheared && of_tubes > 1.0);
     return true;
 }
 

@@ -52,9 +52,11 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
           "anti-climber", name);
     watch(list, CZ_EVENT_TUBE_FLOW, FROM_MEMORY, CZ_M_SIDE_TUBE_A + side, lane, flowed,
           "side buffers", name);
-    watch(list, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_TUBE_A + side, lane,
+    const bool shears = cz_parameter(batch, CZ_P_SHEAR_FORCE_A + side, lane) < 1e29;
+    const CzEventKind used_up = shears ? CZ_EVENT_TUBE_USED_UP : CZ_EVENT_BOTTOMED_OUT;
+    watch(list, used_up, FROM_MEMORY, CZ_M_TUBE_A + side, lane,
           curve[CZ_CURVE_TUBE_A + side].usable[lane], "coupler tube", name);
-    watch(list, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_SECOND_TUBE_A + side, lane,
+    watch(list, used_up, FROM_MEMORY, CZ_M_SECOND_TUBE_A + side, lane,
           curve[CZ_CURVE_SECOND_TUBE_A + side].usable[lane], "second coupler tube", name);
     watch(list, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_SHEAR_A + side, lane,
           cz_parameter(batch, CZ_P_SHEAR_SPACE_A + side, lane), "retraction space", name);

@@ -150,20 +150,18 @@ static bool write_inner_path(char *text, size_t size, const CzRecord *record, si
         char rest[CZ_MAX_PLACE];
         const size_t at = offset - key->offset;
         if (key->kind == CZ_KEY_NUMBER && offset == key->offset) {
-            snprintf(text, size, ".%s", key->stem);
-            return true;
+            return (size_t)snprintf(text, size, ".%s", key->stem) < size;
         }
         if (offset < key->offset)
             continue;
         if (key->kind == CZ_KEY_CHILD && at < inside->size &&
             write_inner_path(rest, sizeof rest, inside, at)) {
-            snprintf(text, size, ".%s%s", key->stem, rest);
-            return true;
+            return (size_t)snprintf(text, size, ".%s%s", key->stem, rest) < size;
         }
         if (key->kind == CZ_KEY_STAGES && at < CZ_MAX_STAGES * inside->size &&
             write_inner_path(rest, sizeof rest, inside, at % inside->size)) {
-            snprintf(text, size, ".%s[%zu]%s", key->stem, at / inside->size, rest);
-            return true;
+            return (size_t)snprintf(text, size, ".%s[%zu]%s", key->stem, at / inside->size, rest) <
+                   size;
         }
     }
     return false;

@@ -143,7 +143,9 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
                                   : cz_memory(batch, CZ_M_END_PEAK_REAR + which, own);
     const double whole = usable(batch, curve, curve_lane);
     result->stored = slaved ? cz_limp_stored(batch, lane, side) : cz_end_stored(batch, own, which);
-    const double work = slaved ? cz_memory(batch, CZ_M_LIMP_ENERGY_A + side, lane)
+    /* The series pair's row holds the anti-climber's energy too. */
+    const double work = slaved ? cz_memory(batch, CZ_M_LIMP_ENERGY_A + side, lane) -
+                                     cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane)
                                : cz_work(batch, CZ_L_END_REAR + which, own);
     const double shared = slaved ? 0.0 : cz_work(batch, CZ_L_END_DAMPING, own);
     result->tube_energy = work - result->stored;

@@ -66,7 +66,8 @@ static const char two_trains[] =
     "       confidence: user}\n"
     "    - {name: mean deceleration, metric: vehicles.mean_deceleration_120ms_g, max: 5,\n"
     "       source: example, confidence: user}\n"
-    "    - {name: stroke of inner couplers, metric: elements.inner coupler *.stroke_used, max: 0.9,\n"
+    "    - {name: stroke of inner couplers, metric: elements.inner coupler *.stroke_used, max: "
+    "0.9,\n"
     "       source: example, confidence: user}\n"
     "    - {name: stroke of anti-climbers, metric: elements.anti-climber *.stroke_used, max: 0.9,\n"
     "       source: example, confidence: user}\n"
@@ -75,14 +76,19 @@ static const char two_trains[] =
     "\n"
     "optimise:                                # without `minimise` the smallest margin grows\n"
     "  variables:\n"
-    "    - {path: 'parts.cab-end.coupler.tube.stages[0].force_kN', min: 500, max: 900}\n"
-    "    - {path: 'parts.cab-end.anti_climber.stages[0].force_kN', min: 300, max: 700}\n"
-    "    - {path: 'parts.cab-end.anti_climber.stages[0].stroke_mm', min: 300, max: 560}\n"
-    "    - {path: 'parts.inner-end.coupler.tube.stages[0].force_kN', min: 500, max: 1200}\n"
-    "    - {path: 'parts.inner-end.coupler.tube.stages[0].stroke_mm', min: 100, max: 380}\n"
+    "    - {path: 'parts.cab-end.coupler.tube.stages[0].force_kN', min: 500, max: 900, step: 10}\n"
+    "    - {path: 'parts.cab-end.anti_climber.stages[0].force_kN', min: 300, max: 700, step: 10}\n"
+    "    - {path: 'parts.cab-end.anti_climber.stages[0].stroke_mm', min: 300, max: 560, step: 10}\n"
+    "    - {path: 'parts.inner-end.coupler.tube.stages[0].force_kN', min: 500, max: 1200, step: "
+    "10}\n"
+    "    - {path: 'parts.inner-end.coupler.tube.stages[0].stroke_mm', min: 100, max: 380, step: "
+    "10}\n"
     "  evaluations: 500\n";
 
-static const struct { const char *name, *text; } templates[] = {{"two-trains", two_trains}};
+typedef struct Template {
+    const char *name, *text;
+} Template;
+static const Template templates[] = {{"two-trains", two_trains}};
 enum { N_TEMPLATE = sizeof templates / sizeof *templates };
 
 static const char *find_template(const char *name, CzError *error) {

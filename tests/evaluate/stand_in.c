@@ -96,14 +96,15 @@ static void crush_side(CzInterfaceResult *interface, const CzVehicle *vehicle, i
     coupler->sheared = rest > 0;
     if (coupler->sheared) {
         coupler->peak_force = shear;
-        coupler->stroke_used = 1; /* letting go is what ends the tube, not bottoming out */
-        coupler->bottomed_out = false;
-        coupler->stroke_used = 0.5;
+        coupler->bottomed_out = false; /* letting go is what ends a tube */
+        coupler->stroke_used = 0;
     }
     CzElementResult *face = add_element(interface, CZ_ELEMENT_ANTI_CLIMBER, index, vehicle->name);
     absorb(face, climber->count * climber->stages[0].force, climber->stages[0].stroke, &rest);
     CzElementResult *structure = add_element(interface, CZ_ELEMENT_END, index, vehicle->name);
     absorb(structure, end->stages[0].force, end->stages[0].stroke, &rest);
+    structure->zone_energy[CZ_ZONE_CRUSH] = 0;
+    structure->zone_energy[end->stages[0].zone] = structure->energy;
     const double peak = fmax(coupler->peak_force, fmax(face->peak_force, structure->peak_force));
     interface->section_force[index] = peak;
     interface->peak_force = fmax(interface->peak_force, peak);
@@ -137,9 +138,11 @@ static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles) {
         vehicle->mean_deceleration_120ms = 1.1 * interface->peak_force / mass;
         vehicle->survival_shortening = NAN;
     }
+    double occupied = 0;
     for (int i = 0; i < interface->n_element; i++) {
         interface->energy += interface->element[i].energy;
         interface->bottomed_out |= interface->element[i].bottomed_out;
+        occupied += interface->element[i].zone_energy[CZ_ZONE_OCCUPIED];
     }
     run->summary = (CzRunSummary){.scenario = scenario->name,
                                   .ended = CZ_ENDED_BY_RULE,
@@ -182,7 +185,7 @@ static const char base[] =
     "  head:\n"
     "    face_gap_mm: 900\n"
     "    unloading_stiffness_MN_m: 100\n"
-    "    stages: [{stroke_mm: 500, force_MN: 3}]\n"
+    "    stages: [{stroke_mm: 500, force_MN: 3, zone: occupied}]\n"
     "    proof_strength_kN: 1650\n"
     "    available_length_m: 2.5\n"
     "    coupler:\n"

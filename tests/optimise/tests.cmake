@@ -1,1 +1,2 @@
 cz_test(test_strategy optimise test_strategy.c)
+cz_test(test_optimise optimise test_optimise.c tests/evaluate/stand_in.c)

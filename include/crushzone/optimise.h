@@ -62,7 +62,8 @@ typedef struct CzOutcome {
 } CzOutcome;
 
 /* Statuses: CZ_OK (look at outcome->status), CZ_STATUS_INPUT for an unknown algorithm or no
- * variables, CZ_STATUS_RUN_FAILED when more than half of the last 50 designs failed,
+ * variables, CZ_STATUS_RUN_FAILED when the search ended on failing designs before any other was
+ * seen,
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                           CzOutcome **outcome, CzError *error);

@@ -117,7 +117,7 @@ static void conclude(const CzSearch *search, CzOutcome *outcome) {
     if (search->status == CZ_STATUS_INTERRUPTED)
         outcome->status = CZ_OUTCOME_INTERRUPTED;
     snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%s",
-             search->is_over ? search->why : "nothing was left to gain");
+             search->why[0] != '\0' ? search->why : "nothing was left to gain");
 }
 
 /* ---- the search

@@ -37,13 +37,18 @@ static void finish(CzSearch *search, CzStatus status, const char *why) {
 }
 
 long cz_search_left(const CzSearch *search) {
-    return search->is_over ? 0 : search->most_evaluations - search->n_record;
+    return search->is_over || search->is_paused ? 0 : search->most_evaluations - search->n_record;
 }
 
 bool cz_search_is_stopped(CzSearch *search) {
     if (!search->is_over && search->stop != NULL && *search->stop != 0)
         finish(search, CZ_STATUS_INTERRUPTED, "interrupted");
-    return search->is_over;
+    return search->is_over || search->is_paused;
+}
+
+void cz_search_resume(CzSearch *search) {
+    search->is_paused = false;
+    search->n_before_window = search->n_record;
 }
 
 const double *cz_search_x(const CzSearch *search, long record) {
@@ -175,18 +180,22 @@ static void report_progress(const CzSearch *search, const char *phase) {
     search->progress(&progress, search->progress_data);
 }
 
+/* Ends a search that has seen nothing but failures, pauses one that has run into them. */
 static void watch_failures(CzSearch *search) {
-    if (search->n_record < WINDOW_OF_FAILURES)
+    if (search->n_record - search->n_before_window < WINDOW_OF_FAILURES)
         return;
     int n_failed = 0;
     for (long i = search->n_record - WINDOW_OF_FAILURES; i < search->n_record; i++)
         n_failed += isnan(search->record[i].objective);
     if (n_failed <= MOST_FAILURES)
         return;
-    char why[128];
-    snprintf(why, sizeof why, "%d of the last %d designs failed in simulation", n_failed,
-             WINDOW_OF_FAILURES);
-    finish(search, CZ_STATUS_RUN_FAILED, why);
+    snprintf(search->why, sizeof search->why, "%d of the last %d designs failed in simulation",
+             n_failed, WINDOW_OF_FAILURES);
+    search->is_paused = true;
+    if (search->best < 0) {
+        search->is_over = true;
+        search->status = CZ_STATUS_RUN_FAILED;
+    }
 }
 
 /* ---- evaluating

@@ -50,7 +50,9 @@ typedef struct CzSearch {
     long last_gain;    /* number of evaluations when the best last improved by more than 0.1 % */
 
     double worst_objective, worst_constraint; /* over the designs that did not fail */
-    bool is_over; /* nothing more may be evaluated; `status` and `why` say why */
+    bool is_over;         /* nothing more may be evaluated; `status` and `why` say why */
+    bool is_paused;       /* most of the latest designs failed: looking on from there is no use */
+    long n_before_window; /* records that the watch on failures does not count any more */
     CzStatus status;
     CzError error;
     char why[128];
@@ -60,11 +62,14 @@ typedef struct CzSearch {
 void cz_search_init(CzSearch *search, const CzFunction *function, const CzOptimiseOptions *options);
 void cz_search_free(CzSearch *search);
 
-/* Evaluations left; 0 when the search is over. */
+/* Evaluations left; 0 when the search is over or paused. */
 long cz_search_left(const CzSearch *search);
 
-/* Ends the search when the stop flag is up. */
+/* Ends the search when the stop flag is up; whether nothing more may be evaluated now. */
 bool cz_search_is_stopped(CzSearch *search);
+
+/* Goes on after a pause, from the best design. */
+void cz_search_resume(CzSearch *search);
 
 /* Evaluates n designs, x in the variables' units (n x n_variable), in order. objective (n) and
  * constraint (n x n_constraint) get finite numbers; constraints above 1 are compressed to

@@ -142,6 +142,7 @@ long cz_snap_reserve(const CzSearch *search) {
 void cz_snap(CzSearch *search, long evaluations) {
     if (!cz_search_has_steps(search) || search->best < 0)
         return;
+    cz_search_resume(search);
     const int n = search->function->n_variable;
     Batch batch;
     double *near = calloc(2 * (size_t)n, sizeof *near);

@@ -8,6 +8,7 @@
  * The gain of a long train's rattling is in secants: local derivatives are exact and useless.
  */
 #include "optimise/strategy.h"
+#include "base/error.h"
 #include "optimise/nlopt_adapter.h"
 
 #include <math.h>
@@ -103,7 +104,7 @@ static CzStatus descend(CzSearch *search, long evaluations, CzError *error) {
     const long share = evaluations / 3 > 8L * (n + 1) ? evaluations / 3 : 8L * (n + 1);
     double *chosen = calloc((size_t)(MOST_STARTS + 1) * (size_t)n, sizeof *chosen);
     if (chosen == NULL)
-        return CZ_OK;
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the starting points");
     CzStatus status = CZ_OK;
     CzNloptRun run = cz_nlopt_run_default("LD_SLSQP");
     run.phase = "descend";
@@ -124,17 +125,15 @@ static CzStatus descend(CzSearch *search, long evaluations, CzError *error) {
     return status;
 }
 
-/* One more run from the best design; returns whether it gained. */
+/* One more run from the best design, or from the start while every design failed. */
 static CzStatus run_from_best(CzSearch *search, const CzNloptRun *run, bool *gained,
                               CzError *error) {
     const long before = search->last_gain;
     double *u = calloc((size_t)search->function->n_variable, sizeof *u);
-    if (u == NULL || search->best < 0) {
-        free(u);
-        *gained = false;
-        return CZ_OK;
-    }
-    cz_search_scale(search, cz_search_x(search, search->best), u);
+    if (u == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a starting point");
+    cz_search_scale(
+        search, search->best >= 0 ? cz_search_x(search, search->best) : search->function->start, u);
     const CzStatus status = cz_nlopt_run(search, run, u, error);
     free(u);
     *gained = search->last_gain != before;
@@ -182,7 +181,7 @@ CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, CzError *error) 
             status = polish(search, reserve, error);
     }
     if (status == CZ_OK)
-        cz_snap(search, cz_search_left(search));
+        cz_snap(search, search->most_evaluations - search->n_record);
     return status;
 }
 
@@ -193,7 +192,7 @@ CzStatus cz_strategy_named(CzSearch *search, const char *algorithm, unsigned lon
     run.seed = seed;
     CzStatus status = CZ_OK;
     bool gained = evaluate_start(search);
-    while (gained && status == CZ_OK) {
+    while (gained && status == CZ_OK) { /* the first time because the start is one */
         run.evaluations = cz_search_left(search) - reserve;
         if (run.evaluations < 1)
             break;
@@ -201,6 +200,6 @@ CzStatus cz_strategy_named(CzSearch *search, const char *algorithm, unsigned lon
         run.seed++;
     }
     if (status == CZ_OK)
-        cz_snap(search, cz_search_left(search));
+        cz_snap(search, search->most_evaluations - search->n_record);
     return status;
 }

@@ -153,6 +153,7 @@ static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles) {
                                   .plastic_energy = energy};
     run->summary.energy =
         (CzEnergy){.initial = 2 * energy, .dissipated = energy, .absorbers = interface->energy};
+    run->summary.energy.occupied = occupied;
     if (tube_force > stand_in.failing_above) {
         run->summary.status = CZ_STATUS_RUN_FAILED;
         snprintf(run->summary.failure, sizeof run->summary.failure, "A1 coupler at 0.1 s");
@@ -179,13 +180,13 @@ static const char base[] =
     "schema: 1\n"
     "title: stand-in\n"
     "parts:\n"
-    "  tube: {stages: [{stroke_mm: 300, force_kN: 800}]}\n"
+    "  tube: {stages: [{stroke_mm: 250, force_kN: 800}]}\n"
     "  shear-off: {force_kN: 1300, retraction_space_mm: 1500}\n"
     "  anti-climber: {count: 2, gap_mm: 400, stages: [{stroke_mm: 400, force_kN: 300}]}\n"
     "  head:\n"
     "    face_gap_mm: 900\n"
     "    unloading_stiffness_MN_m: 100\n"
-    "    stages: [{stroke_mm: 500, force_MN: 3, zone: occupied}]\n"
+    "    stages: [{stroke_mm: 5, force_MN: 3, zone: occupied}]\n"
     "    proof_strength_kN: 1650\n"
     "    available_length_m: 2.5\n"
     "    coupler:\n"

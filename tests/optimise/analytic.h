@@ -65,6 +65,12 @@ static inline double failing(const double *x, double *c) {
     return x[0] + x[1] > 2.5 ? NAN : value;
 }
 
+/* The objective falls towards a border beyond which everything fails. */
+static inline double tempting_failures(const double *x, double *c) {
+    c[0] = c[1] = -1;
+    return x[0] + x[1] > 1.6 ? NAN : -x[0] - x[1];
+}
+
 static inline double always_failing(const double *x, double *c) {
     (void)x;
     c[0] = NAN;

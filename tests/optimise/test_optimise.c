@@ -239,12 +239,12 @@ static void check_cheat(const Cheat *cheat) {
 
 static void optimiser_cannot_win_by_using_every_stroke_up(void **state) {
     (void)state;
-    check_cheat(&(Cheat){
-        .limits = "{name: visible, metric: elements.stroke_used, max: 1e9}",
-        .minimise = "design.installed_length_mm",
-        .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 10, max: 900}",
-        .check = "stroke used",
-        .scenario = "crash"});
+    check_cheat(&(Cheat){.limits = "{name: visible, metric: elements.stroke_used, max: 1e9}",
+                         .minimise = "design.installed_length_mm",
+                         .variables =
+                             "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 1, max: 900}",
+                         .check = "stroke used",
+                         .scenario = "crash"});
 }
 
 static void optimiser_cannot_win_by_bottoming_out_under_overload(void **state) {
@@ -252,7 +252,7 @@ static void optimiser_cannot_win_by_bottoming_out_under_overload(void **state) {
     check_cheat(&(Cheat){
         .limits = "{name: visible, metric: elements.stroke_used, max: 1e9, scenarios: [overload]}",
         .minimise = "design.installed_length_mm",
-        .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 10, max: 900}",
+        .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 1, max: 900}",
         .check = "stroke used under overload",
         .scenario = "overload"});
 }
@@ -292,7 +292,7 @@ static void optimiser_cannot_win_by_crushing_the_occupied_space(void **state) {
     check_cheat(&(Cheat){
         .limits = "{name: visible, metric: energy.occupied_kJ, max: 1e9, scenarios: [crash]}",
         .minimise = "design.installed_length_mm",
-        .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 10, max: 900}",
+        .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 1, max: 900}",
         .check = "energy in occupied space",
         .scenario = "crash"});
 }
@@ -320,7 +320,7 @@ static void optimiser_cannot_make_the_shear_off_stronger_than_the_car(void **sta
     (void)state;
     check_cheat(
         &(Cheat){.limits = "{name: visible, metric: ends.shear_off_over_strength, max: 1e9}",
-                 .minimise = "elements.shear_load",
+                 .minimise = "ends.tube_over_shear_off",
                  .variables = "{path: parts.shear-off.force_kN, min: 1000, max: 3000}",
                  .check = "shear-off below the strength",
                  .scenario = "design"});
@@ -331,8 +331,7 @@ static void optimiser_cannot_win_with_an_element_that_takes_no_energy(void **sta
     check_cheat(&(Cheat){
         .limits = "{name: visible, metric: energy.absorbers_share, min: -1e9, scenarios: [crash]}",
         .minimise = "design.installed_length_mm",
-        .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 10, max: 900},"
-                     "{path: parts.shear-off.force_kN, min: 100, max: 2000}",
+        .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 1, max: 900}",
         .check = "energy in the absorbers",
         .scenario = "crash"});
 }
@@ -345,12 +344,12 @@ static void optimiser_cannot_win_where_the_simulation_fails(void **state) {
         "optimise:\n"
         "  minimise: elements.anti-climber *.stroke_used\n"
         "  evaluations: 200\n"
-        "  variables: [{path: \"parts.tube.stages[0].force_kN\", min: 300, max: 1200, step: 10}]\n";
+        "  variables: [{path: \"parts.tube.stages[0].force_kN\", min: 300, max: 1100, step: 10}]\n";
     for (int incomplete = 0; incomplete < 2; incomplete++) {
         Case made = begin(more, 2);
-        *(incomplete ? &stand_in.incomplete_above : &stand_in.failing_above) = 1005e3;
+        *(incomplete ? &stand_in.incomplete_above : &stand_in.failing_above) = 905e3;
         optimise(&made, NULL);
-        assert_near(made.outcome->best[0], 1000, 1e-12, 0);
+        assert_near(made.outcome->best[0], 900, 1e-12, 0);
         assert_int_equal(made.outcome->best_evaluation.status, CZ_OK);
         end(&made);
     }

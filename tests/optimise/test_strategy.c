@@ -110,6 +110,23 @@ static void search_that_only_fails_ends_with_a_sentence(void **state) {
     cz_search_free(&search);
 }
 
+static void search_that_runs_into_failures_ends_with_the_best_and_a_sentence(void **state) {
+    (void)state;
+    Analytic tempting = analytic_failing;
+    tempting.formula = tempting_failures;
+    tempting.start[1] = 0.5;
+    const CzFunction function = analytic_function(&tempting);
+    CzOptimiseOptions options = {.evaluations = 3000};
+    CzSearch search;
+    CzError error = {0};
+    cz_search_init(&search, &function, &options);
+    assert_int_equal(cz_strategy_named(&search, "LN_NELDERMEAD", 1, &error), CZ_OK);
+    assert_false(isnan(search.record[search.best].objective));
+    if (search.is_paused)
+        assert_non_null(strstr(search.why, "of the last 50 designs failed"));
+    cz_search_free(&search);
+}
+
 static void limit_of_evaluations_is_kept(void **state) {
     (void)state;
     const CzFunction function = analytic_function(&analytic_hs43);
@@ -313,6 +330,7 @@ int main(void) {
         cmocka_unit_test(failing_region_is_left_and_never_the_best),
         cmocka_unit_test(failed_designs_are_answered_by_finite_numbers_above_all_others),
         cmocka_unit_test(search_that_only_fails_ends_with_a_sentence),
+        cmocka_unit_test(search_that_runs_into_failures_ends_with_the_best_and_a_sentence),
         cmocka_unit_test(limit_of_evaluations_is_kept),
         cmocka_unit_test(same_seed_gives_the_same_history_and_another_seed_another),
         cmocka_unit_test(interruption_ends_every_algorithm_and_keeps_the_best),

@@ -157,7 +157,7 @@ static CzStatus polish(CzSearch *search, long reserve, CzError *error) {
         run.first_step = by_values ? step : 0;
         run.secant = secant;
         run.evaluations = left < 12L * (n + 1) ? left : 12L * (n + 1);
-        bool gained;
+        bool gained = false;
         const CzStatus status = run_from_best(search, &run, &gained, error);
         if (status != CZ_OK)
             return status;

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "laws/wheel_rail.h"
+
 extern const CzKernel cz_kernel_baseline;
 #ifdef CZ_HAS_KERNEL_V3
 extern const CzKernel cz_kernel_v3;
@@ -71,6 +73,34 @@ static void start_extremes(CzDynamics *dynamics) {
             cz_row(dynamics->extreme, dynamics->stride, row)[lane] = start[row];
 }
 
+/* One over a row of parameters, 0 where the parameter is 0. */
+static void invert(CzDynamics *dynamics, int parameter, int constant) {
+    const double *value = cz_row(dynamics->lanes->parameter, dynamics->stride, parameter);
+    double *inverse = cz_row(dynamics->constant, dynamics->stride, constant);
+    for (size_t lane = 0; lane < dynamics->stride; ++lane)
+        inverse[lane] = value[lane] > 0.0 ? 1.0 / value[lane] : 0.0;
+}
+
+static void derive_constants(CzDynamics *dynamics) {
+    static const int inverses[][2] = {{CZ_P_CREEP_STIFFNESS, CZ_C_CREEP_COMPLIANCE},
+                                      {CZ_P_BRAKE_STIFFNESS, CZ_C_BRAKE_COMPLIANCE},
+                                      {CZ_P_HINGE_STIFFNESS_A, CZ_C_HINGE_COMPLIANCE_A},
+                                      {CZ_P_HINGE_STIFFNESS_B, CZ_C_HINGE_COMPLIANCE_B},
+                                      {CZ_P_FOLD_STIFFNESS_REAR, CZ_C_FOLD_COMPLIANCE_REAR},
+                                      {CZ_P_FOLD_STIFFNESS_FRONT, CZ_C_FOLD_COMPLIANCE_FRONT},
+                                      {CZ_P_FACE_VERTICAL_STIFFNESS, CZ_C_GRIP_COMPLIANCE}};
+    for (size_t k = 0; k < sizeof inverses / sizeof inverses[0]; ++k)
+        invert(dynamics, inverses[k][0], inverses[k][1]);
+    const double *hertz = cz_row(dynamics->lanes->parameter, dynamics->stride, CZ_P_HERTZ);
+    for (int axle = 0; axle < 4; ++axle) {
+        const double *indentation =
+            cz_row(dynamics->lanes->parameter, dynamics->stride, CZ_P_INDENTATION_0 + axle);
+        double *load = cz_row(dynamics->constant, dynamics->stride, CZ_C_STATIC_LOAD_0 + axle);
+        for (size_t lane = 0; lane < dynamics->stride; ++lane)
+            load[lane] = cz_wheel_normal_force(hertz[lane], indentation[lane]);
+    }
+}
+
 /* Lanes seen from the first lane of a block. */
 static CzLanes *lanes_from(const CzLanes *lanes, size_t base, CzArena *arena) {
     CzLanes *view = cz_arena_allocate(arena, 1, sizeof *view);
@@ -106,6 +136,7 @@ static int create_blocks(CzDynamics *dynamics, CzArena *arena) {
         block->velocity += base;
         block->force += base;
         block->scratch += base;
+        block->constant += base;
         if (block->lanes == NULL)
             return 0;
     }
@@ -131,8 +162,12 @@ CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena) {
     dynamics->work = rows(arena, CZ_N_LEDGER, stride, &missing);
     dynamics->extreme = rows(arena, CZ_N_EXTREME, stride, &missing);
     dynamics->force = rows(arena, CZ_N_DOF, stride, &missing);
+    dynamics->constant = rows(arena, CZ_N_CONSTANT, stride, &missing);
     dynamics->scratch = rows(arena, CZ_N_SCRATCH, stride, &missing);
-    if (missing || !create_blocks(dynamics, arena))
+    if (missing)
+        return NULL;
+    derive_constants(dynamics);
+    if (!create_blocks(dynamics, arena))
         return NULL;
     memcpy(dynamics->velocity, lanes->velocity, CZ_N_DOF * stride * sizeof(double));
     start_extremes(dynamics);

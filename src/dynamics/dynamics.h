@@ -32,6 +32,15 @@ typedef enum CzExtreme {
     CZ_N_EXTREME
 } CzExtreme;
 
+/* Numbers derived from the parameters once: divisions and roots that would cost as much as a law.
+ */
+typedef enum CzConstant {
+#define CZ_CONSTANT(name, doc) CZ_C_##name,
+#include "dynamics/constants.def"
+#undef CZ_CONSTANT
+    CZ_N_CONSTANT
+} CzConstant;
+
 /* Rows of the state: the degrees of freedom, and one row whose velocity is the impulse of external
  * forces [N s]. */
 enum { CZ_ROW_IMPULSE = CZ_N_DOF, CZ_N_ROW };
@@ -53,6 +62,7 @@ struct CzDynamics {
     double *extreme;           /* committed (CZ_N_EXTREME x stride) */
     double *force;             /* generalised forces of the last evaluation (CZ_N_DOF x stride) */
     double *scratch;   /* values between the passes of an evaluation (CZ_N_SCRATCH x stride) */
+    double *constant;  /* numbers derived from the parameters once (CZ_N_CONSTANT x stride) */
     int n_block;       /* blocks of CZ_LANE_BLOCK lanes */
     CzDynamics *block; /* the same arrays seen from the first lane of each block (n_block) */
 };
@@ -72,9 +82,14 @@ typedef void CzEvaluate(CzDynamics *dynamics, double step);
 /* Accepts the evaluation: memory, work over the step, extremes at `time`. */
 typedef void CzCommit(CzDynamics *dynamics, double step, double time);
 
+/* Advances position and velocity by one step of the two-step scheme; `first` marks the first step.
+ */
+typedef void CzAdvance(CzDynamics *dynamics, double step, int first);
+
 /* One compiled copy of the kernel. */
 typedef struct CzKernel {
     const char *isa;
+    CzAdvance *advance;
     CzEvaluate *evaluate;
     CzCommit *commit;
 } CzKernel;

@@ -14,6 +14,7 @@
 #include "dynamics/kernel_coupler.h"
 #include "dynamics/kernel_face.h"
 #include "dynamics/kernel_rows.h"
+#include "integrate/two_step.h"
 
 #ifndef CZ_ISA
 #define CZ_ISA baseline
@@ -49,8 +50,9 @@ static void divide(CzDynamics *d, int dof, const double *restrict inverse) {
     const size_t n = d->lanes->n_lane;
     const double *restrict force = cz_row(d->force, d->stride, dof);
     double *restrict acceleration = cz_row(d->acceleration, d->stride, dof);
-    CZ_LANES(i, n)
-    { acceleration[i] = force[i] * inverse[i]; }
+    CZ_LANES (i, n) {
+        acceleration[i] = force[i] * inverse[i];
+    }
 }
 
 /* Body and end masses along x: ends without mass move with the body and hand their force to it.
@@ -67,8 +69,7 @@ static void divide_longitudinal(CzDynamics *d) {
     double *restrict a_rear = cz_row(d->acceleration, d->stride, CZ_DOF_END_X_REAR);
     double *restrict a_front = cz_row(d->acceleration, d->stride, CZ_DOF_END_X_FRONT);
     double *restrict external = cz_row(d->acceleration, d->stride, CZ_ROW_IMPULSE);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double handed = slaved[i] * (rear[i] + front[i]);
         const double total = body[i] + handed;
         const double a = total * inverse[i];
@@ -85,8 +86,9 @@ static void divide_vertical(CzDynamics *d) {
     const double *restrict slaved = P(SLAVED_ENDS), *restrict inverse = P(INVERSE_BODY_MASS);
     const double *restrict force = G(BODY_Z);
     double *restrict acceleration = cz_row(d->acceleration, d->stride, CZ_DOF_BODY_Z);
-    CZ_LANES(i, n)
-    { acceleration[i] = (1.0 - slaved[i]) * force[i] * inverse[i]; }
+    CZ_LANES (i, n) {
+        acceleration[i] = (1.0 - slaved[i]) * force[i] * inverse[i];
+    }
 }
 
 static void divide_by_masses(CzDynamics *d) {
@@ -136,8 +138,9 @@ static void add_pushes(CzDynamics *d) {
     for (int k = 0; k < 3; ++k) {
         double *restrict body = G_AT(BODY_X, k);
         const double *restrict pushed = S_AT(PUSHED_X, k);
-        CZ_LANES(i, n)
-        { body[i] += pushed[i]; }
+        CZ_LANES (i, n) {
+            body[i] += pushed[i];
+        }
     }
 }
 
@@ -157,15 +160,17 @@ static void evaluate(CzDynamics *d, double step) {
 static void keep_larger(const CzDynamics *d, int extreme, const double *restrict value) {
     const size_t n = d->lanes->n_lane;
     double *restrict kept = cz_row(d->extreme, d->stride, extreme);
-    CZ_LANES(i, n)
-    { kept[i] = cz_larger(kept[i], value[i]); }
+    CZ_LANES (i, n) {
+        kept[i] = cz_larger(kept[i], value[i]);
+    }
 }
 
 static void keep_larger_size(const CzDynamics *d, int extreme, const double *restrict value) {
     const size_t n = d->lanes->n_lane;
     double *restrict kept = cz_row(d->extreme, d->stride, extreme);
-    CZ_LANES(i, n)
-    { kept[i] = cz_larger(kept[i], fabs(value[i])); }
+    CZ_LANES (i, n) {
+        kept[i] = cz_larger(kept[i], fabs(value[i]));
+    }
 }
 
 #define E(name) cz_row(d->extreme, d->stride, CZ_E_##name)
@@ -176,8 +181,7 @@ static void interface_extremes(const CzDynamics *d, double time) {
                            *restrict x_ahead = X(BODY_X) + ahead;
     double *restrict peak = E(INTERFACE_FORCE), *restrict when = E(INTERFACE_TIME);
     double *restrict shortening = E(INTERFACE_SHORTENING);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double size = fabs(total[i]);
         when[i] = size > peak[i] ? time : when[i];
         peak[i] = cz_larger(size, peak[i]);
@@ -189,8 +193,7 @@ static void interface_extremes(const CzDynamics *d, double time) {
     double *restrict lost_overlap = E(FACE_LOST_OVERLAP), *restrict lost_margin =
                                                               E(FACE_LOST_MARGIN);
     double *restrict climbed = E(FACE_CLIMBED), *restrict climb_time = E(CLIMB_TIME);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double pushing =
             chain[i] > 1e4
                 ? 1.0
@@ -212,8 +215,7 @@ static void car_extremes(const CzDynamics *d, double time) {
                                                                   P_AT(INDENTATION_0, axle);
         double *restrict lift = cz_row(d->extreme, d->stride, CZ_E_LIFT_0 + axle);
         double *restrict when = cz_row(d->extreme, d->stride, CZ_E_LIFT_TIME_0 + axle);
-        CZ_LANES(i, n)
-        {
+        CZ_LANES (i, n) {
             const double now = z[i] - indentation[i];
             when[i] = now > lift[i] ? time : when[i];
             lift[i] = cz_larger(lift[i], now);
@@ -226,8 +228,9 @@ static void car_extremes(const CzDynamics *d, double time) {
                                                                         P_AT(INDENTATION_0,
                                                                              2 * bogie + 1);
         double *restrict lift = cz_row(d->extreme, d->stride, CZ_E_BOGIE_LIFT_REAR + bogie);
-        CZ_LANES(i, n)
-        { lift[i] = cz_larger(lift[i], cz_smaller(z0[i] - i0[i], z1[i] - i1[i])); }
+        CZ_LANES (i, n) {
+            lift[i] = cz_larger(lift[i], cz_smaller(z0[i] - i0[i], z1[i] - i1[i]));
+        }
         keep_larger_size(d, CZ_E_LINK_FORCE, S_AT(LINK_REAR, bogie));
     }
     keep_larger_size(d, CZ_E_BODY_PITCH, X(BODY_PITCH));
@@ -240,8 +243,9 @@ static void add_work(CzDynamics *d, double step) {
     const size_t n = CZ_N_LEDGER * d->stride;
     const double *restrict last = d->last_power, *restrict power = d->power;
     double *restrict work = d->work;
-    CZ_LANES(i, n)
-    { work[i] += 0.5 * step * (last[i] + power[i]); }
+    CZ_LANES (i, n) {
+        work[i] += 0.5 * step * (last[i] + power[i]);
+    }
 }
 
 static void swap(double **a, double **b) {
@@ -269,4 +273,9 @@ static void commit(CzDynamics *d, double step, double time) {
         car_extremes(d, time);
 }
 
-const CzKernel KERNEL_NAME(CZ_ISA) = {ISA_TEXT(CZ_ISA), evaluate, commit};
+static void advance(CzDynamics *d, double step, int first) {
+    cz_two_step_advance(CZ_N_ROW * d->stride, step, first, d->position, d->velocity,
+                        d->acceleration, d->last_acceleration);
+}
+
+const CzKernel KERNEL_NAME(CZ_ISA) = {ISA_TEXT(CZ_ISA), advance, evaluate, commit};

@@ -37,8 +37,7 @@ static void end_geometry(CzDynamics *d, int end) {
     double *restrict slip = S(SLIP), *restrict slip_rate = S(SLIP_RATE);
     double *restrict arm_x = S(ARM_X_A), *restrict arm_z = S(ARM_Z_A);
     double *restrict arm_x_e = S(ARM_X_B), *restrict arm_z_e = S(ARM_Z_B);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double bx = at[i] * c[i] - body_z[i] * s[i], bz = at[i] * s[i] + body_z[i] * c[i];
         const double ex = -mass_z[i] * se[i], ez = mass_z[i] * ce[i];
         const double qx = (xe[i] + ex) - (xb[i] + (bx - at[i]));
@@ -63,8 +62,9 @@ static void end_crush(CzDynamics *d, int end) {
     const double *restrict stroke = S_AT(END_STROKE_REAR, end), *restrict rate = S(RATE);
     const double *restrict before = M_AT(END_PEAK_REAR, end);
     double *restrict next = NEXT_AT(END_PEAK_REAR, end), *restrict largest = S(LARGEST);
-    CZ_LANES(i, n)
-    { next[i] = cz_larger(before[i], stroke[i]); }
+    CZ_LANES (i, n) {
+        next[i] = cz_larger(before[i], stroke[i]);
+    }
     largest_of_stages(d, CZ_CURVE_END_REAR + end, next, largest);
     double *restrict curve = S(CURVE_VALUE), *restrict peak = S(CURVE_PEAK),
                      *restrict slope = S(CURVE_SLOPE);
@@ -77,8 +77,7 @@ static void end_crush(CzDynamics *d, int end) {
                                                                       P_AT(END_DAMPING_REAR, end);
     double *restrict force = S_AT(END_REAR, end), *restrict damped = S(CHAIN_FORCE);
     double *restrict power = POWER_AT(END_REAR, end), *restrict lost = POWER(END_DAMPING);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const CzVehicleEndLaw law = {cz_larger(unloading[i], 1.0), share[i],
                                      cz_larger(second[i], 1.0), tension[i]};
         const CzVehicleEndResponse response =
@@ -103,15 +102,15 @@ static void end_guidance(CzDynamics *d, int end) {
     const double *restrict pitch = X(BODY_PITCH), *restrict turn = V(BODY_PITCH);
     const double *restrict pitch_e = X_AT(END_PITCH_REAR, 3 * end), *restrict turn_e = V_AT(
                                                                         END_PITCH_REAR, 3 * end);
+    const double *restrict compliance = C_AT(FOLD_COMPLIANCE_REAR, end);
     double *restrict next = NEXT_AT(FOLD_REAR, end);
     double *restrict across = S(CHAIN_FORCE), *restrict moment = S(CHAIN_LOWEST);
     double *restrict guide = POWER(GUIDE), *restrict guide_lost = POWER(GUIDE_DAMPING);
     double *restrict folding = POWER(FOLD), *restrict folding_lost = POWER(FOLD_DAMPING);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double spring = k[i] * slip[i], damper = c[i] * slip_rate[i];
         const CzSliderResponse hinge =
-            cz_slider(fold[i], capacity[i], pitch_e[i] - pitch[i], folded[i]);
+            cz_slider_of(fold[i], compliance[i], capacity[i], pitch_e[i] - pitch[i], folded[i]);
         const double opening = turn_e[i] - turn[i], resisting = fold_c[i] * opening;
         next[i] = hinge.offset;
         across[i] = spring + damper;
@@ -139,8 +138,7 @@ static void vehicle_end(CzDynamics *d, int end) {
     double *restrict ex = G_AT(END_X_REAR, 3 * end), *restrict ez = G_AT(END_Z_REAR, 3 * end);
     double *restrict em = G_AT(END_PITCH_REAR, 3 * end), *restrict section =
                                                              S_AT(SECTION_REAR, end);
-    CZ_LANES(i, n)
-    { /* on the end mass */
+    CZ_LANES (i, n) { /* on the end mass */
         const double fx = sign * force[i] * c[i] + across[i] * s[i];
         const double fz = sign * force[i] * s[i] - across[i] * c[i];
         ex[i] += fx;
@@ -186,8 +184,7 @@ static void bogie_to_body(CzDynamics *d, int bogie) {
     double *restrict spring_power = POWER(SECONDARY), *restrict damper_power =
                                                           POWER(SECONDARY_DAMPING);
     double *restrict link_power = POWER(LINK), *restrict link_lost = POWER(LINK_DAMPING);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         /* Vertical: at the bogie's centre. */
         const CzSuspensionLaw law = {k[i],      preload[i], bump[i],     bump_k[i], lift[i],
                                      lift_k[i], damping[i], blow_off[i], beyond[i]};
@@ -253,8 +250,7 @@ static void axle_to_bogie(CzDynamics *d, int axle) {
     double *restrict spring_power = POWER(PRIMARY), *restrict damper_power = POWER(PRIMARY_DAMPING);
     double *restrict guide_power = POWER(AXLE_GUIDANCE), *restrict guide_lost =
                                                              POWER(AXLE_GUIDANCE_DAMPING);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         /* Vertical: at the axle. */
         const CzSuspensionLaw law = {k[i],      preload[i], bump[i],     bump_k[i], lift[i],
                                      lift_k[i], damping[i], blow_off[i], beyond[i]};
@@ -287,6 +283,9 @@ static void axle_to_bogie(CzDynamics *d, int axle) {
 /* Wheel and rail, and the brake, of one axle. */
 static void wheel(CzDynamics *d, int axle, double step) {
     const size_t n = CZ_LANE_BLOCK;
+    const double *restrict rest = C_AT(STATIC_LOAD_0, axle), *restrict creep_c =
+                                                                 C(CREEP_COMPLIANCE);
+    const double *restrict brake_c = C(BRAKE_COMPLIANCE);
     const double *restrict hertz = P(HERTZ), *restrict indentation = P_AT(INDENTATION_0, axle);
     const double *restrict radius = P(WHEEL_RADIUS), *restrict k = P(CREEP_STIFFNESS),
                            *restrict length = P(CREEP_LENGTH);
@@ -309,18 +308,17 @@ static void wheel(CzDynamics *d, int axle, double step) {
     double *restrict adhesion = S(ADHESION);
     double *restrict normal_power = POWER(WHEEL_NORMAL), *restrict creep_power = POWER(WHEEL_CREEP);
     double *restrict brake_power = POWER(BRAKE);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double normal = cz_wheel_normal_force(hertz[i], indentation[i] - zw[i]);
-        const double more = normal - cz_wheel_normal_force(hertz[i], indentation[i]);
+        const double more = normal - rest[i];
         const CzCreepLaw law = {k[i], cz_larger(length[i], 1e-6), peak[i], sliding[i],
                                 cz_larger(fall[i], 1e-6)};
-        const double inverse = k[i] > 0.0 ? 1.0 / cz_larger(k[i], 1.0) : 0.0;
         const double slip = vxw[i] - radius[i] * spin[i];
         next_deflection[i] =
-            cz_creep_deflection(&law, inverse, deflection[i], slip, vxw[i], normal, step);
+            cz_creep_deflection(&law, creep_c[i], deflection[i], slip, vxw[i], normal, step);
         const double tangential = -k[i] * next_deflection[i];
-        const CzSliderResponse held = cz_slider(brake_k[i], brake[i], angle[i], slipped[i]);
+        const CzSliderResponse held =
+            cz_slider_of(brake_k[i], brake_c[i], brake[i], angle[i], slipped[i]);
         next_slipped[i] = held.offset;
         gxw[i] += tangential;
         gzw[i] += more;

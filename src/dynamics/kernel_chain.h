@@ -42,8 +42,7 @@ static void unbalance(const CzDynamics *d, const Chain *chain, const double *res
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict force = S(CHAIN_FORCE);
     const double *restrict compliance = cz_row(d->lanes->parameter, d->stride, chain->compliance);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         sum[i] = compliance[i] * force[i] - closure[i];
         slope[i] = compliance[i];
     }
@@ -52,8 +51,7 @@ static void unbalance(const CzDynamics *d, const Chain *chain, const double *res
         const double *restrict rest = S_AT(SPRING_FORCE_A, side);
         const double *restrict up = S_AT(SPRING_UP_A, side);
         const double *restrict down = S_AT(SPRING_DOWN_A, side);
-        CZ_LANES(i, n)
-        {
+        CZ_LANES (i, n) {
             const double excess = force[i] - rest[i];
             const double c = excess > 0.0 ? up[i] : down[i];
             sum[i] += stroke[i] + excess * c;
@@ -64,8 +62,7 @@ static void unbalance(const CzDynamics *d, const Chain *chain, const double *res
         const double *restrict stroke = cz_row(d->memory, d->stride, chain->plastic + member);
         const double *restrict strength = S_AT(STRENGTH_0, member);
         const double *restrict flow = S_AT(FLOW_0, member);
-        CZ_LANES(i, n)
-        {
+        CZ_LANES (i, n) {
             const double yields = force[i] > strength[i] ? flow[i] : 0.0;
             sum[i] += stroke[i] + cz_plastic_flow(force[i], strength[i], flow[i]);
             slope[i] += yields;
@@ -115,8 +112,7 @@ static void solve_chain(CzDynamics *d, const Chain *chain, const double *closure
     {
         const double *restrict last = cz_row(d->memory, d->stride, chain->force);
         const double *restrict lowest = S(CHAIN_LOWEST);
-        CZ_LANES(i, n)
-        {
+        CZ_LANES (i, n) {
             force[i] = cz_larger(last[i], lowest[i]);
             low[i] = -1e10;
             high[i] = 1e10;
@@ -132,8 +128,7 @@ static void solve_chain(CzDynamics *d, const Chain *chain, const double *closure
     const double *restrict active = S(CHAIN_ACTIVE);
     const double *restrict left = sum;
     const double unsolved = arrived ? 0.0 : 1.0;
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         residual[i] = cz_larger(residual[i], unsolved * active[i] * fabs(left[i]));
         force[i] *= active[i];
         kept[i] = force[i];
@@ -164,8 +159,7 @@ static void prepare_buffer(CzDynamics *d, const Chain *chain, const BufferRows *
     double *restrict rest = S_AT(SPRING_FORCE_A, side);
     double *restrict up = S_AT(SPRING_UP_A, side);
     double *restrict down = S_AT(SPRING_DOWN_A, side);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const CzBufferLaw law = {cz_larger(transition[i], 1.0),
                                  share[i],
                                  damping[i],
@@ -191,8 +185,7 @@ static void prepare_plastic(CzDynamics *d, const Chain *chain, int member, int c
     double *restrict strength = S_AT(STRENGTH_0, member);
     double *restrict flow = S_AT(FLOW_0, member);
     evaluate_curve(d, curve_id, stroke, strength, flow);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double scaled = strength[i] * (1.0 + factor[i]);
         flow[i] = cz_plastic_compliance(scaled, flow[i] * (1.0 + factor[i]), rate_factor[i], step);
         strength[i] = scaled;
@@ -215,8 +208,7 @@ static void move_members(CzDynamics *d, const Chain *chain, int first, int secon
         const double *restrict up = S_AT(SPRING_UP_A, side);
         const double *restrict down = S_AT(SPRING_DOWN_A, side);
         const double *restrict active = S(CHAIN_ACTIVE);
-        CZ_LANES(i, n)
-        {
+        CZ_LANES (i, n) {
             const double excess = active[i] * (force[i] - rest[i]);
             const double c = excess > 0.0 ? up[i] : down[i];
             const double way = excess * c;
@@ -231,8 +223,7 @@ static void move_members(CzDynamics *d, const Chain *chain, int first, int secon
         double *restrict next_energy = cz_row(d->next_memory, d->stride, first + side);
         const double *restrict strength = S_AT(STRENGTH_0, member);
         const double *restrict flow = S_AT(FLOW_0, member);
-        CZ_LANES(i, n)
-        {
+        CZ_LANES (i, n) {
             const double way = cz_plastic_flow(force[i], strength[i], flow[i]);
             next[i] = stroke[i] + way;
             next_energy[i] += 0.5 * (last[i] + force[i]) * way;
@@ -242,8 +233,9 @@ static void move_members(CzDynamics *d, const Chain *chain, int first, int secon
                 member < 2 ? cz_row(d->memory, d->stride, second + side)
                            : (const double *)cz_row(d->next_memory, d->stride, second + side);
             double *restrict after = cz_row(d->next_memory, d->stride, second + side);
-            CZ_LANES(i, n)
-            { after[i] = before[i] + 0.5 * (last[i] + force[i]) * (next[i] - stroke[i]); }
+            CZ_LANES (i, n) {
+                after[i] = before[i] + 0.5 * (last[i] + force[i]) * (next[i] - stroke[i]);
+            }
         }
     }
 }
@@ -255,8 +247,9 @@ static void keep_rates(CzDynamics *d, const Chain *chain, int rate_row, double s
         const double *restrict before = cz_row(d->memory, d->stride, chain->spring + side);
         const double *restrict after = cz_row(d->next_memory, d->stride, chain->spring + side);
         double *restrict rate = cz_row(d->next_memory, d->stride, rate_row + side);
-        CZ_LANES(i, n)
-        { rate[i] = (after[i] - before[i]) / step; }
+        CZ_LANES (i, n) {
+            rate[i] = (after[i] - before[i]) / step;
+        }
     }
 }
 

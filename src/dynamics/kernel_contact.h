@@ -31,8 +31,7 @@ static void contact_geometry(CzDynamics *d, const Carrier *a, const Carrier *b,
     double *restrict normal_x = S(NORMAL_X), *restrict normal_z = S(NORMAL_Z);
     double *restrict arm_x_a = S(ARM_X_A), *restrict arm_z_a = S(ARM_Z_A);
     double *restrict arm_x_b = S(ARM_X_B), *restrict arm_z_b = S(ARM_Z_B);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         /* Face centres from their carriers' centres of gravity, and from each other. */
         const double ax = x_a[i] * ca.cosine[i] - z_a[i] * ca.sine[i];
         const double az = x_a[i] * ca.sine[i] + z_a[i] * ca.cosine[i];
@@ -88,8 +87,7 @@ static inline void put_force(size_t n, const CarrierForce *on, double sign,
                              const double *restrict fx, const double *restrict fz,
                              const double *restrict arm_x, const double *restrict arm_z) {
     double *restrict gx = on->x, *restrict gz = on->z, *restrict moment = on->pitch;
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         gx[i] += sign * fx[i];
         gz[i] += sign * fz[i];
         moment[i] += sign * (arm_x[i] * fz[i] - arm_z[i] * fx[i]);
@@ -104,8 +102,7 @@ static void contact_forces(CzDynamics *d, const CarrierForce *on_a, const Carrie
     const double *restrict nx = S(NORMAL_X), *restrict nz = S(NORMAL_Z);
     double *restrict fx = S(CURVE_VALUE), *restrict fz = S(CURVE_SLOPE);
     double *restrict total = S(INTERFACE_FORCE);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         fx[i] = normal[i] * nx[i] - tangential[i] * nz[i];
         fz[i] = normal[i] * nz[i] + tangential[i] * nx[i];
         total[i] += fx[i];

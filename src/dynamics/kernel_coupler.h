@@ -29,8 +29,9 @@ static const BufferRows coupler_buffer = {
  */
 static inline void choose(size_t n, const double *restrict on_end, const double *restrict end,
                           const double *restrict body, double *restrict chosen) {
-    CZ_LANES(i, n)
-    { chosen[i] = on_end[i] > 0.5 ? end[i] : body[i]; }
+    CZ_LANES (i, n) {
+        chosen[i] = on_end[i] > 0.5 ? end[i] : body[i];
+    }
 }
 
 /* Rows of the coupler's carrier: side A is this car's front, side B the rear of the car ahead. */
@@ -74,8 +75,7 @@ static void coupler_geometry(CzDynamics *d, const Carrier *a, const Carrier *b) 
                      *restrict length = S(LENGTH);
     double *restrict arm_x_a = S(ARM_X_A), *restrict arm_z_a = S(ARM_Z_A);
     double *restrict arm_x_b = S(ARM_X_B), *restrict arm_z_b = S(ARM_Z_B);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double ax = x_a[i] * ca.cosine[i] - z_a[i] * ca.sine[i];
         const double az = x_a[i] * ca.sine[i] + z_a[i] * ca.cosine[i];
         const double bx = x_b[i] * cb.cosine[i] - z_b[i] * cb.sine[i];
@@ -110,8 +110,7 @@ static void prepare_shear_off(CzDynamics *d, int side, double step) {
     const double *restrict travel = M_AT(SHEAR_A, side);
     double *restrict strength = S_AT(STRENGTH_0, member), *restrict flow = S_AT(FLOW_0, member);
     double *restrict damage = S(DAMAGE);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const CzShearOffResponse response =
             cz_shear_off(force[i], cz_larger(softening[i], 1e-6), space[i], bottom[i], travel[i]);
         strength[i] = response.strength;
@@ -132,8 +131,9 @@ static void coupler_chain_force(CzDynamics *d, double step) {
                         cz_row(d->lanes->parameter, d->stride, tube_rates[member]), step);
     {
         double *restrict damage = S(DAMAGE);
-        CZ_LANES(i, n)
-        { damage[i] = 0.0; }
+        CZ_LANES (i, n) {
+            damage[i] = 0.0;
+        }
     }
     for (int side = 0; side < 2; ++side)
         prepare_shear_off(d, side, step);
@@ -141,8 +141,7 @@ static void coupler_chain_force(CzDynamics *d, double step) {
         const double *restrict coupled = P(COUPLED), *restrict exists = P(COUPLER),
                                *restrict damage = S(DAMAGE);
         double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
-        CZ_LANES(i, n)
-        {
+        CZ_LANES (i, n) {
             lowest[i] = -LARGEST_PULL * coupled[i] * (1.0 - damage[i]);
             active[i] = exists[i];
         }
@@ -160,6 +159,7 @@ static void hinge_moment(CzDynamics *d, int side, const Carrier *carrier) {
                                                                           HINGE_MOMENT_A, side);
     const double *restrict range = P_AT(SWING_STOP_A, side), *restrict stop =
                                                                  P_AT(SWING_STIFFNESS_A, side);
+    const double *restrict compliance = C_AT(HINGE_COMPLIANCE_A, side);
     const double *restrict exists = P(COUPLER), *restrict coupled = P(COUPLED);
     const double *restrict rise = P(PIVOT_RISE), *restrict distance = P(PIVOT_DISTANCE);
     const double *restrict closure = S(CLOSURE), *restrict damage = S(DAMAGE),
@@ -168,13 +168,13 @@ static void hinge_moment(CzDynamics *d, int side, const Carrier *carrier) {
     const double *restrict pitch = carrier->pitch, *restrict turn = carrier->turn;
     double *restrict next = NEXT_AT(HINGE_A, side), *restrict moment = S_AT(SPRING_UP_A, side);
     double *restrict power = POWER(HINGE);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double mated = cz_fade_in(cz_positive_part(closure[i]), ENGAGING_CLOSURE);
         const double engaged = exists[i] * (coupled[i] > 0.5 ? 1.0 : mated) * (1.0 - damage[i]);
         const double angle = nz[i] * (1.0 + nz[i] * nz[i] * (1.0 / 6.0));
         const double swing = angle - coupled[i] * rise[i] / distance[i] - pitch[i];
-        const CzSliderResponse hinge = cz_slider(stiffness[i], capacity[i], swing, yielded[i]);
+        const CzSliderResponse hinge =
+            cz_slider_of(stiffness[i], compliance[i], capacity[i], swing, yielded[i]);
         next[i] = engaged >= 1.0 ? hinge.offset : yielded[i];
         moment[i] = engaged * (hinge.force + cz_stop(stop[i], range[i], swing));
         power[i] += moment[i] * (line_turn[i] - turn[i]);
@@ -184,8 +184,7 @@ static void hinge_moment(CzDynamics *d, int side, const Carrier *carrier) {
 /* Adds the share of a row that goes to the end mass or to the body. */
 static inline void share(size_t n, const double *restrict on_end, const double *restrict row,
                          double sign, double *restrict end, double *restrict body) {
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double to_end = on_end[i] * row[i];
         end[i] += sign * to_end;
         body[i] += sign * (row[i] - to_end);
@@ -203,8 +202,7 @@ static void coupler_forces(CzDynamics *d) {
     double *restrict fx = S(CURVE_VALUE), *restrict fz = S(CURVE_SLOPE),
                      *restrict total = S(INTERFACE_FORCE);
     double *restrict kept = S(COUPLER_FORCE), *restrict power = POWER(COUPLER);
-    CZ_LANES(i, n)
-    { /* on side B */
+    CZ_LANES (i, n) { /* on side B */
         const double transverse = (moment_a[i] + moment_b[i]) / length[i];
         fx[i] = force[i] * nx[i] + transverse * nz[i];
         fz[i] = force[i] * nz[i] - transverse * nx[i];
@@ -220,8 +218,9 @@ static void coupler_forces(CzDynamics *d) {
         const double *restrict moment = side == 0 ? moment_a : moment_b;
         const double *restrict on_end = P_AT(COUPLER_ON_END_A, side);
         double *restrict moments = turning;
-        CZ_LANES(i, n)
-        { moments[i] = sign * (arm_x[i] * fz[i] - arm_z[i] * fx[i]) + moment[i]; }
+        CZ_LANES (i, n) {
+            moments[i] = sign * (arm_x[i] * fz[i] - arm_z[i] * fx[i]) + moment[i];
+        }
         const CarrierForce end = side == 0 ? carrier_force(d, CZ_DOF_END_X_FRONT, 0)
                                            : carrier_force(d, CZ_DOF_END_X_REAR, ahead);
         const CarrierForce body = body_force(d, side);

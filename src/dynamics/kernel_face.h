@@ -9,6 +9,7 @@
 
 #include "laws/slider.h"
 
+#define PLATE_STIFFNESS 2e7 /* vertical stiffness of buffer plates that stick [N/m] (ours) */
 #define GRIP_FORCE 1e4 /* normal force at which ribs and damping are fully engaged [N] (ours) */
 
 static const Chain face_chain = {2, CZ_M_FACE_FORCE, CZ_M_LIMP_A, CZ_M_FACE_A,
@@ -52,8 +53,7 @@ static void prepare_limp_end(CzDynamics *d, int side) {
     const double *restrict second = P_AT(LIMP_SECOND_UNLOADING_A, side);
     double *restrict rest = S_AT(SPRING_FORCE_A, side);
     double *restrict up = S_AT(SPRING_UP_A, side), *restrict down = S_AT(SPRING_DOWN_A, side);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const CzVehicleEndLaw law = {cz_larger(unloading[i], 1.0), share[i],
                                      cz_larger(second[i], 1.0), 0.0};
         const CzVehicleEndResponse response =
@@ -77,8 +77,7 @@ static void speed_factor(CzDynamics *d, int side) {
                            *restrict speed = M(FACE_SPEED);
     const double *restrict factor = P_AT(SPEED_FACTOR_A, side);
     double *restrict next = NEXT(FACE_SPEED), *restrict rise = S(LARGEST);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double touching = closure[i] > 0.0 ? cz_larger(rate[i], 1e-9) : 0.0;
         next[i] = speed[i] > 0.0 ? speed[i] : touching;
         rise[i] = factor[i] * next[i];
@@ -96,8 +95,7 @@ static void face_normal(CzDynamics *d) {
     const double *restrict slip = S(SLIP);
     double *restrict normal = S(FACE_FORCE), *restrict remaining = S(FACE_REMAINING);
     double *restrict power = POWER(FACE), *restrict lost = POWER(FACE_DAMPING);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double wanted =
             damping[i] * cz_positive_part(rate[i]) * cz_fade_in(closure[i], CZ_FADE_LENGTH);
         const double damped = cz_smaller(wanted, chain[i]);
@@ -120,17 +118,17 @@ static void face_tangential(CzDynamics *d) {
                            *restrict ribs = P(RIB_CAPACITY);
     const double *restrict friction = P(FACE_FRICTION), *restrict stiffness =
                                                             P(FACE_VERTICAL_STIFFNESS);
-    const double *restrict offset = M(FACE_SLIP);
+    const double *restrict offset = M(FACE_SLIP), *restrict compliance = C(GRIP_COMPLIANCE);
     double *restrict next = NEXT(FACE_SLIP), *restrict capacity = S(FACE_CAPACITY),
                      *restrict tangential = S(FACE_DEMAND);
     double *restrict power = POWER(FACE_SLIDING);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double meshed = cz_clamp(remaining[i] / level[i], 0.0, 1.0);
         const double engaged =
             cz_clamp(closure[i] / depth[i], 0.0, 1.0) * cz_clamp(normal[i] / GRIP_FORCE, 0.0, 1.0);
         capacity[i] = meshed * engaged * ribs[i] + friction[i] * normal[i];
-        const CzSliderResponse grip = cz_slider(stiffness[i], capacity[i], slip[i], offset[i]);
+        const CzSliderResponse grip =
+            cz_slider_of(stiffness[i], compliance[i], capacity[i], slip[i], offset[i]);
         next[i] = grip.offset;
         tangential[i] = grip.force;
         power[i] += grip.force * slip_rate[i];
@@ -185,8 +183,7 @@ static void faces(CzDynamics *d, double step) {
                         P_AT(FACE_RATE_A, side), step);
     }
     double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         lowest[i] = 0.0;
         active[i] = 1.0;
     }
@@ -196,8 +193,9 @@ static void faces(CzDynamics *d, double step) {
         const double *restrict before = M_AT(LIMP_PEAK_A, side), *restrict now =
                                                                      NEXT_AT(LIMP_A, side);
         double *restrict next = NEXT_AT(LIMP_PEAK_A, side);
-        CZ_LANES(i, n)
-        { next[i] = cz_larger(before[i], now[i]); }
+        CZ_LANES (i, n) {
+            next[i] = cz_larger(before[i], now[i]);
+        }
     }
     face_normal(d);
     face_tangential(d);
@@ -222,8 +220,7 @@ static void side_buffers(CzDynamics *d, double step) {
     }
     double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
     const double *restrict exists = P(SIDE_BUFFERS);
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         lowest[i] = 0.0;
         active[i] = exists[i];
     }
@@ -239,9 +236,9 @@ static void side_buffers(CzDynamics *d, double step) {
     double *restrict next = NEXT(SIDE_SLIP), *restrict kept = S(SIDE_FORCE),
                      *restrict tangential = S(LENGTH);
     double *restrict power = POWER(SIDE), *restrict sliding = POWER(SIDE_SLIDING);
-    CZ_LANES(i, n)
-    {
-        const CzSliderResponse grip = cz_slider(2e7, friction[i] * force[i], slip[i], offset[i]);
+    CZ_LANES (i, n) {
+        const CzSliderResponse grip =
+            cz_slider(PLATE_STIFFNESS, friction[i] * force[i], slip[i], offset[i]);
         next[i] = grip.offset;
         kept[i] = force[i];
         tangential[i] = grip.force;
@@ -253,10 +250,12 @@ static void side_buffers(CzDynamics *d, double step) {
     contact_forces(d, &on_a, &on_b, S(SIDE_FORCE), S(LENGTH));
     double *restrict front = S(SECTION_FRONT), *restrict rear = S(SECTION_REAR) + ahead;
     const double *restrict fx = S(CURVE_VALUE);
-    CZ_LANES(i, n)
-    { front[i] += fx[i]; }
-    CZ_LANES(i, n)
-    { rear[i] += fx[i]; }
+    CZ_LANES (i, n) {
+        front[i] += fx[i];
+    }
+    CZ_LANES (i, n) {
+        rear[i] += fx[i];
+    }
 }
 
 #endif

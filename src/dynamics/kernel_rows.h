@@ -15,6 +15,7 @@
 #define M(name) ((const double *)cz_row(d->memory, d->stride, CZ_M_##name))
 #define NEXT(name) cz_row(d->next_memory, d->stride, CZ_M_##name)
 #define S(name) cz_row(d->scratch, d->stride, CZ_S_##name)
+#define C(name) ((const double *)cz_row(d->constant, d->stride, CZ_C_##name))
 #define POWER(name) cz_row(d->power, d->stride, CZ_L_##name)
 
 /* The same for a row counted on from a named one: side B after side A, front after rear, axle after
@@ -27,6 +28,7 @@
 #define M_AT(name, index) ((const double *)cz_row(d->memory, d->stride, CZ_M_##name + (index)))
 #define NEXT_AT(name, index) cz_row(d->next_memory, d->stride, CZ_M_##name + (index))
 #define S_AT(name, index) cz_row(d->scratch, d->stride, CZ_S_##name + (index))
+#define C_AT(name, index) ((const double *)cz_row(d->constant, d->stride, CZ_C_##name + (index)))
 #define POWER_AT(name, index) cz_row(d->power, d->stride, CZ_L_##name + (index))
 
 /* A loop over lanes whose iterations are independent. */
@@ -43,8 +45,7 @@ typedef struct {
  * loop. */
 static inline void rotate(size_t n, const double *restrict pitch, double *restrict cosine,
                           double *restrict sine) {
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         const double square = pitch[i] * pitch[i];
         cosine[i] = 1.0 - square * (0.5 - square * (1.0 / 24.0));
         sine[i] = pitch[i] * (1.0 - square * (1.0 / 6.0));
@@ -56,16 +57,14 @@ static void evaluate_curve(const CzDynamics *d, int id, const double *restrict x
                            double *restrict value, double *restrict slope) {
     const CzCurveLanes *curve = &d->lanes->curve[id];
     const size_t n = CZ_LANE_BLOCK;
-    CZ_LANES(i, n)
-    {
+    CZ_LANES (i, n) {
         value[i] = curve->start[i];
         slope[i] = 0.0;
     }
     for (int kink = 0; kink < curve->n_kink; ++kink) {
         const double *restrict at = cz_row(curve->at, d->stride, kink);
         const double *restrict change = cz_row(curve->slope_change, d->stride, kink);
-        CZ_LANES(i, n)
-        {
+        CZ_LANES (i, n) {
             const double beyond = x[i] - at[i];
             const double counted = beyond >= 0.0 ? change[i] : 0.0;
             value[i] += counted * beyond;
@@ -80,15 +79,17 @@ static void largest_of_stages(const CzDynamics *d, int curve, const double *rest
                               double *restrict within) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict usable = d->lanes->curve[curve].usable;
-    CZ_LANES(i, n)
-    { within[i] = cz_smaller(largest[i], usable[i]); }
+    CZ_LANES (i, n) {
+        within[i] = cz_smaller(largest[i], usable[i]);
+    }
 }
 
 /* Adds factor * row to target, lane by lane. */
 static inline void add(size_t n, double *restrict target, const double *restrict factor,
                        const double *restrict row) {
-    CZ_LANES(i, n)
-    { target[i] += factor[i] * row[i]; }
+    CZ_LANES (i, n) {
+        target[i] += factor[i] * row[i];
+    }
 }
 
 #endif

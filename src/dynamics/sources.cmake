@@ -1,4 +1,5 @@
 # Sources of src/dynamics, one per line. kernel.c is compiled once per instruction set.
 set(CZ_SOURCES_dynamics
     dynamics.c
+    stored.c
 )

@@ -1,4 +1,3 @@
-# Sources of src/integrate, one per line.
+# Sources of src/integrate, one per line: headers only so far.
 set(CZ_SOURCES_integrate
-    two_step.c
 )

@@ -16,12 +16,19 @@ typedef struct {
     double offset; /* next p [m] or [rad] */
 } CzSliderResponse;
 
-static inline CzSliderResponse cz_slider(double stiffness, double capacity, double displacement,
-                                         double offset) {
+/* `compliance` is 1/k, 0 for a slider without stiffness: a division less where k never changes. */
+static inline CzSliderResponse cz_slider_of(double stiffness, double compliance, double capacity,
+                                            double displacement, double offset) {
     CzSliderResponse response;
     response.force = cz_clamp(stiffness * (displacement - offset), -capacity, capacity);
-    response.offset = displacement - response.force / cz_larger(stiffness, 1e-30);
+    response.offset = displacement - response.force * compliance;
     return response;
+}
+
+static inline CzSliderResponse cz_slider(double stiffness, double capacity, double displacement,
+                                         double offset) {
+    const double compliance = stiffness > 0.0 ? 1.0 / stiffness : 0.0;
+    return cz_slider_of(stiffness, compliance, capacity, displacement, offset);
 }
 
 /* Stop at both sides of a free range: k max(|d| - range, 0) with the sign of d. */

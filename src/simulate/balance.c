@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-#include "laws/vehicle_end.h"
-
 double cz_kinetic_energy(const CzBatch *batch, int design) {
     double energy = 0.0;
     for (int car = 0; car < batch->model->n_car; ++car) {
@@ -43,105 +41,4 @@ double cz_momentum_error(const CzBatch *batch, int design) {
         change -= cz_velocity(batch, CZ_ROW_IMPULSE, lane);
     }
     return scale > 0.0 ? fabs(change) / scale : 0.0;
-}
-
-double cz_curve_value(const CzCurveLanes *curve, size_t stride, size_t lane, double x) {
-    double value = curve->start[lane];
-    for (int kink = 0; kink < curve->n_kink; ++kink)
-        value += cz_row(curve->slope_change, stride, kink)[lane] *
-                 fmax(x - cz_row(curve->at, stride, kink)[lane], 0.0);
-    return value;
-}
-
-double cz_curve_integral(const CzCurveLanes *curve, size_t stride, size_t lane, double x) {
-    double integral = curve->start[lane] * x;
-    for (int kink = 0; kink < curve->n_kink; ++kink) {
-        const double beyond = fmax(x - cz_row(curve->at, stride, kink)[lane], 0.0);
-        integral += 0.5 * cz_row(curve->slope_change, stride, kink)[lane] * beyond * beyond;
-    }
-    return integral;
-}
-
-/* Area under the unloading curve of a buffer, or of its draw spring. */
-static double buffer_stored(const CzBatch *batch, size_t lane, int curve, double stroke,
-                            double share, double draw, double slack) {
-    if (stroke < 0.0) {
-        const double drawn = fmax(-stroke - slack, 0.0);
-        return 0.5 * draw * drawn * drawn;
-    }
-    return share *
-           cz_curve_integral(&batch->lanes->curve[curve], batch->lanes->stride, lane, stroke);
-}
-
-double cz_coupler_stored(const CzBatch *batch, size_t lane, int side) {
-    if (cz_parameter(batch, CZ_P_COUPLER, lane) < 0.5)
-        return 0.0;
-    const double force = cz_memory(batch, CZ_M_COUPLER_FORCE, lane);
-    const double elastic =
-        0.25 * cz_parameter(batch, CZ_P_COUPLER_COMPLIANCE, lane) * force * force;
-    return elastic + buffer_stored(batch, lane, CZ_CURVE_BUFFER_A + side,
-                                   cz_memory(batch, CZ_M_BUFFER_A + side, lane),
-                                   cz_parameter(batch, CZ_P_BUFFER_SHARE_A + side, lane),
-                                   cz_parameter(batch, CZ_P_BUFFER_DRAW_STIFFNESS_A + side, lane),
-                                   cz_parameter(batch, CZ_P_BUFFER_DRAW_SLACK_A + side, lane));
-}
-
-double cz_face_stored(const CzBatch *batch, size_t lane, int side) {
-    (void)side; /* the elasticity of both sides is one compliance */
-    const double force = cz_memory(batch, CZ_M_FACE_FORCE, lane);
-    return 0.25 * cz_parameter(batch, CZ_P_FACE_COMPLIANCE, lane) * force * force;
-}
-
-double cz_side_stored(const CzBatch *batch, size_t lane, int side) {
-    if (cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) < 0.5)
-        return 0.0;
-    const double force = cz_memory(batch, CZ_M_SIDE_FORCE, lane);
-    const double elastic = 0.25 * cz_parameter(batch, CZ_P_SIDE_COMPLIANCE, lane) * force * force;
-    return elastic + buffer_stored(batch, lane, CZ_CURVE_SIDE_BUFFER_A + side,
-                                   cz_memory(batch, CZ_M_SIDE_BUFFER_A + side, lane),
-                                   cz_parameter(batch, CZ_P_SIDE_SHARE_A + side, lane), 0.0, 0.0);
-}
-
-/* Energy that a crush zone gives back from shortening x, its largest being `largest`: along the
- * unloading path, and on the stop beyond the last stage. */
-static double crush_stored(const CzCurveLanes *curve, size_t stride, size_t lane,
-                           const CzVehicleEndLaw *law, double x, double largest) {
-    const double whole = curve->usable[lane];
-    const double held = fmin(largest, whole);
-    const double inside = fmin(x, whole);
-    const double backbone = cz_curve_value(curve, stride, lane, inside);
-    const double peak = cz_curve_value(curve, stride, lane, held);
-    const CzVehicleEndResponse response = cz_vehicle_end(law, backbone, peak, inside, held);
-    if (response.force < 0.0)
-        return 0.5 * response.force * response.force / fmax(law->tension, 1.0);
-    const double path = cz_vehicle_end_stored(law, peak, response.force);
-    const double stop = x > whole ? cz_curve_integral(curve, stride, lane, x) -
-                                        cz_curve_integral(curve, stride, lane, whole)
-                                  : 0.0;
-    return fmin(path, cz_curve_integral(curve, stride, lane, fmax(inside, 0.0))) + stop;
-}
-
-double cz_end_stored(const CzBatch *batch, size_t lane, int end) {
-    if (cz_parameter(batch, CZ_P_SLAVED_ENDS, lane) > 0.5)
-        return 0.0;
-    const CzVehicleEndLaw law = {
-        fmax(cz_parameter(batch, CZ_P_END_UNLOADING_REAR + end, lane), 1.0),
-        cz_parameter(batch, CZ_P_END_SHARE_REAR + end, lane),
-        fmax(cz_parameter(batch, CZ_P_END_SECOND_UNLOADING_REAR + end, lane), 1.0),
-        cz_parameter(batch, CZ_P_END_TENSION_REAR + end, lane)};
-    return crush_stored(&batch->lanes->curve[CZ_CURVE_END_REAR + end], batch->lanes->stride, lane,
-                        &law, cz_scratch(batch, CZ_S_END_STROKE_REAR + end, lane),
-                        cz_memory(batch, CZ_M_END_PEAK_REAR + end, lane));
-}
-
-double cz_limp_stored(const CzBatch *batch, size_t lane, int side) {
-    if (cz_parameter(batch, CZ_P_LIMP_END_A + side, lane) < 0.5)
-        return 0.0;
-    const CzVehicleEndLaw law = {
-        fmax(cz_parameter(batch, CZ_P_LIMP_UNLOADING_A + side, lane), 1.0),
-        cz_parameter(batch, CZ_P_LIMP_SHARE_A + side, lane),
-        fmax(cz_parameter(batch, CZ_P_LIMP_SECOND_UNLOADING_A + side, lane), 1.0), 0.0};
-    return crush_stored(&batch->lanes->curve[CZ_CURVE_LIMP_END_A + side], batch->lanes->stride,
-                        lane, &law, cz_memory(batch, CZ_M_LIMP_A + side, lane),
-                        cz_memory(batch, CZ_M_LIMP_PEAK_A + side, lane));
 }

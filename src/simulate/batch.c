@@ -8,7 +8,6 @@
 #include <time.h>
 
 #include "base/error.h"
-#include "integrate/two_step.h"
 #include "simulate/run.h"
 
 enum {
@@ -94,9 +93,7 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
 
 static void step(CzBatch *batch) {
     CzDynamics *dynamics = batch->dynamics;
-    cz_two_step_advance((size_t)CZ_N_ROW * dynamics->stride, batch->step, batch->n_step == 0,
-                        dynamics->position, dynamics->velocity, dynamics->acceleration,
-                        dynamics->last_acceleration);
+    batch->kernel->advance(dynamics, batch->step, batch->n_step == 0);
     ++batch->n_step;
     batch->time = (double)batch->n_step * batch->step;
     batch->kernel->evaluate(dynamics, batch->step);

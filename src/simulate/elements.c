@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/error.h"
+
 #define MISSING 1e29 /* strengths and strokes from here on stand for a member that is not there */
 
 /* Usable stroke of a curve in a lane; infinite when it has none. */
@@ -37,7 +39,7 @@ static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
     const double space = cz_parameter(batch, CZ_P_SHEAR_SPACE_A + side, lane);
     const double tube_usable = usable(batch, CZ_CURVE_TUBE_A + side, lane);
     const double second_usable = usable(batch, CZ_CURVE_SECOND_TUBE_A + side, lane);
-    result->stored = cz_coupler_stored(batch, lane, side);
+    result->stored = cz_coupler_stored(batch->dynamics, lane, side);
     result->energy = cz_memory(batch, CZ_M_COUPLER_ENERGY_A + side, lane) - result->stored;
     result->tube_energy = cz_memory(batch, CZ_M_TUBE_ENERGY_A + side, lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
@@ -61,7 +63,7 @@ static bool fill_anti_climber(const CzBatch *batch, size_t lane, int side, int c
     const double whole = usable(batch, CZ_CURVE_FACE_A + side, lane);
     const double shared =
         cz_work(batch, CZ_L_FACE_DAMPING, lane) + cz_work(batch, CZ_L_FACE_SLIDING, lane);
-    result->stored = cz_face_stored(batch, lane, side);
+    result->stored = cz_face_stored(batch->dynamics, lane, side);
     result->energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane) + 0.5 * shared;
     result->tube_energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
@@ -82,7 +84,7 @@ static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int c
     const double whole = usable(batch, CZ_CURVE_SIDE_TUBE_A + side, lane);
     const double reversible = usable(batch, CZ_CURVE_SIDE_BUFFER_A + side, lane);
     const bool alone = batch->lanes->curve[CZ_CURVE_SIDE_TUBE_A + side].start[lane] > MISSING;
-    result->stored = cz_side_stored(batch, lane, side);
+    result->stored = cz_side_stored(batch->dynamics, lane, side);
     result->energy = cz_memory(batch, CZ_M_SIDE_ENERGY_A + side, lane) - result->stored +
                      0.5 * cz_work(batch, CZ_L_SIDE_SLIDING, lane);
     result->tube_energy = cz_memory(batch, CZ_M_SIDE_TUBE_ENERGY_A + side, lane);
@@ -142,7 +144,8 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
     const double largest = slaved ? cz_memory(batch, CZ_M_LIMP_PEAK_A + side, lane)
                                   : cz_memory(batch, CZ_M_END_PEAK_REAR + which, own);
     const double whole = usable(batch, curve, curve_lane);
-    result->stored = slaved ? cz_limp_stored(batch, lane, side) : cz_end_stored(batch, own, which);
+    result->stored = slaved ? cz_limp_stored(batch->dynamics, lane, side)
+                            : cz_end_stored(batch->dynamics, own, which);
     /* The series pair's row holds the anti-climber's energy too. */
     const double work = slaved ? cz_memory(batch, CZ_M_LIMP_ENERGY_A + side, lane) -
                                      cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane)
@@ -220,14 +223,14 @@ static double survival_shortening(const CzBatch *batch, int car, int design) {
     return lost;
 }
 
-void cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleResult *result) {
+CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleResult *result) {
     const CzCar *description = &batch->model->car[car];
     const size_t lane = cz_lane(batch, car, design);
     snprintf(result->name, sizeof result->name, "%s", description->name);
     result->final_speed = cz_velocity(batch, CZ_DOF_BODY_X, lane);
     result->peak_deceleration = cz_extreme(batch, CZ_E_BODY_ACCELERATION, lane);
-    cz_history_decelerations(batch, car, design, &result->mean_deceleration_contact,
-                             &result->mean_deceleration_120ms);
+    CZ_TRY(cz_history_decelerations(batch, car, design, &result->mean_deceleration_contact,
+                                    &result->mean_deceleration_120ms));
     const bool full = description->model == CZ_MODEL_FULL;
     for (int axle = 0; axle < 4; ++axle) {
         result->wheel_lift[axle] = full ? cz_extreme(batch, CZ_E_LIFT_0 + axle, lane) : NAN;
@@ -241,4 +244,5 @@ void cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleResult 
     result->link_force = full ? cz_extreme(batch, CZ_E_LINK_FORCE, lane) : NAN;
     result->survival_shortening = survival_shortening(batch, car, design);
     result->checks_override = full && description->has_stops;
+    return CZ_OK;
 }

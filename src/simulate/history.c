@@ -66,53 +66,60 @@ static double net_force(const CzBatch *batch, int sample, int car, int design) {
 
 /* Largest |change of speed| / time over the intervals in which the net contact force keeps its sign
  * above the floor. */
-static double contact_mean(const CzBatch *batch, int car, int design) {
-    const CzHistory *history = &batch->history;
-    const size_t lane = cz_lane(batch, car, design);
+static double contact_mean(const double *speed, const double *force, int n_sample, double step) {
     double peak = 0.0;
-    for (int i = 0; i < history->n_sample; ++i)
-        peak = fmax(peak, fabs(net_force(batch, i, car, design)));
-    double largest = 0.0;
+    for (int i = 0; i < n_sample; ++i)
+        peak = fabs(force[i]) > peak ? fabs(force[i]) : peak;
+    double largest = 0.0, sign = 0.0;
     int start = -1;
-    double sign = 0.0;
-    for (int i = 0; i < history->n_sample; ++i) {
-        const double force = net_force(batch, i, car, design);
-        const bool pushes = fabs(force) > FORCE_FLOOR * peak;
-        const bool goes_on = start >= 0 && pushes && force * sign > 0.0;
-        if (goes_on && i < history->n_sample - 1)
+    for (int i = 0; i < n_sample; ++i) {
+        const bool pushes = fabs(force[i]) > FORCE_FLOOR * peak;
+        const bool goes_on = start >= 0 && pushes && force[i] * sign > 0.0;
+        if (goes_on && i < n_sample - 1)
             continue;
-        if (start >= 0) {
-            const double length = (i - start) * history->step;
-            const double change =
-                cz_history_speed(history, i, lane) - cz_history_speed(history, start, lane);
-            if (length >= SHORTEST_CONTACT)
-                largest = fmax(largest, fabs(change) / length);
-        }
+        const double length = (i - start) * step;
+        if (start >= 0 && length >= SHORTEST_CONTACT)
+            largest = fmax(largest, fabs(speed[i] - speed[start]) / length);
         start = pushes ? i : -1;
-        sign = force;
+        sign = force[i];
     }
     return largest;
 }
 
 /* Largest |change of speed| / time over all windows of at least WINDOW. A longest-mean window is
  * shorter than twice the smallest length, because a longer one splits into two of which one has at
- * least its mean. */
-static double window_mean(const CzHistory *history, size_t lane) {
-    const int shortest = (int)ceil(WINDOW / history->step - 1e-9);
+ * least its mean. `speed` holds the samples of one car. */
+static double window_mean(const double *speed, int n_sample, double step) {
+    const int shortest = (int)ceil(WINDOW / step - 1e-9);
     double largest = 0.0;
-    for (int start = 0; start + shortest < history->n_sample; ++start) {
-        const double v0 = cz_history_speed(history, start, lane);
-        for (int length = shortest; length <= 2 * shortest && start + length < history->n_sample;
-             ++length) {
-            const double change = cz_history_speed(history, start + length, lane) - v0;
-            largest = fmax(largest, fabs(change) / (length * history->step));
+    for (int length = shortest; length <= 2 * shortest && length < n_sample; ++length) {
+        double change = 0.0;
+#pragma omp simd reduction(max : change)
+        for (int start = 0; start < n_sample - length; ++start) {
+            const double size = fabs(speed[start + length] - speed[start]);
+            change = size > change ? size : change;
         }
+        largest = fmax(largest, change / (length * step));
     }
     return largest;
 }
 
-void cz_history_decelerations(const CzBatch *batch, int car, int design, double *contact,
-                              double *window) {
-    *contact = contact_mean(batch, car, design);
-    *window = window_mean(&batch->history, cz_lane(batch, car, design));
+CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design, double *contact,
+                                  double *window) {
+    const CzHistory *history = &batch->history;
+    const size_t lane = cz_lane(batch, car, design);
+    double *speed = malloc((size_t)history->n_sample * sizeof *speed);
+    double *force = malloc((size_t)history->n_sample * sizeof *force);
+    const bool fits = speed != NULL && force != NULL;
+    for (int i = 0; fits && i < history->n_sample; ++i) {
+        speed[i] = cz_history_speed(history, i, lane);
+        force[i] = net_force(batch, i, car, design);
+    }
+    if (fits) {
+        *contact = contact_mean(speed, force, history->n_sample, history->step);
+        *window = window_mean(speed, history->n_sample, history->step);
+    }
+    free(speed);
+    free(force);
+    return fits ? CZ_OK : CZ_STATUS_NO_MEMORY;
 }

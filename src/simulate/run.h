@@ -5,6 +5,7 @@
 #include "base/arena.h"
 #include "crushzone/simulate.h"
 #include "dynamics/dynamics.h"
+#include "dynamics/stored.h"
 #include "model/model.h"
 
 /* Names and values of the recorded channels. */
@@ -93,23 +94,13 @@ double cz_history_force(const CzHistory *history, int sample,
 void cz_history_free(CzHistory *history);
 /* Largest mean deceleration of a car over windows of net contact force, and over any window of 120
  * ms or more. */
-void cz_history_decelerations(const CzBatch *batch, int car, int design, double *contact,
-                              double *window);
+CZ_MUST_CHECK CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design,
+                                                double *contact, double *window);
 
 /* balance.c */
 double cz_kinetic_energy(const CzBatch *batch, int design);
 double cz_total_work(const CzBatch *batch, int design);
 double cz_momentum_error(const CzBatch *batch, int design);
-/* Elastic energy that the element could still give back [J]. */
-double cz_coupler_stored(const CzBatch *batch, size_t lane, int side);
-double cz_face_stored(const CzBatch *batch, size_t lane, int side);
-double cz_end_stored(const CzBatch *batch, size_t lane, int end);
-double cz_limp_stored(const CzBatch *batch, size_t lane, int side);
-double cz_side_stored(const CzBatch *batch, size_t lane, int side);
-/* Value and integral from 0 of a curve in a lane. */
-double cz_curve_value(const CzCurveLanes *curve, size_t stride, size_t lane, double x);
-double cz_curve_integral(const CzCurveLanes *curve, size_t stride, size_t lane, double x);
-
 /* ending.c: looks at all designs; true when every one is over. */
 bool cz_ending_look(CzBatch *batch);
 
@@ -119,7 +110,8 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design);
 
 /* elements.c */
 void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result);
-void cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleResult *result);
+CZ_MUST_CHECK CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design,
+                                       CzVehicleResult *result);
 
 /* channels.c: a single design only. */
 CZ_MUST_CHECK CzStatus cz_channels_begin(CzChannels *channels, const CzBatch *batch);

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/error.h"
+
 /* Sum of the rows of a ledger class or list over all cars. */
 static double work_of(const CzBatch *batch, int design, int row) {
     double work = 0.0;
@@ -27,9 +29,11 @@ static double stored_in_mixed(const CzBatch *batch, int design) {
         const size_t lane = cz_lane(batch, car, design);
         for (int side = 0; side < 2; ++side) {
             if (car + 1 < batch->model->n_car)
-                stored += cz_coupler_stored(batch, lane, side) + cz_face_stored(batch, lane, side) +
-                          cz_limp_stored(batch, lane, side) + cz_side_stored(batch, lane, side);
-            stored += cz_end_stored(batch, lane, side);
+                stored += cz_coupler_stored(batch->dynamics, lane, side) +
+                          cz_face_stored(batch->dynamics, lane, side) +
+                          cz_limp_stored(batch->dynamics, lane, side) +
+                          cz_side_stored(batch->dynamics, lane, side);
+            stored += cz_end_stored(batch->dynamics, lane, side);
         }
     }
     return stored;
@@ -152,7 +156,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
             blank_interface(&interface[i]);
     }
     for (int i = 0; i < model->n_car; ++i) {
-        cz_vehicle_fill(batch, i, design, &vehicle[i]);
+        CZ_TRY(cz_vehicle_fill(batch, i, design, &vehicle[i]));
         if (failed)
             blank_vehicle(&vehicle[i]);
     }

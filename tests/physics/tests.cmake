@@ -1,0 +1,3 @@
+if(CZ_IS_WHOLE)
+    cz_test(test_energy_sum physics test_energy_sum.c)
+endif()

@@ -185,7 +185,7 @@ static const char base[] =
     "  anti-climber: {count: 2, gap_mm: 400, stages: [{stroke_mm: 400, force_kN: 300}]}\n"
     "  head:\n"
     "    face_gap_mm: 900\n"
-    "    unloading_stiffness_MN_m: 100\n"
+    "    unloading_stiffness_MN_m: 600\n"
     "    stages: [{stroke_mm: 5, force_MN: 3, zone: occupied}]\n"
     "    proof_strength_kN: 1650\n"
     "    available_length_m: 2.5\n"

@@ -13,7 +13,8 @@ enum { MOST_KEYS = 64 };
 typedef struct {
     CzReader *reader;
     const CzTree *tree;
-    bool is_full; /* inside a full vehicle */
+    bool is_full;    /* inside a full vehicle */
+    bool is_partial; /* inside a record whose part is not there */
 } Binder;
 
 /* The record at hand. */
@@ -23,6 +24,7 @@ typedef struct {
     const CzTrail *trail;
     char *memory;
     const CzNode *seen[MOST_KEYS]; /* key as typed, NULL when not there yet (n_key) */
+    bool meant[MOST_KEYS];         /* a mistyped key stands for it (n_key) */
 } Record;
 
 static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const CzTrail *trail,
@@ -175,14 +177,16 @@ static const CzKey *report_unknown(Binder binder, const Record *record, const Cz
                         reuse->record);
     else if (near != NULL)
         cz_mistake_suggest(&binder.reader->mistakes, nearest);
-    return NULL;
+    return reuse == NULL ? near : NULL;
 }
 
 static void report_missing(Binder binder, const Record *record, const CzKey *key) {
     char spellings[200];
-    const char *what = key->presence == CZ_PRESENCE_REQUIRED_FULL ? " of a full vehicle" : "";
-    cz_mistake(&binder.reader->mistakes, record->node, record->trail, "%s%s lacks '%s': %s",
-               record->record->name, what, key->stem, key->doc);
+    const bool is_vehicle = record->record == &cz_records[CZ_RECORD_CzVehicle];
+    const bool is_full = key->presence == CZ_PRESENCE_REQUIRED_FULL;
+    cz_mistake(&binder.reader->mistakes, record->node, record->trail, "%s%s%s lacks '%s': %s",
+               is_full && is_vehicle ? "full " : "", record->record->name,
+               is_full && !is_vehicle ? " of a full vehicle" : "", key->stem, key->doc);
     if (key->kind != CZ_KEY_NUMBER || key->dimension == CZ_DIMENSION_NONE)
         return;
     cz_key_spellings(spellings, sizeof spellings, key->stem, key->dimension);
@@ -195,6 +199,7 @@ static bool is_list(Binder binder, const CzNode *key, const CzNode *value, const
     cz_mistake(&binder.reader->mistakes, value, trail, "'%s' needs a list, but this is %s",
                key->text, cz_node_what(value));
     cz_mistake_help(&binder.reader->mistakes, "begin each item with '-', or write [first, second]");
+    binder.reader->has_holes = true;
     return false;
 }
 
@@ -209,10 +214,13 @@ static void bind_stages(Binder binder, const Record *record, const CzKey *key, c
     if (list->n_entry > CZ_MAX_STAGES) {
         cz_mistake(&binder.reader->mistakes, list, trail, "'%s' has %d stages; %d is the most",
                    key->stem, list->n_entry, (int)CZ_MAX_STAGES);
+        binder.reader->has_holes = true;
         return;
     }
-    if (list->n_entry == 0)
+    if (list->n_entry == 0) {
         cz_mistake(&binder.reader->mistakes, list, trail, "'%s' has no stage", key->stem);
+        binder.reader->has_holes = true;
+    }
     for (int i = 0; i < list->n_entry; i++)
         bind_record(binder, CZ_RECORD_CzStage, list->entry[i].value,
                     cz_entry_trail(&list->entry[i], trail), &stage[i]);
@@ -227,8 +235,10 @@ static void bind_list(Binder binder, const Record *record, const CzKey *key, con
         return;
     if (list->n_entry == 0 && key->presence == CZ_PRESENCE_REQUIRED)
         cz_mistake(&binder.reader->mistakes, list, trail, "'%s' is empty", key->stem);
-    if (list->n_entry == 0)
+    if (list->n_entry == 0) {
+        binder.reader->has_holes = true;
         return;
+    }
     int *n_item = (int *)(void *)(record->memory + key->n_offset);
     char **items = (char **)(void *)(record->memory + key->offset);
     if (*items == NULL) /* trains and vehicles have their room already */
@@ -272,7 +282,10 @@ static void bind_value(Binder binder, const Record *record, const CzKey *key, co
         cz_bind_number(reader, key, unit, entry->key, entry->value, trail, field);
         break;
     case CZ_KEY_COUNT:
-        cz_bind_count(reader, key, entry->value, trail, field);
+        if (!cz_bind_count(reader, key, entry->value, trail, field) &&
+            record->record == &cz_records[CZ_RECORD_CzInput])
+            cz_mistake_help(&reader->mistakes, "this program reads version %.0f of the format",
+                            key->hi);
         break;
     case CZ_KEY_CHOICE:
         cz_bind_choice(reader, key, entry->value, trail, field);
@@ -317,8 +330,15 @@ static void bind_entry(Binder binder, Record *record, const CzEntry *entry) {
     const CzKey *key = cz_record_match(record->record, entry->key->text, &unit);
     if (key == NULL) {
         key = report_unknown(binder, record, entry->key, trail);
-        if (key != NULL)
-            record->seen[key - record->record->key] = entry->key;
+        if (key == NULL)
+            return;
+        record->meant[key - record->record->key] = true;
+        binder.reader->has_holes |= key->kind >= CZ_KEY_CHILD;
+        cz_places_add(binder.reader, (CzPlace){.address = record->memory + key->offset,
+                                               .node = entry->key,
+                                               .value = entry->value,
+                                               .trail = trail,
+                                               .key = key});
         return;
     }
     const CzNode **seen = &record->seen[key - record->record->key];
@@ -329,14 +349,16 @@ static void bind_entry(Binder binder, Record *record, const CzEntry *entry) {
         return;
     }
     *seen = entry->key;
-    bind_value(binder, record, key, unit, entry);
+    if (entry->value->is_refused)
+        binder.reader->has_holes = true;
+    else
+        bind_value(binder, record, key, unit, entry);
 }
 
+/* Whether a vehicle is full, or is mistyped as something near it. */
 static bool is_full_vehicle(const CzNode *node) {
     const char *model = cz_node_find_text(node, "model");
-    return model == NULL ||
-           (strcmp(model, cz_word_sets[CZ_WORDS_MODEL].word[CZ_MODEL_RIGID].word) != 0 &&
-            strcmp(model, cz_word_sets[CZ_WORDS_MODEL].word[CZ_MODEL_FIXED].word) != 0);
+    return model == NULL || cz_word_nearest(&cz_word_sets[CZ_WORDS_MODEL], model) == CZ_MODEL_FULL;
 }
 
 static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const CzTrail *trail,
@@ -347,11 +369,17 @@ static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const 
         cz_mistake(&binder.reader->mistakes, node, trail,
                    "%s needs keys with values, but this is %s", record.record->name,
                    cz_node_what(node));
+        if (node->kind == CZ_NODE_TEXT && node->text[0] != '\0')
+            cz_mistake_help(&binder.reader->mistakes, "a part is taken with {use: %.80s}",
+                            node->text);
+        binder.reader->has_holes = true;
         return;
     }
     record.node = cz_take_part(binder.reader, binder.tree, node, trail);
     if (record.node == NULL)
         return;
+    binder.is_partial |= record.node->is_partial;
+    binder.reader->has_holes |= record.node->is_partial;
     if (id == CZ_RECORD_CzVehicle)
         binder.is_full = is_full_vehicle(record.node);
     *(bool *)memory = true; /* `given` is the first member of every record */
@@ -365,12 +393,12 @@ static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const 
         const CzKey *key = &record.record->key[i];
         const bool is_needed = key->presence == CZ_PRESENCE_REQUIRED ||
                                (key->presence == CZ_PRESENCE_REQUIRED_FULL && binder.is_full);
-        if (is_needed && record.seen[i] == NULL)
+        if (is_needed && record.seen[i] == NULL && !record.meant[i] && !binder.is_partial)
             report_missing(binder, &record, key);
     }
 }
 
 void cz_bind_record(CzReader *reader, const CzTree *tree, CzRecordId record, const CzNode *node,
                     const CzTrail *trail, void *record_memory) {
-    bind_record((Binder){reader, tree, false}, record, node, trail, record_memory);
+    bind_record((Binder){.reader = reader, .tree = tree}, record, node, trail, record_memory);
 }

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "base/suggest.h"
 #include "problem/reader.h"
 
 /* A value at the edge of its range may miss it by rounding in the change of units. */
@@ -47,10 +46,9 @@ static bool is_in_range(CzReader *reader, const CzKey *key, const CzUnit *unit,
     if (!is_low && !is_high)
         return true;
     cz_number_print_short(limit, (is_low ? key->lo : key->hi) / unit->si);
-    cz_mistake(&reader->mistakes, value, trail, "%s: %.60s is %s %s%s%s%s", key_text, value->text,
-               is_low ? "below the smallest allowed," : "above the largest allowed,", limit,
-               unit->suffix[0] != '\0' ? " (" : "", unit->suffix,
-               unit->suffix[0] != '\0' ? ")" : "");
+    cz_mistake(&reader->mistakes, value, trail, "%s: %.60s is %s allowed %s%s%s", key_text,
+               value->text, is_low ? "below the smallest" : "above the largest", limit,
+               unit->suffix[0] != '\0' ? " " : "", unit->suffix);
     return false;
 }
 
@@ -112,24 +110,23 @@ bool cz_bind_flag(CzReader *reader, const char *key, const CzNode *value, const 
 bool cz_bind_choice(CzReader *reader, const CzKey *key, const CzNode *value, const CzTrail *trail,
                     int *choice) {
     const CzWordSet *set = &cz_word_sets[key->words];
-    CzSuggestion suggestion = {0};
-    char words[160];
+    char words[160] = "";
     size_t n = 0;
     if (!is_value(reader, key->stem, value, trail))
         return false;
+    const int nearest = cz_word_nearest(set, value->text);
+    if (nearest >= 0) /* a mistyped word is taken for the one that was meant */
+        *choice = nearest;
+    if (nearest >= 0 && strcmp(set->word[nearest].word, value->text) == 0)
+        return true;
     for (int i = 0; i < set->n_word; i++) {
-        if (strcmp(set->word[i].word, value->text) == 0) {
-            *choice = i;
-            return true;
-        }
-        cz_suggest(&suggestion, value->text, set->word[i].word);
         const char *before = i == 0 ? "" : i + 1 < set->n_word ? ", " : " or ";
         n += (size_t)snprintf(words + n, sizeof words - n, "%s%s", before, set->word[i].word);
         n = n < sizeof words ? n : sizeof words - 1;
     }
     cz_mistake(&reader->mistakes, value, trail, "%s: '%.60s' is not %s", key->stem, value->text,
                words);
-    cz_mistake_suggest(&reader->mistakes, suggestion.best);
+    cz_mistake_suggest(&reader->mistakes, nearest >= 0 ? set->word[nearest].word : NULL);
     return false;
 }
 

@@ -109,7 +109,11 @@ static CzStatus find(const CzProblem *problem, CzProblem *trial, const char *pat
         return CZ_OK;
     free(*targets);
     *targets = NULL;
-    return cz_fail(error, CZ_STATUS_INPUT, "path '%s' names no number of any vehicle", path);
+    cz_fail(error, CZ_STATUS_INPUT, "path '%s' names no number of any vehicle", path);
+    if (error != NULL)
+        snprintf(error->help, sizeof error->help,
+                 "design variables are numbers of vehicles and parts");
+    return CZ_STATUS_INPUT;
 }
 
 CzStatus cz_problem_find(const CzProblem *problem, const char *path, CzTarget **targets,

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/suggest.h"
 #include "problem/input.h"
 
 enum { CZ_DATA = 0, CZ_VARIES = 1 };
@@ -121,6 +122,16 @@ const CzReuseKey cz_reuse_keys[] = {
 const int cz_n_reuse_key = sizeof cz_reuse_keys / sizeof cz_reuse_keys[0];
 
 /* ---- looking up ---- */
+
+int cz_word_nearest(const CzWordSet *set, const char *typed) {
+    CzSuggestion suggestion = {0};
+    for (int i = 0; i < set->n_word; i++)
+        cz_suggest(&suggestion, typed, set->word[i].word);
+    for (int i = 0; i < set->n_word; i++)
+        if (suggestion.best == set->word[i].word)
+            return i;
+    return -1;
+}
 
 const CzUnit *cz_unit_si(CzDimension dimension) {
     int unit = 0;

@@ -50,6 +50,9 @@ typedef struct CzWordSet {
     const CzWord *word; /* the index of a word is its enum's value */
 } CzWordSet;
 
+/* Index of the word nearest to a typed one; -1 when none is near. */
+int cz_word_nearest(const CzWordSet *set, const char *typed);
+
 #define CZ_CHOICE_SET(set, type) CZ_WORDS_##set,
 #define CZ_WORD(set, constant, word, doc)
 #define CZ_CHOICE_SET_END(set, type)

@@ -103,7 +103,12 @@ const CzNode *cz_merge(CzArena *arena, const CzNode *base, const CzTrail *base_t
         return merge_mappings(arena, base, base_trail, over, over_trail, by_name);
     if (by_name && base->kind == CZ_NODE_LIST && over->kind == CZ_NODE_LIST && all_named(over))
         return merge_lists(arena, base, base_trail, over, over_trail);
-    return over;
+    if (base->kind == CZ_NODE_MAPPING || over->kind != CZ_NODE_MAPPING || replaces(over))
+        return over;
+    CzNode *alone = cz_node_copy(arena, over, 0); /* the base should have been a mapping too */
+    if (alone != NULL)
+        alone->is_partial = true;
+    return alone;
 }
 
 static const CzPart *find_part(CzReader *reader, const CzTree *tree, const CzNode *used,
@@ -135,7 +140,7 @@ const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *n
     if (use == NULL)
         return node;
     const CzTrail *use_trail = cz_entry_trail(use, trail);
-    const CzNode *rest = cz_node_without(&reader->arena, node, "use");
+    CzNode *rest = cz_node_without(&reader->arena, node, "use");
     CzTrail *part_trail = cz_reader_allocate(reader, 1, sizeof *part_trail);
     if (rest == NULL || part_trail == NULL) {
         reader->mistakes.out_of_memory = true;
@@ -143,10 +148,11 @@ const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *n
     }
     const char *name = cz_bind_text(reader, "use", use->value, use_trail);
     const CzPart *part = name != NULL ? find_part(reader, tree, use->value, use_trail) : NULL;
-    if (part == NULL)
-        return rest;
-    if (is_on_trail(use_trail, name)) {
+    const bool is_circle = part != NULL && is_on_trail(use_trail, name);
+    if (is_circle)
         cz_mistake(&reader->mistakes, use->value, use_trail, "part '%s' uses itself", name);
+    if (part == NULL || is_circle) {
+        rest->is_partial = reader->has_holes = true;
         return rest;
     }
     *part_trail = (CzTrail){part->name, part->written, use->value, use_trail};

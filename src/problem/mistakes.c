@@ -42,6 +42,7 @@ static bool is_known(const CzMistakes *mistakes, const CzError *error) {
 
 static void add(CzMistakes *mistakes, CzError *error, int order, const CzTrail *trail) {
     end_at_character(error->message, sizeof error->message);
+    mistakes->last = NULL;
     if (is_known(mistakes, error))
         return;
     if (mistakes->n_mistake == CZ_MAX_MISTAKES) {
@@ -59,6 +60,7 @@ static void add(CzMistakes *mistakes, CzError *error, int order, const CzTrail *
     mistake->n_stated = (int)strlen(error->message);
     append_trail(&mistake->error, trail);
     mistakes->mistake[mistakes->n_mistake++] = mistake;
+    mistakes->last = mistake;
 }
 
 void cz_error_place(CzError *error, const CzNode *place) {
@@ -94,11 +96,9 @@ void cz_mistake_at(CzMistakes *mistakes, const CzSource *source, int line, int c
 }
 
 void cz_mistake_help(CzMistakes *mistakes, const char *format, ...) {
-    if (mistakes->n_mistake == 0 || mistakes->n_left_out > 0)
+    if (mistakes->last == NULL)
         return;
-    CzError *error = &mistakes->mistake[mistakes->n_mistake - 1]->error;
-    if (error->help[0] != '\0')
-        return;
+    CzError *error = &mistakes->last->error;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(error->help, sizeof error->help, format, arguments);

@@ -19,6 +19,7 @@ typedef struct CzMistakes {
     CzMistake *mistake[CZ_MAX_MISTAKES + 1]; /* one more tells how many are left out */
     int n_mistake;
     int n_left_out;
+    CzMistake *last; /* the one added last; NULL when it was known before or left out */
     bool out_of_memory;
 } CzMistakes;
 

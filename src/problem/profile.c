@@ -75,12 +75,13 @@ static void suggest_categories(CzSuggestion *suggestion, const CzProfile *profil
     }
 }
 
-static void check_category(CzReader *reader, const CzProfile *profile, const CzChecks *checks,
+static bool check_category(CzReader *reader, const CzProfile *profile, const CzChecks *checks,
                            const CzPlace *named) {
     CzSuggestion suggestion = {0};
     bool is_known = false, has_any = false;
     const char *category = checks->category != NULL ? checks->category : "";
     suggest_categories(&suggestion, profile, category, &is_known, &has_any);
+    const bool is_good = checks->category != NULL ? is_known || !has_any : !has_any;
     const CzPlace *place = cz_places_find(&reader->places, &checks->category);
     if (checks->category == NULL && has_any) {
         cz_mistake(&reader->mistakes, named->value, named->trail,
@@ -95,6 +96,7 @@ static void check_category(CzReader *reader, const CzProfile *profile, const CzC
                    "profile '%.96s' has no category '%.96s'", named->value->text, category);
         cz_mistake_suggest(&reader->mistakes, suggestion.best);
     }
+    return is_good;
 }
 
 static bool holds_for(const CzLimit *limit, const char *category) {
@@ -127,7 +129,8 @@ static void bind_profile(CzProblem *problem, const CzNode *top, const CzPlace *n
     const CzChecks *checks = &problem->input.checks;
     CzProfile all = {0};
     cz_bind_record(reader, &no_parts, CZ_RECORD_CzProfile, top, &cz_no_trail, &all);
-    check_category(reader, &all, checks, named);
+    if (!check_category(reader, &all, checks, named))
+        return;
     const CzNode *kept = keep_category(reader, top, &all, checks->category);
     if (kept == NULL)
         reader->mistakes.out_of_memory = true;

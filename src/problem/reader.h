@@ -54,6 +54,7 @@ typedef struct CzReader {
     CzSources sources;
     CzMistakes mistakes, warnings;
     CzPlaces places;
+    bool has_holes; /* records could not be read, so what is absent may have been written */
     const char *share_folder; /* with catalogue/ and profiles/; NULL for none */
 } CzReader;
 

@@ -31,6 +31,15 @@ void cz_rule_warning(const CzRules *rules, const void *field, const char *format
     va_end(arguments);
 }
 
+void cz_rule_absent(const CzRules *rules, const void *field, const char *format, ...) {
+    va_list arguments;
+    if (rules->reader->has_holes)
+        return;
+    va_start(arguments, format);
+    tell(rules, &rules->reader->mistakes, field, format, arguments);
+    va_end(arguments);
+}
+
 bool cz_rule_is_written(const CzRules *rules, const void *field) {
     const CzPlace *place = cz_places_find(&rules->reader->places, field);
     return place != NULL && place->address == field && place->key != NULL;

@@ -17,6 +17,9 @@ void cz_rule_broken(const CzRules *rules, const void *field, const char *format,
 /* The same as a warning. */
 void cz_rule_warning(const CzRules *rules, const void *field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* Tells that something is absent; not told when it may stand in a record that could not be read. */
+void cz_rule_absent(const CzRules *rules, const void *field, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 /* Whether a field was written in a file, rightly or not. */
 bool cz_rule_is_written(const CzRules *rules, const void *field);
 

@@ -16,7 +16,7 @@ static void check_law(const CzRules *rules, const void *record, const char *what
                       const CzStage *stages, const CzTable *curve) {
     const bool has_stages = is_there(rules, stages), has_curve = is_there(rules, curve);
     if (!has_stages && !has_curve)
-        cz_rule_broken(rules, record, "%s needs 'stages' or a 'curve'", what);
+        cz_rule_absent(rules, record, "%s needs 'stages' or a 'curve'", what);
     if (has_stages && has_curve)
         cz_rule_broken(rules, curve,
                        "%s has 'stages' and a 'curve'; one of them must go (stages: null)", what);

@@ -22,7 +22,7 @@ static double body_mass(const CzVehicle *vehicle) {
 static void check_full_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
     char first[48], second[48];
     if (!cz_rule_is_written(rules, &vehicle->length))
-        cz_rule_broken(rules, vehicle, "a full vehicle needs its length: length_m or length_mm");
+        cz_rule_absent(rules, vehicle, "a full vehicle needs its length: length_m or length_mm");
     if (body_mass(vehicle) <= 0)
         cz_rule_broken(rules, &vehicle->mass,
                        "nothing is left for the body: ends, bogies and wheelsets have %s of %s",
@@ -52,7 +52,7 @@ static void check_full_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
 
 void cz_rules_check_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
     if (vehicle->model != CZ_MODEL_FIXED && !cz_rule_is_written(rules, &vehicle->mass))
-        cz_rule_broken(rules, vehicle, "a %s vehicle needs its mass: mass_kg or mass_t",
+        cz_rule_absent(rules, vehicle, "a %s vehicle needs its mass: mass_kg or mass_t",
                        cz_word_sets[CZ_WORDS_MODEL].word[vehicle->model].word);
     if (vehicle->model == CZ_MODEL_FULL)
         check_full_vehicle(rules, vehicle);
@@ -129,7 +129,7 @@ static bool gives_way(const CzEnd *end) {
 /* Two ends that face one another: one of them at least must give way. */
 static void check_facing(const CzRules *rules, const CzVehicle *behind, const CzVehicle *ahead) {
     if (behind->given && ahead->given && !gives_way(&behind->front) && !gives_way(&ahead->rear))
-        cz_rule_broken(
+        cz_rule_absent(
             rules, ahead,
             "nothing can give way between '%.48s' and '%.48s': neither has anything there",
             behind->name != NULL ? behind->name : "", ahead->name != NULL ? ahead->name : "");
@@ -138,10 +138,10 @@ static void check_facing(const CzRules *rules, const CzVehicle *behind, const Cz
 static void check_train(const CzRules *rules, const CzTrain *train) {
     const CzSimulation *simulation = &rules->input->simulation;
     if (is_full_train(train) && !cz_rule_is_written(rules, &train->brake))
-        cz_rule_broken(rules, train,
+        cz_rule_absent(rules, train,
                        "a train with full vehicles needs 'brake': {ratio, axle_share}");
     if (is_full_train(train) && !cz_rule_is_written(rules, &simulation->adhesion))
-        cz_rule_broken(
+        cz_rule_absent(
             rules, rules->input,
             "a problem with full vehicles needs 'simulation: {adhesion: {friction: ...}}'");
     if (is_fixed_train(train) && train->speed != 0)

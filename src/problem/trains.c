@@ -29,6 +29,7 @@ typedef struct {
     const CzTrail *trail;
     const char *name; /* NULL when it has none */
     const CzEntry *copy;
+    bool is_refused; /* a mistake was told about its vehicles */
     int n_vehicle;
     Vehicle *vehicle;
 } Train;
@@ -95,6 +96,7 @@ static bool make_room(Trains *trains, Train *train, int n_vehicle, const CzNode 
     if (trains->n_vehicle + n_vehicle > CZ_MOST_VEHICLES) {
         cz_mistake(&trains->reader->mistakes, place, NULL, "the trains have more than %d vehicles",
                    (int)CZ_MOST_VEHICLES);
+        train->is_refused = true;
         return false;
     }
     trains->n_vehicle += n_vehicle;
@@ -210,6 +212,7 @@ static void write_out_train(Trains *trains, Train *train, int depth) {
     if (train->copy != NULL && list != NULL) {
         cz_mistake(&reader->mistakes, list->key, cz_entry_trail(list, train->trail),
                    "a train has 'vehicles' or copies another, not both");
+        train->is_refused = true;
         return;
     }
     if (train->copy != NULL)
@@ -263,44 +266,50 @@ static const CzNode *vehicle_node(CzReader *reader, const Vehicle *vehicle) {
     return node;
 }
 
+/* The list of a train's vehicles, or a node that is passed over when its mistake was told. */
+static const CzNode *vehicles_node(CzReader *reader, const Train *train, const CzNode *place) {
+    CzNode *list = cz_reader_allocate(reader, 1, sizeof *list);
+    CzEntry *entry = cz_reader_allocate(reader, (size_t)train->n_vehicle, sizeof *entry);
+    if (list == NULL || entry == NULL)
+        return NULL;
+    *list = *place;
+    list->kind = train->n_vehicle > 0 ? CZ_NODE_LIST : CZ_NODE_TEXT;
+    list->is_refused = train->n_vehicle == 0;
+    list->n_entry = train->n_vehicle;
+    list->entry = entry;
+    for (int i = 0; i < train->n_vehicle; i++) {
+        entry[i].value = vehicle_node(reader, &train->vehicle[i]);
+        entry[i].trail = train->vehicle[i].trail;
+        if (entry[i].value == NULL)
+            return NULL;
+    }
+    return list;
+}
+
+/* The mapping of one train without what was worked off. */
 static const CzNode *train_node(CzReader *reader, const Train *train) {
     const CzEntry *own = cz_node_find(train->node, "vehicles");
+    const bool is_copy = own == NULL && train->copy != NULL;
+    const bool is_written_out = train->n_vehicle > 0 || train->is_refused || is_copy;
     if (train->node->kind != CZ_NODE_MAPPING)
         return train->node;
     CzNode *node = cz_node_copy(&reader->arena, train->node, 1);
-    CzNode *list = cz_reader_allocate(reader, 1, sizeof *list);
-    if (node == NULL || list == NULL)
+    if (node == NULL)
         return NULL;
-    const CzNode *place = own != NULL           ? own->key
-                          : train->copy != NULL ? train->copy->key
-                                                : train->node;
-    *list = (CzNode){.kind = CZ_NODE_LIST,
-                     .line = place->line,
-                     .column = place->column,
-                     .source = place->source,
-                     .n_entry = train->n_vehicle};
-    list->entry = cz_reader_allocate(reader, (size_t)train->n_vehicle, sizeof *list->entry);
-    if (list->entry == NULL)
-        return NULL;
-    for (int i = 0; i < train->n_vehicle; i++) {
-        list->entry[i] = (CzEntry){.value = vehicle_node(reader, &train->vehicle[i]),
-                                   .trail = train->vehicle[i].trail};
-        if (list->entry[i].value == NULL)
-            return NULL;
-    }
     node->n_entry = 0;
     for (int i = 0; i < train->node->n_entry; i++) {
         const CzEntry *entry = &train->node->entry[i];
-        const bool is_replaced = entry == own && train->n_vehicle > 0;
         if (strcmp(entry->key->text, "copy") != 0 && strcmp(entry->key->text, "reversed") != 0 &&
-            !is_replaced)
+            !(entry == own && is_written_out))
             node->entry[node->n_entry++] = *entry;
     }
-    if (train->n_vehicle == 0 && (own != NULL || train->copy == NULL))
-        return node; /* the mistake is told when the records are read */
-    const CzNode *key = cz_node_text(&reader->arena, "vehicles", place);
-    node->entry[node->n_entry++] = (CzEntry){key, list, train->trail};
-    return key != NULL ? node : NULL;
+    if (!is_written_out) /* no list, or none that holds vehicles: told when the records are read */
+        return node;
+    const CzNode *place = own != NULL ? own->key : train->copy->key;
+    const CzEntry vehicles = {cz_node_text(&reader->arena, "vehicles", place),
+                              vehicles_node(reader, train, place), train->trail};
+    node->entry[node->n_entry++] = vehicles;
+    return vehicles.key != NULL && vehicles.value != NULL ? node : NULL;
 }
 
 const CzNode *cz_trains_write_out(CzReader *reader, const CzTree *tree) {

@@ -137,8 +137,10 @@ static CzNode *read_alias(Document *document) {
     refuse(document, "aliases ('*') are not read here");
     cz_mistake_help(document->mistakes, "name a part under 'parts:' and take it with 'use:'");
     CzNode *node = node_create(document, CZ_NODE_TEXT);
-    if (node != NULL)
+    if (node != NULL) {
         node->text = "";
+        node->is_refused = true;
+    }
     return node;
 }
 

@@ -16,13 +16,37 @@ void cz_help_write_greeting(void) {
          "  crushzone help                                               all commands");
 }
 
+enum { WIDTH = 100 }; /* of help on a terminal [characters] */
+
+/* Writes a text from column `indent` on, broken between words; the line is at that column. */
+static void write_wrapped(const char *text, int indent) {
+    int column = indent;
+    while (*text != '\0') {
+        const int n = (int)strcspn(text, " ");
+        if (column > indent && column + 1 + n > WIDTH) {
+            printf("\n%*s", indent, "");
+            column = indent;
+        }
+        if (column > indent) {
+            putchar(' ');
+            column++;
+        }
+        printf("%.*s", n, text);
+        column += n;
+        text += n;
+        text += strspn(text, " ");
+    }
+    putchar('\n');
+}
+
 static void write_option(const CzOptionInfo *option) {
     char left[64], letter[8] = "";
     if (option->letter != 0)
         snprintf(letter, sizeof letter, "-%c, ", option->letter);
     snprintf(left, sizeof left, "%s--%s%s%s", letter, option->name,
              option->value != NULL ? " " : "", option->value != NULL ? option->value : "");
-    printf("  %-28s %s\n", left, option->doc);
+    printf("  %-28s ", left);
+    write_wrapped(option->doc, 31);
 }
 
 void cz_help_write_command(CzCommand command) {
@@ -121,8 +145,10 @@ static void write_checks(void) {
     };
     puts("What a limit, a target or the objective can be about. The worst place counts unless the "
          "name picks\none: interfaces.A4-B1.peak_force_kN, vehicles.A1.max_pitch_mrad.\n");
-    for (size_t i = 0; i < sizeof metrics / sizeof *metrics; i++)
-        printf("  %-40s %s\n", metrics[i].name, metrics[i].doc);
+    for (size_t i = 0; i < sizeof metrics / sizeof *metrics; i++) {
+        printf("  %-40s ", metrics[i].name);
+        write_wrapped(metrics[i].doc, 43);
+    }
 }
 
 static void write_algorithms(void) {

@@ -123,8 +123,8 @@ int cz_end_output(const CzArguments *arguments, int code) {
     if (fflush(stdout) == 0 && !ferror(stdout))
         return code;
     CzError error = {.status = CZ_STATUS_OUTPUT};
-    snprintf(error.message, sizeof error.message, "standard output cannot be written: %s",
-             errno != 0 ? strerror(errno) : "it was closed");
+    snprintf(error.message, sizeof error.message, "standard output cannot be written%s%s",
+             errno != 0 ? ": " : "", errno != 0 ? strerror(errno) : "");
     cz_print_mistake(arguments, "error", NULL, &error);
     return cz_status_exit_code(CZ_STATUS_OUTPUT);
 }

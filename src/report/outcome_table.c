@@ -1,10 +1,30 @@
 /* What a search answers, on a terminal: before and after, what is still violated, new values. */
 #include "crushzone/report.h"
 
+#include "evaluate/evaluator.h"
 #include "report/checks_table.h"
 #include "report/grid.h"
 #include "report/figure.h"
 #include "report/overlay.h"
+
+/* The objective before and after. */
+static void write_objective(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
+                            FILE *stream) {
+    const char *unit = cz_evaluator_objective_unit(evaluator);
+    const double before = outcome->start_evaluation.objective;
+    const double after = outcome->best_evaluation.objective;
+    char start[CZ_FIGURE_ROOM], best[CZ_FIGURE_ROOM];
+    if (cz_evaluator_maximises_margin(evaluator)) { /* its negative is minimised */
+        fprintf(stream, "smallest margin: %s -> %s\n\n", cz_figure_margin(start, -before),
+                cz_figure_margin(best, -after));
+        return;
+    }
+    fputs("objective ", stream);
+    cz_grid_write_text(cz_evaluator_objective_name(evaluator), CZ_STYLE_PLAIN, colour, stream);
+    fprintf(stream, ": %s -> %s%s%s\n\n", cz_figure_plain(start, before),
+            cz_figure_plain(best, after), unit != NULL && unit[0] != '\0' ? " " : "",
+            unit != NULL ? unit : "");
+}
 
 static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
                        FILE *stream) {
@@ -14,20 +34,14 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome, b
     static const char *const words[] = {[CZ_OUTCOME_FEASIBLE] = "FEASIBLE",
                                         [CZ_OUTCOME_INFEASIBLE] = "NOTHING FEASIBLE FOUND",
                                         [CZ_OUTCOME_INTERRUPTED] = "INTERRUPTED"};
-    const char *unit = cz_evaluator_objective_unit(evaluator);
-    char start[CZ_FIGURE_ROOM], best[CZ_FIGURE_ROOM];
-
     cz_grid_write_text(words[outcome->status], styles[outcome->status], colour, stream);
     fprintf(stream, " after %ld evaluations: ", outcome->n_evaluation);
     cz_grid_write_text(outcome->why_stopped, CZ_STYLE_PLAIN, colour, stream);
     if (outcome->status == CZ_OUTCOME_INTERRUPTED)
         fprintf(stream, "; the best so far is %sfeasible",
                 outcome->best_evaluation.violation <= 0 ? "" : "NOT ");
-    fputs("\nobjective ", stream);
-    cz_grid_write_text(cz_evaluator_objective_name(evaluator), CZ_STYLE_PLAIN, colour, stream);
-    fprintf(stream, ": %s -> %s %s\n\n",
-            cz_figure_plain(start, outcome->start_evaluation.objective),
-            cz_figure_plain(best, outcome->best_evaluation.objective), unit != NULL ? unit : "");
+    fputc('\n', stream);
+    write_objective(evaluator, outcome, colour, stream);
 }
 
 static void write_variables(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,

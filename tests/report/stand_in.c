@@ -1,6 +1,7 @@
 /* Stand-ins for what a report reads: only the values matter here, not how they came about. */
 #include "report/stand_in.h"
 
+#include "evaluate/evaluator.h"
 #include "problem/problem.h"
 
 #include <math.h>
@@ -119,6 +120,11 @@ const char *cz_evaluator_objective_name(const CzEvaluator *evaluator) {
 const char *cz_evaluator_objective_unit(const CzEvaluator *evaluator) {
     (void)evaluator;
     return "kN";
+}
+
+bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator) {
+    (void)evaluator;
+    return false;
 }
 
 const CzRunSummary *cz_run_summary(const CzRun *run) {

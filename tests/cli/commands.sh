@@ -1,0 +1,78 @@
+# Every command, and the exit codes that scripts rely on.
+. "$SOURCE/tests/support/cases.sh"
+. "$SOURCE/tests/cli/cli.sh"
+
+greeting() { exits 0 "$C" && [ "$(wc -l <out.txt)" = 5 ] && says out.txt 'crushzone new two-trains'; }
+check "the program alone says in five lines what it is" greeting
+overview() { exits 0 "$C" help && for word in run check optimise validate show new schema version; do says out.txt "  $word " || return 1; done; }
+check "help lists every command" overview
+same_help() { exits 0 "$C" run --help && mv out.txt a && exits 0 "$C" help run && cmp a out.txt && says a '--set PATH=VALUE'; }
+check "run --help and help run are the same" same_help
+help_topics() { for topic in keys units checks algorithms optimize; do exits 0 "$C" help $topic && [ -s out.txt ] || return 1; done; }
+check "help has every topic" help_topics
+narrow() { for topic in '' run optimise check show validate new version schema; do "$C" help $topic; done | awk 'length > 100 { bad = 1; print } END { exit bad }'; }
+check "help is not wider than 100 columns" narrow
+topic_slip() { exits 2 "$C" help kyes && says err.txt "did you mean 'crushzone help keys'?"; }
+check "a mistyped topic gets a suggestion" topic_slip
+version() { exits 0 "$C" version && says out.txt 'crushzone ' && exits 0 "$C" --version && exits 0 "$C" version --json && json out.txt version; }
+check "version tells versions, as JSON too" version
+schema() { exits 0 "$C" schema && json out.txt '$schema'; }
+check "schema is a JSON document" schema
+
+new() { exits 0 "$C" new two-trains && [ -s two-trains.yaml ]; }
+check "new writes an example" new
+check "the example is valid" exits 0 "$C" validate two-trains.yaml
+keeps() { exits 4 "$C" new two-trains && says err.txt 'it is there already'; }
+check "new keeps a file that is there" keeps
+to_stdout() { exits 0 "$C" new -o - && cmp out.txt two-trains.yaml; }
+check "new writes to standard output" to_stdout
+template_slip() { exits 2 "$C" new two-train && says err.txt "did you mean 'two-trains'?"; }
+check "a mistyped template gets a suggestion" template_slip
+
+run() { exits 0 "$C" run two-trains.yaml && says out.txt 'A4-B1' && says out.txt 'Verdict: FAIL' && says err.txt 'results in out'; }
+check "run of a failing design ends with 0: it is a valid answer" run
+check "run --strict of a failing design ends with 1" exits 1 "$C" run two-trains.yaml --strict
+check "check of a failing design ends with 1" exits 1 "$C" check two-trains.yaml
+passing="--set parts.inner-end.coupler.tube.stages[0].force_kN=580 --set parts.inner-end.coupler.tube.stages[0].stroke_mm=380
+ --set parts.cab-end.coupler.tube.stages[0].force_kN=900 --set parts.cab-end.anti_climber.stages[0].force_kN=350
+ --set parts.cab-end.anti_climber.stages[0].stroke_mm=560"
+# shellcheck disable=SC2086 # options are words
+check "check of a passing design ends with 0" exits 0 "$C" check two-trains.yaml $passing
+unjudged() { sed '/^  limits:/,/^$/d' two-trains.yaml >unjudged.yaml && exits 1 "$C" check unjudged.yaml && says out.txt 'NOTHING WAS JUDGED'; }
+check "check of a problem without checks is no pass" unjudged
+incomplete() { exits 3 "$C" run two-trains.yaml --set simulation.longest_ms=50 && says out.txt INCOMPLETE; }
+check "a run that did not come to its end ends with 3" incomplete
+check "an incomplete check ends with 3" exits 3 "$C" check two-trains.yaml --set simulation.longest_ms=50
+several() { exits 1 "$C" check two-trains.yaml two-trains.yaml -o many && [ -f many/two-trains/summary.json ]; }
+check "check takes several files, each with a folder of its own" several
+finer() { exits 0 "$C" run two-trains.yaml --json --time-step-ms 0.05 && json out.txt scenarios.0.time_step_s 5e-5; }
+check "--time-step-ms sets the time step" finer
+from_stdin() { "$C" check - --json <two-trains.yaml >stdin.json; [ $? = 1 ] && json stdin.json problem.file '<standard input>'; }
+check "a dash reads standard input" from_stdin
+verbose() { exits 0 "$C" run two-trains.yaml -v && says err.txt 'steps of'; }
+check "-v says how each scenario was computed" verbose
+quiet() { exits 0 "$C" run two-trains.yaml --quiet && [ ! -s err.txt ]; }
+check "--quiet leaves standard error empty" quiet
+
+sed 's/^checks:/scenarios: [{name: fast}, {name: slow, speed_km_h: 10}]\nchecks:/' two-trains.yaml >two.yaml
+one_scenario() { exits 0 "$C" run two.yaml --scenario slow --json && json out.txt scenarios.0.name slow && ! json out.txt scenarios.1; }
+check "--scenario runs one only" one_scenario
+omitted() { exits 0 "$C" run two.yaml --scenario slow --json && json out.txt verdict 'not checked' || json out.txt verdict fail; }
+check "an omitted scenario is no pass" omitted
+no_scenario() { exits 2 "$C" run two.yaml --scenario slwo && says err.txt "there is no scenario 'slwo'"; }
+check "an unknown scenario is refused" no_scenario
+
+shown() { exits 0 "$C" show two-trains.yaml && says out.txt 'time step' && mv out.txt shown.yaml && exits 0 "$C" validate shown.yaml; }
+check "show prints a problem that is valid itself" shown
+same_numbers() {
+    "$C" run two-trains.yaml -q --json >a.json
+    "$C" run shown.yaml -q --json >b.json
+    for file in a b; do tr -d '\n' <$file.json | sed 's/"run_info": *{[^}]*}//g; s/"problem": *{[^}]*}//; s/"warnings": *\[[^]]*\]//' >$file; done
+    cmp a b
+}
+check "the shown problem gives the same numbers to the last bit" same_numbers
+show_other() { exits 0 "$C" show two.yaml --scenario slow && says out.txt 'scenario slow'; }
+check "show takes a scenario" show_other
+validated() { exits 0 "$C" validate two.yaml two-trains.yaml && [ "$(grep -c ': ok, ' out.txt)" = 2 ] && says out.txt '2 scenarios, 8 vehicles, 5 design variables'; }
+check "validate takes several files and counts what is in them" validated
+finish

@@ -1,0 +1,59 @@
+# optimise: what it answers, what it writes, how it is interrupted.
+. "$SOURCE/tests/support/cases.sh"
+. "$SOURCE/tests/cli/cli.sh"
+"$C" new -q
+
+found() { exits 0 "$C" optimise two-trains.yaml && says out.txt FEASIBLE && says out.txt 'Verdict: pass' && says out.txt 'set:'; }
+check "a design that passes is found" found
+check "outcome.json is feasible" json out/outcome.json status feasible
+files() { for file in summary.json checks.csv outcome.json optimised.yaml history.csv resolved.yaml run.log; do [ -s out/$file ] || return 1; done; }
+check "the result folder holds the outcome, the optimum and the history" files
+check "the optimum passes its check" exits 0 "$C" check out/optimised.yaml -o checked
+strip() { tr -d '\n' <"$1" | sed 's/"run_info": *{[^}]*}//g; s/"problem": *{[^}]*}//; s/"warnings": *\[[^]]*\]//'; }
+same() { strip out/summary.json >a; strip checked/summary.json >b; cmp a b; }
+check "the optimum gives the same numbers to the last bit" same
+resolved() { exits 0 "$C" check out/resolved.yaml -o alone && strip alone/summary.json >c && cmp a c; }
+check "so does the resolved problem beside it" resolved
+again() {
+    for jobs in 1 2; do
+        exits 1 "$C" optimise two-trains.yaml --evaluations 40 --jobs $jobs -o jobs-$jobs || return 1
+    done
+    cmp jobs-1/history.csv jobs-2/history.csv && cmp jobs-1/optimised.yaml jobs-2/optimised.yaml
+}
+check "one thread and two find the same design by the same way" again
+
+spelled() { exits 1 "$C" optimize two-trains.yaml --evaluations 3 --json -q && json out.txt format crushzone.outcome && json out.txt evaluations && json out.txt variables.0.value; }
+check "optimize is the same command, --json prints one document" spelled
+infeasible() { exits 1 "$C" optimise two-trains.yaml --evaluations 3 -o few && says out.txt 'NOTHING FEASIBLE FOUND' && says out.txt violated && json few/outcome.json status infeasible && says few/optimised.yaml 'BREAKS A CONSTRAINT'; }
+check "nothing feasible ends with 1 and lists what is violated" infeasible
+nested() { mkdir -p deep/problems && cp two-trains.yaml deep/problems && exits 1 "$C" optimise deep/problems/two-trains.yaml --evaluations 3 -o results/a/b && says results/a/b/optimised.yaml 'extends: "../../../deep/problems/two-trains.yaml"' && exits 1 "$C" check results/a/b/optimised.yaml; }
+check "the optimum finds its problem from another folder" nested
+settings() { exits 1 "$C" optimise two-trains.yaml --evaluations 3 --set trains.A.speed_km_h=30 -o set && exits 1 "$C" check set/optimised.yaml -o set2 && strip set/summary.json >a && strip set2/summary.json >b && cmp a b; }
+check "the optimum holds the settings of the command line" settings
+piped() { "$C" optimise - --evaluations 3 -o piped <two-trains.yaml >out.txt 2>err.txt; [ $? = 1 ] && exits 1 "$C" check piped/optimised.yaml -o piped2 && strip piped/summary.json >a && strip piped2/summary.json >b && cmp a b; }
+check "the optimum of a problem from standard input stands alone" piped
+named() { exits 1 "$C" optimise two-trains.yaml --algorithm LN_NELDERMEAD --evaluations 5 -o named; }
+check "an NLopt algorithm is taken by name" named
+foreign() { mkdir -p mine && echo x >mine/thesis && exits 4 "$C" optimise two-trains.yaml -o mine && says err.txt 'crushzone did not write it'; }
+check "a folder that cannot be written is refused before the search" foreign
+
+interrupted() { # interrupted SIGNAL CODE OPTION...
+    signal=$1 expected=$2
+    shift 2
+    rm -rf kept
+    # The file's own strategy may end early; this algorithm goes on for as long as it may.
+    "$C" optimise two-trains.yaml --algorithm GN_CRS2_LM --evaluations 1000000 -o kept "$@" >out.txt 2>err.txt &
+    process=$!
+    sleep 1
+    kill -"$signal" $process
+    code=0
+    wait $process || code=$?
+    [ $code = "$expected" ] || { echo "exit code $code"; cat err.txt; return 1; }
+}
+ctrl_c() { interrupted INT 130 && says out.txt INTERRUPTED && json kept/outcome.json status interrupted && [ -s kept/optimised.yaml ] && exits 0 "$C" validate kept/optimised.yaml; }
+check "Ctrl-C keeps the best and ends with 130" ctrl_c
+terminated() { interrupted TERM 143 --json && json out.txt status interrupted && [ -s kept/optimised.yaml ]; }
+check "SIGTERM keeps the best and ends with 143" terminated
+no_progress() { plain err.txt && [ "$(wc -l <err.txt)" -le 3 ]; }
+check "progress is no stream of lines in a log" no_progress
+finish

@@ -1,0 +1,64 @@
+# What is written where: streams, colours, folders, full disks, closed pipes.
+. "$SOURCE/tests/support/cases.sh"
+. "$SOURCE/tests/cli/cli.sh"
+"$C" new -q
+
+one_document() { exits 0 "$C" run two-trains.yaml --json && [ ! -s err.txt ] && json out.txt format crushzone.summary && [ ! -e out ]; }
+check "run --json prints one document and writes no folder" one_document
+both() { exits 0 "$C" run two-trains.yaml --json -o both && cat out.txt >printed && tr -d '\n' <printed | sed 's/"run_info": *{[^}]*}//g' >a && tr -d '\n' <both/summary.json | sed 's/"run_info": *{[^}]*}//g' >b && cmp a b; }
+check "summary.json is what --json prints" both
+deterministic() { exits 0 "$C" run two-trains.yaml && mv out.txt first && exits 0 "$C" run two-trains.yaml && cmp first out.txt; }
+check "the table is the same from run to run" deterministic
+
+check "piped output has no escape codes" plain out.txt
+coloured() { exits 0 "$C" run two-trains.yaml --color always && ! plain out.txt; }
+check "--color always paints" coloured
+if script -qec true /dev/null >/dev/null 2>&1; then
+    terminal() { env "$@" script -qec "$C run two-trains.yaml" /dev/null >terminal.txt </dev/null; }
+    on_terminal() { terminal TERM=xterm && ! plain terminal.txt; }
+    check "a terminal gets colours" on_terminal
+    no_color() { terminal TERM=xterm NO_COLOR=1 && plain terminal.txt; }
+    check "NO_COLOR is respected" no_color
+    empty_no_color() { terminal TERM=xterm NO_COLOR= && ! plain terminal.txt; }
+    check "an empty NO_COLOR means nothing" empty_no_color
+    dumb() { terminal TERM=dumb && plain terminal.txt; }
+    check "a dumb terminal gets no escape codes" dumb
+    progress() { script -qec "$C optimise two-trains.yaml --evaluations 200 -o progress" /dev/null >terminal.txt </dev/null; grep -q 'eval [0-9]* | ' terminal.txt; }
+    check "a terminal shows progress" progress
+else
+    skipped "a terminal gets colours and progress" "no script command here"
+fi
+
+columns() { exits 0 "$C" run two-trains.yaml && head -1 out/channels.csv | grep -q '^t_ms,' && for file in summary.json checks.csv interfaces.csv channels.csv resolved.yaml run.log; do [ -s out/$file ] || return 1; done; }
+check "run writes the result folder" columns
+continental() { exits 0 "$C" run two-trains.yaml --csv-sep ';' --csv-decimal , && head -1 out/channels.csv | grep -q '^t_ms;' && sed -n 3p out/channels.csv | grep -q '[0-9],[0-9]'; }
+check "CSV takes a decimal comma" continental
+resolved() { exits 0 "$C" run out/resolved.yaml -o again && cmp again/interfaces.csv out/interfaces.csv || { exits 0 "$C" run two-trains.yaml && cmp again/interfaces.csv out/interfaces.csv; }; }
+check "resolved.yaml gives the same results" resolved
+with_set() { exits 0 "$C" run two-trains.yaml --set trains.A.speed_km_h=20 -o set && exits 0 "$C" run set/resolved.yaml -o set2 && cmp set/interfaces.csv set2/interfaces.csv && says set/run.log 'set trains.A.speed_km_h=20'; }
+check "resolved.yaml holds the settings of the command line" with_set
+
+foreign() { mkdir -p mine && echo x >mine/thesis && exits 4 "$C" run two-trains.yaml -o mine && says err.txt 'crushzone did not write it' && [ -f mine/thesis ] && [ ! -s out.txt ]; }
+check "a folder that the program did not write is refused before the run" foreign
+notes() { exits 0 "$C" run two-trains.yaml && echo x >out/notes.txt && exits 4 "$C" run two-trains.yaml && says err.txt 'notes.txt' && rm out/notes.txt && exits 0 "$C" run two-trains.yaml; }
+check "a result folder with a file of the user's own is refused" notes
+no_parent() { exits 4 "$C" run two-trains.yaml -o two-trains.yaml/out && says err.txt 'is no folder'; }
+check "a result folder inside a file is refused" no_parent
+as_json() { exits 4 "$C" run two-trains.yaml -o mine --json && json out.txt error.message; }
+check "a refused folder is a JSON document with --json" as_json
+
+if [ -e /dev/full ]; then
+    full() { for command in "run two-trains.yaml" "run two-trains.yaml --json" "help" "schema" "show two-trains.yaml" "version" "new -o -"; do
+        # shellcheck disable=SC2086 # a command is words
+        code=0; "$C" $command >/dev/full 2>err.txt || code=$?
+        [ $code = 4 ] && says err.txt 'standard output cannot be written' || { echo "$command: $code"; return 1; }
+    done; }
+    check "a full standard output ends with 4 and a sentence" full
+else
+    skipped "a full standard output ends with 4" "no /dev/full here"
+fi
+closed() { { "$C" show two-trains.yaml 2>err.txt; echo $? >code.txt; } | true; [ "$(cat code.txt)" = 4 ] && says err.txt 'cannot be written'; }
+check "a closed pipe ends with 4 and a sentence" closed
+small_disk() { (ulimit -f 8; "$C" run two-trains.yaml -o small >out.txt 2>err.txt); code=$?; [ $code = 4 ] && says err.txt 'cannot be written' && [ ! -e small ] && [ -z "$(ls -d small* 2>/dev/null)" ]; }
+check "a full disk leaves no half folder" small_disk
+finish

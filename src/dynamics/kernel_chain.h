@@ -1,13 +1,14 @@
 /* Series chains: one force passes through all members, their shortenings add up to the closure.
  * Part of kernel.c only.
  *
- *   sum over springs of (x + (F - F_x) c(F)) + sum over plastic members of (s + flow(F)) + C F =
- * closure
+ *   sum over springs of (x + (F - F_x) c(F))
+ *       + sum over plastic members of (s + flow(F)) + C F = closure
  *
  * The left side grows with F and is piecewise linear, so Newton's method with a bracket finds F in
  * as many steps as kinks are passed. F never falls below what the chain can pull (0 where nothing
- * couples). Lanes that have arrived are left alone, so that a lane's answer does not depend on its
- * neighbours.
+ * couples). Where that leads a spring past a kink of its law, or a plastic member into its stop, it
+ * is linearised again about where it went. Lanes that have arrived are left alone, so that a lane's
+ * answer does not depend on its neighbours.
  */
 #ifndef CZ_DYNAMICS_KERNEL_CHAIN_H
 #define CZ_DYNAMICS_KERNEL_CHAIN_H
@@ -17,15 +18,25 @@
 #include "laws/plastic_member.h"
 #include "laws/vehicle_end.h"
 
-enum { CHAIN_ITERATIONS = 60 };
+enum {
+    CHAIN_ITERATIONS = 60,
+    CHAIN_PASSES = 8 /* linearisations of one step: more kinks than a step passes (ours) */
+};
 #define CHAIN_TOLERANCE 1e-13 /* closure left unbalanced [m] */
+#define LAW_TOLERANCE 1.0     /* force by which a member may miss its law [N] (ours) */
 
 /* What a chain is made of: first rows of its members; side B follows side A. */
 typedef struct {
-    int n_plastic;
+    int n_plastic, n_curve;     /* plastic members; those of them that have a curve come first */
     int force, spring, plastic; /* CzMemory: chain force, spring strokes, plastic strokes */
     int compliance;             /* CzParameter */
+    int curve, rate;            /* CzCurveId and CzParameter (rate factor) of the first member */
+    int rise;                   /* CzScratch: rise of the strengths, of side A; -1: none */
 } Chain;
+
+/* Linearises the spring of one side: the first time about its committed stroke, later about where
+ * the chain's force takes it, in the lanes where it misses its law. Returns how many those are. */
+typedef double Linearise(CzDynamics *d, int side, double step, int again);
 
 /* Buffers as the springs of a chain. */
 typedef struct {
@@ -47,14 +58,14 @@ static void unbalance(const CzDynamics *d, const Chain *chain, const double *res
         slope[i] = compliance[i];
     }
     for (int side = 0; side < 2; ++side) {
-        const double *restrict stroke = cz_row(d->memory, d->stride, chain->spring + side);
+        const double *restrict at = S_AT(SPRING_AT_A, side);
         const double *restrict rest = S_AT(SPRING_FORCE_A, side);
         const double *restrict up = S_AT(SPRING_UP_A, side);
         const double *restrict down = S_AT(SPRING_DOWN_A, side);
         CZ_LANES (i, n) {
             const double excess = force[i] - rest[i];
             const double c = excess > 0.0 ? up[i] : down[i];
-            sum[i] += stroke[i] + excess * c;
+            sum[i] += at[i] + excess * c;
             slope[i] += c;
         }
     }
@@ -100,47 +111,78 @@ static int improve(const CzDynamics *d, const double *restrict sum, const double
     return n_moving == 0.0;
 }
 
-/* Finds the chain's force in all lanes: S(CHAIN_FORCE). What is left unbalanced is kept for the run
- * to judge. */
-static void solve_chain(CzDynamics *d, const Chain *chain, const double *closure) {
+/* Finds the chain's force in all lanes from the one in S(CHAIN_FORCE) on; returns whether it did.
+ */
+static int solve_linear(CzDynamics *d, const Chain *chain, const double *closure) {
     const size_t n = CZ_LANE_BLOCK;
-    double *restrict force = S(CHAIN_FORCE);
     double *restrict low = S(CHAIN_LOW);
     double *restrict high = S(CHAIN_HIGH);
     double *sum = S(CURVE_VALUE);
     double *slope = S(CURVE_SLOPE);
-    {
-        const double *restrict last = cz_row(d->memory, d->stride, chain->force);
-        const double *restrict lowest = S(CHAIN_LOWEST);
-        CZ_LANES (i, n) {
-            force[i] = cz_larger(last[i], lowest[i]);
-            low[i] = -1e10;
-            high[i] = 1e10;
-        }
+    CZ_LANES (i, n) {
+        low[i] = -1e10;
+        high[i] = 1e10;
     }
     int arrived = 0;
     for (int iteration = 0; iteration < CHAIN_ITERATIONS && !arrived; ++iteration) {
         unbalance(d, chain, closure, sum, slope);
         arrived = improve(d, sum, slope);
     }
-    double *restrict residual = S(RESIDUAL);
-    double *restrict kept = cz_row(d->next_memory, d->stride, chain->force);
-    const double *restrict active = S(CHAIN_ACTIVE);
-    const double *restrict left = sum;
-    const double unsolved = arrived ? 0.0 : 1.0;
+    return arrived;
+}
+
+/* Where a spring is linearised: its committed stroke, or where the chain's force takes it. */
+static void choose_stroke(CzDynamics *d, const Chain *chain, int side, int again,
+                          double *restrict stroke) {
+    const size_t n = CZ_LANE_BLOCK;
+    if (!again) {
+        const double *restrict committed = cz_row(d->memory, d->stride, chain->spring + side);
+        CZ_LANES (i, n) {
+            stroke[i] = committed[i];
+        }
+        return;
+    }
+    const double *restrict force = S(CHAIN_FORCE), *restrict at = S_AT(SPRING_AT_A, side);
+    const double *restrict rest = S_AT(SPRING_FORCE_A, side);
+    const double *restrict up = S_AT(SPRING_UP_A, side), *restrict down = S_AT(SPRING_DOWN_A, side);
     CZ_LANES (i, n) {
-        residual[i] = cz_larger(residual[i], unsolved * active[i] * fabs(left[i]));
-        force[i] *= active[i];
-        kept[i] = force[i];
+        const double excess = force[i] - rest[i];
+        stroke[i] = at[i] + excess * (excess > 0.0 ? up[i] : down[i]);
     }
 }
 
-/* Sets a buffer as spring member `side` of the chain. */
-static void prepare_buffer(CzDynamics *d, const Chain *chain, const BufferRows *rows, int side,
-                           double step) {
+/* Takes over a spring's linearisation about `stroke` where it is the first one or the law's force
+ * there is not the chain's; returns in how many lanes. */
+static double accept(CzDynamics *d, int side, int again, const double *restrict stroke,
+                     const double *restrict law_force, const double *restrict loading,
+                     const double *restrict unloading) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict force = S(CHAIN_FORCE), *restrict active = S(CHAIN_ACTIVE);
+    double *restrict at = S_AT(SPRING_AT_A, side), *restrict rest = S_AT(SPRING_FORCE_A, side);
+    double *restrict up = S_AT(SPRING_UP_A, side), *restrict down = S_AT(SPRING_DOWN_A, side);
+    const double first = again ? 0.0 : 1.0;
+    double n_changed = 0.0;
+    _Pragma("omp simd reduction(+ : n_changed)") for (size_t i = 0; i < n; ++i) {
+        const double missed = fabs(law_force[i] - force[i]) > LAW_TOLERANCE ? active[i] : 0.0;
+        const double changed = first + missed;
+        at[i] = changed > 0.0 ? stroke[i] : at[i];
+        rest[i] = changed > 0.0 ? law_force[i] : rest[i];
+        up[i] = changed > 0.0 ? loading[i] : up[i];
+        down[i] = changed > 0.0 ? unloading[i] : down[i];
+        n_changed += changed;
+    }
+    return n_changed;
+}
+
+/* Linearises a buffer as spring member `side` of the chain. The hysteresis starts from where the
+ * committed stroke has taken it. */
+static double linearise_buffer(CzDynamics *d, const Chain *chain, const BufferRows *rows, int side,
+                               double step, int again) {
     const size_t n = CZ_LANE_BLOCK;
     double *parameter = d->lanes->parameter;
-    const double *restrict stroke = cz_row(d->memory, d->stride, chain->spring + side);
+    double *stroke = S(TRIAL_STROKE);
+    choose_stroke(d, chain, side, again, stroke);
+    const double *restrict committed = cz_row(d->memory, d->stride, chain->spring + side);
     double *restrict curve = S(CURVE_VALUE);
     double *restrict slope = S(CURVE_SLOPE);
     evaluate_curve(d, rows->curve + side, stroke, curve, slope);
@@ -153,12 +195,13 @@ static void prepare_buffer(CzDynamics *d, const Chain *chain, const BufferRows *
     const double *restrict slack =
         pulls ? cz_row(parameter, d->stride, rows->slack + side) : S(ZERO);
     const double *restrict rate = cz_row(d->memory, d->stride, rows->rate + side);
-    const double *restrict offset = cz_row(d->memory, d->stride, rows->offset + side);
-    double *restrict next_offset = cz_row(d->next_memory, d->stride, rows->offset + side);
+    const double *restrict offset =
+        cz_row(again ? d->next_memory : d->memory, d->stride, rows->offset + side);
+    double *restrict next_offset =
+        again ? S(UNUSED) : cz_row(d->next_memory, d->stride, rows->offset + side);
     const double *restrict usable = d->lanes->curve[rows->curve + side].usable;
-    double *restrict rest = S_AT(SPRING_FORCE_A, side);
-    double *restrict up = S_AT(SPRING_UP_A, side);
-    double *restrict down = S_AT(SPRING_DOWN_A, side);
+    double *restrict force = S(TRIAL_FORCE), *restrict up = S(TRIAL_UP),
+                     *restrict down = S(TRIAL_DOWN);
     CZ_LANES (i, n) {
         const CzBufferLaw law = {cz_larger(transition[i], 1.0),
                                  share[i],
@@ -168,27 +211,103 @@ static void prepare_buffer(CzDynamics *d, const Chain *chain, const BufferRows *
                                  slack[i],
                                  usable[i]};
         const CzBufferResponse response =
-            cz_buffer(&law, curve[i], slope[i], stroke[i], rate[i], offset[i], step);
-        rest[i] = response.force;
+            cz_buffer(&law, curve[i], slope[i], stroke[i], stroke[i] - committed[i], rate[i],
+                      offset[i], step);
+        force[i] = response.force;
         up[i] = response.loading;
         down[i] = response.unloading;
         next_offset[i] = response.offset;
     }
+    return accept(d, side, again, stroke, force, up, down);
 }
 
-/* Sets a plastic member: strength over its stroke, times a factor, with a rate factor. */
-static void prepare_plastic(CzDynamics *d, const Chain *chain, int member, int curve_id,
-                            const double *restrict factor, const double *restrict rate_factor,
-                            double step) {
+/* Rise of the strength of a plastic member. */
+static const double *rise_of(CzDynamics *d, const Chain *chain, int member) {
+    return chain->rise < 0 ? S(ZERO) : cz_row(d->scratch, d->stride, chain->rise + member % 2);
+}
+
+/* Sets a plastic member: strength over its stroke, with its rise and its rate factor. */
+static void prepare_plastic(CzDynamics *d, const Chain *chain, int member, double step) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict stroke = cz_row(d->memory, d->stride, chain->plastic + member);
+    const double *restrict rate = cz_row(d->lanes->parameter, d->stride, chain->rate + member);
+    const double *restrict rise = rise_of(d, chain, member);
     double *restrict strength = S_AT(STRENGTH_0, member);
     double *restrict flow = S_AT(FLOW_0, member);
-    evaluate_curve(d, curve_id, stroke, strength, flow);
+    evaluate_curve(d, chain->curve + member, stroke, strength, flow);
     CZ_LANES (i, n) {
-        const double scaled = strength[i] * (1.0 + factor[i]);
-        flow[i] = cz_plastic_compliance(scaled, flow[i] * (1.0 + factor[i]), rate_factor[i], step);
+        const double scaled = strength[i] * (1.0 + rise[i]);
+        flow[i] = cz_plastic_compliance(scaled, flow[i] * (1.0 + rise[i]), rate[i], step);
         strength[i] = scaled;
+    }
+}
+
+/* Linearises a plastic member again where the chain's force has taken it to a strength that is
+ * higher than that force: beyond an upward kink, such as its stop. Returns in how many lanes. */
+static double harden_plastic(CzDynamics *d, const Chain *chain, int member, double step) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict force = S(CHAIN_FORCE), *restrict active = S(CHAIN_ACTIVE);
+    const double *restrict rate = cz_row(d->lanes->parameter, d->stride, chain->rate + member);
+    const double *restrict rise = rise_of(d, chain, member);
+    const double *restrict committed = cz_row(d->memory, d->stride, chain->plastic + member);
+    double *restrict strength = S_AT(STRENGTH_0, member), *restrict flow = S_AT(FLOW_0, member);
+    double *stroke = S(TRIAL_STROKE), *curve = S(CURVE_VALUE), *slope = S(CURVE_SLOPE);
+    CZ_LANES (i, n) {
+        stroke[i] = committed[i] + cz_plastic_flow(force[i], strength[i], flow[i]);
+    }
+    evaluate_curve(d, chain->curve + member, stroke, curve, slope);
+    double n_changed = 0.0;
+    _Pragma("omp simd reduction(+ : n_changed)") for (size_t i = 0; i < n; ++i) {
+        const double way = stroke[i] - committed[i];
+        const double there = curve[i] * (1.0 + rise[i]);
+        const double tangent = cz_positive_part(slope[i]) * (1.0 + rise[i]);
+        const double compliance = cz_plastic_compliance(there, tangent, rate[i], step);
+        const double asked = there - tangent * way + way / compliance;
+        const double flows = way > 0.0 ? active[i] : 0.0;
+        const double rises = tangent > 0.0 ? flows : 0.0;
+        const double changed = asked > force[i] + LAW_TOLERANCE ? rises : 0.0;
+        strength[i] = changed > 0.0 ? there - tangent * way : strength[i];
+        flow[i] = changed > 0.0 ? compliance : flow[i];
+        n_changed += changed;
+    }
+    return n_changed;
+}
+
+/* Finds the force with which every member keeps its law: S(CHAIN_FORCE). CHAIN_LOWEST,
+ * CHAIN_ACTIVE and the plastic members that have no curve are set before. What is left unbalanced
+ * is kept for the run to judge. */
+static void solve_chain(CzDynamics *d, const Chain *chain, Linearise *linearise, double step) {
+    const size_t n = CZ_LANE_BLOCK;
+    double *restrict force = S(CHAIN_FORCE);
+    const double *restrict active = S(CHAIN_ACTIVE);
+    {
+        const double *restrict last = cz_row(d->memory, d->stride, chain->force);
+        const double *restrict lowest = S(CHAIN_LOWEST);
+        CZ_LANES (i, n) {
+            force[i] = cz_larger(last[i], lowest[i]);
+        }
+    }
+    for (int side = 0; side < 2; ++side)
+        linearise(d, side, step, 0);
+    for (int member = 0; member < chain->n_curve; ++member)
+        prepare_plastic(d, chain, member, step);
+    int arrived = solve_linear(d, chain, S(CLOSURE));
+    double n_changed = 1.0;
+    for (int pass = 1; pass < CHAIN_PASSES && arrived && n_changed > 0.0; ++pass) {
+        n_changed = linearise(d, 0, step, 1) + linearise(d, 1, step, 1);
+        for (int member = 0; member < chain->n_curve; ++member)
+            n_changed += harden_plastic(d, chain, member, step);
+        if (n_changed > 0.0)
+            arrived = solve_linear(d, chain, S(CLOSURE));
+    }
+    double *restrict residual = S(RESIDUAL);
+    double *restrict kept = cz_row(d->next_memory, d->stride, chain->force);
+    const double *restrict left = S(CURVE_VALUE);
+    const double unsolved = arrived ? 0.0 : 1.0;
+    CZ_LANES (i, n) {
+        residual[i] = cz_larger(residual[i], unsolved * active[i] * fabs(left[i]));
+        force[i] *= active[i];
+        kept[i] = force[i];
     }
 }
 
@@ -203,6 +322,7 @@ static void move_members(CzDynamics *d, const Chain *chain, int first, int secon
         const double *restrict energy = cz_row(d->memory, d->stride, first + side);
         double *restrict next_energy = cz_row(d->next_memory, d->stride, first + side);
         const double *restrict stroke = cz_row(d->memory, d->stride, chain->spring + side);
+        const double *restrict at = S_AT(SPRING_AT_A, side);
         double *restrict next = cz_row(d->next_memory, d->stride, chain->spring + side);
         const double *restrict rest = S_AT(SPRING_FORCE_A, side);
         const double *restrict up = S_AT(SPRING_UP_A, side);
@@ -211,7 +331,7 @@ static void move_members(CzDynamics *d, const Chain *chain, int first, int secon
         CZ_LANES (i, n) {
             const double excess = active[i] * (force[i] - rest[i]);
             const double c = excess > 0.0 ? up[i] : down[i];
-            const double way = excess * c;
+            const double way = active[i] * (at[i] - stroke[i]) + excess * c;
             next[i] = stroke[i] + way;
             next_energy[i] = energy[i] + 0.5 * (last[i] + force[i]) * way;
         }

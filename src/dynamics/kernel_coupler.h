@@ -18,8 +18,15 @@
 #define ENGAGING_CLOSURE                                                                           \
     0.005 /* closure over which faces that are not coupled take up hinge moments [m] (ours) */
 
-static const Chain coupler_chain = {6, CZ_M_COUPLER_FORCE, CZ_M_BUFFER_A, CZ_M_TUBE_A,
-                                    CZ_P_COUPLER_COMPLIANCE};
+static const Chain coupler_chain = {6,
+                                    4,
+                                    CZ_M_COUPLER_FORCE,
+                                    CZ_M_BUFFER_A,
+                                    CZ_M_TUBE_A,
+                                    CZ_P_COUPLER_COMPLIANCE,
+                                    CZ_CURVE_TUBE_A,
+                                    CZ_P_TUBE_RATE_A,
+                                    -1};
 static const BufferRows coupler_buffer = {
     CZ_CURVE_BUFFER_A,        CZ_P_BUFFER_TRANSITION_A, CZ_P_BUFFER_SHARE_A,
     CZ_P_BUFFER_DAMPING_A,    CZ_P_BUFFER_QUADRATIC_A,  CZ_P_BUFFER_DRAW_STIFFNESS_A,
@@ -119,16 +126,13 @@ static void prepare_shear_off(CzDynamics *d, int side, double step) {
     }
 }
 
+static double linearise_coupler_buffer(CzDynamics *d, int side, double step, int again) {
+    return linearise_buffer(d, &coupler_chain, &coupler_buffer, side, step, again);
+}
+
 /* Force of the chain, and the members moved on. */
 static void coupler_chain_force(CzDynamics *d, double step) {
     const size_t n = CZ_LANE_BLOCK;
-    static const int tube_rates[4] = {CZ_P_TUBE_RATE_A, CZ_P_TUBE_RATE_B, CZ_P_SECOND_TUBE_RATE_A,
-                                      CZ_P_SECOND_TUBE_RATE_B};
-    for (int side = 0; side < 2; ++side)
-        prepare_buffer(d, &coupler_chain, &coupler_buffer, side, step);
-    for (int member = 0; member < 4; ++member)
-        prepare_plastic(d, &coupler_chain, member, CZ_CURVE_TUBE_A + member, S(ZERO),
-                        cz_row(d->lanes->parameter, d->stride, tube_rates[member]), step);
     {
         double *restrict damage = S(DAMAGE);
         CZ_LANES (i, n) {
@@ -146,7 +150,7 @@ static void coupler_chain_force(CzDynamics *d, double step) {
             active[i] = exists[i];
         }
     }
-    solve_chain(d, &coupler_chain, S(CLOSURE));
+    solve_chain(d, &coupler_chain, linearise_coupler_buffer, step);
     move_members(d, &coupler_chain, CZ_M_COUPLER_ENERGY_A, CZ_M_TUBE_ENERGY_A);
     keep_rates(d, &coupler_chain, CZ_M_BUFFER_RATE_A, step);
 }

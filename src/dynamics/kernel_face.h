@@ -12,12 +12,26 @@
 #define PLATE_STIFFNESS 2e7 /* vertical stiffness of buffer plates that stick [N/m] (ours) */
 #define GRIP_FORCE 1e4 /* normal force at which ribs and damping are fully engaged [N] (ours) */
 
-static const Chain face_chain = {2, CZ_M_FACE_FORCE, CZ_M_LIMP_A, CZ_M_FACE_A,
-                                 CZ_P_FACE_COMPLIANCE};
+static const Chain face_chain = {2,
+                                 2,
+                                 CZ_M_FACE_FORCE,
+                                 CZ_M_LIMP_A,
+                                 CZ_M_FACE_A,
+                                 CZ_P_FACE_COMPLIANCE,
+                                 CZ_CURVE_FACE_A,
+                                 CZ_P_FACE_RATE_A,
+                                 CZ_S_SPEED_RISE_A};
 static const ContactRows face_contact = {CZ_P_FACE_X_A, CZ_P_FACE_Z_A, CZ_P_FACE_X_B,
                                          CZ_P_FACE_Z_B, CZ_P_FACE_GAP, CZ_P_FACE_RISE};
-static const Chain side_chain = {2, CZ_M_SIDE_FORCE, CZ_M_SIDE_BUFFER_A, CZ_M_SIDE_TUBE_A,
-                                 CZ_P_SIDE_COMPLIANCE};
+static const Chain side_chain = {2,
+                                 2,
+                                 CZ_M_SIDE_FORCE,
+                                 CZ_M_SIDE_BUFFER_A,
+                                 CZ_M_SIDE_TUBE_A,
+                                 CZ_P_SIDE_COMPLIANCE,
+                                 CZ_CURVE_SIDE_TUBE_A,
+                                 CZ_P_SIDE_RATE_A,
+                                 -1};
 static const BufferRows side_buffer = {CZ_CURVE_SIDE_BUFFER_A,
                                        CZ_P_SIDE_TRANSITION_A,
                                        CZ_P_SIDE_SHARE_A,
@@ -39,10 +53,12 @@ static Carrier carrier_rows(CzDynamics *d, int dof, int rotation, size_t shift) 
                      r, r + d->stride};
 }
 
-/* A crush zone without end mass as spring member `side`. */
-static void prepare_limp_end(CzDynamics *d, int side) {
+/* Linearises a crush zone without end mass as spring member `side`. */
+static double linearise_limp_end(CzDynamics *d, int side, double step, int again) {
+    (void)step;
     const size_t n = CZ_LANE_BLOCK;
-    const double *restrict shortening = M_AT(LIMP_A, side);
+    double *shortening = S(TRIAL_STROKE);
+    choose_stroke(d, &face_chain, side, again, shortening);
     double *restrict curve = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
     double *restrict peak = S(CURVE_PEAK), *restrict largest = S(LARGEST);
     largest_of_stages(d, CZ_CURVE_LIMP_END_A + side, M_AT(LIMP_PEAK_A, side), largest);
@@ -51,8 +67,8 @@ static void prepare_limp_end(CzDynamics *d, int side) {
     const double *restrict unloading = P_AT(LIMP_UNLOADING_A, side), *restrict share =
                                                                          P_AT(LIMP_SHARE_A, side);
     const double *restrict second = P_AT(LIMP_SECOND_UNLOADING_A, side);
-    double *restrict rest = S_AT(SPRING_FORCE_A, side);
-    double *restrict up = S_AT(SPRING_UP_A, side), *restrict down = S_AT(SPRING_DOWN_A, side);
+    double *restrict force = S(TRIAL_FORCE);
+    double *restrict up = S(TRIAL_UP), *restrict down = S(TRIAL_DOWN);
     CZ_LANES (i, n) {
         const CzVehicleEndLaw law = {cz_larger(unloading[i], 1.0), share[i],
                                      cz_larger(second[i], 1.0), 0.0};
@@ -63,20 +79,20 @@ static void prepare_limp_end(CzDynamics *d, int side) {
             response.force < curve[i] ? response.slope : cz_larger(slope[i], response.slope);
         const double stop = shortening[i] > largest[i] ? slope[i] : path;
         const double back = cz_larger(shortening[i] > 0.0 ? stop : slope[i], CZ_SMALLEST_STIFFNESS);
-        rest[i] = response.force;
+        force[i] = response.force;
         up[i] = 1.0 / (shortening[i] >= largest[i] ? loading : back);
         down[i] = 1.0 / back;
     }
+    return accept(d, side, again, shortening, force, up, down);
 }
 
-/* The closing speed at first contact is frozen; the factor of one side follows from it, into
- * LARGEST. */
+/* The closing speed at first contact is frozen; the rise of one side's strength follows from it. */
 static void speed_factor(CzDynamics *d, int side) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict closure = S(CLOSURE), *restrict rate = S(RATE),
                            *restrict speed = M(FACE_SPEED);
     const double *restrict factor = P_AT(SPEED_FACTOR_A, side);
-    double *restrict next = NEXT(FACE_SPEED), *restrict rise = S(LARGEST);
+    double *restrict next = NEXT(FACE_SPEED), *restrict rise = S_AT(SPEED_RISE_A, side);
     CZ_LANES (i, n) {
         const double touching = closure[i] > 0.0 ? cz_larger(rate[i], 1e-9) : 0.0;
         next[i] = speed[i] > 0.0 ? speed[i] : touching;
@@ -176,18 +192,14 @@ static void faces(CzDynamics *d, double step) {
         leave_faces(d);
         return;
     }
-    for (int side = 0; side < 2; ++side) {
-        prepare_limp_end(d, side);
+    for (int side = 0; side < 2; ++side)
         speed_factor(d, side);
-        prepare_plastic(d, &face_chain, side, CZ_CURVE_FACE_A + side, S(LARGEST),
-                        P_AT(FACE_RATE_A, side), step);
-    }
     double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
     CZ_LANES (i, n) {
         lowest[i] = 0.0;
         active[i] = 1.0;
     }
-    solve_chain(d, &face_chain, S(CLOSURE));
+    solve_chain(d, &face_chain, linearise_limp_end, step);
     move_members(d, &face_chain, CZ_M_LIMP_ENERGY_A, CZ_M_FACE_ENERGY_A);
     for (int side = 0; side < 2; ++side) {
         const double *restrict before = M_AT(LIMP_PEAK_A, side), *restrict now =
@@ -207,24 +219,23 @@ static void faces(CzDynamics *d, double step) {
     add(n, S(SECTION_REAR) + ahead, P(SLAVED_ENDS) + ahead, S(CURVE_VALUE));
 }
 
+static double linearise_side_buffer(CzDynamics *d, int side, double step, int again) {
+    return linearise_buffer(d, &side_chain, &side_buffer, side, step, again);
+}
+
 /* All side buffers. */
 static void side_buffers(CzDynamics *d, double step) {
     const size_t n = CZ_LANE_BLOCK, ahead = (size_t)d->lanes->n_design;
     const Carrier a = carrier_rows(d, CZ_DOF_BODY_X, CZ_S_BODY_COS, 0);
     const Carrier b = carrier_rows(d, CZ_DOF_BODY_X, CZ_S_BODY_COS, ahead);
     contact_geometry(d, &a, &b, &side_contact);
-    for (int side = 0; side < 2; ++side) {
-        prepare_buffer(d, &side_chain, &side_buffer, side, step);
-        prepare_plastic(d, &side_chain, side, CZ_CURVE_SIDE_TUBE_A + side, S(ZERO),
-                        P_AT(SIDE_RATE_A, side), step);
-    }
     double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
     const double *restrict exists = P(SIDE_BUFFERS);
     CZ_LANES (i, n) {
         lowest[i] = 0.0;
         active[i] = exists[i];
     }
-    solve_chain(d, &side_chain, S(CLOSURE));
+    solve_chain(d, &side_chain, linearise_side_buffer, step);
     move_members(d, &side_chain, CZ_M_SIDE_ENERGY_A, CZ_M_SIDE_TUBE_ENERGY_A);
     keep_rates(d, &side_chain, CZ_M_SIDE_RATE_A, step);
 

@@ -11,11 +11,11 @@
  * Beyond the usable stroke s it stays what it is there: what bottoms out is an elastic stop k_b in
  * parallel, stiff and without hysteresis.
  *
- * Inside a series chain the stroke x answers the force, so the law is given linearised about the
- * committed stroke: over one step of length h,  x_next = x + (F - static) * compliance,  with one
- * compliance for loading and one for unloading. |x'| is the committed rate. Each is the exact
- * tangent of the law, so the linearisation is off only in a step that passes a kink, and the next
- * step starts from the curve again.
+ * Inside a series chain the stroke x answers the force, so the law is given linearised about a
+ * stroke that is `moved` beyond the committed one: over one step of length h,
+ * x_next = x + (F - force) * compliance,  with one compliance for loading and one for unloading.
+ * |x'| in the hydraulic damping is the committed rate. Each compliance is the exact tangent of the
+ * law, so a step that passes a kink is solved by linearising again about where it led.
  */
 #ifndef CZ_LAWS_BUFFER_H
 #define CZ_LAWS_BUFFER_H
@@ -37,15 +37,16 @@ typedef struct {
 } CzBufferLaw;
 
 typedef struct {
-    double force;     /* static force at the committed stroke [N] */
+    double force;     /* at the stroke, damping of the way moved included [N] */
     double loading;   /* compliance of the step while the stroke grows [m/N] */
     double unloading; /* compliance of the step while it shrinks [m/N] */
     double offset;    /* next p [m] */
 } CzBufferResponse;
 
-/* `curve` and `slope` are those of the loading curve with its stop, at the committed stroke. */
+/* `curve` and `slope` are those of the loading curve with its stop, at the stroke. */
 static inline CzBufferResponse cz_buffer(const CzBufferLaw *law, double curve, double slope,
-                                         double stroke, double rate, double offset, double step) {
+                                         double stroke, double moved, double rate, double offset,
+                                         double step) {
     /* The stop, and the curves at this stroke, both starting from zero along the transition. */
     const double stop_slope = stroke >= law->usable ? slope : 0.0;
     const double stop = stop_slope * cz_positive_part(stroke - law->usable);
@@ -72,8 +73,10 @@ static inline CzBufferResponse cz_buffer(const CzBufferLaw *law, double curve, d
     const double linear = law->damping * fade;
     const double hydraulic = law->quadratic * cz_positive_part(rate) * fade;
 
+    const double damped = moved > 0.0 ? linear + hydraulic : linear;
+
     CzBufferResponse response;
-    response.force = inside + stop - law->draw_stiffness * drawn;
+    response.force = inside + stop - law->draw_stiffness * drawn + damped * moved / step;
     response.loading = 1.0 / (cz_larger(up, CZ_SMALLEST_STIFFNESS) + (linear + hydraulic) / step);
     response.unloading = 1.0 / (cz_larger(down, CZ_SMALLEST_STIFFNESS) + linear / step);
     response.offset = stroke - inside / law->transition;

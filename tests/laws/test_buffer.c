@@ -11,7 +11,7 @@ static const double step = 1e-4;
 
 static CzBufferResponse at(const CzBufferLaw *law, const Backbone *curve, double x, double rate,
                            double offset) {
-    return cz_buffer(law, backbone_value(curve, x), backbone_slope(curve, x), x, rate, offset,
+    return cz_buffer(law, backbone_value(curve, x), backbone_slope(curve, x), x, 0.0, rate, offset,
                      step);
 }
 

@@ -33,12 +33,12 @@ static const Backbone four_stages = {
     5, {0, 0.02, 0.08, 0.40, 0.60}, {0, 1.2e6, 1.0e6, 1.5e6, 4.5e6}, 1e9};
 static const Backbone draft_gear = {3, {0, 0.03, 0.08}, {2e4, 1e5, 6e5}, 1e9};
 
-/* Stroke, rate, offset, step. */
+/* Stroke, way moved, rate, offset, step. */
 static void cz_buffer_at(const double *input, double *output) {
     const CzBufferLaw law = {5e7, 0.35, 5e3, 3e4, 2e7, 0.002, 0.08};
-    const CzBufferResponse response =
-        cz_buffer(&law, backbone_value(&draft_gear, input[0]),
-                  backbone_slope(&draft_gear, input[0]), input[0], input[1], input[2], input[3]);
+    const CzBufferResponse response = cz_buffer(&law, backbone_value(&draft_gear, input[0]),
+                                                backbone_slope(&draft_gear, input[0]), input[0],
+                                                input[1], input[2], input[3], input[4]);
     output[0] = response.force;
     output[1] = response.offset;
 }
@@ -101,9 +101,9 @@ static void cz_creep_deflection_at(const double *input, double *output) {
 
 /* Ranges of the inputs, scales of the outputs. */
 static const Law range_cz_buffer = {
-    .n_input = 4,
-    .low = {-0.02, -8, -0.02, 1e-6},
-    .high = {0.1, 8, 0.1, 1e-3},
+    .n_input = 5,
+    .low = {-0.02, -1e-3, -8, -0.02, 1e-5},
+    .high = {0.1, 1e-3, 8, 0.1, 1e-3},
     .n_output = 2,
     .scale = {1e6, 0.1},
 };

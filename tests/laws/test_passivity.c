@@ -18,7 +18,7 @@
 static double buffer_force(Element *element, double x) {
     const CzBufferResponse response =
         cz_buffer(element->law, backbone_value(element->backbone, x),
-                  backbone_slope(element->backbone, x), x, 0.0, element->memory[0], 1e-4);
+                  backbone_slope(element->backbone, x), x, 0.0, 0.0, element->memory[0], 1e-4);
     element->memory[0] = response.offset;
     return response.force;
 }

@@ -1,0 +1,57 @@
+/* A model built from a typed problem, with the lanes of its own design. */
+#ifndef CZ_TESTS_BUILT_MODEL_H
+#define CZ_TESTS_BUILT_MODEL_H
+
+#include "support/check.h"
+
+#include "model/kinks.h"
+#include "model/own_design.h"
+#include "support/typed_problem.h"
+
+typedef struct Built {
+    CzModel *model;
+    CzArena arena;
+    CzLanes *lanes; /* one design */
+} Built;
+
+/* Builds scenario 0; the test fails when that fails. */
+static inline Built build_model(struct CzProblem *problem) {
+    Built built = {0};
+    CzError error = {0};
+    if (cz_model_build(problem, 0, &built.model, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    built.lanes = cz_lanes_create(built.model, 1, &built.arena);
+    assert_non_null(built.lanes);
+    if (cz_model_fill(built.model, problem->vehicle, 0, built.lanes, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    return built;
+}
+
+static inline void free_model(Built *built) {
+    cz_arena_free(&built->arena);
+    cz_model_free(built->model);
+}
+
+static inline double parameter(const Built *built, int car, CzParameter which) {
+    return cz_lane_value(built->lanes, car, which);
+}
+
+static inline double mass_of(const Built *built, int car, CzDof dof) {
+    return built->lanes->mass[(size_t)dof * built->lanes->stride + (size_t)car];
+}
+
+static inline double velocity_of(const Built *built, int car, CzDof dof) {
+    return built->lanes->velocity[(size_t)dof * built->lanes->stride + (size_t)car];
+}
+
+static inline double curve_at(const CzLanes *lanes, size_t lane, CzCurveId id, double x) {
+    const CzCurveLanes *curve = &lanes->curve[id];
+    double value = curve->start[lane];
+    for (int i = 0; i < curve->n_kink; i++) {
+        const size_t slot = (size_t)i * lanes->stride + lane;
+        value += curve->slope_change[slot] * fmax(x - curve->at[slot], 0.0);
+    }
+    return value;
+}
+
+#endif

@@ -1,0 +1,158 @@
+/* Candidate designs in lanes: what changes, what must not, and what comes back bit for bit. */
+#include "model/built_model.h"
+
+static struct CzProblem problem;
+
+static void make_problem(void) {
+    CzVehicle car[3] = {typed_full(), typed_full(), typed_full()};
+    car[1].front.anti_climber.n_stages = 2;
+    car[1].front.anti_climber.stages[1] = car[1].front.anti_climber.stages[0];
+    typed_problem_init(&problem, 2, car, 1, &car[2], 10.0);
+}
+
+static CzLanes *filled(const CzModel *model, int n_design, const CzVehicle *const *design,
+                       CzArena *arena) {
+    CzLanes *lanes = cz_lanes_create(model, n_design, arena);
+    assert_non_null(lanes);
+    for (int i = 0; i < n_design; i++) {
+        CzError error = {0};
+        if (cz_model_fill(model, design[i], i, lanes, &error) != CZ_OK)
+            fail_msg("%s", error.message);
+    }
+    return lanes;
+}
+
+/* All numbers of one design, compared lane by lane. */
+static void assert_same_design(const CzLanes *a, int in_a, const CzLanes *b, int in_b) {
+    for (int car = 0; car < a->n_car; car++) {
+        const size_t la = (size_t)(car * a->n_design + in_a);
+        const size_t lb = (size_t)(car * b->n_design + in_b);
+        for (size_t p = 0; p < CZ_N_PARAMETER; p++)
+            assert_true(a->parameter[p * a->stride + la] == b->parameter[p * b->stride + lb]);
+        for (size_t dof = 0; dof < CZ_N_DOF; dof++) {
+            assert_true(a->mass[dof * a->stride + la] == b->mass[dof * b->stride + lb]);
+            assert_true(a->velocity[dof * a->stride + la] == b->velocity[dof * b->stride + lb]);
+        }
+        for (int id = 0; id < CZ_N_CURVE; id++) {
+            const CzCurveLanes *ca = &a->curve[id], *cb = &b->curve[id];
+            assert_int_equal(ca->n_kink, cb->n_kink);
+            assert_true(ca->start[la] == cb->start[lb]);
+            assert_true(ca->usable[la] == cb->usable[lb]);
+            for (size_t k = 0; k < (size_t)ca->n_kink; k++) {
+                assert_true(ca->at[k * a->stride + la] == cb->at[k * b->stride + lb]);
+                assert_true(ca->slope_change[k * a->stride + la] ==
+                            cb->slope_change[k * b->stride + lb]);
+            }
+        }
+    }
+}
+
+static void a_design_does_not_see_its_neighbours(void **state) {
+    (void)state;
+    make_problem();
+    Built built = build_model(&problem);
+    CzVehicle other[3], third[3];
+    memcpy(other, problem.vehicle, sizeof other);
+    memcpy(third, problem.vehicle, sizeof third);
+    other[0].front.coupler.tube.stages[0].force = 9e5;
+    third[1].front.anti_climber.stages[0].stroke = 0.5;
+    const CzVehicle *const designs[] = {other, problem.vehicle, third, problem.vehicle, other};
+    CzArena arena = {0};
+    const CzLanes *many = filled(built.model, 5, designs, &arena);
+    for (int i = 0; i < 5; i++) {
+        const CzLanes *alone = filled(built.model, 1, &designs[i], &arena);
+        assert_same_design(many, i, alone, 0);
+    }
+    cz_arena_free(&arena);
+    free_model(&built);
+}
+
+static void filling_again_forgets_the_last_candidate(void **state) {
+    (void)state;
+    make_problem();
+    Built built = build_model(&problem);
+    CzVehicle other[3];
+    memcpy(other, problem.vehicle, sizeof other);
+    other[1].front.coupler.tube.stages[0].force = 9e5;
+    other[1].front.coupler.shear_off.force = 1.2e6;
+    other[1].front.anti_climber.gap = 0.1;
+    other[1].front.anti_climber.stages[0].stroke = 0.7;
+    const CzVehicle *own = problem.vehicle;
+    CzArena arena = {0};
+    const CzLanes *fresh = filled(built.model, 1, &own, &arena);
+    CzLanes *used = cz_lanes_create(built.model, 1, &arena);
+    assert_int_equal(cz_model_fill(built.model, other, 0, used, NULL), CZ_OK);
+    assert_true(used->parameter[CZ_P_SHEAR_FORCE_A * used->stride + 1] == 1.2e6);
+    other[0].front.coupler.tube.stages[0].stroke = -1.0; /* fails half way */
+    assert_int_equal(cz_model_fill(built.model, other, 0, used, NULL), CZ_STATUS_INPUT);
+    assert_int_equal(cz_model_fill(built.model, problem.vehicle, 0, used, NULL), CZ_OK);
+    assert_same_design(used, 0, fresh, 0);
+    cz_arena_free(&arena);
+    free_model(&built);
+}
+
+static void a_longer_anti_climber_lengthens_its_end_of_the_car(void **state) {
+    (void)state;
+    make_problem();
+    Built built = build_model(&problem);
+    CzVehicle other[3];
+    memcpy(other, problem.vehicle, sizeof other);
+    other[1].front.anti_climber.stages[0].stroke += 0.15; /* 0.2 m at an efficiency of 0.75 */
+    CzArena arena = {0};
+    const CzVehicle *design = other;
+    const CzLanes *lanes = filled(built.model, 1, &design, &arena);
+    const Built candidate = {.model = built.model, .lanes = (CzLanes *)lanes};
+    assert_near(parameter(&candidate, 1, CZ_P_PIVOT_X_A),
+                parameter(&built, 1, CZ_P_PIVOT_X_A) + 0.2, 1e-14, 0.0);
+    assert_near(parameter(&candidate, 1, CZ_P_FACE_X_A), parameter(&built, 1, CZ_P_FACE_X_A) + 0.2,
+                1e-13, 0.0);
+    /* The other end and the gaps stay. */
+    assert_near(parameter(&candidate, 0, CZ_P_PIVOT_X_B), parameter(&built, 0, CZ_P_PIVOT_X_B), 0.0,
+                0.0);
+    assert_near(parameter(&candidate, 1, CZ_P_FACE_GAP), parameter(&built, 1, CZ_P_FACE_GAP), 0.0,
+                0.0);
+    cz_arena_free(&arena);
+    free_model(&built);
+}
+
+static void a_trigger_given_later_still_fits(void **state) {
+    (void)state;
+    make_problem();
+    Built built = build_model(&problem);
+    CzVehicle other[3];
+    memcpy(other, problem.vehicle, sizeof other);
+    other[1].front.coupler.tube.trigger = 8e5;
+    other[1].front.coupler.tube.stages[0].end_force = 7e5;
+    CzArena arena = {0};
+    const CzVehicle *design = other;
+    const CzLanes *lanes = filled(built.model, 1, &design, &arena);
+    assert_near(curve_at(lanes, 1, CZ_CURVE_TUBE_A, 0.0), 8e5, 1e-14, 0.0);
+    assert_near(curve_at(lanes, 1, CZ_CURVE_TUBE_A, 0.25), 7e5, 1e-12, 0.0);
+    cz_arena_free(&arena);
+    free_model(&built);
+}
+
+static void the_last_kink_is_where_the_stroke_is_used_up(void **state) {
+    (void)state;
+    make_problem();
+    Built built = build_model(&problem);
+    for (int id = 0; id < CZ_N_CURVE; id++) {
+        const CzCurveLanes *curve = &built.lanes->curve[id];
+        for (size_t lane = 0; lane < (size_t)built.lanes->n_car; lane++)
+            if (curve->n_kink > 0 && curve->usable[lane] < 1e30)
+                assert_true(curve->at[(size_t)(curve->n_kink - 1) * built.lanes->stride + lane] ==
+                            curve->usable[lane]);
+    }
+    free_model(&built);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_design_does_not_see_its_neighbours),
+        cmocka_unit_test(filling_again_forgets_the_last_candidate),
+        cmocka_unit_test(a_longer_anti_climber_lengthens_its_end_of_the_car),
+        cmocka_unit_test(a_trigger_given_later_still_fits),
+        cmocka_unit_test(the_last_kink_is_where_the_stroke_is_used_up),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,266 @@
+/* Interfaces of a model: where the ends stand at t = 0, and what acts between them. */
+#include "model/built_model.h"
+
+static void the_nearest_pair_of_the_colliding_ends_touches(void **state) {
+    (void)state;
+    CzVehicle car = typed_full();
+    struct CzProblem problem;
+    typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
+    Built built = build_model(&problem);
+    assert_near(parameter(&built, 0, CZ_P_PIVOT_DISTANCE), 2.8, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_COUPLER_LENGTH), 2.8, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.64, 1e-15, 0.0);
+    assert_near(cz_model_interface_facts(built.model, 0).anti_climber_gap, 0.64, 1e-15, 0.0);
+    free_model(&built);
+
+    problem.vehicle[0].front.coupler.gap = 0.5; /* now the anti-climbers are nearer */
+    problem.vehicle[1].rear.coupler.gap = 0.5;
+    built = build_model(&problem);
+    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.0, 0.0, 1e-15);
+    assert_near(parameter(&built, 0, CZ_P_PIVOT_DISTANCE), 2.8 + 1.0 - 0.64, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_COUPLER_LENGTH), 2.8, 1e-15, 0.0);
+    free_model(&built);
+}
+
+static void arms_reach_from_the_carriers_to_the_parts(void **state) {
+    (void)state;
+    CzVehicle car = typed_full();
+    car.rear.coupler.anchor = CZ_ANCHOR_END;
+    struct CzProblem problem;
+    typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
+    Built built = build_model(&problem);
+    assert_near(parameter(&built, 0, CZ_P_PIVOT_X_A), 11.4 - 1.4, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_PIVOT_Z_A), 0.7 - 1.6, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_COUPLER_ON_END_A), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_PIVOT_X_B), -(11.4 - 1.4 - 10.6), 1e-13, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_PIVOT_Z_B), 0.7 - 1.2, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_COUPLER_ON_END_B), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_X_A), 11.4 - 0.32 - 10.6, 1e-13, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_X_B), -(11.4 - 0.32 - 10.6), 1e-13, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_Z_A), 0.95 - 1.2, 1e-14, 0.0);
+    free_model(&built);
+}
+
+static void inner_couplers_are_coupled_face_to_face(void **state) {
+    (void)state;
+    CzVehicle car[2] = {typed_full(), typed_full()};
+    car[0].front.coupler.gap = 0.1;
+    struct CzProblem problem;
+    typed_problem_init(&problem, 2, car, 1, car, 10.0);
+    Built built = build_model(&problem);
+    assert_near(parameter(&built, 0, CZ_P_COUPLED), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_PIVOT_DISTANCE), 2.8, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.64 - 0.1, 1e-14, 0.0);
+    assert_near(parameter(&built, 1, CZ_P_COUPLED), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 1, CZ_P_COUPLER), 1.0, 0.0, 0.0);
+    free_model(&built);
+
+    problem.vehicle[0].front.coupler.given = false;
+    built = build_model(&problem);
+    assert_near(parameter(&built, 0, CZ_P_COUPLER), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_COUPLED), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.64, 1e-14, 0.0);
+    assert_true(isnan(cz_model_interface_facts(built.model, 0).strut_length));
+    free_model(&built);
+}
+
+static void height_offsets_raise_the_parts_ahead(void **state) {
+    (void)state;
+    CzVehicle car[3] = {typed_full(), typed_full(), typed_full()};
+    car[2].rear.anti_climber.height = 1.0;
+    struct CzProblem problem;
+    typed_problem_init(&problem, 2, car, 1, &car[2], 10.0);
+    problem.train[0].height_offset = 0.01;
+    problem.train[1].height_offset = 0.04;
+    Built built = build_model(&problem);
+    assert_near(parameter(&built, 1, CZ_P_FACE_RISE), 0.05 + 0.04 - 0.01, 1e-12, 0.0);
+    assert_near(parameter(&built, 1, CZ_P_PIVOT_RISE), 0.03, 1e-12, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_RISE), 0.0, 0.0, 0.0);
+    /* A strut between unequal heights rests without force. */
+    assert_near(parameter(&built, 1, CZ_P_COUPLER_LENGTH), hypot(2.8, 0.03), 1e-14, 0.0);
+    free_model(&built);
+
+    problem.input.n_scenarios = 1;
+    problem.scenario[0].height_offset = -0.04;
+    problem.scenario[0].perturbed_interface = "A1-A2";
+    problem.scenario[0].perturbation = 0.02;
+    built = build_model(&problem);
+    assert_near(parameter(&built, 1, CZ_P_PIVOT_RISE), -0.05, 1e-12, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_PIVOT_RISE), 0.02, 1e-12, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_RISE), 0.02, 1e-12, 0.0);
+    free_model(&built);
+}
+
+/* What a wall looks like from either side. */
+static void check_wall_side(const Built *built, int side) {
+    const CzParameter transition = side == 1 ? CZ_P_BUFFER_TRANSITION_B : CZ_P_BUFFER_TRANSITION_A;
+    const CzCurveId buffer = side == 1 ? CZ_CURVE_BUFFER_B : CZ_CURVE_BUFFER_A;
+    const CzCurveId tube = side == 1 ? CZ_CURVE_TUBE_B : CZ_CURVE_TUBE_A;
+    const CzCurveId face = side == 1 ? CZ_CURVE_FACE_B : CZ_CURVE_FACE_A;
+    assert_near(parameter(built, 0, CZ_P_COUPLER), 1.0, 0.0, 0.0);
+    assert_near(parameter(built, 0, CZ_P_COUPLED), 0.0, 0.0, 0.0);
+    assert_near(parameter(built, 0, CZ_P_PIVOT_DISTANCE), 2.4, 1e-14, 0.0);
+    assert_near(parameter(built, 0, CZ_P_COUPLER_LENGTH), 2.4, 1e-14, 0.0);
+    assert_near(parameter(built, 0, CZ_P_PIVOT_RISE), 0.0, 0.0, 0.0);
+    assert_near(parameter(built, 0, CZ_P_FACE_GAP), 0.32, 1e-14, 0.0);
+    assert_near(parameter(built, 0, CZ_P_FACE_RISE), 0.0, 0.0, 0.0);
+    assert_near(parameter(built, 0, CZ_P_FACE_COMPLIANCE), 1.0 / 4e8, 1e-15, 0.0);
+    assert_near(parameter(built, 0, CZ_P_FACE_OVERLAP), 1e30, 0.0, 0.0);
+    assert_near(parameter(built, 0, transition), 1e30, 0.0, 0.0);
+    assert_near(curve_at(built->lanes, 0, buffer, 0.0), 0.0, 0.0, 0.0);
+    assert_near(curve_at(built->lanes, 0, buffer, 1.0), 1e30, 1e-15, 0.0);
+    assert_near(curve_at(built->lanes, 0, tube, 0.1), 1e30, 1e-15, 0.0);
+    assert_near(curve_at(built->lanes, 0, face, 0.1), 1e30, 1e-15, 0.0);
+}
+
+static void a_wall_meets_coupler_and_anti_climber_at_their_heights(void **state) {
+    (void)state;
+    const CzVehicle car = typed_full(), wall = typed_wall();
+    struct CzProblem problem;
+    typed_problem_init(&problem, 1, &car, 1, &wall, 10.0);
+    Built built = build_model(&problem);
+    check_wall_side(&built, 1);
+    free_model(&built);
+
+    typed_problem_init(&problem, 1, &wall, 1, &car, 0.0);
+    problem.train[1].speed = -10.0;
+    built = build_model(&problem);
+    check_wall_side(&built, 0);
+    free_model(&built);
+}
+
+static void couplers_of_one_moving_side_alone_do_nothing(void **state) {
+    (void)state;
+    const CzVehicle car = typed_full(), wagon = typed_rigid(80e3);
+    struct CzProblem problem;
+    typed_problem_init(&problem, 1, &car, 1, &wagon, 10.0);
+    Built built = build_model(&problem);
+    assert_near(parameter(&built, 0, CZ_P_COUPLER), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.0, 0.0, 1e-15);
+    free_model(&built);
+}
+
+static void crush_zones_without_end_mass_lie_in_series_with_the_face(void **state) {
+    (void)state;
+    CzVehicle car = typed_rigid(40e3);
+    const CzVehicle wall = typed_wall();
+    struct CzProblem problem;
+    typed_problem_init(&problem, 1, &car, 1, &wall, 10.0);
+    Built built = build_model(&problem);
+    assert_near(parameter(&built, 0, CZ_P_LIMP_END_A), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_COMPLIANCE), 1e-9, 0.0, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE_LIMP_END_A, 1.0), 1e30, 1e-15, 0.0);
+    free_model(&built);
+
+    CzEnd *end = &problem.vehicle[0].front;
+    end->n_stages = 1;
+    end->stages[0].stroke = 0.5;
+    end->stages[0].force = 1e6;
+    end->unloading_stiffness = 8e7;
+    built = build_model(&problem);
+    assert_near(parameter(&built, 0, CZ_P_LIMP_END_A), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_LIMP_UNLOADING_A), 8e7, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_LIMP_SECOND_UNLOADING_A), 8e7, 0.0, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE_LIMP_END_A, 0.25), 5e5, 1e-14, 0.0);
+    /* The face is so stiff then that the stated loading curve is what one gets. */
+    assert_true(parameter(&built, 0, CZ_P_FACE_COMPLIANCE) < 1e-6 / 2e6);
+    free_model(&built);
+}
+
+static void devices_side_by_side_multiply_forces_and_stiffness(void **state) {
+    (void)state;
+    CzVehicle car = typed_full();
+    car.front.coupler.tube.count = 2;
+    car.front.anti_climber.damping = 1e5;
+    car.rear.anti_climber.damping = 3e5;
+    car.front.anti_climber.speed_factor = 0.2;
+    struct CzProblem problem;
+    typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
+    Built built = build_model(&problem);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE_TUBE_A, 0.1), 1.2e6, 1e-14, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE_TUBE_B, 0.1), 6e5, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_COUPLER_COMPLIANCE), 1.0 / 4e8 + 1.0 / 2e8, 1e-14, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE_FACE_A, 0.1), 1e6, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_COMPLIANCE), 2.0 / 4e8, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_DAMPING), 2.0 * (1e5 * 3e5 / 4e5), 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_SPEED_FACTOR_A), 0.02, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_SPEED_FACTOR_B), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_RIB_CAPACITY), 4 * 2 * 32e3, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_RIB_PITCH), 0.05, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_OVERLAP), 0.2, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_FACE_VERTICAL_STIFFNESS), 1e7, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_SHEAR_SPACE_A), 1.01, 1e-14, 0.0);
+    free_model(&built);
+}
+
+static CzSideBuffers side_buffers(double gap) {
+    CzSideBuffers set = default_CzSideBuffers();
+    set.given = true;
+    set.gap = gap;
+    set.height = 1.05;
+    set.friction = 0.2;
+    set.buffer.given = true;
+    set.buffer.n_stages = 1;
+    set.buffer.stages[0].stroke = 0.105;
+    set.buffer.stages[0].force = 590e3;
+    return set;
+}
+
+static void side_buffers_push_in_pairs(void **state) {
+    (void)state;
+    CzVehicle car = typed_full(), wagon = typed_rigid(80e3);
+    car.front.side_buffers = side_buffers(0.05);
+    wagon.rear.side_buffers = side_buffers(0.0);
+    wagon.rear.side_buffers.friction = NAN;
+    struct CzProblem problem;
+    typed_problem_init(&problem, 1, &car, 1, &wagon, 10.0);
+    Built built = build_model(&problem);
+    assert_true(built.lanes->has_side_buffers);
+    assert_false(built.lanes->has_couplers);
+    assert_near(parameter(&built, 0, CZ_P_SIDE_BUFFERS), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_SIDE_GAP), 0.0, 0.0, 1e-15);
+    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.32 - 0.05, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_SIDE_X_A), 11.35, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_SIDE_Z_A), 1.05 - 1.6, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_P_SIDE_FRICTION), 0.0, 0.0, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE_SIDE_BUFFER_A, 0.105), 1.18e6, 1e-14, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE_SIDE_TUBE_A, 0.1), 1e30, 1e-14, 0.0);
+    free_model(&built);
+}
+
+static void the_interface_behind_the_last_car_is_neutral(void **state) {
+    (void)state;
+    const CzVehicle car = typed_full();
+    struct CzProblem problem;
+    typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
+    Built built = build_model(&problem);
+    for (size_t lane = 1; lane < built.lanes->stride; lane++) {
+        const int last = (int)lane;
+        assert_near(parameter(&built, last, CZ_P_COUPLER), 0.0, 0.0, 0.0);
+        assert_near(parameter(&built, last, CZ_P_FACE_GAP), 1e30, 0.0, 0.0);
+        assert_near(parameter(&built, last, CZ_P_COUPLER_LENGTH), 1.0, 0.0, 0.0);
+        for (int id = CZ_CURVE_BUFFER_A; id < CZ_N_CURVE; id++)
+            assert_near(curve_at(built.lanes, lane, (CzCurveId)id, 1.0), 1e30, 1e-15, 0.0);
+        if (last > 1)
+            assert_near(parameter(&built, last, CZ_P_INVERSE_BODY_MASS), 0.0, 0.0, 0.0);
+    }
+    assert_true(built.lanes->stride % CZ_LANE_BLOCK == 0);
+    assert_true(built.lanes->stride >= built.lanes->n_lane + 1);
+    free_model(&built);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_nearest_pair_of_the_colliding_ends_touches),
+        cmocka_unit_test(arms_reach_from_the_carriers_to_the_parts),
+        cmocka_unit_test(inner_couplers_are_coupled_face_to_face),
+        cmocka_unit_test(height_offsets_raise_the_parts_ahead),
+        cmocka_unit_test(a_wall_meets_coupler_and_anti_climber_at_their_heights),
+        cmocka_unit_test(couplers_of_one_moving_side_alone_do_nothing),
+        cmocka_unit_test(crush_zones_without_end_mass_lie_in_series_with_the_face),
+        cmocka_unit_test(devices_side_by_side_multiply_forces_and_stiffness),
+        cmocka_unit_test(side_buffers_push_in_pairs),
+        cmocka_unit_test(the_interface_behind_the_last_car_is_neutral),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -223,11 +223,11 @@ static double linearise_side_buffer(CzDynamics *d, int side, double step, int ag
     return linearise_buffer(d, &side_chain, &side_buffer, side, step, again);
 }
 
-/* All side buffers. */
+/* All side buffers: on the end masses, so that the crush zones lie behind them. */
 static void side_buffers(CzDynamics *d, double step) {
     const size_t n = CZ_LANE_BLOCK, ahead = (size_t)d->lanes->n_design;
-    const Carrier a = carrier_rows(d, CZ_DOF_BODY_X, CZ_S_BODY_COS, 0);
-    const Carrier b = carrier_rows(d, CZ_DOF_BODY_X, CZ_S_BODY_COS, ahead);
+    const Carrier a = carrier_rows(d, CZ_DOF_END_X_FRONT, CZ_S_END_COS_FRONT, 0);
+    const Carrier b = carrier_rows(d, CZ_DOF_END_X_REAR, CZ_S_END_COS_REAR, ahead);
     contact_geometry(d, &a, &b, &side_contact);
     double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
     const double *restrict exists = P(SIDE_BUFFERS);
@@ -256,17 +256,11 @@ static void side_buffers(CzDynamics *d, double step) {
         power[i] += force[i] * rate[i];
         sliding[i] += grip.force * slip_rate[i];
     }
-    const CarrierForce on_a = body_force(d, 0);
-    const CarrierForce on_b = body_force(d, 1);
+    const CarrierForce on_a = carrier_force(d, CZ_DOF_END_X_FRONT, 0);
+    const CarrierForce on_b = carrier_force(d, CZ_DOF_END_X_REAR, ahead);
     contact_forces(d, &on_a, &on_b, S(SIDE_FORCE), S(LENGTH));
-    double *restrict front = S(SECTION_FRONT), *restrict rear = S(SECTION_REAR) + ahead;
-    const double *restrict fx = S(CURVE_VALUE);
-    CZ_LANES (i, n) {
-        front[i] += fx[i];
-    }
-    CZ_LANES (i, n) {
-        rear[i] += fx[i];
-    }
+    add(n, S(SECTION_FRONT), P(SLAVED_ENDS), S(CURVE_VALUE));
+    add(n, S(SECTION_REAR) + ahead, P(SLAVED_ENDS) + ahead, S(CURVE_VALUE));
 }
 
 #endif

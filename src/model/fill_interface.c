@@ -367,10 +367,11 @@ static CzStatus fill_side_buffer_side(const Pair *pair, int which, double height
     const CzCurveId tube_curve = CZ_OF_SIDE(CZ_CURVE_SIDE_TUBE, which);
     const CzPartName name = part_name(pair, which, "side buffer");
     const CzPartName tube_name = part_name(pair, which, "side buffer tube");
+    const double carrier = side->is_full ? side->end->distance : 0.0;
     put(pair, which == CZ_SIDE_A ? CZ_P_SIDE_X_A : CZ_P_SIDE_X_B,
-        side->sign * (side->plane - side_buffer_gap(side)));
+        side->sign * (side->plane - side_buffer_gap(side) - carrier));
     put(pair, which == CZ_SIDE_A ? CZ_P_SIDE_Z_A : CZ_P_SIDE_Z_B,
-        side->is_full ? height - side->vehicle->cg_height : 0.0);
+        side->is_full ? height - side->end->cg_height : 0.0);
     if (set == NULL) {
         CZ_TRY(cz_fill_buffer(pair->fill, name, NULL, 1, curve));
         return cz_fill_tube(pair->fill, tube_name, NULL, 1, tube_curve);

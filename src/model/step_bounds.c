@@ -249,8 +249,7 @@ static void note_coupler(const Car *car, const char *name) {
 static void note_side_buffers(const Car *car, const char *name) {
     if (value(car, CZ_P_SIDE_BUFFERS) == 0.0)
         return;
-    const Carrier carrier[2] = {carrier_of(car, CZ_SIDE_A, false),
-                                carrier_of(car, CZ_SIDE_B, false)};
+    const Carrier carrier[2] = {carrier_of(car, CZ_SIDE_A, true), carrier_of(car, CZ_SIDE_B, true)};
     const double a = buffer_stiffness(car, CZ_CURVE_SIDE_BUFFER_A, CZ_P_SIDE_TRANSITION_A);
     const double b = buffer_stiffness(car, CZ_CURVE_SIDE_BUFFER_B, CZ_P_SIDE_TRANSITION_B);
     note(car->model, "side buffers", name, chain_stiffness(a, b, value(car, CZ_P_SIDE_COMPLIANCE)),

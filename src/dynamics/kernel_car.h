@@ -298,6 +298,9 @@ static void wheel(CzDynamics *d, int axle, double step) {
     const double *restrict vxw = V_AT(WHEEL_X_0, 3 * axle);
     const double *restrict angle = X_AT(WHEEL_SPIN_0, 3 * axle), *restrict spin =
                                                                      V_AT(WHEEL_SPIN_0, 3 * axle);
+    /* The brake holds the wheelset against the bogie frame, which turns the other way round. */
+    const double *restrict pitch_t = X_AT(BOGIE_PITCH_REAR, 3 * (axle / 2)),
+                           *restrict turn_t = V_AT(BOGIE_PITCH_REAR, 3 * (axle / 2));
     const double *restrict deflection = M_AT(CREEP_0, axle), *restrict slipped =
                                                                  M_AT(BRAKE_0, axle);
     double *restrict next_deflection = NEXT_AT(CREEP_0, axle), *restrict next_slipped =
@@ -318,7 +321,7 @@ static void wheel(CzDynamics *d, int axle, double step) {
             cz_creep_deflection(&law, creep_c[i], deflection[i], slip, vxw[i], normal, step);
         const double tangential = -k[i] * next_deflection[i];
         const CzSliderResponse held =
-            cz_slider_of(brake_k[i], brake_c[i], brake[i], angle[i], slipped[i]);
+            cz_slider_of(brake_k[i], brake_c[i], brake[i], angle[i] + pitch_t[i], slipped[i]);
         next_slipped[i] = held.offset;
         gxw[i] += tangential;
         gzw[i] += more;
@@ -327,7 +330,7 @@ static void wheel(CzDynamics *d, int axle, double step) {
         adhesion[i] += tangential;
         normal_power[i] -= more * vzw[i];
         creep_power[i] -= tangential * slip;
-        brake_power[i] += held.force * spin[i];
+        brake_power[i] += held.force * (spin[i] + turn_t[i]);
     }
 }
 

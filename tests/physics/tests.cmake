@@ -1,4 +1,6 @@
+cz_test(test_integrator physics test_integrator.c)
 if(CZ_IS_WHOLE)
     cz_test(test_energy_sum physics test_energy_sum.c)
     cz_test(test_closed_forms physics test_closed_forms.c)
+    cz_test(test_momentum physics test_momentum.c)
 endif()

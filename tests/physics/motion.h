@@ -1,0 +1,78 @@
+/* A model stepped by hand: the test may change the lanes before it starts and look at every force.
+ */
+#ifndef CZ_TESTS_PHYSICS_MOTION_H
+#define CZ_TESTS_PHYSICS_MOTION_H
+
+#include "physics/collision.h"
+
+#include "dynamics/dynamics.h"
+#include "model/model.h"
+
+typedef struct {
+    Collision collision; /* problem and model only */
+    CzArena arena;
+    CzLanes *lanes;
+    CzDynamics *dynamics;
+    const CzKernel *kernel;
+    double step; /* [s] */
+    long n_step;
+} Motion;
+
+/* The lanes of one design, filled as the file says. */
+static inline Motion motion_open(const char *file, const char *const *set) {
+    Motion motion = {.collision = collision_model(file, set, 0)};
+    int n_vehicle = 0;
+    const CzVehicle *vehicles = cz_problem_vehicles(motion.collision.problem, &n_vehicle);
+    CzError error = {0};
+    motion.step = motion.collision.model->time_step;
+    motion.kernel = cz_kernel("auto");
+    motion.lanes = cz_lanes_create(motion.collision.model, 1, &motion.arena);
+    assert_non_null(motion.lanes);
+    if (cz_model_fill(motion.collision.model, vehicles, 0, motion.lanes, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    return motion;
+}
+
+static inline void motion_start(Motion *motion) {
+    motion->dynamics = cz_dynamics_create(motion->lanes, &motion->arena);
+    assert_non_null(motion->dynamics);
+    motion->kernel->evaluate(motion->dynamics, motion->step);
+    motion->kernel->commit(motion->dynamics, 0.0, 0.0);
+}
+
+static inline void motion_advance(Motion *motion) {
+    motion->kernel->advance(motion->dynamics, motion->step, motion->n_step == 0);
+    motion->n_step++;
+}
+
+static inline void motion_evaluate(Motion *motion) {
+    motion->kernel->evaluate(motion->dynamics, motion->step);
+    motion->kernel->commit(motion->dynamics, motion->step, (double)motion->n_step * motion->step);
+}
+
+static inline void motion_close(Motion *motion) {
+    cz_arena_free(&motion->arena);
+    collision_free(&motion->collision);
+}
+
+static inline double *parameter(const Motion *motion, CzParameter which, int car) {
+    return motion->lanes->parameter + (size_t)which * motion->lanes->stride + car;
+}
+
+static inline double *position(const Motion *motion, int dof, int car) {
+    return motion->dynamics->position + (size_t)dof * motion->dynamics->stride + car;
+}
+
+static inline double *velocity(const Motion *motion, int dof, int car) {
+    return motion->dynamics->velocity + (size_t)dof * motion->dynamics->stride + car;
+}
+
+static inline double force(const Motion *motion, int dof, int car) {
+    return motion->dynamics->force[(size_t)dof * motion->dynamics->stride + (size_t)car];
+}
+
+static inline double mass(const Motion *motion, int dof, int car) {
+    return motion->lanes->mass[(size_t)dof * motion->lanes->stride + (size_t)car];
+}
+
+#endif

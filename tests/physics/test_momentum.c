@@ -1,0 +1,239 @@
+/* Without gravity and rail, what is inside cannot push the whole: at every step of an offset
+ * collision with every element active the forces and their moments about a fixed point add up to
+ * nothing.
+ *
+ * Any lever arm that differs between the two bodies of an element shows here.
+ */
+#include "physics/motion.h"
+
+/* The bodies of a car: rows of their motion, and where their centres of gravity rest. */
+enum { N_BODY = 9, N_CAR = 4 };
+
+typedef struct {
+    int dof;     /* x; z and turning follow */
+    bool wheel;  /* turns by spin, positive when rolling forward */
+    double x, z; /* [m] */
+} Body;
+
+static double value(const Motion *motion, CzParameter which, int car) {
+    return *parameter(motion, which, car);
+}
+
+/* Places seen from the body of the car at (x, z), all from the parameters of the model. */
+static void place_bodies(const Motion *motion, int car, double x, double z, Body *body) {
+    int n = 0;
+    body[n++] = (Body){CZ_DOF_BODY_X, false, x, z};
+    for (int end = 0; end < 2; end++)
+        body[n++] = (Body){CZ_DOF_END_X_REAR + 3 * end, false,
+                           x + value(motion, CZ_P_END_X_REAR + end, car),
+                           z + value(motion, CZ_P_END_BODY_Z_REAR + end, car) -
+                               value(motion, CZ_P_END_MASS_Z_REAR + end, car)};
+    for (int bogie = 0; bogie < 2; bogie++) {
+        const double at = x + (2 * bogie - 1) * value(motion, CZ_P_BOGIE_X, car);
+        const double height =
+            z + value(motion, CZ_P_LINK_BODY_Z, car) - value(motion, CZ_P_LINK_BOGIE_Z, car);
+        body[n++] = (Body){CZ_DOF_BOGIE_X_REAR + 3 * bogie, false, at, height};
+        for (int axle = 0; axle < 2; axle++)
+            body[n++] = (Body){CZ_DOF_WHEEL_X_0 + 3 * (2 * bogie + axle), true,
+                               at + (2 * axle - 1) * value(motion, CZ_P_AXLE_X, car),
+                               height + value(motion, CZ_P_AXLE_Z, car)};
+    }
+    assert_int_equal(n, N_BODY);
+}
+
+/* Cars follow from each other by their pivots; the faces must agree. */
+static void place_train(const Motion *motion, Body body[N_CAR][N_BODY]) {
+    double x = 0.0, z = 1.6;
+    for (int car = 0; car < N_CAR; car++) {
+        place_bodies(motion, car, x, z, body[car]);
+        if (car + 1 == N_CAR)
+            break;
+        x += value(motion, CZ_P_PIVOT_X_A, car) + value(motion, CZ_P_PIVOT_DISTANCE, car) -
+             value(motion, CZ_P_PIVOT_X_B, car);
+        z += value(motion, CZ_P_PIVOT_Z_A, car) + value(motion, CZ_P_PIVOT_RISE, car) -
+             value(motion, CZ_P_PIVOT_Z_B, car);
+    }
+    for (int car = 0; car + 1 < N_CAR; car++) {
+        const Body *a = &body[car][2], *b = &body[car + 1][1];
+        assert_near(b->x + value(motion, CZ_P_FACE_X_B, car) - a->x -
+                        value(motion, CZ_P_FACE_X_A, car),
+                    value(motion, CZ_P_FACE_GAP, car), 0.0, 1e-12);
+        assert_near(b->z + value(motion, CZ_P_FACE_Z_B, car) - a->z -
+                        value(motion, CZ_P_FACE_Z_A, car),
+                    value(motion, CZ_P_FACE_RISE, car), 0.0, 1e-12);
+    }
+}
+
+/* Sum and largest term of something over all bodies. */
+typedef struct {
+    double sum, largest;
+} Sum;
+
+static void add_to(Sum *sum, double term) {
+    sum->sum += term;
+    sum->largest = fmax(sum->largest, fabs(term));
+}
+
+static void sum_forces(const Motion *motion, Body body[N_CAR][N_BODY], Sum *x, Sum *z,
+                       Sum *moment) {
+    for (int car = 0; car < N_CAR; car++)
+        for (int i = 0; i < N_BODY; i++) {
+            const Body *b = &body[car][i];
+            const double fx = force(motion, b->dof, car), fz = force(motion, b->dof + 1, car);
+            const double turning = force(motion, b->dof + 2, car);
+            add_to(x, fx);
+            add_to(z, fz);
+            add_to(moment, (b->x + *position(motion, b->dof, car)) * fz);
+            add_to(moment, -(b->z + *position(motion, b->dof + 1, car)) * fx);
+            add_to(moment, b->wheel ? -turning : turning);
+        }
+}
+
+static void sum_momenta(const Motion *motion, Body body[N_CAR][N_BODY], Sum *x, Sum *z, Sum *spin) {
+    for (int car = 0; car < N_CAR; car++)
+        for (int i = 0; i < N_BODY; i++) {
+            const Body *b = &body[car][i];
+            const double m = mass(motion, b->dof, car), inertia = mass(motion, b->dof + 2, car);
+            const double vx = *velocity(motion, b->dof, car);
+            const double vz = *velocity(motion, b->dof + 1, car);
+            const double turn = *velocity(motion, b->dof + 2, car);
+            add_to(x, m * vx);
+            add_to(z, m * vz);
+            add_to(spin, m * (b->x + *position(motion, b->dof, car)) * vz);
+            add_to(spin, -m * (b->z + *position(motion, b->dof + 1, car)) * vx);
+            add_to(spin, (b->wheel ? -inertia : inertia) * turn);
+        }
+}
+
+/* The rail is taken away: no contact stiffness, so no normal and no tangential force. */
+static Motion collision_in_space(const char *step) {
+    Motion motion = motion_open("tests/physics/cases/offset-collision.yaml", WITH(step));
+    for (int car = 0; car < N_CAR; car++)
+        *parameter(&motion, CZ_P_HERTZ, car) = 0.0;
+    motion_start(&motion);
+    return motion;
+}
+
+static void forces_and_moments_add_up_to_nothing_at_every_step(void **state) {
+    (void)state;
+    Motion motion = collision_in_space("simulation.time_step_ms=0.05");
+    Body body[N_CAR][N_BODY];
+    place_train(&motion, body);
+    double worst[3] = {0.0};
+    Sum before[3] = {{0}}, after[3] = {{0}};
+    sum_momenta(&motion, body, &before[0], &before[1], &before[2]);
+    for (int i = 0; i < 8000; i++) {
+        motion_advance(&motion);
+        motion_evaluate(&motion);
+        Sum sum[3] = {{0}};
+        sum_forces(&motion, body, &sum[0], &sum[1], &sum[2]);
+        for (int k = 0; k < 3; k++)
+            worst[k] = fmax(worst[k], fabs(sum[k].sum) / fmax(sum[k].largest, 1.0));
+    }
+    for (int k = 0; k < 3; k++)
+        assert_near(worst[k], 0.0, 0.0, 1e-9);
+    sum_momenta(&motion, body, &after[0], &after[1], &after[2]);
+    for (int k = 0; k < 2; k++)
+        assert_near(after[k].sum, before[k].sum, 0.0, 1e-9 * before[0].largest);
+    motion_close(&motion);
+}
+
+/* Otherwise the sums above would say nothing. */
+static void every_element_took_part(void **state) {
+    (void)state;
+    static const char *const names[] = {
+#define CZ_LEDGER(name, class, doc) #name,
+#include "dynamics/ledger.def"
+#undef CZ_LEDGER
+    };
+    Motion motion = collision_in_space("simulation.time_step_ms=0.05");
+    for (int i = 0; i < 8000; i++) {
+        motion_advance(&motion);
+        motion_evaluate(&motion);
+    }
+    for (int row = 0; row < CZ_N_LEDGER; row++) {
+        if (row == CZ_L_WHEEL_NORMAL || row == CZ_L_WHEEL_CREEP)
+            continue;
+        double work = 0.0;
+        for (int car = 0; car < N_CAR; car++)
+            work = fmax(
+                work,
+                fabs(motion.dynamics->work[(size_t)row * motion.dynamics->stride + (size_t)car]));
+        if (!(work > 1.0))
+            fail_msg("%s did %g J", names[row], work);
+    }
+    motion_close(&motion);
+}
+
+static double drift_of_spin(const char *step, int n_step) {
+    Motion motion = collision_in_space(step);
+    Body body[N_CAR][N_BODY];
+    place_train(&motion, body);
+    Sum before[3] = {{0}}, after[3] = {{0}};
+    sum_momenta(&motion, body, &before[0], &before[1], &before[2]);
+    for (int i = 0; i < n_step; i++) {
+        motion_advance(&motion);
+        motion_evaluate(&motion);
+    }
+    sum_momenta(&motion, body, &after[0], &after[1], &after[2]);
+    motion_close(&motion);
+    return fabs(after[2].sum - before[2].sum) / before[2].largest;
+}
+
+/* Arms move between two evaluations, so angular momentum is kept at the order of the step. */
+static void angular_momentum_is_kept_at_the_order_of_the_step(void **state) {
+    (void)state;
+    const double coarse = drift_of_spin("simulation.time_step_ms=0.04", 5000);
+    const double fine = drift_of_spin("simulation.time_step_ms=0.01", 20000);
+    if (getenv("CZ_TOL_SCALE") != NULL)
+        print_message("drift %g at 0.04 ms, %g at 0.01 ms\n", coarse, fine);
+    assert_near(coarse, 0.0, 0.0, 1e-8);
+    assert_true(fine < 0.5 * coarse);
+}
+
+static double kinetic_energy(const Motion *motion) {
+    double energy = 0.0;
+    for (int car = 0; car < N_CAR; car++)
+        for (int dof = 0; dof < CZ_N_DOF; dof++) {
+            const double v = *velocity(motion, dof, car);
+            energy += 0.5 * mass(motion, dof, car) * v * v;
+        }
+    return energy;
+}
+
+/* What the elements take up is what the bodies lose; the share that is missing. */
+static double missing_energy(const char *step, int n_step) {
+    Motion motion = collision_in_space(step);
+    const double before = kinetic_energy(&motion);
+    for (int i = 0; i < n_step; i++) {
+        motion_advance(&motion);
+        motion_evaluate(&motion);
+    }
+    double taken = 0.0;
+    for (int row = 0; row < CZ_N_LEDGER; row++)
+        for (int car = 0; car < N_CAR; car++)
+            taken += motion.dynamics->work[(size_t)row * motion.dynamics->stride + (size_t)car];
+    const double missing = fabs(kinetic_energy(&motion) + taken - before) / before;
+    motion_close(&motion);
+    return missing;
+}
+
+static void the_energy_books_close_with_the_step(void **state) {
+    (void)state;
+    const double coarse = missing_energy("simulation.time_step_ms=0.04", 5000);
+    const double fine = missing_energy("simulation.time_step_ms=0.01", 20000);
+    if (getenv("CZ_TOL_SCALE") != NULL)
+        print_message("missing %g at 0.04 ms, %g at 0.01 ms\n", coarse, fine);
+    assert_near(coarse, 0.0, 0.0, 1e-6);
+    assert_true(fine < 0.5 * coarse);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(forces_and_moments_add_up_to_nothing_at_every_step),
+        cmocka_unit_test(every_element_took_part),
+        cmocka_unit_test(angular_momentum_is_kept_at_the_order_of_the_step),
+        cmocka_unit_test(the_energy_books_close_with_the_step),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -146,7 +146,7 @@ unformatted_files() {
 
 # Scripts are POSIX shell.
 broken_scripts() {
-    for file in demo test .ci/run scripts/install-packages scripts/run-tests scripts/count-tests \
+    for file in demo test .ci/run $(find scripts -type f ! -name '*.awk' 2>/dev/null) \
         $(find tests examples -name '*.sh' 2>/dev/null); do
         sh -n "$file" 2>&1
     done

@@ -13,7 +13,7 @@ static inline double cz_lane_value(const CzLanes *lanes, int car, CzParameter pa
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_model_find_facts(CzModel *model, CzLanes *lanes, CzError *error);
 
-/* Sets model->bound, smallest first. Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
+/* Sets model->bound, smallest first; needs the facts. Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_model_find_bounds(CzModel *model, const CzLanes *lanes, CzError *error);
 
 #endif

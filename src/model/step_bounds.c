@@ -195,13 +195,18 @@ static double closing_speed(const Car *car) {
     return fmax(cars[front].speed - cars[front + 1].speed, 0.0);
 }
 
-/* Both members of a chain damp; the stiffer side may be held, so the stronger damper counts. */
-static double buffer_damping(const Car *car, CzParameter linear_a, CzParameter quadratic_a) {
+/* Both members of a chain damp; the stiffer side may be held, so the stronger damper counts. The
+ * rate at which hydraulic damping acts is no larger than the closing speed, nor than what the
+ * weakest plastic member of the chain lets it be: c2 rate^2 <= weakest. */
+static double buffer_damping(const Car *car, CzParameter linear_a, CzParameter quadratic_a,
+                             double weakest) {
     double strongest = 0.0;
     for (int side = CZ_SIDE_A; side <= CZ_SIDE_B; side++) {
         const double linear = value(car, (CzParameter)(linear_a + side));
         const double quadratic = value(car, (CzParameter)(quadratic_a + side));
-        strongest = fmax(strongest, linear + 2.0 * quadratic * closing_speed(car));
+        const double force = quadratic * closing_speed(car) * closing_speed(car);
+        const double rate_slope = 2.0 * sqrt(quadratic * fmin(force, weakest));
+        strongest = fmax(strongest, linear + rate_slope);
     }
     return strongest;
 }
@@ -229,6 +234,13 @@ static void note_swing(const Car *car, const char *name, const Carrier carrier[2
     note(car->model, "swing stop", name, stop + hinge, 0.0, 2.0 * across);
 }
 
+/* Force that the coupler's tubes and shear-offs let through. */
+static double weakest_member(const Car *car) {
+    const double tubes = car->model->interface_facts[car->car].tube_force;
+    const double shear = fmin(value(car, CZ_P_SHEAR_FORCE_A), value(car, CZ_P_SHEAR_FORCE_B));
+    return isnan(tubes) ? shear : fmin(tubes, shear);
+}
+
 static void note_coupler(const Car *car, const char *name) {
     if (value(car, CZ_P_COUPLER) == 0.0)
         return;
@@ -241,7 +253,7 @@ static void note_coupler(const Car *car, const char *name) {
                           value(car, CZ_P_BUFFER_DRAW_STIFFNESS_B));
     note(car->model, "coupler buffer", name,
          chain_stiffness(a, b, value(car, CZ_P_COUPLER_COMPLIANCE)),
-         buffer_damping(car, CZ_P_BUFFER_DAMPING_A, CZ_P_BUFFER_QUADRATIC_A),
+         buffer_damping(car, CZ_P_BUFFER_DAMPING_A, CZ_P_BUFFER_QUADRATIC_A, weakest_member(car)),
          mobility(carrier, value(car, CZ_P_PIVOT_Z_A), value(car, CZ_P_PIVOT_Z_B)));
     note_swing(car, name, carrier);
 }
@@ -253,7 +265,7 @@ static void note_side_buffers(const Car *car, const char *name) {
     const double a = buffer_stiffness(car, CZ_CURVE_SIDE_BUFFER_A, CZ_P_SIDE_TRANSITION_A);
     const double b = buffer_stiffness(car, CZ_CURVE_SIDE_BUFFER_B, CZ_P_SIDE_TRANSITION_B);
     note(car->model, "side buffers", name, chain_stiffness(a, b, value(car, CZ_P_SIDE_COMPLIANCE)),
-         buffer_damping(car, CZ_P_SIDE_DAMPING_A, CZ_P_SIDE_QUADRATIC_A),
+         buffer_damping(car, CZ_P_SIDE_DAMPING_A, CZ_P_SIDE_QUADRATIC_A, CZ_NEVER),
          mobility(carrier, value(car, CZ_P_SIDE_Z_A), value(car, CZ_P_SIDE_Z_B)));
 }
 

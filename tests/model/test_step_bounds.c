@@ -109,6 +109,27 @@ static void wheel_and_rail_are_taken_at_four_times_the_static_load(void **state)
     free_model(&built);
 }
 
+/* 2 c2 v, but with no larger v than the tube's 600 kN let it be. */
+static void hydraulic_damping_counts_as_far_as_the_tubes_let_it_act(void **state) {
+    (void)state;
+    CzVehicle car = typed_full();
+    car.front.coupler.anchor = car.rear.coupler.anchor = CZ_ANCHOR_END;
+    car.front.coupler.buffer.quadratic_damping = 4e5;
+    const double mobility = 2.0 * (1.0 / 1000.0 + (0.7 - 1.2) * (0.7 - 1.2) / 600.0);
+    const double stiffness = 1.0 / (2.0 / 1e9 + 2.0 / 2e8);
+    static const double speeds[] = {0.5, 10.0};
+    for (int i = 0; i < 2; i++) {
+        struct CzProblem problem;
+        typed_problem_init(&problem, 1, &car, 1, &car, speeds[i]);
+        Built built = build_model(&problem);
+        const double force = fmin(4e5 * speeds[i] * speeds[i], 6e5);
+        const double rate = (5e3 + 2.0 * sqrt(4e5 * force)) * mobility;
+        assert_near(bound_of(built.model, "coupler buffer damper A1-B1")->bound,
+                    2.0 / (sqrt(stiffness * mobility + rate * rate) + rate), 1e-12, 0.0);
+        free_model(&built);
+    }
+}
+
 static void the_step_is_half_the_smallest_bound_or_a_tenth_of_a_millisecond(void **state) {
     (void)state;
     CzVehicle car = typed_full();
@@ -138,6 +159,7 @@ int main(void) {
         cmocka_unit_test(the_scheme_is_stable_below_the_bound_and_not_above),
         cmocka_unit_test(every_element_of_a_full_car_is_named_and_the_smallest_comes_first),
         cmocka_unit_test(wheel_and_rail_are_taken_at_four_times_the_static_load),
+        cmocka_unit_test(hydraulic_damping_counts_as_far_as_the_tubes_let_it_act),
         cmocka_unit_test(the_step_is_half_the_smallest_bound_or_a_tenth_of_a_millisecond),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

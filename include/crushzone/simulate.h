@@ -138,6 +138,9 @@ typedef struct CzSimulateOptions {
     double time_step; /* [s]; 0 takes the model's */
     bool record;      /* keep channels at the output step */
     const char *isa;  /* "auto", or one of cz_isa_name: for tests and benchmarks */
+    bool brief;       /* for a search: also end once nothing flows any more and no cars can meet
+                         again faster than 1 m/s; the run has then CZ_ENDED_SETTLED and is no
+                         record */
 } CzSimulateOptions;
 CZ_API CzSimulateOptions cz_simulate_options_default(void);
 

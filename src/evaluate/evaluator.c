@@ -24,6 +24,7 @@ struct CzEvaluator {
     const CzProblem *problem;
     int n_job;
     double step_factor;
+    bool brief;
     int n_scene;
     CzScene *scene;            /* (n_scene) */
     CzModel **model;           /* (n_scene); NULL for scenarios left out */
@@ -133,6 +134,7 @@ CzStatus cz_evaluator_build(const CzProblem *problem, const CzEvaluatorOptions *
     built->problem = problem;
     built->n_job = given.n_job > 0 ? given.n_job : cz_processor_count();
     built->step_factor = given.step_factor;
+    built->brief = given.brief;
     const CzStatus status = build(built, given.scenario, error);
     if (status != CZ_OK) {
         cz_evaluator_free(built);
@@ -362,6 +364,7 @@ static void run_task(int index, void *data) {
     const CzModel *model = evaluator->model[s];
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = block->record;
+    options.brief = evaluator->brief;
     if (evaluator->step_factor != 1)
         options.time_step = cz_model_time_step(model) * evaluator->step_factor;
     CzRun *run[BLOCK] = {NULL};

@@ -23,7 +23,7 @@ static double seconds(void) {
 }
 
 CzSimulateOptions cz_simulate_options_default(void) {
-    return (CzSimulateOptions){0.0, true, "auto"};
+    return (CzSimulateOptions){.time_step = 0.0, .record = true, .isa = "auto", .brief = false};
 }
 
 int cz_simulate_batch_width(const CzModel *model) {
@@ -63,6 +63,7 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
         return cz_fail(error, CZ_STATUS_INPUT, "no kernel for instruction set '%s' here",
                        options->isa);
     batch->n_design = n_design;
+    batch->brief = options->brief;
     batch->step = options->time_step > 0.0 ? options->time_step : model->time_step;
     int n_vehicle;
     const CzVehicle *own = cz_problem_vehicles(model->problem, &n_vehicle);
@@ -75,6 +76,7 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
         used[design] = vehicles != NULL && vehicles[design] != NULL ? vehicles[design] : own;
         batch->design[design].override_time = NAN;
         batch->design[design].quiet_since = NAN;
+        batch->design[design].settled_since = NAN;
     }
     batch->vehicles = used;
     CZ_TRY(fill_designs(batch, own, error));

@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #define CLOSING_SPEED 0.1      /* [m/s] */
+#define MEETING_SPEED 1.0      /* [m/s] (ours) */
 #define FLOW 1e-6              /* growth of the plastic strokes that counts as flow [m] (ours) */
 #define LARGEST_IMBALANCE 1e-2 /* of the initial energy */
 #define LARGEST_RESIDUAL 1e-6  /* closure that a chain may leave unbalanced [m] (ours) */
@@ -107,6 +108,26 @@ static bool closes_in(const CzBatch *batch, int design) {
     return false;
 }
 
+/* Largest speed at which cars that are apart now can still meet: what is ahead may come to rest
+ * where it brakes. */
+static double meeting_speed(const CzBatch *batch, int design) {
+    double slowest = INFINITY, largest = 0.0;
+    for (int car = batch->model->n_car - 1; car >= 0; --car) {
+        const size_t lane = cz_lane(batch, car, design);
+        const double speed = cz_velocity(batch, CZ_DOF_BODY_X, lane);
+        const bool brakes = cz_parameter(batch, CZ_P_BRAKE_MOMENT_0, lane) > 0.0 ||
+                            cz_parameter(batch, CZ_P_BRAKE_MOMENT_3, lane) > 0.0;
+        largest = fmax(largest, speed - slowest);
+        slowest = fmin(slowest, brakes ? fmin(speed, 0.0) : speed);
+    }
+    return largest;
+}
+
+/* When a condition began to hold: kept while it does, forgotten when it does not. */
+static double holds_since(bool holds, double since, double now) {
+    return !holds ? NAN : isnan(since) ? now : since;
+}
+
 /* Looks at the wheels: off the rail now, and higher than their flange ever. */
 static bool wheels_are_off(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
@@ -149,11 +170,12 @@ static void look_at(CzBatch *batch, int design) {
     const double strokes = plastic_strokes(batch, design);
     const bool flows = strokes - progress->plastic > FLOW;
     progress->plastic = strokes;
-    const bool restless = wheels_are_off(batch, design) || flows || closes_in(batch, design);
-    if (restless)
-        progress->quiet_since = NAN;
-    else if (isnan(progress->quiet_since))
-        progress->quiet_since = batch->time;
+    const bool off = wheels_are_off(batch, design);
+    const bool quiet = !off && !flows && !closes_in(batch, design);
+    const bool settled =
+        batch->brief && !off && !flows && meeting_speed(batch, design) <= MEETING_SPEED;
+    progress->quiet_since = holds_since(quiet, progress->quiet_since, batch->time);
+    progress->settled_since = holds_since(settled, progress->settled_since, batch->time);
 
     const CzModel *model = batch->model;
     if (!isnan(model->duration)) {
@@ -161,8 +183,11 @@ static void look_at(CzBatch *batch, int design) {
             progress->ended = CZ_ENDED_DURATION;
             progress->over = true;
         }
-    } else if (!restless && batch->time - progress->quiet_since >= model->hold) {
+    } else if (batch->time - progress->quiet_since >= model->hold) { /* not while it is no number */
         progress->ended = CZ_ENDED_BY_RULE;
+        progress->over = true;
+    } else if (batch->time - progress->settled_since >= model->hold) {
+        progress->ended = CZ_ENDED_SETTLED;
         progress->over = true;
     } else if (batch->time >= model->longest) {
         progress->ended = CZ_ENDED_INCOMPLETE;

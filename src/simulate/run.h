@@ -39,6 +39,7 @@ typedef struct CzProgressOfDesign {
     double initial_energy;
     double balance;       /* largest |residual| so far [J] */
     double quiet_since;   /* when the end-of-run conditions began to hold; NaN when they do not */
+    double settled_since; /* likewise for the conditions of a brief run */
     double plastic;       /* sum of the plastic strokes at the last look [m] */
     double override_time; /* NaN until it happens */
 } CzProgressOfDesign;
@@ -52,6 +53,7 @@ typedef struct CzBatch {
     CzDynamics *dynamics;
     const CzVehicle *const *vehicles; /* (n_design) */
     int n_design;
+    bool brief;        /* end once settled */
     double step, time; /* [s] */
     long n_step;
     CzHistory history;

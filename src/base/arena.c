@@ -26,13 +26,17 @@ static CzArenaBlock *block_create(CzArenaBlock *next, size_t payload) {
 }
 
 void *cz_arena_allocate(CzArena *arena, size_t n, size_t size) {
-    if (size != 0 && n > (SIZE_MAX - 4 * ALIGNMENT) / size)
+    if (size != 0 && n > (SIZE_MAX - 4 * ALIGNMENT) / size) {
+        arena->out_of_memory = true;
         return NULL;
+    }
     const size_t payload = (n * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     if (arena->block == NULL || arena->block->size - arena->block->used < payload) {
         CzArenaBlock *block = block_create(arena->block, payload);
-        if (block == NULL)
+        if (block == NULL) {
+            arena->out_of_memory = true;
             return NULL;
+        }
         arena->block = block;
     }
     void *memory = (char *)arena->block + arena->block->used;

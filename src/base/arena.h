@@ -2,11 +2,13 @@
 #ifndef CZ_BASE_ARENA_H
 #define CZ_BASE_ARENA_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Zero-initialise it before use. */
 typedef struct CzArena {
     struct CzArenaBlock *block; /* newest block, NULL when empty */
+    bool out_of_memory;         /* a request has failed */
 } CzArena;
 
 /* Zeroed memory for n items, aligned to 64 bytes; NULL when there is none. */

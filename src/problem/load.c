@@ -210,8 +210,11 @@ static const CzNode *load_bases(Loader *loader, const CzNode *top, const char **
     load_catalogues(loader, top);
     if (extends != NULL && base == NULL)
         return NULL;
+    if (extends == NULL)
+        return top;
+    base = cz_trains_name_vehicles(&reader->arena, base);
     const CzNode *merged =
-        base != NULL ? cz_merge(&reader->arena, base, NULL, top, NULL, true) : top;
+        base != NULL ? cz_merge(&reader->arena, base, NULL, top, NULL, true) : NULL;
     if (merged == NULL)
         reader->mistakes.out_of_memory = true;
     return merged;

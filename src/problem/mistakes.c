@@ -20,10 +20,13 @@ static void end_at_character(char *text, size_t size) {
 
 static void append_trail(CzError *error, const CzTrail *trail) {
     for (; trail != NULL && trail->part != NULL; trail = trail->from) {
-        const size_t n = strlen(error->message);
-        snprintf(error->message + n, sizeof error->message - n,
-                 "; in part '%s' (%s:%d), used at %s:%d", trail->part, trail->written->source->name,
-                 trail->written->line, trail->used->source->name, trail->used->line);
+        size_t n = strlen(error->message);
+        snprintf(error->message + n, sizeof error->message - n, "; in part '%s' (%s:%d)",
+                 trail->part, trail->written->source->name, trail->written->line);
+        n = strlen(error->message);
+        if (trail->used != NULL)
+            snprintf(error->message + n, sizeof error->message - n, ", used at %s:%d",
+                     trail->used->source->name, trail->used->line);
     }
     end_at_character(error->message, sizeof error->message);
 }

@@ -30,7 +30,7 @@ typedef struct CzNode CzNode;
 typedef struct CzTrail {
     const char *part;           /* name of the part */
     const CzNode *written;      /* the part's name where the part is written */
-    const CzNode *used;         /* the value of `use` */
+    const CzNode *used;         /* the value of `use`; NULL while a setting changes the part */
     const struct CzTrail *from; /* trail of the place that used it */
 } CzTrail;
 

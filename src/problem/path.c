@@ -413,7 +413,7 @@ static bool put_into_part(Walk *walk, CzTree *tree) {
         CzTrail *trail = cz_reader_allocate(walk->reader, 1, sizeof *trail);
         if (trail == NULL)
             return false;
-        *trail = (CzTrail){part->name, part->written, part->written, &cz_no_trail};
+        *trail = (CzTrail){part->name, part->written, NULL, &cz_no_trail};
         snprintf(walk->at, sizeof walk->at, "parts.%s", part->name);
         const CzNode *changed = walk_on(walk, part->node, (Step){NULL, trail, 2, false});
         if (changed != NULL)

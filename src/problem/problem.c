@@ -108,7 +108,7 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     if (problem->setting == NULL)
         return;
     cz_problem_bind(problem, &problem->tree);
-    if (reader->mistakes.out_of_memory)
+    if (reader->mistakes.out_of_memory || reader->arena.out_of_memory)
         return;
     cz_profile_read(problem);
     cz_rules_check(problem);
@@ -120,7 +120,7 @@ static CzStatus finish(CzProblem *problem, CzError *error) {
     snprintf(problem->hash, sizeof problem->hash, "%016" PRIx64, reader->sources.hash);
     cz_mistakes_finish(&reader->mistakes);
     cz_mistakes_finish(&reader->warnings);
-    if (reader->mistakes.out_of_memory || reader->warnings.out_of_memory)
+    if (reader->mistakes.out_of_memory || reader->arena.out_of_memory)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to read '%s'",
                        problem->file != NULL ? problem->file : "the problem");
     if (reader->mistakes.n_mistake == 0)

@@ -132,6 +132,9 @@ enum { CZ_MOST_VEHICLES = 1000 };
 
 /* The root with the vehicles of all trains written out; NULL without memory. */
 const CzNode *cz_trains_write_out(CzReader *reader, const CzTree *tree);
+/* The root with names for the vehicles of its trains that have none, so that an overlay can name
+ * them; NULL without memory. */
+const CzNode *cz_trains_name_vehicles(CzArena *arena, const CzNode *root);
 /* How many vehicles an item of a list of vehicles stands for. */
 int cz_vehicle_repeat(const CzNode *vehicle);
 /* Writes the name of the k-th vehicle of an item: `given` (may be NULL) counted on, or the train's

@@ -71,6 +71,59 @@ void cz_vehicle_name(char *text, size_t size, const CzNode *vehicle, const char 
         snprintf(text, size, "%s", given);
 }
 
+/* ---- names for an overlay to refer to ---- */
+
+static const CzNode *name_vehicle(CzArena *arena, const CzNode *vehicle, const char *train,
+                                  int position) {
+    char text[LONGEST_NAME];
+    if (vehicle->kind != CZ_NODE_MAPPING || cz_node_find(vehicle, "name") != NULL)
+        return vehicle;
+    CzNode *named = cz_node_copy(arena, vehicle, 1);
+    if (named == NULL)
+        return NULL;
+    cz_vehicle_name(text, sizeof text, vehicle, train, position, 0);
+    const CzEntry name = {cz_node_text(arena, "name", vehicle), cz_node_text(arena, text, vehicle),
+                          NULL};
+    named->entry[named->n_entry++] = name;
+    return name.key != NULL && name.value != NULL ? named : NULL;
+}
+
+static const CzNode *name_vehicles(CzArena *arena, const CzNode *train) {
+    const char *name = cz_node_find_text(train, "name");
+    const CzEntry *vehicles = cz_node_find(train, "vehicles");
+    if (name == NULL || vehicles == NULL || vehicles->value->kind != CZ_NODE_LIST)
+        return train;
+    CzNode *named = cz_node_copy(arena, train, 0);
+    CzNode *list = cz_node_copy(arena, vehicles->value, 0);
+    if (named == NULL || list == NULL)
+        return NULL;
+    for (int i = 0, position = 1; i < list->n_entry; i++) {
+        position += i > 0 ? cz_vehicle_repeat(list->entry[i - 1].value) : 0;
+        list->entry[i].value = name_vehicle(arena, list->entry[i].value, name, position);
+        if (list->entry[i].value == NULL)
+            return NULL;
+    }
+    named->entry[vehicles - train->entry].value = list;
+    return named;
+}
+
+const CzNode *cz_trains_name_vehicles(CzArena *arena, const CzNode *root) {
+    const CzEntry *trains = cz_node_find(root, "trains");
+    if (trains == NULL || trains->value->kind != CZ_NODE_LIST)
+        return root;
+    CzNode *named = cz_node_copy(arena, root, 0);
+    CzNode *list = cz_node_copy(arena, trains->value, 0);
+    for (int i = 0; list != NULL && i < list->n_entry; i++) {
+        list->entry[i].value = name_vehicles(arena, list->entry[i].value);
+        if (list->entry[i].value == NULL)
+            return NULL;
+    }
+    if (named == NULL || list == NULL)
+        return NULL;
+    named->entry[trains - root->entry].value = list;
+    return named;
+}
+
 /* ---- vehicles of one train ---- */
 
 static bool read_reversed(CzReader *reader, const CzNode *node, const CzTrail *trail) {

@@ -1,28 +1,9 @@
 /* Reading of whole problems: what good files become. */
-#include "support/check.h"
-
-#include "problem/problem.h"
-
-#define FOLDER CZ_SOURCE_FOLDER "/tests/problem/good/"
-
-static CzProblem *read_good(const char *path, int n_set, const char *const *set) {
-    CzProblemOptions options = cz_problem_options_default();
-    CzProblem *problem = NULL;
-    CzError error = {0};
-    options.set = set;
-    options.n_set = n_set;
-    const CzStatus status = cz_problem_read(path, &options, &problem, &error);
-    if (status != CZ_OK)
-        print_error("%s:%d:%d: %s (%s)\n", error.file, error.line, error.column, error.message,
-                    error.help);
-    assert_int_equal(status, CZ_OK);
-    assert_non_null(problem);
-    return problem;
-}
+#include "problem/read_problem.h"
 
 static void values_are_in_si_units_and_absent_ones_have_their_defaults(void **state) {
     (void)state;
-    CzProblem *problem = read_good(FOLDER "rigid.yaml", 0, NULL);
+    CzProblem *problem = read_good("rigid.yaml", 0, NULL);
     const CzInput *input = cz_problem_input(problem);
     assert_string_equal(cz_problem_title(problem), "Two rigid cars");
     assert_int_equal(input->n_trains, 2);
@@ -42,12 +23,14 @@ static void values_are_in_si_units_and_absent_ones_have_their_defaults(void **st
     assert_near(car->front.anti_climber.stiffness, 2e8, 0, 0);
     assert_near(input->trains[1].vehicles[0].front.anti_climber.gap, 0.12, 1e-15, 0);
     assert_near(input->trains[1].vehicles[0].rear.anti_climber.gap, 0.1, 1e-15, 0);
+    assert_false(input->simulation.given);
+    assert_near(input->simulation.longest, 6, 0, 0);
     cz_problem_free(problem);
 }
 
 static void copied_and_turned_trains_are_written_out_along_x(void **state) {
     (void)state;
-    CzProblem *problem = read_good(FOLDER "full.yaml", 0, NULL);
+    CzProblem *problem = read_good("full.yaml", 0, NULL);
     static const char *const names[] = {"A1", "A2", "A3", "A4", "B1", "B2", "B3", "B4"};
     int n_vehicle = 0;
     const CzVehicle *vehicle = cz_problem_vehicles(problem, &n_vehicle);
@@ -66,10 +49,202 @@ static void copied_and_turned_trains_are_written_out_along_x(void **state) {
     cz_problem_free(problem);
 }
 
+static void names_of_a_copy_that_do_not_begin_with_the_trains_name_get_it_in_front(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text(
+        "schema: 1\ntitle: copy\n"
+        "parts:\n"
+        "  bumper: {face_gap_m: 0, unloading_stiffness_MN_m: 9, stages: [{stroke_m: 1, force_kN: "
+        "1}]}\n"
+        "  car: {model: rigid, mass_t: 40, front: {use: bumper}, rear: {use: bumper}}\n"
+        "trains:\n"
+        "  - {name: A, speed_m_s: 3, vehicles: [{name: Tc, use: car}, {name: M, use: car, repeat: "
+        "2}]}\n"
+        "  - {name: B, copy: A, reversed: true}\n");
+    static const char *const names[] = {"Tc", "M1", "M2", "B-M2", "B-M1", "B-Tc"};
+    int n_vehicle = 0;
+    const CzVehicle *vehicle = cz_problem_vehicles(problem, &n_vehicle);
+    assert_int_equal(n_vehicle, 6);
+    for (int i = 0; i < 6; i++)
+        assert_string_equal(vehicle[i].name, names[i]);
+    cz_problem_free(problem);
+}
+
+static void an_overlay_merges_records_and_named_items_and_replaces_the_rest(void **state) {
+    (void)state;
+    CzProblem *problem = read_good("overlay.yaml", 0, NULL);
+    const CzInput *input = cz_problem_input(problem);
+    assert_string_equal(input->title, "Three full cars against their like, changed");
+    assert_int_equal(input->n_scenarios, 4);
+    assert_near(input->scenarios[2].speed, 7 / 3.6, 1e-15, 0);
+    assert_string_equal(input->scenarios[3].name, "fast");
+    assert_near(find_vehicle(problem, "A4")->mass, 41e3, 0, 0);
+    assert_near(find_vehicle(problem, "A1")->mass, 38.7e3, 0, 0);
+    const CzAntiClimber *device = &find_vehicle(problem, "A4")->front.anti_climber;
+    assert_int_equal(device->n_stages, 1);
+    assert_near(device->stages[0].force, 700e3, 0, 0);
+    assert_near(device->gap, 0.31, 1e-15, 0);
+    assert_near(find_vehicle(problem, "B4")->front.anti_climber.stages[0].force, 700e3, 0, 0);
+    cz_problem_free(problem);
+}
+
+static void an_overlay_can_name_vehicles_that_have_no_name(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text("extends: rigid.yaml\n"
+                                        "trains:\n"
+                                        "  - {name: A, vehicles: [{name: A1, mass_t: 39}]}\n");
+    int n_vehicle = 0;
+    cz_problem_vehicles(problem, &n_vehicle);
+    assert_int_equal(n_vehicle, 2);
+    assert_near(find_vehicle(problem, "A1")->mass, 39e3, 0, 0);
+    cz_problem_free(problem);
+}
+
+static void null_lets_go_what_the_part_has(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text("extends: rigid.yaml\n"
+                                        "trains:\n"
+                                        "  - {name: A, vehicles: [{name: A1, rear: null}]}\n");
+    assert_false(find_vehicle(problem, "A1")->rear.given);
+    assert_true(find_vehicle(problem, "A1")->front.given);
+    cz_problem_free(problem);
+}
+
+static void a_value_in_another_unit_overrides_the_same_stem(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text("extends: rigid.yaml\n"
+                                        "parts: {car: {mass_kg: 41500}}\n"
+                                        "trains: [{name: A, speed_m_s: 3}]\n");
+    assert_near(find_vehicle(problem, "B1")->mass, 41500, 0, 0);
+    assert_near(cz_problem_input(problem)->trains[0].speed, 3, 0, 0);
+    cz_problem_free(problem);
+}
+
+static void a_setting_means_what_typing_it_would_mean(void **state) {
+    (void)state;
+    static const char *const set[] = {
+        "trains.A.vehicles.A4.front.anti_climber.gap_mm=290",
+        "parts.cab-end.anti_climber.gap_mm=280",
+        "parts.cab-end.anti_climber.stages[1].force_MN=0.7",
+        "trains.A.vehicles.A2.mass_t=36",
+        "trains.*.height_offset_mm=5",
+        "scenarios.head-25.speed_km_h=20",
+        "scenarios[1].speed_m_s=6",
+        "title='12'",
+        "simulation.duration_ms=900",
+        "simulation.adhesion.friction=0.25",
+    };
+    CzProblem *problem = read_good("full.yaml", 10, set);
+    const CzInput *input = cz_problem_input(problem);
+    assert_near(find_vehicle(problem, "A4")->front.anti_climber.gap, 0.29, 1e-15, 0);
+    assert_near(find_vehicle(problem, "B1")->rear.anti_climber.gap, 0.29, 1e-15, 0);
+    assert_near(find_vehicle(problem, "A1")->rear.anti_climber.gap, 0.28, 1e-15, 0);
+    assert_near(find_vehicle(problem, "A4")->front.anti_climber.stages[1].force, 7e5, 0, 0);
+    assert_near(find_vehicle(problem, "A4")->front.anti_climber.stages[0].force, 525e3, 0, 0);
+    assert_near(find_vehicle(problem, "A3")->mass, 36e3, 0, 0);
+    assert_near(find_vehicle(problem, "B2")->mass, 36e3, 0, 0);
+    assert_near(input->trains[0].height_offset, 5e-3, 1e-15, 0);
+    assert_near(input->trains[1].height_offset, 5e-3, 1e-15, 0);
+    assert_near(input->scenarios[0].speed, 20 / 3.6, 1e-15, 0);
+    assert_near(input->scenarios[1].speed, 6, 0, 0);
+    assert_string_equal(input->title, "12");
+    assert_near(input->simulation.duration, 0.9, 1e-15, 0);
+    assert_near(input->simulation.adhesion.friction, 0.25, 0, 0);
+    cz_problem_free(problem);
+}
+
+static void a_setting_of_a_list_item_leaves_the_part_to_others(void **state) {
+    (void)state;
+    static const char *const set[] = {"trains.A.vehicles.A1.front.stages[1].force_kN=2600",
+                                      "parts.end.stages[0].force_kN=2100"};
+    CzProblem *problem = read_good("full.yaml", 2, set);
+    assert_near(find_vehicle(problem, "A1")->rear.stages[1].force, 2.6e6, 0, 0);
+    assert_near(find_vehicle(problem, "A1")->rear.stages[0].force, 2.1e6, 0, 0);
+    assert_near(find_vehicle(problem, "A4")->front.stages[1].force, 2.5e6, 0, 0);
+    cz_problem_free(problem);
+}
+
+static void json_is_read_as_well(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text(
+        "{\"schema\": 1, \"title\": \"J\\u00e4son\",\n\t\"trains\": [{\"name\": \"A\", "
+        "\"speed_km_h\": 3.6e0, \"vehicles\": [{\"model\": \"rigid\", \"mass_t\": 1,\n"
+        "\t\"front\": {\"face_gap_mm\": 0, \"unloading_stiffness_MN_m\": 100,\n"
+        "\t\"stages\": [{\"stroke_mm\": 100, \"force_kN\": 100}]}}]},\n"
+        "\t{\"name\": \"B\", \"vehicles\": [{\"model\": \"fixed\"}]}]}");
+    assert_string_equal(cz_problem_title(problem), "J\xc3\xa4son");
+    assert_near(cz_problem_input(problem)->trains[0].speed, 1, 1e-15, 0);
+    assert_int_equal(cz_problem_n_scenario(problem), 1);
+    assert_string_equal(cz_problem_scenario_name(problem, 0), "collision");
+    cz_problem_free(problem);
+}
+
+static void the_hash_covers_files_and_settings(void **state) {
+    (void)state;
+    static const char *const set[] = {"trains.A.speed_km_h=30"};
+    CzProblem *once = read_good("full.yaml", 0, NULL), *again = read_good("full.yaml", 0, NULL);
+    CzProblem *changed = read_good("full.yaml", 1, set);
+    assert_string_equal(cz_problem_hash(once), cz_problem_hash(again));
+    assert_string_not_equal(cz_problem_hash(once), cz_problem_hash(changed));
+    assert_int_equal(strlen(cz_problem_hash(once)), 16);
+    cz_problem_free(once);
+    cz_problem_free(again);
+    cz_problem_free(changed);
+}
+
+static void the_place_of_a_field_is_where_it_was_written(void **state) {
+    (void)state;
+    CzProblem *problem = read_good("full.yaml", 0, NULL);
+    const CzInput *input = cz_problem_input(problem);
+    CzError error = {0};
+    cz_problem_place(problem, &input->checks.limits[0].max, &error);
+    assert_int_equal(error.status, CZ_STATUS_INPUT);
+    assert_string_equal(error.file, GOOD_FOLDER "/full.yaml");
+    assert_int_equal(error.line, 22);
+    assert_string_equal(cz_problem_source_line(problem, &error),
+                        "    - {name: wheel lift, metric: vehicles.max_wheel_lift_mm, max: 21, "
+                        "scenarios: [head-25, inner]}");
+    cz_problem_place(problem, &find_vehicle(problem, "A2")->bogie.link.height, &error);
+    assert_string_equal(error.file, GOOD_FOLDER "/parts.yaml");
+    assert_int_equal(error.line, 15);
+    cz_problem_place(problem, &find_vehicle(problem, "A2")->bogie.flange_height, &error);
+    assert_int_equal(error.line, 67); /* a default: the record's own place */
+    cz_problem_free(problem);
+}
+
+static void limits_of_a_profile_are_those_of_the_category(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text("extends: rigid.yaml\n"
+                                        "checks: {profile: two-categories, category: C-II}\n");
+    const CzProfile *profile = cz_problem_profile(problem);
+    assert_non_null(profile);
+    assert_int_equal(profile->n_limits, 2);
+    assert_string_equal(profile->limits[0].name, "for all");
+    assert_string_equal(profile->limits[1].name, "for C-II");
+    CzError error = {0};
+    cz_problem_place(problem, &profile->limits[1].max, &error);
+    assert_int_equal(error.line, 8);
+    cz_problem_free(problem);
+    problem = read_good("rigid.yaml", 0, NULL);
+    assert_null(cz_problem_profile(problem));
+    cz_problem_free(problem);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_are_in_si_units_and_absent_ones_have_their_defaults),
         cmocka_unit_test(copied_and_turned_trains_are_written_out_along_x),
+        cmocka_unit_test(names_of_a_copy_that_do_not_begin_with_the_trains_name_get_it_in_front),
+        cmocka_unit_test(an_overlay_merges_records_and_named_items_and_replaces_the_rest),
+        cmocka_unit_test(an_overlay_can_name_vehicles_that_have_no_name),
+        cmocka_unit_test(null_lets_go_what_the_part_has),
+        cmocka_unit_test(a_value_in_another_unit_overrides_the_same_stem),
+        cmocka_unit_test(a_setting_means_what_typing_it_would_mean),
+        cmocka_unit_test(a_setting_of_a_list_item_leaves_the_part_to_others),
+        cmocka_unit_test(json_is_read_as_well),
+        cmocka_unit_test(the_hash_covers_files_and_settings),
+        cmocka_unit_test(the_place_of_a_field_is_where_it_was_written),
+        cmocka_unit_test(limits_of_a_profile_are_those_of_the_category),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,95 @@
+/* Measured curves: reading and reducing. */
+#include "problem/read_problem.h"
+
+#include "problem/reduce_curve.h"
+
+static double area(const double *x, const double *y, int n_point) {
+    double sum = 0;
+    for (int i = 1; i < n_point; i++)
+        sum += 0.5 * (y[i] + y[i - 1]) * (x[i] - x[i - 1]);
+    return sum;
+}
+
+static void points_in_the_file_are_read_in_their_units(void **state) {
+    (void)state;
+    CzProblem *problem = read_good("curves.yaml", 0, NULL);
+    const CzTable *curve = &find_vehicle(problem, "A1")->front.curve;
+    assert_true(curve->given);
+    assert_int_equal(curve->n_point, 3);
+    assert_int_equal(curve->basis, CZ_BASIS_STATIC);
+    assert_near(curve->x[2], 0.45, 1e-15, 0);
+    assert_near(curve->y[1], 1e6, 0, 0);
+    cz_problem_free(problem);
+}
+
+static void a_long_csv_curve_keeps_energy_ends_and_peak(void **state) {
+    (void)state;
+    CzProblem *problem = read_good("curves.yaml", 0, NULL);
+    const CzTable *curve = &find_vehicle(problem, "A1")->front.anti_climber.curve;
+    assert_int_equal(curve->n_point, CZ_MAX_CURVE_POINTS);
+    assert_int_equal(curve->basis, CZ_BASIS_DYNAMIC);
+    assert_near(curve->x[0], 0, 0, 0);
+    assert_near(curve->x[curve->n_point - 1], 0.4, 1e-15, 0);
+    double peak = 0;
+    for (int i = 0; i < curve->n_point; i++)
+        peak = fmax(peak, curve->y[i]);
+    assert_near(peak, 1436.393e3, 1e-12, 0); /* the highest number of absorber.csv */
+    assert_near(area(curve->x, curve->y, curve->n_point), 370456.1125, 1e-6,
+                0); /* trapezes of absorber.csv */
+    assert_int_equal(cz_problem_n_warning(problem), 1);
+    const char *warning = cz_problem_warning(problem, 0)->message;
+    assert_non_null(strstr(warning, "'curve' was reduced from 401 to 64 points: energy "));
+    cz_problem_free(problem);
+}
+
+static void reducing_keeps_the_area(void **state) {
+    (void)state;
+    enum { N = 1000 };
+    static double x[N], y[N];
+    static int scratch[N];
+    int n_point = N;
+    for (int i = 0; i < N; i++) {
+        x[i] = i * 1e-3 + (i % 3) * 1e-4;
+        y[i] = 1e6 + 1e5 * ((i * 7919) % 101) / 101.0 + (i == 40 ? 5e5 : 0);
+    }
+    const double before = area(x, y, N);
+    const CzCurveChange change = cz_reduce_curve(x, y, &n_point, 64, scratch);
+    assert_int_equal(n_point, 64);
+    assert_near(change.area, before, 1e-14, 0);
+    assert_near(area(x, y, n_point), before, 1e-6, 0);
+    assert_in_range((int)change.largest_difference, 1, 150000);
+}
+
+static void a_straight_line_loses_nothing(void **state) {
+    (void)state;
+    double x[100], y[100];
+    int scratch[100], n_point = 100;
+    for (int i = 0; i < 100; i++) {
+        x[i] = i;
+        y[i] = 2 * i + 1;
+    }
+    const CzCurveChange change = cz_reduce_curve(x, y, &n_point, 3, scratch);
+    assert_int_equal(n_point, 3);
+    assert_near(change.largest_difference, 0, 0, 1e-12);
+    assert_near(y[2], 199, 0, 0);
+}
+
+static void a_short_curve_stays_as_it_is(void **state) {
+    (void)state;
+    double x[] = {0, 1, 2}, y[] = {0, 5, 1};
+    int scratch[3], n_point = 3;
+    cz_reduce_curve(x, y, &n_point, 64, scratch);
+    assert_int_equal(n_point, 3);
+    assert_near(y[1], 5, 0, 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_in_the_file_are_read_in_their_units),
+        cmocka_unit_test(a_long_csv_curve_keeps_energy_ends_and_peak),
+        cmocka_unit_test(reducing_keeps_the_area),
+        cmocka_unit_test(a_straight_line_loses_nothing),
+        cmocka_unit_test(a_short_curve_stays_as_it_is),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,181 @@
+/* Places that a path names. */
+#include "problem/read_problem.h"
+
+typedef struct {
+    const char *vehicle;
+    size_t offset;
+    int match;
+} Expected;
+
+static void check_found(const char *path, int n_expected, const Expected *expected) {
+    CzProblem *problem = read_good("full.yaml", 0, NULL);
+    CzTarget *target = NULL;
+    CzError error = {0};
+    int n_target = 0, n_vehicle = 0;
+    const CzVehicle *vehicle = cz_problem_vehicles(problem, &n_vehicle);
+    assert_int_equal(cz_problem_find(problem, path, &target, &n_target, &error), CZ_OK);
+    assert_int_equal(n_target, n_expected);
+    for (int i = 0; i < n_target; i++) {
+        assert_string_equal(vehicle[target[i].vehicle].name, expected[i].vehicle);
+        assert_int_equal(target[i].offset, expected[i].offset);
+        assert_int_equal(target[i].match, expected[i].match);
+        const double value =
+            *(const double *)(const void *)((const char *)&vehicle[target[i].vehicle] +
+                                            target[i].offset);
+        assert_near(target[i].value, value, 0, 0);
+    }
+    free(target);
+    cz_problem_free(problem);
+}
+
+static void a_path_through_a_part_names_every_user_that_does_not_override(void **state) {
+    (void)state;
+    const size_t front = offsetof(CzVehicle, front.coupler.tube.trigger);
+    const size_t rear = offsetof(CzVehicle, rear.coupler.tube.trigger);
+    const Expected cab[] = {{"A1", rear, 0}, {"A4", front, 0}, {"B1", rear, 0}, {"B4", front, 0}};
+    check_found("parts.cab-end.coupler.tube.trigger_kN", 4, cab);
+    const Expected rest[] = {{"A1", front, 0}, {"A2", front, 0}, {"A2", rear, 0},  {"A3", front, 0},
+                             {"A3", rear, 0},  {"A4", rear, 0},  {"B1", front, 0}, {"B2", front, 0},
+                             {"B2", rear, 0},  {"B3", front, 0}, {"B3", rear, 0},  {"B4", rear, 0}};
+    check_found("parts.coupler.tube.trigger_kN", 12, rest);
+}
+
+static void a_star_makes_one_match_of_every_item(void **state) {
+    (void)state;
+    const size_t first = offsetof(CzVehicle, front.anti_climber.stages[0].stroke);
+    const size_t second = offsetof(CzVehicle, front.anti_climber.stages[1].stroke);
+    const Expected expected[] = {
+        {"A4", first, 0},
+        {"B1", first + offsetof(CzVehicle, rear) - offsetof(CzVehicle, front), 0},
+        {"A4", second, 1},
+        {"B1", second + offsetof(CzVehicle, rear) - offsetof(CzVehicle, front), 1}};
+    check_found("trains.A.vehicles.A4.front.anti_climber.stages[*].stroke_mm", 4, expected);
+}
+
+static void a_path_through_a_vehicle_names_its_repeats_and_copies_too(void **state) {
+    (void)state;
+    const size_t front = offsetof(CzVehicle, front.stages[0].force);
+    const size_t rear = offsetof(CzVehicle, rear.stages[0].force);
+    const Expected expected[] = {
+        {"A2", front, 0}, {"A3", front, 0}, {"B2", rear, 0}, {"B3", rear, 0}};
+    check_found("trains.A.vehicles.A2.front.stages[0].force_kN", 4, expected);
+}
+
+static void beyond_a_star_items_without_the_record_are_passed_over(void **state) {
+    (void)state;
+    const size_t front = offsetof(CzVehicle, front.coupler.shear_off.force);
+    const size_t rear = offsetof(CzVehicle, rear.coupler.shear_off.force);
+    const Expected expected[] = {
+        {"A1", rear, 0}, {"B4", front, 0}, {"A4", front, 1}, {"B1", rear, 1}};
+    check_found("trains.*.vehicles.*.front.coupler.shear_off.force_kN", 4, expected);
+}
+
+static void a_target_knows_its_unit_and_its_concrete_path(void **state) {
+    (void)state;
+    CzProblem *problem = read_good("full.yaml", 0, NULL);
+    CzTarget *target = NULL;
+    int n_target = 0;
+    assert_int_equal(cz_problem_find(problem,
+                                     "trains.*.vehicles[*].front.anti_climber.stages[*].force_kN",
+                                     &target, &n_target, NULL),
+                     CZ_OK);
+    assert_int_equal(n_target, 8);
+    assert_near(target[0].unit, 1e3, 0, 0);
+    assert_string_equal(target[0].suffix, "kN");
+    assert_true(target[0].may_vary);
+    assert_string_equal(target[0].place,
+                        "trains.A.vehicles.A1.front.anti_climber.stages[0].force_kN");
+    assert_string_equal(target[7].place,
+                        "trains.A.vehicles.A4.front.anti_climber.stages[1].force_kN");
+    free(target);
+    assert_int_equal(
+        cz_problem_find(problem, "trains.A.vehicles.A4.mass_kg", &target, &n_target, NULL), CZ_OK);
+    assert_false(target[0].may_vary);
+    assert_near(target[0].unit, 1, 0, 0);
+    free(target);
+    cz_problem_free(problem);
+}
+
+static void finding_and_setting_mean_the_same_places(void **state) {
+    (void)state;
+    static const char *const paths[] = {"parts.cab-end.anti_climber.gap_mm",
+                                        "parts.end.stages[1].force_kN",
+                                        "trains.A.vehicles.A2.rear.coupler.tube.stages[0].force_kN",
+                                        "trains.*.vehicles.*.front.stages[0].force_kN"};
+    for (int p = 0; p < 4; p++) {
+        char set[200];
+        const char *sets[] = {set};
+        CzProblem *problem = read_good("full.yaml", 0, NULL);
+        CzTarget *target = NULL;
+        int n_target = 0, n_vehicle = 0, n_changed = 0;
+        assert_int_equal(cz_problem_find(problem, paths[p], &target, &n_target, NULL), CZ_OK);
+        const double value = target[0].value * 1.001;
+        snprintf(set, sizeof set, "%s=%.17g", paths[p], value / target[0].unit);
+        CzProblem *changed = read_good("full.yaml", 1, sets);
+        const CzVehicle *before = cz_problem_vehicles(problem, &n_vehicle);
+        const CzVehicle *after = cz_problem_vehicles(changed, &n_vehicle);
+        for (int i = 0; i < n_target; i++)
+            assert_near(*(const double *)(const void *)((const char *)&after[target[i].vehicle] +
+                                                        target[i].offset),
+                        value, 1e-15, 0);
+        for (int v = 0; v < n_vehicle; v++)
+            for (size_t at = offsetof(CzVehicle, mass); at + 8 <= sizeof *before; at += 8)
+                n_changed +=
+                    memcmp((const char *)&before[v] + at, (const char *)&after[v] + at, 8) != 0;
+        assert_int_equal(n_changed, n_target);
+        free(target);
+        cz_problem_free(changed);
+        cz_problem_free(problem);
+    }
+}
+
+static void settings_before_are_kept_while_finding(void **state) {
+    (void)state;
+    static const char *const set[] = {"trains.A.vehicles.A4.front.anti_climber.gap_mm=290"};
+    CzProblem *problem = read_good("full.yaml", 1, set);
+    CzTarget *target = NULL;
+    int n_target = 0;
+    assert_int_equal(
+        cz_problem_find(problem, "parts.cab-end.anti_climber.gap_mm", &target, &n_target, NULL),
+        CZ_OK);
+    assert_int_equal(n_target, 2); /* A1 and B4; A4 and its copy B1 have their own */
+    free(target);
+    cz_problem_free(problem);
+}
+
+static void a_path_to_nowhere_is_told_with_a_did_you_mean(void **state) {
+    (void)state;
+    CzProblem *problem = read_good("full.yaml", 0, NULL);
+    CzTarget *target = NULL;
+    CzError error = {0};
+    int n_target = 0;
+    assert_int_equal(
+        cz_problem_find(problem, "trains.A.vehicles.A5.mass_t", &target, &n_target, &error),
+        CZ_STATUS_INPUT);
+    assert_string_equal(
+        error.message, "path 'trains.A.vehicles.A5.mass_t': there is no 'A5' in trains.A.vehicles");
+    assert_string_equal(error.help, "did you mean 'A1'?");
+    assert_null(target);
+    assert_int_equal(n_target, 0);
+    assert_int_equal(cz_problem_find(problem, "", &target, &n_target, &error), CZ_STATUS_INPUT);
+    assert_int_equal(cz_problem_find(problem, "trains[99999999999].x", &target, &n_target, &error),
+                     CZ_STATUS_INPUT);
+    assert_int_equal(
+        cz_problem_find(problem, "trains.A.vehicles.A1.front", &target, &n_target, NULL),
+        CZ_STATUS_INPUT);
+    cz_problem_free(problem);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_path_through_a_part_names_every_user_that_does_not_override),
+        cmocka_unit_test(a_star_makes_one_match_of_every_item),
+        cmocka_unit_test(a_path_through_a_vehicle_names_its_repeats_and_copies_too),
+        cmocka_unit_test(beyond_a_star_items_without_the_record_are_passed_over),
+        cmocka_unit_test(a_target_knows_its_unit_and_its_concrete_path),
+        cmocka_unit_test(finding_and_setting_mean_the_same_places),
+        cmocka_unit_test(settings_before_are_kept_while_finding),
+        cmocka_unit_test(a_path_to_nowhere_is_told_with_a_did_you_mean),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -54,17 +54,22 @@ static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
     return true;
 }
 
+static bool has_anti_climber(const CzBatch *batch, size_t lane, int side) {
+    return batch->lanes->curve[CZ_CURVE_FACE_A + side].start[lane] <= MISSING;
+}
+
 static bool fill_anti_climber(const CzBatch *batch, size_t lane, int side, int car,
                               CzElementResult *result) {
-    if (batch->lanes->curve[CZ_CURVE_FACE_A + side].start[lane] > MISSING)
+    if (!has_anti_climber(batch, lane, side))
         return false;
     name_element(result, CZ_ELEMENT_ANTI_CLIMBER, batch, car);
     const double stroke = cz_memory(batch, CZ_M_FACE_A + side, lane);
     const double whole = usable(batch, CZ_CURVE_FACE_A + side, lane);
     const double shared =
         cz_work(batch, CZ_L_FACE_DAMPING, lane) + cz_work(batch, CZ_L_FACE_SLIDING, lane);
+    const double share = has_anti_climber(batch, lane, 1 - side) ? 0.5 : 1.0;
     result->stored = cz_face_stored(batch->dynamics, lane, side);
-    result->energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane) + 0.5 * shared;
+    result->energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane) + share * shared;
     result->tube_energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
     result->stroke = stroke;

@@ -322,13 +322,13 @@ static void fill_ribs(const Pair *pair) {
     put(pair, CZ_P_FACE_VERTICAL_STIFFNESS,
         in_series(a->vertical_stiffness, b->vertical_stiffness));
     put(pair, CZ_P_RIB_CAPACITY, capacity);
-    if (capacity > 0.0) {
-        put(pair, CZ_P_RIB_PITCH,
-            fmax(a->face_height / a->rib_count, b->face_height / b->rib_count));
+    if (capacity > 0.0)
         put(pair, CZ_P_RIB_DEPTH, fmax(a->rib_depth, b->rib_depth));
-    }
-    if (pair->side[CZ_SIDE_A].is_full && pair->side[CZ_SIDE_B].is_full)
-        put(pair, CZ_P_FACE_OVERLAP, (a->face_height + b->face_height) / 2.0);
+    if (!pair->side[CZ_SIDE_A].is_full || !pair->side[CZ_SIDE_B].is_full)
+        return;
+    /* The faces let go over one pitch as their overlap runs out, whatever their ribs carry. */
+    put(pair, CZ_P_RIB_PITCH, fmax(a->face_height / a->rib_count, b->face_height / b->rib_count));
+    put(pair, CZ_P_FACE_OVERLAP, (a->face_height + b->face_height) / 2.0);
 }
 
 static CzStatus fill_faces(const Pair *pair) {

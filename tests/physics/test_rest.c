@@ -1,0 +1,153 @@
+/* What must not happen by itself: trains at rest stay at rest, rolling ones roll on, and a run that
+ * cannot be right says so. */
+#include "physics/motion.h"
+
+/* ---- rest and rolling ---- */
+
+enum { N_CAR = 3 };
+
+/* Three cars that touch, all at one speed, rolling without slip. */
+static Motion all_at(double speed, const char *brake_a, const char *brake_b) {
+    Motion motion = motion_open("tests/physics/cases/standing.yaml", WITH(brake_a, brake_b));
+    for (int car = 0; car < N_CAR; car++)
+        for (int dof = 0; dof < CZ_N_DOF; dof++) {
+            const bool along = dof == CZ_DOF_BODY_X || dof == CZ_DOF_END_X_REAR ||
+                               dof == CZ_DOF_END_X_FRONT || dof == CZ_DOF_BOGIE_X_REAR ||
+                               dof == CZ_DOF_BOGIE_X_FRONT;
+            const bool wheel = dof >= CZ_DOF_WHEEL_X_0 && (dof - CZ_DOF_WHEEL_X_0) % 3 == 0;
+            const bool spin = dof >= CZ_DOF_WHEEL_X_0 && (dof - CZ_DOF_WHEEL_X_0) % 3 == 2;
+            const double radius = *parameter(&motion, CZ_P_WHEEL_RADIUS, car);
+            motion.lanes->velocity[(size_t)dof * motion.lanes->stride + (size_t)car] =
+                along || wheel ? speed
+                : spin         ? speed / radius
+                               : 0.0;
+        }
+    motion_start(&motion);
+    return motion;
+}
+
+static void go(Motion *motion, double duration) {
+    const long n = lround(duration / motion->step);
+    for (long i = 0; i < n; i++) {
+        motion_advance(motion);
+        motion_evaluate(motion);
+    }
+}
+
+static void trains_that_touch_at_rest_stay_at_rest(void **state) {
+    (void)state;
+    Motion motion = all_at(0.0, "trains.A.brake.ratio=0", "trains.B.brake.ratio=0.1");
+    for (int i = 0; i < 20; i++) {
+        go(&motion, 0.05);
+        for (int car = 0; car < N_CAR; car++)
+            for (int dof = 0; dof < CZ_N_DOF; dof++) {
+                assert_near(*position(&motion, dof, car), 0.0, 0.0, 1e-12);
+                assert_near(*velocity(&motion, dof, car), 0.0, 0.0, 1e-9);
+            }
+    }
+    motion_close(&motion);
+}
+
+static void rolling_trains_roll_on(void **state) {
+    (void)state;
+    Motion motion = all_at(10.0, "trains.A.brake.ratio=0", "trains.B.brake.ratio=0");
+    go(&motion, 2.0);
+    for (int car = 0; car < N_CAR; car++) {
+        const double radius = *parameter(&motion, CZ_P_WHEEL_RADIUS, car);
+        assert_near(*position(&motion, CZ_DOF_BODY_X, car), 20.0, 1e-9, 0.0);
+        assert_near(*velocity(&motion, CZ_DOF_BODY_X, car), 10.0, 1e-9, 0.0);
+        assert_near(*velocity(&motion, CZ_DOF_BODY_PITCH, car), 0.0, 0.0, 1e-9);
+        for (int axle = 0; axle < 4; axle++)
+            assert_near(*velocity(&motion, CZ_DOF_WHEEL_SPIN_0 + 3 * axle, car) * radius, 10.0,
+                        1e-9, 0.0);
+    }
+    motion_close(&motion);
+}
+
+/* A brake of a tenth of the axle load on every axle slows a car by 0.1 g, less what its turning
+ * wheels hold: 4 I / r^2 beside the mass. */
+static void braked_trains_slow_down_by_their_brake_ratio(void **state) {
+    (void)state;
+    Motion motion = all_at(10.0, "trains.A.brake.ratio=0.1", "trains.A.brake.axle_share=1");
+    const double turning = 4.0 * 100.0 / (0.42 * 0.42), total = 38e3;
+    const double deceleration = 0.1 * 9.80665 * total / (total + turning);
+    double mean[2] = {0.0};
+    go(&motion, 0.5);
+    for (int car = 0; car < N_CAR; car++)
+        mean[0] += *velocity(&motion, CZ_DOF_BODY_X, car) / N_CAR;
+    go(&motion, 2.0);
+    for (int car = 0; car < N_CAR; car++)
+        mean[1] += *velocity(&motion, CZ_DOF_BODY_X, car) / N_CAR;
+    assert_near((mean[0] - mean[1]) / 2.0, deceleration, 1e-2, 0.0);
+    motion_close(&motion);
+}
+
+/* At walking pace the push is more than a braked train holds for a moment; it moves by a little and
+ * stays. */
+static void a_standing_braked_train_holds_against_a_light_touch(void **state) {
+    (void)state;
+    Collision touched = collide("tests/physics/cases/standing.yaml",
+                                WITH("trains.A.speed_m_s=0.05", "simulation.duration_s=3"), 0);
+    assert_completed(&touched);
+    const double *x = channel(&touched, "x_B1_m");
+    assert_true(fabs(last_value(&touched, x)) < 0.01);
+    assert_near(last_value(&touched, channel(&touched, "v_B1_m_s")), 0.0, 0.0, 0.01);
+    collision_free(&touched);
+}
+
+/* ---- runs that cannot be right ---- */
+
+static void assert_failed(const Collision *collision) {
+    const CzRunSummary *summary = collision->summary;
+    print_message("%s\n", summary->failure);
+    assert_int_equal(summary->status, CZ_STATUS_RUN_FAILED);
+    assert_int_equal(summary->ended, CZ_ENDED_INCOMPLETE);
+    assert_non_null(strstr(summary->failure, " ms"));
+    assert_true(strstr(summary->failure, "A1") != NULL || strstr(summary->failure, "A2") != NULL ||
+                strstr(summary->failure, "B1") != NULL);
+    assert_true(isnan(summary->interface[0].peak_force));
+    assert_true(isnan(summary->energy.dissipated));
+}
+
+/* The model refuses such steps; a caller of the library may still ask for one. */
+static void an_absurd_time_step_ends_as_failed(void **state) {
+    (void)state;
+    static const double steps[] = {0.6e-3, 1e-3, 5e-3, 0.1};
+    for (size_t i = 0; i < sizeof steps / sizeof steps[0]; i++) {
+        Collision failed = collision_model("tests/physics/cases/standing.yaml",
+                                           WITH("trains.A.speed_m_s=10",
+                                                "parts.bogie.guidance_stiffness_MN_m=9999",
+                                                "simulation.duration_s=2"),
+                                           0);
+        CzSimulateOptions options = cz_simulate_options_default();
+        options.time_step = steps[i];
+        CzError error = {0};
+        assert_int_equal(cz_simulate(failed.model, &options, &failed.run, &error), CZ_OK);
+        failed.summary = cz_run_summary(failed.run);
+        assert_failed(&failed);
+        collision_free(&failed);
+    }
+}
+
+static void a_run_that_is_cut_is_incomplete(void **state) {
+    (void)state;
+    Collision cut =
+        collide("tests/physics/cases/plateau.yaml", WITH("simulation.longest_s=0.05"), 0);
+    assert_int_equal(cut.summary->status, CZ_OK);
+    assert_int_equal(cut.summary->ended, CZ_ENDED_INCOMPLETE);
+    assert_near(cut.summary->simulated, 0.05, 0.0, 0.005);
+    assert_near(cut.summary->closing_speed, 10.0 - 75.0 * cut.summary->simulated, 1e-3, 0.0);
+    collision_free(&cut);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(trains_that_touch_at_rest_stay_at_rest),
+        cmocka_unit_test(rolling_trains_roll_on),
+        cmocka_unit_test(braked_trains_slow_down_by_their_brake_ratio),
+        cmocka_unit_test(a_standing_braked_train_holds_against_a_light_touch),
+        cmocka_unit_test(an_absurd_time_step_ends_as_failed),
+        cmocka_unit_test(a_run_that_is_cut_is_incomplete),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

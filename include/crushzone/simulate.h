@@ -139,8 +139,8 @@ typedef struct CzSimulateOptions {
     bool record;      /* keep channels at the output step */
     const char *isa;  /* "auto", or one of cz_isa_name: for tests and benchmarks */
     bool brief;       /* for a search: also end once nothing flows any more and no cars can meet
-                         again faster than 1 m/s; the run has then CZ_ENDED_SETTLED and is no
-                         record */
+                         again at more than 0.4 of the first closing speed; the run has then
+                         CZ_ENDED_SETTLED and is no record */
 } CzSimulateOptions;
 CZ_API CzSimulateOptions cz_simulate_options_default(void);
 

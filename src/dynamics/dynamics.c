@@ -101,6 +101,16 @@ static void derive_constants(CzDynamics *dynamics) {
     }
 }
 
+/* Interfaces between cars that can both move. */
+static void derive_tilts(CzDynamics *dynamics) {
+    const size_t ahead = (size_t)dynamics->lanes->n_design;
+    const double *inverse =
+        cz_row(dynamics->lanes->parameter, dynamics->stride, CZ_P_INVERSE_BODY_MASS);
+    double *tilts = cz_row(dynamics->constant, dynamics->stride, CZ_C_TILTS);
+    for (size_t lane = 0; lane + ahead < dynamics->stride; ++lane)
+        tilts[lane] = inverse[lane] > 0.0 && inverse[lane + ahead] > 0.0 ? 1.0 : 0.0;
+}
+
 /* Lanes seen from the first lane of a block. */
 static CzLanes *lanes_from(const CzLanes *lanes, size_t base, CzArena *arena) {
     CzLanes *view = cz_arena_allocate(arena, 1, sizeof *view);
@@ -167,6 +177,7 @@ CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena) {
     if (missing)
         return NULL;
     derive_constants(dynamics);
+    derive_tilts(dynamics);
     if (!create_blocks(dynamics, arena))
         return NULL;
     memcpy(dynamics->velocity, lanes->velocity, CZ_N_DOF * stride * sizeof(double));

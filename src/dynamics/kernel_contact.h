@@ -25,6 +25,7 @@ static void contact_geometry(CzDynamics *d, const Carrier *a, const Carrier *b,
     const double *restrict z_b = cz_row(parameter, d->stride, rows->z_b);
     const double *restrict gap = cz_row(parameter, d->stride, rows->gap);
     const double *restrict rise = cz_row(parameter, d->stride, rows->rise);
+    const double *restrict tilts = C(TILTS);
     const Carrier ca = *a, cb = *b;
     double *restrict closure = S(CLOSURE), *restrict rate = S(RATE);
     double *restrict slip = S(SLIP), *restrict slip_rate = S(SLIP_RATE);
@@ -38,10 +39,11 @@ static void contact_geometry(CzDynamics *d, const Carrier *a, const Carrier *b,
         const double bx = x_b[i] * cb.cosine[i] - z_b[i] * cb.sine[i];
         const double bz = x_b[i] * cb.sine[i] + z_b[i] * cb.cosine[i];
         const double dx = gap[i] + (cb.x[i] - ca.x[i]) + (bx - x_b[i]) - (ax - x_a[i]);
-        const double dz = rise[i] + (cb.z[i] - ca.z[i]) + (bz - z_b[i]) - (az - z_a[i]);
+        const double dz =
+            tilts[i] * (rise[i] + (cb.z[i] - ca.z[i]) + (bz - z_b[i]) - (az - z_a[i]));
 
         /* Mean normal. */
-        const double tilt = 0.5 * (ca.pitch[i] + cb.pitch[i]);
+        const double tilt = 0.5 * tilts[i] * (ca.pitch[i] + cb.pitch[i]);
         const double nx = 1.0 / sqrt(1.0 + tilt * tilt);
         const double nz = tilt * nx;
 

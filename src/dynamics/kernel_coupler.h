@@ -76,6 +76,7 @@ static void coupler_geometry(CzDynamics *d, const Carrier *a, const Carrier *b) 
     const double *restrict x_b = P(PIVOT_X_B), *restrict z_b = P(PIVOT_Z_B);
     const double *restrict distance = P(PIVOT_DISTANCE), *restrict rise = P(PIVOT_RISE);
     const double *restrict free_length = P(COUPLER_LENGTH);
+    const double *restrict tilts = C(TILTS);
     const Carrier ca = *a, cb = *b;
     double *restrict closure = S(CLOSURE), *restrict rate = S(RATE), *restrict turn = S(SLIP_RATE);
     double *restrict direction_x = S(NORMAL_X), *restrict direction_z = S(NORMAL_Z),
@@ -88,9 +89,10 @@ static void coupler_geometry(CzDynamics *d, const Carrier *a, const Carrier *b) 
         const double bx = x_b[i] * cb.cosine[i] - z_b[i] * cb.sine[i];
         const double bz = x_b[i] * cb.sine[i] + z_b[i] * cb.cosine[i];
         const double dx = distance[i] + (cb.x[i] - ca.x[i]) + (bx - x_b[i]) - (ax - x_a[i]);
-        const double dz = rise[i] + (cb.z[i] - ca.z[i]) + (bz - z_b[i]) - (az - z_a[i]);
+        const double dz =
+            tilts[i] * (rise[i] + (cb.z[i] - ca.z[i]) + (bz - z_b[i]) - (az - z_a[i]));
         const double vx = (cb.vx[i] - bz * cb.turn[i]) - (ca.vx[i] - az * ca.turn[i]);
-        const double vz = (cb.vz[i] + bx * cb.turn[i]) - (ca.vz[i] + ax * ca.turn[i]);
+        const double vz = tilts[i] * ((cb.vz[i] + bx * cb.turn[i]) - (ca.vz[i] + ax * ca.turn[i]));
         const double l = sqrt(dx * dx + dz * dz);
         const double nx = dx / l, nz = dz / l;
         closure[i] = free_length[i] - l;
@@ -205,9 +207,10 @@ static void coupler_forces(CzDynamics *d) {
     const double *restrict moment_a = S(SPRING_UP_A), *restrict moment_b = S(SPRING_UP_B);
     double *restrict fx = S(CURVE_VALUE), *restrict fz = S(CURVE_SLOPE),
                      *restrict total = S(INTERFACE_FORCE);
+    const double *restrict tilts = C(TILTS);
     double *restrict kept = S(COUPLER_FORCE), *restrict power = POWER(COUPLER);
     CZ_LANES (i, n) { /* on side B */
-        const double transverse = (moment_a[i] + moment_b[i]) / length[i];
+        const double transverse = tilts[i] * (moment_a[i] + moment_b[i]) / length[i];
         fx[i] = force[i] * nx[i] + transverse * nz[i];
         fz[i] = force[i] * nz[i] - transverse * nx[i];
         total[i] += fx[i];

@@ -1,7 +1,9 @@
 /* When a run ends: by rule, after its duration, or because it failed.
  *
  * By rule: no neighbouring cars close in faster than CLOSING_SPEED, no plastic element has flowed,
- * every wheel is on the rail, and all of that for one body pitch period.
+ * every wheel is on the rail, and all of that for one body pitch period. A brief run also ends when
+ * nothing has flowed for that long and no cars can meet again at more than MEETING_SHARE of the
+ * first closing speed.
  */
 #include "simulate/run.h"
 
@@ -9,7 +11,7 @@
 #include <stdio.h>
 
 #define CLOSING_SPEED 0.1      /* [m/s] */
-#define MEETING_SPEED 1.0      /* [m/s] (ours) */
+#define MEETING_SHARE 0.4      /* a sixth of the first impact's energy (ours) */
 #define FLOW 1e-6              /* growth of the plastic strokes that counts as flow [m] (ours) */
 #define LARGEST_IMBALANCE 1e-2 /* of the initial energy */
 #define LARGEST_RESIDUAL 1e-6  /* closure that a chain may leave unbalanced [m] (ours) */
@@ -172,8 +174,8 @@ static void look_at(CzBatch *batch, int design) {
     progress->plastic = strokes;
     const bool off = wheels_are_off(batch, design);
     const bool quiet = !off && !flows && !closes_in(batch, design);
-    const bool settled =
-        batch->brief && !off && !flows && meeting_speed(batch, design) <= MEETING_SPEED;
+    const bool settled = batch->brief && !off && !flows &&
+                         meeting_speed(batch, design) <= MEETING_SHARE * batch->closing_speed;
     progress->quiet_since = holds_since(quiet, progress->quiet_since, batch->time);
     progress->settled_since = holds_since(settled, progress->settled_since, batch->time);
 

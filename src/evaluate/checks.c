@@ -12,12 +12,16 @@ const char *cz_verdict_text(CzVerdict verdict) {
     return texts[verdict];
 }
 
+/* Margin of a broken yes or no. It is a step, which no search can follow; the continuous checks
+ * beside it show the way, so it says that it is broken and no more. */
+static const double broken_flag_margin = -0.01;
+
 double cz_margin(double value, double limit, bool is_minimum, double scale) {
     if (isnan(value))
         return NAN;
     const double room = is_minimum ? value - limit : limit - value;
     if (scale == CZ_FLAG_SCALE)
-        return room >= 0 ? 1 : -1;
+        return room >= 0 ? 1 : broken_flag_margin;
     return room / fmax(fabs(limit), scale);
 }
 

@@ -7,6 +7,8 @@
  */
 #include "evaluate/devices.h"
 
+#include <string.h>
+
 enum { MOST_DEVICES = 4 }; /* of one end: two tubes, an anti-climber, a side buffer's tube */
 
 /* One device as far as room, mass and likeness go. */
@@ -150,6 +152,59 @@ static double tube_force(const CzTube *tube, double rate) {
     for (int i = 0; i < tube->curve.n_point; i++)
         force = fmax(force, tube->curve.y[i]);
     return tube->count * force * (1 + tube->rate_factor * rate);
+}
+
+static double last_stage_force(const CzStage *stages, int n_stages) {
+    return n_stages > 0 ? stages[n_stages - 1].force : 0;
+}
+
+static double anti_climber_force(const CzAntiClimber *climber, double rate) {
+    const CzTube like = {.given = climber->given,
+                         .count = climber->count,
+                         .n_stages = climber->n_stages,
+                         .curve = climber->curve,
+                         .trigger = climber->trigger,
+                         .rate_factor = climber->rate_factor};
+    CzTube tube = like;
+    memcpy(tube.stages, climber->stages, sizeof tube.stages);
+    return tube_force(&tube, rate) * (1 + climber->speed_factor * rate / climber->speed_reference);
+}
+
+static double coupler_force(const CzCoupler *coupler, double rate) {
+    const double tubes =
+        fmax(tube_force(&coupler->tube, rate), tube_force(&coupler->second_tube, rate));
+    return tubes > 0 ? tubes : last_stage_force(coupler->buffer.stages, coupler->buffer.n_stages);
+}
+
+static double side_buffers_force(const CzSideBuffers *side, double rate) {
+    const double tube = tube_force(&side->tube, rate);
+    const double buffer = last_stage_force(side->buffer.stages, side->buffer.n_stages);
+    return side->count * (tube > 0 ? tube : buffer);
+}
+
+static double structure_force(const CzEnd *end) {
+    double force = 0;
+    for (int i = 0; i < end->n_stages; i++)
+        force = fmax(force, end->stages[i].force);
+    for (int i = 0; i < end->curve.n_point; i++)
+        force = fmax(force, end->curve.y[i]);
+    return force;
+}
+
+double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate) {
+    switch (kind) {
+    case CZ_ELEMENT_COUPLER:
+        return coupler_force(&end->coupler, rate);
+    case CZ_ELEMENT_ANTI_CLIMBER:
+        return anti_climber_force(&end->anti_climber, rate);
+    case CZ_ELEMENT_END:
+        return structure_force(end);
+    case CZ_ELEMENT_SIDE_BUFFERS:
+        return side_buffers_force(&end->side_buffers, rate);
+    case CZ_N_ELEMENT_KIND:
+        break;
+    }
+    return 0;
 }
 
 double cz_tube_over_shear_off(const CzEnd *end, double rate) {

@@ -2,6 +2,7 @@
 #ifndef CZ_EVALUATE_DEVICES_H
 #define CZ_EVALUATE_DEVICES_H
 
+#include "crushzone/simulate.h"
 #include "problem/input.h"
 
 /* Usable stroke of a device [m]; 0 when it is absent. */
@@ -11,6 +12,10 @@ double cz_anti_climber_stroke(const CzAntiClimber *anti_climber);
 
 /* Stroke of an end's crush zone outside the survival space [m]. */
 double cz_end_stroke(const CzEnd *end);
+
+/* Largest force of an element before anything bottoms out, all devices of an end together, plastic
+ * parts flowing at `rate` [m/s]; 0 when it is absent [N]. */
+double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate);
 
 /* Each of these is a share that may be at most 1, NaN when an end declares too little for it. */
 double cz_stroke_fit(const CzEnd *end);

@@ -189,6 +189,10 @@ const CzProblem *cz_evaluator_problem(const CzEvaluator *evaluator) {
     return evaluator->problem;
 }
 
+bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint) {
+    return evaluator->list.check[evaluator->constraint_check[constraint]].scale == CZ_FLAG_SCALE;
+}
+
 bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator) {
     return evaluator->own_objective == NULL && evaluator->objective.kind == NULL;
 }
@@ -246,15 +250,13 @@ static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *ve
 }
 
 /* The smallest margin of all constraints, negative: what is maximised when nothing is minimised.
- * A yes or no has no margin to enlarge, so only a broken one counts. */
+ * A yes or no has no margin to enlarge. */
 static double margin_objective(const CzEvaluator *evaluator, const CzEvaluation *evaluation) {
     double smallest = INFINITY;
     for (int j = 0; j < evaluation->n_constraint; j++) {
         const CzCheck *check = &evaluator->list.check[evaluator->constraint_check[j]];
-        const double margin = evaluation->constraint_check[j].margin;
-        if (check->scale == CZ_FLAG_SCALE && margin > 0)
-            continue;
-        smallest = fmin(smallest, margin); /* fmin passes over NaN */
+        if (check->scale != CZ_FLAG_SCALE) /* fmin passes over NaN */
+            smallest = fmin(smallest, evaluation->constraint_check[j].margin);
     }
     return isinf(smallest) ? NAN : -smallest;
 }

@@ -7,6 +7,9 @@
 
 const CzProblem *cz_evaluator_problem(const CzEvaluator *evaluator);
 
+/* Whether a constraint is a mere yes or no. */
+bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint);
+
 /* Whether the objective is the smallest margin, so the largest constraint up to a constant. */
 bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator);
 

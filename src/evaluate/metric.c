@@ -50,6 +50,35 @@ static double inner_gap_used(const CzPlace *place) {
     return room > 0 || isnan(room) ? closure / room : INFINITY;
 }
 
+/* Plastic energy of the end structure behind an anti-climber [J]. */
+static double energy_behind(const CzPlace *place) {
+    for (int i = 0; i < place->interface->n_element; i++) {
+        const CzElementResult *element = &place->interface->element[i];
+        if (element->kind == CZ_ELEMENT_END && element->vehicle == place->element->vehicle)
+            return element->energy;
+    }
+    return 0;
+}
+
+/* What bottomed out used its stroke up and hardly more, however hard it was hit. So beyond the last
+ * point two things stand for the stroke that was missing: the rise of the force F over the largest
+ * plastic one P, up to a tenth of the stroke, and behind an anti-climber the energy E that the end
+ * structure had to take in its place:
+ *
+ *   demand = used + 0.1 (1 - P / F) + E / (P stroke)
+ *
+ * It does not jump at the last point. */
+static double stroke_demand(const CzPlace *place) {
+    const CzElementResult *element = place->element;
+    const double plastic = cz_plastic_force(place->end, element->kind, place->rate);
+    if (!element->bottomed_out || !(element->peak_force > plastic))
+        return element->stroke_used;
+    double demand = element->stroke_used + 0.1 * (1 - plastic / element->peak_force);
+    if (element->kind == CZ_ELEMENT_ANTI_CLIMBER && element->stroke > 0 && plastic > 0)
+        demand += energy_behind(place) / (plastic * element->stroke);
+    return demand;
+}
+
 static double shear_load(const CzPlace *place) {
     const CzCoupler *coupler = &place->end->coupler;
     if (place->element->kind != CZ_ELEMENT_COUPLER || !coupler->shear_off.given)

@@ -42,8 +42,8 @@ static CzStatus evaluate_designs(void *data, int n_point, const double *x, doubl
     return status;
 }
 
-/* Fills a function from an evaluator; `numbers` is (4 x n_variable). */
-static CzFunction function_of(CzEvaluator *evaluator, double *numbers) {
+/* Fills a function from an evaluator; `numbers` is (4 x n_variable), `flags` (n_constraint). */
+static CzFunction function_of(CzEvaluator *evaluator, double *numbers, bool *flags) {
     const int n = cz_evaluator_n_variable(evaluator);
     for (int i = 0; i < n; i++) {
         const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
@@ -52,12 +52,15 @@ static CzFunction function_of(CzEvaluator *evaluator, double *numbers) {
         numbers[2 * n + i] = info->start;
         numbers[3 * n + i] = info->step;
     }
+    for (int j = 0; j < cz_evaluator_n_constraint(evaluator); j++)
+        flags[j] = cz_evaluator_is_flag(evaluator, j);
     return (CzFunction){.n_variable = n,
                         .n_constraint = cz_evaluator_n_constraint(evaluator),
                         .min = numbers,
                         .max = numbers + n,
                         .start = numbers + 2 * n,
                         .step = numbers + 3 * n,
+                        .is_flag = flags,
                         .is_minimax = cz_evaluator_maximises_margin(evaluator),
                         .evaluate = evaluate_designs,
                         .data = evaluator};
@@ -172,12 +175,13 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
     CZ_TRY(settle_options(evaluator, given, &options, error));
     const double began = now_s();
     double *numbers = calloc(4 * (size_t)cz_evaluator_n_variable(evaluator), sizeof *numbers);
+    bool *flags = calloc((size_t)cz_evaluator_n_constraint(evaluator) + 1, sizeof *flags);
     CzOutcome *made = calloc(1, sizeof *made);
     CzStatus status = CZ_OK;
-    if (numbers == NULL || made == NULL) {
+    if (numbers == NULL || flags == NULL || made == NULL) {
         status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the search");
     } else {
-        const CzFunction function = function_of(evaluator, numbers);
+        const CzFunction function = function_of(evaluator, numbers, flags);
         CzSearch search;
         cz_search_init(&search, &function, &options);
         status = lead(&search, &options, error);
@@ -191,6 +195,7 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
         cz_search_free(&search);
     }
     free(numbers);
+    free(flags);
     if (status != CZ_OK) {
         cz_outcome_free(made);
         return status;

@@ -100,9 +100,8 @@ bool cz_search_is_better(const CzSearch *search, long record, long other) {
     if (other < 0 || record < 0)
         return record >= 0;
     const CzRecord *a = &search->record[record], *b = &search->record[other];
-    const double violation_a = fmax(a->violation, 0), violation_b = fmax(b->violation, 0);
-    if (violation_a != violation_b)
-        return violation_a < violation_b;
+    if (a->penalty != b->penalty)
+        return a->penalty < b->penalty;
     return a->objective < b->objective; /* false for NaN */
 }
 
@@ -135,25 +134,24 @@ static bool is_gain(const CzSearch *search, long record) {
     if (search->best < 0)
         return true;
     const CzRecord *a = &search->record[record], *b = &search->record[search->best];
-    if (b->violation > 0)
-        return a->violation < 0.99 * b->violation;
+    if (b->penalty > 0)
+        return a->penalty < 0.99 * b->penalty;
     return a->objective < b->objective - 1e-3 * fabs(b->objective);
 }
 
-static void add_record(CzSearch *search, const char *phase, const double *x, double objective,
-                       double violation) {
+static void add_record(CzSearch *search, const double *x, const CzRecord *given) {
     const int n = search->function->n_variable;
     double *kept = search->x + search->n_record * n;
     memcpy(kept, x, (size_t)n * sizeof *x);
     const long record = search->n_record++;
     CzRecord *written = &search->record[record];
-    *written = (CzRecord){.objective = objective, .violation = violation, .phase = phase};
+    *written = *given;
     written->on_grid = true;
     for (int i = 0; i < n; i++) {
         const double step = search->function->step[i];
         written->on_grid &= !(step > 0) || round(x[i] / step) * step == x[i];
     }
-    if (isnan(objective))
+    if (isnan(written->objective))
         return;
     if (cz_search_is_better(search, record, search->best)) {
         if (is_gain(search, record))
@@ -201,8 +199,12 @@ static void watch_failures(CzSearch *search) {
 /* ---- evaluating
  * ---------------------------------------------------------------------------------------- */
 
+/* From here on a violation counts by its logarithm: "nothing" broken a hundredfold must not hide a
+ * strength broken by a half. Slopes stay continuous and the order stays the same. */
+static const double knee = 0.1;
+
 static double compressed(double constraint) {
-    return constraint <= 1 ? constraint : 1 + log(constraint);
+    return constraint <= knee ? constraint : knee * (1 + log(constraint / knee));
 }
 
 /* Distance of a design from the best one, in scaled variables; 0 when there is no best one. */
@@ -223,13 +225,16 @@ static double distance_from_best(const CzSearch *search, const double *x) {
 static void take_answer(CzSearch *search, const char *phase, const double *x, double *objective,
                         double *constraint) {
     const int m = search->function->n_constraint;
+    CzRecord record = {.objective = *objective, .phase = phase};
     bool failed = !isfinite(*objective);
-    double violation = 0;
     for (int j = 0; j < m; j++) {
         failed |= isnan(constraint[j]);
-        violation = fmax(violation, constraint[j]);
+        record.violation = fmax(record.violation, constraint[j]);
+        record.penalty += compressed(fmax(constraint[j], 0));
     }
-    add_record(search, phase, x, failed ? NAN : *objective, failed ? INFINITY : violation);
+    if (failed)
+        record = (CzRecord){NAN, INFINITY, INFINITY, phase, false};
+    add_record(search, x, &record);
     if (failed) {
         const double ramp = 1 + distance_from_best(search, x);
         const double top = isfinite(search->worst_objective) ? search->worst_objective : 1;
@@ -240,7 +245,8 @@ static void take_answer(CzSearch *search, const char *phase, const double *x, do
     }
     search->worst_objective = fmax(search->worst_objective, *objective);
     for (int j = 0; j < m; j++) {
-        constraint[j] = compressed(constraint[j]);
+        const bool is_flag = search->function->is_flag != NULL && search->function->is_flag[j];
+        constraint[j] = is_flag ? -1 : compressed(constraint[j]);
         search->worst_constraint = fmax(search->worst_constraint, constraint[j]);
     }
 }

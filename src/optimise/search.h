@@ -17,7 +17,9 @@ typedef struct CzFunction {
     int n_variable, n_constraint;
     const double *min, *max, *start; /* in the variables' units (n_variable) */
     const double *step;              /* catalogue steps, 0 for none (n_variable) */
-    bool is_minimax;                 /* the objective is the largest constraint, up to a constant */
+    const bool *is_flag; /* constraints that are a mere yes or no (n_constraint), NULL for none:
+                            they count in what is kept, but no algorithm is shown such a step */
+    bool is_minimax;     /* the objective is the largest constraint, up to a constant */
 
     /* Answers n_point designs: x is (n_point x n_variable), objective (n_point) with NaN for a
      * failed design, constraint (n_point x n_constraint), kept when at most 0. The answer of a
@@ -31,6 +33,8 @@ typedef struct CzFunction {
 typedef struct CzRecord {
     double objective; /* NaN when failed */
     double violation; /* largest positive constraint; infinite when failed */
+    double penalty;   /* sum of the compressed positive constraints: what infeasible designs are
+                         ranked by */
     const char *phase;
     bool on_grid; /* every variable lies on its catalogue step */
 } CzRecord;
@@ -72,9 +76,9 @@ bool cz_search_is_stopped(CzSearch *search);
 void cz_search_resume(CzSearch *search);
 
 /* Evaluates n designs, x in the variables' units (n x n_variable), in order. objective (n) and
- * constraint (n x n_constraint) get finite numbers; constraints above 1 are compressed to
- * 1 + log(constraint). Returns false when the search ended before all were evaluated; the outputs
- * are then not set. */
+ * constraint (n x n_constraint) get finite numbers; constraints far above 0 are compressed
+ * logarithmically, flags are -1. Returns false when the search ended before all were evaluated; the
+ * outputs are then not set. */
 bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double *x,
                         double *objective, double *constraint);
 
@@ -85,7 +89,7 @@ void cz_search_scale(const CzSearch *search, const double *x, double *u);
 /* Variables of a record (n_variable). */
 const double *cz_search_x(const CzSearch *search, long record);
 
-/* Whether a record is better: kept constraints first, then the objective; else the violation. */
+/* Whether a record is better: kept constraints first, then the objective; else the penalty. */
 bool cz_search_is_better(const CzSearch *search, long record, long other);
 
 /* Record with exactly these variables, -1 when there is none. */

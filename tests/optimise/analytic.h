@@ -52,10 +52,11 @@ static inline double three_planes(const double *x, double *c) {
     return fmax(c[0], fmax(c[1], c[2]));
 }
 
-/* Nothing can be right of 6 and left of 4: the least violation is 1, at 5. */
+/* Nothing can be right of 6 and left of 4, and the second counts less: the least penalty is at 6.
+ */
 static inline double torn(const double *x, double *c) {
     c[0] = 6 - x[0];
-    c[1] = x[0] - 4;
+    c[1] = (x[0] - 4) / 10;
     return x[1];
 }
 
@@ -96,7 +97,7 @@ static const Analytic analytic_hs43 = {
 static const Analytic analytic_planes = {
     "three planes", 2, 3, {-5, -5}, {7, 7}, {6, -4}, {0}, three_planes, true, {1, 2}, -0.5};
 static const Analytic analytic_torn = {"torn", 2,    2,     {0, 0}, {10, 1}, {9, 0.5},
-                                       {0},    torn, false, {5, 0}, 0};
+                                       {0},    torn, false, {6, 0}, 0};
 static const Analytic analytic_failing = {"failing", 2,       2,     {0, 0}, {3, 3}, {0.5, 1.5},
                                           {0},       failing, false, {1, 1}, 1};
 static const Analytic analytic_always_failing = {

@@ -1,0 +1,154 @@
+/* What decides climbing, checked by hand: the force at which a coupler folds, and how far a
+ * pitching car lifts its wheels. */
+#include "physics/motion.h"
+
+/* ---- a coupler is a strut ---- */
+
+#define CLOSING_SPEED 0.01 /* slow against the bounce of the cars [m/s] */
+
+/* Height of pivot B over pivot A. */
+static double rise_of_pivots(const Motion *motion) {
+    const double a =
+        *position(motion, CZ_DOF_BODY_Z, 0) +
+        *position(motion, CZ_DOF_BODY_PITCH, 0) * *parameter(motion, CZ_P_PIVOT_X_A, 0);
+    const double b =
+        *position(motion, CZ_DOF_BODY_Z, 1) +
+        *position(motion, CZ_DOF_BODY_PITCH, 1) * *parameter(motion, CZ_P_PIVOT_X_B, 0);
+    return *parameter(motion, CZ_P_PIVOT_RISE, 0) + b - a;
+}
+
+/* Pushes one car slowly towards the other, whose places along the track are given, while the tubes
+ * hold a constant force; returns the largest rise of the pivots, or 0.1 m once it is that large. */
+static double fold(const char *hinge, const char *length, double share_of_critical) {
+    Motion facts = motion_open("tests/physics/cases/fold.yaml", WITH(hinge, length));
+    const double critical = cz_model_interface_facts(facts.collision.model, 0).critical_force;
+    motion_close(&facts);
+    char tubes[96];
+    snprintf(tubes, sizeof tubes, "parts.strut.tube.stages[0].force_N=%.0f",
+             share_of_critical * critical);
+    Motion motion = motion_open("tests/physics/cases/fold.yaml", WITH(hinge, length, tubes));
+    motion_start(&motion);
+    double largest = 0.0;
+    for (int i = 1; i <= 40000 && largest < 0.1; i++) {
+        motion_advance(&motion);
+        *position(&motion, CZ_DOF_BODY_X, 0) = CLOSING_SPEED * i * motion.step;
+        *velocity(&motion, CZ_DOF_BODY_X, 0) = CLOSING_SPEED;
+        *position(&motion, CZ_DOF_BODY_X, 1) = 0.0;
+        *velocity(&motion, CZ_DOF_BODY_X, 1) = 0.0;
+        motion_evaluate(&motion);
+        largest = fmax(largest, fabs(rise_of_pivots(&motion)));
+    }
+    motion_close(&motion);
+    return largest;
+}
+
+/* F_crit = k_end l / 2 + 2 K_theta / l, whatever hinges and length. At nine tenths of it an offset
+ * of 1 mm grows tenfold, and up to twice that because the load comes at once; a tenth above it, it
+ * runs away within four seconds. */
+static void a_coupler_folds_above_its_critical_force_and_not_below(void **state) {
+    (void)state;
+    static const char *const struts[][2] = {
+        {"parts.strut.hinge.stiffness_kNm_rad=600", "parts.strut.length_m=1.4"},
+        {"parts.strut.hinge.stiffness_kNm_rad=0", "parts.strut.length_m=1.4"},
+        {"parts.strut.hinge.stiffness_kNm_rad=1000", "parts.strut.length_m=1.1"},
+    };
+    for (size_t i = 0; i < sizeof struts / sizeof struts[0]; i++) {
+        const double below = fold(struts[i][0], struts[i][1], 0.9);
+        const double above = fold(struts[i][0], struts[i][1], 1.1);
+        if (getenv("CZ_TOL_SCALE") != NULL)
+            print_message("%g m below, %g m above\n", below, above);
+        assert_true(below < 0.03);
+        assert_true(above >= 0.1);
+    }
+}
+
+static void the_critical_force_is_the_one_of_the_formula(void **state) {
+    (void)state;
+    Motion motion = motion_open("tests/physics/cases/fold.yaml", AS_WRITTEN);
+    const CzInterfaceFacts facts = cz_model_interface_facts(motion.collision.model, 0);
+    const double k = 1.0 / (1.0 / 0.86e6 + 1.0 / (2.0 * 2.4e6)); /* of a bogie */
+    const double pivot = 11.4 - 1.4, half = 15.7 / 2.0;
+    const double k_end = 2.0 * k / (1.0 + (pivot / half) * (pivot / half));
+    assert_near(facts.strut_length, 2.8, 1e-6, 0.0); /* with its rise of 1 mm */
+    assert_near(facts.critical_force, k_end * 2.8 / 2.0 + 2.0 * 600e3 / 2.8, 1e-6, 0.0);
+    motion_close(&motion);
+}
+
+/* ---- stops lift wheels ---- */
+
+/* Turns the body of the first car nose-up, slowly and about its centre, and returns the lift of the
+ * front wheelset at the end. */
+static double lift_at(Motion *motion, double pitch) {
+    motion_start(motion);
+    const int n = 40000;
+    for (int i = 1; i <= n; i++) {
+        const double share = fmin(1.0, 1.25 * i / n);
+        motion_advance(motion);
+        *position(motion, CZ_DOF_BODY_X, 0) = *velocity(motion, CZ_DOF_BODY_X, 0) = 0.0;
+        *position(motion, CZ_DOF_BODY_Z, 0) = *velocity(motion, CZ_DOF_BODY_Z, 0) = 0.0;
+        *position(motion, CZ_DOF_BODY_PITCH, 0) = share * pitch;
+        *velocity(motion, CZ_DOF_BODY_PITCH, 0) =
+            share < 1.0 ? 1.25 * pitch / (n * motion->step) : 0.0;
+        motion_evaluate(motion);
+    }
+    return *position(motion, CZ_DOF_WHEEL_Z_0 + 9, 0) - *parameter(motion, CZ_P_INDENTATION_3, 0);
+}
+
+/* Stretch of a suspension that hangs in its lift stop with a weight below it: the stop carries the
+ * weight and what the spring still pushes. */
+static double hanging(double weight, double preload, double spring, double stop, double gap) {
+    return (weight + preload + stop * gap) / (stop + spring);
+}
+
+/* By hand: l_c times pitch, less both gaps and what the stops give way. */
+static void a_pitching_car_lifts_its_wheels_by_its_stops(void **state) {
+    (void)state;
+    static const double pitches[] = {0.010, 0.012, 0.015};
+    for (size_t i = 0; i < sizeof pitches / sizeof pitches[0]; i++) {
+        Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
+        const double lift = lift_at(&motion, pitches[i]);
+        const double wheelset = 9.80665 * mass(&motion, CZ_DOF_WHEEL_Z_0, 0);
+        const double bogie = 9.80665 * mass(&motion, CZ_DOF_BOGIE_Z_REAR, 0);
+        const double secondary =
+            hanging(bogie + 2.0 * wheelset, *parameter(&motion, CZ_P_SECONDARY_PRELOAD_FRONT, 0),
+                    *parameter(&motion, CZ_P_SECONDARY_STIFFNESS, 0),
+                    *parameter(&motion, CZ_P_SECONDARY_LIFT_STIFFNESS, 0), 0.030);
+        const double primary = hanging(wheelset, *parameter(&motion, CZ_P_PRIMARY_PRELOAD_3, 0),
+                                       *parameter(&motion, CZ_P_PRIMARY_STIFFNESS, 0),
+                                       *parameter(&motion, CZ_P_PRIMARY_LIFT_STIFFNESS, 0), 0.025);
+        const double way = 7.85 * pitches[i];
+        if (getenv("CZ_TOL_SCALE") != NULL)
+            print_message("%g mm at %g mrad: l_c pitch %g mm, less gaps %g mm\n", 1e3 * lift,
+                          1e3 * pitches[i], 1e3 * way, 1e3 * (way - 0.055));
+        assert_near(lift, way - secondary - primary, 0.02, 0.0);
+        assert_true(lift < way - 0.055 && lift > way - 0.055 - 0.015);
+        motion_close(&motion);
+    }
+}
+
+static void gaps_that_are_not_used_up_lift_nothing(void **state) {
+    (void)state;
+    Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
+    assert_true(lift_at(&motion, 0.006) <= 0.0);
+    motion_close(&motion);
+}
+
+/* Without lift stops the bogie stays on the rail: the spring just lets go. */
+static void without_stops_wheels_stay_down(void **state) {
+    (void)state;
+    Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
+    *parameter(&motion, CZ_P_SECONDARY_LIFT_GAP, 0) = 1e30;
+    assert_true(lift_at(&motion, 0.015) <= 0.0);
+    motion_close(&motion);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_critical_force_is_the_one_of_the_formula),
+        cmocka_unit_test(a_coupler_folds_above_its_critical_force_and_not_below),
+        cmocka_unit_test(a_pitching_car_lifts_its_wheels_by_its_stops),
+        cmocka_unit_test(gaps_that_are_not_used_up_lift_nothing),
+        cmocka_unit_test(without_stops_wheels_stay_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -251,7 +251,7 @@ static double *rear_closing_speed(const Collision *collision) {
     double *closing = calloc((size_t)n_sample(collision), sizeof *closing);
     assert_non_null(closing);
     for (int car = 1; car <= 7; car++) {
-        char name[2][16];
+        char name[2][24];
         snprintf(name[0], sizeof name[0], "v_A%d_m_s", car);
         snprintf(name[1], sizeof name[1], "v_B%d_m_s", car + 1);
         const double *a = channel(collision, name[0]), *b = channel(collision, name[1]);

@@ -70,7 +70,7 @@ static void units_have_their_si_values(void **state) {
         {CZ_DIMENSION_TORSION_DAMPING, "kNms_rad", 1e3},
         {CZ_DIMENSION_MOMENT, "kNm", 1e3},
         {CZ_DIMENSION_INERTIA, "t_m2", 1e3},
-        {CZ_DIMENSION_ANGLE, "deg", acos(-1) / 180},
+        {CZ_DIMENSION_ANGLE, "deg", 3.14159265358979323846 / 180},
         {CZ_DIMENSION_MASS_PER_LENGTH, "kg_m", 1},
         {CZ_DIMENSION_RATE_FACTOR, "s_m", 1},
     };

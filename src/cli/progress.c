@@ -54,7 +54,8 @@ static void describe(const CzProgress *progress, const CzProgressLine *line, dou
     const long eta = left > 0 ? lround(fmin(left, 359999)) : 0;
     group_thousands(progress->best_objective, number);
     if (progress->feasible)
-        snprintf(best, sizeof best, "best %s %s feasible", number, line->unit);
+        snprintf(best, sizeof best, "best %s%s%s feasible", number,
+                 line->unit[0] != '\0' ? " " : "", line->unit);
     else if (isfinite(progress->best_violation))
         snprintf(best, sizeof best, "best misses by %.3g %%", 100 * progress->best_violation);
     else

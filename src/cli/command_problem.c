@@ -7,17 +7,40 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A coupler that pushes harder than its strut can stand folds before its tube has done its work. */
-static void warn_of_folding(const CzArguments *arguments, const char *scenario,
-                            const CzModel *model) {
+/* Interfaces that have been told of, by name; several scenarios have the same ones. */
+typedef struct Told {
+    char names[8192]; /* each between line ends */
+} Told;
+
+static bool is_told(Told *told, const char *name) {
+    char line[64];
+    snprintf(line, sizeof line, "\n%s\n", name);
+    if (strstr(told->names, line) != NULL)
+        return true;
+    const size_t used = strlen(told->names);
+    snprintf(told->names + used, sizeof told->names - used, "%s%s\n", used == 0 ? "\n" : "", name);
+    return false;
+}
+
+/* Prints the force at which each coupler strut folds. A coupler that pushes harder folds before its
+ * tube has done its work. */
+static void tell_folding(const CzArguments *arguments, const CzModel *model, Told *told) {
     for (int i = 0; i < cz_model_n_interface(model); i++) {
         const CzInterfaceFacts facts = cz_model_interface_facts(model, i);
+        const char *name = cz_model_interface_name(model, i);
+        if (isnan(facts.critical_force) || is_told(told, name))
+            continue;
+        if (arguments->text[CZ_OPTION_JSON] == NULL) {
+            printf("  interface %s: F_crit %.0f kN", name, 1e-3 * facts.critical_force);
+            if (!isnan(facts.tube_force))
+                printf(", tubes up to %.0f kN", 1e-3 * facts.tube_force);
+            putchar('\n');
+        }
         if (facts.tube_force > facts.critical_force)
             cz_tell(arguments,
-                    "warning: %s, interface %s: the tubes push with up to %.0f kN, more than the "
-                    "F_crit = %.0f kN at which the coupler strut folds",
-                    scenario, cz_model_interface_name(model, i), 1e-3 * facts.tube_force,
-                    1e-3 * facts.critical_force);
+                    "warning: interface %s: the tubes push with up to %.0f kN, more than the "
+                    "F_crit of %.0f kN at which the coupler strut folds",
+                    name, 1e-3 * facts.tube_force, 1e-3 * facts.critical_force);
     }
 }
 
@@ -29,7 +52,19 @@ static int build_models(const CzSession *session, int *n_vehicle) {
         if (cz_model_build(session->problem, i, &model, &error) != CZ_OK)
             return cz_session_fail(session, &error);
         *n_vehicle = cz_model_n_vehicle(model);
-        warn_of_folding(session->arguments, cz_problem_scenario_name(session->problem, i), model);
+        cz_model_free(model);
+    }
+    return 0;
+}
+
+static int tell_models(const CzSession *session) {
+    Told told = {""};
+    for (int i = 0; i < cz_problem_n_scenario(session->problem); i++) {
+        CzModel *model = NULL;
+        CzError error = {0};
+        if (cz_model_build(session->problem, i, &model, &error) != CZ_OK)
+            return cz_session_fail(session, &error);
+        tell_folding(session->arguments, model, &told);
         cz_model_free(model);
     }
     return 0;
@@ -50,6 +85,8 @@ static int validate_file(const CzArguments *arguments, const char *file) {
         printf("%s: ok, %d scenarios, %d vehicles, %d design variables\n", file,
                cz_problem_n_scenario(session.problem), n_vehicle,
                cz_evaluator_n_variable(session.evaluator));
+    if (code == 0)
+        code = tell_models(&session);
     cz_session_end(&session);
     return code;
 }
@@ -71,14 +108,15 @@ static void put_number(double value, double unit, int decimals) {
 }
 
 static void show_vehicles(const CzModel *model) {
-    printf("#\n# %-9s %9s %9s %9s %9s %9s %9s %9s %9s\n", "vehicle", "mass t", "axle 1 kN",
-           "axle 2 kN", "axle 3 kN", "axle 4 kN", "second mm", "bounce Hz", "pitch Hz");
+    printf("#\n# %-9s %9s %9s %9s %9s %9s %9s %9s %9s %9s\n", "vehicle", "mass t", "axle 1 kN",
+           "axle 2 kN", "axle 3 kN", "axle 4 kN", "prim. mm", "sec. mm", "bounce Hz", "pitch Hz");
     for (int i = 0; i < cz_model_n_vehicle(model); i++) {
         const CzVehicleFacts facts = cz_model_vehicle_facts(model, i);
         printf("# %-9s", cz_model_vehicle_name(model, i));
         put_number(facts.mass, 1e3, 3);
         for (int axle = 0; axle < 4; axle++)
             put_number(facts.axle_load[axle], 1e3, 1);
+        put_number(facts.primary_deflection[0], 1e-3, 1);
         put_number(facts.secondary_deflection[0], 1e-3, 1);
         put_number(facts.bounce_frequency, 1, 3);
         put_number(facts.pitch_frequency, 1, 3);

@@ -3,9 +3,11 @@
 #include "cli/messages.h"
 #include "crushzone/report.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 int cz_command_schema(const CzArguments *arguments) {
     (void)arguments;
@@ -52,7 +54,16 @@ static int dispatch(const CzArguments *arguments) {
     return commands[arguments->command](arguments);
 }
 
+/* Takes the places of streams that came closed, so that no file gets one of them and what is
+ * printed ends up in it. Writing to such a place fails, as it should. */
+static void hold_closed_streams(void) {
+    for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; descriptor++)
+        if (fcntl(descriptor, F_GETFD) == -1)
+            (void)open("/dev/null", O_RDONLY); /* takes the lowest free place */
+}
+
 int main(int argc, char **argv) {
+    hold_closed_streams();
     /* A closed pipe and a full disk are errors of writing, not reasons to vanish. */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);

@@ -111,6 +111,7 @@ void cz_tell_warnings(const CzArguments *arguments, const CzProblem *problem) {
 void cz_tell(const CzArguments *arguments, const char *format, ...) {
     if (is_silent(arguments))
         return;
+    fflush(stdout); /* what was said first stands first */
     va_list values;
     va_start(values, format);
     vfprintf(stderr, format, values);

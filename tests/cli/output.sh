@@ -59,6 +59,12 @@ else
 fi
 closed() { { "$C" show two-trains.yaml 2>err.txt; echo $? >code.txt; } | true; [ "$(cat code.txt)" = 4 ] && says err.txt 'cannot be written'; }
 check "a closed pipe ends with 4 and a sentence" closed
+closed_stream() {
+    code=0
+    "$C" run two-trains.yaml -o shut >&- 2>err.txt || code=$?
+    [ $code = 4 ] && says err.txt 'standard output cannot be written' && json shut/summary.json format crushzone.summary
+}
+check "a standard output that is closed ends with 4, and no result file is spoilt" closed_stream
 small_disk() { (ulimit -f 8; "$C" run two-trains.yaml -o small >out.txt 2>err.txt); code=$?; [ $code = 4 ] && says err.txt 'cannot be written' && [ ! -e small ] && [ -z "$(ls -d small* 2>/dev/null)" ]; }
 check "a full disk leaves no half folder" small_disk
 finish

@@ -38,7 +38,7 @@ void cz_places_add(CzReader *reader, CzPlace place) {
         const int n = places->n_allocated > 0 ? 2 * places->n_allocated : 1024;
         CzPlace *larger = realloc(places->place, (size_t)n * sizeof *larger);
         if (larger == NULL) {
-            reader->mistakes.out_of_memory = true;
+            reader->arena.out_of_memory = true;
             return;
         }
         places->place = larger;

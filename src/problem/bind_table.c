@@ -58,10 +58,8 @@ static bool take_number(Curve *curve, const char *stem, const CzUnit *unit, CzDi
     char name[64];
     snprintf(name, sizeof name, "%s_%s", stem, unit->suffix);
     const CzNode *key_node = cz_node_text(&curve->reader->arena, name, value);
-    if (key_node == NULL) {
-        curve->reader->mistakes.out_of_memory = true;
+    if (key_node == NULL)
         return false;
-    }
     return cz_bind_number(curve->reader, &key, unit, key_node, value, curve->trail, number);
 }
 

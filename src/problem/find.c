@@ -95,7 +95,7 @@ static CzStatus find(const CzProblem *problem, CzProblem *trial, const char *pat
     const CzNode place = {.source = source, .line = 1, .column = 1};
     if (source != NULL && put_stand_ins(trial, problem, path, &place, &tree, &matches))
         cz_problem_bind(trial, &tree);
-    if (reader->mistakes.out_of_memory || reader->arena.out_of_memory)
+    if (reader->arena.out_of_memory)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
     const CzError *mistake = first_mistake(reader, &place);
     if (mistake != NULL) {

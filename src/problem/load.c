@@ -108,9 +108,7 @@ static void gather_own_parts(Loader *loader, const CzNode *parts) {
         }
         const CzNode *merged =
             cz_merge(&loader->reader->arena, first->node, NULL, entry->value, NULL, false);
-        if (merged == NULL)
-            loader->reader->mistakes.out_of_memory = true;
-        else
+        if (merged != NULL)
             *first = (CzPart){first->name, entry->key, merged};
     }
 }
@@ -213,11 +211,7 @@ static const CzNode *load_bases(Loader *loader, const CzNode *top, const char **
     if (extends == NULL)
         return top;
     base = cz_trains_name_vehicles(&reader->arena, base);
-    const CzNode *merged =
-        base != NULL ? cz_merge(&reader->arena, base, NULL, top, NULL, true) : NULL;
-    if (merged == NULL)
-        reader->mistakes.out_of_memory = true;
-    return merged;
+    return base != NULL ? cz_merge(&reader->arena, base, NULL, top, NULL, true) : NULL;
 }
 
 CzTree cz_load_tree(CzReader *reader, const CzNode *top) {

@@ -142,10 +142,8 @@ const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *n
     const CzTrail *use_trail = cz_entry_trail(use, trail);
     CzNode *rest = cz_node_without(&reader->arena, node, "use");
     CzTrail *part_trail = cz_reader_allocate(reader, 1, sizeof *part_trail);
-    if (rest == NULL || part_trail == NULL) {
-        reader->mistakes.out_of_memory = true;
+    if (rest == NULL || part_trail == NULL)
         return NULL;
-    }
     const char *name = cz_bind_text(reader, "use", use->value, use_trail);
     const CzPart *part = name != NULL ? find_part(reader, tree, use->value, use_trail) : NULL;
     const bool is_circle = part != NULL && is_on_trail(use_trail, name);
@@ -157,9 +155,5 @@ const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *n
     }
     *part_trail = (CzTrail){part->name, part->written, use->value, use_trail};
     const CzNode *base = cz_take_part(reader, tree, part->node, part_trail);
-    const CzNode *merged =
-        base != NULL ? cz_merge(&reader->arena, base, part_trail, rest, trail, false) : NULL;
-    if (merged == NULL)
-        reader->mistakes.out_of_memory = true;
-    return merged;
+    return base != NULL ? cz_merge(&reader->arena, base, part_trail, rest, trail, false) : NULL;
 }

@@ -53,10 +53,8 @@ static void add(CzMistakes *mistakes, CzError *error, int order, const CzTrail *
         return;
     }
     CzMistake *mistake = cz_arena_allocate(mistakes->arena, 1, sizeof *mistake);
-    if (mistake == NULL) {
-        mistakes->out_of_memory = true;
+    if (mistake == NULL)
         return;
-    }
     error->status = CZ_STATUS_INPUT;
     mistake->error = *error;
     mistake->order = order;
@@ -138,10 +136,8 @@ void cz_mistakes_finish(CzMistakes *mistakes) {
     if (mistakes->n_left_out == 0)
         return;
     CzMistake *rest = cz_arena_allocate(mistakes->arena, 1, sizeof *rest);
-    if (rest == NULL) {
-        mistakes->out_of_memory = true;
+    if (rest == NULL)
         return;
-    }
     rest->error = mistakes->mistake[mistakes->n_mistake - 1]->error;
     rest->error.line = rest->error.column = 0;
     rest->error.help[0] = '\0';

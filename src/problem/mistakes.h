@@ -20,7 +20,6 @@ typedef struct CzMistakes {
     int n_mistake;
     int n_left_out;
     CzMistake *last; /* the one added last; NULL when it was known before or left out */
-    bool out_of_memory;
 } CzMistakes;
 
 /* Adds a mistake at the place of a node. When the node came through a part, the sentence goes on to

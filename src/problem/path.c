@@ -446,8 +446,6 @@ bool cz_path_put(CzReader *reader, CzTree *tree, const char *path, const CzNode 
         has_memory = root != NULL;
         tree->root = has_memory ? root : tree->root;
     }
-    if (!has_memory)
-        reader->mistakes.out_of_memory = true;
     if (!walk.failed && has_memory && walk.n_found == 0)
         cz_mistake(&reader->mistakes, place, NULL, "'%s' names no place of this problem", path);
     return has_memory && !walk.failed && walk.n_found > 0;

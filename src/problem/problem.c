@@ -13,10 +13,7 @@
 #endif
 
 void *cz_reader_allocate(CzReader *reader, size_t n, size_t size) {
-    void *memory = cz_arena_allocate(&reader->arena, n, size);
-    if (memory == NULL)
-        reader->mistakes.out_of_memory = true;
-    return memory;
+    return cz_arena_allocate(&reader->arena, n, size);
 }
 
 CzProblemOptions cz_problem_options_default(void) {
@@ -71,11 +68,8 @@ void cz_problem_bind(CzProblem *problem, const CzTree *tree) {
     CzReader *reader = &problem->reader;
     CzTree set = cz_settings_apply(reader, tree, problem->setting, problem->n_setting);
     set.root = cz_trains_write_out(reader, &set);
-    if (set.root == NULL || reader->mistakes.out_of_memory ||
-        !allocate_vehicles(problem, set.root)) {
-        reader->mistakes.out_of_memory = true;
+    if (set.root == NULL || reader->arena.out_of_memory || !allocate_vehicles(problem, set.root))
         return;
-    }
     cz_bind_record(reader, &set, CZ_RECORD_CzInput, set.root, &cz_no_trail, &problem->input);
     if (problem->input.n_scenarios == 0 && cz_node_find(set.root, "scenarios") == NULL)
         add_scenario(problem, set.root);
@@ -91,24 +85,22 @@ static CzProblem *problem_create(const CzProblemOptions *options) {
     reader->mistakes.arena = reader->warnings.arena = reader->sources.arena = &reader->arena;
     reader->sources.hash = CZ_HASH_START;
     reader->share_folder = CZ_SHARE_FOLDER;
-    if (options->share_folder != NULL) {
+    if (options->share_folder != NULL)
         reader->share_folder = cz_arena_copy_text(&reader->arena, options->share_folder,
                                                   strlen(options->share_folder));
-        reader->mistakes.out_of_memory |= reader->share_folder == NULL;
-    }
     return problem;
 }
 
 static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOptions *options) {
     CzReader *reader = &problem->reader;
     problem->tree = cz_load_tree(reader, top);
-    if (problem->tree.root == NULL || reader->mistakes.out_of_memory)
+    if (problem->tree.root == NULL || reader->arena.out_of_memory)
         return;
     problem->setting = cz_settings_gather(reader, problem->tree.root, options, &problem->n_setting);
     if (problem->setting == NULL)
         return;
     cz_problem_bind(problem, &problem->tree);
-    if (reader->mistakes.out_of_memory || reader->arena.out_of_memory)
+    if (reader->arena.out_of_memory)
         return;
     cz_profile_read(problem);
     cz_rules_check(problem);
@@ -120,7 +112,7 @@ static CzStatus finish(CzProblem *problem, CzError *error) {
     snprintf(problem->hash, sizeof problem->hash, "%016" PRIx64, reader->sources.hash);
     cz_mistakes_finish(&reader->mistakes);
     cz_mistakes_finish(&reader->warnings);
-    if (reader->mistakes.out_of_memory || reader->arena.out_of_memory)
+    if (reader->arena.out_of_memory)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to read '%s'",
                        problem->file != NULL ? problem->file : "the problem");
     if (reader->mistakes.n_mistake == 0)
@@ -139,8 +131,6 @@ CzStatus cz_problem_read(const char *path, const CzProblemOptions *options, CzPr
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to read '%s'", path);
     CzReader *reader = &(*problem)->reader;
     (*problem)->file = cz_arena_copy_text(&reader->arena, path, strlen(path));
-    if ((*problem)->file == NULL)
-        reader->mistakes.out_of_memory = true;
     const CzNode *top = cz_load_file(reader, path, NULL);
     if (top != NULL)
         read_tree(*problem, top, chosen);
@@ -161,12 +151,10 @@ CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name,
     const CzSource *source =
         cz_sources_add(&reader->sources, name, folder, text, is_small ? n_byte : 0);
     const CzNode *top = NULL;
-    if ((*problem)->file == NULL || source == NULL)
-        reader->mistakes.out_of_memory = true;
-    else if (!is_small || n_byte == 0)
+    if (source != NULL && (!is_small || n_byte == 0))
         cz_mistake_at(&reader->mistakes, source, 0, 0, "cannot read '%s': it is %s", name,
                       is_small ? "empty" : "larger than 16 MiB");
-    else if (cz_source_is_text(&reader->mistakes, source, text, n_byte))
+    else if (source != NULL && cz_source_is_text(&reader->mistakes, source, text, n_byte))
         top = cz_yaml_document(&reader->mistakes, source, text, n_byte);
     if (top != NULL)
         read_tree(*problem, top, chosen);

@@ -132,9 +132,7 @@ static void bind_profile(CzProblem *problem, const CzNode *top, const CzPlace *n
     if (!check_category(reader, &all, checks, named))
         return;
     const CzNode *kept = keep_category(reader, top, &all, checks->category);
-    if (kept == NULL)
-        reader->mistakes.out_of_memory = true;
-    else
+    if (kept != NULL)
         cz_bind_record(reader, &no_parts, CZ_RECORD_CzProfile, kept, &cz_no_trail,
                        &problem->profile);
 }
@@ -150,8 +148,6 @@ void cz_profile_read(CzProblem *problem) {
     if (top == NULL)
         return;
     const CzNode *profile = cz_node_without(&reader->arena, top, "schema");
-    if (profile == NULL)
-        reader->mistakes.out_of_memory = true;
-    else
+    if (profile != NULL)
         bind_profile(problem, profile, &named);
 }

@@ -7,7 +7,7 @@
  *   rules     what must hold between values
  *
  * All of them go on after a mistake, so that one pass tells every mistake. When memory is short
- * they return NULL or leave, and mistakes.out_of_memory is set.
+ * they return NULL or leave; the arena knows that a request failed.
  */
 #ifndef CZ_PROBLEM_READER_H
 #define CZ_PROBLEM_READER_H
@@ -186,7 +186,7 @@ void cz_profile_read(CzProblem *problem);
 
 /* ---- problem.c ---- */
 
-/* Memory that is freed with the problem; sets out_of_memory when there is none. */
+/* Zeroed memory that is freed with the problem; NULL when there is none. */
 void *cz_reader_allocate(CzReader *reader, size_t n, size_t size);
 /* Puts settings in and reads the input of a tree. */
 void cz_problem_bind(CzProblem *problem, const CzTree *tree);

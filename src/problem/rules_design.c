@@ -68,7 +68,7 @@ static void check_path(const CzRules *rules, const CzVariable *variable, const c
     int n_target = 0;
     const CzStatus status = cz_problem_find(rules->problem, *path, &target, &n_target, &error);
     if (status == CZ_STATUS_NO_MEMORY)
-        rules->reader->mistakes.out_of_memory = true;
+        rules->reader->arena.out_of_memory = true;
     if (status == CZ_STATUS_INPUT) {
         cz_rule_broken(rules, path, "%s", error.message);
         if (error.help[0] != '\0')

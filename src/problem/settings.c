@@ -57,10 +57,7 @@ static bool read_setting(CzReader *reader, const CzSource *source, int line, CzS
     if (setting->path != NULL)
         setting->place = cz_node_text(&reader->arena, setting->path, &place);
     setting->value = value_of(reader, equals + 1, &value_place);
-    if (setting->path != NULL && setting->place != NULL && setting->value != NULL)
-        return true;
-    reader->mistakes.out_of_memory = true;
-    return false;
+    return setting->path != NULL && setting->place != NULL && setting->value != NULL;
 }
 
 static int gather_options(CzReader *reader, const CzProblemOptions *options, CzSetting *setting) {
@@ -71,9 +68,9 @@ static int gather_options(CzReader *reader, const CzProblemOptions *options, CzS
             ? cz_sources_add(&reader->sources, "--set", reader->sources.first->folder, text, n_byte)
             : NULL;
     int n_setting = 0;
-    if (source == NULL)
-        reader->mistakes.out_of_memory = true;
-    else if (cz_source_is_text(&reader->mistakes, source, text, n_byte))
+    if (text == NULL)
+        reader->arena.out_of_memory = true;
+    if (source != NULL && cz_source_is_text(&reader->mistakes, source, text, n_byte))
         for (int i = 0; i < options->n_set; i++)
             n_setting += read_setting(reader, source, i, &setting[n_setting]);
     free(text);
@@ -113,10 +110,8 @@ CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *
     changed.part = cz_reader_allocate(reader, (size_t)tree->n_part, sizeof *changed.part);
     if (cz_node_find(tree->root, "set") != NULL)
         changed.root = cz_node_without(&reader->arena, tree->root, "set");
-    if (changed.part == NULL || changed.root == NULL) {
-        reader->mistakes.out_of_memory = true;
+    if (changed.part == NULL || changed.root == NULL)
         return *tree;
-    }
     if (tree->n_part > 0)
         memcpy(changed.part, tree->part, (size_t)tree->n_part * sizeof *changed.part);
     for (int pass = 0; pass < 2; pass++)

@@ -78,6 +78,22 @@ static char *read_stream(FILE *stream, size_t *n_byte) {
     return text;
 }
 
+/* Why the last call on a file failed, in words that no locale changes. */
+static const char *why_failed(void) {
+    switch (errno) {
+    case ENOENT:
+    case ENOTDIR:
+        return "there is no such file";
+    case EACCES:
+    case EPERM:
+        return "permission is denied";
+    case ENAMETOOLONG:
+        return "the name is too long";
+    default:
+        return "the system does not let it be read";
+    }
+}
+
 /* Opens a file; NULL with a sentence's end when it cannot be read. */
 static FILE *open_file(const char *path, const char **why) {
     struct stat status;
@@ -85,7 +101,7 @@ static FILE *open_file(const char *path, const char **why) {
         return stdin;
     *why = NULL;
     if (stat(path, &status) != 0)
-        *why = errno == ENOENT ? "there is no such file" : strerror(errno);
+        *why = why_failed();
     else if (S_ISDIR(status.st_mode))
         *why = "it is a folder";
     else if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
@@ -96,7 +112,7 @@ static FILE *open_file(const char *path, const char **why) {
         return NULL;
     FILE *stream = fopen(path, "rb");
     if (stream == NULL)
-        *why = strerror(errno);
+        *why = why_failed();
     return stream;
 }
 
@@ -126,10 +142,9 @@ CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *
         refuse_file(mistakes, path, place, why);
         return NULL;
     }
-    errno = 0;
     *text = read_stream(stream, n_byte);
     if (*text != NULL && ferror(stream))
-        why = errno != 0 ? strerror(errno) : "reading failed";
+        why = "reading it failed";
     else if (*text != NULL && *n_byte > CZ_MOST_BYTES)
         why = "it is larger than 16 MiB";
     else if (*text != NULL && *n_byte == 0)
@@ -143,8 +158,8 @@ CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *
     else if (*text != NULL && folder != NULL)
         source = cz_sources_add(sources, strcmp(path, "-") == 0 ? "standard input" : path, folder,
                                 *text, *n_byte);
-    if (why == NULL && source == NULL)
-        mistakes->out_of_memory = true;
+    if (*text == NULL)
+        mistakes->arena->out_of_memory = true;
     if (source == NULL) {
         free(*text);
         *text = NULL;

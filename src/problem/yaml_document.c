@@ -37,7 +37,7 @@ static int column_of(yaml_mark_t mark) {
 }
 
 static void fail_without_memory(Document *document) {
-    document->mistakes->out_of_memory = true;
+    document->mistakes->arena->out_of_memory = true;
     document->failed = true;
 }
 
@@ -46,7 +46,7 @@ static void report_syntax(Document *document) {
     const yaml_parser_t *parser = &document->parser;
     document->failed = true;
     if (parser->error == YAML_MEMORY_ERROR) {
-        document->mistakes->out_of_memory = true;
+        document->mistakes->arena->out_of_memory = true;
         return;
     }
     const char *problem = parser->problem != NULL ? parser->problem : "unreadable";
@@ -308,7 +308,7 @@ const CzNode *cz_yaml_document(CzMistakes *mistakes, const CzSource *source, con
                                size_t n_byte) {
     Document document = {.mistakes = mistakes, .source = source};
     if (!yaml_parser_initialize(&document.parser)) {
-        mistakes->out_of_memory = true;
+        mistakes->arena->out_of_memory = true;
         return NULL;
     }
     yaml_parser_set_encoding(&document.parser, YAML_UTF8_ENCODING);

@@ -78,7 +78,7 @@ static void a_file_without_permission_is_told(void **state) {
     assert_int_equal(write(file, "schema: 1\n", 10), 10);
     close(file);
     chmod(path, 0);
-    snprintf(sentence, sizeof sentence, "cannot read '%s': Permission denied", path);
+    snprintf(sentence, sizeof sentence, "cannot read '%s': permission is denied", path);
     if (geteuid() != 0) /* nothing is locked to root */
         check_refused(path, sentence);
     unlink(path);

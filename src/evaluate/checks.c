@@ -1,5 +1,6 @@
 /* Checks: judging values against limits. */
 #include "evaluate/checks.h"
+#include "evaluate/place.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -75,6 +76,61 @@ double cz_check_constraint(const CzCheckResult *result, double required_margin) 
         return NAN;
     const double margin = isnan(result->margin) ? 1 : result->margin; /* it does not apply */
     return required_margin - margin;
+}
+
+/* Whether each place stands for itself. */
+static bool is_by_place(const CzCheck *check) {
+    const CzAggregate aggregate = check->metric.aggregate;
+    return check->scenario != CZ_NO_SCENARIO &&
+           (aggregate == CZ_AGGREGATE_WORST ||
+            aggregate == (check->is_minimum ? CZ_AGGREGATE_MIN : CZ_AGGREGATE_MAX));
+}
+
+int cz_check_n_detail(const CzCheck *check, const CzScene *scene) {
+    if (check->scale == CZ_FLAG_SCALE)
+        return 0;
+    return is_by_place(check)
+               ? cz_places_count(scene, check->metric.kind->level, check->metric.selector)
+               : 1;
+}
+
+/* What a walk over the places writes. */
+typedef struct Details {
+    const CzCheck *check;
+    double required_margin;
+    int n, room;
+    double *constraint; /* (room) */
+} Details;
+
+static double detail_of(const Details *details, double value) {
+    const CzCheck *check = details->check;
+    const double margin = cz_margin(value, check->limit, check->is_minimum, check->scale);
+    return isnan(margin) ? -1 : details->required_margin - margin;
+}
+
+static void add_detail(const CzPlace *place, void *data) {
+    Details *details = data;
+    const CzMetricKind *kind = details->check->metric.kind;
+    if (details->n < details->room)
+        details->constraint[details->n++] = detail_of(details, kind->value(place) / kind->per_unit);
+}
+
+int cz_check_details(const CzCheck *check, const CzSubject *subject, double required_margin,
+                     double *detail) {
+    const int n = cz_check_n_detail(check, subject->scene);
+    Details details = {
+        .check = check, .required_margin = required_margin, .room = n, .constraint = detail};
+    if (n > 0 && subject->scene != NULL && subject->run == NULL)
+        details.n = 0; /* this scenario was not run */
+    else if (n > 0 && is_by_place(check))
+        cz_places_visit(subject, check->metric.kind->level, check->metric.selector, add_detail,
+                        &details);
+    else if (n > 0)
+        detail[details.n++] =
+            detail_of(&details, cz_metric_value(&check->metric, subject, !check->is_minimum).value);
+    while (details.n < n)
+        detail[details.n++] = -1;
+    return n;
 }
 
 CzVerdict cz_verdict_over(int n_check, const CzCheck *check, const CzCheckResult *result) {

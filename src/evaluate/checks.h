@@ -52,6 +52,13 @@ CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, con
 /* Constraint of a judged check: at most 0 when kept; NaN when it could not be checked. */
 double cz_check_constraint(const CzCheckResult *result, double required_margin);
 
+/* A check place by place. n_detail is how many places it has in a scene, 0 for a yes or no, 1 when
+ * a sum or mean counts; details writes as many constraints, -1 where it does not apply, and returns
+ * their number. */
+int cz_check_n_detail(const CzCheck *check, const CzScene *scene);
+int cz_check_details(const CzCheck *check, const CzSubject *subject, double required_margin,
+                     double *detail);
+
 /* Verdict over all checks: the worst of fail, not checked, provisional, pass; remarks do not count.
  */
 CzVerdict cz_verdict_over(int n_check, const CzCheck *check, const CzCheckResult *result);

@@ -1,4 +1,4 @@
-/* What the optimiser sees of an evaluator beyond its public face. */
+/* What an evaluator answers beyond its public face: to the optimiser and to reports. */
 #ifndef CZ_EVALUATE_EVALUATOR_H
 #define CZ_EVALUATE_EVALUATOR_H
 
@@ -12,5 +12,15 @@ bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint);
 
 /* Whether the objective is the smallest margin, so the largest constraint up to a constant. */
 bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator);
+
+/* Details are constraints before the worst place is taken: one per place, smooth where the worst of
+ * all places has kinks. Without yes and no. */
+int cz_evaluator_n_detail(const CzEvaluator *evaluator);
+
+/* As cz_evaluate without keeping runs, for a search: runs end once they have settled, and `detail`
+ * (n_point x n_detail) gets the details, NaN for designs that failed. */
+CZ_MUST_CHECK CzStatus cz_evaluator_search(const CzEvaluator *evaluator, int n_point,
+                                           const double *x, CzEvaluation *evaluation,
+                                           double *detail, CzError *error);
 
 #endif

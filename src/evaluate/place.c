@@ -236,7 +236,8 @@ int cz_places_count(const CzScene *scene, CzLevel level, const char *selector) {
         } else if (level == CZ_LEVEL_END) {
             n += 1; /* any selector of ends is left to the design */
         } else {
-            n += picks_interface(selector, name, is_colliding);
+            n +=
+                picks_interface(selector, name, is_colliding) * (level == CZ_LEVEL_SECTION ? 2 : 1);
         }
     }
     return n;

@@ -2,11 +2,13 @@
 set(CZ_SOURCES_evaluate
     checklist.c
     checks.c
+    compose.c
     design.c
     devices.c
     evaluator.c
     metric.c
     place.c
+    runs.c
     scene.c
     tasks.c
 )

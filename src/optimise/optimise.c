@@ -26,12 +26,12 @@ CzOptimiseOptions cz_optimise_options_default(void) {
  * --------------------------------------------------------- */
 
 static CzStatus evaluate_designs(void *data, int n_point, const double *x, double *objective,
-                                 double *constraint, CzError *error) {
-    CzEvaluator *evaluator = data;
+                                 double *constraint, double *detail, CzError *error) {
+    const CzEvaluator *evaluator = data;
     CzEvaluation *evaluation = calloc((size_t)n_point, sizeof *evaluation);
     if (evaluation == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_point);
-    const CzStatus status = cz_evaluate(evaluator, n_point, x, false, evaluation, error);
+    const CzStatus status = cz_evaluator_search(evaluator, n_point, x, evaluation, detail, error);
     for (int i = 0; i < n_point && status == CZ_OK; i++) {
         const size_t m = (size_t)evaluation[i].n_constraint;
         objective[i] = evaluation[i].objective;
@@ -60,6 +60,7 @@ static CzFunction function_of(CzEvaluator *evaluator, double *numbers, bool *fla
                         .max = numbers + n,
                         .start = numbers + 2 * n,
                         .step = numbers + 3 * n,
+                        .n_detail = cz_evaluator_n_detail(evaluator),
                         .is_flag = flags,
                         .is_minimax = cz_evaluator_maximises_margin(evaluator),
                         .evaluate = evaluate_designs,

@@ -203,7 +203,7 @@ static void watch_failures(CzSearch *search) {
  * strength broken by a half. Slopes stay continuous and the order stays the same. */
 static const double knee = 0.1;
 
-static double compressed(double constraint) {
+double cz_search_compressed(double constraint) {
     return constraint <= knee ? constraint : knee * (1 + log(constraint / knee));
 }
 
@@ -223,14 +223,17 @@ static double distance_from_best(const CzSearch *search, const double *x) {
 
 /* Takes one answer into the history and makes it fit for an algorithm. */
 static void take_answer(CzSearch *search, const char *phase, const double *x, double *objective,
-                        double *constraint) {
+                        double *constraint, double *detail) {
     const int m = search->function->n_constraint;
+    const int n_detail = detail != NULL ? cz_search_n_detail(search) : 0;
+    if (n_detail > 0 && search->function->n_detail == 0)
+        memcpy(detail, constraint, (size_t)m * sizeof *detail);
     CzRecord record = {.objective = *objective, .phase = phase};
     bool failed = !isfinite(*objective);
     for (int j = 0; j < m; j++) {
         failed |= isnan(constraint[j]);
         record.violation = fmax(record.violation, constraint[j]);
-        record.penalty += compressed(fmax(constraint[j], 0));
+        record.penalty += cz_search_compressed(fmax(constraint[j], 0));
     }
     if (failed)
         record = (CzRecord){NAN, INFINITY, INFINITY, phase, false};
@@ -241,18 +244,30 @@ static void take_answer(CzSearch *search, const char *phase, const double *x, do
         *objective = top + fmax(fabs(top), 1) * ramp;
         for (int j = 0; j < m; j++)
             constraint[j] = search->worst_constraint + ramp;
+        for (int k = 0; k < n_detail; k++)
+            detail[k] = 1 + ramp;
         return;
     }
     search->worst_objective = fmax(search->worst_objective, *objective);
     for (int j = 0; j < m; j++) {
         const bool is_flag = search->function->is_flag != NULL && search->function->is_flag[j];
-        constraint[j] = is_flag ? -1 : compressed(constraint[j]);
+        constraint[j] = is_flag ? -1 : cz_search_compressed(constraint[j]);
         search->worst_constraint = fmax(search->worst_constraint, constraint[j]);
     }
 }
 
+int cz_search_n_detail(const CzSearch *search) {
+    const CzFunction *function = search->function;
+    return function->n_detail > 0 ? function->n_detail : function->n_constraint;
+}
+
 bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double *x,
                         double *objective, double *constraint) {
+    return cz_search_evaluate_details(search, phase, n, x, objective, constraint, NULL);
+}
+
+bool cz_search_evaluate_details(CzSearch *search, const char *phase, int n, const double *x,
+                                double *objective, double *constraint, double *detail) {
     if (cz_search_is_stopped(search))
         return false;
     const CzFunction *function = search->function;
@@ -262,7 +277,8 @@ bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double
     }
     CzStatus status = CZ_STATUS_NO_MEMORY;
     if (make_room(search, n))
-        status = function->evaluate(function->data, n, x, objective, constraint, &search->error);
+        status = function->evaluate(function->data, n, x, objective, constraint,
+                                    function->n_detail > 0 ? detail : NULL, &search->error);
     else
         cz_fail(&search->error, status, "no memory for the history");
     if (status != CZ_OK) {
@@ -271,7 +287,8 @@ bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double
     }
     for (int i = 0; i < n; i++) {
         take_answer(search, phase, x + i * function->n_variable, &objective[i],
-                    constraint + i * function->n_constraint);
+                    constraint + i * function->n_constraint,
+                    detail != NULL ? detail + i * cz_search_n_detail(search) : NULL);
         report_progress(search, phase);
     }
     watch_failures(search);

@@ -19,13 +19,15 @@ typedef struct CzFunction {
     const double *step;              /* catalogue steps, 0 for none (n_variable) */
     const bool *is_flag; /* constraints that are a mere yes or no (n_constraint), NULL for none:
                             they count in what is kept, but no algorithm is shown such a step */
-    bool is_minimax;     /* the objective is the largest constraint, up to a constant */
+    int n_detail; /* constraints again, place by place and so without the kinks of the worst one; 0
+                     when there are none */
+    bool is_minimax; /* the objective is the largest constraint, up to a constant */
 
     /* Answers n_point designs: x is (n_point x n_variable), objective (n_point) with NaN for a
-     * failed design, constraint (n_point x n_constraint), kept when at most 0. The answer of a
-     * design must not depend on its neighbours. */
+     * failed design, constraint (n_point x n_constraint), kept when at most 0, detail (n_point x
+     * n_detail) unless NULL. The answer of a design must not depend on its neighbours. */
     CzStatus (*evaluate)(void *data, int n_point, const double *x, double *objective,
-                         double *constraint, CzError *error);
+                         double *constraint, double *detail, CzError *error);
     void *data;
 } CzFunction;
 
@@ -81,6 +83,15 @@ void cz_search_resume(CzSearch *search);
  * outputs are then not set. */
 bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double *x,
                         double *objective, double *constraint);
+
+/* The same with the details as they are (n x cz_search_n_detail), uncompressed; the constraints
+ * stand in for a function that has none. */
+bool cz_search_evaluate_details(CzSearch *search, const char *phase, int n, const double *x,
+                                double *objective, double *constraint, double *detail);
+int cz_search_n_detail(const CzSearch *search);
+
+/* How a violation counts: itself up to a tenth, its logarithm beyond. */
+double cz_search_compressed(double constraint);
 
 /* Scaled to natural variables: u in 0..1 is clamped. */
 void cz_search_unscale(const CzSearch *search, const double *u, double *x);

@@ -104,8 +104,10 @@ static const Analytic analytic_always_failing = {
     "always failing", 2, 1, {0, 0}, {3, 3}, {1, 1}, {0}, always_failing, false, {0}, 0};
 
 static inline CzStatus analytic_evaluate(void *data, int n_point, const double *x,
-                                         double *objective, double *constraint, CzError *error) {
+                                         double *objective, double *constraint, double *detail,
+                                         CzError *error) {
     const Analytic *analytic = data;
+    (void)detail;
     (void)error;
     for (int i = 0; i < n_point; i++)
         objective[i] = analytic->formula(x + i * analytic->n_variable,

@@ -1,0 +1,33 @@
+/* What an evaluator is made of. */
+#ifndef CZ_EVALUATE_EVALUATOR_PARTS_H
+#define CZ_EVALUATE_EVALUATOR_PARTS_H
+
+#include "evaluate/checks.h"
+#include "evaluate/design.h"
+#include "evaluate/evaluator.h"
+
+struct CzEvaluator {
+    CzArena arena;
+    const CzProblem *problem;
+    int n_job;
+    double step_factor;
+    bool brief;
+    int n_scene;
+    CzScene *scene;            /* (n_scene) */
+    CzModel **model;           /* (n_scene); NULL for scenarios left out */
+    const CzVehicle *vehicles; /* as written (n_vehicle) */
+    int n_vehicle;
+    double rate; /* rate of flow that tube forces are judged at: half the largest closing speed
+                    [m/s] */
+    CzDesign design;
+    CzChecklist list;
+    int *constraint_check;        /* check behind each constraint (n_constraint) */
+    const char **constraint_name; /* (n_constraint) */
+    int n_detail;
+    CzMetric objective; /* kind NULL: the smallest margin */
+    const char *objective_name, *objective_unit;
+    CzObjective own_objective; /* the caller's; NULL when none */
+    void *own_data;
+};
+
+#endif

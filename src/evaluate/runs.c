@@ -1,0 +1,200 @@
+/* Running designs: many designs through all scenarios on a few threads.
+ *
+ *   designs x scenarios --tasks of a few lanes--> runs --compose--> evaluation
+ *
+ * Runs are stored by design and scenario and composed in that order, so that neither the number of
+ * threads nor the neighbours of a design change a bit of its answer.
+ */
+#include "base/error.h"
+#include "evaluate/compose.h"
+#include "evaluate/tasks.h"
+#include "simulate/batch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Designs whose vehicle records are held at a time. */
+enum { BLOCK = 64 };
+
+/* One block of designs on its way through all scenarios. */
+typedef struct Block {
+    const CzEvaluator *evaluator;
+    int n_point;
+    const CzVehicle *vehicle[BLOCK]; /* the whole vehicle array of each design (n_point) */
+    CzRun **run;                     /* (n_point x n_scene) */
+    bool record, brief;
+    int n_task;
+    struct {
+        int scene, first, n;
+    } * task;         /* (n_task) */
+    CzStatus *status; /* (n_task) */
+    CzError *error;   /* (n_task) */
+} Block;
+
+static void run_task(int index, void *data) {
+    const Block *block = data;
+    const CzEvaluator *evaluator = block->evaluator;
+    const int s = block->task[index].scene, first = block->task[index].first;
+    const CzModel *model = evaluator->model[s];
+    CzSimulateOptions options = cz_simulate_options_default();
+    options.record = block->record;
+    options.brief = block->brief;
+    if (evaluator->step_factor != 1)
+        options.time_step = cz_model_time_step(model) * evaluator->step_factor;
+    CzRun *run[BLOCK] = {NULL};
+    block->status[index] = cz_simulate_batch(model, block->task[index].n, &block->vehicle[first],
+                                             &options, run, &block->error[index]);
+    for (int i = 0; i < block->task[index].n; i++)
+        block->run[(first + i) * evaluator->n_scene + s] = run[i];
+}
+
+/* Cuts designs and scenarios into tasks that fill the lanes, and at least one task per thread where
+ * there are designs enough. */
+static void cut_tasks(Block *block) {
+    const CzEvaluator *evaluator = block->evaluator;
+    block->n_task = 0;
+    for (int s = 0; s < evaluator->n_scene; s++) {
+        if (evaluator->model[s] == NULL)
+            continue;
+        const int width = cz_simulate_batch_width(evaluator->model[s]);
+        const int n_chunk = (block->n_point + width - 1) / width;
+        for (int chunk = 0, first = 0; chunk < n_chunk; chunk++) {
+            const int n = (block->n_point - first) / (n_chunk - chunk); /* even chunks */
+            block->task[block->n_task].scene = s;
+            block->task[block->n_task].first = first;
+            block->task[block->n_task++].n = n;
+            first += n;
+        }
+    }
+}
+
+static CzStatus run_block(Block *block, CzError *error) {
+    const CzEvaluator *evaluator = block->evaluator;
+    const size_t most = (size_t)evaluator->n_scene * (size_t)block->n_point;
+    block->task = calloc(most, sizeof *block->task);
+    block->status = calloc(most, sizeof *block->status);
+    block->error = calloc(most, sizeof *block->error);
+    CzStatus status = CZ_OK;
+    if (block->task == NULL || block->status == NULL || block->error == NULL) {
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", block->n_point);
+    } else {
+        cut_tasks(block);
+        cz_tasks_run(block->n_task, evaluator->n_job, run_task, block);
+    }
+    for (int i = 0; status == CZ_OK && i < block->n_task; i++)
+        if (block->status[i] != CZ_OK) {
+            status = block->status[i];
+            if (error != NULL)
+                *error = block->error[i];
+        }
+    free(block->task);
+    free(block->status);
+    free(block->error);
+    return status;
+}
+
+/* Judges each design of a finished block; keeps its runs when they are recorded; fills the details,
+ * NaN for designs that failed, unless `detail` is NULL. */
+static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *detail,
+                              CzError *error) {
+    const int n_scene = block->evaluator->n_scene;
+    const CzRunSummary **summary = calloc((size_t)n_scene, sizeof *summary);
+    if (summary == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d scenarios", n_scene);
+    CzStatus status = CZ_OK;
+    for (int i = 0; i < block->n_point && status == CZ_OK; i++) {
+        CzRun **run = &block->run[i * n_scene];
+        for (int s = 0; s < n_scene; s++)
+            summary[s] = run[s] != NULL ? cz_run_summary(run[s]) : NULL;
+        status = cz_compose(block->evaluator, block->vehicle[i], summary, &evaluation[i], error);
+        for (int k = 0; detail != NULL && k < block->evaluator->n_detail; k++)
+            detail[i * block->evaluator->n_detail + k] = NAN;
+        if (detail != NULL && status == CZ_OK && evaluation[i].status == CZ_OK)
+            cz_compose_details(block->evaluator, block->vehicle[i], summary,
+                               detail + i * block->evaluator->n_detail);
+        if (status != CZ_OK || !block->record)
+            continue;
+        evaluation[i].run = calloc((size_t)n_scene, sizeof(CzRun *));
+        if (evaluation[i].run == NULL)
+            status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d runs", n_scene);
+        for (int s = 0; s < n_scene && status == CZ_OK; s++)
+            if (run[s] != NULL) {
+                evaluation[i].run[evaluation[i].n_run++] = run[s];
+                run[s] = NULL;
+            }
+    }
+    free(summary);
+    return status;
+}
+
+/* `manner` says whether runs are recorded or brief. */
+static CzStatus evaluate_block(const Block *manner, int n_point, const double *x,
+                               CzEvaluation *evaluation, double *detail, CzError *error) {
+    Block block = *manner;
+    const CzEvaluator *evaluator = block.evaluator;
+    const size_t n_vehicle = (size_t)evaluator->n_vehicle;
+    block.n_point = n_point;
+    CzVehicle *copies = malloc((size_t)n_point * n_vehicle * sizeof *copies);
+    block.run = calloc((size_t)n_point * (size_t)evaluator->n_scene, sizeof(CzRun *));
+    CzStatus status = CZ_OK;
+    if (copies == NULL || block.run == NULL)
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_point);
+    for (int i = 0; i < n_point && status == CZ_OK; i++) {
+        CzVehicle *vehicles = copies + (size_t)i * n_vehicle;
+        memcpy(vehicles, evaluator->vehicles, n_vehicle * sizeof *vehicles);
+        if (x != NULL)
+            cz_design_apply(&evaluator->design, x + i * evaluator->design.n_variable, vehicles);
+        block.vehicle[i] = vehicles;
+    }
+    if (status == CZ_OK)
+        status = run_block(&block, error);
+    if (status == CZ_OK)
+        status = compose_block(&block, evaluation, detail, error);
+    for (int i = 0; block.run != NULL && i < n_point * evaluator->n_scene; i++)
+        cz_run_free(block.run[i]);
+    free(block.run);
+    free(copies);
+    return status;
+}
+
+/* All designs, block after block. */
+static CzStatus evaluate_all(const Block *manner, int n_point, const double *x,
+                             CzEvaluation *evaluation, double *detail, CzError *error) {
+    const CzEvaluator *evaluator = manner->evaluator;
+    memset(evaluation, 0, (size_t)n_point * sizeof *evaluation);
+    CzStatus status = CZ_OK;
+    for (int first = 0; first < n_point && status == CZ_OK; first += BLOCK) {
+        const int n = n_point - first < BLOCK ? n_point - first : BLOCK;
+        status =
+            evaluate_block(manner, n, x != NULL ? x + first * evaluator->design.n_variable : NULL,
+                           evaluation + first,
+                           detail != NULL ? detail + first * evaluator->n_detail : NULL, error);
+    }
+    for (int i = 0; status != CZ_OK && i < n_point; i++)
+        cz_evaluation_free(&evaluation[i]);
+    return status;
+}
+
+CzStatus cz_evaluate(CzEvaluator *evaluator, int n_point, const double *x, bool keep_runs,
+                     CzEvaluation *evaluation, CzError *error) {
+    const Block manner = {.evaluator = evaluator, .record = keep_runs, .brief = evaluator->brief};
+    return evaluate_all(&manner, n_point, x, evaluation, NULL, error);
+}
+
+CzStatus cz_evaluator_search(const CzEvaluator *evaluator, int n_point, const double *x,
+                             CzEvaluation *evaluation, double *detail, CzError *error) {
+    const Block manner = {.evaluator = evaluator, .record = false, .brief = true};
+    return evaluate_all(&manner, n_point, x, evaluation, detail, error);
+}
+
+void cz_evaluation_free(CzEvaluation *evaluation) {
+    if (evaluation == NULL)
+        return;
+    for (int i = 0; i < evaluation->n_run; i++)
+        cz_run_free(evaluation->run[i]);
+    free(evaluation->run);
+    free(evaluation->check);
+    free(evaluation->constraint);
+    free(evaluation->constraint_check);
+    memset(evaluation, 0, sizeof *evaluation);
+}

@@ -16,6 +16,12 @@ const CzVehicle *cz_problem_vehicles(const CzProblem *problem, int *n_vehicle);
  * inside the input. */
 void cz_problem_place(const CzProblem *problem, const void *field, CzError *error);
 
+/* Judges the vehicles of a candidate design, one array like the problem's own, by the rules that
+ * the reader holds a file's vehicles to: so a design that passes can be written down and read.
+ * Statuses: CZ_OK, CZ_STATUS_INPUT with the first broken rule, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_problem_check_vehicles(const CzProblem *problem,
+                                                 const CzVehicle *vehicles, CzError *error);
+
 /* One number of the input that a path names. */
 typedef struct CzTarget {
     int vehicle;        /* index into cz_problem_vehicles */

@@ -4,13 +4,24 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "base/error.h"
 #include "base/number.h"
+
+/* Place of a field; a candidate's values stand where the problem's own were written. */
+static const CzPlace *find_place(const CzRules *rules, const void *field) {
+    const uintptr_t at = (uintptr_t)field, start = (uintptr_t)rules->vehicle;
+    const size_t n_byte = (size_t)rules->problem->n_vehicle * sizeof(CzVehicle);
+    const void *own = field;
+    if (at >= start && at - start < n_byte)
+        own = (const char *)rules->problem->vehicle + (at - start);
+    return cz_places_find(&rules->reader->places, own);
+}
 
 static void tell(const CzRules *rules, CzMistakes *mistakes, const void *field, const char *format,
                  va_list arguments) {
     char sentence[400];
-    const CzPlace *place = cz_places_find(&rules->reader->places, field);
-    if (place == NULL)
+    const CzPlace *place = find_place(rules, field);
+    if (place == NULL || mistakes == NULL)
         return;
     vsnprintf(sentence, sizeof sentence, format, arguments);
     const bool is_value = place->value != NULL && place->value->kind == CZ_NODE_TEXT;
@@ -20,14 +31,14 @@ static void tell(const CzRules *rules, CzMistakes *mistakes, const void *field, 
 void cz_rule_broken(const CzRules *rules, const void *field, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    tell(rules, &rules->reader->mistakes, field, format, arguments);
+    tell(rules, rules->mistakes, field, format, arguments);
     va_end(arguments);
 }
 
 void cz_rule_warning(const CzRules *rules, const void *field, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    tell(rules, &rules->reader->warnings, field, format, arguments);
+    tell(rules, rules->warnings, field, format, arguments);
     va_end(arguments);
 }
 
@@ -36,13 +47,13 @@ void cz_rule_absent(const CzRules *rules, const void *field, const char *format,
     if (rules->reader->has_holes)
         return;
     va_start(arguments, format);
-    tell(rules, &rules->reader->mistakes, field, format, arguments);
+    tell(rules, rules->mistakes, field, format, arguments);
     va_end(arguments);
 }
 
 bool cz_rule_is_written(const CzRules *rules, const void *field) {
-    const CzPlace *place = cz_places_find(&rules->reader->places, field);
-    return place != NULL && place->address == field && place->key != NULL;
+    const CzPlace *place = find_place(rules, field);
+    return place != NULL && place->size == 0;
 }
 
 const char *cz_rule_text(char text[48], double si, const char *unit, double unit_si) {
@@ -76,18 +87,42 @@ static void check_simulation(const CzRules *rules) {
                        adhesion->sliding_friction, adhesion->friction);
 }
 
-void cz_rules_check(CzProblem *problem) {
-    const CzRules rules = {problem, &problem->reader, &problem->input};
-    check_simulation(&rules);
-    for (int i = 0; i < problem->n_vehicle; i++) {
-        const CzVehicle *vehicle = &problem->vehicle[i];
+static void check_vehicles(const CzRules *rules) {
+    for (int i = 0; i < rules->problem->n_vehicle; i++) {
+        const CzVehicle *vehicle = &rules->vehicle[i];
         if (!vehicle->given)
             continue;
-        cz_rules_check_vehicle(&rules, vehicle);
-        cz_rules_check_end(&rules, vehicle, &vehicle->front);
-        cz_rules_check_end(&rules, vehicle, &vehicle->rear);
+        cz_rules_check_vehicle(rules, vehicle);
+        cz_rules_check_end(rules, vehicle, &vehicle->front);
+        cz_rules_check_end(rules, vehicle, &vehicle->rear);
     }
+}
+
+void cz_rules_check(CzProblem *problem) {
+    CzReader *reader = &problem->reader;
+    const CzRules rules = {problem,           reader,           &problem->input, problem->vehicle,
+                           &reader->mistakes, &reader->warnings};
+    check_simulation(&rules);
+    check_vehicles(&rules);
     cz_rules_check_trains(&rules);
     cz_rules_check_scenarios(&rules);
     cz_rules_check_design(&rules);
+}
+
+CzStatus cz_problem_check_vehicles(const CzProblem *problem, const CzVehicle *vehicles,
+                                   CzError *error) {
+    CzArena arena = {0};
+    CzMistakes mistakes = {.arena = &arena};
+    const CzRules rules = {problem, &problem->reader, &problem->input, vehicles, &mistakes, NULL};
+    CzStatus status = CZ_OK;
+    check_vehicles(&rules);
+    if (arena.out_of_memory) {
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to judge a design");
+    } else if (mistakes.n_mistake > 0) {
+        status = CZ_STATUS_INPUT;
+        if (error != NULL)
+            *error = mistakes.mistake[0]->error;
+    }
+    cz_arena_free(&arena);
+    return status;
 }

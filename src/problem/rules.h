@@ -6,9 +6,11 @@
 #include "problem/reader.h"
 
 typedef struct CzRules {
-    CzProblem *problem;
-    CzReader *reader;
+    const CzProblem *problem;
+    const CzReader *reader;
     const CzInput *input;
+    const CzVehicle *vehicle;        /* those that are judged: the problem's own or a candidate's */
+    CzMistakes *mistakes, *warnings; /* where to tell; warnings may be NULL */
 } CzRules;
 
 /* Tells a mistake at the place where a field was written, or at its record when it was not. */

@@ -20,7 +20,7 @@ static void check_scenario_named(const CzRules *rules, const char *const *name) 
             cz_suggest(&suggestion, *name, known);
     }
     cz_rule_broken(rules, name, "there is no scenario '%.48s'", *name);
-    cz_mistake_suggest(&rules->reader->mistakes, suggestion.best);
+    cz_mistake_suggest(rules->mistakes, suggestion.best);
 }
 
 static void check_limits(const CzRules *rules, const CzLimit *limits, int n_limit) {
@@ -43,7 +43,7 @@ static void check_target(const CzRules *rules, const CzVariable *variable, const
                          const CzTarget *target) {
     if (!target->may_vary) {
         cz_rule_broken(rules, path, "'%.120s' is data, not a design variable", *path);
-        cz_mistake_help(&rules->reader->mistakes,
+        cz_mistake_help(rules->mistakes,
                         "stage forces and strokes, trigger and shear-off forces and "
                         "gaps may vary");
         return;
@@ -68,11 +68,11 @@ static void check_path(const CzRules *rules, const CzVariable *variable, const c
     int n_target = 0;
     const CzStatus status = cz_problem_find(rules->problem, *path, &target, &n_target, &error);
     if (status == CZ_STATUS_NO_MEMORY)
-        rules->reader->arena.out_of_memory = true;
+        rules->mistakes->arena->out_of_memory = true;
     if (status == CZ_STATUS_INPUT) {
         cz_rule_broken(rules, path, "%s", error.message);
         if (error.help[0] != '\0')
-            cz_mistake_help(&rules->reader->mistakes, "%s", error.help);
+            cz_mistake_help(rules->mistakes, "%s", error.help);
     }
     for (int i = 0; i < n_target; i++)
         if (i == 0 || target[i].match != target[i - 1].match)

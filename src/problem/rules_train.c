@@ -174,7 +174,7 @@ static const CzTrain *find_train(const CzRules *rules, const char *const *name) 
         cz_suggest(&suggestion, *name, train->name);
     }
     cz_rule_broken(rules, name, "there is no train '%.48s'", *name);
-    cz_mistake_suggest(&rules->reader->mistakes, suggestion.best);
+    cz_mistake_suggest(rules->mistakes, suggestion.best);
     return NULL;
 }
 
@@ -252,7 +252,7 @@ static void check_interface(const CzRules *rules, const CzScenario *scenario,
         }
     cz_rule_broken(rules, &scenario->perturbed_interface, "there is no inner interface '%.96s'",
                    scenario->perturbed_interface);
-    cz_mistake_suggest(&rules->reader->mistakes, suggestion.best);
+    cz_mistake_suggest(rules->mistakes, suggestion.best);
 }
 
 static void check_brake(const CzRules *rules, const double *ratio, const CzTrain *train) {

@@ -166,6 +166,26 @@ static void a_path_to_nowhere_is_told_with_a_did_you_mean(void **state) {
     cz_problem_free(problem);
 }
 
+static void a_candidate_is_held_to_the_rules_of_a_file(void **state) {
+    (void)state;
+    CzProblem *problem = read_good("full.yaml", 0, NULL);
+    int n_vehicle = 0;
+    const CzVehicle *own = cz_problem_vehicles(problem, &n_vehicle);
+    CzVehicle *candidate = malloc((size_t)n_vehicle * sizeof *candidate);
+    CzError error = {0};
+    assert_non_null(candidate);
+    memcpy(candidate, own, (size_t)n_vehicle * sizeof *candidate);
+    assert_int_equal(cz_problem_check_vehicles(problem, candidate, &error), CZ_OK);
+    candidate[3].front.anti_climber.stages[0].force = 700e3; /* its trigger is at 600 kN */
+    assert_int_equal(cz_problem_check_vehicles(problem, candidate, &error), CZ_STATUS_INPUT);
+    assert_non_null(
+        strstr(error.message, "a trigger of 600 kN is below the first plateau of 700 kN"));
+    assert_string_equal(error.file, GOOD_FOLDER "/parts.yaml");
+    assert_int_equal(error.line, 53);
+    free(candidate);
+    cz_problem_free(problem);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_path_through_a_part_names_every_user_that_does_not_override),
@@ -175,6 +195,7 @@ int main(void) {
         cmocka_unit_test(a_target_knows_its_unit_and_its_concrete_path),
         cmocka_unit_test(finding_and_setting_mean_the_same_places),
         cmocka_unit_test(settings_before_are_kept_while_finding),
+        cmocka_unit_test(a_candidate_is_held_to_the_rules_of_a_file),
         cmocka_unit_test(a_path_to_nowhere_is_told_with_a_did_you_mean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,4 +6,5 @@ set(CZ_SOURCES_optimise
     search.c
     snap.c
     strategy.c
+    surface.c
 )

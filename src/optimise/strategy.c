@@ -1,8 +1,8 @@
 /* The usual strategy, and one algorithm by name.
  *
  *   screen    the start, then points that fill the box and a smaller one around the start
- *   descend   elastic SLSQP on secants from the best points that lie apart
- *   polish    COBYLA from the best, with a small first step
+ *   descend   response surfaces from the best points that lie apart
+ *   polish    COBYLA and elastic SLSQP by turns from the best, with smaller and smaller steps
  *   snap      to the catalogue steps
  *
  * The gain of a long train's rattling is in secants: local derivatives are exact and useless.
@@ -10,6 +10,7 @@
 #include "optimise/strategy.h"
 #include "base/error.h"
 #include "optimise/nlopt_adapter.h"
+#include "optimise/surface.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -96,31 +97,26 @@ static long best_apart(const CzSearch *search, int n_chosen, const double *chose
     return best;
 }
 
-/* Elastic SLSQP from the best screened points that lie apart, then from the best of all with a
- * finer secant. */
+/* Response surfaces from the best screened points that lie apart. */
 static CzStatus descend(CzSearch *search, long evaluations, CzError *error) {
     const int n = search->function->n_variable;
     const long limit = search->n_record + evaluations;
-    const long share = evaluations / 3 > 8L * (n + 1) ? evaluations / 3 : 8L * (n + 1);
     double *chosen = calloc((size_t)(MOST_STARTS + 1) * (size_t)n, sizeof *chosen);
-    if (chosen == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the starting points");
+    CzSurface surface = {0};
     CzStatus status = CZ_OK;
-    CzNloptRun run = cz_nlopt_run_default("LD_SLSQP");
-    run.phase = "descend";
-    run.form = CZ_FORM_ELASTIC;
-    double *u = chosen + MOST_STARTS * n;
+    if (chosen == NULL || !cz_surface_create(&surface, search, 4))
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the response surfaces");
+    double *u = chosen != NULL ? chosen + MOST_STARTS * n : NULL;
     for (int start = 0; start < MOST_STARTS && status == CZ_OK; start++) {
         const long record = best_apart(search, start, chosen, start == 0 ? 0 : 0.15, u);
         const long left = limit - search->n_record;
-        if (record < 0 || left < n + 1 || cz_search_left(search) == 0)
+        if (record < 0 || left < 3 * (n + 1) || cz_search_left(search) == 0)
             break;
         cz_search_scale(search, cz_search_x(search, record), u);
         memcpy(chosen + start * n, u, (size_t)n * sizeof *u);
-        run.evaluations = share < left ? share : left;
-        run.secant = start % 2 == 0 ? 1e-2 : 1e-3;
-        status = cz_nlopt_run(search, &run, u, error);
+        cz_surface_descend(&surface, "descend", u, left);
     }
+    cz_surface_free(&surface);
     free(chosen);
     return status;
 }
@@ -175,8 +171,8 @@ CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, CzError *error) 
     const long total = search->most_evaluations - reserve;
     CzStatus status = CZ_OK;
     if (evaluate_start(search)) {
-        screen(search, seed, total / 6);
-        status = descend(search, total / 2, error);
+        screen(search, seed, total / 10);
+        status = descend(search, total * 2 / 3, error);
         if (status == CZ_OK)
             status = polish(search, reserve, error);
     }

@@ -1,0 +1,293 @@
+/* Linear response surfaces: planes around a base design, and how they are kept true. */
+#include "optimise/surface.h"
+#include "optimise/nlopt_adapter.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool cz_surface_create(CzSurface *surface, CzSearch *search, int most) {
+    const size_t n = (size_t)search->function->n_variable;
+    const size_t m = (size_t)cz_search_n_detail(search);
+    const size_t n_constraint = (size_t)search->function->n_constraint;
+    const size_t batch = (size_t)(most > (int)n + 1 ? most : (int)n + 1);
+    *surface =
+        (CzSurface){.search = search, .n = (int)n, .m = (int)m, .record = -1, .most = (int)batch};
+    double *at = calloc(n + m + n + m * n + batch * (n + 1 + n_constraint + m) + 1, sizeof *at);
+    surface->u = at;
+    if (at == NULL)
+        return false;
+    surface->c = at += n;
+    surface->df = at += m;
+    surface->dc = at += n;
+    surface->x = at += m * n;
+    surface->many_f = at += batch * n;
+    surface->many_c = at += batch;
+    surface->many_d = at + batch * n_constraint;
+    return true;
+}
+
+void cz_surface_free(CzSurface *surface) {
+    free(surface->u);
+    surface->u = NULL;
+}
+
+/* Evaluates n_point designs of surface->x. */
+static bool evaluate(CzSurface *surface, const char *phase, int n_point) {
+    return cz_search_evaluate_details(surface->search, phase, n_point, surface->x, surface->many_f,
+                                      surface->many_c, surface->many_d);
+}
+
+static void set_base(CzSurface *surface, long record, int point, const double *u) {
+    surface->record = record;
+    memcpy(surface->u, u, (size_t)surface->n * sizeof *u);
+    surface->f = surface->many_f[point];
+    memcpy(surface->c, surface->many_d + point * surface->m, (size_t)surface->m * sizeof(double));
+}
+
+/* Step of one variable, away from the nearer bound when it would leave the box. */
+static double secant_of(const CzSurface *surface, int variable, double secant) {
+    return surface->u[variable] + secant <= 1 ? secant : -secant;
+}
+
+bool cz_surface_refresh(CzSurface *surface, const char *phase, double secant) {
+    const int n = surface->n, m = surface->m;
+    for (int i = 0; i < n; i++) {
+        const double kept = surface->u[i];
+        surface->u[i] += secant_of(surface, i, secant);
+        cz_search_unscale(surface->search, surface->u, surface->x + i * n);
+        surface->u[i] = kept;
+    }
+    if (!evaluate(surface, phase, n))
+        return false;
+    for (int i = 0; i < n; i++) {
+        const double h = secant_of(surface, i, secant);
+        surface->df[i] = (surface->many_f[i] - surface->f) / h;
+        for (int k = 0; k < m; k++)
+            surface->dc[k * n + i] = (surface->many_d[i * m + k] - surface->c[k]) / h;
+    }
+    surface->is_fresh = true;
+    return true;
+}
+
+bool cz_surface_begin(CzSurface *surface, const char *phase, const double *u, double secant) {
+    cz_search_unscale(surface->search, u, surface->x);
+    if (!evaluate(surface, phase, 1))
+        return false;
+    set_base(surface, surface->search->n_record - 1, 0, u);
+    return cz_surface_refresh(surface, phase, secant);
+}
+
+/* Broyden: the plane is turned as little as possible to pass through a new point. */
+static void correct(double *slope, int n, const double *step, double square, double change) {
+    double predicted = 0;
+    for (int i = 0; i < n; i++)
+        predicted += slope[i] * step[i];
+    for (int i = 0; i < n; i++)
+        slope[i] += (change - predicted) * step[i] / square;
+}
+
+static void correct_all(CzSurface *surface, int point, const double *u, double *step) {
+    double square = 0;
+    for (int i = 0; i < surface->n; i++) {
+        step[i] = u[i] - surface->u[i];
+        square += step[i] * step[i];
+    }
+    if (square < 1e-12 || isnan(surface->search->record[surface->record].objective))
+        return;
+    correct(surface->df, surface->n, step, square, surface->many_f[point] - surface->f);
+    for (int k = 0; k < surface->m; k++)
+        correct(surface->dc + k * surface->n, surface->n, step, square,
+                surface->many_d[point * surface->m + k] - surface->c[k]);
+    surface->is_fresh = false;
+}
+
+bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const double *u,
+                    int *moved_to) {
+    CzSearch *search = surface->search;
+    const int n = surface->n;
+    *moved_to = -1;
+    for (int point = 0; point < n_point; point++)
+        cz_search_unscale(search, u + point * n, surface->x + point * n);
+    if (!evaluate(surface, phase, n_point))
+        return false;
+    const long first = search->n_record - n_point;
+    double *step = calloc((size_t)n, sizeof *step);
+    if (step == NULL)
+        return false;
+    long best = surface->record;
+    for (int point = 0; point < n_point; point++) {
+        if (!isnan(search->record[first + point].objective))
+            correct_all(surface, point, u + point * n, step);
+        if (cz_search_is_better(search, first + point, best)) {
+            best = first + point;
+            *moved_to = point;
+        }
+    }
+    free(step);
+    if (*moved_to >= 0)
+        set_base(surface, best, *moved_to, u + *moved_to * n);
+    return true;
+}
+
+double cz_surface_predict(const CzSurface *surface, const double *u, double *penalty) {
+    const int n = surface->n;
+    double f = surface->f, largest = -INFINITY;
+    for (int i = 0; i < n; i++)
+        f += surface->df[i] * (u[i] - surface->u[i]);
+    *penalty = 0;
+    for (int k = 0; k < surface->m; k++) {
+        double c = surface->c[k];
+        for (int i = 0; i < n; i++)
+            c += surface->dc[k * n + i] * (u[i] - surface->u[i]);
+        largest = fmax(largest, c);
+        *penalty += cz_search_compressed(fmax(c, 0));
+    }
+    return surface->search->function->is_minimax ? largest : f;
+}
+
+/* ---- the best design on the planes
+ * -------------------------------------------------------------------- */
+
+/* The planes as a function to be searched by NLopt at no cost of simulation. */
+typedef struct Planes {
+    const CzSurface *surface;
+    const int *detail; /* those that can matter within the box (n_constraint) */
+    int n_constraint;
+} Planes;
+
+static CzStatus evaluate_planes(void *data, int n_point, const double *u, double *objective,
+                                double *constraint, double *detail, CzError *error) {
+    const Planes *planes = data;
+    const CzSurface *surface = planes->surface;
+    const int n = surface->n;
+    (void)detail;
+    (void)error;
+    for (int point = 0; point < n_point; point++) {
+        const double *at = u + point * n;
+        double *c = constraint + point * planes->n_constraint;
+        double largest = -1;
+        objective[point] = surface->f;
+        for (int i = 0; i < n; i++)
+            objective[point] += surface->df[i] * (at[i] - surface->u[i]);
+        for (int j = 0; j < planes->n_constraint; j++) {
+            const int k = planes->detail[j];
+            c[j] = surface->c[k];
+            for (int i = 0; i < n; i++)
+                c[j] += surface->dc[k * n + i] * (at[i] - surface->u[i]);
+            largest = fmax(largest, c[j]);
+        }
+        if (surface->search->function->is_minimax)
+            objective[point] = largest;
+    }
+    return CZ_OK;
+}
+
+/* Lists the details that can be the largest or violated within the box around the base. */
+static int choose_details(const CzSurface *surface, double radius, int *chosen) {
+    const int n = surface->n;
+    double floor = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        int n_chosen = 0;
+        for (int k = 0; k < surface->m; k++) {
+            double reach = 0;
+            for (int i = 0; i < n; i++)
+                reach += fabs(surface->dc[k * n + i]) * radius;
+            if (pass == 0 && surface->search->function->is_minimax)
+                floor = k == 0 ? surface->c[k] - reach : fmax(floor, surface->c[k] - reach);
+            else if (pass == 1 && surface->c[k] + reach >= fmin(floor, 0) - 1e-3)
+                chosen[n_chosen++] = k;
+        }
+        if (pass == 1)
+            return n_chosen;
+    }
+    return 0;
+}
+
+/* Searches the planes in the box lo..hi with NLopt; what it finds best is written to u. */
+static bool search_planes(const CzSurface *surface, const Planes *planes, const double *lo,
+                          const double *hi, const double *no_step, double *u) {
+    const CzFunction function = {.n_variable = surface->n,
+                                 .n_constraint = planes->n_constraint,
+                                 .min = lo,
+                                 .max = hi,
+                                 .start = surface->u,
+                                 .step = no_step,
+                                 .is_minimax = surface->search->function->is_minimax,
+                                 .evaluate = evaluate_planes,
+                                 .data = (void *)planes};
+    const CzOptimiseOptions options = {.evaluations = 400L * (surface->n + 1)};
+    CzSearch inner;
+    cz_search_init(&inner, &function, &options);
+    CzNloptRun run = cz_nlopt_run_default("LD_SLSQP");
+    run.form = CZ_FORM_ELASTIC;
+    run.reserve = 1e-3;
+    double *start = calloc((size_t)surface->n, sizeof *start);
+    bool found = start != NULL;
+    if (found) {
+        cz_search_scale(&inner, surface->u, start);
+        found = cz_nlopt_run(&inner, &run, start, NULL) == CZ_OK && inner.best >= 0;
+    }
+    if (found)
+        memcpy(u, cz_search_x(&inner, inner.best), (size_t)surface->n * sizeof *u);
+    cz_search_free(&inner);
+    free(start);
+    return found;
+}
+
+bool cz_surface_best(const CzSurface *surface, double radius, double *u) {
+    const size_t n = (size_t)surface->n;
+    double *box = calloc(3 * n, sizeof *box);
+    int *detail = calloc((size_t)surface->m + 1, sizeof *detail);
+    bool found = box != NULL && detail != NULL;
+    if (found) {
+        for (size_t i = 0; i < n; i++) {
+            box[i] = fmax(surface->u[i] - radius, 0);
+            box[n + i] = fmin(surface->u[i] + radius, 1);
+        }
+        const Planes planes = {.surface = surface,
+                               .detail = detail,
+                               .n_constraint = choose_details(surface, radius, detail)};
+        found = search_planes(surface, &planes, box, box + n, box + 2 * n, u);
+    }
+    free(box);
+    free(detail);
+    return found;
+}
+
+/* ---- moving
+ * ------------------------------------------------------------------------------------------- */
+
+enum { RADII = 3 }; /* boxes tried side by side: the radius, a third, a ninth */
+
+void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, long evaluations) {
+    CzSearch *search = surface->search;
+    const int n = surface->n;
+    const long limit = search->n_record + evaluations;
+    const double smallest = 1e-3;
+    double radius = 0.15, secant = 0.02;
+    double *tried = calloc((size_t)(RADII * n), sizeof *tried);
+    if (tried == NULL || evaluations < n + 1 + RADII ||
+        !cz_surface_begin(surface, phase, u, secant)) {
+        free(tried);
+        return;
+    }
+    while (radius > smallest && search->n_record + RADII <= limit) {
+        int n_tried = 0, moved_to;
+        for (int i = 0; i < RADII; i++)
+            n_tried += cz_surface_best(surface, radius * pow(3, -i), tried + n_tried * n);
+        if (n_tried == 0 || !cz_surface_try(surface, phase, n_tried, tried, &moved_to))
+            break;
+        if (moved_to == 0)
+            radius = fmin(1.5 * radius, 0.4);
+        else if (moved_to > 0)
+            radius *= moved_to == 1 ? 0.6 : 0.2;
+        else if (surface->is_fresh || search->n_record + n > limit)
+            radius *= 0.1;
+        else if (cz_surface_refresh(surface, phase, fmin(secant, radius)))
+            radius = fmax(0.3 * radius, 0.02);
+        else
+            break;
+    }
+    free(tried);
+}

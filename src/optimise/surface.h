@@ -1,0 +1,54 @@
+/* Linear response surfaces: the objective and every detail as planes around a base design.
+ *
+ *   c_k(u) = c_k(base) + slope_k . (u - base)        u scaled to 0..1
+ *
+ * Slopes begin as secants, n designs side by side, and are corrected by every further design
+ * (Broyden's rank-one update). Moving on planes inside a box whose size follows their success is
+ * how crash designs are searched, since local derivatives of a rattling train are of no use.
+ */
+#ifndef CZ_OPTIMISE_SURFACE_H
+#define CZ_OPTIMISE_SURFACE_H
+
+#include "optimise/search.h"
+
+typedef struct CzSurface {
+    CzSearch *search;
+    int n, m;                             /* variables, details */
+    long record;                          /* of the base, -1 while there is none */
+    double *u;                            /* base, scaled (n) */
+    double f, *c;                         /* objective and details of the base (m) */
+    double *df, *dc;                      /* slopes (n), (m x n) */
+    bool is_fresh;                        /* no design has corrected the slopes since the secants */
+    double *x, *many_f, *many_c, *many_d; /* scratch for `most` designs */
+    int most;
+} CzSurface;
+
+/* Memory for surfaces of a search and for batches of `most` designs; false when there is none. */
+bool cz_surface_create(CzSurface *surface, CzSearch *search, int most);
+void cz_surface_free(CzSurface *surface);
+
+/* Takes scaled design u as base: it is evaluated, with n more for the slopes. False when the search
+ * ended. */
+bool cz_surface_begin(CzSurface *surface, const char *phase, const double *u, double secant);
+
+/* New secants around the base. False when the search ended. */
+bool cz_surface_refresh(CzSurface *surface, const char *phase, double secant);
+
+/* Evaluates n_point scaled designs (at most `most`), corrects the slopes by each, and moves the
+ * base to the best of them when that is better than the base. False when the search ended.
+ * *moved_to is the index of the new base among them, or -1. */
+bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const double *u,
+                    int *moved_to);
+
+/* Planes at scaled u: returns the objective and adds up the violations as the search ranks them. */
+double cz_surface_predict(const CzSurface *surface, const double *u, double *penalty);
+
+/* Best scaled design on the planes within `radius` of the base and within the bounds, by NLopt.
+ * False when it cannot be found. */
+bool cz_surface_best(const CzSurface *surface, double radius, double *u);
+
+/* Moves from scaled design u by boxes that grow and shrink, with at most so many evaluations, until
+ * nothing gains. The surface stays at the last base. */
+void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, long evaluations);
+
+#endif

@@ -134,19 +134,91 @@ static void very_many_mistakes_are_counted(void **state) {
     cz_problem_free(problem);
 }
 
-static void a_file_of_very_many_values_is_told(void **state) {
-    const size_t n_byte = 2 * 1000 * 1000;
+/* A text of n copies of a piece between a beginning and an end. */
+static void check_long_text_refused(const char *begin, const char *piece, int n, const char *end,
+                                    const char *sentence) {
+    const size_t n_piece = strlen(piece);
+    const size_t n_byte = strlen(begin) + (size_t)n * n_piece + strlen(end);
     char *text = malloc(n_byte + 1);
     CzProblem *problem = NULL;
-    (void)state;
+    CzError error = {0};
     assert_non_null(text);
-    memcpy(text, "a: [[1", 6);
-    for (size_t i = 6; i < n_byte; i += 2)
-        memcpy(text + i, (i / 2) % 10000 == 0 ? "],[1" : ",1", 2);
-    assert_int_equal(cz_problem_read_text(text, n_byte, "text", ".", NULL, &problem, NULL),
-                     CZ_STATUS_INPUT);
+    strcpy(text, begin);
+    for (int i = 0; i < n; i++)
+        memcpy(text + strlen(begin) + (size_t)i * n_piece, piece, n_piece);
+    strcpy(text + strlen(begin) + (size_t)n * n_piece, end);
+    assert_int_equal(
+        cz_problem_read_text(text, n_byte, "text", GOOD_FOLDER, NULL, &problem, &error),
+        CZ_STATUS_INPUT);
+    assert_string_equal(error.message, sentence);
     cz_problem_free(problem);
     free(text);
+}
+
+static void files_that_would_take_very_long_are_told(void **state) {
+    (void)state;
+    check_long_text_refused("a: [", "1,", 30000, "1]", "a list has more than 20000 items");
+    check_long_text_refused("a:\n", "- [1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1]\n", 15000, "",
+                            "the file has more than 250000 values");
+    char *keys = malloc(3000 * 12);
+    assert_non_null(keys);
+    keys[0] = '\0';
+    for (int i = 0, n = 0; i < 2500; i++)
+        n += sprintf(keys + n, "k%d: 1\n", i);
+    check_long_text_refused(keys, "", 0, "", "a mapping has more than 2000 keys");
+    free(keys);
+}
+
+static void a_curve_of_very_many_lines_is_told(void **state) {
+    char path[] = "/tmp/crushzone-curve-XXXXXX";
+    char text[300];
+    const int descriptor = mkstemp(path);
+    CzProblem *problem = NULL;
+    (void)state;
+    assert_true(descriptor >= 0);
+    FILE *file = fdopen(descriptor, "w");
+    assert_non_null(file);
+    fputs("stroke_mm,force_kN\n", file);
+    for (int i = 0; i < 20000; i++)
+        fprintf(file, "%g,100\n", i * 1e-2);
+    fclose(file);
+    snprintf(text, sizeof text,
+             "extends: rigid.yaml\n"
+             "parts: {bumper: {stages: null, curve: {file: %s, basis: static}}}\n",
+             path);
+    assert_int_equal(read_text(text, &problem), CZ_STATUS_INPUT);
+    assert_string_equal(cz_problem_mistake(problem, 0)->message, "a curve has at most 20000 lines");
+    cz_problem_free(problem);
+    unlink(path);
+}
+
+static void a_setting_that_is_none_is_told_with_its_place(void **state) {
+    static const char *const set[] = {"trains.A.speed_km_h=30", "trains.A.speed_km_h",
+                                      "trains.A.speed_km_h=fast", "=3", "trains.A.sped_km_h=3"};
+    CzProblemOptions options = cz_problem_options_default();
+    CzProblem *problem = NULL;
+    (void)state;
+    options.set = set;
+    options.n_set = 5;
+    assert_int_equal(cz_problem_read(GOOD_FOLDER "/rigid.yaml", &options, &problem, NULL),
+                     CZ_STATUS_INPUT);
+    static const struct {
+        int line, column;
+        const char *message;
+    } told[] = {{2, 1, "'trains.A.speed_km_h' is not path=value"},
+                {3, 21, "speed_km_h: 'fast' is not a number"},
+                {4, 1, "'=3' is not path=value"},
+                {5, 10, "unknown key 'sped_km_h' in train"}};
+    assert_int_equal(cz_problem_n_mistake(problem), 4);
+    for (int i = 0; i < 4; i++) {
+        const CzError *error = cz_problem_mistake(problem, i);
+        assert_string_equal(error->file, "--set");
+        assert_int_equal(error->line, told[i].line);
+        assert_int_equal(error->column, told[i].column);
+        assert_string_equal(error->message, told[i].message);
+        assert_string_equal(cz_problem_source_line(problem, error), set[told[i].line - 1]);
+    }
+    cz_problem_free(problem);
 }
 
 /* A host program's locale, with a decimal comma where the system has one. */
@@ -187,7 +259,9 @@ int main(void) {
         cmocka_unit_test(a_byte_order_mark_is_passed_over),
         cmocka_unit_test(lines_may_end_as_on_windows),
         cmocka_unit_test(very_many_mistakes_are_counted),
-        cmocka_unit_test(a_file_of_very_many_values_is_told),
+        cmocka_unit_test(files_that_would_take_very_long_are_told),
+        cmocka_unit_test(a_curve_of_very_many_lines_is_told),
+        cmocka_unit_test(a_setting_that_is_none_is_told_with_its_place),
         cmocka_unit_test(the_locale_of_the_host_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -121,8 +121,8 @@ typedef struct CzRunSummary {
     CzEnergy energy;
     double momentum_error;
     double closing_speed;  /* largest closing speed of neighbours at the end [m/s] */
-    double plastic_energy; /* what a perfectly plastic collision would dissipate, less wheel-rail
-                              work [J] */
+    double plastic_energy; /* what a perfectly plastic collision would dissipate, less the work at
+                              wheels and brakes until the trains first have one speed [J] */
     bool beyond_validity;  /* override happened: later metrics are beyond the model */
     double beyond_validity_time; /* [s]; NaN when not */
     int n_interface;

@@ -42,3 +42,25 @@ double cz_momentum_error(const CzBatch *batch, int design) {
     }
     return scale > 0.0 ? fabs(change) / scale : 0.0;
 }
+
+double cz_wheel_rail_work(const CzBatch *batch, int design) {
+    double work = 0.0;
+    for (int car = 0; car < batch->model->n_car; ++car) {
+        const size_t lane = cz_lane(batch, car, design);
+        work += cz_work(batch, CZ_L_WHEEL_CREEP, lane) + cz_work(batch, CZ_L_BRAKE, lane);
+    }
+    return work;
+}
+
+double cz_train_speed(const CzBatch *batch, int train, int design) {
+    double mass = 0.0, momentum = 0.0;
+    for (int car = 0; car < batch->model->n_car; ++car) {
+        if (batch->model->car[car].train != train)
+            continue;
+        const size_t lane = cz_lane(batch, car, design);
+        const double m = cz_row(batch->lanes->mass, batch->lanes->stride, CZ_DOF_BODY_X)[lane];
+        mass += m;
+        momentum += m * cz_velocity(batch, CZ_DOF_BODY_X, lane);
+    }
+    return mass > 0.0 ? momentum / mass : 0.0;
+}

@@ -75,6 +75,7 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     for (int design = 0; design < n_design; ++design) {
         used[design] = vehicles != NULL && vehicles[design] != NULL ? vehicles[design] : own;
         batch->design[design].override_time = NAN;
+        batch->design[design].wheel_rail = NAN;
         batch->design[design].quiet_since = NAN;
         batch->design[design].settled_since = NAN;
     }

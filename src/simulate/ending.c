@@ -169,6 +169,9 @@ static void look_at(CzBatch *batch, int design) {
         fails_to_solve(batch, design))
         return;
     look_for_climbing(batch, design);
+    if (isnan(progress->wheel_rail) &&
+        cz_train_speed(batch, 0, design) <= cz_train_speed(batch, 1, design))
+        progress->wheel_rail = cz_wheel_rail_work(batch, design);
     const double strokes = plastic_strokes(batch, design);
     const bool flows = strokes - progress->plastic > FLOW;
     progress->plastic = strokes;

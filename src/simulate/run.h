@@ -41,6 +41,8 @@ typedef struct CzProgressOfDesign {
     double quiet_since;   /* when the end-of-run conditions began to hold; NaN when they do not */
     double settled_since; /* likewise for the conditions of a brief run */
     double plastic;       /* sum of the plastic strokes at the last look [m] */
+    double wheel_rail;    /* work at wheels and brakes until the trains first had one speed [J]; NaN
+                             before */
     double override_time; /* NaN until it happens */
 } CzProgressOfDesign;
 
@@ -103,6 +105,9 @@ CZ_MUST_CHECK CzStatus cz_history_decelerations(const CzBatch *batch, int car, i
 /* balance.c */
 double cz_kinetic_energy(const CzBatch *batch, int design);
 double cz_total_work(const CzBatch *batch, int design);
+double cz_wheel_rail_work(const CzBatch *batch, int design);
+/* Mean speed of the vehicles of a train that can move, by mass. */
+double cz_train_speed(const CzBatch *batch, int train, int design);
 double cz_momentum_error(const CzBatch *batch, int design);
 /* ending.c: looks at all designs; true when every one is over. */
 bool cz_ending_look(CzBatch *batch);

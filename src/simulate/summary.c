@@ -53,8 +53,7 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
     energy.final_kinetic = cz_kinetic_energy(batch, design);
     energy.stored += stored_in_mixed(batch, design);
     energy.dissipated = work - energy.stored;
-    energy.wheel_rail =
-        work_of(batch, design, CZ_L_WHEEL_CREEP) + work_of(batch, design, CZ_L_BRAKE);
+    energy.wheel_rail = cz_wheel_rail_work(batch, design);
     for (size_t k = 0; k < sizeof running_gear / sizeof running_gear[0]; ++k)
         energy.running_gear += work_of(batch, design, running_gear[k]);
     energy.absorbers = energy.dissipated - energy.wheel_rail - energy.running_gear;
@@ -146,7 +145,9 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     summary->energy = cz_energy_fill(batch, design);
     summary->momentum_error = cz_momentum_error(batch, design);
     summary->closing_speed = closing_speed(batch, design);
-    summary->plastic_energy = plastic_energy(batch, design) - summary->energy.wheel_rail;
+    const double wheel_rail =
+        isnan(progress->wheel_rail) ? summary->energy.wheel_rail : progress->wheel_rail;
+    summary->plastic_energy = plastic_energy(batch, design) - wheel_rail;
     summary->beyond_validity = !isnan(progress->override_time);
     summary->beyond_validity_time = progress->override_time;
     for (int i = 0; i < n_interface; ++i) {

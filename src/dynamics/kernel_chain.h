@@ -6,9 +6,9 @@
  *
  * The left side grows with F and is piecewise linear, so Newton's method with a bracket finds F in
  * as many steps as kinks are passed. F never falls below what the chain can pull (0 where nothing
- * couples). Where that leads a spring past a kink of its law, or a plastic member into its stop, it
- * is linearised again about where it went. Lanes that have arrived are left alone, so that a lane's
- * answer does not depend on its neighbours.
+ * couples). Where that leads a spring past a kink of its law, or a plastic member to a strength
+ * that is not the force, it is linearised again about where it went. Lanes that have arrived are
+ * left alone, so that a lane's answer does not depend on its neighbours.
  */
 #ifndef CZ_DYNAMICS_KERNEL_CHAIN_H
 #define CZ_DYNAMICS_KERNEL_CHAIN_H
@@ -20,7 +20,7 @@
 
 enum {
     CHAIN_ITERATIONS = 60,
-    CHAIN_PASSES = 8 /* linearisations of one step: more kinks than a step passes (ours) */
+    CHAIN_PASSES = 12 /* linearisations of one step: more kinks than a step passes (ours) */
 };
 #define CHAIN_TOLERANCE 1e-13 /* closure left unbalanced [m] */
 #define LAW_TOLERANCE 1.0     /* force by which a member may miss its law [N] (ours) */
@@ -34,7 +34,7 @@ typedef struct {
     int rise;                   /* CzScratch: rise of the strengths, of side A; -1: none */
 } Chain;
 
-/* Linearises the spring of one side: the first time about its committed stroke, later about where
+/* Linearises a member of one side: the first time about its committed stroke, later about where
  * the chain's force takes it, in the lanes where it misses its law. Returns how many those are. */
 typedef double Linearise(CzDynamics *d, int side, double step, int again);
 
@@ -242,41 +242,68 @@ static void prepare_plastic(CzDynamics *d, const Chain *chain, int member, doubl
     }
 }
 
-/* Linearises a plastic member again where the chain's force has taken it to a strength that is
- * higher than that force: beyond an upward kink, such as its stop. Returns in how many lanes. */
-static double harden_plastic(CzDynamics *d, const Chain *chain, int member, double step) {
+/* Where the chain's force takes a plastic member. */
+static void trial_of_plastic(CzDynamics *d, const Chain *chain, int member,
+                             double *restrict stroke) {
     const size_t n = CZ_LANE_BLOCK;
-    const double *restrict force = S(CHAIN_FORCE), *restrict active = S(CHAIN_ACTIVE);
-    const double *restrict rate = cz_row(d->lanes->parameter, d->stride, chain->rate + member);
-    const double *restrict rise = rise_of(d, chain, member);
+    const double *restrict force = S(CHAIN_FORCE);
     const double *restrict committed = cz_row(d->memory, d->stride, chain->plastic + member);
-    double *restrict strength = S_AT(STRENGTH_0, member), *restrict flow = S_AT(FLOW_0, member);
-    double *stroke = S(TRIAL_STROKE), *curve = S(CURVE_VALUE), *slope = S(CURVE_SLOPE);
+    const double *restrict strength = S_AT(STRENGTH_0, member), *restrict flow =
+                                                                    S_AT(FLOW_0, member);
     CZ_LANES (i, n) {
         stroke[i] = committed[i] + cz_plastic_flow(force[i], strength[i], flow[i]);
     }
-    evaluate_curve(d, chain->curve + member, stroke, curve, slope);
+}
+
+/* Linearises a plastic member about a trial stroke where its strength there, `curve` with `slope`,
+ * is not the chain's force: with its tangent where the strength rises, such as in a stop; with the
+ * strength itself where it falls. Returns in how many lanes. */
+static double accept_plastic(CzDynamics *d, const Chain *chain, int member,
+                             const double *restrict stroke, const double *restrict curve,
+                             const double *restrict slope, const double *restrict rate,
+                             double step) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict force = S(CHAIN_FORCE), *restrict active = S(CHAIN_ACTIVE);
+    const double *restrict committed = cz_row(d->memory, d->stride, chain->plastic + member);
+    double *restrict strength = S_AT(STRENGTH_0, member), *restrict flow = S_AT(FLOW_0, member);
     double n_changed = 0.0;
     _Pragma("omp simd reduction(+ : n_changed)") for (size_t i = 0; i < n; ++i) {
         const double way = stroke[i] - committed[i];
-        const double there = curve[i] * (1.0 + rise[i]);
-        const double tangent = cz_positive_part(slope[i]) * (1.0 + rise[i]);
-        const double compliance = cz_plastic_compliance(there, tangent, rate[i], step);
-        const double asked = there - tangent * way + way / compliance;
+        const double tangent = cz_positive_part(slope[i]);
+        const double compliance = cz_plastic_compliance(curve[i], tangent, rate[i], step);
+        const double start = curve[i] - tangent * way;
+        const double missed = fabs(start + way / compliance - force[i]);
         const double flows = way > 0.0 ? active[i] : 0.0;
-        const double rises = tangent > 0.0 ? flows : 0.0;
-        const double changed = asked > force[i] + LAW_TOLERANCE ? rises : 0.0;
-        strength[i] = changed > 0.0 ? there - tangent * way : strength[i];
+        const double changed = missed > LAW_TOLERANCE ? flows : 0.0;
+        strength[i] = changed > 0.0 ? start : strength[i];
         flow[i] = changed > 0.0 ? compliance : flow[i];
         n_changed += changed;
     }
     return n_changed;
 }
 
-/* Finds the force with which every member keeps its law: S(CHAIN_FORCE). CHAIN_LOWEST,
- * CHAIN_ACTIVE and the plastic members that have no curve are set before. What is left unbalanced
- * is kept for the run to judge. */
-static void solve_chain(CzDynamics *d, const Chain *chain, Linearise *linearise, double step) {
+/* The same for a member with a curve. */
+static double relinearise_plastic(CzDynamics *d, const Chain *chain, int member, double step) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict rise = rise_of(d, chain, member);
+    double *stroke = S(TRIAL_STROKE);
+    double *restrict curve = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
+    trial_of_plastic(d, chain, member, stroke);
+    evaluate_curve(d, chain->curve + member, stroke, curve, slope);
+    CZ_LANES (i, n) {
+        curve[i] *= 1.0 + rise[i];
+        slope[i] *= 1.0 + rise[i];
+    }
+    return accept_plastic(d, chain, member, stroke, curve, slope,
+                          cz_row(d->lanes->parameter, d->stride, chain->rate + member), step);
+}
+
+/* Finds the force with which every member keeps its law: S(CHAIN_FORCE). `springs` linearises the
+ * springs, `others` the plastic members that have no curve (NULL: there are none). CHAIN_LOWEST,
+ * CHAIN_ACTIVE and the others' first linearisation are set before. What is left unbalanced is kept
+ * for the run to judge. */
+static void solve_chain(CzDynamics *d, const Chain *chain, Linearise *springs, Linearise *others,
+                        double step) {
     const size_t n = CZ_LANE_BLOCK;
     double *restrict force = S(CHAIN_FORCE);
     const double *restrict active = S(CHAIN_ACTIVE);
@@ -288,15 +315,17 @@ static void solve_chain(CzDynamics *d, const Chain *chain, Linearise *linearise,
         }
     }
     for (int side = 0; side < 2; ++side)
-        linearise(d, side, step, 0);
+        springs(d, side, step, 0);
     for (int member = 0; member < chain->n_curve; ++member)
         prepare_plastic(d, chain, member, step);
     int arrived = solve_linear(d, chain, S(CLOSURE));
     double n_changed = 1.0;
     for (int pass = 1; pass < CHAIN_PASSES && arrived && n_changed > 0.0; ++pass) {
-        n_changed = linearise(d, 0, step, 1) + linearise(d, 1, step, 1);
+        n_changed = springs(d, 0, step, 1) + springs(d, 1, step, 1);
         for (int member = 0; member < chain->n_curve; ++member)
-            n_changed += harden_plastic(d, chain, member, step);
+            n_changed += relinearise_plastic(d, chain, member, step);
+        if (others != NULL)
+            n_changed += others(d, 0, step, 1) + others(d, 1, step, 1);
         if (n_changed > 0.0)
             arrived = solve_linear(d, chain, S(CLOSURE));
     }

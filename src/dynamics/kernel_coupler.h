@@ -108,24 +108,35 @@ static void coupler_geometry(CzDynamics *d, const Carrier *a, const Carrier *b) 
     }
 }
 
-/* Shear-off of one side as a plastic member, and the damage that it has done. */
-static void prepare_shear_off(CzDynamics *d, int side, double step) {
+/* Linearises the shear-off of one side; the first time also tells the damage that it has done. */
+static double linearise_shear_off(CzDynamics *d, int side, double step, int again) {
     const size_t n = CZ_LANE_BLOCK;
     const int member = 4 + side;
     const double *restrict force = P_AT(SHEAR_FORCE_A, side), *restrict softening =
                                                                   P_AT(SHEAR_SOFTENING_A, side);
     const double *restrict space = P_AT(SHEAR_SPACE_A, side), *restrict bottom =
                                                                   P_AT(SHEAR_BOTTOM_A, side);
-    const double *restrict travel = M_AT(SHEAR_A, side);
-    double *restrict strength = S_AT(STRENGTH_0, member), *restrict flow = S_AT(FLOW_0, member);
-    double *restrict damage = S(DAMAGE);
+    double *trial = S(TRIAL_STROKE);
+    if (again)
+        trial_of_plastic(d, &coupler_chain, member, trial);
+    const double *restrict travel = again ? trial : M_AT(SHEAR_A, side);
+    double *restrict strength = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
+    double *restrict damage = again ? S(UNUSED) : S(DAMAGE);
     CZ_LANES (i, n) {
         const CzShearOffResponse response =
             cz_shear_off(force[i], cz_larger(softening[i], 1e-6), space[i], bottom[i], travel[i]);
         strength[i] = response.strength;
-        flow[i] = cz_plastic_compliance(response.strength, response.slope, 0.0, step);
+        slope[i] = response.slope;
         damage[i] = cz_larger(damage[i], response.damage);
     }
+    if (again)
+        return accept_plastic(d, &coupler_chain, member, trial, strength, slope, S(ZERO), step);
+    double *restrict first = S_AT(STRENGTH_0, member), *restrict flow = S_AT(FLOW_0, member);
+    CZ_LANES (i, n) {
+        first[i] = strength[i];
+        flow[i] = cz_plastic_compliance(strength[i], slope[i], 0.0, step);
+    }
+    return (double)n;
 }
 
 static double linearise_coupler_buffer(CzDynamics *d, int side, double step, int again) {
@@ -142,7 +153,7 @@ static void coupler_chain_force(CzDynamics *d, double step) {
         }
     }
     for (int side = 0; side < 2; ++side)
-        prepare_shear_off(d, side, step);
+        linearise_shear_off(d, side, step, 0);
     {
         const double *restrict coupled = P(COUPLED), *restrict exists = P(COUPLER),
                                *restrict damage = S(DAMAGE);
@@ -152,7 +163,7 @@ static void coupler_chain_force(CzDynamics *d, double step) {
             active[i] = exists[i];
         }
     }
-    solve_chain(d, &coupler_chain, linearise_coupler_buffer, step);
+    solve_chain(d, &coupler_chain, linearise_coupler_buffer, linearise_shear_off, step);
     move_members(d, &coupler_chain, CZ_M_COUPLER_ENERGY_A, CZ_M_TUBE_ENERGY_A);
     keep_rates(d, &coupler_chain, CZ_M_BUFFER_RATE_A, step);
 }

@@ -171,8 +171,10 @@ static void sequence(const char *step, double tolerance) {
         assert_near(value_at(&collision, v, ends[i][0]), ends[i][1], tolerance, 0.0);
         assert_near(value_at(&collision, x, ends[i][0]), ends[i][2], tolerance, 0.0);
     }
-    assert_near(time_of_fall(&collision, v, NULL), 0.167891, tolerance, 0.0);
-    assert_near(0.5 * summary->interface[0].shortening, 0.781502, tolerance, 0.0);
+    /* The end yields after 0.1 mm: half of that is lost to its plateau. */
+    const double lost = 0.5 * 1e-4;
+    assert_near(time_of_fall(&collision, v, NULL), 0.167891 + lost / 4.921921, tolerance, 0.0);
+    assert_near(0.5 * summary->interface[0].shortening, 0.781502 + lost, tolerance, 0.0);
     assert_near(summary->interface[0].energy, 1929.012e3, tolerance, 0.0);
     collision_free(&collision);
 }

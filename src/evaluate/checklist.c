@@ -331,6 +331,19 @@ static CzStatus append_closing_rules(Builder *builder) {
     return append_missing_scenarios(builder, has);
 }
 
+/* A design must be one that a file may hold, whatever else is asked of it. The file's own values
+ * do, so that this is nothing to be listed. */
+static CzStatus append_rules_of_files(Builder *builder) {
+    CzCheck check = {.name = "rules between values",
+                     .metric_text = "design.rules_broken",
+                     .scenario = CZ_NO_SCENARIO,
+                     .source = "a design is written down and read back",
+                     .is_target = true};
+    CZ_TRY(cz_metric_parse(check.metric_text, &check.metric, builder->error));
+    check.scale = check.metric.kind->scale;
+    return append(builder, &check);
+}
+
 /* ---- constraints
  * -------------------------------------------------------------------------------------- */
 
@@ -377,5 +390,7 @@ CzStatus cz_checklist_build(const CzProblem *problem, int n_scene, const CzScene
         CZ_TRY(append_closing_rules(&builder));
     for (int i = 0; input->optimise.given && i < input->optimise.n_targets; i++)
         CZ_TRY(append_limit(&builder, &input->optimise.targets[i], NULL, true));
+    if (input->optimise.given && input->optimise.n_variables > 0)
+        CZ_TRY(append_rules_of_files(&builder));
     return choose_constraints(&builder);
 }

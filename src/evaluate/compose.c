@@ -18,7 +18,8 @@ static const char *failure_of(const CzRunSummary *run) {
 static CzSubject subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,
                             const CzRunSummary *const *run) {
     const CzInput *input = cz_problem_input(evaluator->problem);
-    CzSubject subject = {.vehicles = vehicles,
+    CzSubject subject = {.problem = evaluator->problem,
+                         .vehicles = vehicles,
                          .n_vehicle = evaluator->n_vehicle,
                          .n_first_train = input->trains[0].n_vehicles,
                          .rate = evaluator->rate};

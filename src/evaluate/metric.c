@@ -94,6 +94,12 @@ static double largest_wheel_lift(const CzPlace *place) {
     return lift;
 }
 
+/* Whether a design could not be written down and read back. Memory that is lacking counts as
+ * broken: such a design is not one to win with. */
+static double breaks_rules(const CzPlace *place) {
+    return cz_problem_check_vehicles(place->problem, place->vehicles, NULL) != CZ_OK;
+}
+
 /* A climb that was seen is one whatever is declared; that none was seen says something only when
  * every full vehicle can lift. */
 static double climbed(const CzPlace *place) {

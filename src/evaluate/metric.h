@@ -31,6 +31,7 @@ typedef struct CzPlace {
     int interface_index;
     const CzElementResult *element;
     const CzVehicleResult *vehicle;
+    const CzProblem *problem;  /* whose rules a design is held to */
     const CzVehicle *vehicles; /* the vehicle array with the design's values */
     const CzVehicle *record;   /* of the vehicle or end; the first of n_record for DESIGN */
     int n_record;
@@ -73,6 +74,7 @@ typedef struct CzMetric {
 typedef struct CzSubject {
     const CzScene *scene;    /* NULL: the design alone */
     const CzRunSummary *run; /* of that scenario; NULL: the design alone */
+    const CzProblem *problem;
     const CzVehicle
         *vehicles; /* the problem's vehicle array with the design's values (n_vehicle) */
     int n_vehicle;

@@ -169,6 +169,7 @@ int cz_places_visit(const CzSubject *subject, CzLevel level, const char *selecto
                  .visit = visit,
                  .data = data,
                  .place = {.scene = subject->scene, .run = subject->run, .rate = subject->rate}};
+    walk.place.problem = subject->problem;
     walk.place.vehicles = subject->vehicles;
     switch (level) {
     case CZ_LEVEL_RUN:

@@ -248,7 +248,7 @@ static void required_margin_is_part_of_the_constraint(void **state) {
               "       min: 150, scenarios: [crash]}\n");
     evaluate(&made, NULL);
     assert_int_equal(made.evaluation.n_check, 0);
-    assert_int_equal(made.evaluation.n_constraint, 1);
+    assert_int_equal(made.evaluation.n_constraint, 2);
     assert_near(made.evaluation.constraint[0], 0.1 - 50.0 / 150, 1e-9, 0);
     assert_near(made.evaluation.objective, 1300, 1e-12, 0);
     assert_string_equal(cz_evaluator_constraint_name(made.evaluator, 0), "coupler works, crash");
@@ -378,6 +378,21 @@ static void variable_changes_both_trains_through_a_part(void **state) {
     end(&made);
 }
 
+static void design_that_could_not_be_read_back_is_infeasible(void **state) {
+    (void)state;
+    Case made = begin("checks: {closing_rules: false}\n"
+                      "optimise:\n"
+                      "  variables: [{path: \"parts.anti-climber.gap_mm\", min: 0, max: 2000}]\n");
+    const double behind_the_end = 1990;
+    evaluate(&made, NULL);
+    assert_near(made.evaluation.violation, 0, 0, 0);
+    evaluate(&made, &behind_the_end);
+    assert_true(made.evaluation.violation > 0);
+    assert_string_equal(made.evaluation.constraint_check[0].name, "rules between values");
+    assert_int_equal(made.evaluation.n_check, 0); /* nothing that is listed */
+    end(&made);
+}
+
 static void what_may_not_vary_is_refused_by_name(void **state) {
     (void)state;
     expect_refusal(
@@ -447,6 +462,7 @@ int main(void) {
         cmocka_unit_test(one_scenario_alone_leaves_the_others_unchecked),
         cmocka_unit_test(variables_have_names_units_bounds_and_places),
         cmocka_unit_test(variable_changes_both_trains_through_a_part),
+        cmocka_unit_test(design_that_could_not_be_read_back_is_infeasible),
         cmocka_unit_test(what_may_not_vary_is_refused_by_name),
         cmocka_unit_test(softening_the_opponent_is_refused),
         cmocka_unit_test(bounds_and_starts_that_do_not_fit_are_refused),

@@ -53,7 +53,8 @@ typedef struct CzOutcome {
     long n_evaluation;
     int n_variable;
     double *start,
-        *best; /* in the variables' units; best is snapped to the catalogue steps (n_variable) */
+        *best; /* in the variables' units; best is snapped to the catalogue steps unless the search
+                  ended before that, which why_stopped then says (n_variable) */
     bool *at_bound;                                 /* (n_variable) */
     CzEvaluation start_evaluation, best_evaluation; /* with runs kept */
     long n_trial;

@@ -70,9 +70,16 @@ static CzFunction function_of(CzEvaluator *evaluator, double *numbers, bool *fla
 /* ---- the outcome
  * ---------------------------------------------------------------------------------------- */
 
-/* The record that counts: on the catalogue steps when there are any. */
+/* The record that counts: the best on the catalogue steps when there are any. A search that ended
+ * before it came to them gives the best it has seen, and so does one that was interrupted before it
+ * found steps that pass. */
 static long chosen_record(const CzSearch *search) {
-    return cz_search_has_steps(search) ? search->best_on_grid : search->best;
+    const long best = search->best, on_grid = search->best_on_grid;
+    if (!cz_search_has_steps(search) || !search->is_snapped || on_grid < 0)
+        return best;
+    const bool passes_only_between =
+        search->record[best].violation <= 0 && search->record[on_grid].violation > 0;
+    return search->status == CZ_STATUS_INTERRUPTED && passes_only_between ? best : on_grid;
 }
 
 static CzStatus copy_history(const CzSearch *search, CzOutcome *outcome, CzError *error) {
@@ -120,8 +127,11 @@ static void conclude(const CzSearch *search, CzOutcome *outcome) {
     outcome->status = feasible ? CZ_OUTCOME_FEASIBLE : CZ_OUTCOME_INFEASIBLE;
     if (search->status == CZ_STATUS_INTERRUPTED)
         outcome->status = CZ_OUTCOME_INTERRUPTED;
-    snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%s",
-             search->why[0] != '\0' ? search->why : "nothing was left to gain");
+    const long best = chosen_record(search);
+    const bool is_between = best >= 0 && !search->record[best].on_grid;
+    snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%.80s%s",
+             search->why[0] != '\0' ? search->why : "nothing was left to gain",
+             is_between ? "; best not on catalogue steps yet" : "");
 }
 
 /* ---- the search

@@ -149,7 +149,10 @@ void cz_snap(CzSearch *search, long evaluations) {
     const long limit = search->n_record + evaluations;
     if (batch_create(&batch, search, limit, 2 * n * n + 2 * n + 1) && near != NULL) {
         add_cell(&batch, cz_search_x(search, search->best), near, near + n);
-        if (batch.n_point == 0 || batch_evaluate(&batch))
+        const bool known = batch.n_point == 0;
+        const bool whole = known || batch_evaluate(&batch);
+        search->is_snapped = cz_search_find(search, near) >= 0;
+        if (whole)
             descend(&batch, near, near + n);
     }
     batch_free(&batch);

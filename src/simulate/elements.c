@@ -30,7 +30,7 @@ static void name_element(CzElementResult *result, CzElementKind kind, const CzBa
 static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
                          CzElementResult *result) {
     if (cz_parameter(batch, CZ_P_COUPLER, lane) < 0.5 ||
-        batch->model->car[car].model == CZ_MODEL_FIXED)
+        cz_parameter(batch, CZ_P_BUFFER_TRANSITION_A + side, lane) > MISSING) /* a bare wall */
         return false;
     name_element(result, CZ_ELEMENT_COUPLER, batch, car);
     const double tube = cz_memory(batch, CZ_M_TUBE_A + side, lane);
@@ -82,7 +82,7 @@ static bool fill_anti_climber(const CzBatch *batch, size_t lane, int side, int c
 static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int car,
                               CzElementResult *result) {
     if (cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) < 0.5 ||
-        batch->model->car[car].model == CZ_MODEL_FIXED)
+        cz_parameter(batch, CZ_P_SIDE_TRANSITION_A + side, lane) > MISSING)
         return false;
     name_element(result, CZ_ELEMENT_SIDE_BUFFERS, batch, car);
     const double stroke = cz_memory(batch, CZ_M_SIDE_TUBE_A + side, lane);

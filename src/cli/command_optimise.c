@@ -93,12 +93,11 @@ int cz_command_optimise(const CzArguments *arguments) {
     CzError error = {0};
     if (folder == NULL)
         folder = default_folder;
-    if (cz_report_check_folder(folder, &error) != CZ_OK)
-        return cz_tell_error(arguments, &error);
-
     CzSession session;
     CzOutcome *outcome = NULL;
     int code = cz_session_begin(&session, arguments, arguments->operand[0]);
+    if (code == 0 && cz_report_check_folder(folder, &error) != CZ_OK)
+        code = cz_tell_error(arguments, &error); /* before anything is searched in vain */
     if (code == 0) {
         const CzStatus status = search(&session, &outcome, &error);
         if (outcome != NULL)

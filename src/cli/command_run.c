@@ -81,11 +81,10 @@ static int run_file(const CzArguments *arguments, const char *file) {
     char room[4096];
     const char *folder = folder_of(arguments, file, room);
     CzError error = {0};
-    if (folder != NULL && cz_report_check_folder(folder, &error) != CZ_OK)
-        return cz_tell_error(arguments, &error);
-
     CzSession session;
     int code = cz_session_begin(&session, arguments, file);
+    if (code == 0 && folder != NULL && cz_report_check_folder(folder, &error) != CZ_OK)
+        code = cz_tell_error(arguments, &error); /* before anything runs in vain */
     if (code == 0) {
         CzEvaluation evaluation = {0};
         const double started = cz_clock();

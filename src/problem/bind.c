@@ -327,6 +327,8 @@ static void bind_value(Binder binder, const Record *record, const CzKey *key, co
 static void bind_entry(Binder binder, Record *record, const CzEntry *entry) {
     const CzUnit *unit = NULL;
     const CzTrail *trail = cz_entry_trail(entry, record->trail);
+    if (entry->key->is_refused)
+        return;
     const CzKey *key = cz_record_match(record->record, entry->key->text, &unit);
     if (key == NULL) {
         key = report_unknown(binder, record, entry->key, trail);
@@ -334,6 +336,8 @@ static void bind_entry(Binder binder, Record *record, const CzEntry *entry) {
             return;
         record->meant[key - record->record->key] = true;
         binder.reader->has_holes |= key->kind >= CZ_KEY_CHILD;
+        if (key->kind == CZ_KEY_NUMBER) /* what was not read breaks no rule */
+            *(double *)(void *)(record->memory + key->offset) = NAN;
         cz_places_add(binder.reader, (CzPlace){.address = record->memory + key->offset,
                                                .node = entry->key,
                                                .value = entry->value,

@@ -191,6 +191,17 @@ static bool is_control(const unsigned char *text, size_t n) {
            (n == 3 && text[0] == 0xef && text[1] == 0xbf && text[2] >= 0xbe);
 }
 
+bool cz_source_is_printable(const char *text) {
+    const unsigned char *at = (const unsigned char *)text, *end = at + strlen(text);
+    while (at < end) {
+        const size_t n = character_length(at, (size_t)(end - at));
+        if (n == 0 || is_control(at, n))
+            return false;
+        at += n;
+    }
+    return true;
+}
+
 bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char *text,
                        size_t n_byte) {
     const unsigned char *at = (const unsigned char *)text, *end = at + n_byte;

@@ -35,6 +35,9 @@ CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *
 bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char *text,
                        size_t n_byte);
 
+/* The same of a text that came from escapes. */
+bool cz_source_is_printable(const char *text);
+
 /* Path of a file that another file names: relative to `folder` unless it begins with '/'. NULL
  * without memory. */
 const char *cz_path_join(CzArena *arena, const char *folder, const char *path);

@@ -4,6 +4,7 @@
  * and duplicate keys are reported all and reading goes on.
  */
 #include "problem/yaml_document.h"
+#include "problem/source.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -129,6 +130,11 @@ static CzNode *read_text(Document *document) {
         fail_without_memory(document);
     else if (strlen(node->text) != document->event.data.scalar.length)
         refuse(document, "a text cannot hold a zero byte");
+    else if (!cz_source_is_printable(node->text)) {
+        refuse(document, "a text cannot hold control characters");
+        node->text = "";
+        node->is_refused = true;
+    }
     return node;
 }
 

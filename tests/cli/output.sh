@@ -40,6 +40,8 @@ check "resolved.yaml holds the settings of the command line" with_set
 
 foreign() { mkdir -p mine && echo x >mine/thesis && exits 4 "$C" run two-trains.yaml -o mine && says err.txt 'crushzone did not write it' && [ -f mine/thesis ] && [ ! -s out.txt ]; }
 check "a folder that the program did not write is refused before the run" foreign
+bad_first() { echo 'schema: 1' >bad.yaml && exits 2 "$C" run bad.yaml -o mine && exits 2 "$C" optimise bad.yaml -o mine && says err.txt "lacks 'trains'"; }
+check "a bad file is told before a folder that is refused" bad_first
 notes() { exits 0 "$C" run two-trains.yaml && echo x >out/notes.txt && exits 4 "$C" run two-trains.yaml && says err.txt 'notes.txt' && rm out/notes.txt && exits 0 "$C" run two-trains.yaml; }
 check "a result folder with a file of the user's own is refused" notes
 no_parent() { exits 4 "$C" run two-trains.yaml -o two-trains.yaml/out && says err.txt 'is no folder'; }

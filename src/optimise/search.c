@@ -136,7 +136,8 @@ static bool is_gain(const CzSearch *search, long record) {
     const CzRecord *a = &search->record[record], *b = &search->record[search->best];
     if (b->penalty > 0)
         return a->penalty < 0.99 * b->penalty;
-    return a->objective < b->objective - 1e-3 * fabs(b->objective);
+    const double scale = search->function->is_minimax ? 1 : fabs(b->objective); /* a margin is 1 */
+    return a->objective < b->objective - 1e-3 * scale;
 }
 
 static void add_record(CzSearch *search, const double *x, const CzRecord *given) {

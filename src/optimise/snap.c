@@ -1,63 +1,70 @@
-/* From the best design to the best one that can be bought: every variable on its catalogue step. */
+/* From the best design to the best one that can be bought: every variable on its catalogue step.
+ *
+ * The response surface says which of many designs on the steps are worth a simulation: first the
+ * corners of the cell of steps around the best design, then what lies one step, or one step in each
+ * of two variables, from the best design on the steps.
+ */
 #include "optimise/strategy.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A batch of designs on the catalogue steps that have not been evaluated yet. */
-typedef struct Batch {
-    CzSearch *search;
-    long limit; /* evaluations of the search at which snapping ends */
-    int n_point, room;
-    double *x;                      /* (room x n_variable) */
-    double *objective, *constraint; /* what the search wants to answer into */
-} Batch;
+enum {
+    BATCH = 6,           /* designs on the steps that are simulated side by side */
+    MOST_OPEN = 12,      /* variables whose rounding is tried both ways: 4096 corners */
+    MOST_IDLE = 2,       /* batches without gain before a design that keeps everything is taken */
+    MOST_IDLE_BROKEN = 8 /* likewise while something is still violated */
+};
 
-static bool batch_create(Batch *batch, CzSearch *search, long limit, int room) {
-    const size_t n = (size_t)search->function->n_variable;
-    const size_t m = (size_t)search->function->n_constraint + 1;
-    *batch = (Batch){.search = search, .limit = limit, .room = room};
-    batch->x = calloc((size_t)room * n, sizeof(double));
-    batch->objective = calloc((size_t)room, sizeof(double));
-    batch->constraint = calloc((size_t)room * m, sizeof(double));
-    return batch->x != NULL && batch->objective != NULL && batch->constraint != NULL;
+/* The most promising designs so far, best first. */
+typedef struct Shortlist {
+    const CzSurface *surface;
+    int n_design;
+    double *x; /* natural variables (BATCH x n_variable) */
+    double penalty[BATCH + 1], objective[BATCH + 1];
+    double *u; /* scratch (n_variable) */
+} Shortlist;
+
+static bool is_before(const Shortlist *list, int a, int b) {
+    if (list->penalty[a] != list->penalty[b])
+        return list->penalty[a] < list->penalty[b];
+    return list->objective[a] < list->objective[b];
 }
 
-static void batch_free(Batch *batch) {
-    free(batch->x);
-    free(batch->objective);
-    free(batch->constraint);
+static void swap_designs(Shortlist *list, int a, int b, int n) {
+    for (int i = 0; i < n; i++) {
+        const double kept = list->x[a * n + i];
+        list->x[a * n + i] = list->x[b * n + i];
+        list->x[b * n + i] = kept;
+    }
+    const double penalty = list->penalty[a], objective = list->objective[a];
+    list->penalty[a] = list->penalty[b];
+    list->objective[a] = list->objective[b];
+    list->penalty[b] = penalty;
+    list->objective[b] = objective;
 }
 
-/* Adds a design unless it is known, in the batch already, or does not fit. */
-static void batch_add(Batch *batch, const double *x) {
-    const int n = batch->search->function->n_variable;
-    const size_t size = (size_t)n * sizeof *x;
-    if (batch->n_point == batch->room || cz_search_find(batch->search, x) >= 0)
+/* Takes a design into the list unless it has been simulated or is not among the best. */
+static void offer(Shortlist *list, const double *x) {
+    const CzSurface *surface = list->surface;
+    const int n = surface->n, at = list->n_design;
+    cz_search_scale(surface->search, x, list->u);
+    list->objective[at] = cz_surface_predict(surface, list->u, &list->penalty[at]);
+    if (at == BATCH && !is_before(list, at, BATCH - 1))
         return;
-    for (int i = 0; i < batch->n_point; i++)
-        if (memcmp(batch->x + i * n, x, size) == 0)
+    for (int i = 0; i < at; i++)
+        if (memcmp(list->x + i * n, x, (size_t)n * sizeof *x) == 0)
             return;
-    memcpy(batch->x + batch->n_point++ * n, x, size);
+    if (cz_search_find(surface->search, x) >= 0)
+        return;
+    memcpy(list->x + at * n, x, (size_t)n * sizeof *x);
+    for (int i = at; i > 0 && is_before(list, i, i - 1); i--)
+        swap_designs(list, i, i - 1, n);
+    list->n_design = at < BATCH ? at + 1 : BATCH;
 }
 
-/* Evaluates what fits into the limit; false when nothing more can be done. */
-static bool batch_evaluate(Batch *batch) {
-    CzSearch *search = batch->search;
-    long left = batch->limit - search->n_record;
-    if (cz_search_left(search) < left)
-        left = cz_search_left(search);
-    const int n = batch->n_point < left ? batch->n_point : (int)left;
-    const bool whole = n == batch->n_point;
-    batch->n_point = 0;
-    if (n <= 0)
-        return false;
-    return cz_search_evaluate(search, "snap", n, batch->x, batch->objective, batch->constraint) &&
-           whole;
-}
-
-/* Moves one variable by whole steps from `x`; false when it has no step or leaves its bounds. */
+/* Moves one variable by whole steps; false when it has no step or leaves its bounds. */
 static bool move(const CzSearch *search, double *x, int variable, int n_step) {
     const CzFunction *function = search->function;
     const double step = function->step[variable];
@@ -70,91 +77,114 @@ static bool move(const CzSearch *search, double *x, int variable, int n_step) {
     return true;
 }
 
-/* The corners of the cell of catalogue steps around a design: the nearest one, and the others that
- * differ from it in one variable. */
-static void add_cell(Batch *batch, const double *x, double *near, double *scratch) {
-    const CzSearch *search = batch->search;
+/* Variables that lie between two steps, those nearest to the middle first. */
+static int list_open(const CzSearch *search, const double *x, const double *near, int *open) {
     const int n = search->function->n_variable;
-    cz_search_round(search, x, near);
-    batch_add(batch, near);
+    int n_open = 0;
     for (int i = 0; i < n; i++) {
-        memcpy(scratch, near, (size_t)n * sizeof *near);
-        if (move(search, scratch, i, x[i] > near[i] ? 1 : -1))
-            batch_add(batch, scratch);
+        const double step = search->function->step[i];
+        if (!(step > 0) || near[i] == x[i])
+            continue;
+        int at = n_open < MOST_OPEN ? n_open++ : MOST_OPEN - 1;
+        const double distance = fabs(x[i] - near[i]) / step;
+        while (at > 0 && distance > fabs(x[open[at - 1]] - near[open[at - 1]]) /
+                                        search->function->step[open[at - 1]]) {
+            open[at] = open[at - 1];
+            at--;
+        }
+        open[at] = i;
+    }
+    return n_open;
+}
+
+/* Offers the corners of the cell of steps around a design. */
+static void offer_corners(Shortlist *list, const double *x, double *near, double *corner) {
+    const CzSearch *search = list->surface->search;
+    const size_t size = (size_t)list->surface->n * sizeof *x;
+    int open[MOST_OPEN];
+    cz_search_round(search, x, near);
+    const int n_open = list_open(search, x, near, open);
+    for (int code = 0; code < 1 << n_open; code++) {
+        bool is_inside = true;
+        memcpy(corner, near, size);
+        for (int k = 0; k < n_open && is_inside; k++)
+            if (code >> k & 1)
+                is_inside = move(search, corner, open[k], x[open[k]] > near[open[k]] ? 1 : -1);
+        if (is_inside)
+            offer(list, corner);
     }
 }
 
-/* All designs one step away. */
-static void add_neighbours(Batch *batch, const double *x, double *scratch) {
-    const int n = batch->search->function->n_variable;
-    for (int i = 0; i < 2 * n; i++) {
-        memcpy(scratch, x, (size_t)n * sizeof *x);
-        if (move(batch->search, scratch, i / 2, i % 2 == 0 ? 1 : -1))
-            batch_add(batch, scratch);
-    }
-}
-
-/* All designs that differ by one step in each of two variables. */
-static void add_pairs(Batch *batch, const double *x, double *scratch) {
-    const int n = batch->search->function->n_variable;
+/* Offers what differs from a design by one step in one variable or in each of two. */
+static void offer_neighbours(Shortlist *list, const double *x, double *other) {
+    const CzSearch *search = list->surface->search;
+    const int n = list->surface->n;
     for (int i = 0; i < n; i++)
-        for (int j = 0; j < i; j++)
-            for (int sign = 0; sign < 4; sign++) {
-                memcpy(scratch, x, (size_t)n * sizeof *x);
-                if (move(batch->search, scratch, i, sign % 2 == 0 ? 1 : -1) &&
-                    move(batch->search, scratch, j, sign / 2 == 0 ? 1 : -1))
-                    batch_add(batch, scratch);
+        for (int j = 0; j <= i; j++)
+            for (int sign = 0; sign < (i == j ? 2 : 4); sign++) {
+                memcpy(other, x, (size_t)n * sizeof *x);
+                if (move(search, other, i, sign % 2 == 0 ? 1 : -1) &&
+                    (i == j || move(search, other, j, sign / 2 == 0 ? 1 : -1)))
+                    offer(list, other);
             }
 }
 
-/* Walks from the best design on the steps to a better neighbour until there is none. */
-static void descend(Batch *batch, double *at, double *scratch) {
-    CzSearch *search = batch->search;
-    const size_t size = (size_t)search->function->n_variable * sizeof *at;
-    bool with_pairs = false;
-    while (search->best_on_grid >= 0) {
-        const long before = search->best_on_grid;
-        memcpy(at, cz_search_x(search, before), size);
-        if (with_pairs)
-            add_pairs(batch, at, scratch);
-        else
-            add_neighbours(batch, at, scratch);
-        if (batch->n_point > 0 && !batch_evaluate(batch))
-            return;
-        if (search->best_on_grid != before) {
-            with_pairs = false;
-        } else {
-            if (with_pairs)
-                return;
-            with_pairs = true;
-        }
-    }
+/* Simulates the list, at most `left` of it; false when nothing more can be done. */
+static bool simulate(CzSurface *surface, Shortlist *list, long left) {
+    const int n_design = list->n_design < left ? list->n_design : (int)left;
+    if (n_design <= 0)
+        return false;
+    int moved_to;
+    return cz_surface_try_exact(surface, "snap", n_design, list->x, &moved_to);
 }
 
 long cz_snap_reserve(const CzSearch *search) {
     if (!cz_search_has_steps(search))
         return 0;
-    const long wanted = 6L * search->function->n_variable + 2;
+    const long wanted = search->function->n_variable + 1 + 6L * BATCH;
     const long share = search->most_evaluations / 4;
     return wanted < share ? wanted : share;
 }
 
-void cz_snap(CzSearch *search, long evaluations) {
+/* Batch after batch until nothing gains. `scratch` is (3 x n_variable). */
+static void snap(CzSurface *surface, Shortlist *list, long limit, double *scratch) {
+    CzSearch *search = surface->search;
+    const int n = surface->n;
+    int n_idle = 0;
+    memcpy(scratch, cz_search_x(search, search->best), (size_t)n * sizeof *scratch);
+    offer_corners(list, scratch, scratch + n, scratch + 2 * n);
+    search->is_snapped = list->n_design == 0; /* all corners are known */
+    if (list->n_design == 0 && search->best_on_grid >= 0)
+        offer_neighbours(list, cz_search_x(search, search->best_on_grid), scratch + n);
+    while (simulate(surface, list, limit - search->n_record)) {
+        search->is_snapped = true;
+        const long at = search->best_on_grid;
+        const bool is_kept = at >= 0 && search->record[at].penalty <= 0;
+        n_idle = at >= search->n_record - list->n_design ? 0 : n_idle + 1;
+        if (at < 0 || n_idle > (is_kept ? MOST_IDLE : MOST_IDLE_BROKEN))
+            return;
+        list->n_design = 0;
+        memcpy(scratch, cz_search_x(search, at), (size_t)n * sizeof *scratch);
+        offer_neighbours(list, scratch, scratch + n);
+    }
+}
+
+void cz_snap(CzSurface *surface, long evaluations) {
+    CzSearch *search = surface->search;
     if (!cz_search_has_steps(search) || search->best < 0)
         return;
     cz_search_resume(search);
-    const int n = search->function->n_variable;
-    Batch batch;
-    double *near = calloc(2 * (size_t)n, sizeof *near);
+    const size_t n = (size_t)surface->n;
     const long limit = search->n_record + evaluations;
-    if (batch_create(&batch, search, limit, 2 * n * n + 2 * n + 1) && near != NULL) {
-        add_cell(&batch, cz_search_x(search, search->best), near, near + n);
-        const bool known = batch.n_point == 0;
-        const bool whole = known || batch_evaluate(&batch);
-        search->is_snapped = cz_search_find(search, near) >= 0;
-        if (whole)
-            descend(&batch, near, near + n);
-    }
-    batch_free(&batch);
-    free(near);
+    double *memory = calloc((BATCH + 1 + 4) * n, sizeof *memory);
+    if (memory == NULL)
+        return;
+    double *u = memory + (BATCH + 1 + 3) * n;
+    cz_search_scale(search, cz_search_x(search, search->best), u);
+    Shortlist list = {.surface = surface, .x = memory, .u = u};
+    const bool is_at_best = surface->record >= 0 && surface->record == search->best;
+    const bool is_affordable = evaluations >= surface->n + 1 + BATCH; /* else without new slopes */
+    if (is_at_best || !is_affordable || cz_surface_begin(surface, "snap", u, 0.02))
+        snap(surface, &list, limit, memory + (BATCH + 1) * n);
+    free(memory);
 }

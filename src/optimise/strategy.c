@@ -10,13 +10,12 @@
 #include "optimise/strategy.h"
 #include "base/error.h"
 #include "optimise/nlopt_adapter.h"
-#include "optimise/surface.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_STARTS = 6, SCREEN_BATCH = 16 };
+enum { MOST_STARTS = 6, SCREEN_BATCH = 16, MOST_BATCH = 8 };
 
 /* Half width of the smaller box around the start that every other screening point is drawn from. */
 static const double near_start = 0.2;
@@ -98,27 +97,25 @@ static long best_apart(const CzSearch *search, int n_chosen, const double *chose
 }
 
 /* Response surfaces from the best screened points that lie apart. */
-static CzStatus descend(CzSearch *search, long evaluations, CzError *error) {
-    const int n = search->function->n_variable;
+static CzStatus descend(CzSurface *surface, long evaluations, CzError *error) {
+    CzSearch *search = surface->search;
+    const int n = surface->n;
     const long limit = search->n_record + evaluations;
     double *chosen = calloc((size_t)(MOST_STARTS + 1) * (size_t)n, sizeof *chosen);
-    CzSurface surface = {0};
-    CzStatus status = CZ_OK;
-    if (chosen == NULL || !cz_surface_create(&surface, search, 4))
-        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the response surfaces");
-    double *u = chosen != NULL ? chosen + MOST_STARTS * n : NULL;
-    for (int start = 0; start < MOST_STARTS && status == CZ_OK; start++) {
+    if (chosen == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the starting points");
+    double *u = chosen + MOST_STARTS * n;
+    for (int start = 0; start < MOST_STARTS; start++) {
         const long record = best_apart(search, start, chosen, start == 0 ? 0 : 0.15, u);
         const long left = limit - search->n_record;
         if (record < 0 || left < 3 * (n + 1) || cz_search_left(search) == 0)
             break;
         cz_search_scale(search, cz_search_x(search, record), u);
         memcpy(chosen + start * n, u, (size_t)n * sizeof *u);
-        cz_surface_descend(&surface, "descend", u, left);
+        cz_surface_descend(surface, "descend", u, left);
     }
-    cz_surface_free(&surface);
     free(chosen);
-    return status;
+    return CZ_OK;
 }
 
 /* One more run from the best design, or from the start while every design failed. */
@@ -166,36 +163,53 @@ static CzStatus polish(CzSearch *search, long reserve, CzError *error) {
     return CZ_OK;
 }
 
-CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, CzError *error) {
+/* Screen, descend, polish; what is set aside for the catalogue steps stays. */
+static CzStatus lead(CzSurface *surface, unsigned long seed, CzError *error) {
+    CzSearch *search = surface->search;
     const long reserve = cz_snap_reserve(search);
     const long total = search->most_evaluations - reserve;
-    CzStatus status = CZ_OK;
-    if (evaluate_start(search)) {
-        screen(search, seed, total / 10);
-        status = descend(search, total * 2 / 3, error);
-        if (status == CZ_OK)
-            status = polish(search, reserve, error);
+    if (!evaluate_start(search))
+        return CZ_OK;
+    const long enough = 2L * search->function->n_variable; /* a poor start costs more than these */
+    screen(search, seed, fmax(total / 10, fmin(enough, total / 4)));
+    CZ_TRY(descend(surface, total * 2 / 3, error));
+    return polish(search, reserve, error);
+}
+
+/* One algorithm again and again from the best design while that gains. */
+static CzStatus repeat(CzSearch *search, const char *algorithm, unsigned long seed,
+                       CzError *error) {
+    const long reserve = cz_snap_reserve(search);
+    CzNloptRun run = cz_nlopt_run_default(algorithm);
+    bool gained = evaluate_start(search); /* the start is the first gain */
+    for (run.seed = seed; gained; run.seed++) {
+        run.evaluations = cz_search_left(search) - reserve;
+        if (run.evaluations < 1)
+            break;
+        CZ_TRY(run_from_best(search, &run, &gained, error));
     }
+    return CZ_OK;
+}
+
+/* `algorithm` NULL: the usual strategy. */
+static CzStatus search_and_snap(CzSearch *search, const char *algorithm, unsigned long seed,
+                                CzError *error) {
+    CzSurface surface;
+    if (!cz_surface_create(&surface, search, MOST_BATCH))
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the response surfaces");
+    const CzStatus status =
+        algorithm == NULL ? lead(&surface, seed, error) : repeat(search, algorithm, seed, error);
     if (status == CZ_OK)
-        cz_snap(search, search->most_evaluations - search->n_record);
+        cz_snap(&surface, search->most_evaluations - search->n_record);
+    cz_surface_free(&surface);
     return status;
+}
+
+CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, CzError *error) {
+    return search_and_snap(search, NULL, seed, error);
 }
 
 CzStatus cz_strategy_named(CzSearch *search, const char *algorithm, unsigned long seed,
                            CzError *error) {
-    const long reserve = cz_snap_reserve(search);
-    CzNloptRun run = cz_nlopt_run_default(algorithm);
-    run.seed = seed;
-    CzStatus status = CZ_OK;
-    bool gained = evaluate_start(search);
-    while (gained && status == CZ_OK) { /* the first time because the start is one */
-        run.evaluations = cz_search_left(search) - reserve;
-        if (run.evaluations < 1)
-            break;
-        status = run_from_best(search, &run, &gained, error);
-        run.seed++;
-    }
-    if (status == CZ_OK)
-        cz_snap(search, search->most_evaluations - search->n_record);
-    return status;
+    return search_and_snap(search, algorithm, seed, error);
 }

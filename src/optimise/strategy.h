@@ -3,7 +3,7 @@
 #ifndef CZ_OPTIMISE_STRATEGY_H
 #define CZ_OPTIMISE_STRATEGY_H
 
-#include "optimise/search.h"
+#include "optimise/surface.h"
 
 /* Screen, descend, polish, snap. Statuses of the NLopt adapter; how the search ended stands in it.
  */
@@ -15,9 +15,9 @@ CZ_MUST_CHECK CzStatus cz_strategy_named(CzSearch *search, const char *algorithm
                                          unsigned long seed, CzError *error);
 
 /* Moves from the best design to the best one on the catalogue steps, with at most this many
- * evaluations: rounds it, then tries single steps of each variable, and pairs of them while
- * something is still violated, until nothing gains. */
-void cz_snap(CzSearch *search, long evaluations);
+ * evaluations, until nothing gains. A surface with another base is begun anew at the best design.
+ */
+void cz_snap(CzSurface *surface, long evaluations);
 
 /* Evaluations that a strategy sets aside for the catalogue steps. */
 long cz_snap_reserve(const CzSearch *search);

@@ -93,7 +93,8 @@ static void correct_all(CzSurface *surface, int point, const double *u, double *
         step[i] = u[i] - surface->u[i];
         square += step[i] * step[i];
     }
-    if (square < 1e-12 || isnan(surface->search->record[surface->record].objective))
+    if (surface->record < 0 || square < 1e-12 ||
+        isnan(surface->search->record[surface->record].objective))
         return;
     correct(surface->df, surface->n, step, square, surface->many_f[point] - surface->f);
     for (int k = 0; k < surface->m; k++)
@@ -102,32 +103,42 @@ static void correct_all(CzSurface *surface, int point, const double *u, double *
     surface->is_fresh = false;
 }
 
-bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const double *u,
-                    int *moved_to) {
+bool cz_surface_try_exact(CzSurface *surface, const char *phase, int n_point, const double *x,
+                          int *moved_to) {
     CzSearch *search = surface->search;
     const int n = surface->n;
     *moved_to = -1;
-    for (int point = 0; point < n_point; point++)
-        cz_search_unscale(search, u + point * n, surface->x + point * n);
-    if (!evaluate(surface, phase, n_point))
+    if (x != surface->x)
+        memcpy(surface->x, x, (size_t)(n_point * n) * sizeof *x);
+    double *u = calloc(2 * (size_t)n, sizeof *u), *step = u + n;
+    if (u == NULL || !evaluate(surface, phase, n_point)) {
+        free(u);
         return false;
+    }
     const long first = search->n_record - n_point;
-    double *step = calloc((size_t)n, sizeof *step);
-    if (step == NULL)
-        return false;
     long best = surface->record;
     for (int point = 0; point < n_point; point++) {
+        cz_search_scale(search, surface->x + point * n, u);
         if (!isnan(search->record[first + point].objective))
-            correct_all(surface, point, u + point * n, step);
+            correct_all(surface, point, u, step);
         if (cz_search_is_better(search, first + point, best)) {
             best = first + point;
             *moved_to = point;
         }
     }
-    free(step);
-    if (*moved_to >= 0)
-        set_base(surface, best, *moved_to, u + *moved_to * n);
+    if (*moved_to >= 0) {
+        cz_search_scale(search, surface->x + *moved_to * n, u);
+        set_base(surface, best, *moved_to, u);
+    }
+    free(u);
     return true;
+}
+
+bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const double *u,
+                    int *moved_to) {
+    for (int point = 0; point < n_point; point++)
+        cz_search_unscale(surface->search, u + point * surface->n, surface->x + point * surface->n);
+    return cz_surface_try_exact(surface, phase, n_point, surface->x, moved_to);
 }
 
 double cz_surface_predict(const CzSurface *surface, const double *u, double *penalty) {
@@ -258,7 +269,10 @@ bool cz_surface_best(const CzSurface *surface, double radius, double *u) {
 /* ---- moving
  * ------------------------------------------------------------------------------------------- */
 
-enum { RADII = 3 }; /* boxes tried side by side: the radius, a third, a ninth */
+enum {
+    RADII = 3,   /* boxes tried side by side: the radius, a third, a ninth */
+    PATIENCE = 3 /* gradients' worth of evaluations without a gain */
+};
 
 void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, long evaluations) {
     CzSearch *search = surface->search;
@@ -272,7 +286,8 @@ void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, 
         free(tried);
         return;
     }
-    while (radius > smallest && search->n_record + RADII <= limit) {
+    while (radius > smallest && search->n_record + RADII <= limit &&
+           search->n_record - search->last_gain <= PATIENCE * (n + 1)) {
         int n_tried = 0, moved_to;
         for (int i = 0; i < RADII; i++)
             n_tried += cz_surface_best(surface, radius * pow(3, -i), tried + n_tried * n);

@@ -135,6 +135,39 @@ static void check_facing(const CzRules *rules, const CzVehicle *behind, const Cz
             behind->name != NULL ? behind->name : "", ahead->name != NULL ? ahead->name : "");
 }
 
+static void warn_of_lone_devices(const CzRules *rules, const CzVehicle *owner, const CzEnd *end,
+                                 const CzVehicle *other, const CzEnd *opposite) {
+    if (!end->given)
+        return;
+    const char *own = owner->name != NULL ? owner->name : "";
+    const char *others = other->name != NULL ? other->name : "";
+    if (end->coupler.given && !(opposite->given && opposite->coupler.given))
+        cz_rule_warning(rules, &end->coupler,
+                        "lone coupler: '%.48s' has none to meet that of '%.48s', which then "
+                        "carries no force; in reality it would strike the headstock",
+                        others, own);
+    if (end->side_buffers.given && !(opposite->given && opposite->side_buffers.given))
+        cz_rule_warning(rules, &end->side_buffers,
+                        "lone side buffers: '%.48s' has none to meet those of '%.48s', which then "
+                        "carry no force; in reality they would strike the headstock",
+                        others, own);
+}
+
+/* Couplers and side buffers act in pairs, or alone against a partner that does not move. */
+static void check_pairs(const CzRules *rules, const CzVehicle *behind, const CzVehicle *ahead) {
+    if (!behind->given || !ahead->given || behind->model == CZ_MODEL_FIXED ||
+        ahead->model == CZ_MODEL_FIXED)
+        return;
+    warn_of_lone_devices(rules, behind, &behind->front, ahead, &ahead->rear);
+    warn_of_lone_devices(rules, ahead, &ahead->rear, behind, &behind->front);
+}
+
+static void check_neighbours(const CzRules *rules, const CzVehicle *behind,
+                             const CzVehicle *ahead) {
+    check_facing(rules, behind, ahead);
+    check_pairs(rules, behind, ahead);
+}
+
 static void check_train(const CzRules *rules, const CzTrain *train) {
     const CzSimulation *simulation = &rules->input->simulation;
     if (is_full_train(train) && !cz_rule_is_written(rules, &train->brake))
@@ -147,7 +180,7 @@ static void check_train(const CzRules *rules, const CzTrain *train) {
     if (is_fixed_train(train) && train->speed != 0)
         cz_rule_broken(rules, &train->speed, "a train with a fixed vehicle stands still");
     for (int i = 1; i < train->n_vehicles; i++)
-        check_facing(rules, &train->vehicles[i - 1], &train->vehicles[i]);
+        check_neighbours(rules, &train->vehicles[i - 1], &train->vehicles[i]);
 }
 
 void cz_rules_check_trains(const CzRules *rules) {
@@ -288,6 +321,7 @@ void cz_rules_check_scenarios(const CzRules *rules) {
         check_brake(rules, &scenario->brake_ratio, pair[0]);
         check_brake(rules, &scenario->partner_brake_ratio, pair[1]);
         if (pair[0]->n_vehicles > 0 && pair[1]->n_vehicles > 0)
-            check_facing(rules, &pair[0]->vehicles[pair[0]->n_vehicles - 1], &pair[1]->vehicles[0]);
+            check_neighbours(rules, &pair[0]->vehicles[pair[0]->n_vehicles - 1],
+                             &pair[1]->vehicles[0]);
     }
 }

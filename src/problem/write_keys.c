@@ -133,6 +133,8 @@ static void write_reuse(FILE *stream) {
         "An inner record with a `use` of its own replaces the part's, and so does a curve.\n"
         "`key: null` lets go what the part or the base file has.\n"
         "A value in another unit overrides the same stem.\n"
+        "A part is checked where it is used: what stands in a part that nothing uses is not read, "
+        "mistakes included.\n"
         "\n"
         "A path names places: keys and names parted by points, `[0]` for an item of a list, `[*]` "
         "or `*` for every item.\n"

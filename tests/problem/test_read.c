@@ -230,6 +230,28 @@ static void limits_of_a_profile_are_those_of_the_category(void **state) {
     cz_problem_free(problem);
 }
 
+static void coupler_without_one_to_meet_is_warned_of(void **state) {
+    (void)state;
+    static const char text[] = "extends: rigid.yaml\n"
+                               "parts:\n"
+                               "  draw:\n"
+                               "    height_m: 0.7\n"
+                               "    length_m: 1.2\n"
+                               "    hinge: {stiffness_kNm_rad: 1, moment_capacity_kNm: 1, "
+                               "swing_stop_deg: 6}\n"
+                               "    buffer: {stages: [{stroke_mm: 50, force_kN: 400}], "
+                               "unloading_share: 0.3}\n"
+                               "trains:\n"
+                               "  - name: A\n"
+                               "    vehicles:\n"
+                               "      - {name: A1, front: {coupler: {use: draw}}}\n";
+    CzProblem *problem = read_good_text(text);
+    assert_int_equal(cz_problem_n_warning(problem), 1);
+    assert_non_null(strstr(cz_problem_warning(problem, 0)->message,
+                           "lone coupler: 'B1' has none to meet that of 'A1'"));
+    cz_problem_free(problem);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_are_in_si_units_and_absent_ones_have_their_defaults),
@@ -245,6 +267,7 @@ int main(void) {
         cmocka_unit_test(the_hash_covers_files_and_settings),
         cmocka_unit_test(the_place_of_a_field_is_where_it_was_written),
         cmocka_unit_test(limits_of_a_profile_are_those_of_the_category),
+        cmocka_unit_test(coupler_without_one_to_meet_is_warned_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

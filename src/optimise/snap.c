@@ -17,6 +17,9 @@ enum {
     MOST_IDLE_BROKEN = 8 /* likewise while something is still violated */
 };
 
+/* Catalogue steps are coarse, so the slopes that judge them are taken over about as far. */
+static const double secant = 0.05;
+
 /* The most promising designs so far, best first. */
 typedef struct Shortlist {
     const CzSurface *surface;
@@ -142,7 +145,7 @@ long cz_snap_reserve(const CzSearch *search) {
     if (!cz_search_has_steps(search))
         return 0;
     const long wanted = search->function->n_variable + 1 + 6L * BATCH;
-    const long share = search->most_evaluations / 4;
+    const long share = search->most_evaluations / 3;
     return wanted < share ? wanted : share;
 }
 
@@ -182,9 +185,9 @@ void cz_snap(CzSurface *surface, long evaluations) {
     double *u = memory + (BATCH + 1 + 3) * n;
     cz_search_scale(search, cz_search_x(search, search->best), u);
     Shortlist list = {.surface = surface, .x = memory, .u = u};
-    const bool is_at_best = surface->record >= 0 && surface->record == search->best;
-    const bool is_affordable = evaluations >= surface->n + 1 + BATCH; /* else without new slopes */
-    if (is_at_best || !is_affordable || cz_surface_begin(surface, "snap", u, 0.02))
+    const bool is_affordable =
+        evaluations >= surface->n + 1 + BATCH; /* else by the slopes there are */
+    if (!is_affordable || cz_surface_begin(surface, "snap", u, secant))
         snap(surface, &list, limit, memory + (BATCH + 1) * n);
     free(memory);
 }

@@ -15,7 +15,8 @@ CZ_MUST_CHECK CzStatus cz_strategy_named(CzSearch *search, const char *algorithm
                                          unsigned long seed, CzError *error);
 
 /* Moves from the best design to the best one on the catalogue steps, with at most this many
- * evaluations, until nothing gains. A surface with another base is begun anew at the best design.
+ * evaluations, until nothing gains. The surface is begun anew there when
+ * that can be afforded.
  */
 void cz_snap(CzSurface *surface, long evaluations);
 

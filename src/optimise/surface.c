@@ -87,13 +87,17 @@ static void correct(double *slope, int n, const double *step, double square, dou
         slope[i] += (change - predicted) * step[i] / square;
 }
 
+/* Over shorter steps a rattling train's answer is scatter, which would spoil the slopes. */
+static const double shortest_step = 0.01;
+
 static void correct_all(CzSurface *surface, int point, const double *u, double *step) {
-    double square = 0;
+    double square = 0, largest = 0;
     for (int i = 0; i < surface->n; i++) {
         step[i] = u[i] - surface->u[i];
         square += step[i] * step[i];
+        largest = fmax(largest, fabs(step[i]));
     }
-    if (surface->record < 0 || square < 1e-12 ||
+    if (surface->record < 0 || largest < shortest_step ||
         isnan(surface->search->record[surface->record].objective))
         return;
     correct(surface->df, surface->n, step, square, surface->many_f[point] - surface->f);
@@ -271,14 +275,14 @@ bool cz_surface_best(const CzSurface *surface, double radius, double *u) {
 
 enum {
     RADII = 3,   /* boxes tried side by side: the radius, a third, a ninth */
-    PATIENCE = 3 /* gradients' worth of evaluations without a gain */
+    PATIENCE = 2 /* gradients' worth of evaluations without a gain */
 };
 
 void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, long evaluations) {
     CzSearch *search = surface->search;
     const int n = surface->n;
     const long limit = search->n_record + evaluations;
-    const double smallest = 1e-3;
+    const double smallest = 5e-3;
     double radius = 0.15, secant = 0.02;
     double *tried = calloc((size_t)(RADII * n), sizeof *tried);
     if (tried == NULL || evaluations < n + 1 + RADII ||

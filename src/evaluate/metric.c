@@ -67,9 +67,13 @@ static double energy_behind(const CzPlace *place) {
  *
  *   demand = used + 0.1 (1 - P / F) + E / (P stroke)
  *
- * It does not jump at the last point. */
+ * It does not jump at the last point. A coupler with a shear-off asks for nothing until it lets go:
+ * its tubes may be used up. */
 static double stroke_demand(const CzPlace *place) {
     const CzElementResult *element = place->element;
+    if (element->kind == CZ_ELEMENT_COUPLER && place->end->coupler.shear_off.given &&
+        !element->sheared)
+        return 0;
     const double plastic = cz_plastic_force(place->end, element->kind, place->rate);
     if (!element->bottomed_out || !(element->peak_force > plastic))
         return element->stroke_used;

@@ -46,11 +46,12 @@ static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
     result->stroke = tube + second;
     result->peak_force = cz_extreme(batch, CZ_E_COUPLER_FORCE, lane);
     result->sheared = travel >= cz_parameter(batch, CZ_P_SHEAR_SOFTENING_A + side, lane);
-    /* A tube that is used up is how a coupler comes to let go; from then on the room to retract
-     * counts. */
+    /* A tube that is used up is how a coupler with a shear-off comes to let go; from then on the
+     * room to retract counts. */
     const double of_tubes = fmax(used(tube, tube_usable), used(second, second_usable));
+    const bool lets_go = cz_parameter(batch, CZ_P_SHEAR_FORCE_A + side, lane) < MISSING;
     result->stroke_used = result->sheared ? used(travel, space) : of_tubes;
-    result->bottomed_out = travel > space || (!result->sheared && of_tubes > 1.0);
+    result->bottomed_out = lets_go ? travel > space : of_tubes > 1.0;
     return true;
 }
 

@@ -162,6 +162,19 @@ static void closing_rules_judge_the_design_and_every_scenario(void **state) {
     end(&made);
 }
 
+/* 241 kJ on each side use 96 % of a tube of 1 MN x 0.25 m, and the shear-off behind it stays whole.
+ */
+static void tube_in_front_of_a_shear_off_may_be_used_up(void **state) {
+    (void)state;
+    Case made = begin(variables);
+    const double x[2] = {1000, 400};
+    evaluate(&made, x);
+    const CzCheckResult *check = find(&made.evaluation, "stroke used", "crash");
+    assert_non_null(check);
+    assert_near(check->value, 0, 0, 1e-12);
+    end(&made);
+}
+
 static void scenarios_that_a_rule_needs_and_nobody_wrote_are_not_checked(void **state) {
     (void)state;
     stand_in_reset();
@@ -451,6 +464,7 @@ int main(void) {
         cmocka_unit_test(minimum_is_judged_at_the_smallest_place),
         cmocka_unit_test(unconfirmed_limit_passes_provisionally_until_the_user_sets_it),
         cmocka_unit_test(closing_rules_judge_the_design_and_every_scenario),
+        cmocka_unit_test(tube_in_front_of_a_shear_off_may_be_used_up),
         cmocka_unit_test(scenarios_that_a_rule_needs_and_nobody_wrote_are_not_checked),
         cmocka_unit_test(failed_run_is_infeasible_and_not_checked),
         cmocka_unit_test(incomplete_run_is_never_a_pass),

@@ -173,6 +173,10 @@ bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint) {
     return evaluator->list.check[evaluator->constraint_check[constraint]].scale == CZ_FLAG_SCALE;
 }
 
+void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *stop) {
+    evaluator->stop = stop;
+}
+
 bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator) {
     return evaluator->own_objective == NULL && evaluator->objective.kind == NULL;
 }

@@ -2,6 +2,8 @@
 #ifndef CZ_EVALUATE_EVALUATOR_H
 #define CZ_EVALUATE_EVALUATOR_H
 
+#include <signal.h>
+
 #include "crushzone/evaluate.h"
 #include "problem/problem.h"
 
@@ -12,6 +14,10 @@ bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint);
 
 /* Whether the objective is the smallest margin, so the largest constraint up to a constant. */
 bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator);
+
+/* Lets an evaluation end early, with CZ_STATUS_INTERRUPTED, once the flag is up; NULL: never. The
+ * flag is borrowed. */
+void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *stop);
 
 /* Details are constraints before the worst place is taken: one per place, smooth where the worst of
  * all places has kinks. Without yes and no. */

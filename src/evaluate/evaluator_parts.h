@@ -28,6 +28,7 @@ struct CzEvaluator {
     const char *objective_name, *objective_unit;
     CzObjective own_objective; /* the caller's; NULL when none */
     void *own_data;
+    const volatile sig_atomic_t *stop; /* a flag that ends an evaluation; NULL when none */
 };
 
 #endif

@@ -36,6 +36,11 @@ static void run_task(int index, void *data) {
     const CzEvaluator *evaluator = block->evaluator;
     const int s = block->task[index].scene, first = block->task[index].first;
     const CzModel *model = evaluator->model[s];
+    if (evaluator->stop != NULL && *evaluator->stop != 0) {
+        block->status[index] =
+            cz_fail(&block->error[index], CZ_STATUS_INTERRUPTED, "the evaluation was interrupted");
+        return;
+    }
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = block->record;
     options.brief = block->brief;

@@ -130,7 +130,9 @@ static void conclude(const CzSearch *search, CzOutcome *outcome) {
     const long best = chosen_record(search);
     const bool is_between = best >= 0 && !search->record[best].on_grid;
     snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%.80s%s",
-             search->why[0] != '\0' ? search->why : "nothing was left to gain",
+             search->why[0] != '\0' ? search->why
+             : search->is_spent     ? "the limit of evaluations is reached"
+                                    : "nothing was left to gain",
              is_between ? "; best not on catalogue steps yet" : "");
 }
 
@@ -195,7 +197,9 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
         const CzFunction function = function_of(evaluator, numbers, flags);
         CzSearch search;
         cz_search_init(&search, &function, &options);
+        cz_evaluator_set_stop(evaluator, options.stop);
         status = lead(&search, &options, error);
+        cz_evaluator_set_stop(evaluator, NULL); /* what was found is evaluated in any case */
         if (status == CZ_OK)
             status = copy_history(&search, made, error);
         if (status == CZ_OK)

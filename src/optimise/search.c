@@ -283,7 +283,8 @@ bool cz_search_evaluate_details(CzSearch *search, const char *phase, int n, cons
     else
         cz_fail(&search->error, status, "no memory for the history");
     if (status != CZ_OK) {
-        finish(search, status, "an evaluation could not be made");
+        const bool is_stopped = status == CZ_STATUS_INTERRUPTED;
+        finish(search, status, is_stopped ? "interrupted" : "an evaluation could not be made");
         return false;
     }
     for (int i = 0; i < n; i++) {

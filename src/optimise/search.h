@@ -58,6 +58,7 @@ typedef struct CzSearch {
     double worst_objective, worst_constraint; /* over the designs that did not fail */
     bool is_over;         /* nothing more may be evaluated; `status` and `why` say why */
     bool is_snapped;      /* the catalogue steps around the best design have been evaluated */
+    bool is_spent;        /* all evaluations but those for the catalogue steps were used */
     bool is_paused;       /* most of the latest designs failed: looking on from there is no use */
     long n_before_window; /* records that the watch on failures does not count any more */
     CzStatus status;

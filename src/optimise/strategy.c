@@ -199,6 +199,8 @@ static CzStatus search_and_snap(CzSearch *search, const char *algorithm, unsigne
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the response surfaces");
     const CzStatus status =
         algorithm == NULL ? lead(&surface, seed, error) : repeat(search, algorithm, seed, error);
+    search->is_spent =
+        cz_search_left(search) - cz_snap_reserve(search) < search->function->n_variable + 2;
     if (status == CZ_OK)
         cz_snap(&surface, search->most_evaluations - search->n_record);
     cz_surface_free(&surface);

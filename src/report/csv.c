@@ -48,7 +48,7 @@ static void put_number(Table *table, double value) {
     begin_field(table);
     if (!isfinite(value))
         return;
-    cz_figure_digits(text, 9, value);
+    cz_figure_digits(text, 9, value == 0 ? 0 : value); /* no minus before a zero */
     char *point = strchr(text, '.');
     if (point != NULL)
         *point = table->decimal;

@@ -48,8 +48,7 @@ static CzStatus append(Builder *builder, const CzCheck *check) {
     return CZ_OK;
 }
 
-/* ---- limits that are written down
- * ------------------------------------------------------------------- */
+/* ---- limits that are written down ------------------------------------------------------------ */
 
 static bool is_listed(const CzTexts *texts, const char *name) {
     for (int i = 0; i < texts->n_text; i++)
@@ -184,8 +183,7 @@ static CzStatus append_profile(Builder *builder) {
     return CZ_OK;
 }
 
-/* ---- closing rules
- * ------------------------------------------------------------------------------------ */
+/* ---- closing rules --------------------------------------------------------------------------- */
 
 typedef enum Speeds { DESIGN, EVERY, OVERLOAD, BUFFING, SERVICE, CRASH } Speeds;
 typedef enum Needs { NOTHING, TUBE, SHEAR_OFF, FACE, INNER, N_NEEDS } Needs;
@@ -344,8 +342,7 @@ static CzStatus append_rules_of_files(Builder *builder) {
     return append(builder, &check);
 }
 
-/* ---- constraints
- * -------------------------------------------------------------------------------------- */
+/* ---- constraints ----------------------------------------------------------------------------- */
 
 /* Which checks the optimiser must keep. */
 static CzStatus choose_constraints(Builder *builder) {

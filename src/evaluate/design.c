@@ -39,8 +39,7 @@ static CzStatus fail_memory(const Builder *builder) {
     return cz_fail(builder->error, CZ_STATUS_NO_MEMORY, "no memory for the design variables");
 }
 
-/* ---- the identical partner
- * ------------------------------------------------------------------------ */
+/* ---- the identical partner ------------------------------------------------------------------- */
 
 /* Whether two ends are written alike; a record may be a copy with the same texts. */
 static bool ends_are_alike(const CzEnd *a, const CzEnd *b) {
@@ -100,8 +99,7 @@ static bool find_twin(const CzScene *scene, const CzDesignPlace *place, CzDesign
     return false;
 }
 
-/* ---- one variable
- * --------------------------------------------------------------------------------- */
+/* ---- one variable ---------------------------------------------------------------------------- */
 
 static const char *name_of(const CzVehicle *vehicle) {
     return vehicle->name != NULL ? vehicle->name : "";

@@ -11,8 +11,7 @@ CzEvaluatorOptions cz_evaluator_options_default(void) {
     return (CzEvaluatorOptions){.n_job = 0, .step_factor = 1, .scenario = NULL};
 }
 
-/* ---- building
- * ------------------------------------------------------------------------------------------ */
+/* ---- building -------------------------------------------------------------------------------- */
 
 static CzStatus build_models(CzEvaluator *evaluator, const char *only, CzError *error) {
     evaluator->model =

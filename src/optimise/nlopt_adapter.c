@@ -15,8 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- algorithms by name
- * ------------------------------------------------------------------------------ */
+/* ---- algorithms by name ---------------------------------------------------------------------- */
 
 static bool is_compiled_in(nlopt_algorithm algorithm) {
     return strstr(nlopt_algorithm_name(algorithm), "NOT COMPILED") == NULL;
@@ -83,8 +82,7 @@ CzNloptRun cz_nlopt_run_default(const char *algorithm) {
                         .seed = 1};
 }
 
-/* ---- the bridge between NLopt's callbacks and the search
- * ---------------------------------------------- */
+/* ---- the bridge between NLopt's callbacks and the search ------------------------------------- */
 
 typedef struct Bridge {
     CzSearch *search;
@@ -229,8 +227,7 @@ static void constraints(unsigned m, double *result, unsigned n_all, const double
     }
 }
 
-/* ---- one run
- * ---------------------------------------------------------------------------------------------- */
+/* ---- one run --------------------------------------------------------------------------------- */
 
 /* Algorithms that hand their work to another one. */
 static bool needs_local(nlopt_algorithm algorithm) {

@@ -11,6 +11,9 @@
 #include <string.h>
 #include <time.h>
 
+/* Designs that are run in full until one keeps what it kept in the search. */
+enum { MOST_CONFIRMED = 8 };
+
 const char *cz_outcome_text(CzOutcomeStatus status) {
     static const char *const texts[] = {[CZ_OUTCOME_FEASIBLE] = "feasible",
                                         [CZ_OUTCOME_INFEASIBLE] = "infeasible",
@@ -22,8 +25,7 @@ CzOptimiseOptions cz_optimise_options_default(void) {
     return (CzOptimiseOptions){.seed = -1};
 }
 
-/* ---- the evaluator as a function of numbers
- * --------------------------------------------------------- */
+/* ---- the evaluator as a function of numbers -------------------------------------------------- */
 
 static CzStatus evaluate_designs(void *data, int n_point, const double *x, double *objective,
                                  double *constraint, double *detail, CzError *error) {
@@ -67,8 +69,7 @@ static CzFunction function_of(CzEvaluator *evaluator, double *numbers, bool *fla
                         .data = evaluator};
 }
 
-/* ---- the outcome
- * ---------------------------------------------------------------------------------------- */
+/* ---- the outcome ----------------------------------------------------------------------------- */
 
 /* The record that counts: the best on the catalogue steps when there are any. A search that ended
  * before it came to them gives the best it has seen, and so does one that was interrupted before it
@@ -95,12 +96,61 @@ static CzStatus copy_history(const CzSearch *search, CzOutcome *outcome, CzError
     return CZ_OK;
 }
 
+/* The best record that passed in the search and is none of those whose full run did not, -1 when
+ * there is none; on the catalogue steps when the first of them is. */
+static long next_passing(const CzSearch *search, int n_refuted, const long *refuted) {
+    const bool on_grid = search->record[refuted[0]].on_grid;
+    long best = -1;
+    for (long record = 0; record < search->n_record; record++) {
+        bool is_open =
+            search->record[record].violation <= 0 && (search->record[record].on_grid || !on_grid);
+        for (int i = 0; i < n_refuted && is_open; i++)
+            is_open = memcmp(cz_search_x(search, record), cz_search_x(search, refuted[i]),
+                             (size_t)search->function->n_variable * sizeof(double)) != 0;
+        if (is_open && cz_search_is_better(search, record, best))
+            best = record;
+    }
+    return best;
+}
+
+/* Evaluates the chosen record in full. Runs of a search end once they have settled; when the full
+ * run finds a violation that this left out, the next best designs take their turn. */
+static CzStatus confirm_best(CzEvaluator *evaluator, const CzSearch *search, CzOutcome *outcome,
+                             CzError *error) {
+    const size_t size = (size_t)search->function->n_variable * sizeof *outcome->best;
+    long tried[MOST_CONFIRMED];
+    int n_tried = 0;
+    long record = chosen_record(search);
+    if (record < 0)
+        cz_search_round(search, search->function->start, outcome->best);
+    else
+        memcpy(outcome->best, cz_search_x(search, record), size);
+    CZ_TRY(cz_evaluate(evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));
+    if (record < 0 || search->record[record].violation > 0)
+        return CZ_OK;
+    while (outcome->best_evaluation.violation > 0 && n_tried < MOST_CONFIRMED) {
+        tried[n_tried++] = record;
+        record = next_passing(search, n_tried, tried);
+        if (record < 0)
+            return CZ_OK;
+        CzEvaluation next;
+        CZ_TRY(cz_evaluate(evaluator, 1, cz_search_x(search, record), true, &next, error));
+        if (next.violation >= outcome->best_evaluation.violation) {
+            cz_evaluation_free(&next);
+            continue;
+        }
+        cz_evaluation_free(&outcome->best_evaluation);
+        outcome->best_evaluation = next;
+        memcpy(outcome->best, cz_search_x(search, record), size);
+    }
+    return CZ_OK;
+}
+
 /* Evaluates start and best once more, from the file's numbers, with everything recorded. */
 static CzStatus confirm(CzEvaluator *evaluator, const CzSearch *search, CzOutcome *outcome,
                         CzError *error) {
     const CzFunction *function = search->function;
     const size_t n = (size_t)function->n_variable;
-    const long best = chosen_record(search);
     outcome->n_variable = function->n_variable;
     outcome->start = calloc(n, sizeof *outcome->start);
     outcome->best = calloc(n, sizeof *outcome->best);
@@ -108,17 +158,14 @@ static CzStatus confirm(CzEvaluator *evaluator, const CzSearch *search, CzOutcom
     if (outcome->start == NULL || outcome->best == NULL || outcome->at_bound == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the outcome");
     memcpy(outcome->start, function->start, n * sizeof *outcome->start);
-    if (best >= 0)
-        memcpy(outcome->best, cz_search_x(search, best), n * sizeof *outcome->best);
-    else
-        cz_search_round(search, function->start, outcome->best);
+    CZ_TRY(cz_evaluate(evaluator, 1, outcome->start, true, &outcome->start_evaluation, error));
+    CZ_TRY(confirm_best(evaluator, search, outcome, error));
     for (size_t i = 0; i < n; i++) {
-        const double nearness = fmax(1e-6 * (function->max[i] - function->min[i]), 0);
+        const double nearness = 1e-6 * (function->max[i] - function->min[i]);
         outcome->at_bound[i] = outcome->best[i] <= function->min[i] + nearness ||
                                outcome->best[i] >= function->max[i] - nearness;
     }
-    CZ_TRY(cz_evaluate(evaluator, 1, outcome->start, true, &outcome->start_evaluation, error));
-    return cz_evaluate(evaluator, 1, outcome->best, true, &outcome->best_evaluation, error);
+    return CZ_OK;
 }
 
 static void conclude(const CzSearch *search, CzOutcome *outcome) {
@@ -127,7 +174,7 @@ static void conclude(const CzSearch *search, CzOutcome *outcome) {
     outcome->status = feasible ? CZ_OUTCOME_FEASIBLE : CZ_OUTCOME_INFEASIBLE;
     if (search->status == CZ_STATUS_INTERRUPTED)
         outcome->status = CZ_OUTCOME_INTERRUPTED;
-    const long best = chosen_record(search);
+    const long best = cz_search_find(search, outcome->best);
     const bool is_between = best >= 0 && !search->record[best].on_grid;
     snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%.80s%s",
              search->why[0] != '\0' ? search->why
@@ -136,8 +183,7 @@ static void conclude(const CzSearch *search, CzOutcome *outcome) {
              is_between ? "; best not on catalogue steps yet" : "");
 }
 
-/* ---- the search
- * ------------------------------------------------------------------------------------------ */
+/* ---- the search ------------------------------------------------------------------------------ */
 
 static CzStatus settle_options(const CzEvaluator *evaluator, const CzOptimiseOptions *given,
                                CzOptimiseOptions *options, CzError *error) {

@@ -93,8 +93,7 @@ bool cz_search_has_steps(const CzSearch *search) {
     return false;
 }
 
-/* ---- history and best design
- * ----------------------------------------------------------------------- */
+/* ---- history and best design ----------------------------------------------------------------- */
 
 bool cz_search_is_better(const CzSearch *search, long record, long other) {
     if (other < 0 || record < 0)
@@ -197,8 +196,7 @@ static void watch_failures(CzSearch *search) {
     }
 }
 
-/* ---- evaluating
- * ---------------------------------------------------------------------------------------- */
+/* ---- evaluating ------------------------------------------------------------------------------ */
 
 /* From here on a violation counts by its logarithm: "nothing" broken a hundredfold must not hide a
  * strength broken by a half. Slopes stay continuous and the order stays the same. */

@@ -161,8 +161,7 @@ double cz_surface_predict(const CzSurface *surface, const double *u, double *pen
     return surface->search->function->is_minimax ? largest : f;
 }
 
-/* ---- the best design on the planes
- * -------------------------------------------------------------------- */
+/* ---- the best design on the planes ----------------------------------------------------------- */
 
 /* The planes as a function to be searched by NLopt at no cost of simulation. */
 typedef struct Planes {
@@ -270,8 +269,7 @@ bool cz_surface_best(const CzSurface *surface, double radius, double *u) {
     return found;
 }
 
-/* ---- moving
- * ------------------------------------------------------------------------------------------- */
+/* ---- moving ---------------------------------------------------------------------------------- */
 
 enum {
     RADII = 3,   /* boxes tried side by side: the radius, a third, a ninth */

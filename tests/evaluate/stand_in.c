@@ -115,7 +115,7 @@ static double or_else(double value, double fallback) {
     return isnan(value) ? fallback : value;
 }
 
-static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles) {
+static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles, bool brief) {
     const CzInput *input = cz_problem_input(model->problem);
     const CzScenario *scenario = &input->scenarios[model->scenario];
     CzRun *run = calloc(1, sizeof *run);
@@ -154,6 +154,8 @@ static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles) {
     run->summary.energy =
         (CzEnergy){.initial = 2 * energy, .dissipated = energy, .absorbers = interface->energy};
     run->summary.energy.occupied = occupied;
+    if (!brief && vehicles[0].front.anti_climber.stages[0].force < stand_in.late_below)
+        run->summary.closing_speed = 1;
     if (tube_force > stand_in.failing_above) {
         run->summary.status = CZ_STATUS_RUN_FAILED;
         snprintf(run->summary.failure, sizeof run->summary.failure, "A1 coupler at 0.1 s");
@@ -165,16 +167,14 @@ static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles) {
 
 CzStatus cz_simulate_batch(const CzModel *model, int n_design, const CzVehicle *const *vehicles,
                            const CzSimulateOptions *options, CzRun **run, CzError *error) {
-    (void)options;
     (void)error;
     for (int i = 0; i < n_design; i++)
-        run[i] = simulate(model, vehicles[i]);
+        run[i] = simulate(model, vehicles[i], options->brief);
     __atomic_fetch_add(&stand_in.n_run, n_design, __ATOMIC_RELAXED);
     return CZ_OK;
 }
 
-/* ---- its problem
- * ----------------------------------------------------------------------------------- */
+/* ---- its problem ----------------------------------------------------------------------------- */
 
 static const char base[] =
     "schema: 1\n"

@@ -14,6 +14,8 @@
 typedef struct StandIn {
     double failing_above;    /* tube force from which a run fails [N]; infinite for never */
     double incomplete_above; /* likewise for a run that does not end [N] */
+    double late_below; /* anti-climber force below which only a full run shows a closing speed of
+                          1 m/s at the end [N]; 0 for never */
     int batch_width;
     long n_run; /* runs made since the reset */
     int rattle; /* energy scatter of a few per mille, a function of the design */

@@ -356,8 +356,7 @@ static void one_scenario_alone_leaves_the_others_unchecked(void **state) {
     cz_problem_free(problem);
 }
 
-/* ---- variables
- * ------------------------------------------------------------------------------------------ */
+/* ---- variables ------------------------------------------------------------------------------- */
 
 static void variables_have_names_units_bounds_and_places(void **state) {
     (void)state;

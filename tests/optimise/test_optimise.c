@@ -159,6 +159,30 @@ static void interruption_gives_the_best_so_far(void **state) {
     end(&made);
 }
 
+static void what_only_a_full_run_shows_is_never_called_success(void **state) {
+    (void)state;
+    const char *more =
+        "optimise:\n"
+        "  minimise: elements.anti-climber *.peak_force_kN\n"
+        "  subject_to: [closing speed at the end, section strength]\n"
+        "  evaluations: 200\n"
+        "  variables:\n"
+        "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 300, max: 700, "
+        "step: 10}\n";
+    Case made = begin(more, 2);
+    stand_in.late_below = 305e3; /* the best design of the search and no other */
+    optimise(&made, NULL);
+    assert_int_equal(made.outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_true(made.outcome->best[0] >= 310);
+    end(&made);
+    made = begin(more, 2);
+    stand_in.late_below = INFINITY;
+    optimise(&made, NULL);
+    assert_int_equal(made.outcome->status, CZ_OUTCOME_INFEASIBLE);
+    assert_true(made.outcome->best_evaluation.violation > 0);
+    end(&made);
+}
+
 static void problem_without_variables_is_refused(void **state) {
     (void)state;
     Case made = begin("", 1);
@@ -193,8 +217,7 @@ static void search_in_which_most_designs_fail_ends_as_failed(void **state) {
     end(&made);
 }
 
-/* ---- the cheats: taken when the rules are off, not taken when they are on
- * ------------------------------ */
+/* ---- the cheats: taken when the rules are off, not taken when they are on -------------------- */
 
 /* What an optimiser is invited to do. */
 typedef struct Cheat {
@@ -387,6 +410,7 @@ int main(void) {
         cmocka_unit_test(outcome_does_not_depend_on_the_number_of_threads),
         cmocka_unit_test(nothing_feasible_is_said_and_the_least_violated_design_given),
         cmocka_unit_test(interruption_gives_the_best_so_far),
+        cmocka_unit_test(what_only_a_full_run_shows_is_never_called_success),
         cmocka_unit_test(problem_without_variables_is_refused),
         cmocka_unit_test(unknown_algorithm_is_refused_before_anything_runs),
         cmocka_unit_test(search_in_which_most_designs_fail_ends_as_failed),

@@ -152,8 +152,7 @@ static void same_seed_gives_the_same_history_and_another_seed_another(void **sta
     cz_search_free(&other);
 }
 
-/* ---- stopping
- * ---------------------------------------------------------------------------------------- */
+/* ---- stopping -------------------------------------------------------------------------------- */
 
 typedef struct Stopper {
     volatile sig_atomic_t flag;
@@ -191,8 +190,7 @@ static void interruption_ends_every_algorithm_and_keeps_the_best(void **state) {
     }
 }
 
-/* ---- algorithms by name
- * -------------------------------------------------------------------------------- */
+/* ---- algorithms by name ---------------------------------------------------------------------- */
 
 static void every_algorithm_runs_by_name_within_its_limit(void **state) {
     (void)state;
@@ -246,8 +244,7 @@ static void unknown_and_absent_algorithms_are_refused_with_a_sentence(void **sta
     assert_null(cz_algorithm_name(cz_n_algorithm()));
 }
 
-/* ---- catalogue steps
- * ------------------------------------------------------------------------------------ */
+/* ---- catalogue steps ------------------------------------------------------------------------- */
 
 /* Best design of HS43 on steps of 0.25, by trying all. */
 static double best_on_steps(void) {

@@ -200,9 +200,7 @@ static int outcomes_of_rigid_plastic(const char *file, const char *const *stiffn
         char set[2][96];
         for (int key = 0; key < 2; key++)
             snprintf(set[key], sizeof set[key], "%s=%d", stiffness_key[key % n_key], stiffness[i]);
-        Collision collision = collide(
-            file, WITH(OUTPUT_OF_100_US, step, "simulation.output_step_ms=0.01", set[0], set[1]),
-            0);
+        Collision collision = collide(file, WITH(step, OUTPUT_OF_100_US, set[0], set[1]), 0);
         assert_completed(&collision);
         n_outcome = measure(&collision, with[i]);
         collision_free(&collision);

@@ -2,6 +2,7 @@
 #ifndef CZ_REPORT_DOCUMENTS_H
 #define CZ_REPORT_DOCUMENTS_H
 
+#include "crushzone/evaluate.h"
 #include "crushzone/problem.h"
 #include "report/json.h"
 
@@ -11,8 +12,8 @@ void cz_document_head(CzJson *json, const char *format, const CzProblem *problem
 /* The one place for timing, host and instruction set; n_job is 0 when unknown. */
 void cz_document_run_info(CzJson *json, double wall_s, double setup_s, int n_job);
 
-/* List of the problem's warnings. */
-void cz_document_warnings(CzJson *json, const CzProblem *problem);
+/* List of the warnings of the problem and of the kept runs. */
+void cz_document_warnings(CzJson *json, const CzProblem *problem, const CzEvaluation *evaluation);
 
 /* One mistake or warning with its place; key is NULL inside a list. */
 void cz_document_mistake(CzJson *json, const char *key, const CzError *mistake);

@@ -66,7 +66,7 @@ CzStatus cz_report_write_outcome(const CzProblem *problem, const CzEvaluator *ev
     cz_json_text(json, "why_stopped", outcome->why_stopped);
     cz_json_whole(json, "evaluations", outcome->n_evaluation);
     cz_document_run_info(json, outcome->wall_s, options->setup_s, options->n_job);
-    cz_document_warnings(json, problem);
+    cz_document_warnings(json, problem, &outcome->best_evaluation);
     cz_json_flag(json, "best_is_feasible",
                  outcome->best_evaluation.status == CZ_OK &&
                      outcome->best_evaluation.violation <= 0);

@@ -19,4 +19,11 @@ static inline int cz_n_kept_run(const CzEvaluation *evaluation) {
     return n;
 }
 
+/* Whether a run that was not stopped for it still lost or made more energy than results should
+ * rest on. */
+static inline bool cz_run_is_inaccurate(const CzRunSummary *run) {
+    const double largest = 1e-3; /* of the initial energy */
+    return run->status == CZ_OK && run->energy.balance_error > largest;
+}
+
 #endif

@@ -8,6 +8,7 @@
 #include "report/units.h"
 
 #include <math.h>
+#include <stdio.h>
 
 void cz_document_head(CzJson *json, const char *format, const CzProblem *problem) {
     char nlopt[32] = "";
@@ -39,10 +40,20 @@ void cz_document_run_info(CzJson *json, double wall_s, double setup_s, int n_job
     cz_json_close(json);
 }
 
-void cz_document_warnings(CzJson *json, const CzProblem *problem) {
+void cz_document_warnings(CzJson *json, const CzProblem *problem, const CzEvaluation *evaluation) {
     cz_json_open_list(json, "warnings");
     for (int i = 0; i < cz_problem_n_warning(problem); i++)
         cz_document_mistake(json, NULL, cz_problem_warning(problem, i));
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        CzError warning = {0};
+        if (run == NULL || !cz_run_is_inaccurate(run))
+            continue;
+        snprintf(warning.message, sizeof warning.message,
+                 "scenario '%s': the energy balance is off by more than 0.1 %%", run->scenario);
+        snprintf(warning.help, sizeof warning.help, "take a smaller time step");
+        cz_document_mistake(json, NULL, &warning);
+    }
     cz_json_close(json);
 }
 
@@ -235,7 +246,7 @@ CzStatus cz_report_write_summary(const CzProblem *problem, const CzEvaluation *e
     cz_json_text(json, "status", evaluation->status == CZ_OK ? "completed" : "failed");
     put_verdict(json, evaluation->verdict);
     cz_document_run_info(json, options->wall_s, options->setup_s, options->n_job);
-    cz_document_warnings(json, problem);
+    cz_document_warnings(json, problem, evaluation);
 
     cz_json_open_list(json, "scenarios");
     for (int i = 0; i < evaluation->n_run; i++)

@@ -65,8 +65,12 @@ static void write_run_head(const CzProblem *problem, const CzRunSummary *run, bo
         fputs("ended ", stream);
     cz_grid_write_text(cut ? "INCOMPLETE: not at an end yet" : cz_ended_text(run->ended),
                        cut ? CZ_STYLE_BAD : CZ_STYLE_PLAIN, colour, stream);
-    fprintf(stream, "   energy balance %s\n",
-            cz_figure_percent(balance, run->energy.balance_error));
+    fprintf(stream, "   energy balance %s", cz_figure_percent(balance, run->energy.balance_error));
+    if (cz_run_is_inaccurate(run)) {
+        fputs("   ", stream);
+        cz_grid_write_text("POOR: take a smaller time step", CZ_STYLE_BAD, colour, stream);
+    }
+    fputc('\n', stream);
 }
 
 /* What was overrun or let go at an interface, and when. */

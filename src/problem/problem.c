@@ -147,6 +147,9 @@ CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name,
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to read '%s'", name);
     CzReader *reader = &(*problem)->reader;
     (*problem)->file = cz_arena_copy_text(&reader->arena, name, strlen(name));
+    const size_t n_mark = cz_source_mark(text, n_byte);
+    text += n_mark;
+    n_byte -= n_mark;
     const bool is_small = n_byte <= CZ_MOST_BYTES;
     const CzSource *source =
         cz_sources_add(&reader->sources, name, folder, text, is_small ? n_byte : 0);

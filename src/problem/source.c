@@ -133,6 +133,11 @@ static const char *folder_of(CzArena *arena, const char *path) {
     return cz_arena_copy_text(arena, path, slash == path ? 1 : (size_t)(slash - path));
 }
 
+size_t cz_source_mark(const char *text, size_t n_byte) {
+    static const char mark[] = "\xef\xbb\xbf";
+    return n_byte >= 3 && memcmp(text, mark, 3) == 0 ? 3 : 0;
+}
+
 CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *path,
                           const CzNode *place, char **text, size_t *n_byte) {
     const char *why = NULL;
@@ -143,6 +148,11 @@ CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *
         return NULL;
     }
     *text = read_stream(stream, n_byte);
+    if (*text != NULL && *n_byte <= CZ_MOST_BYTES) {
+        const size_t n_mark = cz_source_mark(*text, *n_byte);
+        *n_byte -= n_mark;
+        memmove(*text, *text + n_mark, *n_byte);
+    }
     if (*text != NULL && ferror(stream))
         why = "reading it failed";
     else if (*text != NULL && *n_byte > CZ_MOST_BYTES)

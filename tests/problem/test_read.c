@@ -230,6 +230,15 @@ static void limits_of_a_profile_are_those_of_the_category(void **state) {
     cz_problem_free(problem);
 }
 
+static void mark_of_an_editor_before_the_text_is_passed_over(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text("\xef\xbb\xbf"
+                                        "extends: rigid.yaml\n"
+                                        "title: marked\n");
+    assert_string_equal(cz_problem_input(problem)->title, "marked");
+    cz_problem_free(problem);
+}
+
 static void coupler_without_one_to_meet_is_warned_of(void **state) {
     (void)state;
     static const char text[] = "extends: rigid.yaml\n"
@@ -267,6 +276,7 @@ int main(void) {
         cmocka_unit_test(the_hash_covers_files_and_settings),
         cmocka_unit_test(the_place_of_a_field_is_where_it_was_written),
         cmocka_unit_test(limits_of_a_profile_are_those_of_the_category),
+        cmocka_unit_test(mark_of_an_editor_before_the_text_is_passed_over),
         cmocka_unit_test(coupler_without_one_to_meet_is_warned_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -54,34 +54,27 @@ const CzKernel *cz_kernel(const char *isa) {
     return NULL;
 }
 
-/* Rows of doubles, all zero. */
-static double *rows(CzArena *arena, int n_row, size_t stride, int *missing) {
-    double *array = cz_arena_allocate(arena, (size_t)n_row * stride, sizeof(double));
-    *missing |= array == NULL;
-    return array;
-}
-
 /* Extremes start below anything that a run can reach. */
-static void start_extremes(CzDynamics *dynamics) {
+static void start_extremes(CzBlock *block) {
     static const double start[CZ_N_EXTREME] = {
 #define CZ_EXTREME(name, start, doc) start,
 #include "dynamics/extremes.def"
 #undef CZ_EXTREME
     };
     for (int row = 0; row < CZ_N_EXTREME; ++row)
-        for (size_t lane = 0; lane < dynamics->stride; ++lane)
-            cz_row(dynamics->extreme, dynamics->stride, row)[lane] = start[row];
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+            block->extreme[row][i] = start[row];
 }
 
 /* One over a row of parameters, 0 where the parameter is 0. */
-static void invert(CzDynamics *dynamics, int parameter, int constant) {
-    const double *value = cz_row(dynamics->lanes->parameter, dynamics->stride, parameter);
-    double *inverse = cz_row(dynamics->constant, dynamics->stride, constant);
-    for (size_t lane = 0; lane < dynamics->stride; ++lane)
-        inverse[lane] = value[lane] > 0.0 ? 1.0 / value[lane] : 0.0;
+static void invert(CzBlock *block, int parameter, int constant) {
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+        const double value = block->parameter[parameter][i];
+        block->constant[constant][i] = value > 0.0 ? 1.0 / value : 0.0;
+    }
 }
 
-static void derive_constants(CzDynamics *dynamics) {
+static void derive_constants(CzBlock *block) {
     static const int inverses[][2] = {{CZ_P_CREEP_STIFFNESS, CZ_C_CREEP_COMPLIANCE},
                                       {CZ_P_BRAKE_STIFFNESS, CZ_C_BRAKE_COMPLIANCE},
                                       {CZ_P_HINGE_STIFFNESS_A, CZ_C_HINGE_COMPLIANCE_A},
@@ -90,66 +83,71 @@ static void derive_constants(CzDynamics *dynamics) {
                                       {CZ_P_FOLD_STIFFNESS_FRONT, CZ_C_FOLD_COMPLIANCE_FRONT},
                                       {CZ_P_FACE_VERTICAL_STIFFNESS, CZ_C_GRIP_COMPLIANCE}};
     for (size_t k = 0; k < sizeof inverses / sizeof inverses[0]; ++k)
-        invert(dynamics, inverses[k][0], inverses[k][1]);
-    const double *hertz = cz_row(dynamics->lanes->parameter, dynamics->stride, CZ_P_HERTZ);
-    for (int axle = 0; axle < 4; ++axle) {
-        const double *indentation =
-            cz_row(dynamics->lanes->parameter, dynamics->stride, CZ_P_INDENTATION_0 + axle);
-        double *load = cz_row(dynamics->constant, dynamics->stride, CZ_C_STATIC_LOAD_0 + axle);
-        for (size_t lane = 0; lane < dynamics->stride; ++lane)
-            load[lane] = cz_wheel_normal_force(hertz[lane], indentation[lane]);
+        invert(block, inverses[k][0], inverses[k][1]);
+    for (int axle = 0; axle < 4; ++axle)
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+            block->constant[CZ_C_STATIC_LOAD_0 + axle][i] = cz_wheel_normal_force(
+                block->parameter[CZ_P_HERTZ][i], block->parameter[CZ_P_INDENTATION_0 + axle][i]);
+}
+
+/* Constants that follow from the car of a lane and the one ahead. */
+static void derive_pairs(const CzLanes *lanes, CzBlock *block, size_t base) {
+    const double *inverse = cz_row(lanes->parameter, lanes->stride, CZ_P_INVERSE_BODY_MASS);
+    const double *slaved = cz_row(lanes->parameter, lanes->stride, CZ_P_SLAVED_ENDS);
+    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
+        const size_t lane = base + i, ahead = lane + (size_t)lanes->n_design;
+        block->constant[CZ_C_TILTS][i] = inverse[lane] > 0.0 && inverse[ahead] > 0.0 ? 1.0 : 0.0;
+        block->constant[CZ_C_SLAVED_ENDS_AHEAD][i] = slaved[ahead];
     }
 }
 
-/* Interfaces between cars that can both move. */
-static void derive_tilts(CzDynamics *dynamics) {
-    const size_t ahead = (size_t)dynamics->lanes->n_design;
-    const double *inverse =
-        cz_row(dynamics->lanes->parameter, dynamics->stride, CZ_P_INVERSE_BODY_MASS);
-    double *tilts = cz_row(dynamics->constant, dynamics->stride, CZ_C_TILTS);
-    for (size_t lane = 0; lane + ahead < dynamics->stride; ++lane)
-        tilts[lane] = inverse[lane] > 0.0 && inverse[lane + ahead] > 0.0 ? 1.0 : 0.0;
+/* Rows of a block out of rows of the lanes. */
+static void copy_rows(CzRow *row, int n_row, const double *array, size_t stride, size_t base) {
+    for (int k = 0; k < n_row; ++k)
+        memcpy(row[k], cz_row((double *)array, stride, k) + base, sizeof(CzRow));
 }
 
-/* Lanes seen from the first lane of a block. */
-static CzLanes *lanes_from(const CzLanes *lanes, size_t base, CzArena *arena) {
-    CzLanes *view = cz_arena_allocate(arena, 1, sizeof *view);
-    if (view == NULL)
-        return NULL;
-    *view = *lanes;
-    view->n_lane = CZ_LANE_BLOCK;
-    view->parameter += base;
-    for (int id = 0; id < CZ_N_CURVE; ++id) {
-        CzCurveLanes *curve = &view->curve[id];
-        curve->start += base;
-        curve->usable += base;
-        if (curve->n_kink > 0) {
-            curve->at += base;
-            curve->slope_change += base;
-        }
-    }
-    return view;
+static int changes_a_lane(const double *slope_change) {
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+        if (slope_change[i] != 0.0)
+            return 1;
+    return 0;
 }
 
-/* Views of all blocks. */
-static int create_blocks(CzDynamics *dynamics, CzArena *arena) {
-    dynamics->n_block = (int)(dynamics->lanes->n_lane / CZ_LANE_BLOCK);
-    dynamics->block = cz_arena_allocate(arena, (size_t)dynamics->n_block, sizeof *dynamics->block);
-    if (dynamics->block == NULL)
+static int copy_curve(CzBlockCurve *to, const CzCurveLanes *from, size_t stride, size_t base,
+                      CzArena *arena) {
+    memcpy(to->start, from->start + base, sizeof(CzRow));
+    memcpy(to->usable, from->usable + base, sizeof(CzRow));
+    CzRow *kink = cz_arena_allocate(arena, 2 * (size_t)from->n_kink, sizeof *kink);
+    if (kink == NULL)
         return 0;
-    for (int i = 0; i < dynamics->n_block; ++i) {
-        const size_t base = (size_t)i * CZ_LANE_BLOCK;
-        CzDynamics *block = &dynamics->block[i];
-        *block = *dynamics;
-        block->lanes = lanes_from(dynamics->lanes, base, arena);
-        block->position += base;
-        block->velocity += base;
-        block->force += base;
-        block->scratch += base;
-        block->constant += base;
-        if (block->lanes == NULL)
-            return 0;
+    to->n_kink = 0;
+    to->kink = (const CzRow *)kink;
+    for (int k = 0; k < from->n_kink; ++k) {
+        const double *change = cz_row(from->slope_change, stride, k) + base;
+        if (!changes_a_lane(change))
+            continue;
+        memcpy(kink[2 * to->n_kink], cz_row(from->at, stride, k) + base, sizeof(CzRow));
+        memcpy(kink[2 * to->n_kink + 1], change, sizeof(CzRow));
+        ++to->n_kink;
     }
+    return 1;
+}
+
+/* A block at t = 0; 0 when there is no memory. */
+static int start_block(CzBlock *block, const CzLanes *lanes, size_t base, CzArena *arena) {
+    copy_rows(block->parameter, CZ_N_PARAMETER, lanes->parameter, lanes->stride, base);
+    copy_rows(block->velocity, CZ_N_DOF, lanes->velocity, lanes->stride, base);
+    for (int id = 0; id < CZ_N_CURVE; ++id)
+        if (!copy_curve(&block->curve[id], &lanes->curve[id], lanes->stride, base, arena))
+            return 0;
+    derive_constants(block);
+    derive_pairs(lanes, block, base);
+    start_extremes(block);
+    block->memory = block->memories[0];
+    block->next_memory = block->memories[1];
+    block->power = block->powers[0];
+    block->last_power = block->powers[1];
     return 1;
 }
 
@@ -157,30 +155,14 @@ CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena) {
     CzDynamics *dynamics = cz_arena_allocate(arena, 1, sizeof *dynamics);
     if (dynamics == NULL)
         return NULL;
-    const size_t stride = lanes->stride;
-    int missing = 0;
     dynamics->lanes = lanes;
-    dynamics->stride = stride;
-    dynamics->position = rows(arena, CZ_N_ROW, stride, &missing);
-    dynamics->velocity = rows(arena, CZ_N_ROW, stride, &missing);
-    dynamics->acceleration = rows(arena, CZ_N_ROW, stride, &missing);
-    dynamics->last_acceleration = rows(arena, CZ_N_ROW, stride, &missing);
-    dynamics->memory = rows(arena, CZ_N_MEMORY, stride, &missing);
-    dynamics->next_memory = rows(arena, CZ_N_MEMORY, stride, &missing);
-    dynamics->power = rows(arena, CZ_N_LEDGER, stride, &missing);
-    dynamics->last_power = rows(arena, CZ_N_LEDGER, stride, &missing);
-    dynamics->work = rows(arena, CZ_N_LEDGER, stride, &missing);
-    dynamics->extreme = rows(arena, CZ_N_EXTREME, stride, &missing);
-    dynamics->force = rows(arena, CZ_N_DOF, stride, &missing);
-    dynamics->constant = rows(arena, CZ_N_CONSTANT, stride, &missing);
-    dynamics->scratch = rows(arena, CZ_N_SCRATCH, stride, &missing);
-    if (missing)
+    dynamics->n_block = (int)(lanes->n_lane / CZ_LANE_BLOCK);
+    dynamics->block =
+        cz_arena_allocate(arena, (size_t)dynamics->n_block + 1, sizeof *dynamics->block);
+    if (dynamics->block == NULL)
         return NULL;
-    derive_constants(dynamics);
-    derive_tilts(dynamics);
-    if (!create_blocks(dynamics, arena))
-        return NULL;
-    memcpy(dynamics->velocity, lanes->velocity, CZ_N_DOF * stride * sizeof(double));
-    start_extremes(dynamics);
+    for (int i = 0; i < dynamics->n_block; ++i)
+        if (!start_block(&dynamics->block[i], lanes, (size_t)i * CZ_LANE_BLOCK, arena))
+            return NULL;
     return dynamics;
 }

@@ -1,9 +1,9 @@
 /* The moving part of a run: state, memory, work and extremes of all lanes, and the force
  * evaluation.
  *
- * Everything is [quantity][lane] with the row length of the model's lanes. One step is: the
- * integrator advances position and velocity, cz_dynamics_evaluate turns them into accelerations and
- * the next memory, cz_dynamics_commit accepts them.
+ * Lanes stand in blocks of CZ_LANE_BLOCK, and a block holds all of its rows. One step is: the
+ * integrator advances position and velocity, the evaluation turns them into accelerations and the
+ * next memory, the commit accepts them.
  */
 #ifndef CZ_DYNAMICS_DYNAMICS_H
 #define CZ_DYNAMICS_DYNAMICS_H
@@ -45,28 +45,6 @@ typedef enum CzConstant {
  * forces [N s]. */
 enum { CZ_ROW_IMPULSE = CZ_N_DOF, CZ_N_ROW };
 
-typedef struct CzDynamics CzDynamics;
-struct CzDynamics {
-    const CzLanes *lanes; /* borrowed */
-    size_t stride;
-    double *position;     /* displacement from rest [m, rad] (CZ_N_ROW x stride); written by the
-                             integrator */
-    double *velocity;     /* [m/s, rad/s] (CZ_N_ROW x stride); written by the integrator */
-    double *acceleration; /* [m/s2, rad/s2] (CZ_N_ROW x stride); of the last evaluation */
-    double *last_acceleration; /* of the evaluation before; the integrator's (CZ_N_ROW x stride) */
-    double *memory;            /* committed (CZ_N_MEMORY x stride) */
-    double *next_memory;       /* of the last evaluation (CZ_N_MEMORY x stride) */
-    double *power;             /* of the last evaluation [W] (CZ_N_LEDGER x stride) */
-    double *last_power;        /* committed (CZ_N_LEDGER x stride) */
-    double *work;              /* committed [J] (CZ_N_LEDGER x stride) */
-    double *extreme;           /* committed (CZ_N_EXTREME x stride) */
-    double *force;             /* generalised forces of the last evaluation (CZ_N_DOF x stride) */
-    double *scratch;   /* values between the passes of an evaluation (CZ_N_SCRATCH x stride) */
-    double *constant;  /* numbers derived from the parameters once (CZ_N_CONSTANT x stride) */
-    int n_block;       /* blocks of CZ_LANE_BLOCK lanes */
-    CzDynamics *block; /* the same arrays seen from the first lane of each block (n_block) */
-};
-
 /* Values between the passes that others may look at after an evaluation. */
 typedef enum CzScratch {
 #define CZ_SCRATCH(name, doc) CZ_S_##name,
@@ -74,6 +52,45 @@ typedef enum CzScratch {
 #undef CZ_SCRATCH
     CZ_N_SCRATCH
 } CzScratch;
+
+/* One quantity in the lanes of a block. */
+typedef double CzRow[CZ_LANE_BLOCK];
+
+/* A curve in the lanes of a block, without the kinks that change no lane. */
+typedef struct CzBlockCurve {
+    _Alignas(64) CzRow start; /* value at 0 [N] */
+    CzRow usable;             /* stroke at which it bottoms out [m] */
+    int n_kink;
+    const CzRow *kink; /* place [m] and change of slope [N/m], in turn (2 n_kink) */
+} CzBlockCurve;
+
+/* Everything that a step reads and writes in CZ_LANE_BLOCK neighbouring lanes. One piece of memory,
+ * so that a row's address is the block's plus a constant and a block stays in the first cache. */
+typedef struct CzBlock {
+    _Alignas(64) CzRow position[CZ_N_ROW]; /* displacement from rest [m, rad]; the integrator's */
+    CzRow velocity[CZ_N_ROW];              /* [m/s, rad/s]; the integrator's */
+    CzRow acceleration[CZ_N_ROW];          /* [m/s2, rad/s2]; of the last evaluation */
+    CzRow last_acceleration[CZ_N_ROW];     /* of the evaluation before; the integrator's */
+    CzRow force[CZ_N_DOF];                 /* generalised forces of the last evaluation */
+    CzRow scratch[CZ_N_SCRATCH];           /* values between the passes of an evaluation */
+    CzRow work[CZ_N_LEDGER];               /* committed [J] */
+    CzRow extreme[CZ_N_EXTREME];           /* committed */
+    CzRow parameter[CZ_N_PARAMETER];       /* the lanes' own */
+    CzRow constant[CZ_N_CONSTANT];         /* numbers derived from the parameters once */
+    CzRow memories[2][CZ_N_MEMORY];        /* for `memory` and `next_memory` to swap */
+    CzRow powers[2][CZ_N_LEDGER];          /* for `power` and `last_power` to swap */
+    CzBlockCurve curve[CZ_N_CURVE];
+    CzRow *memory;      /* committed (CZ_N_MEMORY) */
+    CzRow *next_memory; /* of the last evaluation (CZ_N_MEMORY) */
+    CzRow *power;       /* of the last evaluation [W] (CZ_N_LEDGER) */
+    CzRow *last_power;  /* committed (CZ_N_LEDGER) */
+} CzBlock;
+
+typedef struct CzDynamics {
+    const CzLanes *lanes; /* borrowed */
+    int n_block;
+    CzBlock *block; /* (n_block), and one more of zeros that stands for all lanes beyond them */
+} CzDynamics;
 
 /* Evaluates accelerations, next memory and power at the current position and velocity. `step` is
  * the time since the memory was committed [s]. */
@@ -101,17 +118,12 @@ const CzKernel *cz_kernel(const char *isa);
 /* State at rest with the lanes' start velocities; NULL when there is no memory. */
 CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena);
 
-/* The arrays seen from a block's first lane, those that a commit swaps included. */
-static inline CzDynamics *cz_block(const CzDynamics *dynamics, int index) {
-    CzDynamics *block = &dynamics->block[index];
-    const size_t base = (size_t)index * CZ_LANE_BLOCK;
-    block->memory = dynamics->memory + base;
-    block->next_memory = dynamics->next_memory + base;
-    block->power = dynamics->power + base;
-    return block;
+/* The block of a lane; its place there is lane % CZ_LANE_BLOCK. */
+static inline CzBlock *cz_block_of(const CzDynamics *dynamics, size_t lane) {
+    return &dynamics->block[lane / CZ_LANE_BLOCK];
 }
 
-/* A row of an array. */
+/* A row of the model's lanes. */
 static inline double *cz_row(double *array, size_t stride, int row) {
     return array + (size_t)row * stride;
 }

@@ -1,10 +1,10 @@
 /* The force evaluation and the commit of a step, compiled once per instruction set.
  *
- * An evaluation is a sequence of passes over all lanes: rotations, couplers, anti-climbers, side
- * buffers, crush zones, running gear, and the division by the masses. Each pass gathers rows, calls
- * laws and scatters forces; between the passes there are only rows. No allocation, no library call,
- * no branch on data: every lane does the same arithmetic, and a lane's bits do not depend on what
- * the others hold or on how many a register takes.
+ * An evaluation is a sequence of passes over blocks of lanes: rotations, couplers, anti-climbers,
+ * side buffers, crush zones, running gear, and the division by the masses. Each pass gathers rows,
+ * calls laws and scatters forces; between the passes there are only rows. No allocation, no library
+ * call, no branch on data: every lane does the same arithmetic, and a lane's bits do not depend on
+ * what the others hold or on how many a register takes.
  */
 #include "dynamics/dynamics.h"
 
@@ -13,6 +13,7 @@
 #include "dynamics/kernel_car.h"
 #include "dynamics/kernel_coupler.h"
 #include "dynamics/kernel_face.h"
+#include "dynamics/kernel_neighbours.h"
 #include "dynamics/kernel_rows.h"
 #include "integrate/two_step.h"
 
@@ -27,29 +28,23 @@
 extern const CzKernel KERNEL_NAME(CZ_ISA);
 
 /* Sets to zero what the passes add to. */
-static void clear(CzDynamics *d) {
-    const size_t row = d->stride * sizeof(double);
-    memset(d->force, 0, CZ_N_DOF * row);
-    memset(d->power, 0, CZ_N_LEDGER * row);
-    memset(S(INTERFACE_FORCE), 0, row);
-    memset(S(SECTION_REAR), 0, row);
-    memset(S(SECTION_FRONT), 0, row);
-    memset(S(ADHESION), 0, row);
-    memset(S(RESIDUAL), 0, row);
-    memset(S(PUSHED_X), 0, 3 * row);
+static void clear(CzBlock *d) {
+    memset(d->force, 0, sizeof d->force);
+    memset(d->power, 0, CZ_N_LEDGER * sizeof(CzRow));
+    memset(S(INTERFACE_FORCE), 0, (CZ_N_SCRATCH - CZ_S_INTERFACE_FORCE) * sizeof(CzRow));
 }
 
-static void rotations(CzDynamics *d) {
-    rotate(d->stride, X(BODY_PITCH), S(BODY_COS), S(BODY_SIN));
-    rotate(d->stride, X(END_PITCH_REAR), S(END_COS_REAR), S(END_SIN_REAR));
-    rotate(d->stride, X(END_PITCH_FRONT), S(END_COS_FRONT), S(END_SIN_FRONT));
+static void rotations(CzBlock *d) {
+    rotate(X(BODY_PITCH), S(BODY_COS), S(BODY_SIN));
+    rotate(X(END_PITCH_REAR), S(END_COS_REAR), S(END_SIN_REAR));
+    rotate(X(END_PITCH_FRONT), S(END_COS_FRONT), S(END_SIN_FRONT));
 }
 
 /* Row = force * inverse mass. */
-static void divide(CzDynamics *d, int dof, const double *restrict inverse) {
-    const size_t n = d->lanes->n_lane;
-    const double *restrict force = cz_row(d->force, d->stride, dof);
-    double *restrict acceleration = cz_row(d->acceleration, d->stride, dof);
+static void divide(CzBlock *d, int dof, const double *restrict inverse) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict force = d->force[dof];
+    double *restrict acceleration = d->acceleration[dof];
     CZ_LANES (i, n) {
         acceleration[i] = force[i] * inverse[i];
     }
@@ -57,18 +52,18 @@ static void divide(CzDynamics *d, int dof, const double *restrict inverse) {
 
 /* Body and end masses along x: ends without mass move with the body and hand their force to it.
  * What acts on a vehicle that cannot move, and what acts at the wheels, is the external force. */
-static void divide_longitudinal(CzDynamics *d) {
-    const size_t n = d->lanes->n_lane;
+static void divide_longitudinal(CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict slaved = P(SLAVED_ENDS), *restrict inverse = P(INVERSE_BODY_MASS);
     const double *restrict inverse_rear = P(INVERSE_END_MASS_REAR), *restrict inverse_front =
                                                                         P(INVERSE_END_MASS_FRONT);
     const double *restrict body = G(BODY_X), *restrict rear = G(END_X_REAR),
                            *restrict front = G(END_X_FRONT);
     const double *restrict adhesion = S(ADHESION);
-    double *restrict a_body = cz_row(d->acceleration, d->stride, CZ_DOF_BODY_X);
-    double *restrict a_rear = cz_row(d->acceleration, d->stride, CZ_DOF_END_X_REAR);
-    double *restrict a_front = cz_row(d->acceleration, d->stride, CZ_DOF_END_X_FRONT);
-    double *restrict external = cz_row(d->acceleration, d->stride, CZ_ROW_IMPULSE);
+    double *restrict a_body = d->acceleration[CZ_DOF_BODY_X];
+    double *restrict a_rear = d->acceleration[CZ_DOF_END_X_REAR];
+    double *restrict a_front = d->acceleration[CZ_DOF_END_X_FRONT];
+    double *restrict external = d->acceleration[CZ_ROW_IMPULSE];
     CZ_LANES (i, n) {
         const double handed = slaved[i] * (rear[i] + front[i]);
         const double total = body[i] + handed;
@@ -81,17 +76,17 @@ static void divide_longitudinal(CzDynamics *d) {
 }
 
 /* Bodies up and down: those whose ends are slaved have their one co-ordinate along the track. */
-static void divide_vertical(CzDynamics *d) {
-    const size_t n = d->lanes->n_lane;
+static void divide_vertical(CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict slaved = P(SLAVED_ENDS), *restrict inverse = P(INVERSE_BODY_MASS);
     const double *restrict force = G(BODY_Z);
-    double *restrict acceleration = cz_row(d->acceleration, d->stride, CZ_DOF_BODY_Z);
+    double *restrict acceleration = d->acceleration[CZ_DOF_BODY_Z];
     CZ_LANES (i, n) {
         acceleration[i] = (1.0 - slaved[i]) * force[i] * inverse[i];
     }
 }
 
-static void divide_by_masses(CzDynamics *d) {
+static void divide_by_masses(CzBlock *d) {
     divide_longitudinal(d);
     divide_vertical(d);
     divide(d, CZ_DOF_BODY_PITCH, P(INVERSE_BODY_INERTIA));
@@ -111,17 +106,17 @@ static void divide_by_masses(CzDynamics *d) {
     }
 }
 
-/* Interfaces of a block; the bodies ahead may lie in another one. */
-static void evaluate_interfaces(CzDynamics *d, double step) {
-    if (d->lanes->has_couplers)
+/* Interfaces of a block. */
+static void evaluate_interfaces(const CzLanes *lanes, CzBlock *d, double step) {
+    if (lanes->has_couplers)
         couplers(d, step);
     faces(d, step);
-    if (d->lanes->has_side_buffers)
+    if (lanes->has_side_buffers)
         side_buffers(d, step);
 }
 
 /* Cars of a block. */
-static void evaluate_cars(CzDynamics *d, double step) {
+static void evaluate_cars(CzBlock *d, double step) {
     for (int end = 0; end < 2; ++end)
         vehicle_end(d, end);
     for (int bogie = 0; bogie < 2; ++bogie)
@@ -132,53 +127,48 @@ static void evaluate_cars(CzDynamics *d, double step) {
         wheel(d, axle, step);
 }
 
-/* Adds to the bodies what the interfaces behind them push. */
-static void add_pushes(CzDynamics *d) {
-    const size_t n = d->lanes->n_lane;
-    for (int k = 0; k < 3; ++k) {
-        double *restrict body = G_AT(BODY_X, k);
-        const double *restrict pushed = S_AT(PUSHED_X, k);
-        CZ_LANES (i, n) {
-            body[i] += pushed[i];
-        }
+static void evaluate(CzDynamics *dynamics, double step) {
+    const CzLanes *lanes = dynamics->lanes;
+    for (int i = 0; i < dynamics->n_block; ++i) {
+        clear(&dynamics->block[i]);
+        rotations(&dynamics->block[i]);
+    }
+    for (int i = 0; i < dynamics->n_block; ++i) {
+        look_ahead(dynamics, i);
+        evaluate_interfaces(lanes, &dynamics->block[i], step);
+    }
+    for (int i = 0; i < dynamics->n_block; ++i) {
+        take_over_ends(dynamics, i);
+        if (lanes->has_full_cars)
+            evaluate_cars(&dynamics->block[i], step);
+        take_over_bodies(dynamics, i);
+        divide_by_masses(&dynamics->block[i]);
     }
 }
 
-static void evaluate(CzDynamics *d, double step) {
-    clear(d);
-    rotations(d);
-    for (int block = 0; block < d->n_block; ++block)
-        evaluate_interfaces(cz_block(d, block), step);
-    if (d->lanes->has_full_cars)
-        for (int block = 0; block < d->n_block; ++block)
-            evaluate_cars(cz_block(d, block), step);
-    add_pushes(d);
-    divide_by_masses(d);
-}
-
 /* Extremes: larger of what was and what is. */
-static void keep_larger(const CzDynamics *d, int extreme, const double *restrict value) {
-    const size_t n = d->lanes->n_lane;
-    double *restrict kept = cz_row(d->extreme, d->stride, extreme);
+static void keep_larger(CzBlock *d, int extreme, const double *restrict value) {
+    const size_t n = CZ_LANE_BLOCK;
+    double *restrict kept = d->extreme[extreme];
     CZ_LANES (i, n) {
         kept[i] = cz_larger(kept[i], value[i]);
     }
 }
 
-static void keep_larger_size(const CzDynamics *d, int extreme, const double *restrict value) {
-    const size_t n = d->lanes->n_lane;
-    double *restrict kept = cz_row(d->extreme, d->stride, extreme);
+static void keep_larger_size(CzBlock *d, int extreme, const double *restrict value) {
+    const size_t n = CZ_LANE_BLOCK;
+    double *restrict kept = d->extreme[extreme];
     CZ_LANES (i, n) {
         kept[i] = cz_larger(kept[i], fabs(value[i]));
     }
 }
 
-#define E(name) cz_row(d->extreme, d->stride, CZ_E_##name)
+#define E(name) d->extreme[CZ_E_##name]
 
-static void interface_extremes(const CzDynamics *d, double time) {
-    const size_t n = d->lanes->n_lane, ahead = (size_t)d->lanes->n_design;
+static void interface_extremes(CzBlock *d, double time) {
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict total = S(INTERFACE_FORCE), *restrict x = X(BODY_X),
-                           *restrict x_ahead = X(BODY_X) + ahead;
+                           *restrict x_ahead = S(BODY_AHEAD_X);
     double *restrict peak = E(INTERFACE_FORCE), *restrict when = E(INTERFACE_TIME);
     double *restrict shortening = E(INTERFACE_SHORTENING);
     CZ_LANES (i, n) {
@@ -208,13 +198,13 @@ static void interface_extremes(const CzDynamics *d, double time) {
     }
 }
 
-static void car_extremes(const CzDynamics *d, double time) {
-    const size_t n = d->lanes->n_lane;
+static void car_extremes(CzBlock *d, double time) {
+    const size_t n = CZ_LANE_BLOCK;
     for (int axle = 0; axle < 4; ++axle) {
         const double *restrict z = X_AT(WHEEL_Z_0, 3 * axle), *restrict indentation =
                                                                   P_AT(INDENTATION_0, axle);
-        double *restrict lift = cz_row(d->extreme, d->stride, CZ_E_LIFT_0 + axle);
-        double *restrict when = cz_row(d->extreme, d->stride, CZ_E_LIFT_TIME_0 + axle);
+        double *restrict lift = d->extreme[CZ_E_LIFT_0 + axle];
+        double *restrict when = d->extreme[CZ_E_LIFT_TIME_0 + axle];
         CZ_LANES (i, n) {
             const double now = z[i] - indentation[i];
             when[i] = now > lift[i] ? time : when[i];
@@ -227,7 +217,7 @@ static void car_extremes(const CzDynamics *d, double time) {
         const double *restrict i0 = P_AT(INDENTATION_0, 2 * bogie), *restrict i1 =
                                                                         P_AT(INDENTATION_0,
                                                                              2 * bogie + 1);
-        double *restrict lift = cz_row(d->extreme, d->stride, CZ_E_BOGIE_LIFT_REAR + bogie);
+        double *restrict lift = d->extreme[CZ_E_BOGIE_LIFT_REAR + bogie];
         CZ_LANES (i, n) {
             lift[i] = cz_larger(lift[i], cz_smaller(z0[i] - i0[i], z1[i] - i1[i]));
         }
@@ -239,43 +229,52 @@ static void car_extremes(const CzDynamics *d, double time) {
 }
 
 /* Work over the step by the mean of the powers at its ends. */
-static void add_work(CzDynamics *d, double step) {
-    const size_t n = CZ_N_LEDGER * d->stride;
-    const double *restrict last = d->last_power, *restrict power = d->power;
-    double *restrict work = d->work;
+static void add_work(CzBlock *d, double step) {
+    const size_t n = (size_t)CZ_N_LEDGER * CZ_LANE_BLOCK;
+    const double *restrict last = d->last_power[0], *restrict power = d->power[0];
+    double *restrict work = d->work[0];
     CZ_LANES (i, n) {
         work[i] += 0.5 * step * (last[i] + power[i]);
     }
 }
 
-static void swap(double **a, double **b) {
-    double *c = *a;
+static void swap(CzRow **a, CzRow **b) {
+    CzRow *c = *a;
     *a = *b;
     *b = c;
 }
 
-static void commit(CzDynamics *d, double step, double time) {
+static void commit_block(const CzLanes *lanes, CzBlock *d, double step, double time) {
     add_work(d, step);
     swap(&d->power, &d->last_power);
     swap(&d->memory, &d->next_memory);
     interface_extremes(d, time);
-    if (d->lanes->has_couplers)
+    if (lanes->has_couplers)
         keep_larger_size(d, CZ_E_COUPLER_FORCE, S(COUPLER_FORCE));
     keep_larger(d, CZ_E_FACE_FORCE, S(FACE_FORCE));
     keep_larger_size(d, CZ_E_FACE_DEMAND, S(FACE_DEMAND));
-    if (d->lanes->has_side_buffers)
+    if (lanes->has_side_buffers)
         keep_larger(d, CZ_E_SIDE_FORCE, S(SIDE_FORCE));
     keep_larger(d, CZ_E_SECTION_REAR, S(SECTION_REAR));
     keep_larger(d, CZ_E_SECTION_FRONT, S(SECTION_FRONT));
-    keep_larger_size(d, CZ_E_BODY_ACCELERATION, cz_row(d->acceleration, d->stride, CZ_DOF_BODY_X));
+    keep_larger_size(d, CZ_E_BODY_ACCELERATION, d->acceleration[CZ_DOF_BODY_X]);
     keep_larger(d, CZ_E_CHAIN_RESIDUAL, S(RESIDUAL));
-    if (d->lanes->has_full_cars)
+    if (lanes->has_full_cars)
         car_extremes(d, time);
 }
 
-static void advance(CzDynamics *d, double step, int first) {
-    cz_two_step_advance(CZ_N_ROW * d->stride, step, first, d->position, d->velocity,
-                        d->acceleration, d->last_acceleration);
+static void commit(CzDynamics *dynamics, double step, double time) {
+    for (int i = 0; i < dynamics->n_block; ++i)
+        commit_block(dynamics->lanes, &dynamics->block[i], step, time);
+}
+
+static void advance(CzDynamics *dynamics, double step, int first) {
+    const size_t n = (size_t)CZ_N_ROW * CZ_LANE_BLOCK;
+    for (int i = 0; i < dynamics->n_block; ++i) {
+        CzBlock *d = &dynamics->block[i];
+        cz_two_step_advance(n, step, first, d->position[0], d->velocity[0], d->acceleration[0],
+                            d->last_acceleration[0]);
+    }
 }
 
 const CzKernel KERNEL_NAME(CZ_ISA) = {ISA_TEXT(CZ_ISA), advance, evaluate, commit};

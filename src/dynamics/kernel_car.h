@@ -17,7 +17,7 @@
 /* Shortening of the crush zone of one end along the body's axis, its rate, and the same across the
  * axis: into END_STROKE, RATE, SLIP, SLIP_RATE; the point of action (on the end mass) from the body
  * and from the end mass. */
-static void end_geometry(CzDynamics *d, int end) {
+static void end_geometry(CzBlock *d, int end) {
     const size_t n = CZ_LANE_BLOCK;
     const double sign = end == 0 ? -1.0 : 1.0;
     const double *restrict at = P_AT(END_X_REAR, end), *restrict body_z =
@@ -57,7 +57,7 @@ static void end_geometry(CzDynamics *d, int end) {
 }
 
 /* Force of the crush zone along the axis, into END_REAR/FRONT; its damping is in CHAIN_FORCE. */
-static void end_crush(CzDynamics *d, int end) {
+static void end_crush(CzBlock *d, int end) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict stroke = S_AT(END_STROKE_REAR, end), *restrict rate = S(RATE);
     const double *restrict before = M_AT(END_PEAK_REAR, end);
@@ -90,7 +90,7 @@ static void end_crush(CzDynamics *d, int end) {
 }
 
 /* Guidance across the axis (into CHAIN_FORCE) and folding moment (into CHAIN_LOWEST) of one end. */
-static void end_guidance(CzDynamics *d, int end) {
+static void end_guidance(CzBlock *d, int end) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict slip = S(SLIP), *restrict slip_rate = S(SLIP_RATE);
     const double *restrict k = P_AT(GUIDE_STIFFNESS_REAR, end), *restrict c =
@@ -123,7 +123,7 @@ static void end_guidance(CzDynamics *d, int end) {
 }
 
 /* Crush zone, guidance and folding of one end, put on end mass and body. */
-static void vehicle_end(CzDynamics *d, int end) {
+static void vehicle_end(CzBlock *d, int end) {
     const size_t n = CZ_LANE_BLOCK;
     const double sign = end == 0 ? -1.0 : 1.0;
     end_geometry(d, end);
@@ -152,7 +152,7 @@ static void vehicle_end(CzDynamics *d, int end) {
 }
 
 /* Secondary suspension and traction link of one bogie. */
-static void bogie_to_body(CzDynamics *d, int bogie) {
+static void bogie_to_body(CzBlock *d, int bogie) {
     const size_t n = CZ_LANE_BLOCK;
     const double sign = bogie == 0 ? -1.0 : 1.0;
     const double *restrict half = P(BOGIE_X), *restrict s = S(BODY_SIN), *restrict c = S(BODY_COS);
@@ -220,7 +220,7 @@ static void bogie_to_body(CzDynamics *d, int bogie) {
 }
 
 /* Primary suspension and axle guidance of one axle, counted from the rear of the car. */
-static void axle_to_bogie(CzDynamics *d, int axle) {
+static void axle_to_bogie(CzBlock *d, int axle) {
     const size_t n = CZ_LANE_BLOCK;
     const int bogie = axle / 2;
     const double sign = axle % 2 == 0 ? -1.0 : 1.0;
@@ -281,7 +281,7 @@ static void axle_to_bogie(CzDynamics *d, int axle) {
 }
 
 /* Wheel and rail, and the brake, of one axle. */
-static void wheel(CzDynamics *d, int axle, double step) {
+static void wheel(CzBlock *d, int axle, double step) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict rest = C_AT(STATIC_LOAD_0, axle), *restrict creep_c =
                                                                  C(CREEP_COMPLIANCE);

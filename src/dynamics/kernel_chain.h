@@ -36,7 +36,7 @@ typedef struct {
 
 /* Linearises a member of one side: the first time about its committed stroke, later about where
  * the chain's force takes it, in the lanes where it misses its law. Returns how many those are. */
-typedef double Linearise(CzDynamics *d, int side, double step, int again);
+typedef double Linearise(CzBlock *d, int side, double step, int again);
 
 /* Buffers as the springs of a chain. */
 typedef struct {
@@ -48,11 +48,11 @@ typedef struct {
 
 /* Sum of the members' shortenings less the closure, and its derivative, at the chain's present
  * force. */
-static void unbalance(const CzDynamics *d, const Chain *chain, const double *restrict closure,
+static void unbalance(const CzBlock *d, const Chain *chain, const double *restrict closure,
                       double *restrict sum, double *restrict slope) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict force = S(CHAIN_FORCE);
-    const double *restrict compliance = cz_row(d->lanes->parameter, d->stride, chain->compliance);
+    const double *restrict compliance = d->parameter[chain->compliance];
     CZ_LANES (i, n) {
         sum[i] = compliance[i] * force[i] - closure[i];
         slope[i] = compliance[i];
@@ -70,7 +70,7 @@ static void unbalance(const CzDynamics *d, const Chain *chain, const double *res
         }
     }
     for (int member = 0; member < chain->n_plastic; ++member) {
-        const double *restrict stroke = cz_row(d->memory, d->stride, chain->plastic + member);
+        const double *restrict stroke = d->memory[chain->plastic + member];
         const double *restrict strength = S_AT(STRENGTH_0, member);
         const double *restrict flow = S_AT(FLOW_0, member);
         CZ_LANES (i, n) {
@@ -82,7 +82,7 @@ static void unbalance(const CzDynamics *d, const Chain *chain, const double *res
 }
 
 /* One Newton step in all lanes that have not arrived; returns whether all have. */
-static int improve(const CzDynamics *d, const double *restrict sum, const double *restrict slope) {
+static int improve(CzBlock *d, const double *restrict sum, const double *restrict slope) {
     const size_t n = CZ_LANE_BLOCK;
     double *restrict force = S(CHAIN_FORCE);
     double *restrict low = S(CHAIN_LOW);
@@ -113,7 +113,7 @@ static int improve(const CzDynamics *d, const double *restrict sum, const double
 
 /* Finds the chain's force in all lanes from the one in S(CHAIN_FORCE) on; returns whether it did.
  */
-static int solve_linear(CzDynamics *d, const Chain *chain, const double *closure) {
+static int solve_linear(CzBlock *d, const Chain *chain, const double *closure) {
     const size_t n = CZ_LANE_BLOCK;
     double *restrict low = S(CHAIN_LOW);
     double *restrict high = S(CHAIN_HIGH);
@@ -132,11 +132,11 @@ static int solve_linear(CzDynamics *d, const Chain *chain, const double *closure
 }
 
 /* Where a spring is linearised: its committed stroke, or where the chain's force takes it. */
-static void choose_stroke(CzDynamics *d, const Chain *chain, int side, int again,
+static void choose_stroke(CzBlock *d, const Chain *chain, int side, int again,
                           double *restrict stroke) {
     const size_t n = CZ_LANE_BLOCK;
     if (!again) {
-        const double *restrict committed = cz_row(d->memory, d->stride, chain->spring + side);
+        const double *restrict committed = d->memory[chain->spring + side];
         CZ_LANES (i, n) {
             stroke[i] = committed[i];
         }
@@ -153,7 +153,7 @@ static void choose_stroke(CzDynamics *d, const Chain *chain, int side, int again
 
 /* Takes over a spring's linearisation about `stroke` where it is the first one or the law's force
  * there is not the chain's; returns in how many lanes. */
-static double accept(CzDynamics *d, int side, int again, const double *restrict stroke,
+static double accept(CzBlock *d, int side, int again, const double *restrict stroke,
                      const double *restrict law_force, const double *restrict loading,
                      const double *restrict unloading) {
     const size_t n = CZ_LANE_BLOCK;
@@ -176,30 +176,26 @@ static double accept(CzDynamics *d, int side, int again, const double *restrict 
 
 /* Linearises a buffer as spring member `side` of the chain. The hysteresis starts from where the
  * committed stroke has taken it. */
-static double linearise_buffer(CzDynamics *d, const Chain *chain, const BufferRows *rows, int side,
+static double linearise_buffer(CzBlock *d, const Chain *chain, const BufferRows *rows, int side,
                                double step, int again) {
     const size_t n = CZ_LANE_BLOCK;
-    double *parameter = d->lanes->parameter;
     double *stroke = S(TRIAL_STROKE);
     choose_stroke(d, chain, side, again, stroke);
-    const double *restrict committed = cz_row(d->memory, d->stride, chain->spring + side);
+    const double *restrict committed = d->memory[chain->spring + side];
     double *restrict curve = S(CURVE_VALUE);
     double *restrict slope = S(CURVE_SLOPE);
     evaluate_curve(d, rows->curve + side, stroke, curve, slope);
-    const double *restrict transition = cz_row(parameter, d->stride, rows->transition + side);
-    const double *restrict share = cz_row(parameter, d->stride, rows->share + side);
-    const double *restrict damping = cz_row(parameter, d->stride, rows->damping + side);
-    const double *restrict quadratic = cz_row(parameter, d->stride, rows->quadratic + side);
+    const double *restrict transition = d->parameter[rows->transition + side];
+    const double *restrict share = d->parameter[rows->share + side];
+    const double *restrict damping = d->parameter[rows->damping + side];
+    const double *restrict quadratic = d->parameter[rows->quadratic + side];
     const int pulls = rows->draw >= 0;
-    const double *restrict draw = pulls ? cz_row(parameter, d->stride, rows->draw + side) : S(ZERO);
-    const double *restrict slack =
-        pulls ? cz_row(parameter, d->stride, rows->slack + side) : S(ZERO);
-    const double *restrict rate = cz_row(d->memory, d->stride, rows->rate + side);
-    const double *restrict offset =
-        cz_row(again ? d->next_memory : d->memory, d->stride, rows->offset + side);
-    double *restrict next_offset =
-        again ? S(UNUSED) : cz_row(d->next_memory, d->stride, rows->offset + side);
-    const double *restrict usable = d->lanes->curve[rows->curve + side].usable;
+    const double *restrict draw = pulls ? d->parameter[rows->draw + side] : S(ZERO);
+    const double *restrict slack = pulls ? d->parameter[rows->slack + side] : S(ZERO);
+    const double *restrict rate = d->memory[rows->rate + side];
+    const double *restrict offset = (again ? d->next_memory : d->memory)[rows->offset + side];
+    double *restrict next_offset = again ? S(UNUSED) : d->next_memory[rows->offset + side];
+    const double *restrict usable = d->curve[rows->curve + side].usable;
     double *restrict force = S(TRIAL_FORCE), *restrict up = S(TRIAL_UP),
                      *restrict down = S(TRIAL_DOWN);
     CZ_LANES (i, n) {
@@ -222,15 +218,15 @@ static double linearise_buffer(CzDynamics *d, const Chain *chain, const BufferRo
 }
 
 /* Rise of the strength of a plastic member. */
-static const double *rise_of(CzDynamics *d, const Chain *chain, int member) {
-    return chain->rise < 0 ? S(ZERO) : cz_row(d->scratch, d->stride, chain->rise + member % 2);
+static const double *rise_of(CzBlock *d, const Chain *chain, int member) {
+    return chain->rise < 0 ? S(ZERO) : d->scratch[chain->rise + member % 2];
 }
 
 /* Sets a plastic member: strength over its stroke, with its rise and its rate factor. */
-static void prepare_plastic(CzDynamics *d, const Chain *chain, int member, double step) {
+static void prepare_plastic(CzBlock *d, const Chain *chain, int member, double step) {
     const size_t n = CZ_LANE_BLOCK;
-    const double *restrict stroke = cz_row(d->memory, d->stride, chain->plastic + member);
-    const double *restrict rate = cz_row(d->lanes->parameter, d->stride, chain->rate + member);
+    const double *restrict stroke = d->memory[chain->plastic + member];
+    const double *restrict rate = d->parameter[chain->rate + member];
     const double *restrict rise = rise_of(d, chain, member);
     double *restrict strength = S_AT(STRENGTH_0, member);
     double *restrict flow = S_AT(FLOW_0, member);
@@ -243,11 +239,10 @@ static void prepare_plastic(CzDynamics *d, const Chain *chain, int member, doubl
 }
 
 /* Where the chain's force takes a plastic member. */
-static void trial_of_plastic(CzDynamics *d, const Chain *chain, int member,
-                             double *restrict stroke) {
+static void trial_of_plastic(CzBlock *d, const Chain *chain, int member, double *restrict stroke) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict force = S(CHAIN_FORCE);
-    const double *restrict committed = cz_row(d->memory, d->stride, chain->plastic + member);
+    const double *restrict committed = d->memory[chain->plastic + member];
     const double *restrict strength = S_AT(STRENGTH_0, member), *restrict flow =
                                                                     S_AT(FLOW_0, member);
     CZ_LANES (i, n) {
@@ -258,13 +253,13 @@ static void trial_of_plastic(CzDynamics *d, const Chain *chain, int member,
 /* Linearises a plastic member about a trial stroke where its strength there, `curve` with `slope`,
  * is not the chain's force: with its tangent where the strength rises, such as in a stop; with the
  * strength itself where it falls. Returns in how many lanes. */
-static double accept_plastic(CzDynamics *d, const Chain *chain, int member,
+static double accept_plastic(CzBlock *d, const Chain *chain, int member,
                              const double *restrict stroke, const double *restrict curve,
                              const double *restrict slope, const double *restrict rate,
                              double step) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict force = S(CHAIN_FORCE), *restrict active = S(CHAIN_ACTIVE);
-    const double *restrict committed = cz_row(d->memory, d->stride, chain->plastic + member);
+    const double *restrict committed = d->memory[chain->plastic + member];
     double *restrict strength = S_AT(STRENGTH_0, member), *restrict flow = S_AT(FLOW_0, member);
     double n_changed = 0.0;
     _Pragma("omp simd reduction(+ : n_changed)") for (size_t i = 0; i < n; ++i) {
@@ -283,7 +278,7 @@ static double accept_plastic(CzDynamics *d, const Chain *chain, int member,
 }
 
 /* The same for a member with a curve. */
-static double relinearise_plastic(CzDynamics *d, const Chain *chain, int member, double step) {
+static double relinearise_plastic(CzBlock *d, const Chain *chain, int member, double step) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict rise = rise_of(d, chain, member);
     double *stroke = S(TRIAL_STROKE);
@@ -295,20 +290,20 @@ static double relinearise_plastic(CzDynamics *d, const Chain *chain, int member,
         slope[i] *= 1.0 + rise[i];
     }
     return accept_plastic(d, chain, member, stroke, curve, slope,
-                          cz_row(d->lanes->parameter, d->stride, chain->rate + member), step);
+                          d->parameter[chain->rate + member], step);
 }
 
 /* Finds the force with which every member keeps its law: S(CHAIN_FORCE). `springs` linearises the
  * springs, `others` the plastic members that have no curve (NULL: there are none). CHAIN_LOWEST,
  * CHAIN_ACTIVE and the others' first linearisation are set before. What is left unbalanced is kept
  * for the run to judge. */
-static void solve_chain(CzDynamics *d, const Chain *chain, Linearise *springs, Linearise *others,
+static void solve_chain(CzBlock *d, const Chain *chain, Linearise *springs, Linearise *others,
                         double step) {
     const size_t n = CZ_LANE_BLOCK;
     double *restrict force = S(CHAIN_FORCE);
     const double *restrict active = S(CHAIN_ACTIVE);
     {
-        const double *restrict last = cz_row(d->memory, d->stride, chain->force);
+        const double *restrict last = d->memory[chain->force];
         const double *restrict lowest = S(CHAIN_LOWEST);
         CZ_LANES (i, n) {
             force[i] = cz_larger(last[i], lowest[i]);
@@ -330,7 +325,7 @@ static void solve_chain(CzDynamics *d, const Chain *chain, Linearise *springs, L
             arrived = solve_linear(d, chain, S(CLOSURE));
     }
     double *restrict residual = S(RESIDUAL);
-    double *restrict kept = cz_row(d->next_memory, d->stride, chain->force);
+    double *restrict kept = d->next_memory[chain->force];
     const double *restrict left = S(CURVE_VALUE);
     const double unsolved = arrived ? 0.0 : 1.0;
     CZ_LANES (i, n) {
@@ -343,16 +338,16 @@ static void solve_chain(CzDynamics *d, const Chain *chain, Linearise *springs, L
 /* Takes the members to the end of the step and adds the mean force times their way to the energies;
  * `first` is the energy row of side A that gets the way of the springs and plastic members,
  * `second` the one that gets the way of the plastic members alone (-1: none). */
-static void move_members(CzDynamics *d, const Chain *chain, int first, int second) {
+static void move_members(CzBlock *d, const Chain *chain, int first, int second) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict force = S(CHAIN_FORCE);
-    const double *restrict last = cz_row(d->memory, d->stride, chain->force);
+    const double *restrict last = d->memory[chain->force];
     for (int side = 0; side < 2; ++side) {
-        const double *restrict energy = cz_row(d->memory, d->stride, first + side);
-        double *restrict next_energy = cz_row(d->next_memory, d->stride, first + side);
-        const double *restrict stroke = cz_row(d->memory, d->stride, chain->spring + side);
+        const double *restrict energy = d->memory[first + side];
+        double *restrict next_energy = d->next_memory[first + side];
+        const double *restrict stroke = d->memory[chain->spring + side];
         const double *restrict at = S_AT(SPRING_AT_A, side);
-        double *restrict next = cz_row(d->next_memory, d->stride, chain->spring + side);
+        double *restrict next = d->next_memory[chain->spring + side];
         const double *restrict rest = S_AT(SPRING_FORCE_A, side);
         const double *restrict up = S_AT(SPRING_UP_A, side);
         const double *restrict down = S_AT(SPRING_DOWN_A, side);
@@ -367,9 +362,9 @@ static void move_members(CzDynamics *d, const Chain *chain, int first, int secon
     }
     for (int member = 0; member < chain->n_plastic; ++member) {
         const int side = member % 2;
-        const double *restrict stroke = cz_row(d->memory, d->stride, chain->plastic + member);
-        double *restrict next = cz_row(d->next_memory, d->stride, chain->plastic + member);
-        double *restrict next_energy = cz_row(d->next_memory, d->stride, first + side);
+        const double *restrict stroke = d->memory[chain->plastic + member];
+        double *restrict next = d->next_memory[chain->plastic + member];
+        double *restrict next_energy = d->next_memory[first + side];
         const double *restrict strength = S_AT(STRENGTH_0, member);
         const double *restrict flow = S_AT(FLOW_0, member);
         CZ_LANES (i, n) {
@@ -378,10 +373,10 @@ static void move_members(CzDynamics *d, const Chain *chain, int first, int secon
             next_energy[i] += 0.5 * (last[i] + force[i]) * way;
         }
         if (second >= 0) {
-            const double *restrict before =
-                member < 2 ? cz_row(d->memory, d->stride, second + side)
-                           : (const double *)cz_row(d->next_memory, d->stride, second + side);
-            double *restrict after = cz_row(d->next_memory, d->stride, second + side);
+            const double *restrict before = member < 2
+                                                ? d->memory[second + side]
+                                                : (const double *)d->next_memory[second + side];
+            double *restrict after = d->next_memory[second + side];
             CZ_LANES (i, n) {
                 after[i] = before[i] + 0.5 * (last[i] + force[i]) * (next[i] - stroke[i]);
             }
@@ -390,12 +385,12 @@ static void move_members(CzDynamics *d, const Chain *chain, int first, int secon
 }
 
 /* Rates of the springs over the step, for the next one. */
-static void keep_rates(CzDynamics *d, const Chain *chain, int rate_row, double step) {
+static void keep_rates(CzBlock *d, const Chain *chain, int rate_row, double step) {
     const size_t n = CZ_LANE_BLOCK;
     for (int side = 0; side < 2; ++side) {
-        const double *restrict before = cz_row(d->memory, d->stride, chain->spring + side);
-        const double *restrict after = cz_row(d->next_memory, d->stride, chain->spring + side);
-        double *restrict rate = cz_row(d->next_memory, d->stride, rate_row + side);
+        const double *restrict before = d->memory[chain->spring + side];
+        const double *restrict after = d->next_memory[chain->spring + side];
+        double *restrict rate = d->next_memory[rate_row + side];
         CZ_LANES (i, n) {
             rate[i] = (after[i] - before[i]) / step;
         }

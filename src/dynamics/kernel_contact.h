@@ -15,16 +15,15 @@ typedef struct {
     int x_a, z_a, x_b, z_b, gap, rise; /* CzParameter */
 } ContactRows;
 
-static void contact_geometry(CzDynamics *d, const Carrier *a, const Carrier *b,
+static void contact_geometry(CzBlock *d, const Carrier *a, const Carrier *b,
                              const ContactRows *rows) {
     const size_t n = CZ_LANE_BLOCK;
-    double *parameter = d->lanes->parameter;
-    const double *restrict x_a = cz_row(parameter, d->stride, rows->x_a);
-    const double *restrict z_a = cz_row(parameter, d->stride, rows->z_a);
-    const double *restrict x_b = cz_row(parameter, d->stride, rows->x_b);
-    const double *restrict z_b = cz_row(parameter, d->stride, rows->z_b);
-    const double *restrict gap = cz_row(parameter, d->stride, rows->gap);
-    const double *restrict rise = cz_row(parameter, d->stride, rows->rise);
+    const double *restrict x_a = d->parameter[rows->x_a];
+    const double *restrict z_a = d->parameter[rows->z_a];
+    const double *restrict x_b = d->parameter[rows->x_b];
+    const double *restrict z_b = d->parameter[rows->z_b];
+    const double *restrict gap = d->parameter[rows->gap];
+    const double *restrict rise = d->parameter[rows->rise];
     const double *restrict tilts = C(TILTS);
     const Carrier ca = *a, cb = *b;
     double *restrict closure = S(CLOSURE), *restrict rate = S(RATE);
@@ -70,18 +69,18 @@ typedef struct {
     double *x, *z, *pitch;
 } CarrierForce;
 
-static CarrierForce carrier_force(CzDynamics *d, int dof, size_t shift) {
-    double *g = cz_row(d->force, d->stride, dof) + shift;
-    return (CarrierForce){g, g + d->stride, g + 2 * d->stride};
+static CarrierForce three_rows(CzRow *row) {
+    return (CarrierForce){row[0], row[1], row[2]};
 }
 
-/* The body at side A or B of an interface. Forces of the interface behind a body are gathered in
- * rows of their own, so that their sum does not depend on how lanes are grouped. */
-static CarrierForce body_force(CzDynamics *d, int side) {
-    if (side == 0)
-        return carrier_force(d, CZ_DOF_BODY_X, 0);
-    double *g = S(PUSHED_X) + (size_t)d->lanes->n_design;
-    return (CarrierForce){g, g + d->stride, g + 2 * d->stride};
+/* The body or end mass at side A or B of an interface. What an interface pushes on the car ahead
+ * has rows of its own, which that car takes over once all interfaces are done. */
+static CarrierForce body_force(CzBlock *d, int side) {
+    return three_rows(side == 0 ? &d->force[CZ_DOF_BODY_X] : &d->scratch[CZ_S_PUSHED_X]);
+}
+
+static CarrierForce end_force(CzBlock *d, int side) {
+    return three_rows(side == 0 ? &d->force[CZ_DOF_END_X_FRONT] : &d->scratch[CZ_S_PUSHED_END_X]);
 }
 
 /* Puts a force (fx, fz) at an arm on a carrier; sign turns it round for side B. */
@@ -98,7 +97,7 @@ static inline void put_force(size_t n, const CarrierForce *on, double sign,
 
 /* Puts normal force and slip force of the contact on both carriers. The components are left in
  * CURVE_VALUE (x) and CURVE_SLOPE (z) as they act on side B. */
-static void contact_forces(CzDynamics *d, const CarrierForce *on_a, const CarrierForce *on_b,
+static void contact_forces(CzBlock *d, const CarrierForce *on_a, const CarrierForce *on_b,
                            const double *restrict normal, const double *restrict tangential) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict nx = S(NORMAL_X), *restrict nz = S(NORMAL_Z);

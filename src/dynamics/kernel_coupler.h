@@ -34,43 +34,32 @@ static const BufferRows coupler_buffer = {
 
 /* Chooses one row of the carrier: the end mass's where the pivot is fixed to it, else the body's.
  */
-static inline void choose(size_t n, const double *restrict on_end, const double *restrict end,
+static inline void choose(const double *restrict on_end, const double *restrict end,
                           const double *restrict body, double *restrict chosen) {
+    const size_t n = CZ_LANE_BLOCK;
     CZ_LANES (i, n) {
         chosen[i] = on_end[i] > 0.5 ? end[i] : body[i];
     }
 }
 
 /* Rows of the coupler's carrier: side A is this car's front, side B the rear of the car ahead. */
-static Carrier coupler_carrier(CzDynamics *d, int side) {
-    const size_t n = CZ_LANE_BLOCK;
-    const size_t shift = side == 0 ? 0 : (size_t)d->lanes->n_design;
-    const int end = side == 0 ? CZ_DOF_END_X_FRONT : CZ_DOF_END_X_REAR;
+static Carrier coupler_carrier(CzBlock *d, int side) {
     const double *on_end = P_AT(COUPLER_ON_END_A, side);
-    double *rows = side == 0 ? S(CARRIER_A) : S(CARRIER_B);
-    for (int k = 0; k < 3; ++k) {
-        choose(n, on_end, cz_row(d->position, d->stride, end + k) + shift, X_AT(BODY_X, k) + shift,
-               rows + (size_t)k * d->stride);
-        choose(n, on_end, cz_row(d->velocity, d->stride, end + k) + shift, V_AT(BODY_X, k) + shift,
-               rows + (size_t)(k + 3) * d->stride);
-    }
-    const double *end_rotation = side == 0 ? S(END_COS_FRONT) : S(END_COS_REAR);
-    for (int k = 0; k < 2; ++k)
-        choose(n, on_end, end_rotation + (size_t)k * d->stride + shift, S_AT(BODY_COS, k) + shift,
-               rows + (size_t)(k + 6) * d->stride);
-    const size_t stride = d->stride;
-    return (Carrier){rows,
-                     rows + stride,
-                     rows + 2 * stride,
-                     rows + 3 * stride,
-                     rows + 4 * stride,
-                     rows + 5 * stride,
-                     rows + 6 * stride,
-                     rows + 7 * stride};
+    const Carrier end = end_carrier(d, side), body = body_carrier(d, side);
+    CzRow *row = &d->scratch[side == 0 ? CZ_S_CARRIER_A : CZ_S_CARRIER_B];
+    choose(on_end, end.x, body.x, row[0]);
+    choose(on_end, end.z, body.z, row[1]);
+    choose(on_end, end.pitch, body.pitch, row[2]);
+    choose(on_end, end.vx, body.vx, row[3]);
+    choose(on_end, end.vz, body.vz, row[4]);
+    choose(on_end, end.turn, body.turn, row[5]);
+    choose(on_end, end.cosine, body.cosine, row[6]);
+    choose(on_end, end.sine, body.sine, row[7]);
+    return eight_rows(row);
 }
 
 /* Line between the pivots: closure, rate, direction, angle's rate (in SLIP_RATE), length, arms. */
-static void coupler_geometry(CzDynamics *d, const Carrier *a, const Carrier *b) {
+static void coupler_geometry(CzBlock *d, const Carrier *a, const Carrier *b) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict x_a = P(PIVOT_X_A), *restrict z_a = P(PIVOT_Z_A);
     const double *restrict x_b = P(PIVOT_X_B), *restrict z_b = P(PIVOT_Z_B);
@@ -109,7 +98,7 @@ static void coupler_geometry(CzDynamics *d, const Carrier *a, const Carrier *b) 
 }
 
 /* Linearises the shear-off of one side; the first time also tells the damage that it has done. */
-static double linearise_shear_off(CzDynamics *d, int side, double step, int again) {
+static double linearise_shear_off(CzBlock *d, int side, double step, int again) {
     const size_t n = CZ_LANE_BLOCK;
     const int member = 4 + side;
     const double *restrict force = P_AT(SHEAR_FORCE_A, side), *restrict softening =
@@ -139,12 +128,12 @@ static double linearise_shear_off(CzDynamics *d, int side, double step, int agai
     return (double)n;
 }
 
-static double linearise_coupler_buffer(CzDynamics *d, int side, double step, int again) {
+static double linearise_coupler_buffer(CzBlock *d, int side, double step, int again) {
     return linearise_buffer(d, &coupler_chain, &coupler_buffer, side, step, again);
 }
 
 /* Force of the chain, and the members moved on. */
-static void coupler_chain_force(CzDynamics *d, double step) {
+static void coupler_chain_force(CzBlock *d, double step) {
     const size_t n = CZ_LANE_BLOCK;
     {
         double *restrict damage = S(DAMAGE);
@@ -170,7 +159,7 @@ static void coupler_chain_force(CzDynamics *d, double step) {
 
 /* Moment of the hinge of one side on its carrier, into SPRING_UP of the side; its power is added
  * up. */
-static void hinge_moment(CzDynamics *d, int side, const Carrier *carrier) {
+static void hinge_moment(CzBlock *d, int side, const Carrier *carrier) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict stiffness = P_AT(HINGE_STIFFNESS_A, side), *restrict capacity = P_AT(
                                                                           HINGE_MOMENT_A, side);
@@ -210,8 +199,8 @@ static inline void share(size_t n, const double *restrict on_end, const double *
 
 /* Puts strut force and hinge moments on the carriers, and the strut force into the sections behind
  * them. */
-static void coupler_forces(CzDynamics *d) {
-    const size_t n = CZ_LANE_BLOCK, ahead = (size_t)d->lanes->n_design;
+static void coupler_forces(CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
     const double *restrict force = S(CHAIN_FORCE), *restrict length = S(LENGTH),
                            *restrict rate = S(RATE);
     const double *restrict nx = S(NORMAL_X), *restrict nz = S(NORMAL_Z);
@@ -239,10 +228,8 @@ static void coupler_forces(CzDynamics *d) {
         CZ_LANES (i, n) {
             moments[i] = sign * (arm_x[i] * fz[i] - arm_z[i] * fx[i]) + moment[i];
         }
-        const CarrierForce end = side == 0 ? carrier_force(d, CZ_DOF_END_X_FRONT, 0)
-                                           : carrier_force(d, CZ_DOF_END_X_REAR, ahead);
-        const CarrierForce body = body_force(d, side);
-        double *section = side == 0 ? S(SECTION_FRONT) : S(SECTION_REAR) + ahead;
+        const CarrierForce end = end_force(d, side), body = body_force(d, side);
+        double *section = side == 0 ? S(SECTION_FRONT) : S(PUSHED_SECTION);
         share(n, on_end, fx, sign, end.x, body.x);
         share(n, on_end, fz, sign, end.z, body.z);
         share(n, on_end, moments, 1.0, end.pitch, body.pitch);
@@ -251,7 +238,7 @@ static void coupler_forces(CzDynamics *d) {
 }
 
 /* All couplers. */
-static void couplers(CzDynamics *d, double step) {
+static void couplers(CzBlock *d, double step) {
     const Carrier a = coupler_carrier(d, 0);
     const Carrier b = coupler_carrier(d, 1);
     coupler_geometry(d, &a, &b);

@@ -44,17 +44,8 @@ static const BufferRows side_buffer = {CZ_CURVE_SIDE_BUFFER_A,
 static const ContactRows side_contact = {CZ_P_SIDE_X_A, CZ_P_SIDE_Z_A, CZ_P_SIDE_X_B,
                                          CZ_P_SIDE_Z_B, CZ_P_SIDE_GAP, CZ_P_SIDE_RISE};
 
-/* Rows of three degrees of freedom as a carrier, moved on by `shift` lanes. */
-static Carrier carrier_rows(CzDynamics *d, int dof, int rotation, size_t shift) {
-    const double *x = cz_row(d->position, d->stride, dof) + shift;
-    const double *v = cz_row(d->velocity, d->stride, dof) + shift;
-    const double *r = cz_row(d->scratch, d->stride, rotation) + shift;
-    return (Carrier){x, x + d->stride, x + 2 * d->stride, v, v + d->stride, v + 2 * d->stride,
-                     r, r + d->stride};
-}
-
 /* Linearises a crush zone without end mass as spring member `side`. */
-static double linearise_limp_end(CzDynamics *d, int side, double step, int again) {
+static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
     (void)step;
     const size_t n = CZ_LANE_BLOCK;
     double *shortening = S(TRIAL_STROKE);
@@ -87,7 +78,7 @@ static double linearise_limp_end(CzDynamics *d, int side, double step, int again
 }
 
 /* The closing speed at first contact is frozen; the rise of one side's strength follows from it. */
-static void speed_factor(CzDynamics *d, int side) {
+static void speed_factor(CzBlock *d, int side) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict closure = S(CLOSURE), *restrict rate = S(RATE),
                            *restrict speed = M(FACE_SPEED);
@@ -102,7 +93,7 @@ static void speed_factor(CzDynamics *d, int side) {
 
 /* Normal force of the faces: chain, damping, and what is left of them while the overlap runs out.
  */
-static void face_normal(CzDynamics *d) {
+static void face_normal(CzBlock *d) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict chain = S(CHAIN_FORCE), *restrict closure = S(CLOSURE),
                            *restrict rate = S(RATE);
@@ -125,7 +116,7 @@ static void face_normal(CzDynamics *d) {
 }
 
 /* Vertical force of the faces: they stick, by ribs and friction, up to a capacity. */
-static void face_tangential(CzDynamics *d) {
+static void face_tangential(CzBlock *d) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict normal = S(FACE_FORCE), *restrict closure = S(CLOSURE),
                            *restrict slip = S(SLIP);
@@ -153,7 +144,7 @@ static void face_tangential(CzDynamics *d) {
 
 /* Whether no face of the block touches, pushed in the last step or has a crush zone behind it that
  * may still move: then the chain's answer is known to the last bit. */
-static int faces_are_apart(CzDynamics *d) {
+static int faces_are_apart(CzBlock *d) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict closure = S(CLOSURE), *restrict force = M(FACE_FORCE);
     const double *restrict limp_a = M(LIMP_PEAK_A), *restrict limp_b = M(LIMP_PEAK_B);
@@ -167,7 +158,7 @@ static int faces_are_apart(CzDynamics *d) {
 
 /* The answer for faces that are apart: no force, memory as it was, ribs that will seat where they
  * meet. */
-static void leave_faces(CzDynamics *d) {
+static void leave_faces(CzBlock *d) {
     static const int kept[] = {CZ_M_FACE_FORCE,    CZ_M_LIMP_A,        CZ_M_LIMP_B,
                                CZ_M_LIMP_PEAK_A,   CZ_M_LIMP_PEAK_B,   CZ_M_FACE_A,
                                CZ_M_FACE_B,        CZ_M_FACE_SPEED,    CZ_M_FACE_ENERGY_A,
@@ -175,18 +166,16 @@ static void leave_faces(CzDynamics *d) {
     static const int zero[] = {CZ_S_FACE_FORCE, CZ_S_FACE_DEMAND, CZ_S_FACE_CAPACITY};
     const size_t size = CZ_LANE_BLOCK * sizeof(double);
     for (size_t k = 0; k < sizeof kept / sizeof kept[0]; ++k)
-        memcpy(cz_row(d->next_memory, d->stride, kept[k]), cz_row(d->memory, d->stride, kept[k]),
-               size);
+        memcpy(d->next_memory[kept[k]], d->memory[kept[k]], size);
     for (size_t k = 0; k < sizeof zero / sizeof zero[0]; ++k)
-        memset(cz_row(d->scratch, d->stride, zero[k]), 0, size);
+        memset(d->scratch[zero[k]], 0, size);
     memcpy(NEXT(FACE_SLIP), S(SLIP), size);
 }
 
 /* All anti-climbers and bare ends. */
-static void faces(CzDynamics *d, double step) {
-    const size_t n = CZ_LANE_BLOCK, ahead = (size_t)d->lanes->n_design;
-    const Carrier a = carrier_rows(d, CZ_DOF_END_X_FRONT, CZ_S_END_COS_FRONT, 0);
-    const Carrier b = carrier_rows(d, CZ_DOF_END_X_REAR, CZ_S_END_COS_REAR, ahead);
+static void faces(CzBlock *d, double step) {
+    const size_t n = CZ_LANE_BLOCK;
+    const Carrier a = end_carrier(d, 0), b = end_carrier(d, 1);
     contact_geometry(d, &a, &b, &face_contact);
     if (faces_are_apart(d)) {
         leave_faces(d);
@@ -211,23 +200,21 @@ static void faces(CzDynamics *d, double step) {
     }
     face_normal(d);
     face_tangential(d);
-    const CarrierForce on_a = carrier_force(d, CZ_DOF_END_X_FRONT, 0);
-    const CarrierForce on_b = carrier_force(d, CZ_DOF_END_X_REAR, ahead);
+    const CarrierForce on_a = end_force(d, 0), on_b = end_force(d, 1);
     contact_forces(d, &on_a, &on_b, S(FACE_FORCE), S(FACE_DEMAND));
     /* Where the ends have no mass, the force goes straight into the body's section. */
     add(n, S(SECTION_FRONT), P(SLAVED_ENDS), S(CURVE_VALUE));
-    add(n, S(SECTION_REAR) + ahead, P(SLAVED_ENDS) + ahead, S(CURVE_VALUE));
+    add(n, S(PUSHED_SECTION), C(SLAVED_ENDS_AHEAD), S(CURVE_VALUE));
 }
 
-static double linearise_side_buffer(CzDynamics *d, int side, double step, int again) {
+static double linearise_side_buffer(CzBlock *d, int side, double step, int again) {
     return linearise_buffer(d, &side_chain, &side_buffer, side, step, again);
 }
 
 /* All side buffers: on the end masses, so that the crush zones lie behind them. */
-static void side_buffers(CzDynamics *d, double step) {
-    const size_t n = CZ_LANE_BLOCK, ahead = (size_t)d->lanes->n_design;
-    const Carrier a = carrier_rows(d, CZ_DOF_END_X_FRONT, CZ_S_END_COS_FRONT, 0);
-    const Carrier b = carrier_rows(d, CZ_DOF_END_X_REAR, CZ_S_END_COS_REAR, ahead);
+static void side_buffers(CzBlock *d, double step) {
+    const size_t n = CZ_LANE_BLOCK;
+    const Carrier a = end_carrier(d, 0), b = end_carrier(d, 1);
     contact_geometry(d, &a, &b, &side_contact);
     double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
     const double *restrict exists = P(SIDE_BUFFERS);
@@ -256,11 +243,10 @@ static void side_buffers(CzDynamics *d, double step) {
         power[i] += force[i] * rate[i];
         sliding[i] += grip.force * slip_rate[i];
     }
-    const CarrierForce on_a = carrier_force(d, CZ_DOF_END_X_FRONT, 0);
-    const CarrierForce on_b = carrier_force(d, CZ_DOF_END_X_REAR, ahead);
+    const CarrierForce on_a = end_force(d, 0), on_b = end_force(d, 1);
     contact_forces(d, &on_a, &on_b, S(SIDE_FORCE), S(LENGTH));
     add(n, S(SECTION_FRONT), P(SLAVED_ENDS), S(CURVE_VALUE));
-    add(n, S(SECTION_REAR) + ahead, P(SLAVED_ENDS) + ahead, S(CURVE_VALUE));
+    add(n, S(PUSHED_SECTION), C(SLAVED_ENDS_AHEAD), S(CURVE_VALUE));
 }
 
 #endif

@@ -6,15 +6,15 @@
 #include "laws/vehicle_end.h"
 
 static double parameter(const CzDynamics *dynamics, int row, size_t lane) {
-    return cz_row(dynamics->lanes->parameter, dynamics->stride, row)[lane];
+    return cz_row(dynamics->lanes->parameter, dynamics->lanes->stride, row)[lane];
 }
 
 static double memory(const CzDynamics *dynamics, int row, size_t lane) {
-    return cz_row(dynamics->memory, dynamics->stride, row)[lane];
+    return cz_block_of(dynamics, lane)->memory[row][lane % CZ_LANE_BLOCK];
 }
 
 static double scratch(const CzDynamics *dynamics, int row, size_t lane) {
-    return cz_row(dynamics->scratch, dynamics->stride, row)[lane];
+    return cz_block_of(dynamics, lane)->scratch[row][lane % CZ_LANE_BLOCK];
 }
 
 double cz_curve_value(const CzCurveLanes *curve, size_t stride, size_t lane, double x) {

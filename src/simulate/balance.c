@@ -12,9 +12,9 @@ static double settled_velocity(const CzBatch *batch, int dof, size_t lane) {
     const double v = cz_velocity(batch, dof, lane);
     if (batch->n_step == 0)
         return v;
-    const size_t stride = batch->dynamics->stride;
-    const double now = cz_row(batch->dynamics->acceleration, stride, dof)[lane];
-    const double last = cz_row(batch->dynamics->last_acceleration, stride, dof)[lane];
+    const CzBlock *block = cz_block_of(batch->dynamics, lane);
+    const double now = block->acceleration[dof][lane % CZ_LANE_BLOCK];
+    const double last = block->last_acceleration[dof][lane % CZ_LANE_BLOCK];
     return v + 0.5 * batch->step * (now - last);
 }
 

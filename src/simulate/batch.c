@@ -88,7 +88,7 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
         cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, model->colliding, 0)) -
         cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, model->colliding + 1, 0));
     const double samples = fmax(1.0, round(SAMPLING / batch->step));
-    batch->history.stride = batch->dynamics->stride;
+    batch->history.stride = batch->lanes->n_lane;
     batch->history.step = samples * batch->step;
     for (int design = 0; design < n_design; ++design)
         batch->design[design].initial_energy = cz_kinetic_energy(batch, design);

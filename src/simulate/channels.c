@@ -34,7 +34,7 @@ static void put_car(Writer *writer, int car) {
     const size_t lane = cz_lane(batch, car, 0);
     const char *name = description->name;
     const double acceleration =
-        cz_row(batch->dynamics->acceleration, batch->dynamics->stride, CZ_DOF_BODY_X)[lane];
+        cz_block_of(batch->dynamics, lane)->acceleration[CZ_DOF_BODY_X][lane % CZ_LANE_BLOCK];
     put(writer, cz_position(batch, CZ_DOF_BODY_X, lane), "x_%s_m", name);
     put(writer, cz_velocity(batch, CZ_DOF_BODY_X, lane), "v_%s_m_s", name);
     put(writer, acceleration / 9.80665, "a_%s_g", name);

@@ -13,7 +13,7 @@
 
 CzStatus cz_history_add(CzHistory *history, const CzBatch *batch) {
     const CzDynamics *dynamics = batch->dynamics;
-    const size_t row = dynamics->stride;
+    const size_t row = history->stride;
     if (history->n_sample == history->n_chunk * CZ_CHUNK) {
         double **chunks = realloc(history->chunk, (size_t)(history->n_chunk + 1) * sizeof *chunks);
         if (chunks == NULL)
@@ -26,9 +26,11 @@ CzStatus cz_history_add(CzHistory *history, const CzBatch *batch) {
     }
     double *sample =
         history->chunk[history->n_chunk - 1] + (size_t)(history->n_sample % CZ_CHUNK) * 2 * row;
-    memcpy(sample, cz_row(dynamics->velocity, row, CZ_DOF_BODY_X), row * sizeof(double));
-    memcpy(sample + row, cz_row(dynamics->scratch, row, CZ_S_INTERFACE_FORCE),
-           row * sizeof(double));
+    for (int i = 0; i < dynamics->n_block; ++i, sample += CZ_LANE_BLOCK) {
+        const CzBlock *block = &dynamics->block[i];
+        memcpy(sample, block->velocity[CZ_DOF_BODY_X], sizeof(CzRow));
+        memcpy(sample + row, block->scratch[CZ_S_INTERFACE_FORCE], sizeof(CzRow));
+    }
     ++history->n_sample;
     return CZ_OK;
 }

@@ -70,25 +70,25 @@ static inline size_t cz_lane(const CzBatch *batch, int car, int design) {
 
 /* Values in a lane. */
 static inline double cz_position(const CzBatch *batch, int dof, size_t lane) {
-    return cz_row(batch->dynamics->position, batch->dynamics->stride, dof)[lane];
+    return cz_block_of(batch->dynamics, lane)->position[dof][lane % CZ_LANE_BLOCK];
 }
 static inline double cz_velocity(const CzBatch *batch, int dof, size_t lane) {
-    return cz_row(batch->dynamics->velocity, batch->dynamics->stride, dof)[lane];
+    return cz_block_of(batch->dynamics, lane)->velocity[dof][lane % CZ_LANE_BLOCK];
 }
 static inline double cz_memory(const CzBatch *batch, int row, size_t lane) {
-    return cz_row(batch->dynamics->memory, batch->dynamics->stride, row)[lane];
+    return cz_block_of(batch->dynamics, lane)->memory[row][lane % CZ_LANE_BLOCK];
 }
 static inline double cz_extreme(const CzBatch *batch, int row, size_t lane) {
-    return cz_row(batch->dynamics->extreme, batch->dynamics->stride, row)[lane];
+    return cz_block_of(batch->dynamics, lane)->extreme[row][lane % CZ_LANE_BLOCK];
 }
 static inline double cz_work(const CzBatch *batch, int row, size_t lane) {
-    return cz_row(batch->dynamics->work, batch->dynamics->stride, row)[lane];
+    return cz_block_of(batch->dynamics, lane)->work[row][lane % CZ_LANE_BLOCK];
 }
 static inline double cz_parameter(const CzBatch *batch, int row, size_t lane) {
     return cz_row(batch->lanes->parameter, batch->lanes->stride, row)[lane];
 }
 static inline double cz_scratch(const CzBatch *batch, int row, size_t lane) {
-    return cz_row(batch->dynamics->scratch, batch->dynamics->stride, row)[lane];
+    return cz_block_of(batch->dynamics, lane)->scratch[row][lane % CZ_LANE_BLOCK];
 }
 
 /* history.c */

@@ -60,15 +60,15 @@ static inline double *parameter(const Motion *motion, CzParameter which, int car
 }
 
 static inline double *position(const Motion *motion, int dof, int car) {
-    return motion->dynamics->position + (size_t)dof * motion->dynamics->stride + car;
+    return cz_block_of(motion->dynamics, (size_t)car)->position[dof] + car % CZ_LANE_BLOCK;
 }
 
 static inline double *velocity(const Motion *motion, int dof, int car) {
-    return motion->dynamics->velocity + (size_t)dof * motion->dynamics->stride + car;
+    return cz_block_of(motion->dynamics, (size_t)car)->velocity[dof] + car % CZ_LANE_BLOCK;
 }
 
 static inline double force(const Motion *motion, int dof, int car) {
-    return motion->dynamics->force[(size_t)dof * motion->dynamics->stride + (size_t)car];
+    return cz_block_of(motion->dynamics, (size_t)car)->force[dof][car % CZ_LANE_BLOCK];
 }
 
 static inline double mass(const Motion *motion, int dof, int car) {

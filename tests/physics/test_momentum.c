@@ -158,7 +158,7 @@ static void every_element_took_part(void **state) {
         for (int car = 0; car < N_CAR; car++)
             work = fmax(
                 work,
-                fabs(motion.dynamics->work[(size_t)row * motion.dynamics->stride + (size_t)car]));
+                fabs(cz_block_of(motion.dynamics, (size_t)car)->work[row][car % CZ_LANE_BLOCK]));
         if (!(work > 1.0))
             fail_msg("%s did %g J", names[row], work);
     }
@@ -212,7 +212,7 @@ static double missing_energy(const char *step, int n_step) {
     double taken = 0.0;
     for (int row = 0; row < CZ_N_LEDGER; row++)
         for (int car = 0; car < N_CAR; car++)
-            taken += motion.dynamics->work[(size_t)row * motion.dynamics->stride + (size_t)car];
+            taken += cz_block_of(motion.dynamics, (size_t)car)->work[row][car % CZ_LANE_BLOCK];
     const double missing = fabs(kinetic_energy(&motion) + taken - before) / before;
     motion_close(&motion);
     return missing;

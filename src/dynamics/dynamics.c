@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "laws/wheel_rail.h"
+#include "model/kinks.h"
 
 extern const CzKernel cz_kernel_baseline;
 #ifdef CZ_HAS_KERNEL_V3
@@ -114,6 +115,14 @@ static int changes_a_lane(const double *slope_change) {
     return 0;
 }
 
+/* Whether some lane has less than a value. */
+static int falls_below(const double *row, double value) {
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+        if (row[i] < value)
+            return 1;
+    return 0;
+}
+
 static int copy_curve(CzBlockCurve *to, const CzCurveLanes *from, size_t stride, size_t base,
                       CzArena *arena) {
     memcpy(to->start, from->start + base, sizeof(CzRow));
@@ -121,6 +130,7 @@ static int copy_curve(CzBlockCurve *to, const CzCurveLanes *from, size_t stride,
     CzRow *kink = cz_arena_allocate(arena, 2 * (size_t)from->n_kink, sizeof *kink);
     if (kink == NULL)
         return 0;
+    to->is_there = falls_below(to->start, CZ_NEVER);
     to->n_kink = 0;
     to->kink = (const CzRow *)kink;
     for (int k = 0; k < from->n_kink; ++k) {
@@ -141,6 +151,9 @@ static int start_block(CzBlock *block, const CzLanes *lanes, size_t base, CzAren
     for (int id = 0; id < CZ_N_CURVE; ++id)
         if (!copy_curve(&block->curve[id], &lanes->curve[id], lanes->stride, base, arena))
             return 0;
+    for (int side = 0; side < 2; ++side)
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+            block->has_limp_end[side] |= block->parameter[CZ_P_LIMP_END_A + side][i] > 0.5;
     derive_constants(block);
     derive_pairs(lanes, block, base);
     start_extremes(block);

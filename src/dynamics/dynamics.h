@@ -61,6 +61,7 @@ typedef struct CzBlockCurve {
     _Alignas(64) CzRow start; /* value at 0 [N] */
     CzRow usable;             /* stroke at which it bottoms out [m] */
     int n_kink;
+    int is_there;      /* some lane's value is below CZ_NEVER: a plastic member can flow */
     const CzRow *kink; /* place [m] and change of slope [N/m], in turn (2 n_kink) */
 } CzBlockCurve;
 
@@ -80,10 +81,11 @@ typedef struct CzBlock {
     CzRow memories[2][CZ_N_MEMORY];        /* for `memory` and `next_memory` to swap */
     CzRow powers[2][CZ_N_LEDGER];          /* for `power` and `last_power` to swap */
     CzBlockCurve curve[CZ_N_CURVE];
-    CzRow *memory;      /* committed (CZ_N_MEMORY) */
-    CzRow *next_memory; /* of the last evaluation (CZ_N_MEMORY) */
-    CzRow *power;       /* of the last evaluation [W] (CZ_N_LEDGER) */
-    CzRow *last_power;  /* committed (CZ_N_LEDGER) */
+    int has_limp_end[2]; /* some lane's side A, B has a crush zone without end mass */
+    CzRow *memory;       /* committed (CZ_N_MEMORY) */
+    CzRow *next_memory;  /* of the last evaluation (CZ_N_MEMORY) */
+    CzRow *power;        /* of the last evaluation [W] (CZ_N_LEDGER) */
+    CzRow *last_power;   /* committed (CZ_N_LEDGER) */
 } CzBlock;
 
 typedef struct CzDynamics {

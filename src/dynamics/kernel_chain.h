@@ -14,6 +14,9 @@
 #define CZ_DYNAMICS_KERNEL_CHAIN_H
 
 #include "dynamics/kernel_rows.h"
+
+#include <string.h>
+
 #include "laws/buffer.h"
 #include "laws/plastic_member.h"
 #include "laws/vehicle_end.h"
@@ -46,6 +49,11 @@ typedef struct {
     int rate, offset; /* CzMemory of side A */
 } BufferRows;
 
+/* Whether a plastic member is missing in all lanes: it would neither flow nor add to any sum. */
+static int is_missing(const CzBlock *d, const Chain *chain, int member) {
+    return member < chain->n_curve && !d->curve[chain->curve + member].is_there;
+}
+
 /* Sum of the members' shortenings less the closure, and its derivative, at the chain's present
  * force. */
 static void unbalance(const CzBlock *d, const Chain *chain, const double *restrict closure,
@@ -70,6 +78,8 @@ static void unbalance(const CzBlock *d, const Chain *chain, const double *restri
         }
     }
     for (int member = 0; member < chain->n_plastic; ++member) {
+        if (is_missing(d, chain, member))
+            continue;
         const double *restrict stroke = d->memory[chain->plastic + member];
         const double *restrict strength = S_AT(STRENGTH_0, member);
         const double *restrict flow = S_AT(FLOW_0, member);
@@ -174,6 +184,15 @@ static double accept(CzBlock *d, int side, int again, const double *restrict str
     return n_changed;
 }
 
+/* Linearises a spring that no lane has: it is rigid, whatever the force. */
+static double leave_out_spring(CzBlock *d, int side) {
+    memset(S_AT(SPRING_AT_A, side), 0, sizeof(CzRow));
+    memset(S_AT(SPRING_FORCE_A, side), 0, sizeof(CzRow));
+    memset(S_AT(SPRING_UP_A, side), 0, sizeof(CzRow));
+    memset(S_AT(SPRING_DOWN_A, side), 0, sizeof(CzRow));
+    return 0.0;
+}
+
 /* Linearises a buffer as spring member `side` of the chain. The hysteresis starts from where the
  * committed stroke has taken it. */
 static double linearise_buffer(CzBlock *d, const Chain *chain, const BufferRows *rows, int side,
@@ -238,16 +257,20 @@ static void prepare_plastic(CzBlock *d, const Chain *chain, int member, double s
     }
 }
 
-/* Where the chain's force takes a plastic member. */
-static void trial_of_plastic(CzBlock *d, const Chain *chain, int member, double *restrict stroke) {
+/* Where the chain's force takes a plastic member; returns in how many lanes it flows. */
+static double trial_of_plastic(CzBlock *d, const Chain *chain, int member,
+                               double *restrict stroke) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict force = S(CHAIN_FORCE);
     const double *restrict committed = d->memory[chain->plastic + member];
     const double *restrict strength = S_AT(STRENGTH_0, member), *restrict flow =
                                                                     S_AT(FLOW_0, member);
-    CZ_LANES (i, n) {
+    double n_flowing = 0.0;
+    _Pragma("omp simd reduction(+ : n_flowing)") for (size_t i = 0; i < n; ++i) {
         stroke[i] = committed[i] + cz_plastic_flow(force[i], strength[i], flow[i]);
+        n_flowing += stroke[i] > committed[i] ? 1.0 : 0.0;
     }
+    return n_flowing;
 }
 
 /* Linearises a plastic member about a trial stroke where its strength there, `curve` with `slope`,
@@ -283,7 +306,8 @@ static double relinearise_plastic(CzBlock *d, const Chain *chain, int member, do
     const double *restrict rise = rise_of(d, chain, member);
     double *stroke = S(TRIAL_STROKE);
     double *restrict curve = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
-    trial_of_plastic(d, chain, member, stroke);
+    if (trial_of_plastic(d, chain, member, stroke) == 0.0)
+        return 0.0;
     evaluate_curve(d, chain->curve + member, stroke, curve, slope);
     CZ_LANES (i, n) {
         curve[i] *= 1.0 + rise[i];
@@ -312,13 +336,15 @@ static void solve_chain(CzBlock *d, const Chain *chain, Linearise *springs, Line
     for (int side = 0; side < 2; ++side)
         springs(d, side, step, 0);
     for (int member = 0; member < chain->n_curve; ++member)
-        prepare_plastic(d, chain, member, step);
+        if (!is_missing(d, chain, member))
+            prepare_plastic(d, chain, member, step);
     int arrived = solve_linear(d, chain, S(CLOSURE));
     double n_changed = 1.0;
     for (int pass = 1; pass < CHAIN_PASSES && arrived && n_changed > 0.0; ++pass) {
         n_changed = springs(d, 0, step, 1) + springs(d, 1, step, 1);
         for (int member = 0; member < chain->n_curve; ++member)
-            n_changed += relinearise_plastic(d, chain, member, step);
+            if (!is_missing(d, chain, member))
+                n_changed += relinearise_plastic(d, chain, member, step);
         if (others != NULL)
             n_changed += others(d, 0, step, 1) + others(d, 1, step, 1);
         if (n_changed > 0.0)
@@ -362,6 +388,11 @@ static void move_members(CzBlock *d, const Chain *chain, int first, int second) 
     }
     for (int member = 0; member < chain->n_plastic; ++member) {
         const int side = member % 2;
+        if (is_missing(d, chain, member)) {
+            if (second >= 0 && member < 2)
+                memcpy(d->next_memory[second + side], d->memory[second + side], sizeof(CzRow));
+            continue;
+        }
         const double *restrict stroke = d->memory[chain->plastic + member];
         double *restrict next = d->next_memory[chain->plastic + member];
         double *restrict next_energy = d->next_memory[first + side];

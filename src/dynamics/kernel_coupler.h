@@ -106,8 +106,8 @@ static double linearise_shear_off(CzBlock *d, int side, double step, int again) 
     const double *restrict space = P_AT(SHEAR_SPACE_A, side), *restrict bottom =
                                                                   P_AT(SHEAR_BOTTOM_A, side);
     double *trial = S(TRIAL_STROKE);
-    if (again)
-        trial_of_plastic(d, &coupler_chain, member, trial);
+    if (again && trial_of_plastic(d, &coupler_chain, member, trial) == 0.0)
+        return 0.0;
     const double *restrict travel = again ? trial : M_AT(SHEAR_A, side);
     double *restrict strength = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
     double *restrict damage = again ? S(UNUSED) : S(DAMAGE);

@@ -44,10 +44,13 @@ static const BufferRows side_buffer = {CZ_CURVE_SIDE_BUFFER_A,
 static const ContactRows side_contact = {CZ_P_SIDE_X_A, CZ_P_SIDE_Z_A, CZ_P_SIDE_X_B,
                                          CZ_P_SIDE_Z_B, CZ_P_SIDE_GAP, CZ_P_SIDE_RISE};
 
-/* Linearises a crush zone without end mass as spring member `side`. */
+/* Linearises a crush zone without end mass as spring member `side`. A lane without one is rigid:
+ * its compliance is 0. */
 static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
     (void)step;
     const size_t n = CZ_LANE_BLOCK;
+    if (!d->has_limp_end[side])
+        return leave_out_spring(d, side);
     double *shortening = S(TRIAL_STROKE);
     choose_stroke(d, &face_chain, side, again, shortening);
     double *restrict curve = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
@@ -58,6 +61,7 @@ static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
     const double *restrict unloading = P_AT(LIMP_UNLOADING_A, side), *restrict share =
                                                                          P_AT(LIMP_SHARE_A, side);
     const double *restrict second = P_AT(LIMP_SECOND_UNLOADING_A, side);
+    const double *restrict exists = P_AT(LIMP_END_A, side), *restrict wanted = S(CHAIN_FORCE);
     double *restrict force = S(TRIAL_FORCE);
     double *restrict up = S(TRIAL_UP), *restrict down = S(TRIAL_DOWN);
     CZ_LANES (i, n) {
@@ -70,9 +74,9 @@ static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
             response.force < curve[i] ? response.slope : cz_larger(slope[i], response.slope);
         const double stop = shortening[i] > largest[i] ? slope[i] : path;
         const double back = cz_larger(shortening[i] > 0.0 ? stop : slope[i], CZ_SMALLEST_STIFFNESS);
-        force[i] = response.force;
-        up[i] = 1.0 / (shortening[i] >= largest[i] ? loading : back);
-        down[i] = 1.0 / back;
+        force[i] = exists[i] > 0.5 ? response.force : wanted[i];
+        up[i] = exists[i] / (shortening[i] >= largest[i] ? loading : back);
+        down[i] = exists[i] / back;
     }
     return accept(d, side, again, shortening, force, up, down);
 }

@@ -188,7 +188,9 @@ void cz_watch_look(CzWatch *list, const CzBatch *batch) {
             *event = (CzEvent){batch->time, watched->what, "", watched->interface};
             snprintf(event->where, sizeof event->where, "%s", watched->where);
         } else {
-            list->watched[n_left++] = *watched;
+            if (n_left < i)
+                list->watched[n_left] = *watched;
+            ++n_left;
         }
     }
     list->n_watched = n_left;

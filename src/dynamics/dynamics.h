@@ -105,12 +105,16 @@ typedef void CzCommit(CzDynamics *dynamics, double step, double time);
  */
 typedef void CzAdvance(CzDynamics *dynamics, double step, int first);
 
+/* All three in turn: the same bits in one way through the memory. */
+typedef void CzStep(CzDynamics *dynamics, double step, int first, double time);
+
 /* One compiled copy of the kernel. */
 typedef struct CzKernel {
     const char *isa;
     CzAdvance *advance;
     CzEvaluate *evaluate;
     CzCommit *commit;
+    CzStep *step;
 } CzKernel;
 
 /* The kernel for this processor ("auto" or NULL), or the copy of that name; NULL when the build or

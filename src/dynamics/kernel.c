@@ -127,23 +127,35 @@ static void evaluate_cars(CzBlock *d, double step) {
         wheel(d, axle, step);
 }
 
-static void evaluate(CzDynamics *dynamics, double step) {
-    const CzLanes *lanes = dynamics->lanes;
-    for (int i = 0; i < dynamics->n_block; ++i) {
-        clear(&dynamics->block[i]);
-        rotations(&dynamics->block[i]);
-    }
+/* Everything of a block before the interfaces. */
+static void begin_block(CzBlock *d) {
+    clear(d);
+    rotations(d);
+}
+
+/* Everything of a block after the interfaces. */
+static void end_block(const CzDynamics *dynamics, int index, double step) {
+    CzBlock *d = &dynamics->block[index];
+    take_over(dynamics, index);
+    if (dynamics->lanes->has_full_cars)
+        evaluate_cars(d, step);
+    push_bodies(d);
+    divide_by_masses(d);
+}
+
+static void all_interfaces(const CzDynamics *dynamics, double step) {
     for (int i = 0; i < dynamics->n_block; ++i) {
         look_ahead(dynamics, i);
-        evaluate_interfaces(lanes, &dynamics->block[i], step);
+        evaluate_interfaces(dynamics->lanes, &dynamics->block[i], step);
     }
-    for (int i = 0; i < dynamics->n_block; ++i) {
-        take_over_ends(dynamics, i);
-        if (lanes->has_full_cars)
-            evaluate_cars(&dynamics->block[i], step);
-        take_over_bodies(dynamics, i);
-        divide_by_masses(&dynamics->block[i]);
-    }
+}
+
+static void evaluate(CzDynamics *dynamics, double step) {
+    for (int i = 0; i < dynamics->n_block; ++i)
+        begin_block(&dynamics->block[i]);
+    all_interfaces(dynamics, step);
+    for (int i = 0; i < dynamics->n_block; ++i)
+        end_block(dynamics, i, step);
 }
 
 /* Extremes: larger of what was and what is. */
@@ -268,13 +280,28 @@ static void commit(CzDynamics *dynamics, double step, double time) {
         commit_block(dynamics->lanes, &dynamics->block[i], step, time);
 }
 
-static void advance(CzDynamics *dynamics, double step, int first) {
+static void advance_block(CzBlock *d, double step, int first) {
     const size_t n = (size_t)CZ_N_ROW * CZ_LANE_BLOCK;
+    cz_two_step_advance(n, step, first, d->position[0], d->velocity[0], d->acceleration[0],
+                        d->last_acceleration[0]);
+}
+
+static void advance(CzDynamics *dynamics, double step, int first) {
+    for (int i = 0; i < dynamics->n_block; ++i)
+        advance_block(&dynamics->block[i], step, first);
+}
+
+/* Advance, evaluate and commit while a block is at hand. */
+static void whole_step(CzDynamics *dynamics, double step, int first, double time) {
     for (int i = 0; i < dynamics->n_block; ++i) {
-        CzBlock *d = &dynamics->block[i];
-        cz_two_step_advance(n, step, first, d->position[0], d->velocity[0], d->acceleration[0],
-                            d->last_acceleration[0]);
+        advance_block(&dynamics->block[i], step, first);
+        begin_block(&dynamics->block[i]);
+    }
+    all_interfaces(dynamics, step);
+    for (int i = 0; i < dynamics->n_block; ++i) {
+        end_block(dynamics, i, step);
+        commit_block(dynamics->lanes, &dynamics->block[i], step, time);
     }
 }
 
-const CzKernel KERNEL_NAME(CZ_ISA) = {ISA_TEXT(CZ_ISA), advance, evaluate, commit};
+const CzKernel KERNEL_NAME(CZ_ISA) = {ISA_TEXT(CZ_ISA), advance, evaluate, commit, whole_step};

@@ -27,64 +27,72 @@ static Window window(const CzDynamics *dynamics, int index, int shift) {
                     (size_t)offset};
 }
 
-/* A row seen through a window, out of that of its two blocks. */
-static inline void look(size_t offset, const double *restrict low, const double *restrict high,
-                        double *restrict row) {
+/* A row of both blocks side by side. */
+typedef double Pair[2 * CZ_LANE_BLOCK];
+
+static inline void lay(const double *restrict low, const double *restrict high,
+                       double *restrict pair) {
     const size_t n = CZ_LANE_BLOCK;
-    double both[2 * CZ_LANE_BLOCK];
     CZ_LANES (i, n) {
-        both[i] = low[i];
-        both[n + i] = high[i];
-    }
-    CZ_LANES (i, n) {
-        row[i] = both[offset + i];
+        pair[i] = low[i];
+        pair[n + i] = high[i];
     }
 }
 
-/* Position, velocity and rotation of the body or the rear end of the car ahead, from row `to` on.
- */
-static void look_at(CzBlock *d, const Window *w, int dof, int rotation, int to) {
+/* The row that is seen through a window. All rows are laid before the first is picked: a load
+ * across two stores waits for both. */
+static inline void pick(const Window *w, const double *restrict pair, double *restrict row) {
+    const size_t n = CZ_LANE_BLOCK, offset = w->offset;
+    CZ_LANES (i, n) {
+        row[i] = pair[offset + i];
+    }
+}
+
+/* Lays position, velocity and rotation of a body or an end. */
+static void lay_motion(const Window *w, int dof, int rotation, Pair *pair) {
     for (int k = 0; k < 3; ++k) {
-        look(w->offset, w->low->position[dof + k], w->high->position[dof + k], d->scratch[to + k]);
-        look(w->offset, w->low->velocity[dof + k], w->high->velocity[dof + k],
-             d->scratch[to + 3 + k]);
+        lay(w->low->position[dof + k], w->high->position[dof + k], pair[k]);
+        lay(w->low->velocity[dof + k], w->high->velocity[dof + k], pair[3 + k]);
     }
     for (int k = 0; k < 2; ++k)
-        look(w->offset, w->low->scratch[rotation + k], w->high->scratch[rotation + k],
-             d->scratch[to + 6 + k]);
+        lay(w->low->scratch[rotation + k], w->high->scratch[rotation + k], pair[6 + k]);
 }
 
+/* Where the body and the rear end of the car ahead are, and how they move. */
 static void look_ahead(const CzDynamics *dynamics, int index) {
     CzBlock *d = &dynamics->block[index];
     const Window ahead = window(dynamics, index, dynamics->lanes->n_design);
-    look_at(d, &ahead, CZ_DOF_BODY_X, CZ_S_BODY_COS, CZ_S_BODY_AHEAD_X);
-    look_at(d, &ahead, CZ_DOF_END_X_REAR, CZ_S_END_COS_REAR, CZ_S_END_AHEAD_X);
+    Pair pair[16];
+    lay_motion(&ahead, CZ_DOF_BODY_X, CZ_S_BODY_COS, pair);
+    lay_motion(&ahead, CZ_DOF_END_X_REAR, CZ_S_END_COS_REAR, pair + 8);
+    for (int k = 0; k < 8; ++k) {
+        pick(&ahead, pair[k], S_AT(BODY_AHEAD_X, k));
+        pick(&ahead, pair[8 + k], S_AT(END_AHEAD_X, k));
+    }
 }
 
-/* What the interface behind a lane's car keeps in a row. */
-static inline void look_behind(const Window *w, int from, double *row) {
-    look(w->offset, w->low->scratch[from], w->high->scratch[from], row);
-}
-
-/* Rear ends start from what the interfaces behind them push. */
-static void take_over_ends(const CzDynamics *dynamics, int index) {
+/* What the interfaces behind the cars push: rear ends and their sections start from it. */
+static void take_over(const CzDynamics *dynamics, int index) {
     CzBlock *d = &dynamics->block[index];
     const Window behind = window(dynamics, index, -dynamics->lanes->n_design);
-    for (int k = 0; k < 3; ++k)
-        look_behind(&behind, CZ_S_PUSHED_END_X + k, G_AT(END_X_REAR, k));
-    look_behind(&behind, CZ_S_PUSHED_SECTION, S(SECTION_REAR));
+    Pair pair[7];
+    for (int k = 0; k < 7; ++k)
+        lay(behind.low->scratch[CZ_S_PUSHED_X + k], behind.high->scratch[CZ_S_PUSHED_X + k],
+            pair[k]);
+    for (int k = 0; k < 3; ++k) {
+        pick(&behind, pair[k], S_AT(FROM_BEHIND_X, k));
+        pick(&behind, pair[3 + k], G_AT(END_X_REAR, k));
+    }
+    pick(&behind, pair[6], S(SECTION_REAR));
 }
 
-/* Bodies get what the interfaces behind them push on top of everything else, so that the sum does
- * not depend on how lanes are grouped. */
-static void take_over_bodies(const CzDynamics *dynamics, int index) {
+/* Bodies get it on top of everything else, so that the sum does not depend on how lanes are
+ * grouped. */
+static void push_bodies(CzBlock *d) {
     const size_t n = CZ_LANE_BLOCK;
-    CzBlock *d = &dynamics->block[index];
-    const Window behind = window(dynamics, index, -dynamics->lanes->n_design);
     for (int k = 0; k < 3; ++k) {
         double *restrict body = G_AT(BODY_X, k);
-        CzRow pushed;
-        look_behind(&behind, CZ_S_PUSHED_X + k, pushed);
+        const double *restrict pushed = S_AT(FROM_BEHIND_X, k);
         CZ_LANES (i, n) {
             body[i] += pushed[i];
         }

@@ -98,12 +98,10 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
 }
 
 static void step(CzBatch *batch) {
-    CzDynamics *dynamics = batch->dynamics;
-    batch->kernel->advance(dynamics, batch->step, batch->n_step == 0);
+    const int first = batch->n_step == 0;
     ++batch->n_step;
     batch->time = (double)batch->n_step * batch->step;
-    batch->kernel->evaluate(dynamics, batch->step);
-    batch->kernel->commit(dynamics, batch->step, batch->time);
+    batch->kernel->step(batch->dynamics, batch->step, first, batch->time);
 }
 
 /* Recording of a single design: channels at the output step, events at every step. */

@@ -1,0 +1,8 @@
+# Times per step as JSON: `build/<preset>/tests/bench` from the project's root. The test only sees that it runs.
+if(CZ_IS_WHOLE)
+    add_executable(bench ${CMAKE_CURRENT_LIST_DIR}/bench.c)
+    target_compile_definitions(bench PRIVATE CZ_VERSION="${PROJECT_VERSION}")
+    target_link_libraries(bench PRIVATE cz_static)
+    add_test(NAME bench COMMAND bench --short WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    cz_label(bench bench)
+endif()

@@ -2,7 +2,7 @@
 #include "support/check.h"
 
 #include "evaluate/stand_in.h"
-#include "crushzone/evaluate.h"
+#include "evaluate/evaluator.h"
 
 static const char variables[] =
     "optimise:\n"
@@ -303,6 +303,33 @@ static void answer_depends_neither_on_neighbours_nor_on_threads(void **state) {
     cz_problem_free(problem);
 }
 
+/* The worst detail is the worst constraint, and there is one for each place. */
+static void details_are_the_constraints_before_the_worst_is_taken(void **state) {
+    (void)state;
+    Case made = begin("checks:\n"
+                      "  closing_rules: false\n"
+                      "  limits:\n"
+                      "    - {name: force, metric: elements.coupler *.peak_force_kN, max: 1000,\n"
+                      "       scenarios: [crash]}\n"
+                      "    - {name: sum, metric: elements.*.energy_kJ.sum, max: 300,\n"
+                      "       scenarios: [crash]}\n"
+                      "    - {name: flag, metric: elements.bottomed_out, max: 0,\n"
+                      "       scenarios: [crash]}\n"
+                      "optimise:\n"
+                      "  variables: [{path: \"parts.tube.stages[0].force_kN\", min: 400, max: "
+                      "1500}]\n");
+    enum { COUPLERS = 2, SUM = 1 };
+    assert_int_equal(cz_evaluator_n_detail(made.evaluator), COUPLERS + SUM);
+    double detail[COUPLERS + SUM];
+    const double x[] = {800};
+    CzError error = {0};
+    assert_int_equal(cz_evaluator_search(made.evaluator, 1, x, &made.evaluation, detail, &error),
+                     CZ_OK);
+    assert_near(fmax(detail[0], detail[1]), made.evaluation.constraint[0], 0, 0);
+    assert_near(detail[2], made.evaluation.constraint[1], 0, 0);
+    end(&made);
+}
+
 static double most_force(int n_scenario, const CzRunSummary *const *summary, void *data) {
     double most = 0;
     ++*(int *)data;
@@ -470,6 +497,7 @@ int main(void) {
         cmocka_unit_test(default_objective_is_the_smallest_margin),
         cmocka_unit_test(required_margin_is_part_of_the_constraint),
         cmocka_unit_test(answer_depends_neither_on_neighbours_nor_on_threads),
+        cmocka_unit_test(details_are_the_constraints_before_the_worst_is_taken),
         cmocka_unit_test(own_objective_replaces_the_files),
         cmocka_unit_test(runs_are_kept_when_asked_for),
         cmocka_unit_test(one_scenario_alone_leaves_the_others_unchecked),

@@ -1,2 +1,3 @@
 cz_test(test_strategy optimise test_strategy.c)
 cz_test(test_optimise optimise test_optimise.c tests/evaluate/stand_in.c)
+cz_test(test_surface optimise test_surface.c)

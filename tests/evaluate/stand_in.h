@@ -8,7 +8,6 @@
 #define CZ_TESTS_STAND_IN_H
 
 #include "crushzone/simulate.h"
-#include "problem/problem.h"
 
 /* What a test may change. Reset it before use. */
 typedef struct StandIn {
@@ -22,14 +21,5 @@ typedef struct StandIn {
 } StandIn;
 extern StandIn stand_in;
 void stand_in_reset(void);
-
-/* The problem that it simulates: parts `head`, `tube`, `shear-off`, `anti-climber`; trains A and B;
- * scenarios 25, 20, 15, 8 km/h and an overload case. `more` is put at the end, such as "optimise:
- * ...". Asserts that it can be read. */
-CzProblem *stand_in_problem(const char *more);
-
-/* The same with settings and without asserting; the status is returned. */
-CzStatus stand_in_read(const char *more, int n_set, const char *const *set, CzProblem **problem,
-                       CzError *error);
 
 #endif

@@ -1,6 +1,7 @@
 /* The evaluator on a stand-in simulator: margins, verdicts, constraints, failures, repetition. */
 #include "support/check.h"
 
+#include "evaluate/small_problem.h"
 #include "evaluate/stand_in.h"
 #include "evaluate/evaluator.h"
 
@@ -20,7 +21,7 @@ static Case begin(const char *more) {
     Case made = {0};
     CzError error = {0};
     stand_in_reset();
-    made.problem = stand_in_problem(more);
+    made.problem = small_problem(more);
     const CzEvaluatorOptions options = {.n_job = 2, .step_factor = 1};
     const CzStatus status = cz_evaluator_build(made.problem, &options, &made.evaluator, &error);
     if (status != CZ_OK)
@@ -55,7 +56,7 @@ static void expect_refusal(const char *more, const char *words) {
     CzError error = {0};
     CzEvaluator *evaluator = NULL;
     CzProblem *problem = NULL;
-    CzStatus status = stand_in_read(more, 0, NULL, &problem, &error);
+    CzStatus status = small_problem_read(more, 0, NULL, &problem, &error);
     if (status == CZ_OK)
         status = cz_evaluator_build(problem, NULL, &evaluator, &error);
     assert_int_equal(status, CZ_STATUS_INPUT);
@@ -183,7 +184,7 @@ static void scenarios_that_a_rule_needs_and_nobody_wrote_are_not_checked(void **
                                "scenarios[4].mass_factor=1"};
     CzProblem *problem = NULL;
     CzError error = {0};
-    assert_int_equal(stand_in_read("", 5, set, &problem, &error), CZ_OK);
+    assert_int_equal(small_problem_read("", 5, set, &problem, &error), CZ_OK);
     CzEvaluator *evaluator = NULL;
     assert_int_equal(cz_evaluator_build(problem, NULL, &evaluator, &error), CZ_OK);
     CzEvaluation evaluation;
@@ -274,7 +275,7 @@ static void answer_depends_neither_on_neighbours_nor_on_threads(void **state) {
     enum { N = 150 };
     stand_in_reset();
     stand_in.rattle = 1;
-    CzProblem *problem = stand_in_problem(variables);
+    CzProblem *problem = small_problem(variables);
     double x[2 * N];
     for (int i = 0; i < N; i++) {
         x[2 * i] = 400 + 7.3 * i;
@@ -363,7 +364,7 @@ static void runs_are_kept_when_asked_for(void **state) {
 static void one_scenario_alone_leaves_the_others_unchecked(void **state) {
     (void)state;
     stand_in_reset();
-    CzProblem *problem = stand_in_problem("");
+    CzProblem *problem = small_problem("");
     CzEvaluatorOptions options = cz_evaluator_options_default();
     options.scenario = "service";
     CzEvaluator *evaluator = NULL;

@@ -1,0 +1,202 @@
+/* Ways to win on paper, each of which an optimiser is invited to take: it does when the closing
+ * rules are off, and does not when they are on. Run on the stand-in and on the simulator itself.
+ */
+#ifndef CZ_TESTS_CHEATS_H
+#define CZ_TESTS_CHEATS_H
+
+#include "support/check.h"
+
+#include "crushzone/optimise.h"
+#include "evaluate/small_problem.h"
+
+typedef struct Case {
+    CzProblem *problem;
+    CzEvaluator *evaluator;
+    CzOutcome *outcome;
+} Case;
+
+static inline Case begin(const char *more, int n_job) {
+    Case made = {0};
+    CzError error = {0};
+    made.problem = small_problem(more);
+    const CzEvaluatorOptions options = {.n_job = n_job, .step_factor = 1};
+    const CzStatus status = cz_evaluator_build(made.problem, &options, &made.evaluator, &error);
+    if (status != CZ_OK)
+        print_error("%d:%d: %s\n", error.line, error.column, error.message);
+    assert_int_equal(status, CZ_OK);
+    return made;
+}
+
+static inline void optimise(Case *made, const CzOptimiseOptions *options) {
+    CzError error = {0};
+    const CzStatus status = cz_optimise(made->evaluator, options, &made->outcome, &error);
+    if (status != CZ_OK)
+        print_error("%s\n", error.message);
+    assert_int_equal(status, CZ_OK);
+}
+
+static inline void end(Case *made) {
+    cz_outcome_free(made->outcome);
+    cz_evaluator_free(made->evaluator);
+    cz_problem_free(made->problem);
+}
+
+static inline const CzCheckResult *find(const CzEvaluation *evaluation, const char *name,
+                                        const char *scenario) {
+    for (int i = 0; i < evaluation->n_check; i++)
+        if (strcmp(evaluation->check[i].name, name) == 0 &&
+            strcmp(evaluation->check[i].scenario, scenario) == 0)
+            return &evaluation->check[i];
+    return NULL;
+}
+
+static inline double value_of(const Case *made, const char *name, const char *scenario) {
+    const CzCheckResult *check = find(&made->outcome->best_evaluation, name, scenario);
+    assert_non_null(check);
+    return check->value;
+}
+
+/* What an optimiser is invited to do. */
+typedef struct Cheat {
+    const char *limits; /* list entries of checks.limits that make the cheat visible */
+    const char *minimise;
+    const char *variables; /* list entries */
+    const char *check;     /* closing rule that must stop it */
+    const char *scenario;
+} Cheat;
+
+static inline Case run_cheat(const Cheat *cheat, bool with_rules) {
+    char more[4096];
+    snprintf(more, sizeof more,
+             "checks: {closing_rules: %s, limits: [%s]}\n"
+             "optimise:\n"
+             "  minimise: %s\n"
+             "  subject_to: [%s]\n"
+             "  evaluations: 150\n"
+             "  variables: [%s]\n",
+             with_rules ? "true" : "false", cheat->limits, cheat->minimise,
+             with_rules ? cheat->check : "visible", cheat->variables);
+    Case made = begin(more, 2);
+    optimise(&made, NULL);
+    return made;
+}
+
+/* The limit named `visible` never binds: it only shows what the optimum did. */
+static inline void check_cheat(const Cheat *cheat) {
+    Case cheated = run_cheat(cheat, false);
+    const double temptation = value_of(&cheated, "visible", cheat->scenario);
+    Case honest = run_cheat(cheat, true);
+    const CzCheckResult *rule =
+        find(&honest.outcome->best_evaluation, cheat->check, cheat->scenario);
+    assert_non_null(rule);
+    /* without the rule the optimum breaks it; with the rule it is kept and the win is smaller */
+    assert_true(rule->is_minimum ? temptation < rule->limit : temptation > rule->limit);
+    assert_int_equal(rule->verdict, CZ_VERDICT_PASS);
+    assert_int_equal(honest.outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_true(honest.outcome->best_evaluation.objective >=
+                cheated.outcome->best_evaluation.objective);
+    end(&cheated);
+    end(&honest);
+}
+
+static inline void optimiser_cannot_win_by_using_every_stroke_up(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){.limits = "{name: visible, metric: elements.stroke_used, max: 1e9}",
+                         .minimise = "design.installed_length_mm",
+                         .variables =
+                             "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 1, max: 900}",
+                         .check = "stroke used",
+                         .scenario = "crash"});
+}
+
+static inline void optimiser_cannot_win_by_bottoming_out_under_overload(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){
+        .limits = "{name: visible, metric: elements.stroke_used, max: 1e9, scenarios: [overload]}",
+        .minimise = "design.installed_length_mm",
+        .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 1, max: 900}",
+        .check = "stroke used under overload",
+        .scenario = "overload"});
+}
+
+static inline void optimiser_cannot_win_with_stroke_that_does_not_exist(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){
+        .limits = "{name: visible, metric: ends.length_used, max: 1e9}",
+        .minimise = "elements.anti-climber *.stroke_used",
+        .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 10, max: 5000}",
+        .check = "room for the devices",
+        .scenario = "design"});
+}
+
+static inline void optimiser_cannot_win_with_a_coupler_that_has_nowhere_to_go(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){
+        .limits = "{name: visible, metric: ends.retraction_used, max: 1e9}",
+        .minimise = "elements.anti-climber *.stroke_used",
+        .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 10, max: 5000}",
+        .check = "retraction space",
+        .scenario = "design"});
+}
+
+static inline void optimiser_cannot_win_by_forces_above_the_strength_behind(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){
+        .limits = "{name: visible, metric: sections.force_share, max: 1e9, scenarios: [crash]}",
+        .minimise = "elements.anti-climber *.stroke_used",
+        .variables = "{path: \"parts.anti-climber.stages[0].force_kN\", min: 10, max: 5000}",
+        .check = "section strength",
+        .scenario = "crash"});
+}
+
+static inline void optimiser_cannot_use_the_shear_off_as_a_fuse(void **state) {
+    (void)state;
+    check_cheat(
+        &(Cheat){.limits = "{name: visible, metric: elements.coupler *.shear_load, max: 1e9}",
+                 .minimise = "elements.coupler *.peak_force_kN",
+                 .variables = "{path: parts.shear-off.force_kN, min: 100, max: 2000}",
+                 .check = "no shear-off in service",
+                 .scenario = "service"});
+}
+
+static inline void optimiser_cannot_let_the_coupler_go_before_its_tube_works(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){.limits = "{name: visible, metric: ends.tube_over_shear_off, max: 1e9}",
+                         .minimise = "elements.coupler *.peak_force_kN",
+                         .variables = "{path: parts.shear-off.force_kN, min: 100, max: 2000}",
+                         .check = "shear-off above the tubes",
+                         .scenario = "design"});
+}
+
+static inline void optimiser_cannot_make_the_shear_off_stronger_than_the_car(void **state) {
+    (void)state;
+    check_cheat(
+        &(Cheat){.limits = "{name: visible, metric: ends.shear_off_over_strength, max: 1e9}",
+                 .minimise = "ends.tube_over_shear_off",
+                 .variables = "{path: parts.shear-off.force_kN, min: 1000, max: 3000}",
+                 .check = "shear-off below the strength",
+                 .scenario = "design"});
+}
+
+static inline void optimiser_cannot_win_with_an_element_that_takes_no_energy(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){
+        .limits = "{name: visible, metric: energy.absorbers_share, min: -1e9, scenarios: [crash]}",
+        .minimise = "design.installed_length_mm",
+        .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 1, max: 900}",
+        .check = "energy in the absorbers",
+        .scenario = "crash"});
+}
+
+#define CHEATS                                                                                     \
+    cmocka_unit_test(optimiser_cannot_win_by_using_every_stroke_up),                               \
+        cmocka_unit_test(optimiser_cannot_win_by_bottoming_out_under_overload),                    \
+        cmocka_unit_test(optimiser_cannot_win_with_stroke_that_does_not_exist),                    \
+        cmocka_unit_test(optimiser_cannot_win_with_a_coupler_that_has_nowhere_to_go),              \
+        cmocka_unit_test(optimiser_cannot_win_by_forces_above_the_strength_behind),                \
+        cmocka_unit_test(optimiser_cannot_use_the_shear_off_as_a_fuse),                            \
+        cmocka_unit_test(optimiser_cannot_let_the_coupler_go_before_its_tube_works),               \
+        cmocka_unit_test(optimiser_cannot_make_the_shear_off_stronger_than_the_car),               \
+        cmocka_unit_test(optimiser_cannot_win_with_an_element_that_takes_no_energy)
+
+#endif

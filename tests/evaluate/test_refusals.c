@@ -1,0 +1,84 @@
+/* What an evaluator refuses: variables, bounds and limits without sense, each with its place. */
+#include "support/check.h"
+
+#include "evaluate/small_problem.h"
+#include "evaluate/evaluator.h"
+
+/* Reading or building must fail with a place and a sentence that holds these words. */
+static void expect_refusal(const char *more, const char *words) {
+    CzError error = {0};
+    CzEvaluator *evaluator = NULL;
+    CzProblem *problem = NULL;
+    CzStatus status = small_problem_read(more, 0, NULL, &problem, &error);
+    if (status == CZ_OK)
+        status = cz_evaluator_build(problem, NULL, &evaluator, &error);
+    assert_int_equal(status, CZ_STATUS_INPUT);
+    assert_null(evaluator);
+    if (strstr(error.message, words) == NULL)
+        print_error("'%s' lacks '%s'\n", error.message, words);
+    assert_non_null(strstr(error.message, words));
+    assert_true(error.line > 0);
+    cz_problem_free(problem);
+}
+
+static void what_may_not_vary_is_refused_by_name(void **state) {
+    (void)state;
+    expect_refusal(
+        "optimise: {variables: [{path: parts.head.proof_strength_kN, min: 1, max: 9}]}\n",
+        "not a design variable");
+    expect_refusal(
+        "optimise: {variables: [{path: trains.A.vehicles.A1.mass_t, min: 1, max: 90}]}\n",
+        "not a design variable");
+    expect_refusal("optimise: {variables: [{path: parts.tube.stagse, min: 1, max: 9}]}\n", "path");
+}
+
+static void softening_the_opponent_is_refused(void **state) {
+    (void)state;
+    expect_refusal(
+        "optimise: {variables: [{path: \"trains.B.vehicles.B1.rear.coupler.tube.stages[0]"
+        ".force_kN\", min: 400, max: 900}]}\n",
+        "softening the opponent");
+    expect_refusal(
+        "optimise: {variables: [{path: \"trains.A.vehicles.A1.front.coupler.tube.stages[0]"
+        ".force_kN\", min: 400, max: 900}]}\n",
+        "twin");
+}
+
+static void bounds_and_starts_that_do_not_fit_are_refused(void **state) {
+    (void)state;
+    expect_refusal("optimise: {variables: [{path: \"parts.tube.stages[0].force_kN\", min: 900, "
+                   "max: 400}]}\n",
+                   "below max");
+    expect_refusal("optimise: {variables: [{path: \"parts.tube.stages[0].force_kN\", min: 900, "
+                   "max: 1400}]}\n",
+                   "starting value 800");
+    expect_refusal("optimise: {variables: [{path: \"parts.tube.stages[0].force_kN\", min: 400, "
+                   "max: 1400}, {path: \"parts.tube.stages[0].force_kN\", min: 400, max: 1400}]}\n",
+                   "two variables");
+}
+
+static void limits_that_name_nothing_are_refused(void **state) {
+    (void)state;
+    expect_refusal("checks: {limits: [{name: a, metric: interfaces.peak_force, max: 1}]}\n",
+                   "no metric 'interfaces.peak_force'");
+    expect_refusal("checks: {limits: [{name: a, metric: interfaces.C1-*.peak_force_kN, max: 1}]}\n",
+                   "picks nothing");
+    expect_refusal("checks: {limits: [{name: a, metric: interfaces.peak_force_kN, max: 1, "
+                   "scenarios: [crush]}]}\n",
+                   "no scenario 'crush'");
+    expect_refusal("checks: {limits: [{name: a, metric: interfaces.peak_force_kN}]}\n",
+                   "'max' or 'min'");
+    expect_refusal("optimise: {subject_to: [nothing], variables: [{path: "
+                   "\"parts.tube.stages[0].force_kN\", min: 400, max: 1400}]}\n",
+                   "no check 'nothing'");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_may_not_vary_is_refused_by_name),
+        cmocka_unit_test(softening_the_opponent_is_refused),
+        cmocka_unit_test(bounds_and_starts_that_do_not_fit_are_refused),
+        cmocka_unit_test(limits_that_name_nothing_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -68,6 +68,11 @@ typedef struct CzOutcome {
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                           CzOutcome **outcome, CzError *error);
+
+/* What cz_optimise would refuse, without a search. Statuses: CZ_OK, CZ_STATUS_INPUT. */
+CZ_MUST_CHECK CZ_API CzStatus cz_optimise_check(const CzEvaluator *evaluator,
+                                                const CzOptimiseOptions *options, CzError *error);
+
 CZ_API void cz_outcome_free(CzOutcome *outcome);
 
 /* NLopt algorithms that this build can run, by name. */

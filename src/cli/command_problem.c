@@ -2,6 +2,7 @@
 #include "cli/command.h"
 #include "cli/messages.h"
 #include "cli/session.h"
+#include "crushzone/optimise.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -70,12 +71,23 @@ static int tell_models(const CzSession *session) {
     return 0;
 }
 
+/* What a search would refuse; a problem without variables is not meant for one. */
+static int check_search(const CzSession *session) {
+    CzError error = {0};
+    if (cz_evaluator_n_variable(session->evaluator) == 0 ||
+        cz_optimise_check(session->evaluator, NULL, &error) == CZ_OK)
+        return 0;
+    return cz_session_fail(session, &error);
+}
+
 static int validate_file(const CzArguments *arguments, const char *file) {
     CzSession session;
     int n_vehicle = 0;
     int code = cz_session_begin(&session, arguments, file);
     if (code == 0)
         code = build_models(&session, &n_vehicle);
+    if (code == 0)
+        code = check_search(&session);
     if (code == 0 && arguments->text[CZ_OPTION_JSON] != NULL)
         printf("{\"format\": \"crushzone.validation\", \"version\": 1, \"status\": \"ok\", "
                "\"hash\": \"%s\", \"scenarios\": %d, \"vehicles\": %d, \"variables\": %d}\n",

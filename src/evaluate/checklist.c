@@ -1,5 +1,6 @@
 /* Lists the checks of a problem: profile, the user's own limits, closing rules, targets. */
 #include "base/error.h"
+#include "base/suggest.h"
 #include "evaluate/checks.h"
 #include "evaluate/devices.h"
 
@@ -352,13 +353,19 @@ static CzStatus choose_constraints(Builder *builder) {
     CzChecklist *list = builder->list;
     for (int i = 0; i < subject_to->n_text; i++) {
         bool found = strcmp(subject_to->text[i], "checks") == 0;
-        for (int j = 0; j < list->n_check && !found; j++)
+        CzSuggestion nearest = {0};
+        for (int j = 0; j < list->n_check && !found; j++) {
             found = strcmp(list->check[j].name, subject_to->text[i]) == 0;
-        if (!found)
-            return place_failure(builder, subject_to,
-                                 cz_fail(builder->error, CZ_STATUS_INPUT,
-                                         "subject_to: there is no check '%s'",
-                                         subject_to->text[i]));
+            cz_suggest(&nearest, subject_to->text[i], list->check[j].name);
+        }
+        if (found)
+            continue;
+        cz_fail(builder->error, CZ_STATUS_INPUT, "subject_to: there is no check '%s'",
+                subject_to->text[i]);
+        if (builder->error != NULL && nearest.best != NULL)
+            snprintf(builder->error->help, sizeof builder->error->help, "did you mean '%s'?",
+                     nearest.best);
+        return place_failure(builder, subject_to, CZ_STATUS_INPUT);
     }
     for (int i = 0; i < list->n_check; i++) {
         CzCheck *check = &list->check[i];

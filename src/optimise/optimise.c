@@ -202,8 +202,18 @@ static CzStatus settle_options(const CzEvaluator *evaluator, const CzOptimiseOpt
     if (options->evaluations < 1)
         return cz_fail(error, CZ_STATUS_INPUT, "the limit of %ld evaluations is below 1",
                        options->evaluations);
-    return strcmp(options->algorithm, "auto") == 0 ? CZ_OK
-                                                   : cz_nlopt_check(options->algorithm, error);
+    if (strcmp(options->algorithm, "auto") == 0)
+        return CZ_OK;
+    const CzStatus status = cz_nlopt_check(options->algorithm, error);
+    if (status != CZ_OK && error != NULL && options->algorithm == written->algorithm)
+        cz_problem_place(cz_evaluator_problem(evaluator), &written->algorithm, error);
+    return status;
+}
+
+CzStatus cz_optimise_check(const CzEvaluator *evaluator, const CzOptimiseOptions *options,
+                           CzError *error) {
+    CzOptimiseOptions settled;
+    return settle_options(evaluator, options, &settled, error);
 }
 
 static CzStatus lead(CzSearch *search, const CzOptimiseOptions *options, CzError *error) {

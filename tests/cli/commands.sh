@@ -75,6 +75,8 @@ show_other() { exits 0 "$C" show two.yaml --scenario slow && says out.txt 'scena
 check "show takes a scenario" show_other
 validated() { exits 0 "$C" validate two.yaml two-trains.yaml && [ "$(grep -c ': ok, ' out.txt)" = 2 ] && says out.txt '2 scenarios, 8 vehicles, 5 design variables'; }
 check "validate takes several files and counts what is in them" validated
+bad_algorithm() { exits 2 "$C" validate two-trains.yaml --set optimise.algorithm=LN_COBILA && says err.txt "did you mean 'LN_COBYLA'?"; }
+check "validate tells an algorithm that does not exist" bad_algorithm
 folding() { exits 0 "$C" validate "$SOURCE/problems/two-cars-25kmh.yaml" && says out.txt 'interface A1-B1: F_crit'; }
 check "validate tells the force at which a coupler folds" folding
 facts() { exits 0 "$C" show "$SOURCE/problems/two-cars-25kmh.yaml" && ! grep '^# A1 .* nan' out.txt && says out.txt 'bounce Hz' && says out.txt 'F_crit kN'; }

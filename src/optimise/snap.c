@@ -13,12 +13,16 @@
 enum {
     BATCH = 6,           /* designs on the steps that are simulated side by side */
     MOST_OPEN = 12,      /* variables whose rounding is tried both ways: 4096 corners */
+    MOST_WALK = 40,      /* steps of a walk on the planes */
     MOST_IDLE = 2,       /* batches without gain before a design that keeps everything is taken */
     MOST_IDLE_BROKEN = 8 /* likewise while something is still violated */
 };
 
 /* Catalogue steps are coarse, so the slopes that judge them are taken over about as far. */
 static const double secant = 0.05;
+
+/* How far from their base the planes are believed, in scaled variables, if not within one step. */
+static const double farthest = 0.1;
 
 /* The most promising designs so far, best first. */
 typedef struct Shortlist {
@@ -48,11 +52,23 @@ static void swap_designs(Shortlist *list, int a, int b, int n) {
     list->objective[b] = objective;
 }
 
+static bool is_near(const CzSurface *surface, const double *u) {
+    const CzFunction *function = surface->search->function;
+    for (int i = 0; i < surface->n; i++) {
+        const double step = function->step[i] / (function->max[i] - function->min[i]);
+        if (fabs(u[i] - surface->u[i]) > fmax(farthest, 1.01 * step))
+            return false;
+    }
+    return true;
+}
+
 /* Takes a design into the list unless it has been simulated or is not among the best. */
 static void offer(Shortlist *list, const double *x) {
     const CzSurface *surface = list->surface;
     const int n = surface->n, at = list->n_design;
     cz_search_scale(surface->search, x, list->u);
+    if (!is_near(surface, list->u))
+        return;
     list->objective[at] = cz_surface_predict(surface, list->u, &list->penalty[at]);
     if (at == BATCH && !is_before(list, at, BATCH - 1))
         return;
@@ -132,6 +148,18 @@ static void offer_neighbours(Shortlist *list, const double *x, double *other) {
             }
 }
 
+/* Walks on the planes from a design to better and better neighbours; all it passes is offered. */
+static void explore(Shortlist *list, const double *from, double *at, double *other) {
+    const size_t size = (size_t)list->surface->n * sizeof *at;
+    memcpy(at, from, size);
+    for (int step = 0; step < MOST_WALK; step++) {
+        offer_neighbours(list, at, other);
+        if (list->n_design == 0 || memcmp(list->x, at, size) == 0)
+            return;
+        memcpy(at, list->x, size);
+    }
+}
+
 /* Simulates the list, at most `left` of it; false when nothing more can be done. */
 static bool simulate(CzSurface *surface, Shortlist *list, long left) {
     const int n_design = list->n_design < left ? list->n_design : (int)left;
@@ -157,8 +185,7 @@ static void snap(CzSurface *surface, Shortlist *list, long limit, double *scratc
     memcpy(scratch, cz_search_x(search, search->best), (size_t)n * sizeof *scratch);
     offer_corners(list, scratch, scratch + n, scratch + 2 * n);
     search->is_snapped = list->n_design == 0; /* all corners are known */
-    if (list->n_design == 0 && search->best_on_grid >= 0)
-        offer_neighbours(list, cz_search_x(search, search->best_on_grid), scratch + n);
+    explore(list, scratch + n, scratch, scratch + 2 * n);
     while (simulate(surface, list, limit - search->n_record)) {
         search->is_snapped = true;
         const long at = search->best_on_grid;
@@ -167,8 +194,7 @@ static void snap(CzSurface *surface, Shortlist *list, long limit, double *scratc
         if (at < 0 || n_idle > (is_kept ? MOST_IDLE : MOST_IDLE_BROKEN))
             return;
         list->n_design = 0;
-        memcpy(scratch, cz_search_x(search, at), (size_t)n * sizeof *scratch);
-        offer_neighbours(list, scratch, scratch + n);
+        explore(list, cz_search_x(search, at), scratch, scratch + n);
     }
 }
 

@@ -18,9 +18,10 @@ double cz_clock(void) {
 
 void cz_progress_begin(CzProgressLine *line, const CzArguments *arguments, const char *unit) {
     const char *term = getenv("TERM");
-    line->is_silent = arguments->text[CZ_OPTION_QUIET] != NULL;
-    line->is_terminal =
-        isatty(STDERR_FILENO) && term != NULL && term[0] != '\0' && strcmp(term, "dumb") != 0;
+    const bool is_watched = isatty(STDERR_FILENO);
+    line->is_silent = arguments->text[CZ_OPTION_QUIET] != NULL ||
+                      (!is_watched && arguments->text[CZ_OPTION_VERBOSE] == NULL);
+    line->is_terminal = is_watched && term != NULL && term[0] != '\0' && strcmp(term, "dumb") != 0;
     line->unit = unit != NULL ? unit : "";
     line->started = line->shown = cz_clock();
 }

@@ -1,4 +1,5 @@
-/* How far a search is: one rewritten line on a terminal, else a line every ten seconds. */
+/* How far a search is: one rewritten line on a terminal. A dumb terminal, and any other stream when
+ * asked to be verbose, gets a line every ten seconds. */
 #ifndef CZ_CLI_PROGRESS_H
 #define CZ_CLI_PROGRESS_H
 

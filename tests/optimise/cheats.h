@@ -72,7 +72,7 @@ static inline Case run_cheat(const Cheat *cheat, bool with_rules) {
              "optimise:\n"
              "  minimise: %s\n"
              "  subject_to: [%s]\n"
-             "  evaluations: 150\n"
+             "  evaluations: 60\n"
              "  variables: [%s]\n",
              with_rules ? "true" : "false", cheat->limits, cheat->minimise,
              with_rules ? cheat->check : "visible", cheat->variables);

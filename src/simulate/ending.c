@@ -1,9 +1,9 @@
 /* When a run ends: by rule, after its duration, or because it failed.
  *
- * By rule: no neighbouring cars close in faster than CLOSING_SPEED, no plastic element has flowed,
- * every wheel is on the rail, and all of that for one body pitch period. A brief run also ends when
- * nothing has flowed for that long and no cars can meet again at more than MEETING_SHARE of the
- * first closing speed.
+ * By rule: no neighbouring cars close in or can meet again faster than CLOSING_SPEED, no plastic
+ * element has flowed, every wheel is on the rail, and all of that for one body pitch period. A
+ * brief run also ends when nothing has flowed for that long and no cars can meet again at more than
+ * MEETING_SHARE of the first closing speed.
  */
 #include "simulate/run.h"
 
@@ -110,19 +110,40 @@ static bool closes_in(const CzBatch *batch, int design) {
     return false;
 }
 
+/* Speed that a car keeps at least: that of rest where it brakes, its own where it rolls. */
+static double rest_or_speed(const CzBatch *batch, int car, int design) {
+    const size_t lane = cz_lane(batch, car, design);
+    const double speed = cz_velocity(batch, CZ_DOF_BODY_X, lane);
+    const bool brakes = cz_parameter(batch, CZ_P_BRAKE_MOMENT_0, lane) > 0.0 ||
+                        cz_parameter(batch, CZ_P_BRAKE_MOMENT_3, lane) > 0.0;
+    return brakes ? fmin(speed, 0.0) : speed;
+}
+
 /* Largest speed at which cars that are apart now can still meet: what is ahead may come to rest
  * where it brakes. */
 static double meeting_speed(const CzBatch *batch, int design) {
     double slowest = INFINITY, largest = 0.0;
     for (int car = batch->model->n_car - 1; car >= 0; --car) {
-        const size_t lane = cz_lane(batch, car, design);
-        const double speed = cz_velocity(batch, CZ_DOF_BODY_X, lane);
-        const bool brakes = cz_parameter(batch, CZ_P_BRAKE_MOMENT_0, lane) > 0.0 ||
-                            cz_parameter(batch, CZ_P_BRAKE_MOMENT_3, lane) > 0.0;
+        const double speed = cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, car, design));
         largest = fmax(largest, speed - slowest);
-        slowest = fmin(slowest, brakes ? fmin(speed, 0.0) : speed);
+        slowest = fmin(slowest, rest_or_speed(batch, car, design));
     }
     return largest;
+}
+
+/* Whether cars that have parted can meet again: what is ahead may come to rest where it brakes. */
+static bool can_meet_again(const CzBatch *batch, int design) {
+    static const int forces[] = {CZ_M_COUPLER_FORCE, CZ_M_FACE_FORCE, CZ_M_SIDE_FORCE};
+    for (int car = 0; car + 1 < batch->model->n_car; ++car) {
+        const size_t lane = cz_lane(batch, car, design);
+        bool together = cz_parameter(batch, CZ_P_COUPLED, lane) > 0.5;
+        for (size_t k = 0; k < sizeof forces / sizeof forces[0]; ++k)
+            together |= cz_memory(batch, forces[k], lane) > 0.0;
+        const double behind = cz_velocity(batch, CZ_DOF_BODY_X, lane);
+        if (!together && behind - rest_or_speed(batch, car + 1, design) > CLOSING_SPEED)
+            return true;
+    }
+    return false;
 }
 
 /* When a condition began to hold: kept while it does, forgotten when it does not. */
@@ -176,7 +197,8 @@ static void look_at(CzBatch *batch, int design) {
     const bool flows = strokes - progress->plastic > FLOW;
     progress->plastic = strokes;
     const bool off = wheels_are_off(batch, design);
-    const bool quiet = !off && !flows && !closes_in(batch, design);
+    const bool quiet =
+        !off && !flows && !closes_in(batch, design) && !can_meet_again(batch, design);
     const bool settled = batch->brief && !off && !flows &&
                          meeting_speed(batch, design) <= MEETING_SHARE * batch->closing_speed;
     progress->quiet_since = holds_since(quiet, progress->quiet_since, batch->time);

@@ -63,8 +63,6 @@ CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
 typedef struct CzEvaluatorOptions {
     int n_job;            /* threads; 0 takes the number of processors */
     double step_factor;   /* factor on every time step; 1 is the record */
-    bool brief;           /* runs end once they have settled (CzSimulateOptions); false is the
-                             record */
     const char *scenario; /* run this one only; NULL for all. Checks of the others are then NOT
                              CHECKED */
 } CzEvaluatorOptions;

@@ -109,7 +109,6 @@ CzStatus cz_evaluator_build(const CzProblem *problem, const CzEvaluatorOptions *
     built->problem = problem;
     built->n_job = given.n_job > 0 ? given.n_job : cz_processor_count();
     built->step_factor = given.step_factor;
-    built->brief = given.brief;
     const CzStatus status = build(built, given.scenario, error);
     if (status != CZ_OK) {
         cz_evaluator_free(built);

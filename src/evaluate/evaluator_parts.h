@@ -11,7 +11,6 @@ struct CzEvaluator {
     const CzProblem *problem;
     int n_job;
     double step_factor;
-    bool brief;
     int n_scene;
     CzScene *scene;            /* (n_scene) */
     CzModel **model;           /* (n_scene); NULL for scenarios left out */

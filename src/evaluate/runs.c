@@ -182,7 +182,7 @@ static CzStatus evaluate_all(const Block *manner, int n_point, const double *x,
 
 CzStatus cz_evaluate(CzEvaluator *evaluator, int n_point, const double *x, bool keep_runs,
                      CzEvaluation *evaluation, CzError *error) {
-    const Block manner = {.evaluator = evaluator, .record = keep_runs, .brief = evaluator->brief};
+    const Block manner = {.evaluator = evaluator, .record = keep_runs};
     return evaluate_all(&manner, n_point, x, evaluation, NULL, error);
 }
 

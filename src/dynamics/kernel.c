@@ -15,6 +15,7 @@
 #include "dynamics/kernel_face.h"
 #include "dynamics/kernel_neighbours.h"
 #include "dynamics/kernel_rows.h"
+#include "dynamics/kernel_wheel.h"
 #include "integrate/two_step.h"
 
 #ifndef CZ_ISA

@@ -153,6 +153,8 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     for (int i = 0; i < n_interface; ++i) {
         cz_interface_fill(batch, i, design, &interface[i]);
         interface[i].energy_share = interface[i].energy / summary->energy.dissipated;
+        for (int k = 0; k < interface[i].n_element; ++k)
+            summary->energy.occupied += interface[i].element[k].zone_energy[CZ_ZONE_OCCUPIED];
         if (failed)
             blank_interface(&interface[i]);
     }

@@ -32,10 +32,10 @@ static const char base[] =
     "  - {name: buffing, speed_km_h: 8}\n"
     "  - {name: overload, speed_km_h: 27.5, mass_factor: 1.1}\n";
 
-CzStatus small_problem_read(const char *more, int n_set, const char *const *set,
-                            CzProblem **problem, CzError *error) {
+static CzStatus read_text(const char *problem_text, const char *more, int n_set,
+                          const char *const *set, CzProblem **problem, CzError *error) {
     char text[8192];
-    const int n = snprintf(text, sizeof text, "%s%s", base, more);
+    const int n = snprintf(text, sizeof text, "%s%s", problem_text, more);
     assert_true(n > 0 && (size_t)n < sizeof text);
     CzProblemOptions options = cz_problem_options_default();
     options.n_set = n_set;
@@ -43,10 +43,15 @@ CzStatus small_problem_read(const char *more, int n_set, const char *const *set,
     return cz_problem_read_text(text, (size_t)n, "small.yaml", ".", &options, problem, error);
 }
 
-CzProblem *small_problem(const char *more) {
+CzStatus small_problem_read(const char *more, int n_set, const char *const *set,
+                            CzProblem **problem, CzError *error) {
+    return read_text(base, more, n_set, set, problem, error);
+}
+
+CzProblem *problem_of_text(const char *text, const char *more) {
     CzProblem *problem = NULL;
     CzError error = {0};
-    const CzStatus status = small_problem_read(more, 0, NULL, &problem, &error);
+    const CzStatus status = read_text(text, more, 0, NULL, &problem, &error);
     for (int i = 0; i < cz_problem_n_mistake(problem); i++) {
         const CzError *mistake = cz_problem_mistake(problem, i);
         print_error("%s:%d:%d: %s\n", mistake->file, mistake->line, mistake->column,
@@ -54,4 +59,8 @@ CzProblem *small_problem(const char *more) {
     }
     assert_int_equal(status, CZ_OK);
     return problem;
+}
+
+CzProblem *small_problem(const char *more) {
+    return problem_of_text(base, more);
 }

@@ -13,4 +13,8 @@ CzProblem *small_problem(const char *more);
 CzStatus small_problem_read(const char *more, int n_set, const char *const *set,
                             CzProblem **problem, CzError *error);
 
+/* A problem of its own text with `more` at the end, paths relative to the project's root. Asserts
+ * that it can be read. */
+CzProblem *problem_of_text(const char *text, const char *more);
+
 #endif

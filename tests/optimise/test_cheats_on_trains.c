@@ -1,0 +1,242 @@
+/* Ways to win on paper that only cars with running gear or an unlucky time step offer, tried on the
+ * simulator itself. Every number of the problems is chosen so that the cheat pays: what a search
+ * finds without the rule breaks it, and is better than what it finds with the rule.
+ */
+#include "optimise/cheats.h"
+
+/* Two trains of two full cars of the generic catalogue. Runs end after a time: what follows the
+ * crash is no matter here. */
+#define TWO_AND_TWO(scenario, parts)                                                               \
+    "schema: 1\n"                                                                                  \
+    "title: two cars onto two\n"                                                                   \
+    "catalogue: [problems/catalogue/generic.yaml]\n"                                               \
+    "simulation: {adhesion: {friction: 0.3}}\n"                                                    \
+    "trains:\n"                                                                                    \
+    "  - name: A\n"                                                                                \
+    "    brake: {ratio: 0, axle_share: 0}\n"                                                       \
+    "    vehicles: [{name: A1, use: middle-car}, {name: A2, use: driving-car}]\n"                  \
+    "  - {name: B, copy: A, reversed: true, brake: {ratio: 0.1, axle_share: 1}}\n"                 \
+    "scenarios: [{name: crash, " scenario "}]\n"                                                   \
+    "parts:\n"                                                                                     \
+    "  front-end:\n"                                                                               \
+    "    face_gap_mm: 1000\n"                                                                      \
+    "    available_length_mm: 1800\n" parts
+
+/* Weak tubes between the cars spare the anti-climbers, and fold the gangways beyond their length.
+ */
+static void optimiser_cannot_win_by_closing_inner_gaps_further_than_there_is_room(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){
+        .problem = TWO_AND_TWO("speed_km_h: 25, duration_ms: 600",
+                               "  inner-end: {gangway_block_mm: 220}\n"
+                               "  inner-coupler: {tube: {stages: [{stroke_mm: 450, force_kN: "
+                               "700}]}}\n"),
+        .limits = "{name: visible, metric: interfaces.inner.gap_used, max: 1e9}",
+        .minimise = "elements.anti-climber *.stroke_used",
+        .variables = "{path: \"parts.inner-coupler.tube.stages[0].force_kN\", min: 410, max: 900}",
+        .check = "closure of inner gaps",
+        .scenario = "crash"});
+}
+
+/* A strong front tube buckles the couplers upwards, the faces pass each other, and what has passed
+ * pushes no more. */
+static void optimiser_cannot_win_by_climbing(void **state) {
+    (void)state;
+    check_cheat(
+        &(Cheat){.problem = TWO_AND_TWO("speed_km_h: 20, duration_ms: 600, height_offset_mm: 160",
+                                        "  anti-climber: {rib_strength_kN: 0, friction: 0,\n"
+                                        "    stages: [{stroke_mm: 600, force_kN: 900}]}\n"),
+                 .limits = "{name: visible, metric: override, max: 1e9}",
+                 .minimise = "interfaces.colliding.peak_force_kN",
+                 .variables = "{path: \"parts.front-coupler.tube.stages[0].force_kN\", min: 690, "
+                              "max: 850, start: 700}",
+                 .check = "override",
+                 .scenario = "crash"});
+}
+
+/* Faces that overlap by less than a rib push less. */
+static void optimiser_cannot_win_by_losing_the_overlap_of_the_anti_climbers(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){
+        .problem = TWO_AND_TWO("speed_km_h: 25, duration_ms: 600, height_offset_mm: 140",
+                               "  anti-climber: {stages: [{stroke_mm: 600, force_kN: 500}]}\n"),
+        .limits = "{name: visible, metric: interfaces.overlap_ribs, min: -1e9}",
+        .minimise = "interfaces.colliding.peak_force_kN",
+        .variables = "{path: \"parts.front-coupler.tube.stages[0].force_kN\", min: 450, max: 850}",
+        .check = "overlap of the anti-climbers",
+        .scenario = "crash"});
+}
+
+/* What the coupler takes is spared the anti-climbers, until they slip under its moment. */
+static void optimiser_cannot_win_with_anti_climbers_that_slip(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){
+        .problem = TWO_AND_TWO("speed_km_h: 25, duration_ms: 600, height_offset_mm: 60",
+                               "  anti-climber: {rib_strength_kN: 8, friction: 0.05,\n"
+                               "    stages: [{stroke_mm: 600, force_kN: 500}]}\n"),
+        .limits = "{name: visible, metric: interfaces.vertical_margin_kN, min: -1e9}",
+        .minimise = "elements.anti-climber *.energy_kJ",
+        .variables = "{path: \"parts.front-coupler.tube.stages[0].force_kN\", min: 450, max: 850}",
+        .check = "vertical capacity of the anti-climbers",
+        .scenario = "crash"});
+}
+
+/* A late anti-climber lets heavy bogies swing at their links, which then take what it should. */
+static void optimiser_cannot_win_by_working_the_running_gear(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){
+        .problem = TWO_AND_TWO("speed_km_h: 18, duration_ms: 600",
+                               "  middle-car: {mass_t: 42}\n"
+                               "  bogie: {mass_kg: 6000}\n"
+                               "  anti-climber: {stages: [{stroke_mm: 600, force_kN: 500}]}\n"),
+        .limits = "{name: visible, metric: energy.running_gear_share, max: 1e9}",
+        .minimise = "elements.anti-climber *.energy_kJ",
+        .variables = "{path: parts.anti-climber.gap_mm, min: 320, max: 700}",
+        .check = "energy in the running gear",
+        .scenario = "crash"});
+}
+
+/* A short anti-climber leaves the rest to the end, first to its crush zone and then to the cab. */
+static void optimiser_cannot_win_by_crushing_the_occupied_space(void **state) {
+    (void)state;
+    check_cheat(&(Cheat){
+        .problem = TWO_AND_TWO("speed_km_h: 32, duration_ms: 600",
+                               "    stages:\n" /* of the front end */
+                               "      - {stroke_mm: 20, force_MN: 1.2}\n"
+                               "      - {stroke_mm: 100, force_MN: 1.5}\n"
+                               "      - {stroke_mm: 400, force_MN: 2.5, zone: occupied}\n"),
+        .limits = "{name: visible, metric: energy.occupied_kJ, max: 1e9}",
+        .minimise = "design.installed_length_mm",
+        .variables =
+            "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 10, max: 600, start: 500}",
+        .check = "energy in occupied space",
+        .scenario = "crash"});
+}
+
+/* ---- the mean deceleration ------------------------------------------------------------------- */
+
+/* A gentle coupler in front of a hard anti-climber makes the time of contact long and its mean
+ * small. */
+static Case run_diluted(const char *subject) {
+    char more[1024];
+    snprintf(more, sizeof more,
+             "checks:\n"
+             "  closing_rules: false\n"
+             "  limits:\n"
+             "    - {name: worse, metric: vehicles.mean_deceleration_g, max: 1.5}\n"
+             "    - {name: diluted, metric: vehicles.mean_deceleration_contact_g, max: 1.5}\n"
+             "optimise:\n"
+             "  minimise: interfaces.colliding.shortening_mm\n"
+             "  subject_to: [%s]\n"
+             "  evaluations: 60\n"
+             "  variables: [{path: parts.anti-climber.gap_mm, min: 320, max: 600}]\n",
+             subject);
+    Case made =
+        begin_with(problem_of_text(
+                       TWO_AND_TWO("speed_km_h: 25, duration_ms: 600",
+                                   "  anti-climber: {stages: [{stroke_mm: 600, force_kN: 500}]}\n"),
+                       more),
+                   2);
+    optimise(&made, NULL);
+    return made;
+}
+
+static void optimiser_cannot_dilute_the_mean_deceleration(void **state) {
+    (void)state;
+    Case cheated = run_diluted("diluted"), honest = run_diluted("worse");
+    assert_int_equal(cheated.outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_int_equal(honest.outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_true(value_of(&cheated, "diluted", "crash") <= 1.5);
+    assert_true(value_of(&cheated, "worse", "crash") > 1.5);
+    assert_true(value_of(&honest, "worse", "crash") <= 1.5);
+    assert_true(honest.outcome->best_evaluation.objective >
+                cheated.outcome->best_evaluation.objective);
+    end(&cheated);
+    end(&honest);
+}
+
+/* ---- runs that give no answer ---------------------------------------------------------------- */
+
+#define TWO_RIGID(simulation)                                                                      \
+    "schema: 1\n"                                                                                  \
+    "title: two rigid cars\n"                                                                      \
+    "simulation: {" simulation "}\n"                                                               \
+    "parts:\n"                                                                                     \
+    "  tube: {stages: [{stroke_mm: 250, force_kN: 800}]}\n"                                        \
+    "  head:\n"                                                                                    \
+    "    face_gap_mm: 900\n"                                                                       \
+    "    unloading_stiffness_MN_m: 600\n"                                                          \
+    "    coupler:\n"                                                                               \
+    "      length_m: 1.4\n"                                                                        \
+    "      buffer: {stages: [{stroke_mm: 50, force_kN: 400}]}\n"                                   \
+    "      tube: {use: tube}\n"                                                                    \
+    "    anti_climber: {count: 2, gap_mm: 400, stages: [{stroke_mm: 400, force_kN: 300}]}\n"       \
+    "trains:\n"                                                                                    \
+    "  - {name: A, vehicles: [{name: A1, model: rigid, mass_t: 40, front: {use: head}}]}\n"        \
+    "  - {name: B, vehicles: [{name: B1, model: rigid, mass_t: 40, rear: {use: head}}]}\n"         \
+    "scenarios: [{name: crash, speed_km_h: 25}]\n"
+
+/* Searches, and gives the evaluation of the value that would win if its run counted. */
+static Case run_failing(const char *problem, const char *minimise, const char *variable,
+                        double winner, CzStatus *status) {
+    char more[1024];
+    snprintf(more, sizeof more,
+             "checks: {closing_rules: false}\n"
+             "optimise: {minimise: %s, evaluations: 60, variables: [%s]}\n",
+             minimise, variable);
+    Case made = begin_with(problem_of_text(problem, more), 2);
+    optimise(&made, NULL);
+    CzEvaluation evaluation;
+    CzError error = {0};
+    assert_int_equal(cz_evaluate(made.evaluator, 1, &winner, false, &evaluation, &error), CZ_OK);
+    *status = evaluation.status;
+    assert_true(isnan(evaluation.objective));
+    cz_evaluation_free(&evaluation);
+    return made;
+}
+
+/* The step of 10 ms just holds for the buffer as written; a shorter one is stiffer and its run
+ * loses energy. */
+static void optimiser_cannot_win_where_the_run_fails(void **state) {
+    (void)state;
+    CzStatus status = CZ_OK;
+    Case made =
+        run_failing(TWO_RIGID("time_step_ms: 10, output_step_ms: 10"), "ends.coupler_length_used",
+                    "{path: \"parts.head.coupler.buffer.stages[0].stroke_mm\", min: 10, "
+                    "max: 60}",
+                    10, &status);
+    assert_int_equal(status, CZ_STATUS_RUN_FAILED);
+    assert_true(made.outcome->best[0] > 10);
+    assert_int_equal(made.outcome->best_evaluation.status, CZ_OK);
+    end(&made);
+}
+
+/* The strongest tube has the lowest peak behind it, and is not done within the longest time. */
+static void optimiser_cannot_win_with_a_run_that_does_not_end(void **state) {
+    (void)state;
+    CzStatus status = CZ_OK;
+    Case made = run_failing(TWO_RIGID("longest_s: 0.165"), "interfaces.peak_force_kN",
+                            "{path: \"parts.tube.stages[0].force_kN\", min: 450, max: 800, "
+                            "start: 500}",
+                            800, &status);
+    assert_int_equal(status, CZ_STATUS_RUN_FAILED);
+    assert_true(made.outcome->best[0] < 800);
+    assert_true(made.outcome->best[0] > 500);
+    assert_int_equal(made.outcome->best_evaluation.status, CZ_OK);
+    end(&made);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(optimiser_cannot_win_by_closing_inner_gaps_further_than_there_is_room),
+        cmocka_unit_test(optimiser_cannot_win_by_climbing),
+        cmocka_unit_test(optimiser_cannot_win_by_losing_the_overlap_of_the_anti_climbers),
+        cmocka_unit_test(optimiser_cannot_win_with_anti_climbers_that_slip),
+        cmocka_unit_test(optimiser_cannot_win_by_working_the_running_gear),
+        cmocka_unit_test(optimiser_cannot_win_by_crushing_the_occupied_space),
+        cmocka_unit_test(optimiser_cannot_dilute_the_mean_deceleration),
+        cmocka_unit_test(optimiser_cannot_win_where_the_run_fails),
+        cmocka_unit_test(optimiser_cannot_win_with_a_run_that_does_not_end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -31,6 +31,7 @@ CZ_API const char *cz_verdict_text(CzVerdict verdict);
 typedef struct CzCheckResult {
     const char *name;
     const char *scenario; /* "design" for a check of the design itself */
+    const char *family;   /* family of scenarios that it belongs to; NULL for none */
     char where[48];       /* place of the worst value */
     double limit;         /* in `unit` */
     double value;         /* in `unit`; NaN when not checked or when it does not apply */
@@ -63,8 +64,8 @@ CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
 typedef struct CzEvaluatorOptions {
     int n_job;            /* threads; 0 takes the number of processors */
     double step_factor;   /* factor on every time step; 1 is the record */
-    const char *scenario; /* run this one only; NULL for all. Checks of the others are then NOT
-                             CHECKED */
+    const char *scenario; /* run this one, or this family, only; NULL for all. Checks of the others
+                             are then NOT CHECKED */
 } CzEvaluatorOptions;
 CZ_API CzEvaluatorOptions cz_evaluator_options_default(void);
 

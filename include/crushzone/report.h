@@ -48,8 +48,9 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome(const CzProblem *problem,
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_mistakes(int n_mistake, const CzError *const *mistake,
                                                        FILE *stream, CzError *error);
 
-/* The table of a run on a terminal, and the one of a search: before and after, what is still
- * violated, the new values as YAML. `colour` allows escape codes. */
+/* The table of a run on a terminal, of a family of scenarios the worst member, and the one of a
+ * search: before and after, what is still violated, the new values as YAML. `colour` allows escape
+ * codes. */
 CZ_API void cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluation,
                                   bool colour, FILE *stream);
 CZ_API void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,

@@ -61,8 +61,10 @@ static bool is_listed(const CzTexts *texts, const char *name) {
 /* A limit without scenarios holds in all but the overload cases, which are judged for bottoming
  * only. */
 static bool holds_in(const CzLimit *limit, const CzScene *scene) {
-    return limit->scenarios.n_text > 0 ? is_listed(&limit->scenarios, scene->name)
-                                       : !scene->is_overload;
+    bool is_named = false;
+    for (int i = 0; i < limit->scenarios.n_text; i++)
+        is_named |= cz_scene_is(scene, limit->scenarios.text[i]);
+    return limit->scenarios.n_text > 0 ? is_named : !scene->is_overload;
 }
 
 static bool is_of_design(const CzMetric *metric) {
@@ -107,7 +109,7 @@ static CzStatus check_scenarios_exist(const Builder *builder, const CzLimit *lim
     for (int i = 0; i < limit->scenarios.n_text; i++) {
         bool found = false;
         for (int s = 0; s < builder->n_scene; s++)
-            found |= strcmp(limit->scenarios.text[i], builder->scene[s].name) == 0;
+            found |= cz_scene_is(&builder->scene[s], limit->scenarios.text[i]);
         if (!found)
             return place_failure(builder, &limit->scenarios,
                                  cz_fail(builder->error, CZ_STATUS_INPUT,

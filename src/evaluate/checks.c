@@ -30,6 +30,7 @@ double cz_margin(double value, double limit, bool is_minimum, double scale) {
 static CzCheckResult blank_result(const CzCheck *check, const CzScene *scene) {
     return (CzCheckResult){.name = check->name,
                            .scenario = scene != NULL ? scene->name : "design",
+                           .family = scene != NULL ? scene->family : NULL,
                            .limit = check->limit,
                            .value = NAN,
                            .unit = check->missing != NULL ? "" : check->metric.kind->unit,

@@ -21,7 +21,7 @@ static CzStatus build_models(CzEvaluator *evaluator, const char *only, CzError *
     bool any = false;
     for (int s = 0; s < evaluator->n_scene; s++) {
         evaluator->rate = fmax(evaluator->rate, evaluator->scene[s].closing_speed / 2);
-        if (only != NULL && strcmp(only, evaluator->scene[s].name) != 0)
+        if (only != NULL && !cz_scene_is(&evaluator->scene[s], only))
             continue;
         any = true;
         CZ_TRY(cz_model_build(evaluator->problem, s, &evaluator->model[s], error));

@@ -65,12 +65,18 @@ static CzStatus build_scene(const CzProblem *problem, int index, CzArena *arena,
     double speed = input->trains[scene->train[0]].speed;
     double partner_speed = input->trains[scene->train[1]].speed;
     if (scenario != NULL) {
+        scene->family = scenario->family;
         speed = value_or(scenario->speed, speed);
         partner_speed = value_or(scenario->partner_speed, partner_speed);
         scene->is_overload = scenario->mass_factor >= CZ_OVERLOAD_FACTOR * (1 - 1e-9);
     }
     scene->closing_speed = speed - partner_speed;
     return CZ_OK;
+}
+
+bool cz_scene_is(const CzScene *scene, const char *name) {
+    return strcmp(scene->name, name) == 0 ||
+           (scene->family != NULL && strcmp(scene->family, name) == 0);
 }
 
 CzStatus cz_scenes_build(const CzProblem *problem, CzArena *arena, int *n_scene, CzScene **scene,

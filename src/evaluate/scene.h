@@ -7,6 +7,7 @@
 
 typedef struct CzScene {
     const char *name;                /* of the scenario */
+    const char *family;              /* that it belongs to; NULL for none */
     int train[2];                    /* trains of the problem, the one behind first */
     int n_vehicle;                   /* of both trains */
     const CzVehicle *const *vehicle; /* as written, along +x (n_vehicle) */
@@ -15,6 +16,9 @@ typedef struct CzScene {
     double closing_speed;            /* at the start [m/s] */
     bool is_overload;                /* heavier than the others: judged for bottoming only */
 } CzScene;
+
+/* Whether a name means this scenario: its own or that of its family. */
+bool cz_scene_is(const CzScene *scene, const char *name);
 
 /* Mass factor from which a scenario is an overload case, and the factor on the speed that it must
  * reach to cover the others. */

@@ -68,6 +68,8 @@ void cz_problem_bind(CzProblem *problem, const CzTree *tree) {
     CzReader *reader = &problem->reader;
     CzTree set = cz_settings_apply(reader, tree, problem->setting, problem->n_setting);
     set.root = cz_trains_write_out(reader, &set);
+    if (set.root != NULL)
+        set.root = cz_families_write_out(reader, &set);
     if (set.root == NULL || reader->arena.out_of_memory || !allocate_vehicles(problem, set.root))
         return;
     cz_bind_record(reader, &set, CZ_RECORD_CzInput, set.root, &cz_no_trail, &problem->input);

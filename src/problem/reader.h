@@ -3,6 +3,7 @@
  *   load      files -> one tree: `extends` merged, parts of catalogues gathered
  *   settings  `set:` and --set put into the tree
  *   trains    `copy`, `repeat`, `reversed` written out
+ *   families  `sweep` of a scenario written out
  *   bind      tree -> typed records, with a place for every value; `use` is taken on the way
  *   rules     what must hold between values
  *
@@ -141,6 +142,23 @@ int cz_vehicle_repeat(const CzNode *vehicle);
  * name and the position in the train. */
 void cz_vehicle_name(char *text, size_t size, const CzNode *vehicle, const char *train,
                      int position, int k);
+
+/* ---- families.c ---- */
+
+enum { CZ_MOST_IN_RANGE = 500 };
+
+/* Evenly spaced values, both ends among them. */
+typedef struct CzRange {
+    double from, to;
+    int n; /* 2 to CZ_MOST_IN_RANGE */
+} CzRange;
+
+/* Reads a text such as "5:40:8"; false when it is none. */
+bool cz_range_parse(const char *text, CzRange *range);
+double cz_range_value(const CzRange *range, int index);
+
+/* The root with every scenario that has `sweep` written out as its members; NULL without memory. */
+const CzNode *cz_families_write_out(CzReader *reader, const CzTree *tree);
 
 /* ---- bind.c ---- */
 

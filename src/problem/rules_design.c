@@ -13,11 +13,14 @@
 static void check_scenario_named(const CzRules *rules, const char *const *name) {
     CzSuggestion suggestion = {0};
     for (int i = 0; i < rules->input->n_scenarios; i++) {
-        const char *known = rules->input->scenarios[i].name;
-        if (known != NULL && strcmp(known, *name) == 0)
-            return;
-        if (known != NULL)
-            cz_suggest(&suggestion, *name, known);
+        const char *const known[2] = {rules->input->scenarios[i].name,
+                                      rules->input->scenarios[i].family};
+        for (int k = 0; k < 2; k++) {
+            if (known[k] != NULL && strcmp(known[k], *name) == 0)
+                return;
+            if (known[k] != NULL)
+                cz_suggest(&suggestion, *name, known[k]);
+        }
     }
     cz_rule_broken(rules, name, "there is no scenario '%.48s'", *name);
     cz_mistake_suggest(rules->mistakes, suggestion.best);

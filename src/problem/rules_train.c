@@ -299,6 +299,7 @@ static void check_scenario_names(const CzRules *rules) {
     for (int i = 0; i < input->n_scenarios; i++) {
         const char *const *name = &input->scenarios[i].name;
         check_name(rules, name, "scenario", ".");
+        check_name(rules, &input->scenarios[i].family, "family", ".");
         if (*name != NULL && (*name)[0] == '.')
             cz_rule_broken(rules, name, "the name of a scenario does not begin with a point");
         for (int k = 0; *name != NULL && k < i; k++)

@@ -3,6 +3,7 @@ set(CZ_SOURCES_problem
     bind.c
     bind_table.c
     bind_value.c
+    families.c
     find.c
     keys.c
     load.c

@@ -72,11 +72,16 @@ static double rank(const CzCheckResult *check) {
     return check->verdict == CZ_VERDICT_FAIL ? -2e9 + margin : 2e9 + margin;
 }
 
-/* Whether check i is the worst of its name, the first of equals. */
-static bool is_worst_of_name(const CzEvaluation *evaluation, int i) {
+/* Whether check i is the worst of its name, of its family only when it is to be among those; the
+ * first of equals. */
+static bool is_worst_of_name(const CzEvaluation *evaluation, int i, bool of_family) {
     const CzCheckResult *check = evaluation->check;
     for (int k = 0; k < evaluation->n_check; k++) {
         if (k == i || strcmp(check[k].name, check[i].name) != 0)
+            continue;
+        const bool is_sister = check[i].family != NULL && check[k].family != NULL &&
+                               strcmp(check[i].family, check[k].family) == 0;
+        if (of_family && !is_sister)
             continue;
         if (rank(&check[k]) < rank(&check[i]) || (rank(&check[k]) == rank(&check[i]) && k < i))
             return false;
@@ -155,7 +160,8 @@ void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *b
         cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
-        if (several && check->verdict != CZ_VERDICT_FAIL && !is_worst_of_name(evaluation, i))
+        const bool fails = check->verdict == CZ_VERDICT_FAIL;
+        if (several && !is_worst_of_name(evaluation, i, fails))
             continue;
         put_check(&grid, check, with_before ? &before->check[i] : NULL, several);
     }

@@ -7,8 +7,8 @@
 #include "crushzone/report.h"
 
 /* One line per check of a single scenario; of several scenarios the worst line of each check and
- * every failure. `before` (NULL for none) is an evaluation with the same checks. Ends with a line
- * that counts the verdicts. */
+ * every failure, of a family of scenarios its worst failure. `before` (NULL for none) is an
+ * evaluation with the same checks. Ends with a line that counts the verdicts. */
 void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
                            FILE *stream);
 

@@ -220,6 +220,8 @@ static void put_check(CzJson *json, const CzCheckResult *check) {
     cz_json_open_object(json, NULL);
     cz_json_text(json, "name", check->name);
     cz_json_text(json, "scenario", check->scenario);
+    if (check->family != NULL)
+        cz_json_text(json, "family", check->family);
     cz_json_text(json, "where", check->where);
     cz_json_text(json, "kind", check->is_minimum ? "min" : "max");
     cz_json_real(json, "limit", check->limit);

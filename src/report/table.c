@@ -154,14 +154,87 @@ static void write_climbing(const CzRunSummary *run, bool colour, FILE *stream) {
     fputc('\n', stream);
 }
 
+/* ---- families of scenarios ---- */
+
+static const char *family_of(const CzProblem *problem, const char *scenario) {
+    const CzInput *input = cz_problem_input(problem);
+    for (int i = 0; i < input->n_scenarios; i++)
+        if (strcmp(input->scenarios[i].name, scenario) == 0)
+            return input->scenarios[i].family;
+    return NULL;
+}
+
+static bool is_of_family(const CzProblem *problem, const char *scenario, const char *family) {
+    const char *own = family_of(problem, scenario);
+    return own != NULL && strcmp(own, family) == 0;
+}
+
+/* The check of a family with the smallest margin; NULL when none has one. */
+static const CzCheckResult *worst_check(const CzProblem *problem, const CzEvaluation *evaluation,
+                                        const char *family) {
+    const CzCheckResult *worst = NULL;
+    for (int i = 0; i < evaluation->n_check; i++) {
+        const CzCheckResult *check = &evaluation->check[i];
+        if (isfinite(check->margin) && is_of_family(problem, check->scenario, family) &&
+            (worst == NULL || check->margin < worst->margin))
+            worst = check;
+    }
+    return worst;
+}
+
+/* The run that stands for a family: one that failed or was cut short, else the one with the worst
+ * check. */
+static int worst_member(const CzProblem *problem, const CzEvaluation *evaluation,
+                        const char *family) {
+    const CzCheckResult *worst = worst_check(problem, evaluation, family);
+    int member = -1;
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        if (run == NULL || !is_of_family(problem, run->scenario, family))
+            continue;
+        if (run->status != CZ_OK || run->ended == CZ_ENDED_INCOMPLETE)
+            return i;
+        if (member < 0 || (worst != NULL && strcmp(worst->scenario, run->scenario) == 0))
+            member = i;
+    }
+    return member;
+}
+
+static void write_family(const CzProblem *problem, const CzEvaluation *evaluation,
+                         const char *family, bool colour, FILE *stream) {
+    const CzCheckResult *worst = worst_check(problem, evaluation, family);
+    char margin[CZ_FIGURE_ROOM];
+    int n = 0;
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        n += run != NULL && is_of_family(problem, run->scenario, family);
+    }
+    cz_grid_write_text(family, CZ_STYLE_PLAIN, colour, stream);
+    fprintf(stream, ": the worst of %d scenarios", n);
+    if (worst != NULL) {
+        fputs(" by ", stream);
+        cz_grid_write_text(worst->name, CZ_STYLE_PLAIN, colour, stream);
+        fprintf(stream, ", margin %s", cz_figure_margin(margin, worst->margin));
+    }
+    fputc('\n', stream);
+}
+
+/* Whether a run is told: each one of its own, and of each family the worst member. */
+static bool is_told(const CzProblem *problem, const CzEvaluation *evaluation, int index) {
+    const char *family = family_of(problem, cz_kept_run(evaluation, index)->scenario);
+    return family == NULL || worst_member(problem, evaluation, family) == index;
+}
+
 void cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluation, bool colour,
                            FILE *stream) {
     cz_grid_write_text(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
     fputs("\n\n", stream);
     for (int i = 0; i < evaluation->n_run; i++) {
         const CzRunSummary *run = cz_kept_run(evaluation, i);
-        if (run == NULL)
+        if (run == NULL || !is_told(problem, evaluation, i))
             continue;
+        if (family_of(problem, run->scenario) != NULL)
+            write_family(problem, evaluation, family_of(problem, run->scenario), colour, stream);
         write_run_head(problem, run, colour, stream);
         if (run->status == CZ_OK) {
             write_interfaces(run, cz_n_kept_run(evaluation) > 1, colour, stream);

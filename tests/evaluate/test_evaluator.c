@@ -416,9 +416,34 @@ static void design_that_could_not_be_read_back_is_infeasible(void **state) {
     end(&made);
 }
 
+/* The base text ends in its list of scenarios, so `more` can go on with it. */
+static void limit_of_a_family_is_judged_in_each_of_its_members(void **state) {
+    (void)state;
+    Case made = begin("  - name: climb\n"
+                      "    sweep: {speed_km_h: [10, 30]}\n"
+                      "checks:\n"
+                      "  closing_rules: false\n"
+                      "  limits:\n"
+                      "    - {name: force, metric: interfaces.peak_force_kN, max: 1500,\n"
+                      "       scenarios: [climb]}\n"
+                      "optimise:\n"
+                      "  variables:\n"
+                      "    - {path: \"parts.tube.stages[0].force_kN\", min: 400, max: 1500}\n"
+                      "  subject_to: [force]\n");
+    evaluate(&made, NULL);
+    assert_int_equal(made.evaluation.n_check, 2);
+    assert_non_null(find(&made.evaluation, "force", "climb_10km_h"));
+    const CzCheckResult *fast = find(&made.evaluation, "force", "climb_30km_h");
+    assert_non_null(fast);
+    assert_string_equal(fast->family, "climb");
+    assert_string_equal(cz_evaluator_constraint_name(made.evaluator, 1), "force, climb_30km_h");
+    end(&made);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(margin_is_the_room_over_the_limit),
+        cmocka_unit_test(limit_of_a_family_is_judged_in_each_of_its_members),
         cmocka_unit_test(minimum_is_judged_at_the_smallest_place),
         cmocka_unit_test(unconfirmed_limit_passes_provisionally_until_the_user_sets_it),
         cmocka_unit_test(closing_rules_judge_the_design_and_every_scenario),

@@ -261,6 +261,46 @@ static void coupler_without_one_to_meet_is_warned_of(void **state) {
     cz_problem_free(problem);
 }
 
+static void a_sweep_is_one_scenario_per_combination(void **state) {
+    (void)state;
+    static const char *const setting[] = {"scenarios.climb.payload_share=0.5"};
+    CzProblemOptions options = cz_problem_options_default();
+    options.set = setting;
+    options.n_set = 1;
+    static const char text[] =
+        "schema: 1\ntitle: family\nextends: full.yaml\n"
+        "scenarios:\n"
+        "  - name: climb\n"
+        "    sweep: {speed_km_h: 18:36:3, height_offset_mm: [-40, 40]}\n"
+        "  - {name: last, family: others}\n"
+        "checks:\n"
+        "  limits:\n"
+        "    - {name: f, metric: interfaces.peak_force_kN, max: 1, scenarios: [climb, last]}\n";
+    CzProblem *problem = NULL;
+    CzError error = {0};
+    const CzStatus status = cz_problem_read_text(text, strlen(text), "family.yaml",
+                                                 "tests/problem/good", &options, &problem, &error);
+    if (status != CZ_OK)
+        print_error("%d:%d: %s\n", error.line, error.column, error.message);
+    assert_int_equal(status, CZ_OK);
+    static const double speed[] = {5, 5, 7.5, 7.5, 10, 10};
+    const CzInput *input = cz_problem_input(problem);
+    const int first = input->n_scenarios - 7; /* those of the base file come first */
+    assert_true(first >= 0);
+    for (int i = 0; i < 6; i++) {
+        const CzScenario *member = &input->scenarios[first + i];
+        assert_string_equal(member->family, "climb");
+        assert_near(member->speed, speed[i], 1e-15, 0);
+        assert_near(member->height_offset, i % 2 == 0 ? -0.04 : 0.04, 1e-15, 0);
+        assert_near(member->payload_share, 0.5, 0, 0);
+    }
+    assert_string_equal(input->scenarios[first].name, "climb_18km_h_-40mm");
+    assert_string_equal(input->scenarios[first + 3].name, "climb_27km_h_40mm");
+    assert_string_equal(input->scenarios[first + 6].name, "last");
+    assert_string_equal(input->scenarios[first + 6].family, "others");
+    cz_problem_free(problem);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_are_in_si_units_and_absent_ones_have_their_defaults),
@@ -278,6 +318,7 @@ int main(void) {
         cmocka_unit_test(limits_of_a_profile_are_those_of_the_category),
         cmocka_unit_test(mark_of_an_editor_before_the_text_is_passed_over),
         cmocka_unit_test(coupler_without_one_to_meet_is_warned_of),
+        cmocka_unit_test(a_sweep_is_one_scenario_per_combination),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

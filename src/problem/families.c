@@ -1,0 +1,247 @@
+/* Families of scenarios written out: a scenario with `sweep` becomes one scenario per combination
+ * of the values that are listed there.
+ *
+ *   {name: climb, sweep: {speed_km_h: [20, 25], height_offset_mm: [-40, 40]}}
+ *     -> climb_20km_h_-40mm, climb_20km_h_40mm, climb_25km_h_-40mm, climb_25km_h_40mm
+ *
+ * Members keep everything else that the family says and name it in `family`.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "problem/reader.h"
+
+enum { MOST_MEMBERS = 500, MOST_SWEPT = 8, LONGEST_MEMBER = 160 };
+
+/* One key of `sweep` with its values. */
+typedef struct Swept {
+    const CzEntry *entry;
+    int n_value;
+    const CzNode **value; /* (n_value) */
+} Swept;
+
+typedef struct Family {
+    CzReader *reader;
+    const CzNode *node; /* the scenario as written */
+    const CzEntry *sweep;
+    int n_swept;
+    Swept swept[MOST_SWEPT];
+    int n_member;
+} Family;
+
+/* ---- values ---- */
+
+bool cz_range_parse(const char *text, CzRange *range) {
+    char part[2 * CZ_NUMBER_TEXT];
+    const char *second = strchr(text, ':');
+    const char *third = second != NULL ? strchr(second + 1, ':') : NULL;
+    if (third == NULL || (size_t)(third - text) >= sizeof part)
+        return false;
+    snprintf(part, sizeof part, "%.*s", (int)(second - text), text);
+    if (cz_number_parse(part, &range->from) != NULL)
+        return false;
+    snprintf(part, sizeof part, "%.*s", (int)(third - second - 1), second + 1);
+    if (cz_number_parse(part, &range->to) != NULL)
+        return false;
+    char *end = NULL;
+    const long n = strtol(third + 1, &end, 10);
+    if (end == third + 1 || *end != '\0' || n < 2 || n > CZ_MOST_IN_RANGE)
+        return false;
+    range->n = (int)n;
+    return true;
+}
+
+double cz_range_value(const CzRange *range, int index) {
+    if (index == range->n - 1)
+        return range->to;
+    return range->from + (range->to - range->from) * index / (range->n - 1);
+}
+
+/* The values of a range as text nodes. */
+static bool spread(Family *family, Swept *swept, const CzRange *range) {
+    swept->value = cz_reader_allocate(family->reader, (size_t)range->n, sizeof(const CzNode *));
+    for (int i = 0; swept->value != NULL && i < range->n; i++) {
+        char number[CZ_NUMBER_TEXT];
+        cz_number_print(number, cz_range_value(range, i));
+        swept->value[i] = cz_node_text(&family->reader->arena, number, swept->entry->value);
+        if (swept->value[i] == NULL)
+            return false;
+    }
+    swept->n_value = range->n;
+    return swept->value != NULL;
+}
+
+static bool list_values(Family *family, Swept *swept) {
+    const CzNode *value = swept->entry->value;
+    CzRange range;
+    if (value->kind == CZ_NODE_TEXT && !value->quoted && cz_range_parse(value->text, &range))
+        return spread(family, swept, &range);
+    if (value->kind != CZ_NODE_LIST || value->n_entry == 0) {
+        cz_mistake(&family->reader->mistakes, value, swept->entry->trail,
+                   "'%s' in sweep needs a list of values, or a range such as 5:40:8",
+                   swept->entry->key->text);
+        return false;
+    }
+    swept->value =
+        cz_reader_allocate(family->reader, (size_t)value->n_entry, sizeof(const CzNode *));
+    if (swept->value == NULL)
+        return false;
+    swept->n_value = value->n_entry;
+    for (int i = 0; i < value->n_entry; i++)
+        swept->value[i] = value->entry[i].value;
+    return true;
+}
+
+/* Whether a scenario gives a key that its sweep gives too, in whatever unit. */
+static bool stands_twice(Family *family, const CzEntry *swept) {
+    for (int i = 0; i < family->node->n_entry; i++) {
+        const CzNode *key = family->node->entry[i].key;
+        if (!cz_key_same_stem(key->text, swept->key->text))
+            continue;
+        cz_mistake(&family->reader->mistakes, swept->key, swept->trail,
+                   "'%s' is swept and has a value of its own too", swept->key->text);
+        return true;
+    }
+    return false;
+}
+
+static bool read_sweep(Family *family) {
+    CzReader *reader = family->reader;
+    const CzNode *sweep = family->sweep->value;
+    static const char *const fixed[] = {"name", "family", "sweep", "trains"};
+    if (sweep->kind != CZ_NODE_MAPPING || sweep->n_entry == 0 || sweep->n_entry > MOST_SWEPT) {
+        cz_mistake(&reader->mistakes, sweep, family->sweep->trail,
+                   "'sweep' needs a mapping of 1 to %d keys of a scenario with a list each",
+                   (int)MOST_SWEPT);
+        return false;
+    }
+    family->n_member = 1;
+    for (int i = 0; i < sweep->n_entry; i++) {
+        Swept *swept = &family->swept[family->n_swept++];
+        *swept = (Swept){.entry = &sweep->entry[i]};
+        for (int k = 0; k < 4; k++)
+            if (strcmp(swept->entry->key->text, fixed[k]) == 0) {
+                cz_mistake(&reader->mistakes, swept->entry->key, swept->entry->trail,
+                           "'%s' cannot be swept", fixed[k]);
+                return false;
+            }
+        if (stands_twice(family, swept->entry) || !list_values(family, swept))
+            return false;
+        family->n_member *= swept->n_value;
+        if (family->n_member > MOST_MEMBERS) {
+            cz_mistake(&reader->mistakes, family->sweep->key, family->sweep->trail,
+                       "a sweep has at most %d members", (int)MOST_MEMBERS);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ---- members ---- */
+
+/* Which value of a swept key a member has; the last key changes fastest. */
+static const CzNode *value_of(const Family *family, int member, int key) {
+    for (int i = family->n_swept - 1; i > key; i--)
+        member /= family->swept[i].n_value;
+    return family->swept[key].value[member % family->swept[key].n_value];
+}
+
+/* The family's name, then each value with its unit. */
+static void name_member(const Family *family, const char *name, int member,
+                        char text[LONGEST_MEMBER]) {
+    size_t used = (size_t)snprintf(text, LONGEST_MEMBER, "%.48s", name);
+    for (int i = 0; i < family->n_swept && used < LONGEST_MEMBER; i++) {
+        const char *key = family->swept[i].entry->key->text;
+        const char *unit = key + cz_key_stem_length(key);
+        const CzNode *value = value_of(family, member, i);
+        used += (size_t)snprintf(text + used, LONGEST_MEMBER - used, "_%.40s%s",
+                                 value->kind == CZ_NODE_TEXT ? value->text : "",
+                                 unit[0] == '_' ? unit + 1 : "");
+    }
+}
+
+static bool add_text(CzReader *reader, CzNode *mapping, const char *key, const char *text,
+                     const CzNode *place) {
+    CzEntry *entry = &mapping->entry[mapping->n_entry++];
+    *entry = (CzEntry){cz_node_text(&reader->arena, key, place),
+                       cz_node_text(&reader->arena, text, place), NULL};
+    return entry->key != NULL && entry->value != NULL;
+}
+
+/* The mapping of one member; NULL without memory. */
+static const CzNode *member_node(const Family *family, const CzEntry *name, int member) {
+    CzArena *arena = &family->reader->arena;
+    CzNode *node = cz_node_copy(arena, family->node, family->n_swept + 2);
+    if (node == NULL)
+        return NULL;
+    node->n_entry = 0;
+    bool has_family = false;
+    for (int i = 0; i < family->node->n_entry; i++) {
+        const CzEntry *entry = &family->node->entry[i];
+        has_family |= strcmp(entry->key->text, "family") == 0;
+        if (entry != family->sweep && entry != name)
+            node->entry[node->n_entry++] = *entry;
+    }
+    char text[LONGEST_MEMBER];
+    name_member(family, name->value->text, member, text);
+    if (!add_text(family->reader, node, "name", text, name->value) ||
+        (!has_family && !add_text(family->reader, node, "family", name->value->text, name->value)))
+        return NULL;
+    for (int i = 0; i < family->n_swept; i++) {
+        node->entry[node->n_entry] = *family->swept[i].entry;
+        node->entry[node->n_entry++].value = value_of(family, member, i);
+    }
+    return node;
+}
+
+/* Appends the members of a scenario, or the scenario itself when it has no sweep that can be
+ * written out. */
+static bool append_scenario(CzReader *reader, CzNode *list, const CzTree *tree,
+                            const CzEntry *entry) {
+    const CzNode *scenario = cz_take_part(reader, tree, entry->value, entry->trail);
+    if (scenario == NULL)
+        return false;
+    Family family = {.reader = reader, .node = scenario, .sweep = cz_node_find(scenario, "sweep")};
+    const CzEntry *name = cz_node_find(scenario, "name");
+    const bool is_family = family.sweep != NULL && name != NULL &&
+                           name->value->kind == CZ_NODE_TEXT && read_sweep(&family);
+    const int n = is_family ? family.n_member : 1;
+    CzEntry *more = cz_reader_allocate(reader, (size_t)(list->n_entry + n), sizeof *more);
+    if (more == NULL)
+        return false;
+    if (list->n_entry > 0)
+        memcpy(more, list->entry, (size_t)list->n_entry * sizeof *more);
+    list->entry = more;
+    for (int i = 0; i < n; i++) {
+        CzEntry *item = &list->entry[list->n_entry++];
+        *item = *entry;
+        if (is_family)
+            item->value = member_node(&family, name, i);
+        else if (family.sweep != NULL) /* its mistake was told */
+            item->value = cz_node_without(&reader->arena, scenario, "sweep");
+        if (item->value == NULL)
+            return false;
+    }
+    return true;
+}
+
+const CzNode *cz_families_write_out(CzReader *reader, const CzTree *tree) {
+    const CzEntry *entry = cz_node_find(tree->root, "scenarios");
+    bool any = false;
+    for (int i = 0; entry != NULL && i < entry->value->n_entry; i++)
+        any |= cz_node_find(entry->value->entry[i].value, "sweep") != NULL;
+    if (!any || entry->value->kind != CZ_NODE_LIST)
+        return tree->root;
+    CzNode *root = cz_node_copy(&reader->arena, tree->root, 0);
+    CzNode *list = cz_node_copy(&reader->arena, entry->value, 0);
+    if (root == NULL || list == NULL)
+        return NULL;
+    list->n_entry = 0;
+    for (int i = 0; i < entry->value->n_entry; i++)
+        if (!append_scenario(reader, list, tree, &entry->value->entry[i]))
+            return NULL;
+    root->entry[entry - tree->root->entry].value = list;
+    return root;
+}

@@ -6,6 +6,8 @@
  *                                  |
  *                                  +--> cz_optimise --> CzOutcome --> report
  *
+ *   problem file --> cz_sweep --> CzSweep (the same line for every value of a path) --> report
+ *
  * SI units inside; compression positive, x forward, z up, pitch positive nose-up.
  */
 #ifndef CRUSHZONE_CRUSHZONE_H
@@ -18,5 +20,6 @@
 #include "crushzone/report.h"
 #include "crushzone/simulate.h"
 #include "crushzone/status.h"
+#include "crushzone/sweep.h"
 
 #endif

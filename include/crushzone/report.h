@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "crushzone/optimise.h"
+#include "crushzone/sweep.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -55,6 +56,16 @@ CZ_API void cz_report_write_table(const CzProblem *problem, const CzEvaluation *
                                   bool colour, FILE *stream);
 CZ_API void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,
                                           const CzOutcome *outcome, bool colour, FILE *stream);
+
+/* A sweep: the document `crushzone.sweep`, the table of one path or the map of two, a folder with
+ * sweep.json and sweep.csv. Statuses as above. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_sweep(const CzSweep *sweep,
+                                                    const CzReportOptions *options, FILE *stream,
+                                                    CzError *error);
+CZ_API void cz_report_write_sweep_table(const CzSweep *sweep, bool colour, FILE *stream);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_sweep_folder(const CzSweep *sweep,
+                                                           const CzReportOptions *options,
+                                                           const char *path, CzError *error);
 
 /* The optimum as a problem file for `folder`: `extends:` the problem's file and `set:` the best
  * values, to the last bit. A problem that came from standard input is written out whole. */

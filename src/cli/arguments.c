@@ -2,6 +2,7 @@
 #include "cli/arguments.h"
 
 #include "base/suggest.h"
+#include "crushzone/sweep.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -133,6 +134,12 @@ static CzStatus keep_option(Reader *reader, int option, const char *value) {
     arguments->text[option] = value != NULL ? value : "";
     if (option == CZ_OPTION_SET)
         arguments->set[arguments->n_set++] = value;
+    else if (option == CZ_OPTION_VARY)
+        arguments->vary[arguments->n_vary++] = value;
+    else if (option == CZ_OPTION_METRIC)
+        arguments->metric[arguments->n_metric++] = value;
+    else if (option == CZ_OPTION_CHECK)
+        arguments->check[arguments->n_check++] = value;
     return CZ_OK;
 }
 
@@ -248,6 +255,9 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
     for (int i = 0; i < arguments->n_set; i++)
         if (strchr(arguments->set[i], '=') == NULL || arguments->set[i][0] == '=')
             return misuse(error, "'--set %.100s' is not of the form PATH=VALUE", arguments->set[i]);
+    if (arguments->command == CZ_COMMAND_SWEEP &&
+        (arguments->n_vary < 1 || arguments->n_vary > CZ_MOST_AXES))
+        return misuse(error, "'crushzone sweep' needs --vary PATH=A:B:N once or twice");
     if (arguments->text[CZ_OPTION_JSON] != NULL && arguments->n_operand > 1)
         return misuse(error, "with --json 'crushzone %s' takes one FILE: it prints one document",
                       info->name);
@@ -267,7 +277,11 @@ CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzErro
         return unknown_command(argv[1], error);
     arguments->operand = calloc((size_t)argc, sizeof *arguments->operand);
     arguments->set = calloc((size_t)argc + 1, sizeof *arguments->set);
-    if (arguments->operand == NULL || arguments->set == NULL) {
+    arguments->vary = calloc((size_t)argc, sizeof *arguments->vary);
+    arguments->metric = calloc((size_t)argc, sizeof *arguments->metric);
+    arguments->check = calloc((size_t)argc, sizeof *arguments->check);
+    if (arguments->operand == NULL || arguments->set == NULL || arguments->vary == NULL ||
+        arguments->metric == NULL || arguments->check == NULL) {
         misuse(error, "no memory for the command line");
         return error->status = CZ_STATUS_NO_MEMORY;
     }
@@ -283,5 +297,9 @@ CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzErro
 void cz_arguments_free(CzArguments *arguments) {
     free(arguments->operand);
     free(arguments->set);
+    free(arguments->vary);
+    free(arguments->metric);
+    free(arguments->check);
     arguments->operand = arguments->set = NULL;
+    arguments->vary = arguments->metric = arguments->check = NULL;
 }

@@ -45,6 +45,12 @@ typedef struct CzArguments {
     int n_operand;
     const char **set; /* "path=value" texts in order (n_set) */
     int n_set;
+    const char **vary; /* "path=a:b:n" texts (n_vary) */
+    int n_vary;
+    const char **metric; /* names (n_metric) */
+    int n_metric;
+    const char **check; /* names (n_check) */
+    int n_check;
     char time_step[64]; /* room for the setting that --time-step-ms stands for */
     int n_job;          /* 0: as many as there are processors */
     long evaluations;   /* 0: the file's */

@@ -1,31 +1,14 @@
 /* `optimise`: search, keep the best on the first signal, print before and after. */
 #include "cli/command.h"
+#include "cli/interrupt.h"
 #include "cli/messages.h"
 #include "cli/progress.h"
 #include "cli/session.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
 
 static const char default_folder[] = "out";
-
-/* The signal that asked the search to stop, 0 when none did. */
-static volatile sig_atomic_t stop_signal;
-
-/* The first signal stops the search and the best design is written; the second ends at once. */
-static void on_signal(int signal_number) {
-    if (stop_signal != 0)
-        _exit(128 + signal_number);
-    stop_signal = signal_number;
-}
-
-static void catch_signals(void) {
-    struct sigaction action = {.sa_handler = on_signal};
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
 
 static CzStatus search(CzSession *session, CzOutcome **outcome, CzError *error) {
     const CzArguments *arguments = session->arguments;
@@ -37,11 +20,11 @@ static CzStatus search(CzSession *session, CzOutcome **outcome, CzError *error) 
         options.evaluations = arguments->evaluations;
     if (arguments->seed >= 0)
         options.seed = arguments->seed;
-    options.stop = &stop_signal;
+    options.stop = cz_interrupt_flag();
     options.progress = cz_progress_show;
     options.progress_data = &line;
 
-    catch_signals();
+    cz_interrupt_catch();
     cz_progress_begin(&line, arguments, cz_evaluator_objective_unit(session->evaluator));
     const CzStatus status = cz_optimise(session->evaluator, &options, outcome, error);
     cz_progress_end(&line);
@@ -55,7 +38,7 @@ static int judge(const CzOutcome *outcome) {
     case CZ_OUTCOME_INFEASIBLE:
         return cz_status_exit_code(CZ_STATUS_VIOLATED);
     case CZ_OUTCOME_INTERRUPTED:
-        return 128 + (stop_signal != 0 ? (int)stop_signal : SIGINT);
+        return 128 + cz_interrupt_signal();
     }
     return cz_status_exit_code(CZ_STATUS_INTERNAL);
 }

@@ -6,7 +6,9 @@ set(CZ_SOURCES_cli
     command_optimise.c
     command_problem.c
     command_run.c
+    command_sweep.c
     help.c
+    interrupt.c
     main.c
     messages.c
     progress.c

@@ -10,5 +10,7 @@ set(CZ_SOURCES_evaluate
     place.c
     runs.c
     scene.c
+    sweep.c
+    sweep_axis.c
     tasks.c
 )

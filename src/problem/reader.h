@@ -145,18 +145,6 @@ void cz_vehicle_name(char *text, size_t size, const CzNode *vehicle, const char 
 
 /* ---- families.c ---- */
 
-enum { CZ_MOST_IN_RANGE = 500 };
-
-/* Evenly spaced values, both ends among them. */
-typedef struct CzRange {
-    double from, to;
-    int n; /* 2 to CZ_MOST_IN_RANGE */
-} CzRange;
-
-/* Reads a text such as "5:40:8"; false when it is none. */
-bool cz_range_parse(const char *text, CzRange *range);
-double cz_range_value(const CzRange *range, int index);
-
 /* The root with every scenario that has `sweep` written out as its members; NULL without memory. */
 const CzNode *cz_families_write_out(CzReader *reader, const CzTree *tree);
 

@@ -13,6 +13,7 @@ set(CZ_SOURCES_problem
     path.c
     problem.c
     profile.c
+    range.c
     reduce_curve.c
     rules.c
     rules_design.c

@@ -165,3 +165,27 @@ void cz_csv_write_history(const CzOutcome *outcome, const CzReportOptions *optio
         end_row(&table);
     }
 }
+
+void cz_csv_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FILE *stream) {
+    static const char *const names[] = {"state", "verdict", "margin", "check", "where", "scenario"};
+    Table table = table_of(options, stream);
+    for (int k = 0; k < sweep->n_axis; k++)
+        put_text(&table, sweep->axis[k].path);
+    for (int k = 0; k < sweep->n_metric; k++)
+        put_text(&table, sweep->metric[k]);
+    put_names(&table, (int)(sizeof names / sizeof *names), names);
+    for (int i = 0; i < sweep->n_point; i++) {
+        const CzSweepPoint *point = &sweep->point[i];
+        for (int k = 0; k < sweep->n_axis; k++)
+            put_number(&table, point->value[k]);
+        for (int k = 0; k < sweep->n_metric; k++)
+            put_number(&table, point->metric[k]);
+        put_text(&table, cz_sweep_state_text(point->state));
+        put_text(&table, point->state == CZ_SWEEP_DONE ? cz_verdict_text(point->verdict) : NULL);
+        put_number(&table, point->margin);
+        put_text(&table, point->check);
+        put_text(&table, point->where);
+        put_text(&table, point->scenario);
+        end_row(&table);
+    }
+}

@@ -12,5 +12,6 @@ set(CZ_SOURCES_report
     overlay.c
     result_folder.c
     summary.c
+    sweep.c
     table.c
 )

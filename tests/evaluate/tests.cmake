@@ -1,2 +1,3 @@
 cz_test(test_evaluator unit test_evaluator.c stand_in.c small_problem.c)
 cz_test(test_refusals unit test_refusals.c stand_in.c small_problem.c)
+cz_test(test_sweep unit test_sweep.c)

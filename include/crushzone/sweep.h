@@ -1,0 +1,105 @@
+/* Sweeps: any one or two values of a problem file go over a range, and every point is judged.
+ *
+ * Each point is the problem read anew with its values set, as with `--set`, so that any path may be
+ * swept: speeds, offsets, masses, stiffnesses, gaps. Points are independent and run on all threads;
+ * a point's answer is that of the same problem run alone, to the last bit.
+ */
+#ifndef CRUSHZONE_SWEEP_H
+#define CRUSHZONE_SWEEP_H
+
+#include <signal.h>
+#include <stddef.h>
+
+#include "crushzone/evaluate.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { CZ_MOST_AXES = 2, CZ_MOST_SWEPT_METRICS = 8 };
+
+/* A path with its values: n evenly spaced ones from `from` to `to`, in the unit of the path's key.
+ */
+typedef struct CzSweepAxis {
+    char path[160];
+    double from, to;
+    int n; /* at least 2 */
+} CzSweepAxis;
+
+/* Reads a text such as "trains.A.speed_km_h=5:40:8". Status: CZ_OK, CZ_STATUS_INPUT. */
+CZ_MUST_CHECK CZ_API CzStatus cz_sweep_axis_parse(const char *text, CzSweepAxis *axis,
+                                                  CzError *error);
+
+/* The index-th value of an axis. */
+CZ_API double cz_sweep_axis_value(const CzSweepAxis *axis, int index);
+
+typedef struct CzSweepOptions {
+    int n_axis;
+    const CzSweepAxis *axis; /* one or two (n_axis) */
+    int n_metric;
+    const char *const
+        *metric; /* to be told of each point, such as "vehicles.bogie_lift_mm"; without
+                    a word at the end the largest of all places and scenarios, with
+                    ".min" the smallest (n_metric) */
+    int n_check;
+    const char *const *check; /* names of checks that points are judged by; all when 0 (n_check) */
+    const char *scenario;     /* this scenario or family only; NULL for all */
+    int n_job;                /* threads; 0 takes the number of processors */
+    const char *text;         /* what is read instead of the file; NULL for the file */
+    size_t n_text;            /* [byte] */
+    const volatile sig_atomic_t *stop; /* a flag that ends the sweep when not 0; NULL when none */
+    void (*progress)(int n_done, int n_point, void *data); /* NULL when none */
+    void *progress_data;
+} CzSweepOptions;
+CZ_API CzSweepOptions cz_sweep_options_default(void);
+
+/* What became of a point. */
+typedef enum CzSweepState {
+    CZ_SWEEP_DONE,
+    CZ_SWEEP_RUN_FAILED, /* a run failed or is incomplete */
+    CZ_SWEEP_INVALID,    /* no problem file may hold these values; `message` says why */
+    CZ_SWEEP_NOT_RUN     /* interrupted before */
+} CzSweepState;
+CZ_API const char *cz_sweep_state_text(CzSweepState state);
+
+typedef struct CzSweepPoint {
+    double value[CZ_MOST_AXES]; /* in the units of the paths */
+    CzSweepState state;
+    CzVerdict verdict; /* over the checks asked for; CZ_VERDICT_NOT_CHECKED unless done */
+    double margin;     /* smallest of them; NaN when none has one */
+    char check[96];    /* the check with that margin, its scenario and place; empty when none */
+    char scenario[64];
+    char where[48];
+    double metric[CZ_MOST_SWEPT_METRICS]; /* in the metrics' units; NaN when unknown (n_metric) */
+    char metric_where[CZ_MOST_SWEPT_METRICS][112]; /* place and scenario (n_metric) */
+    char message[256];                             /* why it is invalid or failed */
+} CzSweepPoint;
+
+/* Open result, owns its memory. */
+typedef struct CzSweep {
+    int n_axis;
+    CzSweepAxis axis[CZ_MOST_AXES];
+    int n_metric;
+    char metric[CZ_MOST_SWEPT_METRICS][96];
+    const char *metric_unit[CZ_MOST_SWEPT_METRICS]; /* static */
+    int n_point;                                    /* product of the axes' lengths */
+    CzSweepPoint *point;                            /* the last axis changes fastest (n_point) */
+    int worst; /* a point whose run failed, else the one with the smallest margin; -1 when none is
+                  done */
+    bool is_interrupted;
+    CzProblem *problem; /* as written, for titles and warnings */
+    double wall_s;
+} CzSweep;
+
+/* Sweeps a problem file. *sweep is made whenever CZ_OK is returned, an interrupted sweep included.
+ * Statuses: CZ_OK, CZ_STATUS_INPUT for a file, path, metric or check that is wrong at every point,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_sweep(const char *file, const CzProblemOptions *problem_options,
+                                       const CzSweepOptions *options, CzSweep **sweep,
+                                       CzError *error);
+CZ_API void cz_sweep_free(CzSweep *sweep);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

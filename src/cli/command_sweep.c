@@ -1,0 +1,112 @@
+/* `sweep`: any one or two paths over a range, every point judged; what was done is kept on the
+ * first signal. */
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/messages.h"
+#include "cli/progress.h"
+#include "cli/session.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+static void show_progress(int n_done, int n_point, void *data) {
+    const CzArguments *arguments = data;
+    if (isatty(STDERR_FILENO) && arguments->text[CZ_OPTION_QUIET] == NULL)
+        fprintf(stderr, "\r%d of %d points%s", n_done, n_point,
+                n_done == n_point ? "\r\033[K" : "");
+}
+
+/* Reads what `--vary` says; returns the exit code. */
+static int read_axes(const CzArguments *arguments, CzSweepAxis axis[CZ_MOST_AXES]) {
+    CzError error = {0};
+    for (int k = 0; k < arguments->n_vary; k++)
+        if (cz_sweep_axis_parse(arguments->vary[k], &axis[k], &error) != CZ_OK)
+            return cz_tell_error(arguments, &error);
+    return 0;
+}
+
+static int judge(const CzArguments *arguments, const CzSweep *sweep) {
+    if (sweep->is_interrupted)
+        return 128 + cz_interrupt_signal();
+    bool passes = true;
+    for (int i = 0; i < sweep->n_point; i++) {
+        const CzSweepPoint *point = &sweep->point[i];
+        if (point->state == CZ_SWEEP_RUN_FAILED) {
+            cz_tell(arguments, "a run failed or is incomplete: its point is no basis for a design");
+            return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
+        }
+        passes &= point->state == CZ_SWEEP_DONE &&
+                  (point->verdict == CZ_VERDICT_PASS || point->verdict == CZ_VERDICT_PROVISIONAL);
+    }
+    const bool judges = arguments->text[CZ_OPTION_STRICT] != NULL;
+    return judges && !passes ? cz_status_exit_code(CZ_STATUS_VIOLATED) : 0;
+}
+
+static int answer(const CzSession *session, const CzSweep *sweep) {
+    const CzArguments *arguments = session->arguments;
+    const CzReportOptions options = cz_session_report_options(session, sweep->wall_s);
+    const char *folder = arguments->text[CZ_OPTION_OUTPUT];
+    CzError error = {0};
+    CzStatus status = CZ_OK;
+    if (folder != NULL)
+        status = cz_report_write_sweep_folder(sweep, &options, folder, &error);
+    if (status == CZ_OK && arguments->text[CZ_OPTION_JSON] != NULL)
+        status = cz_report_write_sweep(sweep, &options, stdout, &error);
+    else if (status == CZ_OK)
+        cz_report_write_sweep_table(sweep, cz_wants_colour(arguments, STDOUT_FILENO), stdout);
+    if (status != CZ_OK) {
+        cz_print_mistake(arguments, "error", NULL, &error);
+        return cz_status_exit_code(status);
+    }
+    cz_tell(arguments, "%d points in %.3g s%s%s", sweep->n_point, sweep->wall_s,
+            folder != NULL ? ", results in " : "", folder != NULL ? folder : "");
+    return judge(arguments, sweep);
+}
+
+static int sweep_file(const CzSession *session, const CzSweepAxis *axis) {
+    const CzArguments *arguments = session->arguments;
+    CzProblemOptions problem_options = cz_problem_options_default();
+    problem_options.set = arguments->set;
+    problem_options.n_set = arguments->n_set;
+    CzSweepOptions options = cz_sweep_options_default();
+    options.n_axis = arguments->n_vary;
+    options.axis = axis;
+    options.n_metric = arguments->n_metric;
+    options.metric = arguments->metric;
+    options.n_check = arguments->n_check;
+    options.check = arguments->check;
+    options.scenario = arguments->text[CZ_OPTION_SCENARIO];
+    options.n_job = arguments->n_job;
+    options.text = session->text;
+    options.n_text = session->n_text;
+    options.stop = cz_interrupt_flag();
+    options.progress = show_progress;
+    options.progress_data = (void *)arguments;
+    CzSweep *sweep = NULL;
+    CzError error = {0};
+    int code;
+    cz_interrupt_catch();
+    if (cz_sweep(session->file, &problem_options, &options, &sweep, &error) == CZ_OK)
+        code = answer(session, sweep);
+    else
+        code = cz_tell_error(arguments, &error);
+    cz_sweep_free(sweep);
+    return code;
+}
+
+int cz_command_sweep(const CzArguments *arguments) {
+    CzSweepAxis axis[CZ_MOST_AXES];
+    CzError error = {0};
+    CzSession session;
+    int code = read_axes(arguments, axis);
+    if (code != 0)
+        return code;
+    code = cz_session_read(&session, arguments, arguments->operand[0]); /* tells every mistake */
+    const char *folder = arguments->text[CZ_OPTION_OUTPUT];
+    if (code == 0 && folder != NULL && cz_report_check_folder(folder, &error) != CZ_OK)
+        code = cz_tell_error(arguments, &error); /* before anything runs in vain */
+    if (code == 0)
+        code = sweep_file(&session, axis);
+    cz_session_end(&session);
+    return code;
+}

@@ -1,0 +1,29 @@
+/* Signals that end a long command. */
+#include "cli/interrupt.h"
+
+#include <stddef.h>
+#include <unistd.h>
+
+/* The signal that asked to stop, 0 when none did. */
+static volatile sig_atomic_t stop_signal;
+
+static void on_signal(int signal_number) {
+    if (stop_signal != 0)
+        _exit(128 + signal_number);
+    stop_signal = signal_number;
+}
+
+void cz_interrupt_catch(void) {
+    struct sigaction action = {.sa_handler = on_signal};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+const volatile sig_atomic_t *cz_interrupt_flag(void) {
+    return &stop_signal;
+}
+
+int cz_interrupt_signal(void) {
+    return stop_signal != 0 ? (int)stop_signal : SIGINT;
+}

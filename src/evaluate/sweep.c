@@ -1,0 +1,334 @@
+/* Sweeps: each point is the problem read anew with other values, and run alone.
+ *
+ * Points are tasks of one thread each. They are handed out in waves, between which progress is told
+ * and the stop flag is looked at.
+ */
+#include "crushzone/sweep.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/error.h"
+#include "base/number.h"
+#include "evaluate/evaluator_parts.h"
+#include "evaluate/tasks.h"
+
+enum { POINTS_PER_JOB = 4 }; /* of a wave */
+
+/* What all points share. */
+typedef struct Sweeping {
+    const char *file;
+    const CzProblemOptions *problem_options;
+    const CzSweepOptions *options;
+    CzMetric metric[CZ_MOST_SWEPT_METRICS];
+    CzSweep *sweep;
+    CzStatus *status; /* of each point (n_point) */
+    CzError *error;   /* (n_point) */
+    int first;        /* point of the wave */
+} Sweeping;
+
+/* ---- one point ------------------------------------------------------------------------------- */
+
+/* Reads the problem with the values of a point; `point` NULL reads it as written. */
+static CzStatus read_problem(const Sweeping *sweeping, const CzSweepPoint *point,
+                             CzProblem **problem, CzError *error) {
+    const CzSweepOptions *options = sweeping->options;
+    CzProblemOptions with = *sweeping->problem_options;
+    char text[CZ_MOST_AXES][sizeof options->axis->path + CZ_NUMBER_TEXT + 1];
+    const char **set = malloc(((size_t)with.n_set + CZ_MOST_AXES) * sizeof *set);
+    if (set == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the settings of a point");
+    for (int i = 0; i < with.n_set; i++)
+        set[i] = with.set[i];
+    for (int i = 0; point != NULL && i < options->n_axis; i++) {
+        char number[CZ_NUMBER_TEXT];
+        snprintf(text[i], sizeof text[i], "%s=%s", options->axis[i].path,
+                 cz_number_print(number, point->value[i]));
+        set[with.n_set++] = text[i];
+    }
+    with.set = set;
+    const CzStatus status =
+        options->text != NULL ? cz_problem_read_text(options->text, options->n_text,
+                                                     "<standard input>", ".", &with, problem, error)
+                              : cz_problem_read(sweeping->file, &with, problem, error);
+    free(set);
+    return status;
+}
+
+/* Values of the metrics over all scenarios. Called with the runs of a point that all came to their
+ * end. */
+typedef struct Reading {
+    const Sweeping *sweeping;
+    const CzEvaluator *evaluator;
+    CzSweepPoint *point;
+} Reading;
+
+static double read_metrics(int n_scenario, const CzRunSummary *const *run, void *data) {
+    const Reading *reading = data;
+    const CzEvaluator *evaluator = reading->evaluator;
+    const CzInput *input = cz_problem_input(evaluator->problem);
+    for (int k = 0; k < reading->sweeping->options->n_metric; k++) {
+        const CzMetric *metric = &reading->sweeping->metric[k];
+        const bool smallest = metric->aggregate == CZ_AGGREGATE_MIN;
+        for (int s = 0; s < n_scenario; s++) {
+            if (run[s] == NULL)
+                continue;
+            const CzSubject subject = {.scene = &evaluator->scene[s],
+                                       .run = run[s],
+                                       .problem = evaluator->problem,
+                                       .vehicles = evaluator->vehicles,
+                                       .n_vehicle = evaluator->n_vehicle,
+                                       .n_first_train =
+                                           input->trains[evaluator->scene[s].train[0]].n_vehicles,
+                                       .input = input,
+                                       .rate = evaluator->rate};
+            const CzMetricValue value = cz_metric_value(metric, &subject, !smallest);
+            double *worst = &reading->point->metric[k];
+            const bool is_worse =
+                isnan(*worst) || (smallest ? value.value < *worst : value.value > *worst);
+            if (value.known != CZ_KNOWN || !is_worse)
+                continue;
+            *worst = value.value;
+            snprintf(reading->point->metric_where[k], sizeof reading->point->metric_where[k],
+                     "%s%s%s", value.where, value.where[0] != '\0' ? ", " : "",
+                     evaluator->scene[s].name);
+        }
+    }
+    return 0;
+}
+
+static bool is_asked_for(const CzSweepOptions *options, const CzCheckResult *check) {
+    for (int i = 0; i < options->n_check; i++)
+        if (strcmp(options->check[i], check->name) == 0)
+            return true;
+    return options->n_check == 0;
+}
+
+/* Verdict and smallest margin over the checks that were asked for. */
+static CzStatus judge(const CzSweepOptions *options, const CzEvaluation *evaluation,
+                      CzSweepPoint *point, CzError *error) {
+    static const int badness[] = {[CZ_VERDICT_PASS] = 0,
+                                  [CZ_VERDICT_PROVISIONAL] = 1,
+                                  [CZ_VERDICT_NOT_CHECKED] = 2,
+                                  [CZ_VERDICT_FAIL] = 3};
+    CzVerdict verdict = CZ_VERDICT_PASS;
+    bool any = false;
+    for (int i = 0; i < evaluation->n_check; i++) {
+        const CzCheckResult *check = &evaluation->check[i];
+        if (!is_asked_for(options, check))
+            continue;
+        any = true;
+        if (badness[check->verdict] > badness[verdict])
+            verdict = check->verdict;
+        if (!isfinite(check->margin) || check->margin >= point->margin)
+            continue;
+        point->margin = check->margin;
+        snprintf(point->check, sizeof point->check, "%.95s", check->name);
+        snprintf(point->scenario, sizeof point->scenario, "%.63s", check->scenario);
+        snprintf(point->where, sizeof point->where, "%.47s", check->where);
+    }
+    if (!any && options->n_check > 0)
+        return cz_fail(error, CZ_STATUS_INPUT, "the problem has no check '%.200s'",
+                       options->check[0]);
+    point->verdict = options->n_check > 0 ? verdict : evaluation->verdict;
+    return CZ_OK;
+}
+
+/* Says which run of a point failed or did not come to its end. */
+static void note_failure(const CzEvaluation *evaluation, CzSweepPoint *point) {
+    for (int i = 0; i < evaluation->n_check; i++)
+        if (evaluation->check[i].verdict == CZ_VERDICT_NOT_CHECKED &&
+            evaluation->check[i].why != NULL && isnan(evaluation->check[i].value)) {
+            snprintf(point->message, sizeof point->message, "%.80s: %.160s",
+                     evaluation->check[i].scenario, evaluation->check[i].why);
+            return;
+        }
+}
+
+static CzStatus evaluate(const Sweeping *sweeping, CzProblem *problem, CzSweepPoint *point,
+                         CzError *error) {
+    CzEvaluatorOptions options = cz_evaluator_options_default();
+    options.n_job = 1;
+    options.scenario = sweeping->options->scenario;
+    CzEvaluator *evaluator = NULL;
+    CzEvaluation evaluation = {0};
+    CzStatus status = cz_evaluator_build(problem, &options, &evaluator, error);
+    if (status != CZ_OK)
+        return status;
+    Reading reading = {sweeping, evaluator, point};
+    cz_evaluator_set_stop(evaluator, sweeping->options->stop);
+    cz_evaluator_set_objective(evaluator, "none", "", read_metrics, &reading);
+    status = cz_evaluate(evaluator, 1, NULL, false, &evaluation, error);
+    if (status == CZ_OK && evaluation.status != CZ_OK) {
+        point->state = CZ_SWEEP_RUN_FAILED;
+        note_failure(&evaluation, point);
+    } else if (status == CZ_OK) {
+        point->state = CZ_SWEEP_DONE;
+        point->margin = INFINITY;
+        status = judge(sweeping->options, &evaluation, point, error);
+        if (!isfinite(point->margin))
+            point->margin = NAN;
+    }
+    cz_evaluation_free(&evaluation);
+    cz_evaluator_free(evaluator);
+    return status;
+}
+
+static void run_point(int index, void *data) {
+    const Sweeping *sweeping = data;
+    const int i = sweeping->first + index;
+    CzSweepPoint *point = &sweeping->sweep->point[i];
+    CzError *error = &sweeping->error[i];
+    CzProblem *problem = NULL;
+    CzStatus status = read_problem(sweeping, point, &problem, error);
+    if (status == CZ_OK)
+        status = evaluate(sweeping, problem, point, error);
+    cz_problem_free(problem);
+    sweeping->status[i] = status;
+    if (status == CZ_STATUS_INPUT) {
+        point->state = CZ_SWEEP_INVALID;
+        snprintf(point->message, sizeof point->message, "%.255s", error->message);
+    }
+}
+
+/* ---- all points ------------------------------------------------------------------------------ */
+
+static void lay_out(CzSweep *sweep) {
+    for (int i = 0; i < sweep->n_point; i++) {
+        CzSweepPoint *point = &sweep->point[i];
+        const int n_last = sweep->axis[sweep->n_axis - 1].n;
+        const int index[CZ_MOST_AXES] = {sweep->n_axis == 2 ? i / n_last : i, i % n_last};
+        for (int k = 0; k < sweep->n_axis; k++)
+            point->value[k] = cz_sweep_axis_value(&sweep->axis[k], index[k]);
+        point->state = CZ_SWEEP_NOT_RUN;
+        point->verdict = CZ_VERDICT_NOT_CHECKED;
+        point->margin = NAN;
+        for (int k = 0; k < CZ_MOST_SWEPT_METRICS; k++)
+            point->metric[k] = NAN;
+    }
+}
+
+static CzStatus prepare(Sweeping *sweeping, CzError *error) {
+    const CzSweepOptions *options = sweeping->options;
+    CzSweep *sweep = sweeping->sweep;
+    if (options->n_axis < 1 || options->n_axis > CZ_MOST_AXES)
+        return cz_fail(error, CZ_STATUS_INPUT, "a sweep has one or two paths, not %d",
+                       options->n_axis);
+    if (options->n_metric > CZ_MOST_SWEPT_METRICS)
+        return cz_fail(error, CZ_STATUS_INPUT, "a sweep tells at most %d metrics",
+                       (int)CZ_MOST_SWEPT_METRICS);
+    sweep->n_axis = options->n_axis;
+    sweep->n_metric = options->n_metric;
+    sweep->n_point = 1;
+    for (int k = 0; k < options->n_axis; k++) {
+        sweep->axis[k] = options->axis[k];
+        sweep->n_point *= options->axis[k].n;
+    }
+    for (int k = 0; k < options->n_metric; k++) {
+        CZ_TRY(cz_metric_parse(options->metric[k], &sweeping->metric[k], error));
+        snprintf(sweep->metric[k], sizeof sweep->metric[k], "%.95s", options->metric[k]);
+        sweep->metric_unit[k] = sweeping->metric[k].kind->unit;
+    }
+    const size_t n = (size_t)sweep->n_point;
+    sweep->point = calloc(n, sizeof *sweep->point);
+    sweeping->status = calloc(n, sizeof *sweeping->status);
+    sweeping->error = calloc(n, sizeof *sweeping->error);
+    if (sweep->point == NULL || sweeping->status == NULL || sweeping->error == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d points", sweep->n_point);
+    lay_out(sweep);
+    return read_problem(sweeping, NULL, &sweep->problem, error);
+}
+
+static bool is_stopped(const CzSweepOptions *options) {
+    return options->stop != NULL && *options->stop != 0;
+}
+
+static void run_all(Sweeping *sweeping) {
+    const CzSweepOptions *options = sweeping->options;
+    const int n_job = options->n_job > 0 ? options->n_job : cz_processor_count();
+    const int n_point = sweeping->sweep->n_point, n_wave = n_job * POINTS_PER_JOB;
+    while (sweeping->first < n_point && !is_stopped(options)) {
+        const int left = n_point - sweeping->first, n = left < n_wave ? left : n_wave;
+        cz_tasks_run(n, n_job, run_point, sweeping);
+        sweeping->first += n;
+        if (options->progress != NULL)
+            options->progress(sweeping->first, n_point, options->progress_data);
+    }
+    sweeping->sweep->is_interrupted = is_stopped(options);
+}
+
+/* A failure that no other point could have escaped ends the sweep. */
+static CzStatus conclude(const Sweeping *sweeping, CzError *error) {
+    CzSweep *sweep = sweeping->sweep;
+    bool any_valid = false;
+    for (int i = 0; i < sweep->n_point; i++) {
+        const CzStatus status = sweeping->status[i];
+        any_valid |= status != CZ_STATUS_INPUT;
+        if (status == CZ_OK || status == CZ_STATUS_INPUT || status == CZ_STATUS_INTERRUPTED)
+            continue;
+        if (error != NULL)
+            *error = sweeping->error[i];
+        return status;
+    }
+    if (!any_valid) {
+        if (error != NULL)
+            *error = sweeping->error[0];
+        return CZ_STATUS_INPUT;
+    }
+    sweep->worst = -1;
+    for (int i = 0; i < sweep->n_point; i++) {
+        const CzSweepPoint *point = &sweep->point[i];
+        const CzSweepPoint *worst = sweep->worst >= 0 ? &sweep->point[sweep->worst] : NULL;
+        const bool failed = point->state == CZ_SWEEP_RUN_FAILED;
+        if (failed && (worst == NULL || worst->state != CZ_SWEEP_RUN_FAILED))
+            sweep->worst = i;
+        else if (point->state == CZ_SWEEP_DONE && !isnan(point->margin) &&
+                 (worst == NULL ||
+                  (worst->state == CZ_SWEEP_DONE && point->margin < worst->margin)))
+            sweep->worst = i;
+    }
+    return CZ_OK;
+}
+
+static double seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+CzStatus cz_sweep(const char *file, const CzProblemOptions *problem_options,
+                  const CzSweepOptions *options, CzSweep **sweep, CzError *error) {
+    const double started = seconds();
+    const CzProblemOptions none = cz_problem_options_default();
+    *sweep = calloc(1, sizeof **sweep);
+    if (*sweep == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a sweep");
+    Sweeping sweeping = {.file = file,
+                         .problem_options = problem_options != NULL ? problem_options : &none,
+                         .options = options,
+                         .sweep = *sweep};
+    CzStatus status = prepare(&sweeping, error);
+    if (status == CZ_OK) {
+        run_all(&sweeping);
+        status = conclude(&sweeping, error);
+    }
+    free(sweeping.status);
+    free(sweeping.error);
+    (*sweep)->wall_s = seconds() - started;
+    if (status == CZ_OK)
+        return CZ_OK;
+    cz_sweep_free(*sweep);
+    *sweep = NULL;
+    return status;
+}
+
+void cz_sweep_free(CzSweep *sweep) {
+    if (sweep == NULL)
+        return;
+    cz_problem_free(sweep->problem);
+    free(sweep->point);
+    free(sweep);
+}

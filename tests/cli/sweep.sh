@@ -1,0 +1,32 @@
+# sweep: one path and two, what it prints and writes, how it is interrupted.
+. "$SOURCE/tests/support/cases.sh"
+. "$SOURCE/tests/cli/cli.sh"
+cars=$SOURCE/problems/two-cars-25kmh.yaml
+
+one() { exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:3 --metric vehicles.bogie_lift_mm --check override && says out.txt 'Worst: trains.A.speed_km_h = 50, FAIL: override' && says out.txt vehicles.bogie_lift_mm; }
+check "one path gets a line per value and its worst is named" one
+two() { exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 --vary trains.B.height_offset_mm=-40:40:3 --check override && says out.txt '10  + + +' && says out.txt '50  X X X'; }
+check "two paths get a map" two
+document() { exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 --json && json out.txt format crushzone.sweep && json out.txt points.1.verdict fail && json out.txt worst 1; }
+check "--json prints one document" document
+strict() { exits 1 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 --strict; }
+check "--strict judges by exit code" strict
+folder() { exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 -o swept && json swept/sweep.json format crushzone.sweep && [ "$(grep -c . swept/sweep.csv)" = 3 ] && exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 -o swept; }
+check "-o writes sweep.json and sweep.csv, and replaces its own" folder
+cut() { exits 3 "$C" sweep "$cars" --vary simulation.longest_s=0.05:6:2 && says out.txt 'RUN FAILED'; }
+check "a run that is cut short ends with 3" cut
+wrong() { exits 2 "$C" sweep "$cars" --vary trains.C.speed_km_h=1:2:2 && exits 2 "$C" sweep "$cars" && exits 2 "$C" sweep "$cars" --vary trains.A.speed_km_h=1 --json && json out.txt error.message; }
+check "a wrong path or range ends with 2" wrong
+piped() { "$C" new -q -o - | "$C" sweep - --vary trains.A.speed_km_h=10:20:2 >out.txt && says out.txt 'Worst: trains.A.speed_km_h'; }
+check "a problem may come from standard input" piped
+interrupted() {
+    "$C" sweep "$cars" --vary trains.A.speed_km_h=5:60:500 --vary trains.B.height_offset_mm=-40:40:500 --jobs 1 -o kept >out.txt 2>err.txt &
+    process=$!
+    sleep 1
+    kill -INT $process
+    code=0
+    wait $process || code=$?
+    [ $code = 130 ] && says out.txt INTERRUPTED && json kept/sweep.json status interrupted
+}
+check "Ctrl-C keeps what was run and ends with 130" interrupted
+finish

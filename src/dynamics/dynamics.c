@@ -1,6 +1,7 @@
 /* Memory of a run's moving part, and the choice of the kernel. */
 #include "dynamics/dynamics.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "laws/wheel_rail.h"
@@ -83,8 +84,28 @@ static void derive_constants(CzBlock *block) {
                                       {CZ_P_FOLD_STIFFNESS_REAR, CZ_C_FOLD_COMPLIANCE_REAR},
                                       {CZ_P_FOLD_STIFFNESS_FRONT, CZ_C_FOLD_COMPLIANCE_FRONT},
                                       {CZ_P_FACE_VERTICAL_STIFFNESS, CZ_C_GRIP_COMPLIANCE}};
+    /* Laws take these from 1 N/m on. */
+    static const int compliances[][2] = {
+        {CZ_P_BUFFER_TRANSITION_A, CZ_C_BUFFER_COMPLIANCE_A},
+        {CZ_P_BUFFER_TRANSITION_B, CZ_C_BUFFER_COMPLIANCE_B},
+        {CZ_P_SIDE_TRANSITION_A, CZ_C_SIDE_COMPLIANCE_A},
+        {CZ_P_SIDE_TRANSITION_B, CZ_C_SIDE_COMPLIANCE_B},
+        {CZ_P_END_UNLOADING_REAR, CZ_C_END_COMPLIANCE_REAR},
+        {CZ_P_END_UNLOADING_FRONT, CZ_C_END_COMPLIANCE_FRONT},
+        {CZ_P_END_SECOND_UNLOADING_REAR, CZ_C_END_SECOND_COMPLIANCE_REAR},
+        {CZ_P_END_SECOND_UNLOADING_FRONT, CZ_C_END_SECOND_COMPLIANCE_FRONT}};
     for (size_t k = 0; k < sizeof inverses / sizeof inverses[0]; ++k)
         invert(block, inverses[k][0], inverses[k][1]);
+    for (size_t k = 0; k < sizeof compliances / sizeof compliances[0]; ++k)
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+            block->constant[compliances[k][1]][i] =
+                1.0 / fmax(block->parameter[compliances[k][0]][i], 1.0);
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+        const double distance = block->parameter[CZ_P_PIVOT_DISTANCE][i];
+        const double rise =
+            block->parameter[CZ_P_COUPLED][i] * block->parameter[CZ_P_PIVOT_RISE][i];
+        block->constant[CZ_C_HINGE_REST][i] = distance > 0.0 ? rise / distance : 0.0;
+    }
     for (int axle = 0; axle < 4; ++axle)
         for (int i = 0; i < CZ_LANE_BLOCK; ++i)
             block->constant[CZ_C_STATIC_LOAD_0 + axle][i] = cz_wheel_normal_force(
@@ -154,6 +175,9 @@ static int start_block(CzBlock *block, const CzLanes *lanes, size_t base, CzAren
     for (int side = 0; side < 2; ++side)
         for (int i = 0; i < CZ_LANE_BLOCK; ++i)
             block->has_limp_end[side] |= block->parameter[CZ_P_LIMP_END_A + side][i] > 0.5;
+    for (int end = 0; end < 2; ++end)
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+            block->end_peak_at[end][i] = NAN;
     derive_constants(block);
     derive_pairs(lanes, block, base);
     start_extremes(block);

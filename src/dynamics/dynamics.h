@@ -81,11 +81,19 @@ typedef struct CzBlock {
     CzRow memories[2][CZ_N_MEMORY];        /* for `memory` and `next_memory` to swap */
     CzRow powers[2][CZ_N_LEDGER];          /* for `power` and `last_power` to swap */
     CzBlockCurve curve[CZ_N_CURVE];
-    int has_limp_end[2]; /* some lane's side A, B has a crush zone without end mass */
-    CzRow *memory;       /* committed (CZ_N_MEMORY) */
-    CzRow *next_memory;  /* of the last evaluation (CZ_N_MEMORY) */
-    CzRow *power;        /* of the last evaluation [W] (CZ_N_LEDGER) */
-    CzRow *last_power;   /* committed (CZ_N_LEDGER) */
+    int has_limp_end[2];    /* some lane's side A, B has a crush zone without end mass */
+    CzRow end_peak_at[2];   /* shortening at which `end_peak` was taken, NaN at the start */
+    CzRow end_peak[2];      /* backbone force of the rear and front crush zone there [N] */
+    CzRow coupler_reach;    /* closure up to which resting couplers do nothing [m] */
+    CzRow face_reach;       /* the same of the faces */
+    int couplers_rest;      /* the last evaluation of the couplers changed nothing */
+    int faces_rest;         /* so did that of the faces */
+    int leaves_nothing_out; /* evaluates couplers and faces even where that changes nothing: tests
+                               compare with it */
+    CzRow *memory;          /* committed (CZ_N_MEMORY) */
+    CzRow *next_memory;     /* of the last evaluation (CZ_N_MEMORY) */
+    CzRow *power;           /* of the last evaluation [W] (CZ_N_LEDGER) */
+    CzRow *last_power;      /* committed (CZ_N_LEDGER) */
 } CzBlock;
 
 typedef struct CzDynamics {

@@ -28,11 +28,19 @@
 
 extern const CzKernel KERNEL_NAME(CZ_ISA);
 
+static void zero(CzRow *row, int n_row) {
+    const size_t n = (size_t)n_row * CZ_LANE_BLOCK;
+    double *restrict value = row[0];
+    CZ_LANES (i, n) {
+        value[i] = 0.0;
+    }
+}
+
 /* Sets to zero what the passes add to. */
 static void clear(CzBlock *d) {
-    memset(d->force, 0, sizeof d->force);
-    memset(d->power, 0, CZ_N_LEDGER * sizeof(CzRow));
-    memset(S(INTERFACE_FORCE), 0, (CZ_N_SCRATCH - CZ_S_INTERFACE_FORCE) * sizeof(CzRow));
+    zero(d->force, CZ_N_DOF);
+    zero(d->power, CZ_N_LEDGER);
+    zero(&d->scratch[CZ_S_INTERFACE_FORCE], CZ_N_SCRATCH - CZ_S_INTERFACE_FORCE);
 }
 
 static void rotations(CzBlock *d) {

@@ -7,6 +7,8 @@
 #define CZ_DYNAMICS_KERNEL_CAR_H
 
 #include "dynamics/kernel_rows.h"
+#include <string.h>
+
 #include "laws/buffer.h"
 #include "laws/slider.h"
 #include "laws/suspension.h"
@@ -64,22 +66,27 @@ static void end_crush(CzBlock *d, int end) {
         next[i] = cz_larger(before[i], stroke[i]);
     }
     largest_of_stages(d, CZ_CURVE_END_REAR + end, next, largest);
-    double *restrict curve = S(CURVE_VALUE), *restrict peak = S(CURVE_PEAK),
+    double *restrict curve = S(CURVE_VALUE), *restrict peak = d->end_peak[end],
                      *restrict slope = S(CURVE_SLOPE);
-    evaluate_curve(d, CZ_CURVE_END_REAR + end, largest, peak, slope);
+    if (memcmp(largest, d->end_peak_at[end], sizeof(CzRow)) != 0) {
+        evaluate_curve(d, CZ_CURVE_END_REAR + end, largest, peak, slope);
+        memcpy(d->end_peak_at[end], largest, sizeof(CzRow));
+    }
     evaluate_curve(d, CZ_CURVE_END_REAR + end, stroke, curve, slope);
     const double *restrict unloading = P_AT(END_UNLOADING_REAR, end), *restrict share =
                                                                           P_AT(END_SHARE_REAR, end);
     const double *restrict second = P_AT(END_SECOND_UNLOADING_REAR, end);
     const double *restrict tension = P_AT(END_TENSION_REAR, end), *restrict damping =
                                                                       P_AT(END_DAMPING_REAR, end);
+    const double *restrict compliance = C_AT(END_COMPLIANCE_REAR, end),
+                           *restrict second_compliance = C_AT(END_SECOND_COMPLIANCE_REAR, end);
     double *restrict force = S_AT(END_REAR, end), *restrict damped = S(CHAIN_FORCE);
     double *restrict power = POWER_AT(END_REAR, end), *restrict lost = POWER(END_DAMPING);
     CZ_LANES (i, n) {
         const CzVehicleEndLaw law = {cz_larger(unloading[i], 1.0), share[i],
                                      cz_larger(second[i], 1.0), tension[i]};
-        const CzVehicleEndResponse response =
-            cz_vehicle_end(&law, curve[i], peak[i], stroke[i], largest[i]);
+        const CzVehicleEndResponse response = cz_vehicle_end_of(
+            &law, compliance[i], second_compliance[i], curve[i], peak[i], stroke[i], largest[i]);
         damped[i] = damping[i] * rate[i] * cz_fade_in(stroke[i], CZ_FADE_LENGTH);
         force[i] = response.force + damped[i];
         power[i] = response.force * rate[i];

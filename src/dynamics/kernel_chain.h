@@ -26,6 +26,7 @@ enum {
     CHAIN_PASSES = 12 /* linearisations of one step: more kinks than a step passes (ours) */
 };
 #define CHAIN_TOLERANCE 1e-13 /* closure left unbalanced [m] */
+#define REACH_MARGIN 1e-6     /* more than the rounding of a chain's sum by far [m] (ours) */
 #define LAW_TOLERANCE 1.0     /* force by which a member may miss its law [N] (ours) */
 
 /* What a chain is made of: first rows of its members; side B follows side A. */
@@ -47,6 +48,7 @@ typedef struct {
     int transition, share, damping, quadratic, draw,
         slack;        /* CzParameter of side A; draw -1: no tension */
     int rate, offset; /* CzMemory of side A */
+    int compliance;   /* CzConstant of side A */
 } BufferRows;
 
 /* Whether a plastic member is missing in all lanes: it would neither flow nor add to any sum. */
@@ -215,6 +217,7 @@ static double linearise_buffer(CzBlock *d, const Chain *chain, const BufferRows 
     const double *restrict offset = (again ? d->next_memory : d->memory)[rows->offset + side];
     double *restrict next_offset = again ? S(UNUSED) : d->next_memory[rows->offset + side];
     const double *restrict usable = d->curve[rows->curve + side].usable;
+    const double *restrict compliance = d->constant[rows->compliance + side];
     double *restrict force = S(TRIAL_FORCE), *restrict up = S(TRIAL_UP),
                      *restrict down = S(TRIAL_DOWN);
     CZ_LANES (i, n) {
@@ -226,8 +229,8 @@ static double linearise_buffer(CzBlock *d, const Chain *chain, const BufferRows 
                                  slack[i],
                                  usable[i]};
         const CzBufferResponse response =
-            cz_buffer(&law, curve[i], slope[i], stroke[i], stroke[i] - committed[i], rate[i],
-                      offset[i], step);
+            cz_buffer_of(&law, compliance[i], curve[i], slope[i], stroke[i],
+                         stroke[i] - committed[i], rate[i], offset[i], step);
         force[i] = response.force;
         up[i] = response.loading;
         down[i] = response.unloading;
@@ -320,9 +323,9 @@ static double relinearise_plastic(CzBlock *d, const Chain *chain, int member, do
 /* Finds the force with which every member keeps its law: S(CHAIN_FORCE). `springs` linearises the
  * springs, `others` the plastic members that have no curve (NULL: there are none). CHAIN_LOWEST,
  * CHAIN_ACTIVE and the others' first linearisation are set before. What is left unbalanced is kept
- * for the run to judge. */
-static void solve_chain(CzBlock *d, const Chain *chain, Linearise *springs, Linearise *others,
-                        double step) {
+ * for the run to judge. Returns whether the first linearisation held in all lanes. */
+static int solve_chain(CzBlock *d, const Chain *chain, Linearise *springs, Linearise *others,
+                       double step) {
     const size_t n = CZ_LANE_BLOCK;
     double *restrict force = S(CHAIN_FORCE);
     const double *restrict active = S(CHAIN_ACTIVE);
@@ -340,6 +343,7 @@ static void solve_chain(CzBlock *d, const Chain *chain, Linearise *springs, Line
             prepare_plastic(d, chain, member, step);
     int arrived = solve_linear(d, chain, S(CLOSURE));
     double n_changed = 1.0;
+    int n_pass = 1;
     for (int pass = 1; pass < CHAIN_PASSES && arrived && n_changed > 0.0; ++pass) {
         n_changed = springs(d, 0, step, 1) + springs(d, 1, step, 1);
         for (int member = 0; member < chain->n_curve; ++member)
@@ -347,8 +351,10 @@ static void solve_chain(CzBlock *d, const Chain *chain, Linearise *springs, Line
                 n_changed += relinearise_plastic(d, chain, member, step);
         if (others != NULL)
             n_changed += others(d, 0, step, 1) + others(d, 1, step, 1);
-        if (n_changed > 0.0)
+        if (n_changed > 0.0) {
             arrived = solve_linear(d, chain, S(CLOSURE));
+            ++n_pass;
+        }
     }
     double *restrict residual = S(RESIDUAL);
     double *restrict kept = d->next_memory[chain->force];
@@ -359,6 +365,7 @@ static void solve_chain(CzBlock *d, const Chain *chain, Linearise *springs, Line
         force[i] *= active[i];
         kept[i] = force[i];
     }
+    return arrived && n_pass == 1;
 }
 
 /* Takes the members to the end of the step and adds the mean force times their way to the energies;
@@ -418,12 +425,13 @@ static void move_members(CzBlock *d, const Chain *chain, int first, int second) 
 /* Rates of the springs over the step, for the next one. */
 static void keep_rates(CzBlock *d, const Chain *chain, int rate_row, double step) {
     const size_t n = CZ_LANE_BLOCK;
+    const double per_step = 1.0 / step;
     for (int side = 0; side < 2; ++side) {
         const double *restrict before = d->memory[chain->spring + side];
         const double *restrict after = d->next_memory[chain->spring + side];
         double *restrict rate = d->next_memory[rate_row + side];
         CZ_LANES (i, n) {
-            rate[i] = (after[i] - before[i]) / step;
+            rate[i] = (after[i] - before[i]) * per_step;
         }
     }
 }

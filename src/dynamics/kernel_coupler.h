@@ -12,6 +12,7 @@
 #include "dynamics/kernel_contact.h"
 #include "laws/shear_off.h"
 #include "laws/slider.h"
+#include "model/kinks.h"
 
 #define LARGEST_PULL                                                                               \
     1e8 /* tension that whole coupled couplers carry [N]: more than any train asks for (ours) */
@@ -27,10 +28,11 @@ static const Chain coupler_chain = {6,
                                     CZ_CURVE_TUBE_A,
                                     CZ_P_TUBE_RATE_A,
                                     -1};
-static const BufferRows coupler_buffer = {
-    CZ_CURVE_BUFFER_A,        CZ_P_BUFFER_TRANSITION_A, CZ_P_BUFFER_SHARE_A,
-    CZ_P_BUFFER_DAMPING_A,    CZ_P_BUFFER_QUADRATIC_A,  CZ_P_BUFFER_DRAW_STIFFNESS_A,
-    CZ_P_BUFFER_DRAW_SLACK_A, CZ_M_BUFFER_RATE_A,       CZ_M_BUFFER_OFFSET_A};
+static const BufferRows coupler_buffer = {CZ_CURVE_BUFFER_A,        CZ_P_BUFFER_TRANSITION_A,
+                                          CZ_P_BUFFER_SHARE_A,      CZ_P_BUFFER_DAMPING_A,
+                                          CZ_P_BUFFER_QUADRATIC_A,  CZ_P_BUFFER_DRAW_STIFFNESS_A,
+                                          CZ_P_BUFFER_DRAW_SLACK_A, CZ_M_BUFFER_RATE_A,
+                                          CZ_M_BUFFER_OFFSET_A,     CZ_C_BUFFER_COMPLIANCE_A};
 
 /* Chooses one row of the carrier: the end mass's where the pivot is fixed to it, else the body's.
  */
@@ -69,7 +71,7 @@ static void coupler_geometry(CzBlock *d, const Carrier *a, const Carrier *b) {
     const Carrier ca = *a, cb = *b;
     double *restrict closure = S(CLOSURE), *restrict rate = S(RATE), *restrict turn = S(SLIP_RATE);
     double *restrict direction_x = S(NORMAL_X), *restrict direction_z = S(NORMAL_Z),
-                     *restrict length = S(LENGTH);
+                     *restrict inverse_length = S(INVERSE_LENGTH);
     double *restrict arm_x_a = S(ARM_X_A), *restrict arm_z_a = S(ARM_Z_A);
     double *restrict arm_x_b = S(ARM_X_B), *restrict arm_z_b = S(ARM_Z_B);
     CZ_LANES (i, n) {
@@ -83,13 +85,13 @@ static void coupler_geometry(CzBlock *d, const Carrier *a, const Carrier *b) {
         const double vx = (cb.vx[i] - bz * cb.turn[i]) - (ca.vx[i] - az * ca.turn[i]);
         const double vz = tilts[i] * ((cb.vz[i] + bx * cb.turn[i]) - (ca.vz[i] + ax * ca.turn[i]));
         const double l = sqrt(dx * dx + dz * dz);
-        const double nx = dx / l, nz = dz / l;
+        const double inverse = 1.0 / l, nx = dx * inverse, nz = dz * inverse;
         closure[i] = free_length[i] - l;
         rate[i] = -(nx * vx + nz * vz);
-        turn[i] = (nx * vz - nz * vx) / l;
+        turn[i] = (nx * vz - nz * vx) * inverse;
         direction_x[i] = nx;
         direction_z[i] = nz;
-        length[i] = l;
+        inverse_length[i] = inverse;
         arm_x_a[i] = ax;
         arm_z_a[i] = az;
         arm_x_b[i] = bx;
@@ -132,8 +134,42 @@ static double linearise_coupler_buffer(CzBlock *d, int side, double step, int ag
     return linearise_buffer(d, &coupler_chain, &coupler_buffer, side, step, again);
 }
 
-/* Force of the chain, and the members moved on. */
-static void coupler_chain_force(CzBlock *d, double step) {
+/* Whether no chain pushes or could pull. Their sums at no force then tell up to which closure that
+ * will stay so, for as long as nothing moves: a sum falls with the closure alone. */
+static int couplers_are_slack(CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict active = S(CHAIN_ACTIVE), *restrict lowest = S(CHAIN_LOWEST);
+    const double *restrict closure = S(CLOSURE), *restrict damage = S(DAMAGE);
+    const double *force = S(CHAIN_FORCE);
+    double n_busy = 0.0;
+    _Pragma("omp simd reduction(+ : n_busy)") for (size_t i = 0; i < n; ++i) {
+        const double pulls = lowest[i] < 0.0 ? active[i] : 0.0;
+        n_busy += fabs(force[i]) + pulls;
+    }
+    if (n_busy != 0.0)
+        return 0;
+    double *sum = S(CURVE_VALUE), *restrict reach = d->coupler_reach;
+    unbalance(d, &coupler_chain, closure, sum, S(CURVE_SLOPE));
+    double n_closed = 0.0;
+    _Pragma("omp simd reduction(+ : n_closed)") for (size_t i = 0; i < n; ++i) {
+        const double of_chain = closure[i] + sum[i] - REACH_MARGIN;
+        const double of_hinges = damage[i] >= 1.0 ? CZ_NEVER : 0.0; /* ENGAGED is 0 up to here */
+        reach[i] = active[i] > 0.0 ? cz_smaller(of_chain, of_hinges) : CZ_NEVER;
+        n_closed += closure[i] <= reach[i] ? 0.0 : 1.0;
+    }
+    return n_closed == 0.0;
+}
+
+/* Whether the evaluation at hand leaves the memory of the couplers as it was. */
+static int couplers_remember(const CzBlock *d) {
+    const int first = CZ_M_COUPLER_FORCE, last = CZ_M_TUBE_ENERGY_B;
+    return memcmp(d->memory[first], d->next_memory[first],
+                  (size_t)(last - first + 1) * sizeof(CzRow)) == 0;
+}
+
+/* Force of the chain, and the members moved on; returns whether it would be the same again for any
+ * closure up to the couplers' reach. */
+static int coupler_chain_force(CzBlock *d, double step) {
     const size_t n = CZ_LANE_BLOCK;
     {
         double *restrict damage = S(DAMAGE);
@@ -152,9 +188,24 @@ static void coupler_chain_force(CzBlock *d, double step) {
             active[i] = exists[i];
         }
     }
-    solve_chain(d, &coupler_chain, linearise_coupler_buffer, linearise_shear_off, step);
+    const int settled =
+        solve_chain(d, &coupler_chain, linearise_coupler_buffer, linearise_shear_off, step);
     move_members(d, &coupler_chain, CZ_M_COUPLER_ENERGY_A, CZ_M_TUBE_ENERGY_A);
     keep_rates(d, &coupler_chain, CZ_M_BUFFER_RATE_A, step);
+    return settled && couplers_are_slack(d);
+}
+
+/* How much the faces of a coupler hold each other against swinging, 0 to 1: fully where they are
+ * coupled and whole, not at all where they are apart or sheared off. */
+static void coupler_engagement(CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict exists = P(COUPLER), *restrict coupled = P(COUPLED);
+    const double *restrict closure = S(CLOSURE), *restrict damage = S(DAMAGE);
+    double *restrict engaged = S(ENGAGED);
+    CZ_LANES (i, n) {
+        const double mated = cz_fade_in(cz_positive_part(closure[i]), ENGAGING_CLOSURE);
+        engaged[i] = exists[i] * (coupled[i] > 0.5 ? 1.0 : mated) * (1.0 - damage[i]);
+    }
 }
 
 /* Moment of the hinge of one side on its carrier, into SPRING_UP of the side; its power is added
@@ -166,23 +217,19 @@ static void hinge_moment(CzBlock *d, int side, const Carrier *carrier) {
     const double *restrict range = P_AT(SWING_STOP_A, side), *restrict stop =
                                                                  P_AT(SWING_STIFFNESS_A, side);
     const double *restrict compliance = C_AT(HINGE_COMPLIANCE_A, side);
-    const double *restrict exists = P(COUPLER), *restrict coupled = P(COUPLED);
-    const double *restrict rise = P(PIVOT_RISE), *restrict distance = P(PIVOT_DISTANCE);
-    const double *restrict closure = S(CLOSURE), *restrict damage = S(DAMAGE),
+    const double *restrict engaged = S(ENGAGED), *restrict rest = C(HINGE_REST),
                            *restrict nz = S(NORMAL_Z);
     const double *restrict line_turn = S(SLIP_RATE), *restrict yielded = M_AT(HINGE_A, side);
     const double *restrict pitch = carrier->pitch, *restrict turn = carrier->turn;
     double *restrict next = NEXT_AT(HINGE_A, side), *restrict moment = S_AT(SPRING_UP_A, side);
     double *restrict power = POWER(HINGE);
     CZ_LANES (i, n) {
-        const double mated = cz_fade_in(cz_positive_part(closure[i]), ENGAGING_CLOSURE);
-        const double engaged = exists[i] * (coupled[i] > 0.5 ? 1.0 : mated) * (1.0 - damage[i]);
         const double angle = nz[i] * (1.0 + nz[i] * nz[i] * (1.0 / 6.0));
-        const double swing = angle - coupled[i] * rise[i] / distance[i] - pitch[i];
+        const double swing = angle - rest[i] - pitch[i];
         const CzSliderResponse hinge =
             cz_slider_of(stiffness[i], compliance[i], capacity[i], swing, yielded[i]);
-        next[i] = engaged >= 1.0 ? hinge.offset : yielded[i];
-        moment[i] = engaged * (hinge.force + cz_stop(stop[i], range[i], swing));
+        next[i] = engaged[i] >= 1.0 ? hinge.offset : yielded[i];
+        moment[i] = engaged[i] * (hinge.force + cz_stop(stop[i], range[i], swing));
         power[i] += moment[i] * (line_turn[i] - turn[i]);
     }
 }
@@ -201,7 +248,7 @@ static inline void share(size_t n, const double *restrict on_end, const double *
  * them. */
 static void coupler_forces(CzBlock *d) {
     const size_t n = CZ_LANE_BLOCK;
-    const double *restrict force = S(CHAIN_FORCE), *restrict length = S(LENGTH),
+    const double *restrict force = S(CHAIN_FORCE), *restrict inverse_length = S(INVERSE_LENGTH),
                            *restrict rate = S(RATE);
     const double *restrict nx = S(NORMAL_X), *restrict nz = S(NORMAL_Z);
     const double *restrict moment_a = S(SPRING_UP_A), *restrict moment_b = S(SPRING_UP_B);
@@ -210,7 +257,7 @@ static void coupler_forces(CzBlock *d) {
     const double *restrict tilts = C(TILTS);
     double *restrict kept = S(COUPLER_FORCE), *restrict power = POWER(COUPLER);
     CZ_LANES (i, n) { /* on side B */
-        const double transverse = tilts[i] * (moment_a[i] + moment_b[i]) / length[i];
+        const double transverse = tilts[i] * (moment_a[i] + moment_b[i]) * inverse_length[i];
         fx[i] = force[i] * nx[i] + transverse * nz[i];
         fz[i] = force[i] * nz[i] - transverse * nx[i];
         total[i] += fx[i];
@@ -237,14 +284,50 @@ static void coupler_forces(CzBlock *d) {
     }
 }
 
-/* All couplers. */
+/* Row of the chosen carrier of a coupler's pivot. */
+#define CHOSEN(on_end, end, body) ((on_end) > 0.5 ? (end) : (body))
+
+/* Whether the last evaluation changed nothing and no coupler has come within reach since. The
+ * pivots' distance along the track is never more than that along the coupler. */
+static int couplers_are_apart(const CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    if (!d->couplers_rest)
+        return 0;
+    const Carrier ea = end_carrier(d, 0), ba = body_carrier(d, 0);
+    const Carrier eb = end_carrier(d, 1), bb = body_carrier(d, 1);
+    const double *restrict on_a = P(COUPLER_ON_END_A), *restrict on_b = P(COUPLER_ON_END_B);
+    const double *restrict x_a = P(PIVOT_X_A), *restrict z_a = P(PIVOT_Z_A);
+    const double *restrict x_b = P(PIVOT_X_B), *restrict z_b = P(PIVOT_Z_B);
+    const double *restrict distance = P(PIVOT_DISTANCE), *restrict free_length = P(COUPLER_LENGTH);
+    const double *restrict reach = d->coupler_reach;
+    double n_near = 0.0;
+    _Pragma("omp simd reduction(+ : n_near)") for (size_t i = 0; i < n; ++i) {
+        const double ax = x_a[i] * CHOSEN(on_a[i], ea.cosine[i], ba.cosine[i]) -
+                          z_a[i] * CHOSEN(on_a[i], ea.sine[i], ba.sine[i]);
+        const double bx = x_b[i] * CHOSEN(on_b[i], eb.cosine[i], bb.cosine[i]) -
+                          z_b[i] * CHOSEN(on_b[i], eb.sine[i], bb.sine[i]);
+        const double way = CHOSEN(on_b[i], eb.x[i], bb.x[i]) - CHOSEN(on_a[i], ea.x[i], ba.x[i]);
+        const double along = distance[i] + way + (bx - x_b[i]) - (ax - x_a[i]);
+        n_near += free_length[i] - along <= reach[i] ? 0.0 : 1.0; /* not a number is near */
+    }
+    return n_near == 0.0;
+}
+
+/* All couplers. Where they changed nothing and are still apart they are left out: no force, and
+ * both copies of their memory hold what they would leave. */
 static void couplers(CzBlock *d, double step) {
+    if (couplers_are_apart(d)) {
+        memcpy(S(COUPLER_FORCE), M(COUPLER_FORCE), sizeof(CzRow));
+        return;
+    }
     const Carrier a = coupler_carrier(d, 0);
     const Carrier b = coupler_carrier(d, 1);
     coupler_geometry(d, &a, &b);
-    coupler_chain_force(d, step);
+    const int slack = coupler_chain_force(d, step);
+    coupler_engagement(d);
     hinge_moment(d, 0, &a);
     hinge_moment(d, 1, &b);
+    d->couplers_rest = slack && couplers_remember(d) && !d->leaves_nothing_out;
     coupler_forces(d);
 }
 

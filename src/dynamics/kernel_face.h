@@ -40,7 +40,8 @@ static const BufferRows side_buffer = {CZ_CURVE_SIDE_BUFFER_A,
                                        -1,
                                        -1,
                                        CZ_M_SIDE_RATE_A,
-                                       CZ_M_SIDE_OFFSET_A};
+                                       CZ_M_SIDE_OFFSET_A,
+                                       CZ_C_SIDE_COMPLIANCE_A};
 static const ContactRows side_contact = {CZ_P_SIDE_X_A, CZ_P_SIDE_Z_A, CZ_P_SIDE_X_B,
                                          CZ_P_SIDE_Z_B, CZ_P_SIDE_GAP, CZ_P_SIDE_RISE};
 
@@ -146,34 +147,57 @@ static void face_tangential(CzBlock *d) {
     }
 }
 
-/* Whether no face of the block touches, pushed in the last step or has a crush zone behind it that
- * may still move: then the chain's answer is known to the last bit. */
-static int faces_are_apart(CzBlock *d) {
+/* Whether no chain pushes. Their sums at no force then tell up to which closure that will stay so,
+ * for as long as nothing moves; a face that was never touched remembers the speed of the first
+ * touch. */
+static int faces_are_slack(CzBlock *d) {
     const size_t n = CZ_LANE_BLOCK;
-    const double *restrict closure = S(CLOSURE), *restrict force = M(FACE_FORCE);
-    const double *restrict limp_a = M(LIMP_PEAK_A), *restrict limp_b = M(LIMP_PEAK_B);
-    double busy = 0.0;
-    _Pragma("omp simd reduction(+ : busy)") for (size_t i = 0; i < n; ++i) {
-        const double touches = closure[i] >= 0.0 ? 1.0 : 0.0;
-        busy += touches + fabs(force[i]) + limp_a[i] + limp_b[i];
+    const double *restrict closure = S(CLOSURE), *restrict speed = M(FACE_SPEED);
+    const double *force = S(CHAIN_FORCE);
+    double n_busy = 0.0;
+    _Pragma("omp simd reduction(+ : n_busy)") for (size_t i = 0; i < n; ++i) {
+        n_busy += fabs(force[i]);
     }
-    return busy == 0.0;
+    if (n_busy != 0.0)
+        return 0;
+    double *sum = S(CURVE_VALUE), *restrict reach = d->face_reach;
+    unbalance(d, &face_chain, closure, sum, S(CURVE_SLOPE));
+    double n_closed = 0.0;
+    _Pragma("omp simd reduction(+ : n_closed)") for (size_t i = 0; i < n; ++i) {
+        const double of_chain = closure[i] + sum[i] - REACH_MARGIN;
+        reach[i] = cz_smaller(of_chain, speed[i] > 0.0 ? of_chain : -REACH_MARGIN);
+        n_closed += closure[i] <= reach[i] ? 0.0 : 1.0;
+    }
+    return n_closed == 0.0;
 }
 
-/* The answer for faces that are apart: no force, memory as it was, ribs that will seat where they
- * meet. */
+/* Whether the evaluation at hand leaves the memory of the faces as it was, but for where the ribs
+ * will seat. */
+static int faces_remember(const CzBlock *d) {
+    const size_t before = (size_t)(CZ_M_FACE_SLIP - CZ_M_FACE_FORCE) * sizeof(CzRow);
+    const size_t after = (size_t)(CZ_M_LIMP_ENERGY_B - CZ_M_FACE_SLIP) * sizeof(CzRow);
+    return memcmp(M(FACE_FORCE), NEXT(FACE_FORCE), before) == 0 &&
+           memcmp(M(FACE_ENERGY_A), NEXT(FACE_ENERGY_A), after) == 0;
+}
+
+/* Whether the last evaluation changed nothing and no face has come within reach since. */
+static int faces_are_apart(CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict closure = S(CLOSURE), *restrict reach = d->face_reach;
+    double n_near = d->faces_rest ? 0.0 : 1.0;
+    _Pragma("omp simd reduction(+ : n_near)") for (size_t i = 0; i < n; ++i) {
+        n_near += closure[i] <= reach[i] ? 0.0 : 1.0; /* not a number is near */
+    }
+    return n_near == 0.0;
+}
+
+/* The answer for faces that are apart: no force, ribs that will seat where they meet. Both copies
+ * of the other memory hold what would be left. */
 static void leave_faces(CzBlock *d) {
-    static const int kept[] = {CZ_M_FACE_FORCE,    CZ_M_LIMP_A,        CZ_M_LIMP_B,
-                               CZ_M_LIMP_PEAK_A,   CZ_M_LIMP_PEAK_B,   CZ_M_FACE_A,
-                               CZ_M_FACE_B,        CZ_M_FACE_SPEED,    CZ_M_FACE_ENERGY_A,
-                               CZ_M_FACE_ENERGY_B, CZ_M_LIMP_ENERGY_A, CZ_M_LIMP_ENERGY_B};
-    static const int zero[] = {CZ_S_FACE_FORCE, CZ_S_FACE_DEMAND, CZ_S_FACE_CAPACITY};
-    const size_t size = CZ_LANE_BLOCK * sizeof(double);
-    for (size_t k = 0; k < sizeof kept / sizeof kept[0]; ++k)
-        memcpy(d->next_memory[kept[k]], d->memory[kept[k]], size);
-    for (size_t k = 0; k < sizeof zero / sizeof zero[0]; ++k)
-        memset(d->scratch[zero[k]], 0, size);
-    memcpy(NEXT(FACE_SLIP), S(SLIP), size);
+    memset(S(FACE_FORCE), 0, sizeof(CzRow));
+    memset(S(FACE_DEMAND), 0, sizeof(CzRow));
+    memset(S(FACE_CAPACITY), 0, sizeof(CzRow));
+    memcpy(NEXT(FACE_SLIP), S(SLIP), sizeof(CzRow));
 }
 
 /* All anti-climbers and bare ends. */
@@ -192,7 +216,7 @@ static void faces(CzBlock *d, double step) {
         lowest[i] = 0.0;
         active[i] = 1.0;
     }
-    solve_chain(d, &face_chain, linearise_limp_end, NULL, step);
+    const int settled = solve_chain(d, &face_chain, linearise_limp_end, NULL, step);
     move_members(d, &face_chain, CZ_M_LIMP_ENERGY_A, CZ_M_FACE_ENERGY_A);
     for (int side = 0; side < 2; ++side) {
         const double *restrict before = M_AT(LIMP_PEAK_A, side), *restrict now =
@@ -202,6 +226,7 @@ static void faces(CzBlock *d, double step) {
             next[i] = cz_larger(before[i], now[i]);
         }
     }
+    d->faces_rest = settled && faces_are_slack(d) && faces_remember(d) && !d->leaves_nothing_out;
     face_normal(d);
     face_tangential(d);
     const CarrierForce on_a = end_force(d, 0), on_b = end_force(d, 1);
@@ -236,7 +261,7 @@ static void side_buffers(CzBlock *d, double step) {
                            *restrict slip_rate = S(SLIP_RATE);
     const double *restrict offset = M(SIDE_SLIP);
     double *restrict next = NEXT(SIDE_SLIP), *restrict kept = S(SIDE_FORCE),
-                     *restrict tangential = S(LENGTH);
+                     *restrict tangential = S(SIDE_SLIDING);
     double *restrict power = POWER(SIDE), *restrict sliding = POWER(SIDE_SLIDING);
     CZ_LANES (i, n) {
         const CzSliderResponse grip =
@@ -248,7 +273,7 @@ static void side_buffers(CzBlock *d, double step) {
         sliding[i] += grip.force * slip_rate[i];
     }
     const CarrierForce on_a = end_force(d, 0), on_b = end_force(d, 1);
-    contact_forces(d, &on_a, &on_b, S(SIDE_FORCE), S(LENGTH));
+    contact_forces(d, &on_a, &on_b, S(SIDE_FORCE), S(SIDE_SLIDING));
     add(n, S(SECTION_FRONT), P(SLAVED_ENDS), S(CURVE_VALUE));
     add(n, S(PUSHED_SECTION), C(SLAVED_ENDS_AHEAD), S(CURVE_VALUE));
 }

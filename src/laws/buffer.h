@@ -44,9 +44,9 @@ typedef struct {
 } CzBufferResponse;
 
 /* `curve` and `slope` are those of the loading curve with its stop, at the stroke. */
-static inline CzBufferResponse cz_buffer(const CzBufferLaw *law, double curve, double slope,
-                                         double stroke, double moved, double rate, double offset,
-                                         double step) {
+static inline CzBufferResponse cz_buffer_of(const CzBufferLaw *law, double compliance, double curve,
+                                            double slope, double stroke, double moved, double rate,
+                                            double offset, double step) {
     /* The stop, and the curves at this stroke, both starting from zero along the transition. */
     const double stop_slope = stroke >= law->usable ? slope : 0.0;
     const double stop = stop_slope * cz_positive_part(stroke - law->usable);
@@ -74,13 +74,22 @@ static inline CzBufferResponse cz_buffer(const CzBufferLaw *law, double curve, d
     const double hydraulic = law->quadratic * cz_positive_part(rate) * fade;
 
     const double damped = moved > 0.0 ? linear + hydraulic : linear;
+    const double per_step = 1.0 / step;
 
     CzBufferResponse response;
-    response.force = inside + stop - law->draw_stiffness * drawn + damped * moved / step;
-    response.loading = 1.0 / (cz_larger(up, CZ_SMALLEST_STIFFNESS) + (linear + hydraulic) / step);
-    response.unloading = 1.0 / (cz_larger(down, CZ_SMALLEST_STIFFNESS) + linear / step);
-    response.offset = stroke - inside / law->transition;
+    response.force = inside + stop - law->draw_stiffness * drawn + damped * moved * per_step;
+    response.loading =
+        1.0 / (cz_larger(up, CZ_SMALLEST_STIFFNESS) + (linear + hydraulic) * per_step);
+    response.unloading = 1.0 / (cz_larger(down, CZ_SMALLEST_STIFFNESS) + linear * per_step);
+    response.offset = stroke - inside * compliance;
     return response;
+}
+
+static inline CzBufferResponse cz_buffer(const CzBufferLaw *law, double curve, double slope,
+                                         double stroke, double moved, double rate, double offset,
+                                         double step) {
+    return cz_buffer_of(law, 1.0 / law->transition, curve, slope, stroke, moved, rate, offset,
+                        step);
 }
 
 #endif

@@ -19,7 +19,9 @@
 /* Flow per excess force over one step [m/N]. */
 static inline double cz_plastic_compliance(double strength, double slope, double rate_factor,
                                            double step) {
-    return 1.0 / (cz_positive_part(slope) + strength * rate_factor / step + CZ_SMALLEST_RESISTANCE);
+    const double per_step = 1.0 / step; /* one division for all lanes */
+    return 1.0 /
+           (cz_positive_part(slope) + strength * rate_factor * per_step + CZ_SMALLEST_RESISTANCE);
 }
 
 /* Flow of the step under the chain's force [m], never negative. */

@@ -30,11 +30,14 @@ typedef struct {
     double residual; /* x_res [m] */
 } CzVehicleEndResponse;
 
-/* `backbone` is at the shortening x, `peak` at x_m. */
-static inline CzVehicleEndResponse cz_vehicle_end(const CzVehicleEndLaw *law, double backbone,
-                                                  double peak, double shortening, double largest) {
-    const double turn = largest - (1.0 - law->share) * peak / law->unloading;
-    const double set = turn - law->share * peak / law->second_unloading;
+/* `backbone` is at the shortening x, `peak` at x_m; the compliances are 1/Ku1 and 1/Ku2: divisions
+ * less where they never change. */
+static inline CzVehicleEndResponse cz_vehicle_end_of(const CzVehicleEndLaw *law, double compliance,
+                                                     double second_compliance, double backbone,
+                                                     double peak, double shortening,
+                                                     double largest) {
+    const double turn = largest - (1.0 - law->share) * peak * compliance;
+    const double set = turn - law->share * peak * second_compliance;
     const double residual = cz_positive_part(set);
     const double first = peak - law->unloading * (largest - shortening);
     const double second = law->share * peak - law->second_unloading * (turn - shortening);
@@ -49,6 +52,12 @@ static inline CzVehicleEndResponse cz_vehicle_end(const CzVehicleEndLaw *law, do
     response.slope = shortening >= turn ? law->unloading : law->second_unloading;
     response.residual = residual;
     return response;
+}
+
+static inline CzVehicleEndResponse cz_vehicle_end(const CzVehicleEndLaw *law, double backbone,
+                                                  double peak, double shortening, double largest) {
+    return cz_vehicle_end_of(law, 1.0 / law->unloading, 1.0 / law->second_unloading, backbone, peak,
+                             shortening, largest);
 }
 
 /* Energy that unloading to zero gives back [J]: (1 - r^2) F^2 / (2 Ku1) + (r F)^2 / (2 Ku2), for a

@@ -38,9 +38,11 @@ typedef struct {
 static inline double cz_creep_deflection(const CzCreepLaw *law, double inverse_stiffness,
                                          double deflection, double slip, double speed,
                                          double normal, double step) {
-    const double carried = (deflection + step * slip) / (1.0 + step * fabs(speed) / law->length);
-    const double fall =
-        (law->friction_peak - law->friction_sliding) / (1.0 + fabs(slip) / law->fall_speed);
+    /* One division each: (e + h w) / (1 + h |V| / a) and (mu_p - mu_s) / (1 + |w| / w_f). */
+    const double carried =
+        (deflection + step * slip) * law->length / (law->length + step * fabs(speed));
+    const double fall = (law->friction_peak - law->friction_sliding) * law->fall_speed /
+                        (law->fall_speed + fabs(slip));
     const double limit = (law->friction_sliding + fall) * normal * inverse_stiffness;
     return cz_clamp(carried, -limit, limit);
 }

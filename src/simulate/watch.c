@@ -8,29 +8,51 @@
 typedef enum { FROM_MEMORY, FROM_EXTREME, FROM_LIFT_STOP, FROM_BUMP_STOP, FROM_SWING } Source;
 
 typedef struct {
-    CzEventKind what;
     Source source;
     int row; /* of the source; bogie or side for stops */
     size_t lane;
-    double threshold; /* passed when the value is larger */
-    char where[48];
-    int interface; /* -1 when it is about a vehicle */
+    const CzBlock *block; /* of the lane */
+    double threshold;     /* passed when the value is larger */
+    int named;            /* which event: index into CzWatch.named */
 } Watched;
 
+/* What stays as it is while no coupler, face or side buffer does anything; and what limits guard.
+ */
+typedef enum { WHILE_PUSHED, GUARDED, N_WHEN } When;
+
+/* The lowest thresholds of what is still watched in the lanes of a block. */
+typedef struct {
+    _Alignas(64) CzRow lift[4];  /* of the wheelsets */
+    CzRow end[2];                /* largest shortening of the crush zones, rear and front */
+    CzRow raised[2], pressed[2]; /* extension and compression of the secondary suspensions */
+} Limits;
+
 struct CzWatch {
-    int n_watched, n_event;
+    int n_watched[N_WHEN], n_named, n_event;
     int interface; /* that is being listed; -1 when it is a vehicle */
-    Watched *watched;
+    Watched *watched[N_WHEN];
+    CzEvent *named; /* (n_named): kind, place and interface of what is watched */
+    Limits *limits; /* (n_block) */
     CzEvent *event;
 };
 
 enum { MOST_PER_CAR = 64 };
 
-static void watch(CzWatch *list, CzEventKind what, Source source, int row, size_t lane,
-                  double threshold, const char *kind, const char *name) {
-    Watched *next = &list->watched[list->n_watched++];
-    *next = (Watched){what, source, row, lane, threshold, "", list->interface};
-    snprintf(next->where, sizeof next->where, "%s%s%s", kind, kind[0] != '\0' ? " " : "", name);
+/* Whether a value can pass its threshold only while couplers, faces or side buffers push. Crush
+ * zones behind an end mass also flow by its inertia. */
+static When when_it_moves(const CzWatch *list, Source source, int row) {
+    const bool is_end = source == FROM_MEMORY && row >= CZ_M_END_PEAK_REAR;
+    return list->interface >= 0 && !is_end ? WHILE_PUSHED : GUARDED;
+}
+
+static void watch(CzWatch *list, const CzBatch *batch, CzEventKind what, Source source, int row,
+                  size_t lane, double threshold, const char *kind, const char *name) {
+    const When when = when_it_moves(list, source, row);
+    CzEvent *named = &list->named[list->n_named];
+    *named = (CzEvent){0.0, what, "", list->interface};
+    snprintf(named->where, sizeof named->where, "%s%s%s", kind, kind[0] != '\0' ? " " : "", name);
+    list->watched[when][list->n_watched[when]++] = (Watched){
+        source, row, lane, cz_block_of(batch->dynamics, lane), threshold, list->n_named++};
 }
 
 /* Place of the second kink: the end of the first stage. */
@@ -45,49 +67,51 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
     const CzCurveLanes *curve = batch->lanes->curve;
     const int which = side == 0 ? 1 : 0;
     const double flowed = 1e-4;
-    watch(list, CZ_EVENT_TUBE_FLOW, FROM_MEMORY, CZ_M_TUBE_A + side, lane, flowed, "coupler", name);
-    watch(list, CZ_EVENT_SHEAR_OFF, FROM_MEMORY, CZ_M_SHEAR_A + side, lane, flowed, "coupler",
+    watch(list, batch, CZ_EVENT_TUBE_FLOW, FROM_MEMORY, CZ_M_TUBE_A + side, lane, flowed, "coupler",
           name);
-    watch(list, CZ_EVENT_ANTI_CLIMBER_FLOW, FROM_MEMORY, CZ_M_FACE_A + side, lane, flowed,
+    watch(list, batch, CZ_EVENT_SHEAR_OFF, FROM_MEMORY, CZ_M_SHEAR_A + side, lane, flowed,
+          "coupler", name);
+    watch(list, batch, CZ_EVENT_ANTI_CLIMBER_FLOW, FROM_MEMORY, CZ_M_FACE_A + side, lane, flowed,
           "anti-climber", name);
-    watch(list, CZ_EVENT_TUBE_FLOW, FROM_MEMORY, CZ_M_SIDE_TUBE_A + side, lane, flowed,
+    watch(list, batch, CZ_EVENT_TUBE_FLOW, FROM_MEMORY, CZ_M_SIDE_TUBE_A + side, lane, flowed,
           "side buffers", name);
     const bool shears = cz_parameter(batch, CZ_P_SHEAR_FORCE_A + side, lane) < 1e29;
     const CzEventKind used_up = shears ? CZ_EVENT_TUBE_USED_UP : CZ_EVENT_BOTTOMED_OUT;
-    watch(list, used_up, FROM_MEMORY, CZ_M_TUBE_A + side, lane,
+    watch(list, batch, used_up, FROM_MEMORY, CZ_M_TUBE_A + side, lane,
           curve[CZ_CURVE_TUBE_A + side].usable[lane], "coupler tube", name);
-    watch(list, used_up, FROM_MEMORY, CZ_M_SECOND_TUBE_A + side, lane,
+    watch(list, batch, used_up, FROM_MEMORY, CZ_M_SECOND_TUBE_A + side, lane,
           curve[CZ_CURVE_SECOND_TUBE_A + side].usable[lane], "second coupler tube", name);
-    watch(list, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_SHEAR_A + side, lane,
+    watch(list, batch, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_SHEAR_A + side, lane,
           cz_parameter(batch, CZ_P_SHEAR_SPACE_A + side, lane), "retraction space", name);
-    watch(list, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_FACE_A + side, lane,
+    watch(list, batch, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_FACE_A + side, lane,
           curve[CZ_CURVE_FACE_A + side].usable[lane], "anti-climber", name);
-    watch(list, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_SIDE_TUBE_A + side, lane,
+    watch(list, batch, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_SIDE_TUBE_A + side, lane,
           curve[CZ_CURVE_SIDE_TUBE_A + side].usable[lane], "side buffers", name);
     if (cz_parameter(batch, CZ_P_LIMP_END_A + side, lane) > 0.5) {
         const int limp = CZ_CURVE_LIMP_END_A + side;
-        watch(list, CZ_EVENT_END_FLOW, FROM_MEMORY, CZ_M_LIMP_PEAK_A + side, lane,
+        watch(list, batch, CZ_EVENT_END_FLOW, FROM_MEMORY, CZ_M_LIMP_PEAK_A + side, lane,
               first_stage(batch, limp, lane), "end", name);
-        watch(list, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_LIMP_PEAK_A + side, lane,
+        watch(list, batch, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_LIMP_PEAK_A + side, lane,
               curve[limp].usable[lane], "end", name);
     }
     if (batch->model->car[interface + side].model == CZ_MODEL_FULL) {
         const int end = CZ_CURVE_END_REAR + which;
-        watch(list, CZ_EVENT_END_FLOW, FROM_MEMORY, CZ_M_END_PEAK_REAR + which, own,
+        watch(list, batch, CZ_EVENT_END_FLOW, FROM_MEMORY, CZ_M_END_PEAK_REAR + which, own,
               first_stage(batch, end, own), "end", name);
-        watch(list, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_END_PEAK_REAR + which, own,
+        watch(list, batch, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_END_PEAK_REAR + which, own,
               curve[end].usable[own], "end", name);
     }
     if (cz_parameter(batch, CZ_P_COUPLER, lane) > 0.5)
-        watch(list, CZ_EVENT_SWING_STOP, FROM_SWING, side, lane, 0.0, "coupler", name);
+        watch(list, batch, CZ_EVENT_SWING_STOP, FROM_SWING, side, lane, 0.0, "coupler", name);
 }
 
 static void watch_interface(CzWatch *list, const CzBatch *batch, int interface) {
     const size_t lane = cz_lane(batch, interface, 0);
     const char *name = batch->model->interface_name[interface];
-    watch(list, CZ_EVENT_CONTACT, FROM_EXTREME, CZ_E_INTERFACE_FORCE, lane, 1e3, "", name);
-    watch(list, CZ_EVENT_ANTI_CLIMBER_CONTACT, FROM_MEMORY, CZ_M_FACE_SPEED, lane, 0.0, "", name);
-    watch(list, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_E_FACE_CLIMBED, lane, 0.0, "", name);
+    watch(list, batch, CZ_EVENT_CONTACT, FROM_EXTREME, CZ_E_INTERFACE_FORCE, lane, 1e3, "", name);
+    watch(list, batch, CZ_EVENT_ANTI_CLIMBER_CONTACT, FROM_MEMORY, CZ_M_FACE_SPEED, lane, 0.0, "",
+          name);
+    watch(list, batch, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_E_FACE_CLIMBED, lane, 0.0, "", name);
     for (int side = 0; side < 2; ++side)
         watch_side(list, batch, interface, side);
 }
@@ -101,17 +125,48 @@ static void watch_car(CzWatch *list, const CzBatch *batch, int car) {
     for (int axle = 0; axle < 4; ++axle) {
         char kind[24];
         snprintf(kind, sizeof kind, "wheelset %d", axle + 1);
-        watch(list, CZ_EVENT_WHEEL_LIFT, FROM_EXTREME, CZ_E_LIFT_0 + axle, lane, 1e-3, kind,
+        watch(list, batch, CZ_EVENT_WHEEL_LIFT, FROM_EXTREME, CZ_E_LIFT_0 + axle, lane, 1e-3, kind,
               description->name);
-        watch(list, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_E_LIFT_0 + axle, lane,
+        watch(list, batch, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_E_LIFT_0 + axle, lane,
               batch->vehicles[0][description->vehicle].bogie.flange_height, kind,
               description->name);
     }
     for (int bogie = 0; bogie < 2; ++bogie) {
-        watch(list, CZ_EVENT_LIFT_STOP, FROM_LIFT_STOP, bogie, lane, 0.0, bogie_name[bogie],
+        watch(list, batch, CZ_EVENT_LIFT_STOP, FROM_LIFT_STOP, bogie, lane,
+              cz_parameter(batch, CZ_P_SECONDARY_LIFT_GAP, lane), bogie_name[bogie],
               description->name);
-        watch(list, CZ_EVENT_BUMP_STOP, FROM_BUMP_STOP, bogie, lane, 0.0, bogie_name[bogie],
+        watch(list, batch, CZ_EVENT_BUMP_STOP, FROM_BUMP_STOP, bogie, lane,
+              cz_parameter(batch, CZ_P_SECONDARY_BUMP_GAP, lane), bogie_name[bogie],
               description->name);
+    }
+}
+
+/* The row of limits that a guarded value belongs to. */
+static double *limit_row(Limits *limits, const Watched *watched) {
+    switch (watched->source) {
+    case FROM_EXTREME:
+        return limits->lift[watched->row - CZ_E_LIFT_0];
+    case FROM_LIFT_STOP:
+        return limits->raised[watched->row];
+    case FROM_BUMP_STOP:
+        return limits->pressed[watched->row];
+    case FROM_MEMORY:
+    case FROM_SWING:
+        break;
+    }
+    return limits->end[watched->row - CZ_M_END_PEAK_REAR];
+}
+
+static void set_limits(CzWatch *list, const CzBatch *batch) {
+    const CzDynamics *dynamics = batch->dynamics;
+    const size_t n = (size_t)dynamics->n_block * sizeof(Limits) / sizeof(double);
+    for (size_t i = 0; i < n; ++i)
+        ((double *)list->limits)[i] = INFINITY;
+    for (int i = 0; i < list->n_watched[GUARDED]; ++i) {
+        const Watched *watched = &list->watched[GUARDED][i];
+        double *row = limit_row(&list->limits[watched->block - dynamics->block], watched);
+        double *limit = &row[watched->lane % CZ_LANE_BLOCK];
+        *limit = fmin(*limit, watched->threshold);
     }
 }
 
@@ -120,9 +175,15 @@ CzWatch *cz_watch_begin(CzBatch *batch, CzArena *arena) {
     const size_t most = (size_t)batch->model->n_car * MOST_PER_CAR;
     if (list == NULL)
         return NULL;
-    list->watched = cz_arena_allocate(arena, most, sizeof *list->watched);
+    for (int when = 0; when < N_WHEN; ++when) {
+        list->watched[when] = cz_arena_allocate(arena, most, sizeof *list->watched[when]);
+        if (list->watched[when] == NULL)
+            return NULL;
+    }
+    list->named = cz_arena_allocate(arena, most, sizeof *list->named);
+    list->limits = cz_arena_allocate(arena, (size_t)batch->dynamics->n_block, sizeof *list->limits);
     list->event = cz_arena_allocate(arena, most, sizeof *list->event);
-    if (list->watched == NULL || list->event == NULL)
+    if (list->named == NULL || list->limits == NULL || list->event == NULL)
         return NULL;
     for (int car = 0; car < batch->model->n_car; ++car) {
         list->interface = car;
@@ -131,15 +192,8 @@ CzWatch *cz_watch_begin(CzBatch *batch, CzArena *arena) {
         list->interface = -1;
         watch_car(list, batch, car);
     }
+    set_limits(list, batch);
     return list;
-}
-
-/* Compression of the secondary suspension of a bogie [m]. */
-static double compression(const CzBatch *batch, size_t lane, int bogie) {
-    const double sign = bogie == 0 ? -1.0 : 1.0;
-    return cz_position(batch, CZ_DOF_BOGIE_Z_REAR + 3 * bogie, lane) -
-           cz_position(batch, CZ_DOF_BODY_Z, lane) -
-           sign * cz_parameter(batch, CZ_P_BOGIE_X, lane) * cz_scratch(batch, CZ_S_BODY_SIN, lane);
 }
 
 /* Angle of the coupler line against the car, less the free swing; negative while free. The pivots
@@ -161,39 +215,94 @@ static double swing(const CzBatch *batch, size_t lane, int side) {
     return mated ? fabs(angle) - cz_parameter(batch, CZ_P_SWING_STOP_A + side, lane) : -1.0;
 }
 
+/* Compression of the secondary suspension of a bogie [m]. */
+static double compression(const CzBlock *block, int bogie, size_t i) {
+    const double sign = bogie == 0 ? -1.0 : 1.0;
+    return block->position[CZ_DOF_BOGIE_Z_REAR + 3 * bogie][i] - block->position[CZ_DOF_BODY_Z][i] -
+           sign * block->parameter[CZ_P_BOGIE_X][i] * block->scratch[CZ_S_BODY_SIN][i];
+}
+
 static double value_of(const Watched *watched, const CzBatch *batch) {
+    const size_t i = watched->lane % CZ_LANE_BLOCK;
     switch (watched->source) {
     case FROM_MEMORY:
-        return cz_memory(batch, watched->row, watched->lane);
+        return watched->block->memory[watched->row][i];
     case FROM_EXTREME:
-        return cz_extreme(batch, watched->row, watched->lane);
+        return watched->block->extreme[watched->row][i];
     case FROM_LIFT_STOP:
-        return -compression(batch, watched->lane, watched->row) -
-               cz_parameter(batch, CZ_P_SECONDARY_LIFT_GAP, watched->lane);
+        return -compression(watched->block, watched->row, i);
     case FROM_BUMP_STOP:
-        return compression(batch, watched->lane, watched->row) -
-               cz_parameter(batch, CZ_P_SECONDARY_BUMP_GAP, watched->lane);
+        return compression(watched->block, watched->row, i);
     case FROM_SWING:
         return swing(batch, watched->lane, watched->row);
     }
     return 0.0;
 }
 
-void cz_watch_look(CzWatch *list, const CzBatch *batch) {
+/* Looks at one list; what has passed leaves it. */
+static void look_at_list(CzWatch *list, const CzBatch *batch, When when) {
+    Watched *first = list->watched[when];
     int n_left = 0;
-    for (int i = 0; i < list->n_watched; ++i) {
-        const Watched *watched = &list->watched[i];
+    for (int i = 0; i < list->n_watched[when]; ++i) {
+        const Watched *watched = &first[i];
         if (value_of(watched, batch) > watched->threshold) {
             CzEvent *event = &list->event[list->n_event++];
-            *event = (CzEvent){batch->time, watched->what, "", watched->interface};
-            snprintf(event->where, sizeof event->where, "%s", watched->where);
+            *event = list->named[watched->named];
+            event->time = batch->time;
         } else {
             if (n_left < i)
-                list->watched[n_left] = *watched;
+                first[n_left] = *watched;
             ++n_left;
         }
     }
-    list->n_watched = n_left;
+    list->n_watched[when] = n_left;
+}
+
+/* Whether the last step left everything between the cars as it was. */
+static bool nothing_pushes(const CzBatch *batch) {
+    const CzDynamics *dynamics = batch->dynamics;
+    bool all_rest = !batch->lanes->has_side_buffers;
+    for (int i = 0; i < dynamics->n_block && all_rest; ++i)
+        all_rest = (!batch->lanes->has_couplers || dynamics->block[i].couplers_rest) &&
+                   dynamics->block[i].faces_rest;
+    return all_rest;
+}
+
+/* Whether some lane of a block is beyond one of its limits: all of them at once cost little more
+ * than one value by its own. */
+static bool is_beyond(const CzBlock *block, const Limits *limits) {
+    const CzRow *lift = &block->extreme[CZ_E_LIFT_0];
+    const CzRow *end = (const CzRow *)&block->memory[CZ_M_END_PEAK_REAR];
+    double n_beyond = 0.0;
+#pragma omp simd reduction(+ : n_beyond)
+    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
+        const double rear = compression(block, 0, i), front = compression(block, 1, i);
+        double beyond = 0.0;
+        beyond += lift[0][i] > limits->lift[0][i] ? 1.0 : 0.0;
+        beyond += lift[1][i] > limits->lift[1][i] ? 1.0 : 0.0;
+        beyond += lift[2][i] > limits->lift[2][i] ? 1.0 : 0.0;
+        beyond += lift[3][i] > limits->lift[3][i] ? 1.0 : 0.0;
+        beyond += end[0][i] > limits->end[0][i] ? 1.0 : 0.0;
+        beyond += end[1][i] > limits->end[1][i] ? 1.0 : 0.0;
+        beyond += -rear > limits->raised[0][i] ? 1.0 : 0.0;
+        beyond += -front > limits->raised[1][i] ? 1.0 : 0.0;
+        beyond += rear > limits->pressed[0][i] ? 1.0 : 0.0;
+        beyond += front > limits->pressed[1][i] ? 1.0 : 0.0;
+        n_beyond += beyond;
+    }
+    return n_beyond > 0.0;
+}
+
+void cz_watch_look(CzWatch *list, const CzBatch *batch) {
+    if (!nothing_pushes(batch))
+        look_at_list(list, batch, WHILE_PUSHED);
+    bool any_beyond = false;
+    for (int i = 0; i < batch->dynamics->n_block && !any_beyond; ++i)
+        any_beyond = is_beyond(&batch->dynamics->block[i], &list->limits[i]);
+    if (any_beyond) {
+        look_at_list(list, batch, GUARDED);
+        set_limits(list, batch);
+    }
 }
 
 const CzEvent *cz_watch_events(const CzWatch *list, int *n_event) {

@@ -1,4 +1,5 @@
 if(CZ_IS_WHOLE)
     cz_test(test_lanes repeat test_lanes.c)
+    cz_test(test_left_out repeat test_left_out.c)
     cz_script(repeat repeat repeat.sh)
 endif()

@@ -8,12 +8,15 @@
  *
  *   problem file --> cz_sweep --> CzSweep (the same line for every value of a path) --> report
  *
+ *   measured curve --> CzFit --> stages of a problem file
+ *
  * SI units inside; compression positive, x forward, z up, pitch positive nose-up.
  */
 #ifndef CRUSHZONE_CRUSHZONE_H
 #define CRUSHZONE_CRUSHZONE_H
 
 #include "crushzone/evaluate.h"
+#include "crushzone/fit.h"
 #include "crushzone/model.h"
 #include "crushzone/optimise.h"
 #include "crushzone/problem.h"

@@ -8,6 +8,7 @@
 
 #include <stdio.h>
 
+#include "crushzone/fit.h"
 #include "crushzone/optimise.h"
 #include "crushzone/sweep.h"
 
@@ -44,6 +45,9 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome(const CzProblem *problem,
                                                       const CzOutcome *outcome,
                                                       const CzReportOptions *options, FILE *stream,
                                                       CzError *error);
+
+/* JSON document `crushzone.fit`: what was found, the law's values by path, and the same as YAML. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_fit(const CzFit *fit, FILE *stream, CzError *error);
 
 /* JSON document {"error": first, "errors": [all]} of n_mistake errors. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_mistakes(int n_mistake, const CzError *const *mistake,

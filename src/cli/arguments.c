@@ -209,7 +209,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     static const char *const separators[] = {",", ";", "tab"};
     static const char *const decimals[] = {".", ","};
     int colour = 0, separator = 0, decimal = 0;
-    long n_job = 0;
+    long n_job = 0, n_stage = -1;
     CzStatus status = CZ_OK;
     if (status == CZ_OK)
         status = read_whole(arguments, CZ_OPTION_JOBS, 1, 1024, &n_job, error);
@@ -219,6 +219,8 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     if (status == CZ_OK)
         status = read_whole(arguments, CZ_OPTION_SEED, 0, 2000000000, &arguments->seed, error);
     if (status == CZ_OK)
+        status = read_whole(arguments, CZ_OPTION_STAGES, 0, 100, &n_stage, error);
+    if (status == CZ_OK)
         status = read_choice(arguments, CZ_OPTION_COLOR, 3, colours, &colour, error);
     if (status == CZ_OK)
         status = read_choice(arguments, CZ_OPTION_CSV_SEP, 3, separators, &separator, error);
@@ -227,6 +229,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     if (status != CZ_OK)
         return status;
     arguments->n_job = (int)n_job;
+    arguments->n_stage = (int)n_stage;
     arguments->colour = (CzColour)colour;
     arguments->csv_separator = ",;\t"[separator];
     arguments->csv_decimal = ".,"[decimal];

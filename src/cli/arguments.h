@@ -55,6 +55,7 @@ typedef struct CzArguments {
     int n_job;          /* 0: as many as there are processors */
     long evaluations;   /* 0: the file's */
     long seed;          /* -1: the file's */
+    int n_stage;        /* -1: as many as the curve calls for */
     char csv_separator, csv_decimal;
     CzColour colour;
 } CzArguments;

@@ -9,6 +9,7 @@ int cz_command_optimise(const CzArguments *arguments);
 int cz_command_sweep(const CzArguments *arguments);
 int cz_command_validate(const CzArguments *arguments);
 int cz_command_show(const CzArguments *arguments);
+int cz_command_fit(const CzArguments *arguments);
 int cz_command_new(const CzArguments *arguments);
 int cz_command_schema(const CzArguments *arguments);
 int cz_command_help(const CzArguments *arguments);

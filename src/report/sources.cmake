@@ -3,6 +3,7 @@ set(CZ_SOURCES_report
     checks_table.c
     csv.c
     figure.c
+    fit_document.c
     folder.c
     grid.c
     json.c

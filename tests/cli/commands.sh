@@ -4,13 +4,13 @@
 
 greeting() { exits 0 "$C" && [ "$(wc -l <out.txt)" = 5 ] && says out.txt 'crushzone new two-trains'; }
 check "the program alone says in five lines what it is" greeting
-overview() { exits 0 "$C" help && for word in run check optimise validate show new schema version; do says out.txt "  $word " || return 1; done; }
+overview() { exits 0 "$C" help && for word in run check optimise validate show fit new schema version; do says out.txt "  $word " || return 1; done; }
 check "help lists every command" overview
 same_help() { exits 0 "$C" run --help && mv out.txt a && exits 0 "$C" help run && cmp a out.txt && says a '--set PATH=VALUE'; }
 check "run --help and help run are the same" same_help
 help_topics() { for topic in keys units checks algorithms optimize; do exits 0 "$C" help $topic && [ -s out.txt ] || return 1; done; }
 check "help has every topic" help_topics
-narrow() { for topic in '' run optimise check show validate new version schema; do "$C" help $topic; done | awk 'length > 100 { bad = 1; print } END { exit bad }'; }
+narrow() { for topic in '' run optimise check show validate fit new version schema; do "$C" help $topic; done | awk 'length > 100 { bad = 1; print } END { exit bad }'; }
 check "help is not wider than 100 columns" narrow
 topic_slip() { exits 2 "$C" help kyes && says err.txt "did you mean 'crushzone help keys'?"; }
 check "a mistyped topic gets a suggestion" topic_slip

@@ -1,0 +1,102 @@
+/* Measured or computed force-stroke curves as staged laws of equal energy.
+ *
+ * The stages are those of the problem file. Their break points and forces are the least squares of
+ * the force over the stroke, under the condition that using up the law's stroke takes exactly the
+ * energy that the curve took. A trigger peak is no plateau: it keeps its height as a key of its
+ * own.
+ */
+#ifndef CRUSHZONE_FIT_H
+#define CRUSHZONE_FIT_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "crushzone/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a curve is turned into. */
+typedef enum CzFitKind {
+#define CZ_FIT(constant, word, record, doc) constant,
+#include "crushzone/fits.def"
+#undef CZ_FIT
+    CZ_N_FIT
+} CzFitKind;
+
+/* Word of a kind, such as "anti-climber", and what it is. */
+CZ_API const char *cz_fit_kind_word(CzFitKind kind);
+CZ_API const char *cz_fit_kind_doc(CzFitKind kind);
+
+/* How a curve is read and fitted; texts are borrowed. */
+typedef struct CzFitOptions {
+    CzFitKind kind;
+    int is_dynamic;     /* 1: measured at speed, the rise with the rate is in it; 0: static */
+    int n_stage;        /* stages of the end, or plateaus of the tube or anti-climber; 0 for none
+                           (a coupler without a tube); -1: as many as the curve calls for */
+    const char *name;   /* of the part; NULL: from the file's name */
+    const char *stroke; /* column of the stroke by its title or its number from 1; NULL: the one
+                           named stroke_mm or in another unit of length */
+    const char *force;  /* column of the force; NULL: the one named force_kN or the like */
+    const char *stroke_unit; /* such as "mm"; NULL: from the column's title */
+    const char *force_unit;  /* such as "kN"; NULL: from the column's title */
+    char separator;          /* between fields; 0: ';' where a line has one, else ',' */
+    char decimal;            /* decimal sign, '.' or ',' */
+} CzFitOptions;
+CZ_API CzFitOptions cz_fit_options_default(void);
+
+/* What was found. Energies are work on the device [J]. */
+typedef struct CzFitSummary {
+    CzFitKind kind;
+    int is_dynamic;
+    const char *file;          /* borrowed; NULL when fitted from arrays */
+    const char *name;          /* of the part; borrowed */
+    int n_point;               /* of the curve */
+    double stroke;             /* largest stroke of the curve [m] */
+    double peak_force;         /* largest force of the curve [N] */
+    double energy;             /* under the curve up to where the law ends [J] */
+    double law_energy;         /* of the law over its whole stroke [J] */
+    double returned;           /* by the unloading of the curve [J]; NaN without */
+    double law_returned;       /* by the unloading of the law [J]; NaN when it has none */
+    double largest_difference; /* of the force between curve and law while loading [N] */
+    double at_stroke;          /* where that is [m] */
+    double mean_square;        /* root of the mean square difference over the stroke [N] */
+} CzFitSummary;
+
+/* A law that was found. Opaque, owns its memory. */
+typedef struct CzFit CzFit;
+
+/* Fits the curve of a CSV file ("-" is standard input): two columns or more under one line of
+ * titles, which may be missing when the options give columns and units; '#' begins a comment.
+ * Strokes rise to their largest and may then go back once, while the force falls: that is the
+ * unloading. Statuses: CZ_OK, CZ_STATUS_INPUT with file, line and column of the first mistake,
+ * CZ_STATUS_NO_MEMORY. *fit is NULL unless CZ_OK is returned; NULL options are the default ones. */
+CZ_MUST_CHECK CZ_API CzStatus cz_fit_read(const char *path, const CzFitOptions *options,
+                                          CzFit **fit, CzError *error);
+
+/* The same from stroke [m] and force [N] (n_point each); of the options those of files have no
+ * meaning, and the line of an error counts points from 1. */
+CZ_MUST_CHECK CZ_API CzStatus cz_fit_points(int n_point, const double *stroke, const double *force,
+                                            const CzFitOptions *options, CzFit **fit,
+                                            CzError *error);
+CZ_API void cz_fit_free(CzFit *fit);
+CZ_API const CzFitSummary *cz_fit_summary(const CzFit *fit);
+
+/* The law's values in the order of the file: the path inside its record, such as
+ * "tube.stages[0].force_kN", and the value in the unit that the path names. Borrowed. */
+CZ_API int cz_fit_n_value(const CzFit *fit);
+CZ_API const char *cz_fit_value_path(const CzFit *fit, int index);
+CZ_API double cz_fit_value(const CzFit *fit, int index);
+
+/* What a user should know of the law: sentences without a stop. Borrowed. */
+CZ_API int cz_fit_n_note(const CzFit *fit);
+CZ_API const char *cz_fit_note(const CzFit *fit, int index);
+
+/* Writes the law as a catalogue with one part, the summary in comments above it. */
+CZ_API void cz_fit_write_yaml(const CzFit *fit, FILE *stream);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

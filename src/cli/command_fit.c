@@ -1,0 +1,70 @@
+/* `fit`: a measured curve as a staged law. */
+#include "base/suggest.h"
+#include "cli/command.h"
+#include "cli/messages.h"
+#include "crushzone/report.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static CzStatus misuse(CzError *error, const char *sentence, const char *help) {
+    error->status = CZ_STATUS_INPUT;
+    snprintf(error->message, sizeof error->message, "%s", sentence);
+    snprintf(error->help, sizeof error->help, "%s", help);
+    return CZ_STATUS_INPUT;
+}
+
+static CzStatus take_kind(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
+    const char *word = arguments->text[CZ_OPTION_AS];
+    CzSuggestion suggestion = {0};
+    for (int kind = 0; word != NULL && kind < CZ_N_FIT; kind++) {
+        cz_suggest(&suggestion, word, cz_fit_kind_word((CzFitKind)kind));
+        options->kind = (CzFitKind)kind;
+        if (strcmp(word, cz_fit_kind_word((CzFitKind)kind)) == 0)
+            return CZ_OK;
+    }
+    misuse(error, "'crushzone fit' needs '--as KIND'", "KIND is coupler, anti-climber or end");
+    if (word != NULL)
+        snprintf(error->message, sizeof error->message, "'--as %.40s' is not known", word);
+    if (suggestion.best != NULL)
+        snprintf(error->help, sizeof error->help, "did you mean '%s'?", suggestion.best);
+    return CZ_STATUS_INPUT;
+}
+
+static CzStatus take_options(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
+    const char *basis = arguments->text[CZ_OPTION_BASIS];
+    const CzStatus status = take_kind(arguments, options, error);
+    if (status != CZ_OK)
+        return status;
+    options->is_dynamic = basis != NULL && strcmp(basis, "dynamic") == 0;
+    if (!options->is_dynamic && (basis == NULL || strcmp(basis, "static") != 0))
+        return misuse(error, "'crushzone fit' needs '--basis static' or '--basis dynamic'",
+                      "a dynamic curve was measured at speed and already holds the rise with the "
+                      "rate");
+    options->n_stage = arguments->n_stage;
+    options->name = arguments->text[CZ_OPTION_NAME];
+    options->stroke = arguments->text[CZ_OPTION_STROKE];
+    options->force = arguments->text[CZ_OPTION_FORCE];
+    options->stroke_unit = arguments->text[CZ_OPTION_STROKE_UNIT];
+    options->force_unit = arguments->text[CZ_OPTION_FORCE_UNIT];
+    options->separator =
+        arguments->text[CZ_OPTION_CSV_SEP] != NULL ? arguments->csv_separator : '\0';
+    options->decimal = arguments->csv_decimal;
+    return CZ_OK;
+}
+
+int cz_command_fit(const CzArguments *arguments) {
+    CzFitOptions options = cz_fit_options_default();
+    CzError error = {0};
+    CzFit *fit = NULL;
+    if (take_options(arguments, &options, &error) != CZ_OK ||
+        cz_fit_read(arguments->operand[0], &options, &fit, &error) != CZ_OK)
+        return cz_tell_error(arguments, &error);
+    int code = 0;
+    if (arguments->text[CZ_OPTION_JSON] == NULL)
+        cz_fit_write_yaml(fit, stdout);
+    else if (cz_report_write_fit(fit, stdout, &error) != CZ_OK)
+        code = cz_tell_error(arguments, &error);
+    cz_fit_free(fit);
+    return code;
+}

@@ -1,0 +1,262 @@
+/* Coupler: a buffer, then the plateaus of its tube, then the shear-off when the force drops.
+ *
+ * The elastic shortening F / k of the tube is taken off first, so that what is left is the sum of
+ * the strokes u = x_b + s.
+ *
+ *   0 .. u_b     the buffer's lines
+ *   u_b .. u_t   the tube's plateaus
+ *   u_t .. u_p   the rise along the tube's stop to the force F_s that shears off
+ *   u_p .. u_d   its fall, of equal area: softening length = 2 area / F_s
+ *
+ * u_b is where lines before and plateaus behind leave the least squares.
+ */
+#include "base/error.h"
+#include "fit/fit.h"
+#include "fit/plateaus.h"
+
+#define GONE 0.05            /* of the highest force: below this there is none (ours) */
+#define HIGH_UP 0.5          /* of the highest force: above this the coupler still holds (ours) */
+#define PEAK_BEFORE 0.05     /* of the stroke: how far before that the peak may lie (ours) */
+#define LONGEST_DROP 0.25    /* of the stroke: a slower fall is no shear-off (ours) */
+#define RISES 1.05           /* of a shear-off over the tube in front of it (ours) */
+#define RISE_FOOT 0.2        /* part of that rise at which it begins (ours) */
+#define REVERSIBLE 0.1       /* of the stroke that a buffer alone may keep (ours) */
+#define SHORTEST 0.05        /* of a buffer's stage, as a share of its stroke (ours) */
+#define STIFFER 2.0          /* than the steepest line from zero to a point of the curve (ours) */
+#define WORTH_A_PRELOAD 0.05 /* of the buffer's force: less is none (ours) */
+
+enum { CELLS = 60, BUFFER_STAGES = 3 };
+
+/* Strokes of the parts [m], as above. */
+typedef struct Parts {
+    double tube, stop, peak, drop; /* where they begin: u_b, u_t, u_p, u_d */
+    double stop_stiffness;         /* of the rise [N/m] */
+    double force;                  /* F_s [N]; NaN without shear-off */
+    int end;                       /* last point of the drop, or of the curve */
+} Parts;
+
+/* ---- shear-off ---- */
+
+/* Finds where the force drops for good; otherwise `parts` ends where the curve does. */
+static void find_drop(const CzBranch *branch, Parts *parts) {
+    int top = 0, end = branch->n - 1;
+    for (int i = 0; i < branch->n; i++)
+        top = branch->f[i] > branch->f[top] ? i : top;
+    const double highest = branch->f[top];
+    parts->stop = parts->peak = parts->drop = cz_branch_last(branch);
+    parts->force = NAN;
+    parts->end = end;
+    if (!(branch->f[end] < GONE * highest))
+        return;
+
+    /* The first point of the last stretch without force, and the peak just before it. */
+    while (end > 0 && branch->f[end - 1] < GONE * highest)
+        end--;
+    int edge = end;
+    while (edge > 0 && branch->f[edge] < HIGH_UP * highest)
+        edge--;
+    top = edge;
+    for (int i = edge; i > 0 && branch->x[edge] - branch->x[i] <= PEAK_BEFORE * parts->drop; i--)
+        top = branch->f[i] > branch->f[top] ? i : top;
+    if (branch->x[end] - branch->x[top] > LONGEST_DROP * parts->drop)
+        return; /* a curve that fades away */
+    while (end + 1 < branch->n && branch->f[end + 1] < branch->f[end])
+        end++;
+    parts->stop = parts->peak = branch->x[top];
+    parts->drop = branch->x[end];
+    parts->force = branch->f[top];
+    parts->end = end;
+}
+
+/* Finds the foot of the rise to the shear-off, and the stiffness that gives it its area. */
+static double find_stop(const CzBranch *branch, Parts *parts) {
+    const CzKey *key = cz_fit_key(CZ_RECORD_CzTube, "bottom_stiffness");
+    const double before = cz_branch_mean(branch, 0.8 * parts->peak, 0.95 * parts->peak);
+    const double foot = before + RISE_FOOT * (parts->force - before);
+    if (!(parts->force > RISES * before))
+        return key->absent;
+    int i = branch->n - 1;
+    while (i > 0 && (branch->x[i] > parts->peak || branch->f[i] > foot))
+        i--;
+    const double area =
+        cz_branch_sums(branch, parts->peak).area - cz_branch_sums(branch, branch->x[i]).area;
+    const double length = 2.0 * area / (parts->force + before);
+    const double stiffness = length > 0.0 ? (parts->force - before) / length : INFINITY;
+    if (stiffness < key->lo)
+        return key->absent; /* no stop: a tube that stiffens */
+    parts->stop = branch->x[i];
+    return cz_fit_round(fmin(stiffness, key->absent), 1e6);
+}
+
+static void fit_shear_off(CzFit *fit, const CzBranch *branch, const Parts *parts) {
+    const CzKey *force = cz_fit_key(CZ_RECORD_CzShearOff, "force");
+    const CzKey *length = cz_fit_key(CZ_RECORD_CzShearOff, "softening_length");
+    const double area =
+        cz_branch_sums(branch, parts->drop).area - cz_branch_sums(branch, parts->peak).area;
+    const double softening = 2.0 * area / parts->force;
+    fit->shear_force = cz_fit_round(fmax(parts->force, force->lo), 1e3);
+    fit->softening = cz_fit_round(fmin(fmax(softening, length->lo), length->hi), 1e-3);
+    fit->retraction = cz_fit_round(fmax(cz_branch_last(branch) - parts->drop, 0.0), 1e-3);
+    cz_fit_note_down(fit, "retraction_space is the free travel of the curve; the coupler's own may "
+                          "be longer");
+}
+
+/* ---- buffer ---- */
+
+/* Lines of the buffer over its part, with a preload when that is worth it and saves stages or
+ * leaves less. */
+static CzStatus fit_buffer(CzFit *fit, const CzBranch *part, CzError *error) {
+    CzStaged preloaded;
+    CzLines lines = {.n_stage = -1, .n_most = BUFFER_STAGES, .shortest = SHORTEST};
+    bool has_memory = cz_fit_lines(&fit->arena, part, &lines, &fit->buffer);
+    lines.has_preload = true;
+    has_memory = has_memory && cz_fit_lines(&fit->arena, part, &lines, &preloaded);
+    if (!has_memory)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+    const double energy = part->area[part->n - 1];
+    const double worth = WORTH_A_PRELOAD * preloaded.stage[preloaded.n_stage - 1].force;
+    if (cz_staged_solve(&preloaded, part, energy) < INFINITY && preloaded.preload > worth &&
+        preloaded.n_stage <= fit->buffer.n_stage)
+        fit->buffer = preloaded;
+    fit->buffer.bottom_stiffness = cz_fit_key(CZ_RECORD_CzBuffer, "bottom_stiffness")->absent;
+
+    /* The force of a buffer does not fall while it is pressed. */
+    double force = fit->buffer.preload;
+    for (int i = 0; i < fit->buffer.n_stage; i++)
+        force = fit->buffer.stage[i].force = fmax(fit->buffer.stage[i].force, force);
+    return CZ_OK;
+}
+
+/* Whether the unloading comes back to where the loading began: then nothing is plastic. */
+static bool is_reversible(const CzTrace *trace) {
+    return trace->unloads && trace->x[trace->n - 1] < REVERSIBLE * trace->x[trace->n_loading - 1];
+}
+
+/* ---- where the tube begins ---- */
+
+/* The tube's plateaus as they are, their first one lengthened or shortened to begin at a stroke. */
+static bool begin_tube_at(CzStaged *tube, double stop, double from) {
+    const double longer = stop - from - cz_staged_stroke(tube);
+    tube->stage[0].stroke += longer;
+    return tube->stage[0].stroke > 0.0;
+}
+
+/* What one line before and the tube's plateaus behind a stroke leave. */
+static CzStatus left_by(CzFit *fit, const CzBranch *branch, const Parts *parts, double from,
+                        double *left, CzError *error) {
+    CzBranch before, behind;
+    CzStaged line = cz_staged_begin(false), tube = fit->member;
+    *left = INFINITY;
+    if (!begin_tube_at(&tube, parts->stop, from) || !(from > 0.0))
+        return CZ_OK;
+    if (!cz_branch_cut(&fit->arena, branch, 0.0, from, &before) ||
+        !cz_branch_cut(&fit->arena, branch, from, parts->stop, &behind))
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+    line.n_stage = 1;
+    line.stage[0] = (CzStage){.stroke = from, .end_force = NAN};
+    double in_line = cz_staged_solve(&line, &before, NAN);
+    line.has_preload = true;
+    in_line = fmin(in_line, cz_staged_solve(&line, &before, NAN));
+    *left = in_line + cz_staged_solve(&tube, &behind, NAN);
+    return CZ_OK;
+}
+
+/* Scans around where the tube begins, ever closer. */
+static CzStatus sharpen_tube(CzFit *fit, const CzBranch *branch, Parts *parts, CzError *error) {
+    double best = INFINITY, reach = parts->stop / CELLS;
+    for (int pass = 0; pass < 5; pass++, reach /= 4.0) {
+        const double middle = parts->tube;
+        for (int i = -4; i <= 4; i++) {
+            double left;
+            CZ_TRY(left_by(fit, branch, parts, middle + i * reach / 4.0, &left, error));
+            if (left < best) {
+                best = left;
+                parts->tube = middle + i * reach / 4.0;
+            }
+        }
+    }
+    return CZ_OK;
+}
+
+/* Splits buffer and tube, and fits both. */
+static CzStatus fit_members(CzFit *fit, const CzBranch *branch, int n_stage, Parts *parts,
+                            CzError *error) {
+    CzBranch before, behind;
+    const double stiffness = fit->stiffness;
+    bool has_memory = cz_branch_cut(&fit->arena, branch, parts->tube, parts->stop, &behind) &&
+                      cz_fit_plateaus(&fit->arena, &behind, n_stage, stiffness, &fit->member);
+    if (has_memory) {
+        CZ_TRY(sharpen_tube(fit, branch, parts, error));
+        has_memory = cz_branch_cut(&fit->arena, branch, parts->tube, parts->stop, &behind) &&
+                     cz_fit_plateaus(&fit->arena, &behind, n_stage, stiffness, &fit->member) &&
+                     cz_branch_cut(&fit->arena, branch, 0.0, parts->tube, &before);
+    }
+    if (!has_memory)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+    CZ_TRY(fit_buffer(fit, &before, error));
+
+    /* The tube flows once the buffer has come to its last force, not before. */
+    const double flows =
+        isnan(fit->member.trigger) ? fit->member.stage[0].force : fit->member.trigger;
+    fit->buffer.preload = fmin(fit->buffer.preload, flows);
+    for (int i = 0; i < fit->buffer.n_stage; i++)
+        fit->buffer.stage[i].force = fmin(fit->buffer.stage[i].force, flows);
+    cz_fit_round_staged(&fit->buffer);
+    fit->member.bottom_stiffness = parts->stop_stiffness;
+    return cz_fit_settle(fit, &fit->member, &behind, error);
+}
+
+/* A buffer without a tube: the whole curve up to where it ends or drops. */
+static CzStatus fit_buffer_alone(CzFit *fit, const CzBranch *branch, Parts *parts, CzError *error) {
+    CzBranch part;
+    if (!cz_branch_cut(&fit->arena, branch, 0.0, parts->stop, &part))
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+    CZ_TRY(fit_buffer(fit, &part, error));
+    CZ_TRY(cz_fit_settle(fit, &fit->buffer, &part, error));
+    if (is_reversible(&fit->trace))
+        fit->share = cz_fit_round(fmin(fit->summary.returned / fit->summary.energy, 1.0), 1.0);
+    return CZ_OK;
+}
+
+/* Elastic stiffness of the tube: the usual one, unless the curve rises more steeply than that. */
+static double find_stiffness(const CzFit *fit) {
+    const CzKey *key = cz_fit_key(CZ_RECORD_CzTube, "stiffness");
+    double steepest = 0.0;
+    for (int i = 0; i < fit->curve.n; i++)
+        if (fit->curve.x[i] > 0.0)
+            steepest = fmax(steepest, fit->curve.f[i] / fit->curve.x[i]);
+    return fmax(key->absent, cz_fit_round(fmin(STIFFER * steepest, key->hi), 1e6));
+}
+
+/* Takes the elasticity off and finds the parts; the tube begins at the end when there is none. */
+static CzStatus find_parts(CzFit *fit, bool is_alone, int n_stage, CzBranch *branch, Parts *parts,
+                           CzError *error) {
+    CzBranch whole;
+    fit->stiffness = is_alone ? INFINITY : find_stiffness(fit);
+    CZ_TRY(cz_fit_branch(fit, fit->stiffness, branch, error));
+    find_drop(branch, parts);
+    parts->stop_stiffness = find_stop(branch, parts);
+    parts->tube = parts->stop;
+    if (is_alone)
+        return CZ_OK;
+    if (!cz_branch_cut(&fit->arena, branch, 0.0, parts->stop, &whole) ||
+        !cz_fit_split(&fit->arena, &whole, n_stage, &parts->tube))
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+    return CZ_OK;
+}
+
+CzStatus cz_fit_coupler(CzFit *fit, int n_stage, CzError *error) {
+    CzBranch branch;
+    Parts parts;
+    bool is_alone = n_stage == 0 || (n_stage < 0 && is_reversible(&fit->trace));
+    CZ_TRY(find_parts(fit, is_alone, n_stage, &branch, &parts, error));
+    if (!is_alone && n_stage < 0 && parts.stop - parts.tube < SHORTEST * parts.stop) {
+        is_alone = true;
+        CZ_TRY(find_parts(fit, is_alone, n_stage, &branch, &parts, error));
+    }
+    if (!isnan(parts.force))
+        fit_shear_off(fit, &branch, &parts);
+    fit->summary.energy = cz_fit_work(fit, parts.end);
+    return is_alone ? fit_buffer_alone(fit, &branch, &parts, error)
+                    : fit_members(fit, &branch, n_stage, &parts, error);
+}

@@ -1,0 +1,133 @@
+/* The law under a shortening that grows slowly, and how far it is from the curve.
+ *
+ *   d = x_b(F) + s + F / k
+ *
+ * The members of a coupler lie in series: the buffer x_b gives way until it stands on its stop or
+ * the tube begins to flow, then the tube flows by s until its stroke is used up, then the force
+ * rises along the tube's stop until the shear-off lets go. What a buffer gives back while the force
+ * of the tube falls is left out.
+ */
+#include "fit/fit.h"
+
+enum { SAMPLES = 4000 }; /* of the mean square */
+
+static void add(CzLoading *loading, double x, double f) {
+    const double before = loading->n > 0 ? loading->x[loading->n - 1] : 0.0;
+    if (loading->n > 0 && x == before && f == loading->f[loading->n - 1])
+        return;
+    loading->x[loading->n] = fmax(x, before);
+    loading->f[loading->n++] = f;
+}
+
+/* Appends a staged curve whose stroke begins at `from`; returns where it ends. */
+static double add_staged(CzLoading *loading, const CzStaged *staged, double from,
+                         double compliance) {
+    double at[CZ_MOST_BENDS];
+    CzKinks kinks;
+    if (staged->n_stage == 0)
+        return from;
+    cz_staged_kinks(staged, &kinks);
+    const int n = cz_staged_bends(staged, at);
+    for (int i = 0; i < n; i++) {
+        const double force = cz_kinks_value(&kinks, at[i]);
+        add(loading, from + at[i] + force * compliance, force);
+    }
+    return from + at[n - 1];
+}
+
+static double last_force(const CzLoading *loading) {
+    return loading->n > 0 ? loading->f[loading->n - 1] : 0.0;
+}
+
+/* Along a stop up to a force; returns where the members' stroke has got to. */
+static double add_stop(CzLoading *loading, double at, double force, double stiffness,
+                       double compliance) {
+    if (force > last_force(loading)) {
+        at += (force - last_force(loading)) / stiffness;
+        add(loading, at + force * compliance, force);
+    }
+    return at;
+}
+
+void cz_fit_load(const CzFit *fit, CzLoading *loading) {
+    const double compliance = isfinite(fit->stiffness) ? 1.0 / fit->stiffness : 0.0;
+    double at = 0.0;
+    loading->n = 0;
+    if (compliance > 0.0 || fit->buffer.n_stage > 0)
+        add(loading, 0.0, 0.0);
+    at = add_staged(loading, &fit->buffer, at, compliance);
+    if (fit->buffer.n_stage > 0 && fit->member.n_stage > 0) {
+        CzKinks kinks;
+        cz_staged_kinks(&fit->member, &kinks);
+        at = add_stop(loading, at, kinks.start, fit->buffer.bottom_stiffness, compliance);
+    }
+    at = add_staged(loading, &fit->member, at, compliance);
+    if (isnan(fit->shear_force))
+        return;
+    const double stop =
+        fit->member.n_stage > 0 ? fit->member.bottom_stiffness : fit->buffer.bottom_stiffness;
+    at = add_stop(loading, at, fit->shear_force, stop, compliance);
+    add(loading, at + fit->softening, 0.0);
+}
+
+double cz_fit_law_energy(const CzFit *fit) {
+    CzLoading loading;
+    double energy = 0.0;
+    cz_fit_load(fit, &loading);
+    for (int i = 1; i < loading.n; i++)
+        energy += 0.5 * (loading.f[i] + loading.f[i - 1]) * (loading.x[i] - loading.x[i - 1]);
+    return energy;
+}
+
+/* Least and largest force of the law at a shortening: they differ at a jump. */
+static void force_at(const CzLoading *loading, double x, double *low, double *high) {
+    int i = 0;
+    while (i + 1 < loading->n && loading->x[i + 1] < x)
+        i++;
+    const int next = i + 1 < loading->n ? i + 1 : i;
+    const double length = loading->x[next] - loading->x[i];
+    const double share = length > 0.0 ? fmin((x - loading->x[i]) / length, 1.0) : 0.0;
+    *low = *high = loading->f[i] + share * (loading->f[next] - loading->f[i]);
+    for (int k = 0; k < loading->n; k++)
+        if (loading->x[k] == x) {
+            *low = fmin(*low, loading->f[k]);
+            *high = fmax(*high, loading->f[k]);
+        }
+}
+
+static double difference_at(const CzLoading *loading, double x, double force) {
+    double low, high;
+    force_at(loading, x, &low, &high);
+    return force < low ? low - force : force > high ? force - high : 0.0;
+}
+
+static void take_larger(CzFit *fit, const CzLoading *loading, double x, double force) {
+    const double difference = difference_at(loading, x, force);
+    const double none = 1e-9 * fit->summary.peak_force; /* rounding */
+    if (difference > fmax(fit->summary.largest_difference, none)) {
+        fit->summary.largest_difference = difference;
+        fit->summary.at_stroke = x;
+    }
+}
+
+void cz_fit_compare(CzFit *fit) {
+    CzLoading loading;
+    cz_fit_load(fit, &loading);
+    const double end = fmin(loading.x[loading.n - 1], cz_branch_last(&fit->curve));
+    fit->summary.largest_difference = fit->summary.at_stroke = 0.0;
+    for (int i = 0; i < fit->curve.n && fit->curve.x[i] <= end; i++)
+        take_larger(fit, &loading, fit->curve.x[i], fit->curve.f[i]);
+    for (int i = 0; i < loading.n && loading.x[i] <= end; i++) {
+        const bool is_jump = (i > 0 && loading.x[i] == loading.x[i - 1]) ||
+                             (i + 1 < loading.n && loading.x[i] == loading.x[i + 1]);
+        if (!is_jump)
+            take_larger(fit, &loading, loading.x[i], cz_branch_force(&fit->curve, loading.x[i]));
+    }
+    double squares = 0.0;
+    for (int i = 0; i < SAMPLES; i++) {
+        const double x = end * (i + 0.5) / SAMPLES;
+        const double difference = difference_at(&loading, x, cz_branch_force(&fit->curve, x));
+        squares += difference * difference;
+    }
+    fit->summary.mean_square = sqrt(squares / SAMPLES);
+}

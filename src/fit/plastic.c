@@ -1,0 +1,75 @@
+/* Anti-climber or collapse tube: plateaus behind an elastic shortening.
+ *
+ *   d = s + F / k
+ *
+ * A curve that begins without force shows the elastic rise: k is taken from its unloading, by the
+ * energy that this gives back, else from the rise; the plateaus are fitted over s = d - F / k. A
+ * curve that begins with force has no rise, and its strokes are plastic.
+ */
+#include "base/error.h"
+#include "fit/fit.h"
+#include "fit/plateaus.h"
+
+#define STEEPER 5.0     /* than the curve as a whole: less is no elasticity (ours) */
+#define FIRST_FROM 0.03 /* part of the stroke whose mean is the first force (ours) */
+#define FIRST_TO 0.13
+#define WITHOUT_FORCE 0.2 /* of the mean force: less than this is no force (ours) */
+#define RISE_LOW 0.2      /* part of the rise that gives the stiffness, of the mean force (ours) */
+#define RISE_HIGH 0.8
+
+/* Stroke at which the loading first reaches a force. */
+static double stroke_of(const CzBranch *curve, double force) {
+    for (int i = 1; i < curve->n; i++)
+        if (curve->f[i] >= force) {
+            const double rise = curve->f[i] - curve->f[i - 1];
+            const double share = rise > 0.0 ? (force - curve->f[i - 1]) / rise : 0.0;
+            return curve->x[i - 1] + share * (curve->x[i] - curve->x[i - 1]);
+        }
+    return cz_branch_last(curve);
+}
+
+static double stiffness_of_unloading(const CzTrace *trace) {
+    const int top = trace->n_loading - 1, last = trace->n - 1;
+    const double high = trace->f[top], low = trace->f[last];
+    const double returned = -cz_trace_work(trace, top, last);
+    return returned > 0.0 ? (high * high - low * low) / (2.0 * returned) : INFINITY;
+}
+
+static double find_stiffness(CzFit *fit) {
+    const CzKey *key = cz_fit_key(CZ_RECORD_CzAntiClimber, "stiffness");
+    const double last = cz_branch_last(&fit->curve);
+    const double mean = cz_branch_mean(&fit->curve, 0.0, last);
+    if (fit->curve.f[0] > WITHOUT_FORCE * mean)
+        return INFINITY;
+    const double first =
+        fmin(mean, cz_branch_mean(&fit->curve, FIRST_FROM * last, FIRST_TO * last));
+    const double low = stroke_of(&fit->curve, RISE_LOW * first);
+    const double high = stroke_of(&fit->curve, RISE_HIGH * first);
+    double stiffness = high > low ? (RISE_HIGH - RISE_LOW) * first / (high - low) : INFINITY;
+    if (fit->trace.unloads)
+        stiffness = stiffness_of_unloading(&fit->trace);
+    else if (!(stiffness >= STEEPER * fit->summary.peak_force / last)) {
+        stiffness = key->absent;
+        cz_fit_note_down(fit, "the curve shows no elastic rise; stiffness is the usual one (ours)");
+    }
+    return cz_fit_round(fmin(fmax(stiffness, key->lo), key->hi), 1e6);
+}
+
+CzStatus cz_fit_plastic(CzFit *fit, int n_stage, CzError *error) {
+    CzBranch branch;
+    fit->stiffness = find_stiffness(fit);
+    if (!isfinite(fit->stiffness))
+        cz_fit_note_down(fit, "the curve begins with force: its strokes are taken as plastic");
+    CZ_TRY(cz_fit_branch(fit, fit->stiffness, &branch, error));
+    if (!cz_fit_plateaus(&fit->arena, &branch, n_stage, fit->stiffness, &fit->member))
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+    fit->member.bottom_stiffness = cz_fit_key(CZ_RECORD_CzAntiClimber, "bottom_stiffness")->absent;
+    CZ_TRY(cz_fit_settle(fit, &fit->member, &branch, error));
+    if (fit->trace.unloads && isfinite(fit->stiffness)) {
+        CzLoading loading;
+        cz_fit_load(fit, &loading);
+        const double force = loading.f[loading.n - 1];
+        fit->summary.law_returned = force * force / (2.0 * fit->stiffness);
+    }
+    return CZ_OK;
+}

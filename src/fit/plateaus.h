@@ -1,0 +1,31 @@
+/* Plateaus of a plastic member, and lines of an end or a buffer: how many and where. */
+#ifndef CZ_FIT_PLATEAUS_H
+#define CZ_FIT_PLATEAUS_H
+
+#include "fit/staged.h"
+
+/* Best plateaus of a branch that begins at stroke 0, a trigger peak kept when there is one.
+ * `n_stage` -1: as many as pay. The length of a trigger is such that its fall is softer than
+ * `stiffness`. False without memory. */
+bool cz_fit_plateaus(CzArena *arena, const CzBranch *branch, int n_stage, double stiffness,
+                     CzStaged *staged);
+
+/* What is asked of lines that meet at the ends of stages. */
+typedef struct CzLines {
+    int n_stage;      /* -1: as many as pay, at most n_most */
+    int n_most;       /* at most 4 */
+    bool has_preload; /* they start at a force that is fitted too, else at none */
+    double shortest;  /* of a stage, as a share of the stroke */
+} CzLines;
+
+/* Best lines of a branch that begins at stroke 0. False without memory. */
+bool cz_fit_lines(CzArena *arena, const CzBranch *branch, const CzLines *lines, CzStaged *staged);
+
+/* Stroke at which one line before and plateaus behind (`n_stage`, -1: the most that are taken
+ * without being asked for) leave the least squares. False without memory. */
+bool cz_fit_split(CzArena *arena, const CzBranch *branch, int n_stage, double *at);
+
+/* Number of stages beyond which further ones do not pay, from the integrals left by 1 to n. */
+int cz_fit_stages_that_pay(const double *squares, int n, double nothing);
+
+#endif

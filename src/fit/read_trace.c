@@ -1,0 +1,268 @@
+/* A curve from a CSV file: which columns, in which units, line by line. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/number.h"
+#include "fit/trace.h"
+#include "problem/keys.h"
+#include "problem/source.h"
+
+enum { MOST_LINES = 1000000, LONGEST_FIELD = 200 };
+
+/* One of the two columns. */
+typedef struct Column {
+    const char *stem; /* "stroke" or "force" */
+    CzDimension dimension;
+    const char *wanted; /* title or number; NULL: by the stem */
+    const char *unit_text;
+    int index; /* counted from 0 */
+    const CzUnit *unit;
+} Column;
+
+typedef struct Reader {
+    CzArena *arena;
+    const CzFitOptions *options;
+    CzMistakes *mistakes;
+    const CzSource *source;
+    Column column[2];
+    int n_field; /* of every line, as in the first */
+    CzTrace *trace;
+} Reader;
+
+/* ---- fields ---- */
+
+typedef struct Field {
+    char text[LONGEST_FIELD + 1];
+    int column; /* in the line, counted from 1 */
+} Field;
+
+static char separator_of(const Reader *reader, const char *line) {
+    if (reader->options->separator != 0)
+        return reader->options->separator;
+    return strchr(line, ';') != NULL ? ';' : ',';
+}
+
+/* End of the field that begins at `at`: the next separator outside quotes. */
+static const char *field_end(const char *at, char separator) {
+    bool in_quotes = false;
+    for (; *at != '\0' && (in_quotes || *at != separator); at++)
+        in_quotes ^= *at == '"';
+    return at;
+}
+
+static int count_fields(const char *line, char separator) {
+    int n = 1;
+    for (const char *at = field_end(line, separator); *at != '\0';
+         at = field_end(at + 1, separator))
+        n++;
+    return n;
+}
+
+/* The index-th field of a line, without spaces and quotes around it. */
+static Field take_field(const Reader *reader, const char *line, int index) {
+    const char separator = separator_of(reader, line);
+    const char *start = line, *end = field_end(start, separator);
+    for (int i = 0; i < index && *end != '\0'; i++) {
+        start = end + 1;
+        end = field_end(start, separator);
+    }
+    while (start < end && (*start == ' ' || *start == '\t' || *start == '"'))
+        start++;
+    while (end > start && strchr(" \t\r\"", end[-1]) != NULL)
+        end--;
+    Field field = {.column = (int)(start - line) + 1};
+    const size_t n = (size_t)(end - start) < LONGEST_FIELD ? (size_t)(end - start) : LONGEST_FIELD;
+    memcpy(field.text, start, n);
+    return field;
+}
+
+/* Reads a number with the file's decimal sign; NULL or what is wrong. */
+static const char *parse(const Reader *reader, const Field *field, double *value) {
+    char text[LONGEST_FIELD + 1];
+    memcpy(text, field->text, sizeof text);
+    char *comma = reader->options->decimal == ',' ? strchr(text, ',') : NULL;
+    if (comma != NULL)
+        *comma = '.';
+    return cz_number_parse(text, value);
+}
+
+static bool is_blank(const char *line) {
+    return line[strspn(line, " \t\r")] == '\0' || line[0] == '#';
+}
+
+/* ---- columns ---- */
+
+/* Unit in a title: behind the last '_' of stem_unit, or in brackets. */
+static const CzUnit *unit_in(const Column *column, const char *title) {
+    char unit[16] = "";
+    const size_t n = strlen(column->stem);
+    const char *open = strpbrk(title, "[("), *close = open != NULL ? strpbrk(open, "])") : NULL;
+    if (strncmp(title, column->stem, n) == 0 && title[n] == '_')
+        snprintf(unit, sizeof unit, "%.15s", title + n + 1);
+    else if (close != NULL)
+        snprintf(unit, sizeof unit, "%.*s", (int)(close - open - 1), open + 1);
+    else if (strrchr(title, '_') != NULL)
+        snprintf(unit, sizeof unit, "%.15s", strrchr(title, '_') + 1);
+    return cz_unit_find(column->dimension, unit);
+}
+
+static bool matches(const Column *column, const char *title) {
+    const size_t n = strlen(column->stem);
+    if (column->wanted != NULL)
+        return strcmp(title, column->wanted) == 0;
+    if (strncmp(title, column->stem, n) != 0)
+        return false;
+    return title[n] == '\0' || title[n] == '_' || title[n] == ' ';
+}
+
+/* Number of a column that was asked for by its number, -1 for a title. */
+static int index_wanted(const Column *column) {
+    char *end = NULL;
+    const long number = column->wanted != NULL ? strtol(column->wanted, &end, 10) : 0;
+    return end != NULL && *end == '\0' && number >= 1 && number < 10000 ? (int)number - 1 : -1;
+}
+
+static bool find_column(Reader *reader, Column *column, int line, bool has_titles) {
+    const char *text = reader->source->line[line];
+    char spellings[120];
+    cz_key_spellings(spellings, sizeof spellings, column->stem, column->dimension);
+    column->index = index_wanted(column);
+    for (int i = 0; column->index < 0 && has_titles && i < reader->n_field; i++)
+        if (matches(column, take_field(reader, text, i).text))
+            column->index = i;
+    if (column->index < 0 || column->index >= reader->n_field) {
+        cz_mistake_at(reader->mistakes, reader->source, line + 1, 1,
+                      column->wanted != NULL ? "there is no column '%.60s' among the %d of the file"
+                                             : "no column is named %s (of %d)",
+                      column->wanted != NULL ? column->wanted : spellings, reader->n_field);
+        cz_mistake_help(reader->mistakes, "--%s TITLE or --%s NUMBER says which column it is",
+                        column->stem, column->stem);
+        return false;
+    }
+    const Field title = take_field(reader, text, column->index);
+    column->unit = column->unit_text != NULL ? cz_unit_find(column->dimension, column->unit_text)
+                   : has_titles              ? unit_in(column, title.text)
+                                             : NULL;
+    if (column->unit != NULL)
+        return true;
+    cz_mistake_at(reader->mistakes, reader->source, line + 1, title.column,
+                  column->unit_text != NULL ? "'%.60s' is no unit of a %s"
+                                            : "the unit of column '%.60s', the %s, is not known",
+                  column->unit_text != NULL ? column->unit_text : title.text, column->stem);
+    cz_mistake_help(reader->mistakes, "columns are named %s, or --%s-unit says the unit", spellings,
+                    column->stem);
+    return false;
+}
+
+/* Takes the first line: titles, or numbers when the options say what they are. */
+static bool take_titles(Reader *reader, int line, bool *has_titles) {
+    double number;
+    const char *text = reader->source->line[line];
+    reader->n_field = count_fields(text, separator_of(reader, text));
+    if (reader->n_field < 2) {
+        cz_mistake_at(reader->mistakes, reader->source, line + 1, 1,
+                      "a curve has two columns, stroke and force, but this line has one");
+        return false;
+    }
+    const Field first = take_field(reader, text, 0);
+    *has_titles = parse(reader, &first, &number) != NULL;
+    return find_column(reader, &reader->column[0], line, *has_titles) &&
+           find_column(reader, &reader->column[1], line, *has_titles);
+}
+
+/* ---- points ---- */
+
+static void take_point(Reader *reader, int line) {
+    const char *text = reader->source->line[line];
+    const int n_field = count_fields(text, separator_of(reader, text));
+    double value[2] = {0.0, 0.0};
+    if (n_field != reader->n_field) {
+        cz_mistake_at(reader->mistakes, reader->source, line + 1, 1,
+                      "this line has %d columns, the first one has %d", n_field, reader->n_field);
+        cz_mistake_help(reader->mistakes,
+                        "with decimal commas: --csv-sep ';' --csv-decimal ',', and ';' between "
+                        "the columns");
+        return;
+    }
+    for (int i = 0; i < 2; i++) {
+        const Field field = take_field(reader, text, reader->column[i].index);
+        const char *wrong = parse(reader, &field, &value[i]);
+        if (wrong != NULL) {
+            cz_mistake_at(reader->mistakes, reader->source, line + 1, field.column,
+                          "%s: '%.60s' %s", reader->column[i].stem, field.text, wrong);
+            if (strchr(field.text, ',') != NULL)
+                cz_mistake_help(reader->mistakes,
+                                "--csv-sep ';' --csv-decimal ',' reads decimal commas");
+            return;
+        }
+        value[i] *= reader->column[i].unit->si;
+    }
+    CzTrace *trace = reader->trace;
+    trace->x[trace->n] = value[0];
+    trace->f[trace->n] = value[1];
+    trace->line[trace->n++] = line + 1;
+}
+
+static void take_lines(Reader *reader) {
+    bool has_any = false, has_titles = false;
+    for (int line = 0; line < reader->source->n_line; line++) {
+        if (is_blank(reader->source->line[line]))
+            continue;
+        if (!has_any && !take_titles(reader, line, &has_titles))
+            return;
+        if (has_any || !has_titles)
+            take_point(reader, line);
+        has_any = true;
+    }
+    if (reader->mistakes->n_mistake == 0 && reader->trace->n < 2)
+        cz_mistake_at(reader->mistakes, reader->source, reader->source->n_line, 1,
+                      "a curve has two points or more, but this file has %d", reader->trace->n);
+}
+
+static bool make_room(CzArena *arena, int n, CzTrace *trace) {
+    trace->x = cz_arena_allocate(arena, (size_t)n, sizeof *trace->x);
+    trace->f = cz_arena_allocate(arena, (size_t)n, sizeof *trace->f);
+    trace->line = cz_arena_allocate(arena, (size_t)n, sizeof *trace->line);
+    return trace->x != NULL && trace->f != NULL && trace->line != NULL;
+}
+
+static void read_source(Reader *reader, CzSources *sources, const char *path) {
+    char *text = NULL;
+    size_t n_byte = 0;
+    reader->source = cz_sources_read(sources, reader->mistakes, path, NULL, &text, &n_byte);
+    const bool is_text =
+        reader->source != NULL && cz_source_is_text(reader->mistakes, reader->source, text, n_byte);
+    free(text);
+    if (!is_text)
+        return;
+    if (reader->source->n_line > MOST_LINES)
+        cz_mistake_at(reader->mistakes, reader->source, MOST_LINES, 1,
+                      "a curve has at most %d lines", (int)MOST_LINES);
+    else if (make_room(reader->arena, reader->source->n_line, reader->trace))
+        take_lines(reader);
+}
+
+CzStatus cz_trace_read(CzArena *arena, const char *path, const CzFitOptions *options,
+                       CzTrace *trace, CzError *error) {
+    CzMistakes mistakes = {.arena = arena};
+    CzSources sources = {.arena = arena, .hash = CZ_HASH_START};
+    Reader reader = {
+        .arena = arena,
+        .options = options,
+        .mistakes = &mistakes,
+        .column = {{"stroke", CZ_DIMENSION_LENGTH, options->stroke, options->stroke_unit, -1, NULL},
+                   {"force", CZ_DIMENSION_FORCE, options->force, options->force_unit, -1, NULL}},
+        .trace = trace,
+    };
+    read_source(&reader, &sources, path);
+    if (arena->out_of_memory)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the curve of '%s'", path);
+    cz_mistakes_finish(&mistakes);
+    if (mistakes.n_mistake == 0)
+        return cz_trace_check(trace, reader.source->name, error);
+    if (error != NULL)
+        *error = mistakes.mistake[0]->error;
+    return CZ_STATUS_INPUT;
+}

@@ -1,0 +1,14 @@
+# Sources of src/fit, one per line.
+set(CZ_SOURCES_fit
+    branch.c
+    coupler.c
+    end.c
+    fit.c
+    loading.c
+    plastic.c
+    plateaus.c
+    read_trace.c
+    staged.c
+    trace.c
+    write_yaml.c
+)

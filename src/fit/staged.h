@@ -1,0 +1,58 @@
+/* A staged curve of the problem file, fitted to a branch.
+ *
+ *   g(x) = fixed(x) + sum over i of c_i phi_i(x)
+ *
+ * is what the model makes of stages (model/kinks.h): phi_i is the curve whose i-th force is 1 N
+ * and whose others are none. Given the strokes of the stages, the forces c that minimise
+ *
+ *   integral of (f(x) - g(x))^2 dx     under     integral of g(x) dx = energy
+ *
+ * solve a small linear system. The strokes are found by searches over that minimum.
+ */
+#ifndef CZ_FIT_STAGED_H
+#define CZ_FIT_STAGED_H
+
+#include "fit/branch.h"
+#include "model/kinks.h"
+
+#define CZ_LONGEST_TRIGGER 0.2 /* trigger_length of the problem file [m] */
+#define CZ_SHORTEST_STAGE 1e-4 /* stroke of a stage there [m] */
+
+typedef struct CzStaged {
+    bool is_strength; /* plateaus of a plastic member; else lines through the stages' ends */
+    bool has_preload; /* lines start at a preload that is fitted too */
+    int n_stage;
+    CzStage stage[CZ_MAX_STAGES]; /* stroke and force; other members are not used */
+    double preload;               /* [N] */
+    double trigger;               /* [N]; NaN without */
+    double trigger_length;        /* [m] */
+    double bottom_stiffness;      /* [N/m] */
+} CzStaged;
+
+/* Plateaus or lines without stages. */
+CzStaged cz_staged_begin(bool is_strength);
+
+/* The curve as the model builds it. */
+void cz_staged_kinks(const CzStaged *staged, CzKinks *kinks);
+
+double cz_staged_stroke(const CzStaged *staged);
+
+/* Energy of using up the stroke [J]. */
+double cz_staged_energy(const CzStaged *staged);
+
+/* Strokes at which the curve bends, from 0 to its end, rising; returns how many. */
+enum { CZ_MOST_BENDS = 2 * CZ_MAX_STAGES + 4 };
+int cz_staged_bends(const CzStaged *staged, double at[CZ_MOST_BENDS]);
+
+/* Finds the forces for the strokes as they are; `energy` NaN leaves out the condition. Returns the
+ * integral of the squared difference, INFINITY when a force would not be positive. */
+double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy);
+
+/* Moves breaks between stages (and the length of a trigger) until the integral no longer falls.
+ * No stage gets shorter than `shortest`. Returns the integral. */
+double cz_staged_refine(CzStaged *staged, const CzBranch *branch, double energy, double shortest);
+
+/* Integral of the squared difference that counts as none beside this branch, by rounding. */
+double cz_staged_nothing(const CzBranch *branch);
+
+#endif

@@ -1,0 +1,79 @@
+/* A law that was found, as a catalogue with one part. */
+#include <math.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "fit/fit.h"
+
+static const char *const records[CZ_N_FIT] = {
+#define CZ_FIT(constant, word, record, doc) [constant] = record,
+#include "crushzone/fits.def"
+#undef CZ_FIT
+};
+
+static const char *text_of(char text[CZ_NUMBER_TEXT], double value) {
+    return cz_number_print_short(text, value);
+}
+
+static void write_head(const CzFitSummary *summary, FILE *stream) {
+    char a[CZ_NUMBER_TEXT], b[CZ_NUMBER_TEXT], c[CZ_NUMBER_TEXT];
+    fprintf(stream, "# %s of %d points (%s) as %s\n",
+            summary->file != NULL ? summary->file : "curve", summary->n_point,
+            summary->is_dynamic ? "dynamic" : "static", cz_fit_kind_word(summary->kind));
+    const double error = summary->law_energy - summary->energy;
+    fprintf(stream, "#   energy      %s kJ, law %s kJ, error %s J\n",
+            text_of(a, 1e-3 * summary->energy), text_of(b, 1e-3 * summary->law_energy),
+            fabs(error) <= 1e-12 * summary->energy ? "0" : text_of(c, error));
+    if (!isnan(summary->returned) && !isnan(summary->law_returned))
+        fprintf(stream, "#   given back  %s kJ, law %s kJ\n", text_of(a, 1e-3 * summary->returned),
+                text_of(b, 1e-3 * summary->law_returned));
+    fprintf(stream, "#   force       differs by at most %s kN, at %s mm; root mean square %s kN\n",
+            text_of(a, 1e-3 * summary->largest_difference), text_of(b, 1e3 * summary->at_stroke),
+            text_of(c, 1e-3 * summary->mean_square));
+}
+
+/* One line of stages: stroke and force, which follow each other. */
+static void write_stage(const CzFit *fit, int i, int indent, FILE *stream) {
+    char stroke[CZ_NUMBER_TEXT], force[CZ_NUMBER_TEXT];
+    if (strstr(fit->value[i].path, "stages[0]") != NULL)
+        fprintf(stream, "%*sstages:\n", indent, "");
+    fprintf(stream, "%*s- {stroke_mm: %s, force_kN: %s}\n", indent + 2, "",
+            cz_number_print(stroke, fit->value[i].value),
+            cz_number_print(force, fit->value[i + 1].value));
+}
+
+static void write_values(const CzFit *fit, FILE *stream) {
+    char number[CZ_NUMBER_TEXT];
+    const char *record = "";
+    size_t n_record = 0;
+    for (int i = 0; i < fit->n_value; i++) {
+        const char *path = fit->value[i].path;
+        const char *point = strchr(path, '.');
+        const bool is_stage = strstr(path, "stages[") != NULL;
+        const size_t n = is_stage && strncmp(path, "stages[", 7) == 0 ? 0
+                         : point != NULL                              ? (size_t)(point - path)
+                                                                      : 0;
+        if (n > 0 && (n != n_record || strncmp(path, record, n) != 0))
+            fprintf(stream, "    %.*s:\n", (int)n, path);
+        record = path;
+        n_record = n;
+        const int indent = n > 0 ? 6 : 4;
+        if (is_stage)
+            write_stage(fit, i++, indent, stream);
+        else
+            fprintf(stream, "%*s%s: %s\n", indent, "", path + (n > 0 ? n + 1 : 0),
+                    cz_number_print(number, fit->value[i].value));
+    }
+}
+
+void cz_fit_write_yaml(const CzFit *fit, FILE *stream) {
+    write_head(&fit->summary, stream);
+    for (int i = 0; i < fit->n_note; i++)
+        fprintf(stream, "# note: %s\n", fit->note[i]);
+    fprintf(stream,
+            "# Taken with %s: {use: %s, ...} by a problem file that names this one under "
+            "`catalogue`.\n",
+            records[fit->summary.kind], fit->summary.name);
+    fprintf(stream, "parts:\n  %s:\n", fit->summary.name);
+    write_values(fit, stream);
+}

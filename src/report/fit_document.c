@@ -1,0 +1,62 @@
+/* JSON document `crushzone.fit`. */
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "crushzone/report.h"
+#include "report/json.h"
+#include "report/units.h"
+
+static void put_summary(CzJson *json, const CzFitSummary *summary) {
+    cz_json_text(json, "kind", cz_fit_kind_word(summary->kind));
+    cz_json_text(json, "basis", summary->is_dynamic ? "dynamic" : "static");
+    cz_json_text(json, "file", summary->file);
+    cz_json_text(json, "name", summary->name);
+    cz_json_whole(json, "points", summary->n_point);
+    cz_json_real(json, "stroke_mm", summary->stroke * CZ_MILLI_PER_UNIT);
+    cz_json_real(json, "peak_force_kN", summary->peak_force / CZ_KILO);
+    cz_json_real(json, "energy_kJ", summary->energy / CZ_KILO);
+    cz_json_real(json, "law_energy_kJ", summary->law_energy / CZ_KILO);
+    cz_json_real(json, "energy_error", summary->law_energy / summary->energy - 1.0);
+    cz_json_real(json, "returned_kJ", summary->returned / CZ_KILO);
+    cz_json_real(json, "law_returned_kJ", summary->law_returned / CZ_KILO);
+    cz_json_real(json, "largest_force_difference_kN", summary->largest_difference / CZ_KILO);
+    cz_json_real(json, "at_stroke_mm", summary->at_stroke * CZ_MILLI_PER_UNIT);
+    cz_json_real(json, "mean_square_difference_kN", summary->mean_square / CZ_KILO);
+}
+
+/* The YAML text, to be freed; NULL without memory. */
+static char *yaml_of(const CzFit *fit) {
+    char *text = NULL;
+    size_t n = 0;
+    FILE *memory = open_memstream(&text, &n);
+    if (memory == NULL)
+        return NULL;
+    cz_fit_write_yaml(fit, memory);
+    if (fclose(memory) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+CzStatus cz_report_write_fit(const CzFit *fit, FILE *stream, CzError *error) {
+    char *yaml = yaml_of(fit);
+    CzJson *json = cz_json_create();
+    cz_json_text(json, "format", "crushzone.fit");
+    cz_json_whole(json, "version", 1);
+    put_summary(json, cz_fit_summary(fit));
+    cz_json_open_object(json, "values");
+    for (int i = 0; i < cz_fit_n_value(fit); i++)
+        cz_json_real(json, cz_fit_value_path(fit, i), cz_fit_value(fit, i));
+    cz_json_close(json);
+    cz_json_open_list(json, "notes");
+    for (int i = 0; i < cz_fit_n_note(fit); i++)
+        cz_json_text(json, NULL, cz_fit_note(fit, i));
+    cz_json_close(json);
+    cz_json_text(json, "yaml", yaml);
+    const bool has_memory = yaml != NULL;
+    free(yaml);
+    const CzStatus status = cz_json_finish(json, stream, error);
+    return has_memory || status != CZ_OK
+               ? status
+               : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a JSON document");
+}

@@ -1,0 +1,143 @@
+# `fit` turns curves into laws that problem files take, and refuses what is no curve with its place.
+. "$SOURCE/tests/support/cases.sh"
+. "$SOURCE/tests/cli/cli.sh"
+
+# A tube: rise to a trigger peak of 800 kN, 500 kN over 200 mm, 700 kN over 250 mm.
+tube() {
+    awk 'BEGIN { print "stroke_mm,force_kN"; print "0,0"; print "4,800"
+        for (i = 1; i <= 460; i++) {
+            s = i - 0.5; f = s < 10 ? 800 - 30 * s : s < 210 ? 500 : 700
+            printf "%.3f,%.3f\n", 4 + s, f * (1 + 0.01 * sin(i)) } }'
+}
+# A crush zone: 1.2 MN at 20 mm, 1.0 at 80, 1.5 at 400, 4.5 at 600, and back.
+zone() {
+    awk 'BEGIN { print "stroke_mm;force_kN"; print "0;0"
+        n = split("20 80 400 600", x, " "); split("1200 1000 1500 4500", f, " ")
+        for (k = 1; k <= 4; k++) for (i = 1; i <= 50; i++)
+            printf "%.3f;%.3f\n", x[k-1] + (x[k] - x[k-1]) * i / 50, f[k-1] + (f[k] - f[k-1]) * i / 50
+        print "577.5;2250"; print "502.5;0" }'
+}
+# A coupler: 400 kN in 50 mm, 600 kN over 250 mm, shear-off at 911 kN.
+coupler() {
+    awk 'BEGIN { print "stroke_mm,force_kN"
+        for (i = 0; i <= 50; i++) printf "%d,%.1f\n", i, 8 * i
+        for (i = 52; i <= 300; i += 2) print i ",600"
+        print "303,911"; print "313,0"; print "450,0" }'
+}
+tube >tube.csv
+zone >zone.csv
+coupler >coupler.csv
+
+fits() { exits 0 "$C" fit "$1" --as "$2" --basis "$3" && [ ! -s err.txt ] && mv out.txt "$4"; }
+check "a tube becomes an anti-climber" fits tube.csv anti-climber dynamic tube.yaml
+check "a crush zone becomes an end" fits zone.csv end static zone.yaml
+check "a coupler becomes buffer, tube and shear-off" fits coupler.csv coupler static coupler.yaml
+trigger() { says tube.yaml 'trigger_kN: 800' && says tube.yaml 'error 0 J' && says tube.yaml 'rate_factor_s_m: 0'; }
+check "the trigger peak is kept, energy is equal, a dynamic curve forbids a rate" trigger
+stages() { says zone.yaml '{stroke_mm: 20, force_kN: 1200}' && says zone.yaml 'unloading_share: 0.5' && says zone.yaml 'second_unloading_stiffness_MN_m: 30'; }
+check "an end has four loading and two unloading stages" stages
+members() { says coupler.yaml 'buffer:' && says coupler.yaml 'tube:' && says coupler.yaml 'shear_off:' && says coupler.yaml 'force_kN: 911'; }
+check "a coupler has its three members" members
+
+cat >problem.yaml <<END
+schema: 1
+title: Laws that were fitted
+catalogue: [tube.yaml, zone.yaml, coupler.yaml]
+trains:
+  - name: A
+    speed_km_h: 20
+    vehicles:
+      - {name: A1, model: rigid, mass_t: 40, length_m: 20, front: {use: zone, face_gap_mm: 900,
+         coupler: {use: coupler, shear_off: {retraction_space_mm: 1500}}, anti_climber: {use: tube, gap_mm: 400}}}
+  - name: W
+    vehicles: [{name: wall, model: fixed}]
+END
+check "a problem file that names the laws as its catalogue is valid" exits 0 "$C" validate problem.yaml
+check "and it runs" exits 0 "$C" run problem.yaml
+pasted() { { sed '/^catalogue/d' problem.yaml; grep -v '^parts:' tube.yaml | sed '1i parts:'; grep -hv '^parts:\|^#' zone.yaml coupler.yaml; } >pasted.yaml && exits 0 "$C" validate pasted.yaml; }
+check "the same parts pasted into the file are valid" pasted
+sane() { exits 0 "$C" run problem.yaml --json && json out.txt scenarios.0.interfaces.0.elements.0.energy_kJ; }
+check "its elements take energy" sane
+
+as_json() { exits 0 "$C" fit tube.csv --as anti-climber --basis static --json && json out.txt format crushzone.fit && json out.txt values.trigger_kN 800.0 && json out.txt yaml && json out.txt energy_error; }
+check "--json prints one document with values by path" as_json
+named() { exits 0 "$C" fit tube.csv --as anti-climber --basis static --name 'cab: tube' --stages 1 && says out.txt '  cab--tube:' && [ "$(grep -c stroke_mm: out.txt)" = 1 ]; }
+check "--name and --stages are followed" named
+from_stdin() { "$C" fit - --as end --basis static <zone.csv >stdin.yaml && says stdin.yaml '  end:'; }
+check "a dash reads standard input" from_stdin
+
+# Columns, units and separators.
+sed 's/stroke_mm,force_kN/Travel [mm],Load (kN)/' tube.csv >titles.csv
+titles() { exits 0 "$C" fit titles.csv --as anti-climber --basis static --stroke 'Travel [mm]' --force 2 && says out.txt 'trigger_kN: 800'; }
+check "columns are found by title or number, units in brackets" titles
+sed 1d tube.csv | awk -F, '{ print NR "\t" $1 / 1000 "\t" $2 * 1000 }' >bare.csv
+bare() { exits 0 "$C" fit bare.csv --as anti-climber --basis static --csv-sep tab --stroke 2 --force 3 --stroke-unit m --force-unit N && says out.txt 'trigger_kN: 800'; }
+check "a file without titles is read by number and unit" bare
+sed 's/;/X/; s/\./,/g; s/X/;/' zone.csv >german.csv
+german() { exits 0 "$C" fit german.csv --as end --basis static --csv-sep ';' --csv-decimal , && says out.txt '{stroke_mm: 20, force_kN: 1200}'; }
+check "decimal commas are read when they are announced" german
+printf '\357\273\277' | cat - tube.csv | sed 's/$/\r/' >excel.csv
+check "byte order mark and line ends of other systems do no harm" exits 0 "$C" fit excel.csv --as anti-climber --basis static
+
+# What is no curve.
+refused() { # refused FILE TEXT [OPTION...]
+    file=$1
+    text=$2
+    shift 2
+    exits 2 "$C" fit "$file" --as anti-climber --basis static "$@" && says err.txt "$text" && [ ! -s out.txt ] || return 1
+    exits 2 "$C" fit "$file" --as anti-climber --basis static --json "$@" && json out.txt error.message && [ ! -s err.txt ]
+}
+put() { printf '%b' "$1" >bad.csv; }
+: >empty.csv
+check "an empty file is refused" refused empty.csv 'empty.csv: error: cannot read'
+mkdir folder.csv
+check "a folder is refused" refused folder.csv 'it is a folder'
+check "a file that is not there is refused" refused nowhere.csv 'there is no such file'
+head -c 20000000 /dev/zero | tr '\0' '1' >large.csv
+check "a file of 20 MB is refused" refused large.csv 'it is larger than 16 MiB'
+head -c 5000 /dev/urandom >noise.csv
+check "noise is refused" refused noise.csv 'noise.csv:'
+put 'stroke_mm\n0\n1\n'
+check "one column is refused" refused bad.csv 'bad.csv:1:1: error: a curve has two columns'
+put 'stroke_mm,force_kN\n'
+check "titles without points are refused" refused bad.csv 'this file has 0'
+put 'stroke_mm,force_kN\n0,0\n'
+check "one point is refused" refused bad.csv 'this file has 1'
+put 'stroke_mm,force_kN\n0,0\n1,nan\n'
+check "NaN is refused" refused bad.csv "bad.csv:3:3: error: force: 'nan' is not a finite number"
+put 'stroke_mm,force_kN\n0,0\n1,1e999\n'
+check "an infinite number is refused" refused bad.csv 'bad.csv:3:3'
+put 'stroke_mm,force_kN\n0,0\n-1,5\n3,6\n'
+check "a negative stroke is refused" refused bad.csv 'bad.csv:3:1: error: a stroke of -1 mm is below zero'
+put 'stroke_mm,force_kN\n0,0\n1,-50\n3,60\n'
+check "a negative force is refused" refused bad.csv 'bad.csv:3:1: error: a force of -50 kN is below zero'
+put 'stroke_mm,force_kN\n0,0\nten,50\n'
+check "text is refused" refused bad.csv "bad.csv:3:1: error: stroke: 'ten' is not a number"
+put 'stroke_mm,force_kN\n0,0\n30,5\n10,6\n50,7\n'
+check "strokes out of order are refused" refused bad.csv 'bad.csv:4:1: error: the stroke goes back from 30 to 10 mm'
+put 'stroke_mm,force_kN\n0,0\n1,0\n'
+check "a curve without force is refused" refused bad.csv 'no point of the curve has a force'
+put 'stroke_mm,force_kN\n0,0\n10.5,50,5\n'
+check "a line with more columns is refused" refused bad.csv 'bad.csv:3:1: error: this line has 3 columns, the first one has 2'
+put 'stroke_mm;force_kN\n0;0\n0,5;20\n'
+german_unsaid() { refused bad.csv "bad.csv:3:1: error: stroke: '0,5' is not a number: the decimal sign is a point" && "$C" fit bad.csv --as end --basis static 2>&1 | grep -q -- "--csv-decimal ','"; }
+check "decimal commas that were not announced are refused, with the option that reads them" german_unsaid
+put 'way_mm,load_kN\n0,0\n1,2\n'
+check "titles that say nothing are refused" refused bad.csv 'no column is named stroke_m or stroke_mm'
+put 'stroke,force_kN\n0,0\n1,2\n'
+check "a column without unit is refused" refused bad.csv "the unit of column 'stroke', the stroke, is not known"
+check "a unit that is none is refused" refused tube.csv "'inch' is no unit" --stroke-unit inch
+check "a column that is not there is refused" refused tube.csv "there is no column '7'" --force 7
+put '0,0\n1,2\n'
+check "a file without titles needs its columns" refused bad.csv 'no column is named'
+put 'stroke_mm,force_kN\n0,0\n1000000,2\n'
+check "a stroke of a kilometre is refused" refused bad.csv 'is the unit right?'
+check "too many stages are refused" refused tube.csv '9 stages; a law as anti-climber has 1 to 8' --stages 9
+
+no_kind() { exits 2 "$C" fit tube.csv --basis static && says err.txt "needs '--as KIND'" && exits 2 "$C" fit tube.csv --as ends --basis static && says err.txt "did you mean 'end'?"; }
+check "--as must be given and known" no_kind
+no_basis() { exits 2 "$C" fit tube.csv --as end && says err.txt "'--basis static' or '--basis dynamic'" && exits 2 "$C" fit tube.csv --as end --basis fast; }
+check "static or dynamic must be said" no_basis
+same() { "$C" fit tube.csv --as anti-climber --basis static >a && "$C" fit tube.csv --as anti-climber --basis static >b && cmp a b && LC_ALL=de_DE.UTF-8 "$C" fit tube.csv --as anti-climber --basis static >c && cmp a c; }
+check "the same curve gives the same bytes, in any locale" same
+finish

@@ -1,0 +1,97 @@
+/* Curves that known laws would be measured as: made from the model's own kinks, with noise. */
+#ifndef CZ_TESTS_FIT_CURVES_H
+#define CZ_TESTS_FIT_CURVES_H
+
+#include "support/check.h"
+
+#include "crushzone/fit.h"
+#include "model/kinks.h"
+
+enum { MOST_POINTS = 4000 };
+
+typedef struct Curve {
+    int n;
+    double x[MOST_POINTS], f[MOST_POINTS];
+} Curve;
+
+static inline void add_point(Curve *curve, double x, double f) {
+    assert_true(curve->n < MOST_POINTS);
+    curve->x[curve->n] = x;
+    curve->f[curve->n++] = f;
+}
+
+/* Repeatable numbers from -1 to 1. */
+static inline double noise(unsigned *seed) {
+    *seed = *seed * 1664525U + 1013904223U;
+    return (double)(*seed >> 8) / 8388607.5 - 1.0;
+}
+
+/* The strength of a tube over its plastic stroke, behind the elastic shortening. */
+static inline void load_plastic(Curve *curve, const CzStage *stage, int n_stage, double trigger,
+                                double length, double stiffness) {
+    static const CzTable none;
+    CzKinks kinks;
+    cz_kinks_strength(&kinks, stage, n_stage, &none, trigger, length, 1e9);
+    const double stroke = cz_total_stroke(stage, n_stage, &none);
+    enum { RISE = 20, FLOW = 2000 };
+    for (int i = 0; i < RISE; i++) {
+        const double force = cz_kinks_value(&kinks, 0.0) * i / RISE;
+        add_point(curve, force / stiffness, force);
+    }
+    for (int i = 0; i <= FLOW; i++) {
+        const double s = stroke * i / FLOW, force = cz_kinks_value(&kinks, s);
+        add_point(curve, s + force / stiffness, force);
+    }
+}
+
+static inline void load_lines(Curve *curve, double first, const CzStage *stage, int n_stage,
+                              int n_point) {
+    static const CzTable none;
+    CzKinks kinks;
+    cz_kinks_loading(&kinks, first, stage, n_stage, &none, 1e9);
+    const double stroke = cz_total_stroke(stage, n_stage, &none);
+    for (int i = 0; i <= n_point; i++)
+        add_point(curve, stroke * i / n_point, cz_kinks_value(&kinks, stroke * i / n_point));
+}
+
+static inline void make_noisy(Curve *curve, double of_force, double of_stroke) {
+    unsigned seed = 7;
+    for (int i = 0; i < curve->n; i++) {
+        curve->f[i] *= 1.0 + of_force * noise(&seed);
+        curve->x[i] = fmax(curve->x[i] + of_stroke * noise(&seed), 0.0);
+    }
+}
+
+/* Work in the order of the points, up to the one with the largest stroke. */
+static inline double work_of_loading(const Curve *curve) {
+    double work = 0.0;
+    int top = 0;
+    for (int i = 0; i < curve->n; i++)
+        top = curve->x[i] > curve->x[top] ? i : top;
+    for (int i = 1; i <= top; i++)
+        work += 0.5 * (curve->f[i] + curve->f[i - 1]) * (curve->x[i] - curve->x[i - 1]);
+    return work;
+}
+
+static inline CzFit *fit_of(const Curve *curve, CzFitKind kind, int n_stage) {
+    CzFitOptions options = cz_fit_options_default();
+    CzFit *fit = NULL;
+    CzError error = {0};
+    options.kind = kind;
+    options.n_stage = n_stage;
+    const CzStatus status = cz_fit_points(curve->n, curve->x, curve->f, &options, &fit, &error);
+    if (status != CZ_OK)
+        print_error("point %d: %s\n", error.line, error.message);
+    assert_int_equal(status, CZ_OK);
+    return fit;
+}
+
+/* A value of the law; NaN when it has none of this path. */
+static inline double value_of(const CzFit *fit, const char *path) {
+    for (int i = 0; i < cz_fit_n_value(fit); i++)
+        if (strcmp(cz_fit_value_path(fit, i), path) == 0)
+            return cz_fit_value(fit, i);
+    return NAN;
+}
+
+#endif

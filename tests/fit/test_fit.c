@@ -1,0 +1,334 @@
+/* Curves of known laws are turned back into them; others keep their energy exactly. */
+#include "fit/curves.h"
+
+/* What the law takes is what the curve took: to the rounding of sums of some thousand terms. */
+static void energy_is_equal(const CzFit *fit, double energy) {
+    assert_near(cz_fit_summary(fit)->energy, energy, 1e-12, 0.0);
+    assert_near(cz_fit_summary(fit)->law_energy, energy, 1e-12, 0.0);
+}
+
+static Curve curve; /* large; each test begins it anew */
+
+static const CzStage two_plateaus[] = {{.stroke = 0.2, .force = 5e5, .end_force = NAN},
+                                       {.stroke = 0.25, .force = 7e5, .end_force = NAN}};
+
+/* Strokes and forces are rounded to five digits, and the curve has a point every 0.2 mm. */
+static void plateaus_and_their_trigger_are_found_again(void **state) {
+    (void)state;
+    curve.n = 0;
+    load_plastic(&curve, two_plateaus, 2, 8e5, 0.015, 2.5e8);
+    CzFit *fit = fit_of(&curve, CZ_FIT_ANTI_CLIMBER, -1);
+    energy_is_equal(fit, work_of_loading(&curve));
+    assert_true(isnan(value_of(fit, "stages[2].force_kN")));
+    assert_near(value_of(fit, "stages[0].stroke_mm"), 200.0, 0.0, 0.1);
+    assert_near(value_of(fit, "stages[1].stroke_mm"), 250.0, 0.0, 0.1);
+    assert_near(value_of(fit, "stages[0].force_kN"), 500.0, 2e-4, 0.0);
+    assert_near(value_of(fit, "stages[1].force_kN"), 700.0, 2e-4, 0.0);
+    assert_near(value_of(fit, "trigger_kN"), 800.0, 1e-9, 0.0);
+    assert_near(value_of(fit, "trigger_length_mm"), 15.0, 0.0, 0.1);
+    assert_near(value_of(fit, "stiffness_MN_m"), 250.0, 1e-4, 0.0);
+    cz_fit_free(fit);
+}
+
+/* Noise of 3 % is a third of that in the mean square, and a plateau has about a thousand points. */
+static void noise_moves_plateaus_a_little_and_costs_no_energy(void **state) {
+    (void)state;
+    curve.n = 0;
+    load_plastic(&curve, two_plateaus, 2, 8e5, 0.015, 2.5e8);
+    make_noisy(&curve, 0.03, 2e-4);
+    const double energy = work_of_loading(&curve);
+    CzFit *fit = fit_of(&curve, CZ_FIT_ANTI_CLIMBER, -1);
+    energy_is_equal(fit, energy);
+    assert_true(isnan(value_of(fit, "stages[2].force_kN")));
+    assert_near(value_of(fit, "stages[0].stroke_mm"), 200.0, 0.0, 2.5); /* half a ramp */
+    assert_near(value_of(fit, "stages[0].force_kN"), 500.0, 5e-3, 0.0);
+    assert_near(value_of(fit, "stages[1].force_kN"), 700.0, 5e-3, 0.0);
+    assert_near(value_of(fit, "trigger_kN"), 800.0, 0.03, 0.0);
+    assert_in_range((int)(cz_fit_summary(fit)->mean_square / 1e3), 5, 20);
+    cz_fit_free(fit);
+}
+
+static void as_many_plateaus_are_made_as_are_asked_for(void **state) {
+    (void)state;
+    for (int n = 1; n <= 8; n++) {
+        char path[40];
+        curve.n = 0;
+        load_plastic(&curve, two_plateaus, 2, NAN, 0.01, 2e8);
+        make_noisy(&curve, 0.05, 0.0);
+        CzFit *fit = fit_of(&curve, CZ_FIT_ANTI_CLIMBER, n);
+        energy_is_equal(fit, work_of_loading(&curve));
+        snprintf(path, sizeof path, "stages[%d].force_kN", n - 1);
+        assert_true(value_of(fit, path) > 0.0);
+        snprintf(path, sizeof path, "stages[%d].force_kN", n);
+        assert_true(isnan(value_of(fit, path)));
+        cz_fit_free(fit);
+    }
+}
+
+/* More stages never leave more, because a stage can be cut in two; rounding to five digits aside.
+ */
+static void more_stages_come_closer(void **state) {
+    (void)state;
+    double before = INFINITY;
+    for (int n = 1; n <= 6; n++) {
+        curve.n = 0;
+        for (int i = 0; i <= 500; i++)
+            add_point(&curve, 0.5 * i / 500, 4e5 + 1e6 * (i / 500.0) * (i / 500.0));
+        CzFit *fit = fit_of(&curve, CZ_FIT_ANTI_CLIMBER, n);
+        energy_is_equal(fit, work_of_loading(&curve));
+        const double left = cz_fit_summary(fit)->mean_square;
+        assert_true(left < before);
+        before = left;
+        cz_fit_free(fit);
+    }
+    assert_true(before < 1e5); /* steps of a sixth of 1 MN, the last one twice as high */
+}
+
+/* The least squares of one plateau is the mean force, and so is what the energy asks for. */
+static void one_plateau_is_the_mean_force(void **state) {
+    (void)state;
+    curve.n = 0;
+    for (int i = 0; i <= 100; i++)
+        add_point(&curve, 0.3 * i / 100, 5e5 + (i % 2 == 0 ? 2e4 : -2e4));
+    CzFit *fit = fit_of(&curve, CZ_FIT_ANTI_CLIMBER, 1);
+    assert_near(value_of(fit, "stages[0].force_kN"), 500.0, 1e-9, 0.0);
+    assert_near(value_of(fit, "stages[0].stroke_mm"), 300.0, 1e-9, 0.0);
+    assert_near(cz_fit_summary(fit)->largest_difference, 2e4, 1e-9, 0.0);
+    cz_fit_free(fit);
+}
+
+/* ---- ends ---- */
+
+static const CzStage end_stages[] = {{.stroke = 0.02, .force = 1.2e6},
+                                     {.stroke = 0.06, .force = 1.0e6},
+                                     {.stroke = 0.32, .force = 1.5e6},
+                                     {.stroke = 0.2, .force = 4.5e6}};
+
+/* From 4.5 MN along 100 MN/m to one half, then along 30 MN/m to nothing. */
+static void load_end(Curve *made) {
+    made->n = 0;
+    load_lines(made, 0.0, end_stages, 4, 1200);
+    const double peak = 4.5e6, turn = 0.6 - 0.5 * peak / 1e8;
+    for (int i = 1; i <= 100; i++) {
+        const double force = peak * (1.0 - i / 100.0);
+        add_point(made,
+                  force > 0.5 * peak ? 0.6 - (peak - force) / 1e8
+                                     : turn - (0.5 * peak - force) / 3e7,
+                  force);
+    }
+}
+
+/* All breaks lie on points of the curve: what is left is rounding and the last golden section. */
+static void four_stages_and_two_unloading_stages_are_found_again(void **state) {
+    (void)state;
+    char path[40];
+    load_end(&curve);
+    CzFit *fit = fit_of(&curve, CZ_FIT_END, -1);
+    energy_is_equal(fit, work_of_loading(&curve));
+    for (int i = 0; i < 4; i++) {
+        snprintf(path, sizeof path, "stages[%d].stroke_mm", i);
+        assert_near(value_of(fit, path), 1e3 * end_stages[i].stroke, 1e-4, 0.0);
+        snprintf(path, sizeof path, "stages[%d].force_kN", i);
+        assert_near(value_of(fit, path), 1e-3 * end_stages[i].force, 1e-4, 0.0);
+    }
+    assert_near(value_of(fit, "unloading_stiffness_MN_m"), 100.0, 1e-3, 0.0);
+    assert_near(value_of(fit, "unloading_share"), 0.5, 1e-3, 0.0);
+    assert_near(value_of(fit, "second_unloading_stiffness_MN_m"), 30.0, 1e-3, 0.0);
+    assert_near(cz_fit_summary(fit)->law_returned, cz_fit_summary(fit)->returned, 1e-4, 0.0);
+    cz_fit_free(fit);
+}
+
+static void a_noisy_end_keeps_its_energies(void **state) {
+    (void)state;
+    load_end(&curve);
+    make_noisy(&curve, 0.04, 5e-4);
+    CzFit *fit = fit_of(&curve, CZ_FIT_END, -1);
+    energy_is_equal(fit, work_of_loading(&curve));
+    assert_near(value_of(fit, "stages[3].force_kN"), 4500.0, 0.02, 0.0);
+    assert_near(value_of(fit, "stages[2].force_kN"), 1500.0, 0.02, 0.0);
+    assert_near(cz_fit_summary(fit)->law_returned, cz_fit_summary(fit)->returned, 0.01, 0.0);
+    cz_fit_free(fit);
+}
+
+static void an_end_that_does_not_unload_gets_a_stiffness_that_the_law_allows(void **state) {
+    (void)state;
+    curve.n = 0;
+    const CzStage steep[] = {{.stroke = 0.1, .force = 1e6}, {.stroke = 0.02, .force = 9e6}};
+    load_lines(&curve, 0.0, steep, 2, 240);
+    CzFit *fit = fit_of(&curve, CZ_FIT_END, 2);
+    energy_is_equal(fit, work_of_loading(&curve));
+    assert_true(value_of(fit, "unloading_stiffness_MN_m") >= 400.0); /* the second stage's rise */
+    assert_true(cz_fit_n_note(fit) >= 2);
+    cz_fit_free(fit);
+}
+
+/* ---- couplers ---- */
+
+/* Buffer to 400 kN in 50 mm, its stop, a tube of 600 kN x 250 mm from a trigger of 700 kN, its
+ * stop, shear-off at 911 kN over 10 mm, free travel; all behind 200 MN/m. */
+static void load_coupler(Curve *made) {
+    const double stop = 1e9, elastic = 2e8;
+    double u = 0.05 + 3e5 / stop;
+    made->n = 0;
+    for (int i = 0; i <= 200; i++)
+        add_point(made, 0.05 * i / 200, 4e5 * i / 200);
+    for (int i = 0; i <= 1000; i++)
+        add_point(made, u + 0.25 * i / 1000, 6e5 + 1e5 * fmax(1.0 - 0.25 * i / 1000 / 0.01, 0.0));
+    u += 0.25 + 3.11e5 / stop;
+    for (int i = 0; i <= 50; i++)
+        add_point(made, u + 0.01 * i / 50, 9.11e5 * (1.0 - i / 50.0));
+    add_point(made, u + 0.16, 0.0);
+    for (int i = 0; i < made->n; i++)
+        made->x[i] += made->f[i] / elastic;
+}
+
+/* The stop between buffer and tube, 0.3 mm, is shared out between the two. */
+static void a_coupler_is_buffer_tube_and_shear_off(void **state) {
+    (void)state;
+    load_coupler(&curve);
+    CzFit *fit = fit_of(&curve, CZ_FIT_COUPLER, -1);
+    energy_is_equal(fit, work_of_loading(&curve));
+    assert_near(value_of(fit, "buffer.stages[0].stroke_mm"), 50.0, 0.0, 0.4);
+    assert_near(value_of(fit, "buffer.stages[0].force_kN"), 400.0, 0.01, 0.0);
+    assert_near(value_of(fit, "tube.stages[0].stroke_mm"), 250.0, 0.0, 0.4);
+    assert_near(value_of(fit, "tube.stages[0].force_kN"), 600.0, 2e-3, 0.0);
+    assert_near(value_of(fit, "tube.trigger_kN"), 700.0, 1e-9, 0.0);
+    assert_near(value_of(fit, "shear_off.force_kN"), 911.0, 1e-9, 0.0);
+    assert_near(value_of(fit, "shear_off.softening_length_mm"), 10.0, 0.0, 0.1);
+    assert_near(value_of(fit, "shear_off.retraction_space_mm"), 150.0, 0.0, 0.1);
+    assert_true(isnan(value_of(fit, "tube.stages[1].force_kN")));
+    cz_fit_free(fit);
+}
+
+static void a_noisy_coupler_has_the_same_members(void **state) {
+    (void)state;
+    load_coupler(&curve);
+    make_noisy(&curve, 0.03, 1e-4);
+    CzFit *fit = fit_of(&curve, CZ_FIT_COUPLER, -1);
+    assert_near(cz_fit_summary(fit)->law_energy, cz_fit_summary(fit)->energy, 1e-12, 0.0);
+    assert_near(value_of(fit, "buffer.stages[0].stroke_mm"), 50.0, 0.0, 3.0);
+    assert_near(value_of(fit, "tube.stages[0].stroke_mm"), 250.0, 0.0, 3.0);
+    assert_near(value_of(fit, "tube.stages[0].force_kN"), 600.0, 0.01, 0.0);
+    assert_near(value_of(fit, "shear_off.force_kN"), 911.0, 0.03, 0.0);
+    cz_fit_free(fit);
+}
+
+/* 600 kN in 80 mm with a preload, given back along 0.35 of it: nothing is plastic. */
+static void a_coupler_that_comes_back_is_a_buffer_alone(void **state) {
+    (void)state;
+    curve.n = 0;
+    const CzStage stage[] = {{.stroke = 0.08, .force = 6e5}};
+    load_lines(&curve, 5e4, stage, 1, 160);
+    const int n_loading = curve.n;
+    for (int i = n_loading - 1; i >= 0; i--)
+        add_point(&curve, curve.x[i], 0.35 * curve.f[i]);
+    CzFit *fit = fit_of(&curve, CZ_FIT_COUPLER, -1);
+    energy_is_equal(fit, 0.08 * 0.5 * (5e4 + 6e5));
+    assert_near(value_of(fit, "buffer.preload_kN"), 50.0, 1e-3, 0.0);
+    assert_near(value_of(fit, "buffer.stages[0].force_kN"), 600.0, 1e-3, 0.0);
+    assert_near(value_of(fit, "buffer.unloading_share"), 0.35, 1e-3, 0.0);
+    assert_true(isnan(value_of(fit, "tube.stages[0].force_kN")));
+    cz_fit_free(fit);
+}
+
+/* ---- curves as tests give them ---- */
+
+/* A force that jumps at one stroke, and points that stand twice, take no energy. */
+static void duplicate_strokes_are_jumps(void **state) {
+    (void)state;
+    curve.n = 0;
+    const double points[][2] = {{0, 0},     {0, 5e5},   {0.2, 5e5}, {0.2, 5e5},
+                                {0.2, 8e5}, {0.3, 8e5}, {0.3, 8e5}};
+    for (size_t i = 0; i < sizeof points / sizeof *points; i++)
+        add_point(&curve, points[i][0], points[i][1]);
+    CzFit *fit = fit_of(&curve, CZ_FIT_ANTI_CLIMBER, 2);
+    energy_is_equal(fit, 0.2 * 5e5 + 0.1 * 8e5);
+    assert_near(value_of(fit, "stages[0].force_kN"), 500.0, 0.01, 0.0);
+    assert_near(value_of(fit, "stages[1].force_kN"), 800.0, 0.01, 0.0);
+    cz_fit_free(fit);
+}
+
+static void expect_refusal(const double points[][2], int n, int line, const char *sentence) {
+    CzFit *fit = NULL;
+    CzError error = {0};
+    curve.n = 0;
+    for (int i = 0; i < n; i++)
+        add_point(&curve, points[i][0], points[i][1]);
+    assert_int_equal(cz_fit_points(n, curve.x, curve.f, NULL, &fit, &error), CZ_STATUS_INPUT);
+    assert_null(fit);
+    assert_int_equal(error.line, line);
+    if (strstr(error.message, sentence) == NULL)
+        print_error("%s\n", error.message);
+    assert_non_null(strstr(error.message, sentence));
+}
+
+#define REFUSED(line, sentence, ...)                                                               \
+    do {                                                                                           \
+        const double points[][2] = __VA_ARGS__;                                                    \
+        expect_refusal(points, (int)(sizeof points / sizeof *points), line, sentence);             \
+    } while (0)
+
+static void a_curve_that_is_none_is_refused_with_its_point(void **state) {
+    (void)state;
+    REFUSED(2, "not finite", {{0, 0}, {0.1, NAN}});
+    REFUSED(2, "not finite", {{0, 0}, {INFINITY, 1}});
+    REFUSED(1, "a stroke of -1 mm is below zero", {{-0.001, 0}, {0.1, 1}});
+    REFUSED(2, "is the unit right?", {{0, 0}, {100, 1e5}});
+    REFUSED(2, "is the unit right?", {{0, 0}, {0.1, 1e9}});
+    REFUSED(2, "a force of -90 kN is below zero", {{0, 0}, {0.1, -9e4}, {0.2, 1e5}});
+    REFUSED(1, "no point of the curve has a force", {{0, 0}, {0.1, 0}});
+    REFUSED(3, "goes back from 200 to 100 mm before the largest",
+            {{0, 0}, {0.2, 1e5}, {0.1, 1e5}, {0.3, 1e5}});
+    REFUSED(4, "goes on from 100 to 200 mm again behind the largest",
+            {{0, 0}, {0.3, 1e5}, {0.1, 1e4}, {0.2, 1e5}});
+    REFUSED(1, "begins at a stroke of 100 mm", {{0.1, 0}, {0.3, 1e5}});
+    REFUSED(1, "begins at a stroke of 300 mm", {{0.3, 1e5}, {0.1, 5e4}, {0, 0}});
+    REFUSED(2, "gives back more energy", {{0, 0}, {0.2, 1e5}, {0, 7e4}});
+    CzFit *fit = NULL;
+    CzError error = {0};
+    const double one[] = {0.0};
+    assert_int_equal(cz_fit_points(1, one, one, NULL, &fit, &error), CZ_STATUS_INPUT);
+    assert_non_null(strstr(error.message, "two points or more"));
+    CzFitOptions options = cz_fit_options_default();
+    options.n_stage = 9;
+    assert_int_equal(cz_fit_points(1, one, one, &options, &fit, &error), CZ_STATUS_INPUT);
+    assert_non_null(strstr(error.message, "9 stages; a law as anti-climber has 1 to 8"));
+}
+
+/* Curves of any size and few points get through, with equal energy. */
+static void small_and_large_curves_are_fitted_alike(void **state) {
+    (void)state;
+    for (int power = -3; power <= 0; power++) {
+        const double scale = pow(10.0, power);
+        curve.n = 0;
+        add_point(&curve, 0.0, 0.0);
+        add_point(&curve, 0.02 * scale, 6e6 * scale * scale);
+        add_point(&curve, 0.5 * scale, 7e6 * scale * scale);
+        for (int kind = 0; kind < CZ_N_FIT; kind++) {
+            CzFit *fit = fit_of(&curve, (CzFitKind)kind, -1);
+            energy_is_equal(fit, work_of_loading(&curve));
+            cz_fit_free(fit);
+        }
+    }
+    cz_fit_free(NULL);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plateaus_and_their_trigger_are_found_again),
+        cmocka_unit_test(noise_moves_plateaus_a_little_and_costs_no_energy),
+        cmocka_unit_test(as_many_plateaus_are_made_as_are_asked_for),
+        cmocka_unit_test(more_stages_come_closer),
+        cmocka_unit_test(one_plateau_is_the_mean_force),
+        cmocka_unit_test(four_stages_and_two_unloading_stages_are_found_again),
+        cmocka_unit_test(a_noisy_end_keeps_its_energies),
+        cmocka_unit_test(an_end_that_does_not_unload_gets_a_stiffness_that_the_law_allows),
+        cmocka_unit_test(a_coupler_is_buffer_tube_and_shear_off),
+        cmocka_unit_test(a_noisy_coupler_has_the_same_members),
+        cmocka_unit_test(a_coupler_that_comes_back_is_a_buffer_alone),
+        cmocka_unit_test(duplicate_strokes_are_jumps),
+        cmocka_unit_test(a_curve_that_is_none_is_refused_with_its_point),
+        cmocka_unit_test(small_and_large_curves_are_fitted_alike),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

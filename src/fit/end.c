@@ -14,6 +14,8 @@
 
 #define ASSUMED_UNLOADING 1e8 /* of a curve that does not unload [N/m] (ours) */
 #define SHARE_STEP 0.01
+#define ONE_LINE                                                                                   \
+    0.02 /* of the unloading's length: what one line may miss by, root mean square (ours) */
 #define SHORTEST 0.005 /* of a stage, as a share of the stroke (ours) */
 
 enum { STAGES = 4, SHARES = 99 };
@@ -114,6 +116,21 @@ static double mean_unloading(const CzTrace *trace, double peak) {
     return (peak * peak - low * low) / (-2.0 * cz_trace_work(trace, top, last));
 }
 
+/* Whether one line of that stiffness tells the measured unloading well enough. A second stage would
+ * then follow the noise of the peak, with a stiffness that asks for tiny time steps. */
+static bool one_line_will_do(const CzTrace *trace, double peak, double stiffness) {
+    const int top = trace->n_loading - 1;
+    double squares = 0.0, weights = 0.0;
+    for (int i = top + 1; i < trace->n; i++) {
+        const double weight = fmax(trace->f[i - 1] - trace->f[i], 0.0);
+        const double missed = trace->x[top] - trace->x[i] - (peak - trace->f[i]) / stiffness;
+        squares += weight * missed * missed;
+        weights += weight;
+    }
+    const double length = trace->x[top] - trace->x[trace->n - 1];
+    return sqrt(squares / weights) <= ONE_LINE * length;
+}
+
 static double within(const CzKey *key, double stiffness) {
     return cz_fit_round(fmin(fmax(stiffness, key->lo), key->hi), 1e6);
 }
@@ -126,7 +143,9 @@ static void fit_unloading(CzFit *fit, double peak) {
         const double share = cz_fit_round(find_share(&fit->trace, peak), 1.0);
         const Unloading found = unload_with(&fit->trace, peak, share);
         first = second = mean_unloading(&fit->trace, peak);
-        if (found.left < INFINITY) {
+        if (one_line_will_do(&fit->trace, peak, first))
+            cz_fit_note_down(fit, "one stiffness tells the unloading; a second stage adds nothing");
+        else if (found.left < INFINITY) {
             fit->share = share;
             first = 1.0 / found.c_1;
             second = 1.0 / found.c_2;

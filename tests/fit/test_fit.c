@@ -150,6 +150,23 @@ static void a_noisy_end_keeps_its_energies(void **state) {
     cz_fit_free(fit);
 }
 
+/* A peak that noise has cut off is no first stage of unloading: it would be hundreds of times as
+ * stiff as the line, and ask for time steps as much shorter. */
+static void a_straight_unloading_stays_one_line(void **state) {
+    (void)state;
+    curve.n = 0;
+    const CzStage stages[] = {{.stroke = 0.02, .force = 1e6}, {.stroke = 0.3, .force = 1.5e6}};
+    load_lines(&curve, 0.0, stages, 2, 320);
+    curve.f[curve.n - 1] = 1.53e6;
+    for (int i = 0; i <= 15; i++)
+        add_point(&curve, 0.3199 - 5e-4 * i, 1.5e6 - 1e5 * i);
+    CzFit *fit = fit_of(&curve, CZ_FIT_END, 2);
+    assert_near(value_of(fit, "unloading_stiffness_MN_m"), 200.0, 0.03, 0.0);
+    assert_near(value_of(fit, "second_unloading_stiffness_MN_m"),
+                value_of(fit, "unloading_stiffness_MN_m"), 1e-9, 0.0);
+    cz_fit_free(fit);
+}
+
 static void an_end_that_does_not_unload_gets_a_stiffness_that_the_law_allows(void **state) {
     (void)state;
     curve.n = 0;
@@ -322,6 +339,7 @@ int main(void) {
         cmocka_unit_test(one_plateau_is_the_mean_force),
         cmocka_unit_test(four_stages_and_two_unloading_stages_are_found_again),
         cmocka_unit_test(a_noisy_end_keeps_its_energies),
+        cmocka_unit_test(a_straight_unloading_stays_one_line),
         cmocka_unit_test(an_end_that_does_not_unload_gets_a_stiffness_that_the_law_allows),
         cmocka_unit_test(a_coupler_is_buffer_tube_and_shear_off),
         cmocka_unit_test(a_noisy_coupler_has_the_same_members),

@@ -62,8 +62,9 @@ typedef struct CzEvaluation {
 CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
 
 typedef struct CzEvaluatorOptions {
-    int n_job;            /* threads; 0 takes the number of processors */
-    double step_factor;   /* factor on every time step; 1 is the record */
+    int n_job;               /* threads; 0 takes the number of processors */
+    double step_factor;      /* factor on every time step; 1 is the record */
+    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI is the record */
     const char *scenario; /* run this one, or this family, only; NULL for all. Checks of the others
                              are then NOT CHECKED */
 } CzEvaluatorOptions;

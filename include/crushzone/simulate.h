@@ -3,6 +3,7 @@
 #define CRUSHZONE_SIMULATE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "crushzone/model.h"
 
@@ -16,6 +17,16 @@ typedef enum CzEnded {
 #undef CZ_ENDED
 } CzEnded;
 CZ_API const char *cz_ended_text(CzEnded ended);
+
+/* What advances a run in time. The references obey the same laws and end by the same rules; they
+ * take about ten times as long and are there to be compared with. */
+typedef enum CzIntegrator {
+#define CZ_INTEGRATOR(constant, text, doc) constant,
+#include "crushzone/integrators.def"
+#undef CZ_INTEGRATOR
+    CZ_N_INTEGRATOR
+} CzIntegrator;
+CZ_API const char *cz_integrator_text(CzIntegrator integrator);
 
 typedef enum CzEventKind {
 #define CZ_EVENT(constant, text, doc) constant,
@@ -116,7 +127,8 @@ typedef struct CzRunSummary {
     char failure[256]; /* car, element and time when failed; empty otherwise */
     CzEnded ended;
     double simulated; /* [s] */
-    double time_step; /* [s] */
+    CzIntegrator integrator;
+    double time_step; /* [s]; of a reference: its own are half of it at most */
     long n_step;
     CzEnergy energy;
     double momentum_error;
@@ -141,6 +153,10 @@ typedef struct CzSimulateOptions {
     bool brief;       /* for a search: also end once nothing flows any more and no cars can meet
                          again at more than 0.4 of the first closing speed; the run has then
                          CZ_ENDED_SETTLED and is no record */
+    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI is the record */
+    double tolerance;        /* of a reference: local error of a step, 1 m/s or 1 rad/s times it in
+                                velocities, 10 mm or 10 mrad in displacements. The default of 1e-6 adds up
+                                to far less than what the largest step leaves (ours) */
 } CzSimulateOptions;
 CZ_API CzSimulateOptions cz_simulate_options_default(void);
 
@@ -161,6 +177,9 @@ CZ_API int cz_run_n_channel(const CzRun *run);
 CZ_API int cz_run_n_sample(const CzRun *run);
 CZ_API const char *cz_run_channel_name(const CzRun *run, int channel);
 CZ_API const double *cz_run_channel(const CzRun *run, int channel);
+
+/* Version of the SUNDIALS libraries in use, such as "6.4.1". Writes at most n bytes. */
+CZ_API void cz_sundials_version(char *text, size_t n);
 
 /* Instruction set the kernel of this process takes with "auto". */
 CZ_API const char *cz_isa_name(void);

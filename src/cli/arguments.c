@@ -208,7 +208,12 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     static const char *const colours[] = {"auto", "always", "never"};
     static const char *const separators[] = {",", ";", "tab"};
     static const char *const decimals[] = {".", ","};
-    int colour = 0, separator = 0, decimal = 0;
+    static const char *const integrators[] = {
+#define CZ_INTEGRATOR(constant, text, doc) text,
+#include "crushzone/integrators.def"
+#undef CZ_INTEGRATOR
+    };
+    int colour = 0, separator = 0, decimal = 0, integrator = CZ_INTEGRATOR_ZHAI;
     long n_job = 0, n_stage = -1;
     CzStatus status = CZ_OK;
     if (status == CZ_OK)
@@ -223,6 +228,9 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     if (status == CZ_OK)
         status = read_choice(arguments, CZ_OPTION_COLOR, 3, colours, &colour, error);
     if (status == CZ_OK)
+        status = read_choice(arguments, CZ_OPTION_INTEGRATOR, CZ_N_INTEGRATOR, integrators,
+                             &integrator, error);
+    if (status == CZ_OK)
         status = read_choice(arguments, CZ_OPTION_CSV_SEP, 3, separators, &separator, error);
     if (status == CZ_OK)
         status = read_choice(arguments, CZ_OPTION_CSV_DECIMAL, 2, decimals, &decimal, error);
@@ -231,6 +239,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     arguments->n_job = (int)n_job;
     arguments->n_stage = (int)n_stage;
     arguments->colour = (CzColour)colour;
+    arguments->integrator = (CzIntegrator)integrator;
     arguments->csv_separator = ",;\t"[separator];
     arguments->csv_decimal = ".,"[decimal];
     if (arguments->csv_separator == arguments->csv_decimal) {

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "crushzone/status.h"
+#include "crushzone/simulate.h"
 
 typedef enum CzCommand {
 #define CZ_COMMAND(constant, name, operands, fewest, most, doc) CZ_COMMAND_##constant,
@@ -56,6 +56,7 @@ typedef struct CzArguments {
     long evaluations;   /* 0: the file's */
     long seed;          /* -1: the file's */
     int n_stage;        /* -1: as many as the curve calls for */
+    CzIntegrator integrator;
     char csv_separator, csv_decimal;
     CzColour colour;
 } CzArguments;

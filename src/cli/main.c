@@ -16,14 +16,16 @@ int cz_command_schema(const CzArguments *arguments) {
 }
 
 int cz_command_version(const CzArguments *arguments) {
-    char nlopt[32] = "";
+    char nlopt[32] = "", sundials[32] = "";
     cz_nlopt_version(nlopt, sizeof nlopt);
+    cz_sundials_version(sundials, sizeof sundials);
     if (arguments->text[CZ_OPTION_JSON] != NULL)
-        printf("{\"format\": \"crushzone.version\", \"version\": \"%s\", \"sundials\": null, "
+        printf("{\"format\": \"crushzone.version\", \"version\": \"%s\", \"sundials\": \"%s\", "
                "\"nlopt\": \"%s\", \"isa\": \"%s\"}\n",
-               cz_version(), nlopt, cz_isa_name());
+               cz_version(), sundials, nlopt, cz_isa_name());
     else
-        printf("crushzone %s (NLopt %s, kernel for %s)\n", cz_version(), nlopt, cz_isa_name());
+        printf("crushzone %s (NLopt %s, SUNDIALS %s, kernel for %s)\n", cz_version(), nlopt,
+               sundials, cz_isa_name());
     return 0;
 }
 

@@ -59,6 +59,7 @@ int cz_session_begin(CzSession *session, const CzArguments *arguments, const cha
     CzEvaluatorOptions options = cz_evaluator_options_default();
     options.n_job = arguments->n_job;
     options.scenario = arguments->text[CZ_OPTION_SCENARIO];
+    options.integrator = arguments->integrator;
     CzError error = {0};
     if (cz_evaluator_build(session->problem, &options, &session->evaluator, &error) != CZ_OK)
         return cz_session_fail(session, &error);

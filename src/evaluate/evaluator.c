@@ -8,7 +8,8 @@
 #include <string.h>
 
 CzEvaluatorOptions cz_evaluator_options_default(void) {
-    return (CzEvaluatorOptions){.n_job = 0, .step_factor = 1, .scenario = NULL};
+    return (CzEvaluatorOptions){
+        .n_job = 0, .step_factor = 1, .integrator = CZ_INTEGRATOR_ZHAI, .scenario = NULL};
 }
 
 /* ---- building -------------------------------------------------------------------------------- */
@@ -108,7 +109,7 @@ CzStatus cz_evaluator_build(const CzProblem *problem, const CzEvaluatorOptions *
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the evaluator");
     built->problem = problem;
     built->n_job = given.n_job > 0 ? given.n_job : cz_processor_count();
-    built->step_factor = given.step_factor;
+    built->manner = (CzManner){.step_factor = given.step_factor, .integrator = given.integrator};
     const CzStatus status = build(built, given.scenario, error);
     if (status != CZ_OK) {
         cz_evaluator_free(built);

@@ -9,6 +9,18 @@
 
 const CzProblem *cz_evaluator_problem(const CzEvaluator *evaluator);
 
+/* How the runs of a design are made. */
+typedef struct CzManner {
+    double step_factor; /* factor on every time step */
+    CzIntegrator integrator;
+} CzManner;
+
+/* Evaluates one design in another manner, with its runs kept but no channels; x as in cz_evaluate.
+ */
+CZ_MUST_CHECK CzStatus cz_evaluator_again(const CzEvaluator *evaluator, const CzManner *manner,
+                                          const double *x, CzEvaluation *evaluation,
+                                          CzError *error);
+
 /* Whether a constraint is a mere yes or no. */
 bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint);
 

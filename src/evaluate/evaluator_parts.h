@@ -10,7 +10,7 @@ struct CzEvaluator {
     CzArena arena;
     const CzProblem *problem;
     int n_job;
-    double step_factor;
+    CzManner manner; /* of what is no search */
     int n_scene;
     CzScene *scene;            /* (n_scene) */
     CzModel **model;           /* (n_scene); NULL for scenarios left out */

@@ -22,7 +22,8 @@ typedef struct Block {
     int n_point;
     const CzVehicle *vehicle[BLOCK]; /* the whole vehicle array of each design (n_point) */
     CzRun **run;                     /* (n_point x n_scene) */
-    bool record, brief;
+    bool record, keep, brief;        /* channels are recorded, runs are kept, runs may end early */
+    CzManner manner;
     int n_task;
     struct {
         int scene, first, n;
@@ -44,8 +45,9 @@ static void run_task(int index, void *data) {
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = block->record;
     options.brief = block->brief;
-    if (evaluator->step_factor != 1)
-        options.time_step = cz_model_time_step(model) * evaluator->step_factor;
+    options.integrator = block->manner.integrator;
+    if (block->manner.step_factor != 1)
+        options.time_step = cz_model_time_step(model) * block->manner.step_factor;
     CzRun *run[BLOCK] = {NULL};
     block->status[index] = cz_simulate_batch(model, block->task[index].n, &block->vehicle[first],
                                              &options, run, &block->error[index]);
@@ -98,7 +100,7 @@ static CzStatus run_block(Block *block, CzError *error) {
     return status;
 }
 
-/* Judges each design of a finished block; keeps its runs when they are recorded; fills the details,
+/* Judges each design of a finished block; keeps its runs when they are wanted; fills the details,
  * NaN for designs that failed, unless `detail` is NULL. */
 static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *detail,
                               CzError *error) {
@@ -117,7 +119,7 @@ static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *de
         if (detail != NULL && status == CZ_OK && evaluation[i].status == CZ_OK)
             cz_compose_details(block->evaluator, block->vehicle[i], summary,
                                detail + i * block->evaluator->n_detail);
-        if (status != CZ_OK || !block->record)
+        if (status != CZ_OK || !block->keep)
             continue;
         evaluation[i].run = calloc((size_t)n_scene, sizeof(CzRun *));
         if (evaluation[i].run == NULL)
@@ -132,10 +134,10 @@ static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *de
     return status;
 }
 
-/* `manner` says whether runs are recorded or brief. */
-static CzStatus evaluate_block(const Block *manner, int n_point, const double *x,
+/* `wish` says how runs are made and what is kept of them. */
+static CzStatus evaluate_block(const Block *wish, int n_point, const double *x,
                                CzEvaluation *evaluation, double *detail, CzError *error) {
-    Block block = *manner;
+    Block block = *wish;
     const CzEvaluator *evaluator = block.evaluator;
     const size_t n_vehicle = (size_t)evaluator->n_vehicle;
     block.n_point = n_point;
@@ -163,15 +165,15 @@ static CzStatus evaluate_block(const Block *manner, int n_point, const double *x
 }
 
 /* All designs, block after block. */
-static CzStatus evaluate_all(const Block *manner, int n_point, const double *x,
+static CzStatus evaluate_all(const Block *wish, int n_point, const double *x,
                              CzEvaluation *evaluation, double *detail, CzError *error) {
-    const CzEvaluator *evaluator = manner->evaluator;
+    const CzEvaluator *evaluator = wish->evaluator;
     memset(evaluation, 0, (size_t)n_point * sizeof *evaluation);
     CzStatus status = CZ_OK;
     for (int first = 0; first < n_point && status == CZ_OK; first += BLOCK) {
         const int n = n_point - first < BLOCK ? n_point - first : BLOCK;
         status =
-            evaluate_block(manner, n, x != NULL ? x + first * evaluator->design.n_variable : NULL,
+            evaluate_block(wish, n, x != NULL ? x + first * evaluator->design.n_variable : NULL,
                            evaluation + first,
                            detail != NULL ? detail + first * evaluator->n_detail : NULL, error);
     }
@@ -182,14 +184,26 @@ static CzStatus evaluate_all(const Block *manner, int n_point, const double *x,
 
 CzStatus cz_evaluate(CzEvaluator *evaluator, int n_point, const double *x, bool keep_runs,
                      CzEvaluation *evaluation, CzError *error) {
-    const Block manner = {.evaluator = evaluator, .record = keep_runs};
-    return evaluate_all(&manner, n_point, x, evaluation, NULL, error);
+    const Block wish = {.evaluator = evaluator,
+                        .record = keep_runs,
+                        .keep = keep_runs,
+                        .manner = evaluator->manner};
+    return evaluate_all(&wish, n_point, x, evaluation, NULL, error);
 }
 
 CzStatus cz_evaluator_search(const CzEvaluator *evaluator, int n_point, const double *x,
                              CzEvaluation *evaluation, double *detail, CzError *error) {
-    const Block manner = {.evaluator = evaluator, .record = false, .brief = true};
-    return evaluate_all(&manner, n_point, x, evaluation, detail, error);
+    const Block wish = {
+        .evaluator = evaluator,
+        .brief = true,
+        .manner = {.step_factor = evaluator->manner.step_factor, .integrator = CZ_INTEGRATOR_ZHAI}};
+    return evaluate_all(&wish, n_point, x, evaluation, detail, error);
+}
+
+CzStatus cz_evaluator_again(const CzEvaluator *evaluator, const CzManner *manner, const double *x,
+                            CzEvaluation *evaluation, CzError *error) {
+    const Block wish = {.evaluator = evaluator, .keep = true, .manner = *manner};
+    return evaluate_all(&wish, 1, x, evaluation, NULL, error);
 }
 
 void cz_evaluation_free(CzEvaluation *evaluation) {

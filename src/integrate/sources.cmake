@@ -1,3 +1,4 @@
-# Sources of src/integrate, one per line: headers only so far.
+# Sources of src/integrate, one per line.
 set(CZ_SOURCES_integrate
+    sundials_adapter.c
 )

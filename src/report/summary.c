@@ -11,14 +11,15 @@
 #include <stdio.h>
 
 void cz_document_head(CzJson *json, const char *format, const CzProblem *problem) {
-    char nlopt[32] = "";
+    char nlopt[32] = "", sundials[32] = "";
     cz_nlopt_version(nlopt, sizeof nlopt);
+    cz_sundials_version(sundials, sizeof sundials);
 
     cz_json_text(json, "format", format);
     cz_json_whole(json, "version", 1);
     cz_json_open_object(json, "program");
     cz_json_text(json, "version", cz_version());
-    cz_json_text(json, "sundials", NULL); /* no part of this version uses it */
+    cz_json_text(json, "sundials", sundials);
     cz_json_text(json, "nlopt", nlopt);
     cz_json_close(json);
     cz_json_open_object(json, "problem");
@@ -189,7 +190,7 @@ static void put_scenario(CzJson *json, const CzProblem *problem, const CzRunSumm
     cz_json_text(json, "status", run->status == CZ_OK ? "completed" : "failed");
     cz_json_text(json, "failure", run->failure[0] != '\0' ? run->failure : NULL);
     cz_json_real(json, "simulated_s", run->simulated);
-    cz_json_text(json, "integrator", "zhai");
+    cz_json_text(json, "integrator", cz_integrator_text(run->integrator));
     cz_json_real(json, "time_step_s", run->time_step);
     cz_json_whole(json, "steps", run->n_step);
     cz_json_text(json, "track", track_word(problem));

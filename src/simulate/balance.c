@@ -7,10 +7,10 @@
 /* Velocity that belongs to the accelerations at both ends of the step. The two-step scheme carries
  * v = (trapezoidal v) - h/2 (a - a_last): a step in which a force jumps, such as a shear-off that
  * snaps, is paid for in the next one. Work is summed by the trapezoidal rule and must be compared
- * with what belongs to it. */
+ * with what belongs to it. The references have no such lag. */
 static double settled_velocity(const CzBatch *batch, int dof, size_t lane) {
     const double v = cz_velocity(batch, dof, lane);
-    if (batch->n_step == 0)
+    if (batch->n_step == 0 || batch->reference != NULL)
         return v;
     const CzBlock *block = cz_block_of(batch->dynamics, lane);
     const double now = block->acceleration[dof][lane % CZ_LANE_BLOCK];

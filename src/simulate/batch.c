@@ -8,11 +8,14 @@
 #include <time.h>
 
 #include "base/error.h"
+#include "simulate/reference.h"
 #include "simulate/run.h"
 
 enum {
     STEPS_BETWEEN_LOOKS = 32, /* energy and end of run are looked at this often (ours) */
-    LANES_THAT_FILL = 96      /* lanes of a batch that still stay in the first caches (measured) */
+    LANES_THAT_FILL = 96,     /* lanes of a batch that still stay in the first caches (measured) */
+    MOST_STEPS = 100000       /* of a reference within one step of the model: more is a storm of
+                                 events (ours) */
 };
 #define SAMPLING 1e-3 /* of the history for mean decelerations [s] (ours) */
 
@@ -23,7 +26,12 @@ static double seconds(void) {
 }
 
 CzSimulateOptions cz_simulate_options_default(void) {
-    return (CzSimulateOptions){.time_step = 0.0, .record = true, .isa = "auto", .brief = false};
+    return (CzSimulateOptions){.time_step = 0.0,
+                               .record = true,
+                               .isa = "auto",
+                               .brief = false,
+                               .integrator = CZ_INTEGRATOR_ZHAI,
+                               .tolerance = 1e-6};
 }
 
 int cz_simulate_batch_width(const CzModel *model) {
@@ -64,6 +72,7 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
                        options->isa);
     batch->n_design = n_design;
     batch->brief = options->brief;
+    batch->integrator = options->integrator;
     batch->step = options->time_step > 0.0 ? options->time_step : model->time_step;
     int n_vehicle;
     const CzVehicle *own = cz_problem_vehicles(model->problem, &n_vehicle);
@@ -94,14 +103,11 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
         batch->design[design].initial_energy = cz_kinetic_energy(batch, design);
     batch->kernel->evaluate(batch->dynamics, batch->step);
     batch->kernel->commit(batch->dynamics, 0.0, 0.0);
-    return CZ_OK;
-}
-
-static void step(CzBatch *batch) {
-    const int first = batch->n_step == 0;
-    ++batch->n_step;
-    batch->time = (double)batch->n_step * batch->step;
-    batch->kernel->step(batch->dynamics, batch->step, first, batch->time);
+    if (batch->integrator == CZ_INTEGRATOR_ZHAI || batch->design[0].over)
+        return CZ_OK;
+    const bool is_erk = batch->integrator == CZ_INTEGRATOR_ERK;
+    return cz_reference_create(batch, is_erk ? CZ_METHOD_ERK : CZ_METHOD_ADAMS, options->tolerance,
+                               &batch->reference, error);
 }
 
 /* Recording of a single design: channels at the output step, events at every step. */
@@ -123,7 +129,8 @@ static CzStatus record_begin(Recording *recording, CzBatch *batch, CzRun *run, C
 }
 
 static CzStatus record_step(Recording *recording, const CzBatch *batch) {
-    cz_watch_look(recording->watch, batch);
+    if (batch->reference == NULL)
+        cz_watch_look(recording->watch, batch);
     return batch->n_step % recording->every == 0 ? cz_channels_add(&recording->run->channels, batch)
                                                  : CZ_OK;
 }
@@ -145,6 +152,41 @@ static CzStatus finish(const CzBatch *batch, CzRun **run, bool *written) {
     return CZ_OK;
 }
 
+/* Steps of the adaptive solver up to the end of the model's step. A solver that gives up fails the
+ * run. */
+static void step_reference(CzBatch *batch, const Recording *recording, double until) {
+    CzProgressOfDesign *progress = &batch->design[0];
+    CzError error = {0};
+    for (int i = 0; i < MOST_STEPS && batch->time < until; ++i) {
+        if (cz_reference_step(batch->reference, until, &error) != CZ_OK) {
+            snprintf(progress->failure, sizeof progress->failure, "%.250s", error.message);
+            break;
+        }
+        if (recording != NULL)
+            cz_watch_look(recording->watch, batch);
+    }
+    if (batch->time >= until)
+        return;
+    if (progress->failure[0] == '\0')
+        snprintf(progress->failure, sizeof progress->failure,
+                 "more than %d steps of the second solver within %g s at %.3f ms", MOST_STEPS,
+                 batch->step, 1e3 * batch->time);
+    progress->ended = CZ_ENDED_INCOMPLETE;
+    progress->over = true;
+}
+
+/* One step of the model. */
+static void step(CzBatch *batch, const Recording *recording) {
+    const int first = batch->n_step == 0;
+    const double until = (double)++batch->n_step * batch->step;
+    if (batch->reference != NULL) {
+        step_reference(batch, recording, until);
+        return;
+    }
+    batch->time = until;
+    batch->kernel->step(batch->dynamics, batch->step, first, batch->time);
+}
+
 /* Steps until every design is over. */
 static CzStatus march(CzBatch *batch, CzRun **run, Recording *recording, CzError *error) {
     bool *written = cz_arena_allocate(&batch->arena, (size_t)batch->n_design, sizeof *written);
@@ -156,13 +198,13 @@ static CzStatus march(CzBatch *batch, CzRun **run, Recording *recording, CzError
     CzStatus status = cz_history_add(&batch->history, batch);
     bool all_over = false;
     while (status == CZ_OK && !all_over) {
-        step(batch);
+        step(batch, recording);
         if (batch->n_step % every == 0)
             status = cz_history_add(&batch->history, batch);
         if (status == CZ_OK && recording != NULL)
             status = record_step(recording, batch);
-        if (status == CZ_OK &&
-            (batch->n_step % STEPS_BETWEEN_LOOKS == 0 || batch->n_step == last)) {
+        if (status == CZ_OK && (batch->n_step % STEPS_BETWEEN_LOOKS == 0 || batch->n_step == last ||
+                                (batch->reference != NULL && batch->design[0].over))) {
             all_over = cz_ending_look(batch);
             status = finish(batch, run, written);
         }
@@ -171,6 +213,7 @@ static CzStatus march(CzBatch *batch, CzRun **run, Recording *recording, CzError
 }
 
 static void batch_free(CzBatch *batch) {
+    cz_reference_free(batch->reference);
     cz_history_free(&batch->history);
     cz_arena_free(&batch->arena);
 }
@@ -182,9 +225,11 @@ static void free_runs(int n_design, CzRun **run) {
     }
 }
 
-CzStatus cz_simulate_batch(const CzModel *model, int n_design, const CzVehicle *const *vehicles,
-                           const CzSimulateOptions *options, CzRun **run, CzError *error) {
-    const CzSimulateOptions chosen = options != NULL ? *options : cz_simulate_options_default();
+/* Designs side by side under one choice of steps. */
+static CzStatus simulate_together(const CzModel *model, int n_design,
+                                  const CzVehicle *const *vehicles,
+                                  const CzSimulateOptions *options, CzRun **run, CzError *error) {
+    const CzSimulateOptions chosen = *options;
     const double t0 = seconds();
     CzStatus status = CZ_OK;
     for (int design = 0; design < n_design; ++design) {
@@ -213,6 +258,22 @@ CzStatus cz_simulate_batch(const CzModel *model, int n_design, const CzVehicle *
             run[design]->summary.setup_s = (t1 - t0) / n_design;
             run[design]->summary.wall_s = (t2 - t1) / n_design;
         }
+    return status;
+}
+
+CzStatus cz_simulate_batch(const CzModel *model, int n_design, const CzVehicle *const *vehicles,
+                           const CzSimulateOptions *options, CzRun **run, CzError *error) {
+    const CzSimulateOptions chosen = options != NULL ? *options : cz_simulate_options_default();
+    if (chosen.integrator == CZ_INTEGRATOR_ZHAI)
+        return simulate_together(model, n_design, vehicles, &chosen, run, error);
+    /* Adaptive steps would make a design's answer depend on its neighbours. */
+    CzStatus status = CZ_OK;
+    int n_made = 0;
+    for (; n_made < n_design && status == CZ_OK; ++n_made)
+        status = simulate_together(model, 1, vehicles != NULL ? &vehicles[n_made] : NULL, &chosen,
+                                   &run[n_made], error);
+    if (status != CZ_OK)
+        free_runs(n_made, run);
     return status;
 }
 

@@ -1,6 +1,8 @@
 /* What a caller may ask of a run, and the texts of its closed sets. */
 #include "simulate/run.h"
 
+#include "integrate/integrator.h"
+
 const char *cz_ended_text(CzEnded ended) {
     static const char *const text[] = {
 #define CZ_ENDED(constant, text) text,
@@ -8,6 +10,19 @@ const char *cz_ended_text(CzEnded ended) {
 #undef CZ_ENDED
     };
     return text[ended];
+}
+
+const char *cz_integrator_text(CzIntegrator integrator) {
+    static const char *const text[] = {
+#define CZ_INTEGRATOR(constant, text, doc) text,
+#include "crushzone/integrators.def"
+#undef CZ_INTEGRATOR
+    };
+    return text[integrator];
+}
+
+void cz_sundials_version(char *text, size_t n) {
+    cz_solver_version(text, n);
 }
 
 const char *cz_event_text(CzEventKind kind) {

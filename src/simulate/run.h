@@ -55,9 +55,11 @@ typedef struct CzBatch {
     CzDynamics *dynamics;
     const CzVehicle *const *vehicles; /* (n_design) */
     int n_design;
-    bool brief;           /* end once settled */
-    double closing_speed; /* of the trains at t = 0 [m/s] */
-    double step, time;    /* [s] */
+    bool brief; /* end once settled */
+    CzIntegrator integrator;
+    struct CzReference *reference; /* NULL under the fixed-step scheme */
+    double closing_speed;          /* of the trains at t = 0 [m/s] */
+    double step, time;             /* [s] */
     long n_step;
     CzHistory history;
     CzProgressOfDesign *design; /* (n_design) */

@@ -6,6 +6,7 @@ set(CZ_SOURCES_simulate
     elements.c
     ending.c
     history.c
+    reference.c
     run.c
     summary.c
     watch.c

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "simulate/reference.h"
 
 /* Sum of the rows of a ledger class or list over all cars. */
 static double work_of(const CzBatch *batch, int design, int row) {
@@ -140,8 +141,10 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     memcpy(summary->failure, progress->failure, sizeof summary->failure);
     summary->ended = progress->ended;
     summary->simulated = batch->time;
+    summary->integrator = batch->integrator;
     summary->time_step = batch->step;
-    summary->n_step = batch->n_step;
+    summary->n_step =
+        batch->reference != NULL ? cz_reference_n_step(batch->reference) : batch->n_step;
     summary->energy = cz_energy_fill(batch, design);
     summary->momentum_error = cz_momentum_error(batch, design);
     summary->closing_speed = closing_speed(batch, design);

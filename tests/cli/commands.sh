@@ -47,6 +47,11 @@ several() { exits 1 "$C" check two-trains.yaml two-trains.yaml -o many && [ -f m
 check "check takes several files, each with a folder of its own" several
 finer() { exits 0 "$C" run two-trains.yaml --json --time-step-ms 0.05 && json out.txt scenarios.0.time_step_s 5e-5; }
 check "--time-step-ms sets the time step" finer
+by_reference() { exits 0 "$C" run two-trains.yaml --json --integrator "$1" && json out.txt scenarios.0.integrator "$1"; }
+check "--integrator erk runs with the Runge-Kutta reference" by_reference erk
+check "--integrator adams runs with the Adams reference" by_reference adams
+no_integrator() { exits 2 "$C" run two-trains.yaml --integrator euler && says err.txt 'it takes zhai or erk or adams'; }
+check "an unknown integrator is refused" no_integrator
 from_stdin() { "$C" check - --json <two-trains.yaml >stdin.json; [ $? = 1 ] && json stdin.json problem.file '<standard input>'; }
 check "a dash reads standard input" from_stdin
 verbose() { exits 0 "$C" run two-trains.yaml -v && says err.txt 'steps of'; }

@@ -38,15 +38,21 @@ static inline Collision collision_model(const char *file, const char *const *set
     return collision;
 }
 
-/* Runs it with recorded channels. */
-static inline Collision collide(const char *file, const char *const *set, int scenario) {
+/* Runs it in a manner of its own. */
+static inline Collision collide_so(const char *file, const char *const *set, int scenario,
+                                   const CzSimulateOptions *options) {
     Collision collision = collision_model(file, set, scenario);
     CzError error = {0};
-    const CzSimulateOptions options = cz_simulate_options_default();
-    if (cz_simulate(collision.model, &options, &collision.run, &error) != CZ_OK)
+    if (cz_simulate(collision.model, options, &collision.run, &error) != CZ_OK)
         fail_msg("%s", error.message);
     collision.summary = cz_run_summary(collision.run);
     return collision;
+}
+
+/* Runs it with recorded channels. */
+static inline Collision collide(const char *file, const char *const *set, int scenario) {
+    const CzSimulateOptions options = cz_simulate_options_default();
+    return collide_so(file, set, scenario, &options);
 }
 
 static inline void collision_free(Collision *collision) {

@@ -147,6 +147,17 @@ const double *cz_run_channel(const CzRun *run, int channel) {
 const char *cz_isa_name(void) {
     return "baseline";
 }
+void cz_sundials_version(char *text, size_t n) {
+    snprintf(text, n, "6.4.1");
+}
+const char *cz_integrator_text(CzIntegrator integrator) {
+    static const char *const texts[] = {
+#define CZ_INTEGRATOR(constant, text, doc) text,
+#include "crushzone/integrators.def"
+#undef CZ_INTEGRATOR
+    };
+    return texts[integrator];
+}
 void cz_nlopt_version(char *text, size_t n) {
     snprintf(text, n, "2.7.1");
 }

@@ -1,0 +1,399 @@
+/* SUNDIALS behind our interface: the only file that knows it.
+ *
+ * Written against what versions 6.4 and 7 have in common. Table and step controller of the
+ * Runge-Kutta method are set by hand, because their defaults changed between versions. Vectors are
+ * SUNDIALS' serial ones with kernels of our own in their table of functions: a library that was
+ * built without optimisation would otherwise spend most of the time there.
+ */
+#include "integrate/integrator.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <arkode/arkode_erkstep.h>
+#include <cvode/cvode.h>
+#include <kinsol/kinsol.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_version.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include "base/error.h"
+
+#define FIRST_STEP 1e-3 /* of the longest step: what came before does not count (ours) */
+enum {
+    FIXED_POINT_ITERATIONS = 4, /* per step, then it is halved (ours) */
+    NEWTON_ITERATIONS = 200     /* (ours) */
+};
+
+/* What SUNDIALS said last, instead of printing it. */
+typedef struct Message {
+    char text[256];
+} Message;
+
+/* ---- versions -------------------------------------------------------------------------------- */
+
+#if SUNDIALS_VERSION_MAJOR >= 7
+static void keep_message(int line, const char *function, const char *file, const char *text,
+                         SUNErrCode code, void *data, SUNContext context) {
+    Message *message = data;
+    (void)line, (void)file, (void)code, (void)context;
+    snprintf(message->text, sizeof message->text, "%s: %s", function, text != NULL ? text : "");
+}
+static int create_context(Message *message, SUNContext *context) {
+    const int flag = SUNContext_Create(SUN_COMM_NULL, context);
+    if (flag != 0)
+        return flag;
+    SUNContext_ClearErrHandlers(*context);
+    return SUNContext_PushErrHandler(*context, keep_message, message);
+}
+#define LISTEN(package, memory, message) 0
+#else
+static void keep_message(int code, const char *module, const char *function, char *text,
+                         void *data) {
+    Message *message = data;
+    (void)code, (void)module;
+    snprintf(message->text, sizeof message->text, "%s: %s", function, text != NULL ? text : "");
+}
+static int create_context(Message *message, SUNContext *context) {
+    (void)message;
+    return SUNContext_Create(NULL, context);
+}
+#define LISTEN(package, memory, message) package##SetErrHandlerFn(memory, keep_message, message)
+#endif
+
+void cz_solver_version(char *text, size_t n) {
+    if (SUNDIALSGetVersion(text, (int)n) != 0)
+        snprintf(text, n, "unknown");
+}
+
+/* ---- vectors --------------------------------------------------------------------------------- */
+
+static size_t length_of(N_Vector v) {
+    return (size_t)N_VGetLength(v);
+}
+
+static void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z) {
+    const double *p = N_VGetArrayPointer(x), *q = N_VGetArrayPointer(y);
+    double *sum = N_VGetArrayPointer(z); /* may be x or y */
+    const size_t n = length_of(z);
+    for (size_t i = 0; i < n; i++)
+        sum[i] = a * p[i] + b * q[i];
+}
+
+static void set_constant(sunrealtype c, N_Vector z) {
+    double *value = N_VGetArrayPointer(z);
+    const size_t n = length_of(z);
+    for (size_t i = 0; i < n; i++)
+        value[i] = c;
+}
+
+static void scale(sunrealtype c, N_Vector x, N_Vector z) {
+    const double *p = N_VGetArrayPointer(x);
+    double *scaled = N_VGetArrayPointer(z);
+    const size_t n = length_of(z);
+    for (size_t i = 0; i < n; i++)
+        scaled[i] = c * p[i];
+}
+
+/* Four sums in a fixed order, so that the bits are the same on every machine. */
+static sunrealtype weighted_norm(N_Vector x, N_Vector w) {
+    const double *p = N_VGetArrayPointer(x), *weight = N_VGetArrayPointer(w);
+    const size_t n = length_of(x);
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+    size_t i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (size_t k = 0; k < 4; k++) {
+            const double weighted = p[i + k] * weight[i + k];
+            sum[k] += weighted * weighted;
+        }
+    for (; i < n; i++)
+        sum[0] += p[i] * weight[i] * (p[i] * weight[i]);
+    return sqrt(((sum[0] + sum[1]) + (sum[2] + sum[3])) / (double)n);
+}
+
+static int linear_combination(int n_vector, sunrealtype *c, N_Vector *x, N_Vector z) {
+    double *sum = N_VGetArrayPointer(z); /* may be x[0] */
+    const double *first = N_VGetArrayPointer(x[0]);
+    const size_t n = length_of(z);
+    for (size_t i = 0; i < n; i++)
+        sum[i] = c[0] * first[i];
+    for (int k = 1; k < n_vector; k++) {
+        const double *next = N_VGetArrayPointer(x[k]);
+        const double factor = c[k];
+        for (size_t i = 0; i < n; i++)
+            sum[i] += factor * next[i];
+    }
+    return 0;
+}
+
+/* A vector with a copy of the values, NULL when there is no memory. Clones keep the kernels. */
+static N_Vector vector_of(size_t n, const double *value, SUNContext context) {
+    N_Vector v = N_VNew_Serial((sunindextype)n, context);
+    if (v == NULL)
+        return NULL;
+    v->ops->nvlinearsum = linear_sum;
+    v->ops->nvconst = set_constant;
+    v->ops->nvscale = scale;
+    v->ops->nvwrmsnorm = weighted_norm;
+    v->ops->nvlinearcombination = linear_combination;
+    memcpy(N_VGetArrayPointer(v), value, n * sizeof *value);
+    return v;
+}
+
+/* ---- differential equations ------------------------------------------------------------------ */
+
+struct CzSolver {
+    CzMethod method;
+    CzOde *ode;
+    SUNContext context;
+    void *memory; /* of ERKStep or CVODE */
+    N_Vector state, allowed;
+    SUNNonlinearSolver iteration; /* of CVODE */
+    double time, first_step;
+    bool is_refused; /* a trial state had no rates */
+    Message message;
+};
+
+/* Adams' iteration takes a refusal for slow convergence, so it is kept. */
+static int rates_of(sunrealtype time, N_Vector state, N_Vector rate, void *data) {
+    CzSolver *solver = data;
+    const double *y = N_VGetArrayPointer(state);
+    if (solver->ode->rates(solver->ode, time, y, N_VGetArrayPointer(rate)))
+        return 0;
+    solver->is_refused = true;
+    snprintf(solver->message.text, sizeof solver->message.text,
+             "the laws give no finite rates at %.3f ms", 1e3 * time);
+    return -1;
+}
+
+static int drops_of(sunrealtype time, N_Vector state, sunrealtype *value, void *data) {
+    CzOde *ode = ((CzSolver *)data)->ode;
+    ode->drops(ode, time, N_VGetArrayPointer(state), value);
+    return 0;
+}
+
+static CzStatus tell(const CzSolver *solver, CzError *error) {
+    return cz_fail(error, CZ_STATUS_RUN_FAILED, "the second solver gave up at %.3f ms: %s",
+                   1e3 * solver->time, solver->message.text);
+}
+
+/* Bogacki and Shampine 3(2) with an I controller: the next step is 0.9 (1 / error)^(1/3) of the
+ * last, between a tenth and five times (Hairer, Norsett and Wanner, Solving Ordinary Differential
+ * Equations I, section II.4, with wide limits). */
+static int settle_erk(CzSolver *solver, double longest) {
+    void *memory = solver->memory;
+    sunrealtype integral[3] = {1.0, 0.0, 0.0};
+    int flag = LISTEN(ERKStep, memory, &solver->message);
+    flag |= ERKStepSetUserData(memory, solver);
+    flag |= ERKStepSVtolerances(memory, 0.0, solver->allowed);
+    flag |= ERKStepSetTableNum(memory, ARKODE_BOGACKI_SHAMPINE_4_2_3);
+    flag |= ERKStepSetAdaptivityMethod(memory, ARK_ADAPT_I, 0, 0, integral);
+    flag |= ERKStepSetErrorBias(memory, 1.0);
+    flag |= ERKStepSetSafetyFactor(memory, 0.9);
+    flag |= ERKStepSetMaxGrowth(memory, 5.0);
+    flag |= ERKStepSetMaxFirstGrowth(memory, 5.0);
+    flag |= ERKStepSetMinReduction(memory, 0.1);
+    flag |= ERKStepSetMaxEFailGrowth(memory, 0.5);
+    flag |= ERKStepSetSmallNumEFails(memory, 2);
+    flag |= ERKStepSetFixedStepBounds(memory, 1.0, 1.2);
+    flag |= ERKStepSetMaxErrTestFails(memory, 40);
+    flag |= ERKStepSetMaxStep(memory, longest);
+    flag |= ERKStepSetInitStep(memory, solver->first_step);
+    if (solver->ode->n_drop > 0) {
+        flag |= ERKStepRootInit(memory, solver->ode->n_drop, drops_of);
+        flag |= ERKStepSetNoInactiveRootWarn(memory);
+    }
+    return flag;
+}
+
+static int settle_adams(CzSolver *solver, double longest) {
+    void *memory = solver->memory;
+    int flag = LISTEN(CVode, memory, &solver->message);
+    flag |= CVodeInit(memory, rates_of, solver->time, solver->state);
+    flag |= CVodeSetUserData(memory, solver);
+    flag |= CVodeSVtolerances(memory, 0.0, solver->allowed);
+    flag |= CVodeSetNonlinearSolver(memory, solver->iteration);
+    flag |= CVodeSetMaxNonlinIters(memory, FIXED_POINT_ITERATIONS);
+    flag |= CVodeSetMaxErrTestFails(memory, 40);
+    flag |= CVodeSetMaxConvFails(memory, 40);
+    flag |= CVodeSetMaxStep(memory, longest);
+    flag |= CVodeSetInitStep(memory, solver->first_step);
+    if (solver->ode->n_drop > 0) {
+        flag |= CVodeRootInit(memory, solver->ode->n_drop, drops_of);
+        flag |= CVodeSetNoInactiveRootWarn(memory);
+    }
+    return flag;
+}
+
+static bool allocate(CzSolver *solver, const double *state) {
+    const size_t n = solver->ode->n_unknown;
+    if (create_context(&solver->message, &solver->context) != 0)
+        return false;
+    solver->state = vector_of(n, state, solver->context);
+    solver->allowed = vector_of(n, solver->ode->allowed, solver->context);
+    if (solver->state == NULL || solver->allowed == NULL)
+        return false;
+    if (solver->method == CZ_METHOD_ERK) {
+        solver->memory = ERKStepCreate(rates_of, solver->time, solver->state, solver->context);
+    } else {
+        solver->memory = CVodeCreate(CV_ADAMS, solver->context);
+        solver->iteration = SUNNonlinSol_FixedPoint(solver->state, 0, solver->context);
+    }
+    return solver->memory != NULL && (solver->method == CZ_METHOD_ERK || solver->iteration != NULL);
+}
+
+CzStatus cz_solver_create(CzMethod method, CzOde *ode, double time, const double *state,
+                          double longest, CzSolver **made, CzError *error) {
+    CzSolver *solver = calloc(1, sizeof *solver);
+    *made = NULL;
+    if (solver == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the second solver");
+    solver->method = method;
+    solver->ode = ode;
+    solver->time = time;
+    solver->first_step = FIRST_STEP * longest;
+    CzStatus status = CZ_OK;
+    if (!allocate(solver, state))
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the second solver");
+    else if ((method == CZ_METHOD_ERK ? settle_erk : settle_adams)(solver, longest) != 0)
+        status = tell(solver, error);
+    if (status != CZ_OK)
+        cz_solver_free(solver);
+    else
+        *made = solver;
+    return status;
+}
+
+void cz_solver_free(CzSolver *solver) {
+    if (solver == NULL)
+        return;
+    if (solver->memory != NULL && solver->method == CZ_METHOD_ERK)
+        ERKStepFree(&solver->memory);
+    else if (solver->memory != NULL)
+        CVodeFree(&solver->memory);
+    if (solver->iteration != NULL)
+        SUNNonlinSolFree(solver->iteration);
+    if (solver->state != NULL)
+        N_VDestroy(solver->state);
+    if (solver->allowed != NULL)
+        N_VDestroy(solver->allowed);
+    if (solver->context != NULL)
+        SUNContext_Free(&solver->context);
+    free(solver);
+}
+
+CzStatus cz_solver_advance(CzSolver *solver, double until, CzSolverStep *step, CzError *error) {
+    const bool is_erk = solver->method == CZ_METHOD_ERK;
+    void *memory = solver->memory;
+    double reached = solver->time;
+    int flag = is_erk ? ERKStepSetStopTime(memory, until) : CVodeSetStopTime(memory, until);
+    if (flag == 0)
+        flag = is_erk ? ERKStepEvolve(memory, until, solver->state, &reached, ARK_ONE_STEP)
+                      : CVode(memory, until, solver->state, &reached, CV_ONE_STEP);
+    if (flag < 0 || solver->is_refused)
+        return tell(solver, error);
+    solver->time = reached;
+    *step = (CzSolverStep){.time = reached,
+                           .state = N_VGetArrayPointer(solver->state),
+                           .at_drop = flag == (is_erk ? ARK_ROOT_RETURN : CV_ROOT_RETURN)};
+    return CZ_OK;
+}
+
+CzStatus cz_solver_restart(CzSolver *solver, CzError *error) {
+    const bool is_erk = solver->method == CZ_METHOD_ERK;
+    void *memory = solver->memory;
+    int flag = is_erk ? ERKStepReInit(memory, rates_of, solver->time, solver->state)
+                      : CVodeReInit(memory, solver->time, solver->state);
+    flag |= is_erk ? ERKStepSetInitStep(memory, solver->first_step)
+                   : CVodeSetInitStep(memory, solver->first_step);
+    return flag == 0 ? CZ_OK : tell(solver, error);
+}
+
+/* ---- equations ------------------------------------------------------------------------------- */
+
+static int residuals_of(N_Vector unknown, N_Vector residual, void *data) {
+    CzEquations *equations = data;
+    equations->residuals(equations, N_VGetArrayPointer(unknown), N_VGetArrayPointer(residual));
+    return 0;
+}
+
+/* Everything that one solution needs. */
+typedef struct {
+    SUNContext context;
+    void *memory;
+    N_Vector unknown, unknown_weight, residual_weight;
+    SUNMatrix jacobian;
+    SUNLinearSolver linear;
+    Message message;
+} Newton;
+
+static bool newton_begin(Newton *newton, const CzEquations *equations, const double *unknown) {
+    const size_t n = equations->n_unknown;
+    if (create_context(&newton->message, &newton->context) != 0)
+        return false;
+    newton->unknown = vector_of(n, unknown, newton->context);
+    newton->unknown_weight = vector_of(n, equations->unknown_scale, newton->context);
+    newton->residual_weight = vector_of(n, equations->residual_scale, newton->context);
+    newton->memory = KINCreate(newton->context);
+    newton->jacobian = SUNDenseMatrix((sunindextype)n, (sunindextype)n, newton->context);
+    if (newton->unknown == NULL || newton->unknown_weight == NULL ||
+        newton->residual_weight == NULL || newton->memory == NULL || newton->jacobian == NULL)
+        return false;
+    N_VInv(newton->unknown_weight, newton->unknown_weight);
+    N_VInv(newton->residual_weight, newton->residual_weight);
+    newton->linear = SUNLinSol_Dense(newton->unknown, newton->jacobian, newton->context);
+    return newton->linear != NULL;
+}
+
+static void newton_end(Newton *newton) {
+    if (newton->memory != NULL)
+        KINFree(&newton->memory);
+    if (newton->linear != NULL)
+        SUNLinSolFree(newton->linear);
+    if (newton->jacobian != NULL)
+        SUNMatDestroy(newton->jacobian);
+    N_Vector vectors[] = {newton->unknown, newton->unknown_weight, newton->residual_weight};
+    for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++)
+        if (vectors[i] != NULL)
+            N_VDestroy(vectors[i]);
+    if (newton->context != NULL)
+        SUNContext_Free(&newton->context);
+}
+
+static int newton_solve(Newton *newton, CzEquations *equations, double tolerance) {
+    void *memory = newton->memory;
+    int flag = LISTEN(KIN, memory, &newton->message);
+    flag |= KINInit(memory, residuals_of, newton->unknown);
+    flag |= KINSetUserData(memory, equations);
+    flag |= KINSetLinearSolver(memory, newton->linear, newton->jacobian);
+    flag |= KINSetFuncNormTol(memory, tolerance);
+    flag |= KINSetScaledStepTol(memory, 1e-16);
+    flag |= KINSetNumMaxIters(memory, NEWTON_ITERATIONS);
+    flag |= KINSetMaxSetupCalls(memory, 1); /* a new Jacobian every time: contacts have kinks */
+    if (flag != 0)
+        return flag;
+    return KINSol(memory, newton->unknown, KIN_LINESEARCH, newton->unknown_weight,
+                  newton->residual_weight);
+}
+
+CzStatus cz_equations_solve(CzEquations *equations, double tolerance, double *unknown,
+                            CzError *error) {
+    Newton newton = {0};
+    CzStatus status = CZ_OK;
+    if (!newton_begin(&newton, equations, unknown)) {
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the equations");
+    } else {
+        const int flag = newton_solve(&newton, equations, tolerance);
+        memcpy(unknown, N_VGetArrayPointer(newton.unknown), equations->n_unknown * sizeof *unknown);
+        if (flag != KIN_SUCCESS && flag != KIN_INITIAL_GUESS_OK)
+            status = cz_fail(error, CZ_STATUS_RUN_FAILED, "no equilibrium found: %s",
+                             newton.message.text);
+    }
+    newton_end(&newton);
+    return status;
+}

@@ -1,0 +1,217 @@
+/* Drives the kernel's evaluation and commit from an adaptive solver. */
+#include "simulate/reference.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "model/kinks.h"
+
+#define LONGEST_STEP 0.5 /* of the model's step, so that peaks are seen (ours) */
+#define SHORTEST_STEP                                                                              \
+    1e-9 /* of the laws: a state on the commit itself is taken as this far on [s] */
+#define VELOCITY_SCALE 1.0      /* [m/s, rad/s] (ours) */
+#define DISPLACEMENT_SCALE 0.01 /* [m, rad] (ours) */
+#define IMPULSE_SCALE 1e3       /* of external forces [N s] (ours) */
+#define SHEARED 1e-4            /* travel at which a shear-off counts as let go [m] (ours) */
+
+/* A degree of freedom in its block. */
+typedef struct Place {
+    double *position, *velocity;
+    const double *acceleration;
+} Place;
+
+/* A shear-off that has not let go yet. */
+typedef struct Drop {
+    const CzBlock *block;
+    int row;     /* CzMemory of its travel */
+    size_t lane; /* within the block */
+    bool over;   /* it has let go: its function is masked, or it would fire for ever */
+} Drop;
+
+struct CzReference {
+    CzOde ode; /* first: the solver hands it back */
+    CzBatch *batch;
+    CzSolver *solver;
+    size_t n_place;
+    Place *place;     /* (n_place); the state is each one's position and velocity in turn */
+    Drop *drop;       /* (ode.n_drop) */
+    double committed; /* time of the last commit [s] */
+    double evaluated; /* time of the last evaluation [s]; NaN: none since the commit */
+    double *at;       /* its state (ode.n_unknown) */
+    long n_step;
+};
+
+/* ---- state ----------------------------------------------------------------------------------- */
+
+static bool moves(const CzBatch *batch, int row, size_t lane) {
+    const CzLanes *lanes = batch->lanes;
+    if (row == CZ_ROW_IMPULSE)
+        return true;
+    const bool is_end = row == CZ_DOF_END_X_REAR || row == CZ_DOF_END_X_FRONT;
+    return cz_row(lanes->mass, lanes->stride, row)[lane] > 0.0 ||
+           (is_end && cz_parameter(batch, CZ_P_SLAVED_ENDS, lane) > 0.5);
+}
+
+/* Fills the places of all rows that move, or only counts them. */
+static size_t list_places(const CzBatch *batch, Place *place, double *allowed, double tolerance) {
+    size_t n = 0;
+    for (int car = 0; car < batch->model->n_car; car++)
+        for (int row = 0; row < CZ_N_ROW; row++) {
+            const size_t lane = cz_lane(batch, car, 0), i = lane % CZ_LANE_BLOCK;
+            CzBlock *block = cz_block_of(batch->dynamics, lane);
+            if (!moves(batch, row, lane))
+                continue;
+            if (place != NULL) {
+                const bool is_impulse = row == CZ_ROW_IMPULSE;
+                place[n] = (Place){&block->position[row][i], &block->velocity[row][i],
+                                   &block->acceleration[row][i]};
+                allowed[2 * n] = tolerance * (is_impulse ? IMPULSE_SCALE : DISPLACEMENT_SCALE);
+                allowed[2 * n + 1] = tolerance * (is_impulse ? IMPULSE_SCALE : VELOCITY_SCALE);
+            }
+            n++;
+        }
+    return n;
+}
+
+static void get_state(const CzReference *reference, double *state) {
+    for (size_t i = 0; i < reference->n_place; i++) {
+        state[2 * i] = *reference->place[i].position;
+        state[2 * i + 1] = *reference->place[i].velocity;
+    }
+}
+
+static void set_state(const CzReference *reference, const double *state) {
+    for (size_t i = 0; i < reference->n_place; i++) {
+        *reference->place[i].position = state[2 * i];
+        *reference->place[i].velocity = state[2 * i + 1];
+    }
+}
+
+/* Evaluates the laws at a state; twice the same state costs one evaluation. */
+static void evaluate(CzReference *reference, double time, const double *state) {
+    const size_t size = reference->ode.n_unknown * sizeof *state;
+    if (time == reference->evaluated && memcmp(state, reference->at, size) == 0)
+        return;
+    set_state(reference, state);
+    const double step = fmax(time - reference->committed, SHORTEST_STEP);
+    reference->batch->kernel->evaluate(reference->batch->dynamics, step);
+    memcpy(reference->at, state, size);
+    reference->evaluated = time;
+}
+
+/* ---- what the solver asks -------------------------------------------------------------------- */
+
+static bool rates(CzOde *ode, double time, const double *state, double *rate) {
+    CzReference *reference = (CzReference *)ode;
+    evaluate(reference, time, state);
+    bool is_finite = true;
+    for (size_t i = 0; i < reference->n_place; i++) {
+        rate[2 * i] = state[2 * i + 1];
+        rate[2 * i + 1] = *reference->place[i].acceleration;
+        is_finite = is_finite && isfinite(rate[2 * i + 1]);
+    }
+    return is_finite;
+}
+
+static double travel(const Drop *drop) {
+    return drop->block->next_memory[drop->row][drop->lane];
+}
+
+static void drops(CzOde *ode, double time, const double *state, double *value) {
+    CzReference *reference = (CzReference *)ode;
+    evaluate(reference, time, state);
+    for (int i = 0; i < ode->n_drop; i++)
+        value[i] = reference->drop[i].over ? 1.0 : travel(&reference->drop[i]) / SHEARED - 1.0;
+}
+
+/* Fills the shear-offs of all interfaces, or only counts them. */
+static int list_drops(const CzBatch *batch, Drop *drop) {
+    int n = 0;
+    for (int car = 0; car + 1 < batch->model->n_car; car++)
+        for (int side = 0; side < 2; side++) {
+            const size_t lane = cz_lane(batch, car, 0);
+            if (cz_parameter(batch, CZ_P_COUPLER, lane) < 0.5 ||
+                cz_parameter(batch, CZ_P_SHEAR_FORCE_A + side, lane) >= CZ_NEVER)
+                continue;
+            if (drop != NULL)
+                drop[n] = (Drop){cz_block_of(batch->dynamics, lane), CZ_M_SHEAR_A + side,
+                                 lane % CZ_LANE_BLOCK, false};
+            n++;
+        }
+    return n;
+}
+
+/* ---- the run --------------------------------------------------------------------------------- */
+
+static CzStatus allocate(CzBatch *batch, CzReference **made, CzError *error) {
+    CzArena *arena = &batch->arena;
+    CzReference *reference = cz_arena_allocate(arena, 1, sizeof *reference);
+    if (reference == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the reference run");
+    const size_t n = list_places(batch, NULL, NULL, 0.0);
+    const int n_drop = list_drops(batch, NULL);
+    reference->n_place = n;
+    reference->place = cz_arena_allocate(arena, n, sizeof *reference->place);
+    reference->drop = cz_arena_allocate(arena, (size_t)n_drop + 1, sizeof *reference->drop);
+    reference->at = cz_arena_allocate(arena, 2 * n, sizeof *reference->at);
+    if (reference->place == NULL || reference->drop == NULL || reference->at == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the reference run");
+    reference->batch = batch;
+    reference->ode = (CzOde){.n_unknown = 2 * n,
+                             .rates = rates,
+                             .n_drop = list_drops(batch, reference->drop),
+                             .drops = drops};
+    *made = reference;
+    return CZ_OK;
+}
+
+CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance, CzReference **made,
+                             CzError *error) {
+    CzReference *reference = NULL;
+    *made = NULL;
+    CZ_TRY(allocate(batch, &reference, error));
+    const size_t n = reference->ode.n_unknown;
+    double *state = cz_arena_allocate(&batch->arena, n, sizeof *state);
+    double *allowed = cz_arena_allocate(&batch->arena, n, sizeof *allowed);
+    if (state == NULL || allowed == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the reference run");
+    list_places(batch, reference->place, allowed, tolerance);
+    get_state(reference, state);
+    reference->ode.allowed = allowed;
+    reference->evaluated = NAN;
+    reference->committed = 0.0;
+    CZ_TRY(cz_solver_create(method, &reference->ode, 0.0, state, LONGEST_STEP * batch->step,
+                            &reference->solver, error));
+    *made = reference;
+    return CZ_OK;
+}
+
+void cz_reference_free(CzReference *reference) {
+    if (reference != NULL)
+        cz_solver_free(reference->solver);
+}
+
+CzStatus cz_reference_step(CzReference *reference, double until, CzError *error) {
+    CzBatch *batch = reference->batch;
+    CzSolverStep step;
+    CZ_TRY(cz_solver_advance(reference->solver, until, &step, error));
+    evaluate(reference, step.time, step.state);
+    batch->kernel->commit(batch->dynamics, step.time - reference->committed, step.time);
+    reference->committed = batch->time = step.time;
+    reference->evaluated = NAN; /* the same state answers for another step now */
+    reference->n_step++;
+    if (!step.at_drop)
+        return CZ_OK;
+    for (int i = 0; i < reference->ode.n_drop; i++) {
+        Drop *drop = &reference->drop[i];
+        drop->over =
+            drop->over || drop->block->memory[drop->row][drop->lane] >= SHEARED * (1.0 - 1e-9);
+    }
+    return cz_solver_restart(reference->solver, error);
+}
+
+long cz_reference_n_step(const CzReference *reference) {
+    return reference->n_step;
+}

@@ -1,0 +1,35 @@
+/* The run of one design by an adaptive solver instead of the fixed-step scheme: the same laws, the
+ * same ledger, the same extremes, an independent integration.
+ *
+ *   y = (x, v) of every degree of freedom that moves, y' = (v, a)
+ *
+ * A trial state is evaluated from the committed memory, with the time since the commit as the step
+ * of the laws; memory is committed where a step is accepted. The laws answer by return mapping, so
+ * force and next memory are continuous there. What depends on that step (creep, hydraulic stroke,
+ * rate of flow) is advanced implicitly over it and converges as steps shrink, to the same limit as
+ * under the fixed-step scheme.
+ */
+#ifndef CZ_SIMULATE_REFERENCE_H
+#define CZ_SIMULATE_REFERENCE_H
+
+#include "integrate/integrator.h"
+#include "simulate/run.h"
+
+typedef struct CzReference CzReference;
+
+/* A reference for a batch of one design that stands at t = 0, allocated in its arena; free with
+ * cz_reference_free. `tolerance` scales what cz_reference_step allows as local error: 1 m/s and
+ * 1 rad/s times it in velocities, 10 mm and 10 mrad in displacements. Statuses: CZ_OK,
+ * CZ_STATUS_NO_MEMORY, CZ_STATUS_RUN_FAILED. */
+CZ_MUST_CHECK CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance,
+                                           CzReference **reference, CzError *error);
+void cz_reference_free(CzReference *reference);
+
+/* Takes one accepted step that does not go beyond `until`, commits it and sets the batch's time.
+ * Statuses: CZ_OK, CZ_STATUS_RUN_FAILED. */
+CZ_MUST_CHECK CzStatus cz_reference_step(CzReference *reference, double until, CzError *error);
+
+/* Steps taken so far. */
+long cz_reference_n_step(const CzReference *reference);
+
+#endif

@@ -1,0 +1,1 @@
+cz_test(test_solvers physics test_solvers.c)

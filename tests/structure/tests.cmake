@@ -1,5 +1,6 @@
 cz_script(structure structure structure.sh)
 cz_script(structure_rules_catch structure rules-catch.sh)
+cz_script(places structure places.sh)
 if(CZ_IS_WHOLE)
     cz_script(symbols structure symbols.sh)
     cz_script(generated structure generated.sh)

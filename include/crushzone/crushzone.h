@@ -6,6 +6,8 @@
  *                                  |
  *                                  +--> cz_optimise --> CzOutcome --> report
  *
+ *                                  +--> cz_explain --> CzExplanation --> report
+ *
  *   problem file --> cz_sweep --> CzSweep (the same line for every value of a path) --> report
  *
  *   measured curve --> CzFit --> stages of a problem file
@@ -16,6 +18,7 @@
 #define CRUSHZONE_CRUSHZONE_H
 
 #include "crushzone/evaluate.h"
+#include "crushzone/explain.h"
 #include "crushzone/fit.h"
 #include "crushzone/model.h"
 #include "crushzone/optimise.h"

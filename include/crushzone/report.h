@@ -8,6 +8,7 @@
 
 #include <stdio.h>
 
+#include "crushzone/explain.h"
 #include "crushzone/fit.h"
 #include "crushzone/optimise.h"
 #include "crushzone/sweep.h"
@@ -60,6 +61,15 @@ CZ_API void cz_report_write_table(const CzProblem *problem, const CzEvaluation *
                                   bool colour, FILE *stream);
 CZ_API void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,
                                           const CzOutcome *outcome, bool colour, FILE *stream);
+
+/* Why cars climb: the document `crushzone.explanation`, and the same on a terminal. Statuses as
+ * above. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_explanation(const CzProblem *problem,
+                                                          const CzExplanation *explanation,
+                                                          const CzReportOptions *options,
+                                                          FILE *stream, CzError *error);
+CZ_API void cz_report_write_explanation_table(const CzExplanation *explanation, bool colour,
+                                              FILE *stream);
 
 /* A sweep: the document `crushzone.sweep`, the table of one path or the map of two, a folder with
  * sweep.json and sweep.csv. Statuses as above. */

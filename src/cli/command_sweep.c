@@ -9,13 +9,6 @@
 #include <stdio.h>
 #include <unistd.h>
 
-static void show_progress(int n_done, int n_point, void *data) {
-    const CzArguments *arguments = data;
-    if (isatty(STDERR_FILENO) && arguments->text[CZ_OPTION_QUIET] == NULL)
-        fprintf(stderr, "\r%d of %d points%s", n_done, n_point,
-                n_done == n_point ? "\r\033[K" : "");
-}
-
 /* Reads what `--vary` says; returns the exit code. */
 static int read_axes(const CzArguments *arguments, CzSweepAxis axis[CZ_MOST_AXES]) {
     CzError error = {0};
@@ -80,7 +73,7 @@ static int sweep_file(const CzSession *session, const CzSweepAxis *axis) {
     options.text = session->text;
     options.n_text = session->n_text;
     options.stop = cz_interrupt_flag();
-    options.progress = show_progress;
+    options.progress = cz_progress_count;
     options.progress_data = (void *)arguments;
     CzSweep *sweep = NULL;
     CzError error = {0};

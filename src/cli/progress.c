@@ -87,3 +87,9 @@ void cz_progress_end(CzProgressLine *line) {
         fflush(stderr);
     }
 }
+
+void cz_progress_count(int n_done, int n_all, void *data) {
+    const CzArguments *arguments = data;
+    if (isatty(STDERR_FILENO) && arguments->text[CZ_OPTION_QUIET] == NULL)
+        fprintf(stderr, "\r%d of %d%s", n_done, n_all, n_done >= n_all ? "\r\033[K" : "");
+}

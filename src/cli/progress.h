@@ -17,6 +17,9 @@ void cz_progress_begin(CzProgressLine *line, const CzArguments *arguments, const
 /* The callback of CzOptimiseOptions; `data` is the CzProgressLine. */
 void cz_progress_show(const CzProgress *progress, void *data);
 
+/* How many of all are done, on a terminal; `data` is the CzArguments. */
+void cz_progress_count(int n_done, int n_all, void *data);
+
 /* Clears the line. */
 void cz_progress_end(CzProgressLine *line);
 

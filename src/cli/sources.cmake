@@ -2,6 +2,7 @@
 set(CZ_SOURCES_cli
     ../base/suggest.c
     arguments.c
+    command_explain.c
     command_fit.c
     command_new.c
     command_optimise.c

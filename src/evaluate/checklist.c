@@ -189,7 +189,7 @@ static CzStatus append_profile(Builder *builder) {
 /* ---- closing rules --------------------------------------------------------------------------- */
 
 typedef enum Speeds { DESIGN, EVERY, OVERLOAD, BUFFING, SERVICE, CRASH } Speeds;
-typedef enum Needs { NOTHING, TUBE, SHEAR_OFF, FACE, INNER, N_NEEDS } Needs;
+typedef enum Needs { NOTHING, TUBE, SHEAR_OFF, FULL, FACE, INNER, N_NEEDS } Needs;
 
 typedef struct Rule {
     const char *name, *metric;
@@ -247,6 +247,7 @@ static void note_needs(const Builder *builder, bool has[N_NEEDS]) {
         for (int i = 0; i < scene->n_vehicle; i++) {
             note_end(scene->vehicle[i], &scene->vehicle[i]->front, has);
             note_end(scene->vehicle[i], &scene->vehicle[i]->rear, has);
+            has[FULL] |= scene->vehicle[i]->model == CZ_MODEL_FULL;
             has[INNER] |=
                 i > 0 && i - 1 != scene->colliding && scene->vehicle[i]->model == CZ_MODEL_FULL;
         }

@@ -15,8 +15,8 @@ static const char *failure_of(const CzRunSummary *run) {
                                              : NULL;
 }
 
-static CzSubject subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,
-                            const CzRunSummary *const *run) {
+CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,
+                        const CzRunSummary *run) {
     const CzInput *input = cz_problem_input(evaluator->problem);
     CzSubject subject = {.problem = evaluator->problem,
                          .vehicles = vehicles,
@@ -25,7 +25,7 @@ static CzSubject subject_of(const CzEvaluator *evaluator, const CzVehicle *vehic
                          .rate = evaluator->rate};
     if (scenario != CZ_NO_SCENARIO) {
         subject.scene = &evaluator->scene[scenario];
-        subject.run = run[scenario];
+        subject.run = run;
     }
     return subject;
 }
@@ -34,14 +34,14 @@ static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *ve
                                const CzRunSummary *const *run) {
     const CzLevel level = evaluator->objective.kind->level;
     if (level == CZ_LEVEL_END || level == CZ_LEVEL_DESIGN) {
-        const CzSubject subject = subject_of(evaluator, vehicles, CZ_NO_SCENARIO, run);
+        const CzSubject subject = cz_subject_of(evaluator, vehicles, CZ_NO_SCENARIO, NULL);
         return cz_metric_value(&evaluator->objective, &subject, true).value;
     }
     double worst = NAN;
     for (int s = 0; s < evaluator->n_scene; s++) {
         if (evaluator->scene[s].is_overload || run[s] == NULL)
             continue;
-        const CzSubject subject = subject_of(evaluator, vehicles, s, run);
+        const CzSubject subject = cz_subject_of(evaluator, vehicles, s, run[s]);
         worst = fmax(worst, cz_metric_value(&evaluator->objective, &subject, true).value);
     }
     return worst;
@@ -82,7 +82,9 @@ static void judge_all(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                       const CzRunSummary *const *run, CzCheckResult *all) {
     for (int i = 0; i < evaluator->list.n_check; i++) {
         const CzCheck *check = &evaluator->list.check[i];
-        const CzSubject subject = subject_of(evaluator, vehicles, check->scenario, run);
+        const CzSubject subject =
+            cz_subject_of(evaluator, vehicles, check->scenario,
+                          check->scenario == CZ_NO_SCENARIO ? NULL : run[check->scenario]);
         const char *failure =
             check->scenario == CZ_NO_SCENARIO ? NULL : failure_of(run[check->scenario]);
         all[i] = cz_check_judge(check, &subject, failure);
@@ -144,7 +146,9 @@ void cz_compose_details(const CzEvaluator *evaluator, const CzVehicle *vehicles,
     int n = 0;
     for (int j = 0; j < evaluator->list.n_constraint; j++) {
         const CzCheck *check = &evaluator->list.check[evaluator->constraint_check[j]];
-        const CzSubject subject = subject_of(evaluator, vehicles, check->scenario, run);
+        const CzSubject subject =
+            cz_subject_of(evaluator, vehicles, check->scenario,
+                          check->scenario == CZ_NO_SCENARIO ? NULL : run[check->scenario]);
         n += cz_check_details(check, &subject, evaluator->list.required_margin, detail + n);
     }
 }

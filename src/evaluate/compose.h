@@ -4,6 +4,10 @@
 
 #include "evaluate/evaluator_parts.h"
 
+/* What a metric is read from: a scenario with its run, or CZ_NO_SCENARIO and no run. */
+CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,
+                        const CzRunSummary *run);
+
 /* Fills an evaluation but for its runs. `vehicles` is the vehicle array with the design's values,
  * `run` (n_scene) with NULL for scenarios that were left out. Status: CZ_OK, CZ_STATUS_NO_MEMORY.
  */

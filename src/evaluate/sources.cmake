@@ -2,14 +2,18 @@
 set(CZ_SOURCES_evaluate
     checklist.c
     checks.c
+    climbing.c
     compose.c
     design.c
     devices.c
     evaluator.c
+    explain.c
+    levers.c
     metric.c
     place.c
     runs.c
     scene.c
+    signs.c
     sweep.c
     sweep_axis.c
     tasks.c

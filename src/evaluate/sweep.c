@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "base/number.h"
-#include "evaluate/evaluator_parts.h"
+#include "evaluate/compose.h"
 #include "evaluate/tasks.h"
 
 enum { POINTS_PER_JOB = 4 }; /* of a wave */
@@ -69,22 +69,13 @@ typedef struct Reading {
 static double read_metrics(int n_scenario, const CzRunSummary *const *run, void *data) {
     const Reading *reading = data;
     const CzEvaluator *evaluator = reading->evaluator;
-    const CzInput *input = cz_problem_input(evaluator->problem);
     for (int k = 0; k < reading->sweeping->options->n_metric; k++) {
         const CzMetric *metric = &reading->sweeping->metric[k];
         const bool smallest = metric->aggregate == CZ_AGGREGATE_MIN;
         for (int s = 0; s < n_scenario; s++) {
             if (run[s] == NULL)
                 continue;
-            const CzSubject subject = {.scene = &evaluator->scene[s],
-                                       .run = run[s],
-                                       .problem = evaluator->problem,
-                                       .vehicles = evaluator->vehicles,
-                                       .n_vehicle = evaluator->n_vehicle,
-                                       .n_first_train =
-                                           input->trains[evaluator->scene[s].train[0]].n_vehicles,
-                                       .input = input,
-                                       .rate = evaluator->rate};
+            const CzSubject subject = cz_subject_of(evaluator, evaluator->vehicles, s, run[s]);
             const CzMetricValue value = cz_metric_value(metric, &subject, !smallest);
             double *worst = &reading->point->metric[k];
             const bool is_worse =

@@ -2,6 +2,7 @@
 set(CZ_SOURCES_report
     checks_table.c
     csv.c
+    explanation.c
     figure.c
     fit_document.c
     folder.c

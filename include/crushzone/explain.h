@@ -1,0 +1,86 @@
+/* Why it climbed, or how far it is from climbing: causes in order, and what would change it. */
+#ifndef CRUSHZONE_EXPLAIN_H
+#define CRUSHZONE_EXPLAIN_H
+
+#include <signal.h>
+
+#include "crushzone/evaluate.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum CzCause {
+#define CZ_CAUSE(constant, text, doc) constant,
+#include "crushzone/causes.def"
+#undef CZ_CAUSE
+    CZ_N_CAUSE
+} CzCause;
+CZ_API const char *cz_cause_text(CzCause cause);
+CZ_API const char *cz_cause_doc(CzCause cause);
+
+/* One value of the vehicles, changed in all of them alike while everything else stays, and the
+ * smallest change found that turns the verdict on climbing round: that restores a margin that is
+ * broken, or breaks one that is kept. */
+typedef struct CzLever {
+    const char *name; /* such as "height of the anti-climber faces"; static */
+    const char *key;  /* as a file spells it, such as "face_height_mm"; static */
+    CzCause cause;
+    double value;   /* the file's, of the first vehicle that has it, in the key's unit */
+    bool turns;     /* a change that turns the verdict was found */
+    double needed;  /* value that turns it, or that comes nearest to it of those tried, in that
+                       unit; NaN when none of them moves the margin that way */
+    double change;  /* relative change to there, signed; of a value near 0, over its reference */
+    double not_yet; /* largest change tried on the way that does not turn it yet; NaN without */
+    double margin;  /* smallest climbing margin there */
+} CzLever;
+
+/* What is known of an interface or element at the time of the climb: a sign of a cause. */
+typedef struct CzSign {
+    CzCause cause;
+    char what[96]; /* a sentence without its time */
+    double time;   /* [s]; NaN when it is about the whole run */
+} CzSign;
+
+/* The signs of one run that a cause is at work. */
+enum { CZ_MOST_SIGNS = 24 };
+
+/* Open result, owns its memory; texts are borrowed from the evaluator. */
+typedef struct CzExplanation {
+    const char *scenario; /* the one with the smallest climbing margin */
+    bool climbed;         /* override happened in it */
+    double climb_time;    /* [s]; NaN when not */
+    CzVerdict verdict; /* FAIL when a climbing margin is broken, NOT CHECKED when one is unknown */
+    CzCheckResult worst; /* the check with the smallest climbing margin */
+    int n_sign;
+    CzSign sign[CZ_MOST_SIGNS]; /* in order of time */
+    int n_lever;
+    CzLever *lever; /* those that turn the verdict by the size of the change, then the rest by the
+                       margin that they reach (n_lever) */
+    CzRun *run;     /* of the scenario, with its events */
+    long n_run;     /* collisions run for the search */
+    double wall_s;
+} CzExplanation;
+
+typedef struct CzExplainOptions {
+    bool search; /* look for the changes that would turn the verdict round; else signs alone */
+    const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */
+    void (*progress)(int n_done, int n_all, void *data); /* NULL when none */
+    void *progress_data;
+} CzExplainOptions;
+CZ_API CzExplainOptions cz_explain_options_default(void);
+
+/* Runs the evaluator's scenarios as written and explains the one with the smallest climbing margin:
+ * wheel lift, overlap and vertical capacity of the anti-climbers, by the problem's own limits, else
+ * by 75 % of the flange height, one rib pitch, and the whole capacity. Then each value of a list is
+ * varied alone, both ways, in batches. Statuses: CZ_OK, CZ_STATUS_RUN_FAILED when a run failed or
+ * is incomplete, CZ_STATUS_INPUT when no vehicle can climb, CZ_STATUS_INTERRUPTED,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_explain(CzEvaluator *evaluator, const CzExplainOptions *options,
+                                         CzExplanation **explanation, CzError *error);
+CZ_API void cz_explanation_free(CzExplanation *explanation);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

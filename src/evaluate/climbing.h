@@ -1,0 +1,26 @@
+/* How far a run is from climbing: one smallest margin over wheel lift, overlap and vertical
+ * capacity. */
+#ifndef CZ_EVALUATE_CLIMBING_H
+#define CZ_EVALUATE_CLIMBING_H
+
+#include "evaluate/evaluator_parts.h"
+
+enum { CZ_MOST_CLIMBING_CHECKS = 32 };
+
+/* The checks that climbing is judged by in one scenario. */
+typedef struct CzClimbing {
+    int scenario;
+    int n_check;
+    CzCheck check[CZ_MOST_CLIMBING_CHECKS];
+} CzClimbing;
+
+/* The problem's own limits in a scenario, and limits of ours where it has none. */
+CzClimbing cz_climbing_of(const CzEvaluator *evaluator, int scenario);
+
+/* The judged check with the smallest margin. Its verdict is NOT CHECKED, with the reason, when one
+ * of the others is unknown and none is broken. Its margin is NaN when the run failed, did not come
+ * to its end, or has nothing that could climb. */
+CzCheckResult cz_climbing_judge(const CzClimbing *climbing, const CzEvaluator *evaluator,
+                                const CzVehicle *vehicles, const CzRunSummary *run);
+
+#endif

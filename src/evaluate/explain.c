@@ -1,0 +1,382 @@
+/* Why it climbed: the run with the smallest climbing margin, its signs, and one-variable searches.
+ *
+ * Each lever is tried at the steps of a ladder, both ways, and then between the last step that
+ * leaves the verdict as it is and the first that turns it. All candidates of a round are designs of
+ * one model and run side by side in lanes.
+ */
+#include "crushzone/explain.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/error.h"
+#include "evaluate/climbing.h"
+#include "evaluate/levers.h"
+#include "evaluate/signs.h"
+#include "evaluate/tasks.h"
+#include "simulate/batch.h"
+
+/* Steps of the ladder, as changes relative to the value (ours). */
+static const double up[] = {0.05, 0.1, 0.2, 0.5, 1, 3, 9};
+static const double down[] = {-0.05, -0.1, -0.2, -0.35, -0.5, -0.75, -0.9};
+enum {
+    N_STEP = sizeof up / sizeof up[0],
+    N_BETWEEN = 7,  /* values tried between two steps */
+    MOST_WIDTH = 64 /* designs of a batch */
+};
+
+/* One value of one lever, and what came of it. */
+typedef struct Candidate {
+    int kind;
+    double change, value;
+    double margin; /* NaN when no file may hold it, or its run failed */
+} Candidate;
+
+typedef struct Search {
+    const CzEvaluator *evaluator;
+    const CzExplainOptions *options;
+    CzClimbing climbing;
+    bool is_broken; /* the verdict to turn */
+    int n_candidate;
+    Candidate *candidate; /* of the round (n_candidate) */
+    int width;
+    CzStatus *status; /* of each batch */
+    CzError *error;
+    long n_run;
+    int n_all; /* candidates of all rounds, as far as is known */
+} Search;
+
+CzExplainOptions cz_explain_options_default(void) {
+    return (CzExplainOptions){.search = true};
+}
+
+const char *cz_cause_text(CzCause cause) {
+    static const char *const text[] = {
+#define CZ_CAUSE(constant, text, doc) text,
+#include "crushzone/causes.def"
+#undef CZ_CAUSE
+    };
+    return text[cause];
+}
+
+const char *cz_cause_doc(CzCause cause) {
+    static const char *const doc[] = {
+#define CZ_CAUSE(constant, text, doc) doc,
+#include "crushzone/causes.def"
+#undef CZ_CAUSE
+    };
+    return doc[cause];
+}
+
+/* ---- running candidates ---------------------------------------------------------------------- */
+
+static bool is_stopped(const CzExplainOptions *options) {
+    return options->stop != NULL && *options->stop != 0;
+}
+
+/* Runs those candidates of a batch that a file may hold. `vehicles` holds room for all of them. */
+static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzVehicle *vehicles,
+                          CzError *error) {
+    const CzEvaluator *evaluator = search->evaluator;
+    const size_t n_vehicle = (size_t)evaluator->n_vehicle;
+    const CzModel *model = evaluator->model[search->climbing.scenario];
+    const CzVehicle *design[MOST_WIDTH];
+    CzRun *run[MOST_WIDTH] = {NULL};
+    Candidate *of_design[MOST_WIDTH];
+    int n_design = 0;
+    for (int i = 0; i < n; i++) {
+        CzVehicle *own = vehicles + (size_t)n_design * n_vehicle;
+        memcpy(own, evaluator->vehicles, n_vehicle * sizeof *own);
+        candidate[i].value =
+            cz_lever_apply(candidate[i].kind, candidate[i].change, own, evaluator->n_vehicle);
+        candidate[i].margin = NAN;
+        if (cz_problem_check_vehicles(evaluator->problem, own, NULL) != CZ_OK)
+            continue;
+        of_design[n_design] = &candidate[i];
+        design[n_design++] = own;
+    }
+    CzSimulateOptions options = cz_simulate_options_default();
+    options.record = false;
+    options.brief = true; /* what climbs does so long before all wheels stand still */
+    const CzStatus status =
+        n_design > 0 ? cz_simulate_batch(model, n_design, design, &options, run, error) : CZ_OK;
+    for (int i = 0; i < n_design; i++) {
+        if (status == CZ_OK)
+            of_design[i]->margin =
+                cz_climbing_judge(&search->climbing, evaluator, design[i], cz_run_summary(run[i]))
+                    .margin;
+        cz_run_free(run[i]);
+    }
+    return status;
+}
+
+static void run_task(int index, void *data) {
+    Search *search = data;
+    const int first = index * search->width;
+    const int left = search->n_candidate - first;
+    const int n = left < search->width ? left : search->width;
+    if (is_stopped(search->options)) {
+        search->status[index] =
+            cz_fail(&search->error[index], CZ_STATUS_INTERRUPTED, "the search was interrupted");
+        return;
+    }
+    CzVehicle *vehicles =
+        malloc((size_t)n * (size_t)search->evaluator->n_vehicle * sizeof *vehicles);
+    search->status[index] =
+        vehicles != NULL
+            ? run_batch(search, &search->candidate[first], n, vehicles, &search->error[index])
+            : cz_fail(&search->error[index], CZ_STATUS_NO_MEMORY, "no memory for %d designs", n);
+    free(vehicles);
+}
+
+/* Runs a round of candidates. */
+static CzStatus run_round(Search *search, Candidate *candidate, int n, CzError *error) {
+    const int width = cz_simulate_batch_width(search->evaluator->model[search->climbing.scenario]);
+    search->width = width < MOST_WIDTH ? width : MOST_WIDTH;
+    search->candidate = candidate;
+    search->n_candidate = n;
+    const int n_task = (n + search->width - 1) / search->width;
+    search->status = calloc((size_t)n_task + 1, sizeof *search->status);
+    search->error = calloc((size_t)n_task + 1, sizeof *search->error);
+    CzStatus status = CZ_OK;
+    if (search->status == NULL || search->error == NULL)
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n);
+    else
+        cz_tasks_run(n_task, search->evaluator->n_job, run_task, search);
+    for (int i = 0; status == CZ_OK && i < n_task; i++) {
+        status = search->status[i];
+        if (status != CZ_OK && error != NULL)
+            *error = search->error[i];
+    }
+    free(search->status);
+    free(search->error);
+    search->n_run += n;
+    if (search->options->progress != NULL)
+        search->options->progress((int)search->n_run, search->n_all,
+                                  search->options->progress_data);
+    return status;
+}
+
+/* ---- one lever ------------------------------------------------------------------------------- */
+
+/* Size of a change, the same for a doubling and a halving. */
+static double size_of(double change) {
+    return fabs(log1p(fmax(change, -0.999)));
+}
+
+static bool turns(const Search *search, double margin) {
+    return search->is_broken ? margin >= 0 : margin < 0;
+}
+
+static bool is_better(const Search *search, double margin, double than) {
+    return search->is_broken ? margin > than : margin < than;
+}
+
+/* Looks for the smallest change that turns the verdict among candidates that go one way, in order
+ * of size, from `start` on, which does not turn it. */
+static void look(const Search *search, const Candidate *candidate, int n, double start,
+                 CzLever *lever) {
+    double last = start;
+    for (int i = 0; i < n; i++) {
+        const bool turned = turns(search, candidate[i].margin);
+        const bool first =
+            turned && (!lever->turns || size_of(candidate[i].change) < size_of(lever->change));
+        const bool nearer = !turned && !lever->turns && !isnan(candidate[i].margin) &&
+                            is_better(search, candidate[i].margin, lever->margin);
+        if (first || nearer) {
+            lever->turns = turned;
+            lever->needed = candidate[i].value;
+            lever->change = candidate[i].change;
+            lever->margin = candidate[i].margin;
+            lever->not_yet = turned ? last : NAN;
+        }
+        if (turned)
+            return;
+        last = candidate[i].change;
+    }
+}
+
+/* The ladder of every lever, both ways. */
+static CzStatus climb_ladders(Search *search, int n, const int *kind, CzLever *lever,
+                              CzError *error) {
+    Candidate *candidate = calloc((size_t)n * 2 * N_STEP + 1, sizeof *candidate);
+    if (candidate == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d levers", n);
+    for (int i = 0; i < n * 2 * N_STEP; i++) {
+        const int step = i % N_STEP;
+        candidate[i].kind = kind[i / (2 * N_STEP)];
+        candidate[i].change = i / N_STEP % 2 == 0 ? up[step] : down[step];
+    }
+    const CzStatus status = run_round(search, candidate, n * 2 * N_STEP, error);
+    for (int i = 0; status == CZ_OK && i < 2 * n; i++)
+        look(search, &candidate[i * N_STEP], N_STEP, 0, &lever[i / 2]);
+    free(candidate);
+    return status;
+}
+
+/* Between the steps where a lever turns the verdict. */
+static CzStatus refine(Search *search, int n, const int *kind, CzLever *lever, CzError *error) {
+    Candidate *candidate = calloc((size_t)n * N_BETWEEN + 1, sizeof *candidate);
+    int *of = calloc((size_t)n + 1, sizeof *of);
+    int n_turning = 0;
+    CzStatus status = CZ_OK;
+    if (candidate == NULL || of == NULL)
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d levers", n);
+    for (int i = 0; status == CZ_OK && i < n; i++) {
+        if (!lever[i].turns)
+            continue;
+        const double from = lever[i].not_yet, way = lever[i].change - from;
+        for (int k = 0; k < N_BETWEEN; k++) {
+            Candidate *next = &candidate[n_turning * N_BETWEEN + k];
+            next->kind = kind[i];
+            next->change = from + way * (k + 1) / (N_BETWEEN + 1);
+        }
+        of[n_turning++] = i;
+    }
+    if (status == CZ_OK)
+        status = run_round(search, candidate, n_turning * N_BETWEEN, error);
+    for (int i = 0; status == CZ_OK && i < n_turning; i++) {
+        CzLever *found = &lever[of[i]];
+        const double before = found->not_yet;
+        const Candidate *between = &candidate[i * N_BETWEEN];
+        look(search, between, N_BETWEEN, before, found);
+        if (found->not_yet == before && found->change != between[0].change)
+            found->not_yet = between[N_BETWEEN - 1].change; /* only the step itself turned it */
+    }
+    free(candidate);
+    free(of);
+    return status;
+}
+
+/* ---- all levers ------------------------------------------------------------------------------ */
+
+/* Whether a lever stands before another: the smaller change that turns the verdict, then the margin
+ * that comes nearest to turning it. */
+static bool goes_before(const Search *search, const CzLever *a, const CzLever *b) {
+    if (a->turns != b->turns)
+        return a->turns;
+    if (a->turns)
+        return size_of(a->change) < size_of(b->change);
+    return is_better(search, a->margin, b->margin);
+}
+
+static void sort(const Search *search, int n, CzLever *lever) {
+    for (int i = 1; i < n; i++)
+        for (int k = i; k > 0 && goes_before(search, &lever[k], &lever[k - 1]); k--) {
+            const CzLever swapped = lever[k];
+            lever[k] = lever[k - 1];
+            lever[k - 1] = swapped;
+        }
+}
+
+static CzStatus search_levers(Search *search, CzExplanation *explanation, CzError *error) {
+    const CzEvaluator *evaluator = search->evaluator;
+    int kind[64], n = 0;
+    explanation->lever = calloc((size_t)cz_n_lever_kind() + 1, sizeof *explanation->lever);
+    if (explanation->lever == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the levers");
+    for (int k = 0; k < cz_n_lever_kind() && n < 64; k++) {
+        CzLever *lever = &explanation->lever[n];
+        if (!cz_lever_find(k, evaluator->vehicles, evaluator->n_vehicle, lever))
+            continue;
+        lever->needed = lever->change = lever->not_yet = NAN;
+        lever->margin = explanation->worst.margin;
+        kind[n++] = k;
+    }
+    search->n_all = n * (2 * N_STEP + N_BETWEEN);
+    CzStatus status = climb_ladders(search, n, kind, explanation->lever, error);
+    if (status == CZ_OK)
+        status = refine(search, n, kind, explanation->lever, error);
+    if (status == CZ_OK)
+        sort(search, n, explanation->lever);
+    explanation->n_lever = n;
+    return status;
+}
+
+/* ---- the run to explain ---------------------------------------------------------------------- */
+
+/* Takes the run with the smallest climbing margin out of an evaluation. */
+static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluation, Search *search,
+                           CzExplanation *explanation, CzError *error) {
+    int chosen = -1, chosen_run = -1, run = 0;
+    for (int s = 0; s < evaluator->n_scene; s++) {
+        if (evaluator->model[s] == NULL)
+            continue;
+        const CzRunSummary *summary = cz_run_summary(evaluation->run[run]);
+        const CzClimbing climbing = cz_climbing_of(evaluator, s);
+        const CzCheckResult worst =
+            cz_climbing_judge(&climbing, evaluator, evaluator->vehicles, summary);
+        if (summary->status != CZ_OK || summary->ended == CZ_ENDED_INCOMPLETE)
+            return cz_fail(error, CZ_STATUS_RUN_FAILED, "scenario '%s' %s", summary->scenario,
+                           summary->status != CZ_OK ? "failed" : "did not come to its end");
+        if (!isnan(worst.margin) && (chosen < 0 || worst.margin < explanation->worst.margin)) {
+            chosen = s;
+            chosen_run = run;
+            explanation->worst = worst;
+            search->climbing = climbing;
+        }
+        run++;
+    }
+    if (chosen < 0)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "no full vehicle with declared bump and lift stops and no pair of "
+                       "anti-climbers could climb, so there is nothing to explain");
+    explanation->run = evaluation->run[chosen_run];
+    evaluation->run[chosen_run] = NULL;
+    const CzRunSummary *summary = cz_run_summary(explanation->run);
+    explanation->scenario = summary->scenario;
+    explanation->climbed = summary->beyond_validity;
+    explanation->climb_time = summary->beyond_validity_time;
+    explanation->verdict = summary->beyond_validity ? CZ_VERDICT_FAIL : explanation->worst.verdict;
+    search->is_broken = explanation->worst.margin < 0;
+    cz_signs_find(evaluator->model[chosen], summary, explanation);
+    return CZ_OK;
+}
+
+static CzStatus explain(CzEvaluator *evaluator, const CzExplainOptions *options,
+                        CzExplanation *explanation, CzError *error) {
+    CzEvaluation evaluation = {0};
+    Search search = {.evaluator = evaluator, .options = options};
+    cz_evaluator_set_stop(evaluator, options->stop);
+    CZ_TRY(cz_evaluate(evaluator, 1, NULL, true, &evaluation, error));
+    CzStatus status = choose_run(evaluator, &evaluation, &search, explanation, error);
+    cz_evaluation_free(&evaluation);
+    if (status == CZ_OK && options->search)
+        status = search_levers(&search, explanation, error);
+    explanation->n_run = search.n_run;
+    return status;
+}
+
+static double seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+CzStatus cz_explain(CzEvaluator *evaluator, const CzExplainOptions *options,
+                    CzExplanation **explanation, CzError *error) {
+    const double started = seconds();
+    const CzExplainOptions usual = cz_explain_options_default();
+    *explanation = calloc(1, sizeof **explanation);
+    if (*explanation == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for an explanation");
+    const CzStatus status =
+        explain(evaluator, options != NULL ? options : &usual, *explanation, error);
+    (*explanation)->wall_s = seconds() - started;
+    if (status == CZ_OK)
+        return CZ_OK;
+    cz_explanation_free(*explanation);
+    *explanation = NULL;
+    return status;
+}
+
+void cz_explanation_free(CzExplanation *explanation) {
+    if (explanation == NULL)
+        return;
+    cz_run_free(explanation->run);
+    free(explanation->lever);
+    free(explanation);
+}

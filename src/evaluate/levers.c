@@ -1,0 +1,143 @@
+/* Levers: where their records stand, and how they are changed. */
+#include "evaluate/levers.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "problem/keys.h"
+
+typedef enum LeverPlace {
+    FACE,
+    FACE_STAGES,
+    TUBE_STAGES,
+    HINGE,
+    COUPLER,
+    END,
+    LINK,
+    BODY,
+    PRIMARY,
+    SECONDARY
+} LeverPlace;
+
+typedef struct LeverKind {
+    CzCause cause;
+    LeverPlace place;
+    CzRecordId record;
+    const char *key;
+    double reference; /* in the key's unit */
+    const char *name;
+} LeverKind;
+
+#define CZ_LEVER(cause, place, record, key, reference, name)                                       \
+    {CZ_CAUSE_##cause, place, CZ_RECORD_##record, key, reference, name},
+static const LeverKind kinds[] = {
+#include "evaluate/levers.def"
+};
+#undef CZ_LEVER
+
+enum { MOST_RECORDS = 4 * CZ_MAX_STAGES }; /* of one kind in a vehicle */
+
+/* Records of one kind in a vehicle. */
+typedef struct Records {
+    int n;
+    void *record[MOST_RECORDS];
+} Records;
+
+static void add(Records *records, void *record, bool given) {
+    if (given)
+        records->record[records->n++] = record;
+}
+
+static void add_stages(Records *records, CzStage *stage, int n) {
+    for (int i = 0; i < n; i++)
+        add(records, &stage[i], true);
+}
+
+static void add_of_end(Records *records, LeverPlace place, CzEnd *end) {
+    CzCoupler *coupler = &end->coupler;
+    if (!end->given)
+        return;
+    if (place == FACE)
+        add(records, &end->anti_climber, end->anti_climber.given);
+    if (place == FACE_STAGES && end->anti_climber.given)
+        add_stages(records, end->anti_climber.stages, end->anti_climber.n_stages);
+    if (place == END)
+        add(records, end, true);
+    if (!coupler->given)
+        return;
+    if (place == TUBE_STAGES && coupler->tube.given)
+        add_stages(records, coupler->tube.stages, coupler->tube.n_stages);
+    if (place == TUBE_STAGES && coupler->second_tube.given)
+        add_stages(records, coupler->second_tube.stages, coupler->second_tube.n_stages);
+    if (place == HINGE)
+        add(records, &coupler->hinge, coupler->hinge.given);
+    if (place == COUPLER)
+        add(records, coupler, true);
+}
+
+/* Only full vehicles can climb. */
+static Records records_of(LeverPlace place, CzVehicle *vehicle) {
+    Records records = {0};
+    if (vehicle->model != CZ_MODEL_FULL)
+        return records;
+    add_of_end(&records, place, &vehicle->rear);
+    add_of_end(&records, place, &vehicle->front);
+    if (place == LINK)
+        add(&records, &vehicle->bogie.link, vehicle->bogie.given);
+    if (place == PRIMARY)
+        add(&records, &vehicle->bogie.primary, vehicle->bogie.given);
+    if (place == SECONDARY)
+        add(&records, &vehicle->bogie.secondary, vehicle->bogie.given);
+    if (place == BODY)
+        add(&records, vehicle, true);
+    return records;
+}
+
+static double *field_of(void *record, const CzKey *key) {
+    return (double *)(void *)((char *)record + key->offset);
+}
+
+int cz_n_lever_kind(void) {
+    return (int)(sizeof kinds / sizeof kinds[0]);
+}
+
+bool cz_lever_find(int kind, const CzVehicle *vehicles, int n_vehicle, CzLever *lever) {
+    const LeverKind *found = &kinds[kind];
+    const CzUnit *unit = NULL;
+    const CzKey *key = cz_record_match(&cz_records[found->record], found->key, &unit);
+    for (int v = 0; v < n_vehicle; v++) {
+        CzVehicle vehicle = vehicles[v]; /* a copy, because places are found for writing too */
+        const Records records = records_of(found->place, &vehicle);
+        for (int i = 0; i < records.n; i++) {
+            const double value = *field_of(records.record[i], key);
+            if (isnan(value))
+                continue;
+            *lever = (CzLever){.name = found->name,
+                               .key = found->key,
+                               .cause = found->cause,
+                               .value = value / unit->si};
+            return true;
+        }
+    }
+    return false;
+}
+
+double cz_lever_apply(int kind, double change, CzVehicle *vehicles, int n_vehicle) {
+    const LeverKind *found = &kinds[kind];
+    const CzUnit *unit = NULL;
+    const CzKey *key = cz_record_match(&cz_records[found->record], found->key, &unit);
+    double first = NAN;
+    for (int v = 0; v < n_vehicle; v++) {
+        const Records records = records_of(found->place, &vehicles[v]);
+        for (int i = 0; i < records.n; i++) {
+            double *value = field_of(records.record[i], key);
+            if (isnan(*value)) /* not declared */
+                continue;
+            const double size = fmax(fabs(*value), found->reference * unit->si);
+            *value = fmin(fmax(*value + change * size, key->lo), key->hi);
+            if (isnan(first))
+                first = *value / unit->si;
+        }
+    }
+    return first;
+}

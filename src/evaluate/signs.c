@@ -1,0 +1,71 @@
+/* Signs: events before the climb, and forces beyond what a part can hold. */
+#include "evaluate/signs.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+__attribute__((format(printf, 4, 5))) static void add(CzExplanation *explanation, CzCause cause,
+                                                      double time, const char *format, ...) {
+    if (explanation->n_sign == CZ_MOST_SIGNS)
+        return;
+    CzSign *sign = &explanation->sign[explanation->n_sign++];
+    sign->cause = cause;
+    sign->time = time;
+    va_list values;
+    va_start(values, format);
+    vsnprintf(sign->what, sizeof sign->what, format, values);
+    va_end(values);
+}
+
+static void add_event(CzExplanation *explanation, const CzEvent *event) {
+    switch (event->what) {
+    case CZ_EVENT_BOTTOMED_OUT:
+        add(explanation, CZ_CAUSE_BOTTOMING, event->time, "%s bottomed out", event->where);
+        return;
+    case CZ_EVENT_SWING_STOP:
+        add(explanation, CZ_CAUSE_STRUT, event->time, "%s met its swing stop", event->where);
+        return;
+    case CZ_EVENT_LIFT_STOP:
+        add(explanation, CZ_CAUSE_SUSPENSION, event->time, "lift stop of the %s met", event->where);
+        return;
+    case CZ_EVENT_BUMP_STOP:
+        add(explanation, CZ_CAUSE_SUSPENSION, event->time, "bump stop of the %s met", event->where);
+        return;
+    default:
+        return;
+    }
+}
+
+/* Whole kN for a sentence. */
+static long kilonewton(double force) {
+    return lround(force / 1e3);
+}
+
+static void add_of_interface(CzExplanation *explanation, const CzModel *model,
+                             const CzInterfaceResult *interface, int index) {
+    const CzInterfaceFacts facts = cz_model_interface_facts(model, index);
+    double coupler = 0;
+    for (int i = 0; i < interface->n_element; i++)
+        if (interface->element[i].kind == CZ_ELEMENT_COUPLER)
+            coupler = fmax(coupler, interface->element[i].peak_force);
+    if (coupler > facts.critical_force)
+        add(explanation, CZ_CAUSE_STRUT, NAN, "%s: the coupler carried %ld kN, F_crit is %ld kN",
+            interface->name, kilonewton(coupler), kilonewton(facts.critical_force));
+    if (interface->vertical_margin < 0)
+        add(explanation, CZ_CAUSE_CAPACITY, NAN,
+            "%s: the anti-climbers slipped, %ld kN across was asked of them", interface->name,
+            kilonewton(interface->vertical_demand));
+    if (interface->min_overlap < 0)
+        add(explanation, CZ_CAUSE_OVERLAP, NAN, "%s: the faces lost their overlap",
+            interface->name);
+}
+
+void cz_signs_find(const CzModel *model, const CzRunSummary *run, CzExplanation *explanation) {
+    const double until = run->beyond_validity ? run->beyond_validity_time : INFINITY;
+    for (int i = 0; i < run->n_interface; i++)
+        add_of_interface(explanation, model, &run->interface[i], i);
+    for (int i = 0; i < run->n_event; i++)
+        if (run->event[i].time <= until)
+            add_event(explanation, &run->event[i]);
+}

@@ -1,0 +1,29 @@
+# explain: what climbs and what holds, in text and JSON, how it is interrupted.
+. "$SOURCE/tests/support/cases.sh"
+. "$SOURCE/tests/cli/cli.sh"
+cars=$SOURCE/problems/two-cars-25kmh.yaml
+
+climbs() { exits 0 "$C" explain "$cars" --set trains.A.speed_km_h=45 && says out.txt 'IT CLIMBED' && says out.txt 'restores the margin' && says out.txt 'First cause'; }
+check "a climb gets its causes" climbs
+holds() { exits 0 "$C" explain "$cars" && says out.txt 'it holds' && says out.txt 'breaks the margin' && says out.txt 'First to give way'; }
+check "what holds is told what would break it" holds
+document() { exits 0 "$C" explain "$cars" --set trains.A.speed_km_h=45 --json && json out.txt format crushzone.explanation && json out.txt climbed true && json out.txt levers.0.turns true && json out.txt signs.0.cause bottoming; }
+check "--json prints one document" document
+unchecked() {
+    printf 'extends: %s\nparts: {paper-car: {bogie: {secondary: {lift_gap_mm: null}}}}\n' "$cars" >no-stops.yaml
+    exits 0 "$C" explain no-stops.yaml && says out.txt 'NOT CHECKED'
+}
+check "without declared stops it says what is not known" unchecked
+cut() { exits 3 "$C" explain "$cars" --set simulation.longest_s=0.1 && says err.txt 'did not come to its end'; }
+check "a run that is cut short explains nothing" cut
+interrupted() {
+    "$C" explain "$SOURCE/problems/metro-6-car.yaml" >out.txt 2>err.txt &
+    process=$!
+    sleep 1
+    kill -INT $process
+    code=0
+    wait $process || code=$?
+    [ $code = 130 ]
+}
+check "Ctrl-C ends with 130" interrupted
+finish

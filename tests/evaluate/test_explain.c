@@ -1,0 +1,149 @@
+/* Explanations: what they claim is checked by other ways into the same run. */
+#include "support/check.h"
+
+#include "crushzone/explain.h"
+#include "crushzone/sweep.h"
+
+static const char file[] = "problems/two-cars-25kmh.yaml";
+
+typedef struct Case {
+    CzProblem *problem;
+    CzEvaluator *evaluator;
+    CzExplanation *explanation;
+} Case;
+
+/* The file with something laid over it. */
+static Case begin(const char *over) {
+    Case made = {0};
+    CzError error = {0};
+    char text[512];
+    const int n = snprintf(text, sizeof text, "extends: two-cars-25kmh.yaml\n%s\n", over);
+    assert_int_equal(
+        cz_problem_read_text(text, (size_t)n, "over.yaml", "problems", NULL, &made.problem, &error),
+        CZ_OK);
+    assert_int_equal(cz_evaluator_build(made.problem, NULL, &made.evaluator, &error), CZ_OK);
+    const CzStatus status = cz_explain(made.evaluator, NULL, &made.explanation, &error);
+    if (status != CZ_OK)
+        print_error("%s\n", error.message);
+    assert_int_equal(status, CZ_OK);
+    return made;
+}
+
+static void end(Case *made) {
+    cz_explanation_free(made->explanation);
+    cz_evaluator_free(made->evaluator);
+    cz_problem_free(made->problem);
+}
+
+/* One explanation serves all that is said of a climb. */
+static Case climb;
+
+static int make_climb(void **state) {
+    (void)state;
+    climb = begin("trains: [{name: A, speed_km_h: 45}]");
+    return 0;
+}
+
+static int free_climb(void **state) {
+    (void)state;
+    end(&climb);
+    return 0;
+}
+
+static const CzLever *lever_of(const CzExplanation *explanation, const char *name) {
+    for (int i = 0; i < explanation->n_lever; i++)
+        if (strcmp(explanation->lever[i].name, name) == 0)
+            return &explanation->lever[i];
+    fail_msg("no lever '%s'", name);
+    return NULL;
+}
+
+/* Whether nothing climbs with a height of the links, by a sweep over the file's own path. */
+static bool holds_with_link_height(double height) {
+    static const char *const setting = "trains.A.speed_km_h=45";
+    CzProblemOptions problem_options = cz_problem_options_default();
+    problem_options.set = &setting;
+    problem_options.n_set = 1;
+    const CzSweepAxis axis = {"parts.bogie.link.height_mm", height, height, 2};
+    CzSweepOptions options = cz_sweep_options_default();
+    options.n_axis = 1;
+    options.axis = &axis;
+    static const char *const check[] = {"override"};
+    options.n_check = 1;
+    options.check = check;
+    CzSweep *sweep = NULL;
+    CzError error = {0};
+    assert_int_equal(cz_sweep(file, &problem_options, &options, &sweep, &error), CZ_OK);
+    const bool holds = sweep->point[0].verdict == CZ_VERDICT_PASS;
+    cz_sweep_free(sweep);
+    return holds;
+}
+
+static void the_change_that_restores_the_margin_does_so_in_the_file(void **state) {
+    (void)state;
+    assert_true(climb.explanation->climbed);
+    assert_int_equal(climb.explanation->verdict, CZ_VERDICT_FAIL);
+    assert_true(climb.explanation->worst.margin < 0);
+    const CzLever *lever = lever_of(climb.explanation, "height of the traction links");
+    assert_true(lever->turns);
+    assert_true(lever->margin >= 0);
+    assert_true(holds_with_link_height(lever->needed));
+    /* One step of the search nearer to the file's value it still climbs. */
+    assert_true(fabs(lever->not_yet) < fabs(lever->change));
+    assert_false(holds_with_link_height(lever->value * (1 + lever->not_yet)));
+}
+
+static void levers_stand_in_order(void **state) {
+    (void)state;
+    const CzExplanation *explanation = climb.explanation;
+    assert_true(explanation->n_lever > 10);
+    for (int i = 1; i < explanation->n_lever; i++) {
+        const CzLever *before = &explanation->lever[i - 1], *lever = &explanation->lever[i];
+        assert_true(before->turns || !lever->turns);
+        if (lever->turns)
+            assert_true(fabs(log1p(before->change)) <= fabs(log1p(lever->change)));
+        else if (!before->turns)
+            assert_true(before->margin >= lever->margin);
+        assert_true(lever->margin >= explanation->worst.margin);
+    }
+}
+
+static void signs_are_of_the_time_before_the_climb(void **state) {
+    (void)state;
+    bool bottoms = false;
+    for (int i = 0; i < climb.explanation->n_sign; i++) {
+        const CzSign *sign = &climb.explanation->sign[i];
+        assert_false(sign->time > climb.explanation->climb_time);
+        bottoms |= sign->cause == CZ_CAUSE_BOTTOMING;
+    }
+    assert_true(bottoms);
+}
+
+static void what_holds_is_told_what_breaks_it(void **state) {
+    (void)state;
+    Case made = begin("title: as it is");
+    assert_false(made.explanation->climbed);
+    assert_true(made.explanation->worst.margin >= 0);
+    assert_true(made.explanation->lever[0].turns);
+    assert_true(made.explanation->lever[0].margin < 0);
+    end(&made);
+}
+
+static void a_vehicle_without_stops_is_not_checked(void **state) {
+    (void)state;
+    Case made = begin("parts: {paper-car: {bogie: {secondary: {lift_gap_mm: null}}}}");
+    assert_int_equal(made.explanation->verdict, CZ_VERDICT_NOT_CHECKED);
+    assert_non_null(made.explanation->worst.why);
+    end(&made);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_change_that_restores_the_margin_does_so_in_the_file),
+        cmocka_unit_test(levers_stand_in_order),
+        cmocka_unit_test(signs_are_of_the_time_before_the_climb),
+        cmocka_unit_test(what_holds_is_told_what_breaks_it),
+        cmocka_unit_test(a_vehicle_without_stops_is_not_checked),
+    };
+    return cmocka_run_group_tests(tests, make_climb, free_climb);
+}

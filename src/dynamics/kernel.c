@@ -192,8 +192,9 @@ static void interface_extremes(CzBlock *d, double time) {
                            *restrict x_ahead = S(BODY_AHEAD_X);
     double *restrict peak = E(INTERFACE_FORCE), *restrict when = E(INTERFACE_TIME);
     double *restrict shortening = E(INTERFACE_SHORTENING);
+    const double *restrict drop = S(RELEASE_DROP); /* since a shear-off let go in this step */
     CZ_LANES (i, n) {
-        const double size = fabs(total[i]);
+        const double size = cz_larger(fabs(total[i]), fabs(total[i] + drop[i]));
         when[i] = size > peak[i] ? time : when[i];
         peak[i] = cz_larger(size, peak[i]);
         shortening[i] = cz_larger(shortening[i], x[i] - x_ahead[i]);
@@ -270,8 +271,10 @@ static void commit_block(const CzLanes *lanes, CzBlock *d, double step, double t
     swap(&d->power, &d->last_power);
     swap(&d->memory, &d->next_memory);
     interface_extremes(d, time);
-    if (lanes->has_couplers)
+    if (lanes->has_couplers) {
         keep_larger_size(d, CZ_E_COUPLER_FORCE, S(COUPLER_FORCE));
+        keep_larger(d, CZ_E_COUPLER_FORCE, S(RELEASE_FORCE));
+    }
     keep_larger(d, CZ_E_FACE_FORCE, S(FACE_FORCE));
     keep_larger_size(d, CZ_E_FACE_DEMAND, S(FACE_DEMAND));
     if (lanes->has_side_buffers)

@@ -320,57 +320,74 @@ static double relinearise_plastic(CzBlock *d, const Chain *chain, int member, do
                           d->parameter[chain->rate + member], step);
 }
 
-/* Finds the force with which every member keeps its law: S(CHAIN_FORCE). `springs` linearises the
- * springs, `others` the plastic members that have no curve (NULL: there are none). CHAIN_LOWEST,
- * CHAIN_ACTIVE and the others' first linearisation are set before. What is left unbalanced is kept
- * for the run to judge. Returns whether the first linearisation held in all lanes. */
-static int solve_chain(CzBlock *d, const Chain *chain, Linearise *springs, Linearise *others,
-                       double step) {
+/* Linearises all members about their committed strokes, `springs` the springs, and finds the force
+ * that balances them: S(CHAIN_FORCE). CHAIN_LOWEST, CHAIN_ACTIVE and the plastic members that have
+ * no curve are set before. Returns whether it did. */
+static int start_chain(CzBlock *d, const Chain *chain, Linearise *springs, double step) {
     const size_t n = CZ_LANE_BLOCK;
+    const double *restrict last = d->memory[chain->force], *restrict lowest = S(CHAIN_LOWEST);
     double *restrict force = S(CHAIN_FORCE);
-    const double *restrict active = S(CHAIN_ACTIVE);
-    {
-        const double *restrict last = d->memory[chain->force];
-        const double *restrict lowest = S(CHAIN_LOWEST);
-        CZ_LANES (i, n) {
-            force[i] = cz_larger(last[i], lowest[i]);
-        }
+    CZ_LANES (i, n) {
+        force[i] = cz_larger(last[i], lowest[i]);
     }
     for (int side = 0; side < 2; ++side)
         springs(d, side, step, 0);
     for (int member = 0; member < chain->n_curve; ++member)
         if (!is_missing(d, chain, member))
             prepare_plastic(d, chain, member, step);
-    int arrived = solve_linear(d, chain, S(CLOSURE));
-    double n_changed = 1.0;
-    int n_pass = 1;
-    for (int pass = 1; pass < CHAIN_PASSES && arrived && n_changed > 0.0; ++pass) {
-        n_changed = springs(d, 0, step, 1) + springs(d, 1, step, 1);
+    return solve_linear(d, chain, S(CLOSURE));
+}
+
+/* Linearises again what misses its law, `others` being the plastic members without a curve (NULL:
+ * they stay as they are), until every member keeps it in the active lanes. Returns how often the
+ * force was found anew; UNSOLVED when it was not. */
+enum { UNSOLVED = -1 };
+static int settle_chain(CzBlock *d, const Chain *chain, Linearise *springs, Linearise *others,
+                        double step) {
+    int n_anew = 0;
+    for (int pass = 1; pass < CHAIN_PASSES; ++pass) {
+        double n_changed = springs(d, 0, step, 1) + springs(d, 1, step, 1);
         for (int member = 0; member < chain->n_curve; ++member)
             if (!is_missing(d, chain, member))
                 n_changed += relinearise_plastic(d, chain, member, step);
         if (others != NULL)
             n_changed += others(d, 0, step, 1) + others(d, 1, step, 1);
-        if (n_changed > 0.0) {
-            arrived = solve_linear(d, chain, S(CLOSURE));
-            ++n_pass;
-        }
+        if (n_changed == 0.0)
+            break;
+        if (!solve_linear(d, chain, S(CLOSURE)))
+            return UNSOLVED;
+        ++n_anew;
     }
-    double *restrict residual = S(RESIDUAL);
-    double *restrict kept = d->next_memory[chain->force];
+    return n_anew;
+}
+
+/* Keeps the chain's force, and what is left unbalanced for the run to judge. */
+static void finish_chain(CzBlock *d, const Chain *chain, int n_anew) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict active = S(CHAIN_ACTIVE);
     const double *restrict left = S(CURVE_VALUE);
-    const double unsolved = arrived ? 0.0 : 1.0;
+    double *restrict residual = S(RESIDUAL), *restrict force = S(CHAIN_FORCE);
+    double *restrict kept = d->next_memory[chain->force];
+    const double unsolved = n_anew == UNSOLVED ? 1.0 : 0.0;
     CZ_LANES (i, n) {
         residual[i] = cz_larger(residual[i], unsolved * active[i] * fabs(left[i]));
         force[i] *= active[i];
         kept[i] = force[i];
     }
-    return arrived && n_pass == 1;
+}
+
+/* All three for a chain whose plastic members have curves. Returns whether the first linearisation
+ * held in all lanes. */
+static int solve_chain(CzBlock *d, const Chain *chain, Linearise *springs, double step) {
+    const int starts = start_chain(d, chain, springs, step);
+    const int n_anew = starts ? settle_chain(d, chain, springs, NULL, step) : UNSOLVED;
+    finish_chain(d, chain, n_anew);
+    return n_anew == 0;
 }
 
 /* Takes the members to the end of the step and adds the mean force times their way to the energies;
- * `first` is the energy row of side A that gets the way of the springs and plastic members,
- * `second` the one that gets the way of the plastic members alone (-1: none). */
+ * `first` is the energy row of side A that gets the way of the springs and plastic
+ * members, `second` the one that gets the way of the plastic members alone (-1: none). */
 static void move_members(CzBlock *d, const Chain *chain, int first, int second) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict force = S(CHAIN_FORCE);

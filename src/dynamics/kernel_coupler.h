@@ -8,31 +8,13 @@
 #ifndef CZ_DYNAMICS_KERNEL_COUPLER_H
 #define CZ_DYNAMICS_KERNEL_COUPLER_H
 
-#include "dynamics/kernel_chain.h"
+#include "dynamics/kernel_coupler_chain.h"
 #include "dynamics/kernel_contact.h"
-#include "laws/shear_off.h"
 #include "laws/slider.h"
 #include "model/kinks.h"
 
-#define LARGEST_PULL                                                                               \
-    1e8 /* tension that whole coupled couplers carry [N]: more than any train asks for (ours) */
 #define ENGAGING_CLOSURE                                                                           \
     0.005 /* closure over which faces that are not coupled take up hinge moments [m] (ours) */
-
-static const Chain coupler_chain = {6,
-                                    4,
-                                    CZ_M_COUPLER_FORCE,
-                                    CZ_M_BUFFER_A,
-                                    CZ_M_TUBE_A,
-                                    CZ_P_COUPLER_COMPLIANCE,
-                                    CZ_CURVE_TUBE_A,
-                                    CZ_P_TUBE_RATE_A,
-                                    -1};
-static const BufferRows coupler_buffer = {CZ_CURVE_BUFFER_A,        CZ_P_BUFFER_TRANSITION_A,
-                                          CZ_P_BUFFER_SHARE_A,      CZ_P_BUFFER_DAMPING_A,
-                                          CZ_P_BUFFER_QUADRATIC_A,  CZ_P_BUFFER_DRAW_STIFFNESS_A,
-                                          CZ_P_BUFFER_DRAW_SLACK_A, CZ_M_BUFFER_RATE_A,
-                                          CZ_M_BUFFER_OFFSET_A,     CZ_C_BUFFER_COMPLIANCE_A};
 
 /* Chooses one row of the carrier: the end mass's where the pivot is fixed to it, else the body's.
  */
@@ -99,100 +81,11 @@ static void coupler_geometry(CzBlock *d, const Carrier *a, const Carrier *b) {
     }
 }
 
-/* Linearises the shear-off of one side; the first time also tells the damage that it has done. */
-static double linearise_shear_off(CzBlock *d, int side, double step, int again) {
-    const size_t n = CZ_LANE_BLOCK;
-    const int member = 4 + side;
-    const double *restrict force = P_AT(SHEAR_FORCE_A, side), *restrict softening =
-                                                                  P_AT(SHEAR_SOFTENING_A, side);
-    const double *restrict space = P_AT(SHEAR_SPACE_A, side), *restrict bottom =
-                                                                  P_AT(SHEAR_BOTTOM_A, side);
-    double *trial = S(TRIAL_STROKE);
-    if (again && trial_of_plastic(d, &coupler_chain, member, trial) == 0.0)
-        return 0.0;
-    const double *restrict travel = again ? trial : M_AT(SHEAR_A, side);
-    double *restrict strength = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
-    double *restrict damage = again ? S(UNUSED) : S(DAMAGE);
-    CZ_LANES (i, n) {
-        const CzShearOffResponse response =
-            cz_shear_off(force[i], cz_larger(softening[i], 1e-6), space[i], bottom[i], travel[i]);
-        strength[i] = response.strength;
-        slope[i] = response.slope;
-        damage[i] = cz_larger(damage[i], response.damage);
-    }
-    if (again)
-        return accept_plastic(d, &coupler_chain, member, trial, strength, slope, S(ZERO), step);
-    double *restrict first = S_AT(STRENGTH_0, member), *restrict flow = S_AT(FLOW_0, member);
-    CZ_LANES (i, n) {
-        first[i] = strength[i];
-        flow[i] = cz_plastic_compliance(strength[i], slope[i], 0.0, step);
-    }
-    return (double)n;
-}
-
-static double linearise_coupler_buffer(CzBlock *d, int side, double step, int again) {
-    return linearise_buffer(d, &coupler_chain, &coupler_buffer, side, step, again);
-}
-
-/* Whether no chain pushes or could pull. Their sums at no force then tell up to which closure that
- * will stay so, for as long as nothing moves: a sum falls with the closure alone. */
-static int couplers_are_slack(CzBlock *d) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict active = S(CHAIN_ACTIVE), *restrict lowest = S(CHAIN_LOWEST);
-    const double *restrict closure = S(CLOSURE), *restrict damage = S(DAMAGE);
-    const double *force = S(CHAIN_FORCE);
-    double n_busy = 0.0;
-    _Pragma("omp simd reduction(+ : n_busy)") for (size_t i = 0; i < n; ++i) {
-        const double pulls = lowest[i] < 0.0 ? active[i] : 0.0;
-        n_busy += fabs(force[i]) + pulls;
-    }
-    if (n_busy != 0.0)
-        return 0;
-    double *sum = S(CURVE_VALUE), *restrict reach = d->coupler_reach;
-    unbalance(d, &coupler_chain, closure, sum, S(CURVE_SLOPE));
-    double n_closed = 0.0;
-    _Pragma("omp simd reduction(+ : n_closed)") for (size_t i = 0; i < n; ++i) {
-        const double of_chain = closure[i] + sum[i] - REACH_MARGIN;
-        const double of_hinges = damage[i] >= 1.0 ? CZ_NEVER : 0.0; /* ENGAGED is 0 up to here */
-        reach[i] = active[i] > 0.0 ? cz_smaller(of_chain, of_hinges) : CZ_NEVER;
-        n_closed += closure[i] <= reach[i] ? 0.0 : 1.0;
-    }
-    return n_closed == 0.0;
-}
-
 /* Whether the evaluation at hand leaves the memory of the couplers as it was. */
 static int couplers_remember(const CzBlock *d) {
     const int first = CZ_M_COUPLER_FORCE, last = CZ_M_TUBE_ENERGY_B;
     return memcmp(d->memory[first], d->next_memory[first],
                   (size_t)(last - first + 1) * sizeof(CzRow)) == 0;
-}
-
-/* Force of the chain, and the members moved on; returns whether it would be the same again for any
- * closure up to the couplers' reach. */
-static int coupler_chain_force(CzBlock *d, double step) {
-    const size_t n = CZ_LANE_BLOCK;
-    {
-        double *restrict damage = S(DAMAGE);
-        CZ_LANES (i, n) {
-            damage[i] = 0.0;
-        }
-    }
-    for (int side = 0; side < 2; ++side)
-        linearise_shear_off(d, side, step, 0);
-    {
-        const double *restrict coupled = P(COUPLED), *restrict exists = P(COUPLER),
-                               *restrict damage = S(DAMAGE);
-        double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
-        CZ_LANES (i, n) {
-            lowest[i] = -LARGEST_PULL * coupled[i] * (1.0 - damage[i]);
-            active[i] = exists[i];
-        }
-    }
-    const int settled =
-        solve_chain(d, &coupler_chain, linearise_coupler_buffer, linearise_shear_off, step);
-    move_members(d, &coupler_chain, CZ_M_COUPLER_ENERGY_A, CZ_M_TUBE_ENERGY_A);
-    keep_rates(d, &coupler_chain, CZ_M_BUFFER_RATE_A, step);
-    return settled && couplers_are_slack(d);
 }
 
 /* How much the faces of a coupler hold each other against swinging, 0 to 1: fully where they are
@@ -244,8 +137,8 @@ static inline void share(size_t n, const double *restrict on_end, const double *
     }
 }
 
-/* Puts strut force and hinge moments on the carriers, and the strut force into the sections behind
- * them. */
+/* Puts strut force and hinge moments on the carriers, and the largest strut force of the step into
+ * the sections behind them. */
 static void coupler_forces(CzBlock *d) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict force = S(CHAIN_FORCE), *restrict inverse_length = S(INVERSE_LENGTH),
@@ -255,14 +148,20 @@ static void coupler_forces(CzBlock *d) {
     double *restrict fx = S(CURVE_VALUE), *restrict fz = S(CURVE_SLOPE),
                      *restrict total = S(INTERFACE_FORCE);
     const double *restrict tilts = C(TILTS);
+    const double *restrict released = S(RELEASE_FORCE), *restrict more = S(RELEASE_MORE);
     double *restrict kept = S(COUPLER_FORCE), *restrict power = POWER(COUPLER);
+    double *restrict push = S(COUPLER_PUSH), *restrict drop = S(RELEASE_DROP);
     CZ_LANES (i, n) { /* on side B */
         const double transverse = tilts[i] * (moment_a[i] + moment_b[i]) * inverse_length[i];
-        fx[i] = force[i] * nx[i] + transverse * nz[i];
-        fz[i] = force[i] * nz[i] - transverse * nx[i];
-        total[i] += fx[i];
+        const double pushing = force[i] + more[i];
+        const double at_end = force[i] * nx[i] + transverse * nz[i];
+        fx[i] = pushing * nx[i] + transverse * nz[i];
+        fz[i] = pushing * nz[i] - transverse * nx[i];
+        drop[i] = released[i] > 0.0 ? (released[i] - force[i]) * nx[i] : 0.0;
+        push[i] = at_end + drop[i];
+        total[i] += at_end;
         kept[i] = force[i];
-        power[i] += force[i] * rate[i];
+        power[i] += pushing * rate[i];
     }
     double *turning = S(LARGEST);
     for (int side = 0; side < 2; ++side) {
@@ -280,7 +179,7 @@ static void coupler_forces(CzBlock *d) {
         share(n, on_end, fx, sign, end.x, body.x);
         share(n, on_end, fz, sign, end.z, body.z);
         share(n, on_end, moments, 1.0, end.pitch, body.pitch);
-        share(n, on_end, fx, 1.0, S(UNUSED), section);
+        share(n, on_end, push, 1.0, S(UNUSED), section);
     }
 }
 

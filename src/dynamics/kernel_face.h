@@ -216,7 +216,7 @@ static void faces(CzBlock *d, double step) {
         lowest[i] = 0.0;
         active[i] = 1.0;
     }
-    const int settled = solve_chain(d, &face_chain, linearise_limp_end, NULL, step);
+    const int settled = solve_chain(d, &face_chain, linearise_limp_end, step);
     move_members(d, &face_chain, CZ_M_LIMP_ENERGY_A, CZ_M_FACE_ENERGY_A);
     for (int side = 0; side < 2; ++side) {
         const double *restrict before = M_AT(LIMP_PEAK_A, side), *restrict now =
@@ -251,7 +251,7 @@ static void side_buffers(CzBlock *d, double step) {
         lowest[i] = 0.0;
         active[i] = exists[i];
     }
-    solve_chain(d, &side_chain, linearise_side_buffer, NULL, step);
+    solve_chain(d, &side_chain, linearise_side_buffer, step);
     move_members(d, &side_chain, CZ_M_SIDE_ENERGY_A, CZ_M_SIDE_TUBE_ENERGY_A);
     keep_rates(d, &side_chain, CZ_M_SIDE_RATE_A, step);
 

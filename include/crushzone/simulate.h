@@ -112,9 +112,12 @@ typedef struct CzEnergy {
     double initial;
     double final_kinetic;
     double dissipated;   /* plastic, friction, damping: net over the run */
-    double stored;       /* elastic energy above rest, and height */
+    double stored;       /* elastic energy above rest, height, and kinetic energy of the track */
+    double moving_load;  /* neither: what the slope of an elastic rail would take from wheels that
+                            the model keeps on their way */
     double wheel_rail;   /* part of `dissipated` at wheels and brakes */
     double running_gear; /* part of `dissipated` in links, stops, suspensions and dampers */
+    double track;        /* part of `dissipated` in pads, ballast and subgrade */
     double absorbers; /* part of `dissipated` in couplers, anti-climbers, ends and side buffers */
     double occupied;  /* part of `absorbers` in occupied zones */
     double balance_error; /* |residual| over the initial energy [-], the largest over the run */

@@ -107,6 +107,9 @@ static void derive_constants(CzBlock *block) {
         block->constant[CZ_C_HINGE_REST][i] = distance > 0.0 ? rise / distance : 0.0;
     }
     for (int axle = 0; axle < 4; ++axle)
+        memcpy(block->constant[CZ_C_WHEEL_REST_0 + axle],
+               block->parameter[CZ_P_INDENTATION_0 + axle], sizeof(CzRow));
+    for (int axle = 0; axle < 4; ++axle)
         for (int i = 0; i < CZ_LANE_BLOCK; ++i)
             block->constant[CZ_C_STATIC_LOAD_0 + axle][i] = cz_wheel_normal_force(
                 block->parameter[CZ_P_HERTZ][i], block->parameter[CZ_P_INDENTATION_0 + axle][i]);
@@ -202,4 +205,39 @@ CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena) {
         if (!start_block(&dynamics->block[i], lanes, (size_t)i * CZ_LANE_BLOCK, arena))
             return NULL;
     return dynamics;
+}
+
+/* ---- track ---- */
+
+static bool lay_under(CzDynamics *dynamics, size_t lane, CzArena *arena) {
+    CzBlock *block = cz_block_of(dynamics, lane);
+    const size_t i = lane % CZ_LANE_BLOCK;
+    if (block->parameter[CZ_P_HERTZ][i] == 0.0)
+        return true;
+    double place[4], load[4], deflection[4], flexibility[4];
+    for (int axle = 0; axle < 4; ++axle) {
+        place[axle] = cz_wheel_place(block->parameter[CZ_P_BOGIE_X][i],
+                                     block->parameter[CZ_P_AXLE_X][i], axle);
+        load[axle] = block->constant[CZ_C_STATIC_LOAD_0 + axle][i];
+    }
+    if (!cz_track_lay(dynamics->track, lane, place, load, arena))
+        return false;
+    cz_track_look(dynamics->track, lane, place, deflection, flexibility);
+    for (int axle = 0; axle < 4; ++axle)
+        block->constant[CZ_C_WHEEL_REST_0 + axle][i] =
+            block->parameter[CZ_P_INDENTATION_0 + axle][i] + flexibility[axle] * load[axle] -
+            deflection[axle];
+    return true;
+}
+
+bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, double step,
+                           CzArena *arena) {
+    const size_t n_lane = (size_t)dynamics->n_block * CZ_LANE_BLOCK;
+    dynamics->track = cz_track_motion_create(modes, step, n_lane, arena);
+    if (dynamics->track == NULL)
+        return false;
+    for (size_t lane = 0; lane < n_lane; ++lane)
+        if (!lay_under(dynamics, lane, arena))
+            return false;
+    return true;
 }

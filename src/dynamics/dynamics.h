@@ -8,7 +8,10 @@
 #ifndef CZ_DYNAMICS_DYNAMICS_H
 #define CZ_DYNAMICS_DYNAMICS_H
 
+#include <stdbool.h>
+
 #include "base/arena.h"
+#include "dynamics/track.h"
 #include "model/lanes.h"
 
 typedef enum CzMemory {
@@ -101,6 +104,7 @@ typedef struct CzDynamics {
     const CzLanes *lanes; /* borrowed */
     int n_block;
     CzBlock *block; /* (n_block), and one more of zeros that stands for all lanes beyond them */
+    CzTrackMotion *track; /* what lies under each lane; NULL for a rigid track */
 } CzDynamics;
 
 /* Evaluates accelerations, next memory and power at the current position and velocity. `step` is
@@ -132,6 +136,11 @@ const CzKernel *cz_kernel(const char *isa);
 
 /* State at rest with the lanes' start velocities; NULL when there is no memory. */
 CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena);
+
+/* Lays an elastic track under every car with wheels, at rest under its static loads, for steps of
+ * `step` seconds; before the first evaluation. False when there is no memory. */
+bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, double step,
+                           CzArena *arena);
 
 /* The block of a lane; its place there is lane % CZ_LANE_BLOCK. */
 static inline CzBlock *cz_block_of(const CzDynamics *dynamics, size_t lane) {

@@ -15,6 +15,7 @@
 #include "dynamics/kernel_face.h"
 #include "dynamics/kernel_neighbours.h"
 #include "dynamics/kernel_rows.h"
+#include "dynamics/kernel_track.h"
 #include "dynamics/kernel_wheel.h"
 #include "integrate/two_step.h"
 
@@ -125,15 +126,23 @@ static void evaluate_interfaces(const CzLanes *lanes, CzBlock *d, double step) {
 }
 
 /* Cars of a block. */
-static void evaluate_cars(CzBlock *d, double step) {
+static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
+    CzBlock *d = &dynamics->block[index];
     for (int end = 0; end < 2; ++end)
         vehicle_end(d, end);
     for (int bogie = 0; bogie < 2; ++bogie)
         bogie_to_body(d, bogie);
     for (int axle = 0; axle < 4; ++axle)
         axle_to_bogie(d, axle);
-    for (int axle = 0; axle < 4; ++axle)
+    if (dynamics->track != NULL)
+        look_at_rails(dynamics->track, d, index);
+    for (int axle = 0; axle < 4; ++axle) {
+        if (dynamics->track != NULL)
+            press_on_elastic(d, axle);
+        else
+            press_on_rigid(d, axle);
         wheel(d, axle, step);
+    }
 }
 
 /* Everything of a block before the interfaces. */
@@ -147,7 +156,7 @@ static void end_block(const CzDynamics *dynamics, int index, double step) {
     CzBlock *d = &dynamics->block[index];
     take_over(dynamics, index);
     if (dynamics->lanes->has_full_cars)
-        evaluate_cars(d, step);
+        evaluate_cars(dynamics, index, step);
     push_bodies(d);
     divide_by_masses(d);
 }
@@ -223,25 +232,22 @@ static void interface_extremes(CzBlock *d, double time) {
 static void car_extremes(CzBlock *d, double time) {
     const size_t n = CZ_LANE_BLOCK;
     for (int axle = 0; axle < 4; ++axle) {
-        const double *restrict z = X_AT(WHEEL_Z_0, 3 * axle), *restrict indentation =
-                                                                  P_AT(INDENTATION_0, axle);
+        const double *restrict approach = S_AT(WHEEL_APPROACH_0, axle);
         double *restrict lift = d->extreme[CZ_E_LIFT_0 + axle];
         double *restrict when = d->extreme[CZ_E_LIFT_TIME_0 + axle];
         CZ_LANES (i, n) {
-            const double now = z[i] - indentation[i];
+            const double now = -approach[i];
             when[i] = now > lift[i] ? time : when[i];
             lift[i] = cz_larger(lift[i], now);
         }
     }
     for (int bogie = 0; bogie < 2; ++bogie) {
-        const double *restrict z0 = X_AT(WHEEL_Z_0, 6 * bogie), *restrict z1 =
-                                                                    X_AT(WHEEL_Z_0, 6 * bogie + 3);
-        const double *restrict i0 = P_AT(INDENTATION_0, 2 * bogie), *restrict i1 =
-                                                                        P_AT(INDENTATION_0,
-                                                                             2 * bogie + 1);
+        const double *restrict first = S_AT(WHEEL_APPROACH_0, 2 * bogie), *restrict second =
+                                                                              S_AT(WHEEL_APPROACH_0,
+                                                                                   2 * bogie + 1);
         double *restrict lift = d->extreme[CZ_E_BOGIE_LIFT_REAR + bogie];
         CZ_LANES (i, n) {
-            lift[i] = cz_larger(lift[i], cz_smaller(z0[i] - i0[i], z1[i] - i1[i]));
+            lift[i] = cz_larger(lift[i], cz_smaller(-first[i], -second[i]));
         }
         keep_larger_size(d, CZ_E_LINK_FORCE, S_AT(LINK_REAR, bogie));
     }
@@ -292,7 +298,10 @@ static void commit(CzDynamics *dynamics, double step, double time) {
         commit_block(dynamics->lanes, &dynamics->block[i], step, time);
 }
 
-static void advance_block(CzBlock *d, double step, int first) {
+static void advance_block(const CzDynamics *dynamics, int index, double step, int first) {
+    CzBlock *d = &dynamics->block[index];
+    if (dynamics->track != NULL)
+        advance_rails(dynamics->track, d, index);
     const size_t n = (size_t)CZ_N_ROW * CZ_LANE_BLOCK;
     cz_two_step_advance(n, step, first, d->position[0], d->velocity[0], d->acceleration[0],
                         d->last_acceleration[0]);
@@ -300,13 +309,13 @@ static void advance_block(CzBlock *d, double step, int first) {
 
 static void advance(CzDynamics *dynamics, double step, int first) {
     for (int i = 0; i < dynamics->n_block; ++i)
-        advance_block(&dynamics->block[i], step, first);
+        advance_block(dynamics, i, step, first);
 }
 
 /* Advance, evaluate and commit while a block is at hand. */
 static void whole_step(CzDynamics *dynamics, double step, int first, double time) {
     for (int i = 0; i < dynamics->n_block; ++i) {
-        advance_block(&dynamics->block[i], step, first);
+        advance_block(dynamics, i, step, first);
         begin_block(&dynamics->block[i]);
     }
     all_interfaces(dynamics, step);

@@ -6,21 +6,57 @@
 #include "laws/slider.h"
 #include "laws/wheel_rail.h"
 
-/* Wheel and rail, and the brake, of one axle. */
+/* Normal force of one axle on a rail that does not give way. */
+static void press_on_rigid(CzBlock *d, int axle) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict hertz = P(HERTZ), *restrict rest = C_AT(WHEEL_REST_0, axle);
+    const double *restrict z = X_AT(WHEEL_Z_0, 3 * axle);
+    double *restrict approach = S_AT(WHEEL_APPROACH_0, axle), *restrict force =
+                                                                  S_AT(WHEEL_FORCE_0, axle);
+    CZ_LANES (i, n) {
+        approach[i] = rest[i] - z[i];
+        force[i] = cz_wheel_normal_force(hertz[i], approach[i]);
+    }
+}
+
+/* Normal force of one axle on a rail that does. The wheels are kept on their way along the track,
+ * and the force is vertical: what the slope of the rail would push is the moving load's power. */
+static void press_on_elastic(CzBlock *d, int axle) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict hertz = P(HERTZ), *restrict rest = C_AT(WHEEL_REST_0, axle);
+    const double *restrict z = X_AT(WHEEL_Z_0, 3 * axle), *restrict speed =
+                                                              V_AT(WHEEL_X_0, 3 * axle);
+    const double *restrict rail = S_AT(RAIL_Z_0, axle), *restrict slope = S_AT(RAIL_SLOPE_0, axle);
+    const double *restrict flexibility = S_AT(RAIL_FLEXIBILITY_0, axle),
+                           *restrict change = S_AT(RAIL_FLEXIBILITY_SLOPE_0, axle);
+    double *restrict approach = S_AT(WHEEL_APPROACH_0, axle), *restrict force =
+                                                                  S_AT(WHEEL_FORCE_0, axle);
+    double *restrict normal_power = POWER(WHEEL_NORMAL), *restrict moving = POWER(MOVING_LOAD);
+    CZ_LANES (i, n) {
+        const double now = rest[i] + rail[i] - z[i];
+        const double normal = cz_wheel_force_on_spring(hertz[i], flexibility[i], now);
+        const double pushed = normal * speed[i] * (0.5 * normal * change[i] - slope[i]);
+        approach[i] = now;
+        force[i] = normal;
+        moving[i] += pushed;
+        normal_power[i] -= pushed;
+    }
+}
+
+/* Creepage and the brake of one axle. */
 static void wheel(CzBlock *d, int axle, double step) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict rest = C_AT(STATIC_LOAD_0, axle), *restrict creep_c =
                                                                  C(CREEP_COMPLIANCE);
     const double *restrict brake_c = C(BRAKE_COMPLIANCE);
-    const double *restrict hertz = P(HERTZ), *restrict indentation = P_AT(INDENTATION_0, axle);
+    const double *restrict pressing = S_AT(WHEEL_FORCE_0, axle);
     const double *restrict radius = P(WHEEL_RADIUS), *restrict k = P(CREEP_STIFFNESS),
                            *restrict length = P(CREEP_LENGTH);
     const double *restrict peak = P(FRICTION_PEAK), *restrict sliding = P(FRICTION_SLIDING);
     const double *restrict fall = P(FRICTION_FALL_SPEED);
     const double *restrict brake_k = P(BRAKE_STIFFNESS), *restrict brake =
                                                              P_AT(BRAKE_MOMENT_0, axle);
-    const double *restrict zw = X_AT(WHEEL_Z_0, 3 * axle), *restrict vzw =
-                                                               V_AT(WHEEL_Z_0, 3 * axle);
+    const double *restrict vzw = V_AT(WHEEL_Z_0, 3 * axle);
     const double *restrict vxw = V_AT(WHEEL_X_0, 3 * axle);
     const double *restrict angle = X_AT(WHEEL_SPIN_0, 3 * axle), *restrict spin =
                                                                      V_AT(WHEEL_SPIN_0, 3 * axle);
@@ -38,7 +74,7 @@ static void wheel(CzBlock *d, int axle, double step) {
     double *restrict normal_power = POWER(WHEEL_NORMAL), *restrict creep_power = POWER(WHEEL_CREEP);
     double *restrict brake_power = POWER(BRAKE);
     CZ_LANES (i, n) {
-        const double normal = cz_wheel_normal_force(hertz[i], indentation[i] - zw[i]);
+        const double normal = pressing[i];
         const double more = normal - rest[i];
         const CzCreepLaw law = {k[i], cz_larger(length[i], 1e-6), peak[i], sliding[i],
                                 cz_larger(fall[i], 1e-6)};

@@ -2,4 +2,5 @@
 set(CZ_SOURCES_dynamics
     dynamics.c
     stored.c
+    track.c
 )

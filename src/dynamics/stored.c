@@ -118,3 +118,9 @@ double cz_limp_stored(const CzDynamics *dynamics, size_t lane, int side) {
                         memory(dynamics, CZ_M_LIMP_A + side, lane),
                         memory(dynamics, CZ_M_LIMP_PEAK_A + side, lane));
 }
+
+double cz_track_stored(const CzDynamics *dynamics, size_t lane) {
+    if (dynamics->track == NULL || dynamics->track->under[lane].state == NULL)
+        return 0.0;
+    return cz_track_energy(dynamics->track, lane) - dynamics->track->under[lane].rest_energy;
+}

@@ -11,6 +11,9 @@ double cz_limp_stored(const CzDynamics *dynamics, size_t lane, int side);
 double cz_side_stored(const CzDynamics *dynamics, size_t lane, int side);
 double cz_end_stored(const CzDynamics *dynamics, size_t lane, int end);
 
+/* Kinetic and elastic energy of the track under a car above that at t = 0. */
+double cz_track_stored(const CzDynamics *dynamics, size_t lane);
+
 /* Value [N] and integral from 0 [J] of a curve in a lane. */
 double cz_curve_value(const CzCurveLanes *curve, size_t stride, size_t lane, double x);
 double cz_curve_integral(const CzCurveLanes *curve, size_t stride, size_t lane, double x);

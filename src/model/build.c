@@ -188,6 +188,31 @@ static CzStatus find_perturbed(CzModel *model, CzError *error) {
     return CZ_STATUS_INPUT;
 }
 
+/* ---- track ---- */
+
+/* First to last wheel of the longest car with wheels [m]; 0 without any. */
+static double longest_span(const CzModel *model, const CzVehicle *vehicles) {
+    double span = 0.0;
+    for (int car = 0; car < model->n_car; car++) {
+        const CzVehicle *vehicle = &vehicles[model->car[car].vehicle];
+        if (model->car[car].model == CZ_MODEL_FULL)
+            span = fmax(span, vehicle->bogie_spacing + vehicle->bogie.axle_spacing);
+    }
+    return span;
+}
+
+static CzStatus build_track(CzModel *model, const CzInput *input, const CzVehicle *vehicles,
+                            CzError *error) {
+    const double span = longest_span(model, vehicles);
+    if (model->simulation->track == CZ_TRACK_RIGID || span == 0.0)
+        return CZ_OK;
+    const CzTrackOptions options = cz_track_options_default(span);
+    CzTrackModes *modes = NULL;
+    CZ_TRY(cz_track_build(&input->track, &options, &model->arena, &modes, error));
+    model->track = modes;
+    return CZ_OK;
+}
+
 /* ---- step and end of run ---- */
 
 static CzStatus choose_step(CzModel *model, CzError *error) {
@@ -232,6 +257,7 @@ static CzStatus build(CzModel *model, int scenario, CzError *error) {
     CZ_TRY(choose_trains(model, input, error));
     CZ_TRY(place_cars(model, input, error));
     CZ_TRY(find_perturbed(model, error));
+    CZ_TRY(build_track(model, input, vehicles, error));
     cz_model_size_curves(model, vehicles);
     CzArena scratch = {0};
     const CzStatus status = look_at_own_design(model, vehicles, &scratch, error);

@@ -5,6 +5,7 @@
 #include "base/arena.h"
 #include "crushzone/model.h"
 #include "model/lanes.h"
+#include "model/track.h"
 #include "problem/problem.h"
 
 /* One car of the scenario, along +x. */
@@ -31,12 +32,13 @@ struct CzModel {
     int perturbed;              /* inner interface that the scenario perturbs; -1 for none */
     char (*interface_name)[48]; /* (n_car - 1) */
     const CzSimulation *simulation;
-    double friction;  /* peak wheel-rail friction of the scenario */
-    double time_step; /* [s] */
-    double duration;  /* [s]; NaN: ended by rule */
-    double longest;   /* [s] */
-    double hold;      /* time for which the end-of-run conditions must hold: the longest body pitch
-                         period; 0.02 s without full cars (ours) [s] */
+    const CzTrackModes *track; /* NULL on a rigid track, and without wheels */
+    double friction;           /* peak wheel-rail friction of the scenario */
+    double time_step;          /* [s] */
+    double duration;           /* [s]; NaN: ended by rule */
+    double longest;            /* [s] */
+    double hold; /* time for which the end-of-run conditions must hold: the longest body pitch
+                    period; 0.02 s without full cars (ours) [s] */
     int n_bound;
     CzStepBound *bound;     /* smallest first */
     int n_kink[CZ_N_CURVE]; /* kinks that hold every design: counted from the number of stages or

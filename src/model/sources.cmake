@@ -8,7 +8,10 @@ set(CZ_SOURCES_model
     fill_interface.c
     kinks.c
     lanes.c
+    rail.c
     statics.c
     step_bounds.c
+    track.c
+    track_block.c
     vertical_modes.c
 )

@@ -84,6 +84,8 @@ static void put_verdict(CzJson *json, CzVerdict verdict) {
 
 static const char *track_word(const CzProblem *problem) {
     switch ((CzTrack)cz_problem_input(problem)->simulation.track) {
+    case CZ_TRACK_MODAL:
+        return "modal";
     case CZ_TRACK_RIGID:
         return "rigid";
     }
@@ -98,6 +100,8 @@ static void put_energy(CzJson *json, const CzEnergy *energy) {
     cz_json_real(json, "stored_kJ", energy->stored / CZ_KILO);
     cz_json_real(json, "wheel_rail_kJ", energy->wheel_rail / CZ_KILO);
     cz_json_real(json, "running_gear_kJ", energy->running_gear / CZ_KILO);
+    cz_json_real(json, "track_kJ", energy->track / CZ_KILO);
+    cz_json_real(json, "moving_load_kJ", energy->moving_load / CZ_KILO);
     cz_json_real(json, "absorbers_kJ", energy->absorbers / CZ_KILO);
     cz_json_real(json, "occupied_kJ", energy->occupied / CZ_KILO);
     cz_json_real(json, "balance_error", energy->balance_error);

@@ -93,6 +93,9 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     batch->dynamics = cz_dynamics_create(batch->lanes, &batch->arena);
     if (batch->dynamics == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_design);
+    if (model->track != NULL &&
+        !cz_dynamics_lay_track(batch->dynamics, model->track, batch->step, &batch->arena))
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the track");
     batch->closing_speed =
         cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, model->colliding, 0)) -
         cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, model->colliding + 1, 0));

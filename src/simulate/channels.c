@@ -43,8 +43,7 @@ static void put_car(Writer *writer, int car) {
     put(writer, 1e3 * cz_position(batch, CZ_DOF_BODY_Z, lane), "z_%s_mm", name);
     put(writer, 1e3 * cz_position(batch, CZ_DOF_BODY_PITCH, lane), "pitch_%s_mrad", name);
     for (int axle = 0; axle < 4; ++axle) {
-        const double lift = cz_position(batch, CZ_DOF_WHEEL_Z_0 + 3 * axle, lane) -
-                            cz_parameter(batch, CZ_P_INDENTATION_0 + axle, lane);
+        const double lift = -cz_scratch(batch, CZ_S_WHEEL_APPROACH_0 + axle, lane);
         put(writer, 1e3 * lift, "z_%s_w%d_mm", name, axle + 1);
     }
     static const char *const end_name[] = {"rear", "front"};

@@ -162,8 +162,7 @@ static bool wheels_are_off(CzBatch *batch, int design) {
         const size_t lane = cz_lane(batch, car, design);
         const double flange = batch->vehicles[design][description->vehicle].bogie.flange_height;
         for (int axle = 0; axle < 4; ++axle) {
-            const double lift = cz_position(batch, CZ_DOF_WHEEL_Z_0 + 3 * axle, lane) -
-                                cz_parameter(batch, CZ_P_INDENTATION_0 + axle, lane);
+            const double lift = -cz_scratch(batch, CZ_S_WHEEL_APPROACH_0 + axle, lane);
             off |= lift > 0.0;
             if (isnan(progress->override_time) &&
                 cz_extreme(batch, CZ_E_LIFT_0 + axle, lane) > flange)

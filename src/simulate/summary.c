@@ -16,7 +16,7 @@ static double work_of(const CzBatch *batch, int design, int row) {
     return work;
 }
 
-enum { STORED, LOST, MIXED };
+enum { STORED, LOST, MIXED, OUTSIDE };
 static const int ledger_class[CZ_N_LEDGER] = {
 #define CZ_LEDGER(name, class, doc) class,
 #include "dynamics/ledger.def"
@@ -44,7 +44,7 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
     static const int running_gear[] = {CZ_L_SECONDARY_DAMPING, CZ_L_PRIMARY_DAMPING,
                                        CZ_L_LINK_DAMPING, CZ_L_AXLE_GUIDANCE_DAMPING};
     CzEnergy energy = {0};
-    double work = 0.0;
+    double work = 0.0, in_track = 0.0;
     for (int row = 0; row < CZ_N_LEDGER; ++row) {
         const double of_row = work_of(batch, design, row);
         work += of_row;
@@ -52,12 +52,16 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
     }
     energy.initial = batch->design[design].initial_energy;
     energy.final_kinetic = cz_kinetic_energy(batch, design);
-    energy.stored += stored_in_mixed(batch, design);
-    energy.dissipated = work - energy.stored;
+    for (int car = 0; car < batch->model->n_car; ++car)
+        in_track += cz_track_stored(batch->dynamics, cz_lane(batch, car, design));
+    energy.stored += stored_in_mixed(batch, design) + in_track;
+    energy.moving_load = work_of(batch, design, CZ_L_MOVING_LOAD);
+    energy.dissipated = work - energy.stored - energy.moving_load;
     energy.wheel_rail = cz_wheel_rail_work(batch, design);
     for (size_t k = 0; k < sizeof running_gear / sizeof running_gear[0]; ++k)
         energy.running_gear += work_of(batch, design, running_gear[k]);
-    energy.absorbers = energy.dissipated - energy.wheel_rail - energy.running_gear;
+    energy.track = work_of(batch, design, CZ_L_TRACK) - in_track;
+    energy.absorbers = energy.dissipated - energy.wheel_rail - energy.running_gear - energy.track;
     energy.balance_error =
         energy.initial > 0.0 ? batch->design[design].balance / energy.initial : 0.0;
     return energy;
@@ -100,7 +104,7 @@ static double plastic_energy(const CzBatch *batch, int design) {
 
 /* Numbers that a failed run must not show. */
 static void blank_energy(CzEnergy *energy) {
-    *energy = (CzEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    *energy = (CzEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
 static void blank_interface(CzInterfaceResult *result) {

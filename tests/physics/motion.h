@@ -36,6 +36,9 @@ static inline Motion motion_open(const char *file, const char *const *set) {
 static inline void motion_start(Motion *motion) {
     motion->dynamics = cz_dynamics_create(motion->lanes, &motion->arena);
     assert_non_null(motion->dynamics);
+    const CzTrackModes *track = motion->collision.model->track;
+    if (track != NULL)
+        assert_true(cz_dynamics_lay_track(motion->dynamics, track, motion->step, &motion->arena));
     motion->kernel->evaluate(motion->dynamics, motion->step);
     motion->kernel->commit(motion->dynamics, 0.0, 0.0);
 }

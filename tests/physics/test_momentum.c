@@ -152,8 +152,9 @@ static void every_element_took_part(void **state) {
         motion_evaluate(&motion);
     }
     for (int row = 0; row < CZ_N_LEDGER; row++) {
-        if (row == CZ_L_WHEEL_NORMAL || row == CZ_L_WHEEL_CREEP)
-            continue;
+        if (row == CZ_L_WHEEL_NORMAL || row == CZ_L_WHEEL_CREEP || row == CZ_L_TRACK ||
+            row == CZ_L_MOVING_LOAD)
+            continue; /* no rail */
         double work = 0.0;
         for (int car = 0; car < N_CAR; car++)
             work = fmax(

@@ -1,0 +1,336 @@
+/* Setting up and looking at the modal track; its steps are in track_motion.h. */
+#include "dynamics/track.h"
+
+#include <string.h>
+
+#include "dynamics/track_motion.h"
+#include "model/track_block.h"
+
+/* ---- constants of a step ---- */
+
+static void put(CzComplex value, int i, CzTrackRow re, CzTrackRow im) {
+    re[i] = value.re;
+    im[i] = value.im;
+}
+
+static bool is_mode(const CzTrackGroup *group, int i) {
+    return cz_complex_square_size(group->direct[i]) > 0.0;
+}
+
+static CzTrackRows rows_of(const CzTrackGroup *group, double step) {
+    CzTrackRows rows;
+    memset(&rows, 0, sizeof rows);
+    for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
+        if (!is_mode(group, i))
+            continue;
+        const CzComplex lambda = group->lambda[i];
+        const CzComplex flight = cz_complex_exponential(cz_complex_scaled(step, lambda));
+        const CzComplex kick = cz_track_kick(lambda, step);
+        const CzComplex back = cz_complex_exponential(cz_complex_scaled(-0.5 * step, lambda));
+        const CzComplex direct = group->direct[i], alias = group->alias[i];
+        put(flight, i, rows.flight_re, rows.flight_im);
+        put(cz_complex_product(kick, direct), i, rows.kick_re, rows.kick_im);
+        put(cz_complex_product(kick, alias), i, rows.alias_kick_re, rows.alias_kick_im);
+        put(direct, i, rows.now_re, rows.now_im);
+        put(alias, i, rows.alias_now_re, rows.alias_now_im);
+        put(cz_complex_product(back, direct), i, rows.past_re, rows.past_im);
+        put(cz_complex_product(back, alias), i, rows.alias_past_re, rows.alias_past_im);
+    }
+    return rows;
+}
+
+static void fill_spans(const CzTrackModes *modes, CzTrackSpan *span) {
+    for (int k = 0; k < modes->n_group; ++k) {
+        const CzTrackGroup *group = &modes->group[k];
+        CzTrackSpan *own = &span[group->copy * modes->n_vector + group->vector];
+        own->first = own->end == 0 ? k : own->first;
+        own->end = k + 1;
+    }
+}
+
+static void fill_wavenumbers(const CzTrackModes *modes, CzTrackRow *wavenumber) {
+    for (int v = 0; v < modes->n_vector; ++v)
+        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
+            const int j = v * CZ_TRACK_WIDTH + i;
+            wavenumber[2 * v][i] = 2.0 * CZ_PI * j / modes->length;
+            wavenumber[2 * v + 1][i] = 2.0 * CZ_PI * (j - modes->n_seat) / modes->length;
+        }
+}
+
+CzTrackMotion *cz_track_motion_create(const CzTrackModes *modes, double step, size_t n_under,
+                                      CzArena *arena) {
+    CzTrackMotion *track = cz_arena_allocate(arena, 1, sizeof *track);
+    CzTrackRows *rows = cz_arena_allocate(arena, (size_t)modes->n_group, sizeof *rows);
+    CzTrackSpan *span = cz_arena_allocate(arena, 2 * (size_t)modes->n_vector, sizeof *span);
+    CzTrackRow *wavenumber =
+        cz_arena_allocate(arena, 2 * (size_t)modes->n_vector, sizeof *wavenumber);
+    CzTrackUnder *under = cz_arena_allocate(arena, n_under, sizeof *under);
+    if (track == NULL || rows == NULL || span == NULL || wavenumber == NULL || under == NULL)
+        return NULL;
+    for (int k = 0; k < modes->n_group; ++k)
+        rows[k] = rows_of(&modes->group[k], step);
+    fill_spans(modes, span);
+    fill_wavenumbers(modes, wavenumber);
+    *track = (CzTrackMotion){.modes = modes,
+                             .step = step,
+                             .per_length = 1.0 / modes->length,
+                             .per_spacing = 1.0 / modes->seats.spacing,
+                             .rows = rows,
+                             .span = span,
+                             .wavenumber = (const CzTrackRow *)wavenumber,
+                             .flexibility = cz_track_flexibility(modes, step),
+                             .n_under = n_under,
+                             .under = under};
+    return track;
+}
+
+/* ---- one car ---- */
+
+static void look(const CzTrackMotion *track, const CzTrackUnder *under, const double place[4],
+                 CzComplex seat[4]) {
+    for (int wheel = 0; wheel < 4; ++wheel) {
+        seat[wheel] = cz_turned(place[wheel] * track->per_spacing);
+        cz_track_shape(track, cz_turned(place[wheel] * track->per_length), seat[wheel],
+                       under->shape + 4 * wheel * track->modes->n_vector);
+    }
+}
+
+/* Load of a mode where the shapes were taken: sum of g(x) P. */
+static CzComplex load_under(const CzTrackModes *modes, const CzTrackUnder *under, int k, int i) {
+    const CzTrackGroup *group = &modes->group[k];
+    CzComplex sum = {0.0, 0.0};
+    for (int wheel = 0; wheel < 4; ++wheel) {
+        const CzTrackRow *shape = under->shape + 4 * (wheel * modes->n_vector + group->vector);
+        const double p = under->force[wheel];
+        sum = cz_complex_sum(sum, cz_complex_scaled(p * shape[group->copy][i], group->direct[i]));
+        sum =
+            cz_complex_sum(sum, cz_complex_scaled(p * shape[2 + group->copy][i], group->alias[i]));
+    }
+    return sum;
+}
+
+/* The modes that the constant forces of the wheels make. */
+static void rest_under(const CzTrackModes *modes, const CzTrackUnder *under, double step) {
+    for (int k = 0; k < modes->n_group; ++k)
+        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
+            CzComplex y = {0.0, 0.0};
+            if (is_mode(&modes->group[k], i))
+                y = cz_complex_product(load_under(modes, under, k, i),
+                                       cz_track_constant_answer(modes->group[k].lambda[i], step));
+            put(y, i, under->state[2 * k], under->state[2 * k + 1]);
+        }
+}
+
+bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], const double load[4],
+                  CzArena *arena) {
+    const CzTrackModes *modes = track->modes;
+    CzTrackUnder *under = &track->under[index];
+    const size_t n_vector = (size_t)modes->n_vector;
+    under->state = cz_arena_allocate(arena, 2 * (size_t)modes->n_group, sizeof *under->state);
+    under->wave = cz_arena_allocate(arena, 8 * n_vector, sizeof *under->wave);
+    under->shape = cz_arena_allocate(arena, 16 * n_vector, sizeof *under->shape);
+    if (under->state == NULL || under->wave == NULL || under->shape == NULL)
+        return false;
+    CzComplex seat[4];
+    look(track, under, place, seat);
+    for (int wheel = 0; wheel < 4; ++wheel)
+        under->force[wheel] = -load[wheel];
+    rest_under(modes, under, track->step);
+    cz_track_read(track, under);
+    under->rest_energy = cz_track_energy(track, index);
+    return true;
+}
+
+void cz_track_look(const CzTrackMotion *track, size_t index, const double place[4],
+                   double deflection[4], double flexibility[4]) {
+    CzComplex seat[4];
+    look(track, &track->under[index], place, seat);
+    for (int wheel = 0; wheel < 4; ++wheel) {
+        deflection[wheel] = cz_track_at(track, &track->under[index], wheel).z;
+        flexibility[wheel] = cz_track_spring(track, seat[wheel]).flexibility;
+    }
+}
+
+/* ---- energy ---- */
+
+/* What moves in one block: displacement and rate of each part at its crest. */
+typedef struct Parts {
+    double wave[CZ_BLOCK_WAVES], wave_rate[CZ_BLOCK_WAVES];
+    double force, stretch, stretch_rate; /* of a pad */
+    double sleeper, sleeper_rate, ballast, ballast_rate;
+} Parts;
+
+/* A mode and its rate, the force that still acts included. */
+typedef struct Motion {
+    CzComplex y, rate;
+} Motion;
+
+static void add_part(CzComplex amplitude, const Motion *motion, double *value, double *rate) {
+    *value += cz_complex_product(amplitude, motion->y).re;
+    *rate += cz_complex_product(amplitude, motion->rate).re;
+}
+
+static void add_mode(const CzTrackBlock *block, const CzTrackGroup *group, int i,
+                     const Motion *motion, Parts *parts) {
+    const CzSeats *seats = block->seats;
+    const CzComplex lambda = group->lambda[i], pad = group->pad[i];
+    add_part(group->direct[i], motion, &parts->wave[0], &parts->wave_rate[0]);
+    if (cz_complex_square_size(pad) == 0.0)
+        return;
+    for (int w = 1; w < block->n_wave; ++w)
+        add_part(cz_complex_scaled(-block->crests,
+                                   cz_complex_product(cz_track_wave_answer(block, w, lambda), pad)),
+                 motion, &parts->wave[w], &parts->wave_rate[w]);
+    const CzTrackBelow below = cz_track_below(block, lambda);
+    const CzComplex stiffness = {seats->pad_k + seats->pad_c * lambda.re, seats->pad_c * lambda.im};
+    double none = 0.0;
+    add_part(pad, motion, &parts->force, &none);
+    add_part(cz_complex_ratio(pad, stiffness), motion, &parts->stretch, &parts->stretch_rate);
+    add_part(cz_complex_product(below.sleeper, pad), motion, &parts->sleeper, &parts->sleeper_rate);
+    add_part(cz_complex_product(below.ballast, pad), motion, &parts->ballast, &parts->ballast_rate);
+}
+
+static double square(double value) {
+    return value * value;
+}
+
+static void parts_energy(const CzTrackBlock *block, const Parts *parts, double *energy,
+                         double *loss) {
+    const CzSeats *seats = block->seats;
+    const double coupled = square(2.0 * cz_turned(0.5 * block->turns).im);
+    for (int w = 0; w < block->n_wave; ++w)
+        *energy += 0.5 * block->mass[w] / block->wave[w].share *
+                   (square(parts->wave_rate[w]) + block->wave[w].bending * square(parts->wave[w]));
+    const double upper = parts->sleeper - parts->ballast;
+    const double upper_rate = parts->sleeper_rate - parts->ballast_rate;
+    *energy += 0.5 * block->crests *
+               (seats->pad_k * square(parts->stretch) + block->rest * square(parts->force) +
+                seats->sleeper * square(parts->sleeper_rate) + seats->upper_k * square(upper) +
+                seats->ballast * square(parts->ballast_rate) +
+                (seats->lower_k + coupled * seats->across_k) * square(parts->ballast));
+    *loss += block->crests *
+             (seats->pad_c * square(parts->stretch_rate) + seats->upper_c * square(upper_rate) +
+              (seats->lower_c + coupled * seats->across_c) * square(parts->ballast_rate));
+}
+
+/* A mode when the last force was about to end: the present state without half a flight. */
+static Motion half_a_step_ago(const CzTrackMotion *track, size_t index, int k, int i) {
+    const CzTrackUnder *under = &track->under[index];
+    const CzComplex lambda = track->modes->group[k].lambda[i];
+    const CzComplex now = {under->state[2 * k][i], under->state[2 * k + 1][i]};
+    const CzComplex back = cz_complex_exponential(cz_complex_scaled(-0.5 * track->step, lambda));
+    const CzComplex y = cz_complex_product(back, now);
+    return (Motion){
+        y, cz_complex_sum(cz_complex_product(lambda, y), load_under(track->modes, under, k, i))};
+}
+
+static void add_up(const CzTrackMotion *track, size_t index, double *energy, double *loss) {
+    const CzTrackModes *modes = track->modes;
+    for (int row = 0; row < 2 * modes->n_vector; ++row)
+        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
+            const int j = row % modes->n_vector * CZ_TRACK_WIDTH + i;
+            if (2 * j > modes->n_seat)
+                continue;
+            const CzTrackBlock block = cz_track_block(&modes->seats, modes->n_seat, j);
+            Parts parts;
+            memset(&parts, 0, sizeof parts);
+            for (int k = track->span[row].first; k < track->span[row].end; ++k) {
+                if (!is_mode(&modes->group[k], i))
+                    continue;
+                const Motion motion = half_a_step_ago(track, index, k, i);
+                add_mode(&block, &modes->group[k], i, &motion, &parts);
+            }
+            parts_energy(&block, &parts, energy, loss);
+        }
+}
+
+double cz_track_energy(const CzTrackMotion *track, size_t index) {
+    double energy = 0.0, loss = 0.0;
+    add_up(track, index, &energy, &loss);
+    return energy;
+}
+
+double cz_track_loss(const CzTrackMotion *track, size_t index) {
+    double energy = 0.0, loss = 0.0;
+    add_up(track, index, &energy, &loss);
+    return loss;
+}
+
+/* ---- for a solver of ordinary differential equations ---- */
+
+size_t cz_track_n_state(const CzTrackModes *modes) {
+    return (size_t)modes->n_group * 2 * CZ_TRACK_WIDTH;
+}
+
+/* Direct and alias wave of a group's copy at a place. */
+static void wave_at(const CzTrackModes *modes, const CzTrackGroup *group, int i, double place,
+                    double wave[2]) {
+    const int j = group->vector * CZ_TRACK_WIDTH + i;
+    const CzComplex direct = cz_turned(j * (place / modes->length));
+    const CzComplex alias = cz_turned((j - modes->n_seat) * (place / modes->length));
+    wave[0] = group->copy == 0 ? direct.re : direct.im;
+    wave[1] = group->copy == 0 ? alias.re : alias.im;
+}
+
+/* g(x) of a mode. */
+static CzComplex shape_at(const CzTrackModes *modes, const CzTrackGroup *group, int i,
+                          double place) {
+    double wave[2];
+    wave_at(modes, group, i, place, wave);
+    return cz_complex_sum(cz_complex_scaled(wave[0], group->direct[i]),
+                          cz_complex_scaled(wave[1], group->alias[i]));
+}
+
+/* Load of a mode: sum of g(x) P, forces upwards. */
+static CzComplex load_of(const CzTrackModes *modes, const CzTrackGroup *group, int i,
+                         const double place[4], const double load[4]) {
+    CzComplex sum = {0.0, 0.0};
+    for (int wheel = 0; wheel < 4; ++wheel)
+        sum = cz_complex_difference(
+            sum, cz_complex_scaled(load[wheel], shape_at(modes, group, i, place[wheel])));
+    return sum;
+}
+
+void cz_track_rest(const CzTrackModes *modes, const double place[4], const double load[4],
+                   double *state) {
+    for (int k = 0; k < modes->n_group; ++k)
+        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
+            const CzTrackGroup *group = &modes->group[k];
+            CzComplex y = {0.0, 0.0};
+            if (is_mode(group, i))
+                y = cz_complex_product(load_of(modes, group, i, place, load),
+                                       cz_track_constant_answer(group->lambda[i], 0.0));
+            state[2 * (k * CZ_TRACK_WIDTH + i)] = y.re;
+            state[2 * (k * CZ_TRACK_WIDTH + i) + 1] = y.im;
+        }
+}
+
+void cz_track_deflect(const CzTrackModes *modes, const CzTrackFlexibility *continuous,
+                      const double *state, const double place[4], double deflection[4],
+                      double flexibility[4]) {
+    for (int wheel = 0; wheel < 4; ++wheel) {
+        const double x = place[wheel], cosine = cz_turned(x / modes->seats.spacing).re;
+        flexibility[wheel] = cz_track_flexibility_at(continuous, cosine);
+        deflection[wheel] = 0.0;
+        for (int k = 0; k < modes->n_group; ++k)
+            for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
+                const double *y = state + 2 * (k * CZ_TRACK_WIDTH + i);
+                const CzComplex g = shape_at(modes, &modes->group[k], i, x);
+                deflection[wheel] += g.re * y[0] - g.im * y[1];
+            }
+    }
+}
+
+void cz_track_rate(const CzTrackModes *modes, const double *state, const double place[4],
+                   const double load[4], double *rate) {
+    for (int k = 0; k < modes->n_group; ++k)
+        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
+            const CzTrackGroup *group = &modes->group[k];
+            const size_t at = 2 * (size_t)(k * CZ_TRACK_WIDTH + i);
+            const CzComplex y = {state[at], state[at + 1]};
+            const CzComplex own = cz_complex_product(group->lambda[i], y);
+            const CzComplex sum = cz_complex_sum(own, load_of(modes, group, i, place, load));
+            rate[at] = sum.re;
+            rate[at + 1] = sum.im;
+        }
+}

@@ -1,0 +1,106 @@
+/* The moving part of the modal track: what each car has under it.
+ *
+ * Positions are those of the wheels along the track from the middle of the car at t = 0, where a
+ * seat is; deflections are upwards and zero for the unloaded track.
+ */
+#ifndef CZ_DYNAMICS_TRACK_H
+#define CZ_DYNAMICS_TRACK_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "model/track.h"
+
+typedef double CzTrackRow[CZ_TRACK_WIDTH];
+
+/* Numbers of a group of modes for one step size. */
+typedef struct CzTrackRows {
+    _Alignas(64) CzTrackRow flight_re, flight_im; /* exp(lambda h) */
+    CzTrackRow kick_re, kick_im;                  /* state per force on the direct wave */
+    CzTrackRow alias_kick_re, alias_kick_im;      /* on the alias wave */
+    CzTrackRow now_re, now_im;                    /* displacement of the direct wave per state */
+    CzTrackRow alias_now_re, alias_now_im;        /* of the alias wave */
+    CzTrackRow past_re, past_im; /* the same half a step ago, without forces since */
+    CzTrackRow alias_past_re, alias_past_im;
+} CzTrackRows;
+
+/* Groups of one copy and vector: first ... end - 1. */
+typedef struct CzTrackSpan {
+    int first, end;
+} CzTrackSpan;
+
+/* Under one car. */
+typedef struct CzTrackUnder {
+    CzTrackRow *state; /* real and imaginary parts in turn (2 n_group); NULL without wheels */
+    CzTrackRow
+        *wave; /* of the state: direct now and half a step ago, alias likewise (2 n_vector x 4) */
+    CzTrackRow *shape;  /* of the last look: cosine, sine, alias's (4 wheels x n_vector x 4) */
+    double rest_energy; /* of the track at t = 0 [J] */
+    double force[4];    /* of the last step, upwards on the rail [N] */
+} CzTrackUnder;
+
+/* Place of a wheelset from the middle of its car, counted from the rear: half the spacing of the
+ * bogies and of the axles [m]. */
+static inline double cz_wheel_place(double bogie, double axle, int index) {
+    return (index / 2 == 0 ? -bogie : bogie) + (index % 2 == 0 ? -axle : axle);
+}
+
+typedef struct CzTrackMotion {
+    const CzTrackModes *modes;      /* borrowed */
+    double step;                    /* h [s] */
+    double per_length, per_spacing; /* 1 / length of the ring, 1 / spacing [1/m] */
+    const CzTrackRows *rows;        /* (n_group) */
+    const CzTrackSpan *span;        /* (2 n_vector) */
+    const CzTrackRow *wavenumber;   /* direct, alias [1/m] (2 n_vector) */
+    CzTrackFlexibility flexibility; /* under a wheel, beside the modes */
+    size_t n_under;
+    CzTrackUnder *under; /* (n_under) */
+} CzTrackMotion;
+
+/* Constants for a step of h seconds and n_under cars without state; NULL when there is no memory.
+ * The arena owns them. */
+CzTrackMotion *cz_track_motion_create(const CzTrackModes *modes, double step, size_t n_under,
+                                      CzArena *arena);
+
+/* Gives a car its track, at rest under the forces of its wheels [N] at their places [m]; false when
+ * there is no memory. */
+bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], const double load[4],
+                  CzArena *arena);
+
+/* Deflection of the modes under each wheel at the places of the last look or step [m], and the
+ * flexibility beside them [m/N]. */
+void cz_track_look(const CzTrackMotion *track, size_t index, const double place[4],
+                   double deflection[4], double flexibility[4]);
+
+/* Half a step before the time that the state stands at, when the last forces had just ended: energy
+ * of the track under a car, kinetic and potential above the unloaded track [J], and the power that
+ * pads, ballast and subgrade turn into heat [W]. */
+double cz_track_energy(const CzTrackMotion *track, size_t index);
+double cz_track_loss(const CzTrackMotion *track, size_t index);
+
+/* ---- the same track for a solver of ordinary differential equations ----
+ *
+ * The state of one car's track is `cz_track_n_state` real numbers, the real and imaginary parts of
+ * its modes. A solver that carries them beside a vehicle's co-ordinates does in its right-hand side
+ *
+ *   1. cz_track_deflect: deflection z_i, upwards, of the modes under each wheel, and the
+ *      flexibility r_i beside the modes at that place;
+ *   2. solve each wheel's force N_i: the contact is pressed by (rest_i + z_i - z_wheel_i), of
+ *      which r_i N_i goes into the flexibility and the rest into Hertz's law
+ *      (cz_wheel_force_on_spring of laws/wheel_rail.h does that);
+ *   3. cz_track_rate: the rates of the states under the forces N_i, downwards on the rail.
+ *
+ * At the start cz_track_rest gives the states at rest under the static loads, and rest_i =
+ * indentation_i + r_i N_i - z_i makes a standing wheel rest. All functions are pure.
+ */
+size_t cz_track_n_state(const CzTrackModes *modes);
+void cz_track_rest(const CzTrackModes *modes, const double place[4], const double load[4],
+                   double *state);
+void cz_track_deflect(const CzTrackModes *modes, const CzTrackFlexibility *continuous,
+                      const double *state, const double place[4], double deflection[4],
+                      double flexibility[4]);
+void cz_track_rate(const CzTrackModes *modes, const double *state, const double place[4],
+                   const double load[4], double *rate);
+
+#endif

@@ -1,0 +1,102 @@
+/* The elastic track under one car: exact damped modes of a ring of rail on seats, and the static
+ * flexibility that the modes left out.
+ *
+ * The window that a car takes along is closed to a ring of n_seat seats: a wheel that rolls on
+ * comes round again, so nothing is ever moved or cut off, and what the ring adds is the deflection
+ * one turn away. Rail waves K = 2 pi k / length couple only where they agree at the seats: k = j
+ * with n_seat - j, n_seat + j, ... and with the sleeper and ballast wave j. So each j from 0 to
+ * n_seat / 2 is a block of its own, in a cosine copy and a sine copy. In a block the pad force is
+ * one unknown f,
+ *
+ *   F(s) f = sum of h_k(s) load_k     F = sum c_k / (s^2 + w_k^2) + R + 1 / (k_p + s c_p) + B(s)
+ *
+ * with the bending branch of the waves at hand (h_k = p_k / (M_k (s^2 + w_k^2)), c_k = n_j h_k), R
+ * the static flexibility of all other waves and branches at the seats, and B what sleeper and
+ * ballast give way. The block's eigenvalues are the roots of F, found at once (Aberth) and tested;
+ * the deflection at x under a force at y is the sum over them of g(x) g(y) / (s - lambda) with
+ *
+ *   g(x) = sum_k sqrt(-n_j / F'(lambda)) h_k(lambda) (cosine or sine of K_k x)
+ *
+ * Nothing is assumed of the damping. Eigenvalues beyond the cut are left out, and what they and the
+ * other waves would give way at rest is a flexibility under the force itself: one number that
+ * varies with the place between two seats.
+ */
+#ifndef CZ_MODEL_TRACK_H
+#define CZ_MODEL_TRACK_H
+
+#include "base/arena.h"
+#include "crushzone/status.h"
+#include "model/rail.h"
+
+enum {
+    CZ_TRACK_WIDTH = 8,     /* waves side by side in a register */
+    CZ_TRACK_FLEX_TERMS = 4 /* of the flexibility's series between two seats */
+};
+
+/* Eight eigenvalues of neighbouring blocks j = 8 vector ... 8 vector + 7 of one copy; unused ones
+ * have g = 0. A pair is stored once, with g sqrt(2) as large: deflection = real part of g y. */
+typedef struct CzTrackGroup {
+    int copy;                         /* 0 cosine, 1 sine */
+    int vector;                       /* j / 8 */
+    CzComplex lambda[CZ_TRACK_WIDTH]; /* [1/s] */
+    CzComplex direct[CZ_TRACK_WIDTH]; /* g for the rail wave j [1/sqrt(kg s)] */
+    CzComplex alias[CZ_TRACK_WIDTH];  /* g for the rail wave j - n_seat; 0 where it is cut */
+    CzComplex pad[CZ_TRACK_WIDTH];    /* force of a pad at the crest per state y */
+} CzTrackGroup;
+
+/* Constant once built, shared by all cars. */
+typedef struct CzTrackModes {
+    CzSeats seats;
+    int n_seat;      /* of the ring: 16 q - 2, so that its n_seat / 2 + 1 blocks fill vectors */
+    int n_vector;    /* vectors of blocks in a copy */
+    int n_group;     /* in order of copy and vector */
+    int first_alias; /* first vector that has any alias wave */
+    double length;   /* of the ring [m] */
+    double cut;      /* largest eigenvalue kept [1/s] */
+    CzTrackGroup *group;
+} CzTrackModes;
+
+/* How the modes are chosen. */
+typedef struct CzTrackOptions {
+    int n_rail;  /* 2 */
+    int n_seat;  /* of the ring; 0 chooses it from the span */
+    double span; /* first to last wheel of the longest car [m] */
+    double cut;  /* [Hz] */
+} CzTrackOptions;
+CzTrackOptions cz_track_options_default(double span);
+
+/* Modes of a track; the arena owns them. Statuses: CZ_OK, CZ_STATUS_INPUT when the roots do not
+ * pass their test, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_track_build(const CzRoadbed *roadbed, const CzTrackOptions *options,
+                                      CzArena *arena, CzTrackModes **modes, CzError *error);
+
+/* A function of the place between two seats, a share xi of the spacing past the last one: kink
+ * |sin(pi xi)| + sum of term[k] times the k-th power of cos(2 pi xi). Over a seat the rail's shear
+ * has a jump, so the statics have a kink there. */
+typedef struct CzTrackFlexibility {
+    double kink;                      /* [m/N] */
+    double term[CZ_TRACK_FLEX_TERMS]; /* [m/N] */
+} CzTrackFlexibility;
+
+static inline double cz_track_flexibility_at(const CzTrackFlexibility *flexibility, double cosine) {
+    double value = 0.0;
+    for (int k = CZ_TRACK_FLEX_TERMS - 1; k >= 0; --k)
+        value = value * cosine + flexibility->term[k];
+    return value + flexibility->kink * sqrt(0.5 * fabs(1.0 - cosine));
+}
+
+/* What must lie under each force beside the modes so that a force at rest deflects the ring as
+ * exactly as its statics; `step` as below. */
+CzTrackFlexibility cz_track_flexibility(const CzTrackModes *modes, double step);
+
+/* Modes in steps: a force holds from step / 2 before to step / 2 after the time it is taken at, and
+ * the modes are read without its first half. Per g and force:
+ *
+ *   (2 / lambda) sinh(lambda step / 2)   what one force adds before the flight of a step
+ *   -exp(lambda step / 2) / lambda       what is read of a mode under a constant force
+ *
+ * With step = 0 the second is the answer in continuous time. */
+CzComplex cz_track_kick(CzComplex lambda, double step);
+CzComplex cz_track_constant_answer(CzComplex lambda, double step);
+
+#endif

@@ -1,0 +1,258 @@
+/* The modal track in motion: at rest it rests, it deflects as its statics, its own energy is the
+ * work put in, and neither window nor solver shows in what a wheel feels.
+ */
+#include "physics/motion.h"
+#include "physics/roadbed.h"
+
+#include "dynamics/track_motion.h"
+#include "laws/wheel_rail.h"
+
+#define SPAN 18.26 /* of the cars of the catalogue [m] */
+
+static const double usual_place[4] = {-9.13, -6.57, 6.57, 9.13};
+
+/* ---- the track alone ---- */
+
+/* A track under one car with modes up to a cut [Hz], at rest under its loads. */
+static CzTrackMotion *track_under(const double place[4], const double load[4], double cut,
+                                  int n_seat, double step, CzArena *arena) {
+    const CzTrackModes *modes = usual_modes(SPAN, n_seat, cut, arena);
+    CzTrackMotion *track = cz_track_motion_create(modes, step, 1, arena);
+    assert_non_null(track);
+    assert_true(cz_track_lay(track, 0, place, load, arena));
+    return track;
+}
+
+/* Modes and the flexibility under the force make the exact statics, whatever the cut and the step,
+ * at every place in a bay. What the flexibility's four powers leave out of the statics falls with
+ * their fourth power from the 0.9 % that the first stands for: 1e-2 / 5^4. */
+static void a_load_at_rest_deflects_the_track_as_its_statics(void **state) {
+    (void)state;
+    static const double cut[] = {1000.0, 1500.0, 3000.0};
+    for (size_t c = 0; c < 3; ++c)
+        for (double step = 1e-5; step < 2e-4; step *= 3.0)
+            for (double place = 0.0; place < 0.6; place += 0.05) {
+                CzArena arena = {0};
+                const double at[4] = {place, 0.0, 0.0, 0.0}, load[4] = {70e3, 0.0, 0.0, 0.0};
+                CzTrackMotion *track = track_under(at, load, cut[c], 0, step, &arena);
+                double deflection[4], flexibility[4];
+                cz_track_look(track, 0, at, deflection, flexibility);
+                const double exact =
+                    cz_ring_flexibility(&track->modes->seats, track->modes->n_seat, place / 0.6);
+                assert_near(flexibility[0] * load[0] - deflection[0], exact * load[0], 2e-5, 0.0);
+                assert_true(flexibility[0] > 0.0);
+                cz_arena_free(&arena);
+            }
+}
+
+/* Two wheels of a bogie, 2.56 m apart, feel each other through the modes alone: what the cut leaves
+ * of a sum of waves that far from the load is less than 2 permille of the deflection under it. */
+static void wheels_feel_each_other_as_the_statics_say(void **state) {
+    (void)state;
+    CzArena arena = {0};
+    const double load[4] = {70e3, 0.0, 0.0, 0.0};
+    CzTrackMotion *track = track_under(usual_place, load, 1500.0, 0, 1e-4, &arena);
+    CzTrackMotion *fine = track_under(usual_place, load, 20e3, 0, 1e-6, &arena);
+    double usual[4], all[4], flexibility[4];
+    cz_track_look(track, 0, usual_place, usual, flexibility);
+    cz_track_look(fine, 0, usual_place, all, flexibility);
+    for (int wheel = 1; wheel < 4; ++wheel)
+        assert_near(usual[wheel], all[wheel], 0.0, 2e-3 * 0.45e-3);
+    cz_arena_free(&arena);
+}
+
+/* Forces that vary smoothly and wheels that stand: what the forces do to the rail is the growth of
+ * kinetic and potential energy and the losses of pads, ballast and subgrade, up to the sum of the
+ * losses over steps, of second order. */
+static double energy_gap(double cut, double step) {
+    CzArena arena = {0};
+    const double load[4] = {70e3, 71e3, 72e3, 70e3};
+    CzTrackMotion *track = track_under(usual_place, load, cut, 0, step, &arena);
+    CzTrackUnder *under = &track->under[0];
+    const long n_step = lround(0.05 / step);
+    double work = 0.0, lost = 0.0, size = 0.0, deflection[4], flexibility[4];
+    double last = cz_track_loss(track, 0);
+    assert_near(last, 0.0, 0.0, 1e-9); /* [W] at rest */
+    cz_track_look(track, 0, usual_place, deflection, flexibility);
+    for (long n = 0; n < n_step; ++n) {
+        const double s = (double)n / (double)n_step, bump = 16.0 * s * s * (1.0 - s) * (1.0 - s);
+        const double force[4] = {-load[0], -load[1] * (1.0 + 2.0 * bump), -load[2],
+                                 -load[3] * (1.0 - bump)};
+        double past[4];
+        for (int wheel = 0; wheel < 4; ++wheel)
+            past[wheel] = cz_track_at(track, under, wheel).past;
+        memcpy(under->force, force, sizeof force);
+        cz_track_step(track, under, force);
+        for (int wheel = 0; wheel < 4; ++wheel)
+            work += force[wheel] * (cz_track_at(track, under, wheel).past - past[wheel]);
+        const double now = cz_track_loss(track, 0);
+        lost += 0.5 * step * (last + now);
+        last = now;
+        size = fmax(size, lost);
+    }
+    const double grown = cz_track_energy(track, 0) - under->rest_energy;
+    assert_true(size > 5.0); /* [J]: the test sees something */
+    cz_arena_free(&arena);
+    return (grown + lost - work) / size;
+}
+
+static void work_on_the_track_is_its_energy_and_its_losses(void **state) {
+    (void)state;
+    assert_near(energy_gap(1500.0, 1e-4), 0.0, 0.0, 5e-4);
+    assert_near(energy_gap(1500.0, 2.5e-5), 0.0, 0.0, 5e-4);
+    assert_near(energy_gap(8000.0, 2.5e-5), 0.0, 0.0, 5e-4);
+}
+
+/* Wheels roll once and a half round the ring; a ring of three times the seats makes no difference.
+ * Slowest to die out along the track is what swings near 60 Hz, where sleepers and ballast resonate
+ * on the subgrade: there the wave that has gone round is half a percent of what one wheel excites,
+ * at any other frequency a tenth of that. */
+static void a_longer_window_changes_nothing(void **state) {
+    (void)state;
+    CzArena arena = {0};
+    const double load[4] = {70e3, 71e3, 72e3, 70e3}, step = 1e-4;
+    CzTrackMotion *usual = track_under(usual_place, load, 1500.0, 0, step, &arena);
+    CzTrackMotion *longer = track_under(usual_place, load, 1500.0, 190, step, &arena);
+    assert_int_equal(usual->modes->n_seat, 62);
+    double largest = 0.0, moved = 0.0;
+    for (int n = 0; n < 28000; ++n) { /* 56 m at 20 m/s */
+        const double t = n * step, beat = cz_turned(70.0 * t).re * cz_turned(11.0 * t).im;
+        double place[4], force[4], z[2][4], flexibility[4];
+        for (int wheel = 0; wheel < 4; ++wheel) {
+            place[wheel] = usual_place[wheel] + 20.0 * t;
+            force[wheel] = -load[wheel] * (1.0 + (wheel % 2 == 0 ? beat : -0.5 * beat));
+        }
+        cz_track_look(usual, 0, place, z[0], flexibility);
+        cz_track_look(longer, 0, place, z[1], flexibility);
+        for (int wheel = 0; wheel < 4; ++wheel) {
+            largest = fmax(largest, fabs(z[0][wheel] - z[1][wheel]));
+            moved = fmax(moved, fabs(z[1][wheel]));
+        }
+        cz_track_step(usual, &usual->under[0], force);
+        cz_track_step(longer, &longer->under[0], force);
+    }
+    print_message("largest deflection %.3g mm, window %.3g mm\n", 1e3 * moved, 1e3 * largest);
+    assert_true(moved > 0.5e-3);
+    assert_near(largest, 0.0, 0.0, 1e-2 * moved);
+    cz_arena_free(&arena);
+}
+
+/* Wheels that roll at 20 m/s and press with up to half more and less than at rest, at 200 Hz. */
+static void press(double t, double place[4], double load[4]) {
+    const double swell = t < 0.015 ? t / 0.015 : 1.0;
+    for (int wheel = 0; wheel < 4; ++wheel) {
+        place[wheel] = usual_place[wheel] + 20.0 * t;
+        load[wheel] = 70e3 * (1.0 + 0.5 * swell * swell * cz_turned(200.0 * t).im);
+    }
+}
+
+/* One step of the classical Runge-Kutta method of fourth order; `work` holds 3 n numbers. */
+static void runge_kutta(const CzTrackModes *modes, double t, double h, double *y, double *work) {
+    static const double share[4] = {0.0, 0.5, 0.5, 1.0}, weight[4] = {1.0, 2.0, 2.0, 1.0};
+    const size_t n = cz_track_n_state(modes);
+    double *stage = work, *rate = work + n, *sum = work + 2 * n;
+    memcpy(sum, y, n * sizeof *sum);
+    memset(rate, 0, n * sizeof *rate);
+    for (int part = 0; part < 4; ++part) {
+        double place[4], load[4];
+        press(t + share[part] * h, place, load);
+        for (size_t i = 0; i < n; ++i)
+            stage[i] = y[i] + share[part] * h * rate[i];
+        cz_track_rate(modes, stage, place, load, rate);
+        for (size_t i = 0; i < n; ++i)
+            sum[i] += weight[part] * h / 6.0 * rate[i];
+    }
+    memcpy(y, sum, n * sizeof *sum);
+}
+
+/* The same modes carried by a solver of ordinary differential equations with a tenth of the step.
+ * The track's own steps hold each force for h about its time: of a part at w they leave out (w h)^2
+ * / 24, here 7e-4 of the half that swings at 200 Hz. */
+static void a_solver_of_differential_equations_finds_the_same(void **state) {
+    (void)state;
+    enum { PARTS = 10 };
+    CzArena arena = {0};
+    double place[4], load[4], largest = 0.0;
+    press(0.0, place, load);
+    CzTrackMotion *track = track_under(place, load, 1500.0, 0, 1e-4, &arena);
+    const CzTrackModes *modes = track->modes;
+    const CzTrackFlexibility continuous = cz_track_flexibility(modes, 0.0);
+    const size_t n = cz_track_n_state(modes);
+    double *y = cz_arena_allocate(&arena, 4 * n, sizeof *y);
+    assert_non_null(y);
+    cz_track_rest(modes, place, load, y);
+    for (int k = 0; k < 300; ++k) {
+        double stepped[4], solved[4], quick[4], flexibility[4], force[4];
+        press(k * track->step, place, load);
+        cz_track_look(track, 0, place, stepped, quick);
+        cz_track_deflect(modes, &continuous, y, place, solved, flexibility);
+        for (int wheel = 0; wheel < 4; ++wheel) {
+            force[wheel] = -load[wheel];
+            largest = fmax(largest, fabs((stepped[wheel] - quick[wheel] * load[wheel]) -
+                                         (solved[wheel] - flexibility[wheel] * load[wheel])));
+        }
+        cz_track_step(track, &track->under[0], force);
+        for (int part = 0; part < PARTS; ++part)
+            runge_kutta(modes, (k + (double)part / PARTS) * track->step, track->step / PARTS, y,
+                        y + n);
+    }
+    print_message("largest difference %.3g mm\n", 1e3 * largest);
+    assert_near(largest, 0.0, 0.0, 1e-3 * 0.45e-3);
+    cz_arena_free(&arena);
+}
+
+/* ---- the contact in series with the rail ---- */
+
+static void contact_and_rail_share_the_approach(void **state) {
+    (void)state;
+    const double hertz = 2.28e11;
+    for (double approach = 1e-7; approach < 3e-3; approach *= 1.3)
+        for (double flexibility = 0.0; flexibility < 4e-10; flexibility += 5e-11) {
+            const double force = cz_wheel_force_on_spring(hertz, flexibility, approach);
+            const double left = approach - flexibility * force;
+            assert_near(cz_wheel_normal_force(hertz, left), force, 1e-12, 0.0);
+        }
+    assert_true(cz_wheel_force_on_spring(hertz, 1e-10, 0.0) == 0.0);
+    assert_true(cz_wheel_force_on_spring(hertz, 1e-10, -1e-3) == 0.0);
+}
+
+/* ---- under cars ---- */
+
+static void go(Motion *motion, double duration) {
+    const long n = lround(duration / motion->step);
+    for (long i = 0; i < n; i++) {
+        motion_advance(motion);
+        motion_evaluate(motion);
+    }
+}
+
+static void cars_at_rest_on_the_track_stay_at_rest(void **state) {
+    (void)state;
+    Motion motion =
+        motion_open("tests/physics/cases/standing.yaml", WITH("simulation.track=modal"));
+    memset(motion.lanes->velocity, 0, CZ_N_DOF * motion.lanes->stride * sizeof(double));
+    motion_start(&motion);
+    assert_non_null(motion.dynamics->track);
+    for (int i = 0; i < 10; i++) {
+        go(&motion, 0.05);
+        for (int car = 0; car < 3; car++)
+            for (int dof = 0; dof < CZ_N_DOF; dof++) {
+                assert_near(*position(&motion, dof, car), 0.0, 0.0, 1e-12);
+                assert_near(*velocity(&motion, dof, car), 0.0, 0.0, 1e-9);
+            }
+    }
+    motion_close(&motion);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_load_at_rest_deflects_the_track_as_its_statics),
+        cmocka_unit_test(wheels_feel_each_other_as_the_statics_say),
+        cmocka_unit_test(work_on_the_track_is_its_energy_and_its_losses),
+        cmocka_unit_test(a_longer_window_changes_nothing),
+        cmocka_unit_test(a_solver_of_differential_equations_finds_the_same),
+        cmocka_unit_test(contact_and_rail_share_the_approach),
+        cmocka_unit_test(cars_at_rest_on_the_track_stay_at_rest),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

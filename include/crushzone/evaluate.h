@@ -10,13 +10,16 @@
 extern "C" {
 #endif
 
-/* One design variable. */
+/* One design variable, or parameter of a fit. */
 typedef struct CzVariableInfo {
     const char *name; /* path or given name */
     const char *unit; /* as in the file, such as "kN" */
     double min, max;  /* in that unit */
     double start;     /* in that unit */
     double step;      /* catalogue step in that unit; 0 when none */
+    int n_choice;     /* parts that it chooses from; the variable is then the number of one, counted
+                         from 0. 0 for a number */
+    const char *const *choice; /* their names (n_choice) */
 } CzVariableInfo;
 
 typedef enum CzVerdict {
@@ -43,6 +46,23 @@ typedef struct CzCheckResult {
     const char *profile, *clause, *source, *confidence; /* NULL when none */
 } CzCheckResult;
 
+/* How near a run comes to one measured value or time history. Texts are borrowed from the
+ * evaluator.
+ */
+typedef struct CzMatchResult {
+    const char *name;
+    const char *scenario;
+    char where[48];   /* place of the metric or event, or the channel */
+    const char *unit; /* of target, value and tolerance */
+    double target;    /* measured value; 0 for a time history */
+    double value; /* of the run, or its root mean square difference from a time history; NaN when
+                     the run does not show it */
+    double tolerance; /* difference that is just acceptable */
+    double weight;    /* of the square of its residual in the objective */
+    double residual;  /* (value - target) / tolerance; at least 10 when the run does not show it */
+    bool is_history;
+} CzMatchResult;
+
 /* What one design answers. Arrays are borrowed from the evaluation and freed with it. */
 typedef struct CzEvaluation {
     CzStatus status;  /* CZ_OK, or CZ_STATUS_RUN_FAILED when a scenario failed or is incomplete */
@@ -50,12 +70,15 @@ typedef struct CzEvaluation {
     int n_constraint;
     double *constraint; /* -(margin - required margin): at most 0 when kept; NaN when failed
                            (n_constraint) */
-    CzCheckResult *constraint_check; /* what each constraint was judged by: a check or a target of
-                                        the optimiser (n_constraint) */
+    CzCheckResult *constraint_check; /* what each constraint was judged by: a check, a target of the
+                                        optimiser or a match, of which the limit is the measured
+                                        value and the margin 1 - |residual| (n_constraint) */
     double violation; /* largest positive constraint, 0 when feasible, infinite when failed */
     int n_check;
     CzCheckResult *check; /* (n_check) */
     CzVerdict verdict;    /* over all checks */
+    int n_match;          /* the last constraints belong to them */
+    CzMatchResult *match; /* of a fit (n_match) */
     int n_run;
     CzRun **run; /* one per scenario when asked for, else NULL */
 } CzEvaluation;
@@ -84,7 +107,8 @@ CZ_API const CzVariableInfo *cz_evaluator_variable(const CzEvaluator *evaluator,
 
 /* Places in the problem file that a variable drives, as paths with their unit that `set:` accepts,
  * such as trains.A.vehicles.A1.front.stages[0].force_kN; borrowed. factor is the place's value, in
- * the place's unit, per unit of the variable (1 unless tied places have other units). */
+ * the place's unit, per unit of the variable (1 unless tied places have other units). Of a variable
+ * that chooses, the path ends in `use` and takes the name of the choice. */
 typedef struct CzVariablePlace {
     const char *path;
     double factor;

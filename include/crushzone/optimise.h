@@ -57,6 +57,9 @@ typedef struct CzOutcome {
                   ended before that, which why_stopped then says (n_variable) */
     bool *at_bound;                                 /* (n_variable) */
     CzEvaluation start_evaluation, best_evaluation; /* with runs kept */
+    int n_alternative;   /* of a fit: further parameter sets that fit about as well */
+    double *alternative; /* in the variables' units, best first (n_alternative x n_variable) */
+    double *alternative_objective; /* (n_alternative) */
     long n_trial;
     CzTrial *trial; /* history in order (n_trial) */
     double wall_s;

@@ -352,7 +352,8 @@ static CzStatus append_rules_of_files(Builder *builder) {
 static CzStatus choose_constraints(Builder *builder) {
     const CzOptimise *optimise = &cz_problem_input(builder->problem)->optimise;
     const CzTexts *subject_to = &optimise->subject_to;
-    const bool all = subject_to->n_text == 0 || is_listed(subject_to, "checks");
+    const bool is_fit = optimise->given && optimise->n_match > 0;
+    const bool all = (subject_to->n_text == 0 && !is_fit) || is_listed(subject_to, "checks");
     CzChecklist *list = builder->list;
     for (int i = 0; i < subject_to->n_text; i++) {
         bool found = strcmp(subject_to->text[i], "checks") == 0;
@@ -397,7 +398,7 @@ CzStatus cz_checklist_build(const CzProblem *problem, int n_scene, const CzScene
         CZ_TRY(append_closing_rules(&builder));
     for (int i = 0; input->optimise.given && i < input->optimise.n_targets; i++)
         CZ_TRY(append_limit(&builder, &input->optimise.targets[i], NULL, true));
-    if (input->optimise.given && input->optimise.n_variables > 0)
+    if (input->optimise.given && input->optimise.n_variables > 0 && input->optimise.n_match == 0)
         CZ_TRY(append_rules_of_files(&builder));
     return choose_constraints(&builder);
 }

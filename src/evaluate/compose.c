@@ -59,11 +59,24 @@ static double margin_objective(const CzEvaluator *evaluator, const CzEvaluation 
     return isinf(smallest) ? NAN : -smallest;
 }
 
+/* The sum of squares that a fit minimises. */
+static double match_objective(const CzEvaluation *evaluation) {
+    double sum = 0;
+    for (int i = 0; i < evaluation->n_match; i++) {
+        const CzMatchResult *match = &evaluation->match[i];
+        if (!isnan(match->residual)) /* NaN where its scenario was left out */
+            sum += match->weight * match->residual * match->residual;
+    }
+    return sum;
+}
+
 static void set_objective(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                           const CzRunSummary *const *run, CzEvaluation *evaluation) {
     if (evaluator->own_objective != NULL)
         evaluation->objective =
             evaluator->own_objective(evaluator->n_scene, run, evaluator->own_data);
+    else if (evaluation->n_match > 0)
+        evaluation->objective = match_objective(evaluation);
     else if (evaluator->objective.kind != NULL)
         evaluation->objective = metric_objective(evaluator, vehicles, run);
     else
@@ -108,31 +121,91 @@ static void sort_results(const CzEvaluator *evaluator, const CzCheckResult *all,
     }
 }
 
-CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
-                    const CzRunSummary *const *run, CzEvaluation *evaluation, CzError *error) {
+/* A match as a constraint that is kept within the tolerance. */
+static CzCheckResult check_of(const CzMatchResult *match) {
+    const bool is_kept = fabs(match->residual) <= 1;
+    CzCheckResult check = {.name = match->name,
+                           .scenario = match->scenario,
+                           .limit = match->target,
+                           .value = match->value,
+                           .unit = match->unit,
+                           .margin = 1 - fabs(match->residual),
+                           .verdict = is_kept ? CZ_VERDICT_PASS : CZ_VERDICT_FAIL};
+    memcpy(check.where, match->where, sizeof check.where);
+    return check;
+}
+
+/* Judges the matches of a fit; each is one more constraint. */
+static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                              const CzRunSummary *const *run, CzRun *const *whole,
+                              CzEvaluation *evaluation, CzError *error) {
+    for (int i = 0; i < evaluator->matches.n_item; i++) {
+        const CzMatchItem *item = &evaluator->matches.item[i];
+        const int s = item->scenario;
+        const CzSubject subject = cz_subject_of(evaluator, vehicles, s, run[s]);
+        CzMatchResult *match = &evaluation->match[evaluation->n_match++];
+        *match = (CzMatchResult){.name = item->written->name,
+                                 .scenario = subject.scene->name,
+                                 .unit = item->unit,
+                                 .target = item->measured != NULL ? 0 : item->written->value,
+                                 .value = NAN,
+                                 .tolerance = item->written->tolerance,
+                                 .weight = item->written->weight,
+                                 .residual = NAN,
+                                 .is_history = item->measured != NULL};
+        if (run[s] != NULL && failure_of(run[s]) == NULL)
+            CZ_TRY(cz_match_judge(item, &subject, whole[s], match, NULL, error));
+        const int j = evaluation->n_constraint++;
+        evaluation->constraint_check[j] = check_of(match);
+        evaluation->constraint[j] = fabs(match->residual) - 1;
+        evaluation->violation = fmax(evaluation->violation, evaluation->constraint[j]);
+    }
+    return CZ_OK;
+}
+
+static CzStatus allocate(const CzEvaluator *evaluator, CzEvaluation *evaluation, CzError *error) {
     const size_t n_check = (size_t)evaluator->list.n_check + 1;
-    const size_t n_constraint = (size_t)evaluator->list.n_constraint + 1;
-    CzCheckResult *all = malloc(n_check * sizeof *all);
+    const size_t n_match = (size_t)evaluator->matches.n_item;
+    const size_t n_constraint = (size_t)evaluator->list.n_constraint + n_match + 1;
     evaluation->check = malloc(n_check * sizeof *evaluation->check);
     evaluation->constraint = malloc(n_constraint * sizeof(double));
     evaluation->constraint_check = malloc(n_constraint * sizeof *evaluation->constraint_check);
-    if (all == NULL || evaluation->check == NULL || evaluation->constraint == NULL ||
-        evaluation->constraint_check == NULL) {
-        free(all);
+    evaluation->match = malloc((n_match + 1) * sizeof *evaluation->match);
+    if (evaluation->check == NULL || evaluation->constraint == NULL ||
+        evaluation->constraint_check == NULL || evaluation->match == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the checks of a design");
-    }
+    return CZ_OK;
+}
+
+/* The checks, listed and as constraints. */
+static CzStatus compose_checks(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                               const CzRunSummary *const *run, CzEvaluation *evaluation,
+                               CzError *error) {
+    CzCheckResult *all = malloc(((size_t)evaluator->list.n_check + 1) * sizeof *all);
+    if (all == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the checks of a design");
     judge_all(evaluator, vehicles, run, all);
     sort_results(evaluator, all, evaluation);
     evaluation->verdict = cz_verdict_over(evaluator->list.n_check, evaluator->list.check, all);
     free(all);
+    return CZ_OK;
+}
+
+CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                    const CzRunSummary *const *run, CzRun *const *whole, CzEvaluation *evaluation,
+                    CzError *error) {
+    CZ_TRY(allocate(evaluator, evaluation, error));
+    CZ_TRY(compose_checks(evaluator, vehicles, run, evaluation, error));
+    CZ_TRY(judge_matches(evaluator, vehicles, run, whole, evaluation, error));
     bool failed = false;
     for (int s = 0; s < evaluator->n_scene; s++)
         failed |= run[s] != NULL && failure_of(run[s]) != NULL;
     if (!failed)
         set_objective(evaluator, vehicles, run, evaluation);
     if (failed || !isfinite(evaluation->objective)) {
-        const bool nothing_to_minimise =
-            !failed && evaluator->own_objective == NULL && evaluator->objective.kind == NULL;
+        const bool nothing_to_minimise = !failed && evaluator->own_objective == NULL &&
+                                         evaluator->objective.kind == NULL &&
+                                         evaluation->n_match == 0;
         if (nothing_to_minimise)
             evaluation->objective = 0;
         else
@@ -141,8 +214,43 @@ CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
     return CZ_OK;
 }
 
-void cz_compose_details(const CzEvaluator *evaluator, const CzVehicle *vehicles,
-                        const CzRunSummary *const *run, double *detail) {
+CzStatus cz_compose_refused(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                            CzEvaluation *evaluation, CzError *error) {
+    const size_t n_scene = (size_t)evaluator->n_scene;
+    const CzRunSummary **none = calloc(n_scene, sizeof *none);
+    CzRun **no_run = calloc(n_scene, sizeof(CzRun *));
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    if (none != NULL && no_run != NULL)
+        status = cz_compose(evaluator, vehicles, none, no_run, evaluation, error);
+    else
+        cz_fail(error, status, "no memory for the scenarios");
+    free(none);
+    free(no_run);
+    if (status == CZ_OK)
+        set_failed(evaluation);
+    return status;
+}
+
+/* The residuals of a fit. */
+static CzStatus compose_residuals(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                                  const CzRunSummary *const *run, CzRun *const *whole,
+                                  double *detail, CzError *error) {
+    for (int i = 0; i < evaluator->matches.n_item; i++) {
+        const CzMatchItem *item = &evaluator->matches.item[i];
+        const CzSubject subject =
+            cz_subject_of(evaluator, vehicles, item->scenario, run[item->scenario]);
+        CzMatchResult match;
+        CZ_TRY(cz_match_judge(item, &subject, whole[item->scenario], &match, detail, error));
+        detail += cz_match_n_detail(item);
+    }
+    return CZ_OK;
+}
+
+CzStatus cz_compose_details(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                            const CzRunSummary *const *run, CzRun *const *whole, double *detail,
+                            CzError *error) {
+    if (evaluator->matches.n_item > 0)
+        return compose_residuals(evaluator, vehicles, run, whole, detail, error);
     int n = 0;
     for (int j = 0; j < evaluator->list.n_constraint; j++) {
         const CzCheck *check = &evaluator->list.check[evaluator->constraint_check[j]];
@@ -151,4 +259,5 @@ void cz_compose_details(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                           check->scenario == CZ_NO_SCENARIO ? NULL : run[check->scenario]);
         n += cz_check_details(check, &subject, evaluator->list.required_margin, detail + n);
     }
+    return CZ_OK;
 }

@@ -9,14 +9,22 @@ CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                         const CzRunSummary *run);
 
 /* Fills an evaluation but for its runs. `vehicles` is the vehicle array with the design's values,
- * `run` (n_scene) with NULL for scenarios that were left out. Status: CZ_OK, CZ_STATUS_NO_MEMORY.
- */
+ * `run` (n_scene) with NULL for scenarios that were left out, `whole` the same runs with their
+ * channels. Statuses: CZ_OK, CZ_STATUS_INPUT for a match with a channel that is none,
+ * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
-                                  const CzRunSummary *const *run, CzEvaluation *evaluation,
-                                  CzError *error);
+                                  const CzRunSummary *const *run, CzRun *const *whole,
+                                  CzEvaluation *evaluation, CzError *error);
 
-/* Fills the details of a design whose runs all came to their end (n_detail). */
-void cz_compose_details(const CzEvaluator *evaluator, const CzVehicle *vehicles,
-                        const CzRunSummary *const *run, double *detail);
+/* The answer of a design that the file's rules refuse, so that nothing was run. Statuses as above.
+ */
+CZ_MUST_CHECK CzStatus cz_compose_refused(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                                          CzEvaluation *evaluation, CzError *error);
+
+/* Fills the details of a design whose runs all came to their end (n_detail); `whole` as above.
+ * Statuses: CZ_OK, CZ_STATUS_INPUT. */
+CZ_MUST_CHECK CzStatus cz_compose_details(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                                          const CzRunSummary *const *run, CzRun *const *whole,
+                                          double *detail, CzError *error);
 
 #endif

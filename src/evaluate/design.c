@@ -2,8 +2,10 @@
 #include "evaluate/design.h"
 #include "base/error.h"
 #include "base/number.h"
+#include "evaluate/choices.h"
 
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,10 +107,12 @@ static const char *name_of(const CzVehicle *vehicle) {
     return vehicle->name != NULL ? vehicle->name : "";
 }
 
+/* Whether a variable drives a place; one that chooses a buffer drives all that is in it. */
 static bool drives(const CzDesignVariable *variable, const CzDesignPlace *place) {
+    const size_t size = variable->info.n_choice > 0 ? sizeof(CzBuffer) : 1;
     for (int i = 0; i < variable->n_place; i++)
         if (variable->place[i].vehicle == place->vehicle &&
-            variable->place[i].offset == place->offset)
+            place->offset - variable->place[i].offset < size)
             return true;
     return false;
 }
@@ -177,7 +181,7 @@ static const void *field_of(const CzVariable *written) {
 static CzStatus add_target(const Builder *builder, const CzVariable *written,
                            const CzTarget *target, CzDesignVariable *variable) {
     const void *field = field_of(written);
-    if (!target->may_vary)
+    if (!target->may_vary && !(builder->design->is_fit && target->may_fit))
         return fail_at(builder, field,
                        "'%s' may not vary: only stage forces and strokes, triggers, shear-off "
                        "forces and gaps may",
@@ -191,8 +195,10 @@ static CzStatus add_target(const Builder *builder, const CzVariable *written,
     if (variable->info.unit == NULL)
         return fail_memory(builder);
     CZ_TRY(add_shown(builder, variable, target->place, unit / target->unit));
-    const CzDesignPlace place = {
-        .vehicle = target->vehicle, .offset = target->offset, .scale = unit};
+    const size_t elsewhere = (size_t)(uintptr_t)target->field;
+    const CzDesignPlace place = {.vehicle = target->vehicle,
+                                 .offset = target->vehicle >= 0 ? target->offset : elsewhere,
+                                 .scale = unit};
     return drives(variable, &place) ? CZ_OK : add_place(builder, variable, &place);
 }
 
@@ -219,7 +225,7 @@ static CzStatus check_variable(const Builder *builder, const CzVariable *written
                        cz_number_print_short(min, info->min), cz_number_print_short(max, info->max),
                        info->unit);
     }
-    bool any_own = false;
+    bool any_own = builder->design->is_fit;
     for (int i = 0; i < variable->n_place; i++)
         any_own |= is_own(builder, variable->place[i].vehicle);
     if (!any_own)
@@ -227,11 +233,16 @@ static CzStatus check_variable(const Builder *builder, const CzVariable *written
                        "'%s' would only change the partner, and softening the opponent is no "
                        "design",
                        info->name);
-    for (const CzDesignVariable *other = builder->design->variable; other != variable; other++)
+    for (const CzDesignVariable *other = builder->design->variable; other != variable; other++) {
+        bool shares = false;
         for (int i = 0; i < variable->n_place; i++)
-            if (drives(other, &variable->place[i]))
-                return fail_at(builder, &written->min, "'%s' is driven by two variables",
-                               variable->shown[0].path);
+            shares |= drives(other, &variable->place[i]);
+        for (int i = 0; i < other->n_place; i++)
+            shares |= drives(variable, &other->place[i]);
+        if (shares)
+            return fail_at(builder, field_of(written), "'%s' is driven by two variables",
+                           variable->shown[0].path);
+    }
     return CZ_OK;
 }
 
@@ -257,6 +268,27 @@ static const CzTarget *first_of(const CzTarget *target, int match, int n_match) 
     return target;
 }
 
+/* Makes a variable the number of one of its choices; the file's own comes first. */
+static CzStatus settle_choice(const Builder *builder, const CzVariable *written,
+                              CzDesignVariable *variable) {
+    CzVariableInfo *info = &variable->info;
+    const int n = written->choices.n_text;
+    if (n > CZ_MOST_COMBINATIONS)
+        return fail_at(builder, &written->choices, "'%s' has more than %d choices", info->name,
+                       (int)CZ_MOST_COMBINATIONS);
+    info->n_choice = n;
+    info->choice = written->choices.text;
+    info->min = 0;
+    info->max = n - 1;
+    info->step = 1;
+    int own = 0;
+    const CzStatus status = cz_choice_settle(builder->problem, variable, &own, builder->error);
+    if (status == CZ_STATUS_INPUT && builder->error != NULL)
+        cz_problem_place(builder->problem, &written->choices, builder->error);
+    info->start = own;
+    return status;
+}
+
 static CzStatus add_variable(Builder *builder, const CzVariable *written, int match, int n_match,
                              int n_target, const CzTarget *target) {
     CzDesign *design = builder->design;
@@ -275,9 +307,37 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
     variable->info.step = isnan(written->step) ? 0 : written->step;
     if (!isnan(written->start))
         variable->info.start = written->start;
+    if (written->choices.n_text > 0)
+        CZ_TRY(settle_choice(builder, written, variable));
     CZ_TRY(check_variable(builder, written, variable));
-    CZ_TRY(check_twins(builder, field_of(written), variable));
+    if (!design->is_fit)
+        CZ_TRY(check_twins(builder, field_of(written), variable));
     design->n_variable++;
+    if (cz_design_n_combination(design) > CZ_MOST_COMBINATIONS)
+        return fail_at(builder, &written->choices, "there are more than %d combinations of choices",
+                       (int)CZ_MOST_COMBINATIONS);
+    return CZ_OK;
+}
+
+/* The numbers that a path names. A path to a buffer that is chosen is found by a number that only
+ * buffers have; the target is then the whole buffer, and what is set is its `use`. */
+static CzStatus find_targets(const Builder *builder, const CzVariable *written, const char *path,
+                             CzTarget **target, int *n_target) {
+    static const char inside[] = ".preload_N";
+    if (written->choices.n_text == 0)
+        return cz_problem_find(builder->problem, path, target, n_target, builder->error);
+    char text[256];
+    snprintf(text, sizeof text, "%.200s%s", path, inside);
+    CZ_TRY(cz_problem_find(builder->problem, text, target, n_target, builder->error));
+    for (int i = 0; i < *n_target; i++) {
+        CzTarget *found = &(*target)[i];
+        char *end = found->place + strlen(found->place) - (sizeof inside - 1);
+        snprintf(end, sizeof found->place - (size_t)(end - found->place), ".use");
+        found->offset -= offsetof(CzBuffer, preload);
+        found->suffix = "";
+        found->unit = found->value = 1;
+        found->may_vary = true;
+    }
     return CZ_OK;
 }
 
@@ -285,8 +345,7 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
 static CzStatus add_path(Builder *builder, const CzVariable *written) {
     CzTarget *target = NULL;
     int n_target = 0, n_match = 0;
-    CzStatus status =
-        cz_problem_find(builder->problem, written->path, &target, &n_target, builder->error);
+    CzStatus status = find_targets(builder, written, written->path, &target, &n_target);
     if (status == CZ_STATUS_INPUT && builder->error != NULL) {
         CzError place = {0};
         cz_problem_place(builder->problem, &written->path, &place);
@@ -310,8 +369,7 @@ static CzStatus add_tied(Builder *builder, const CzVariable *written) {
     for (int i = 0; i < written->paths.n_text && status == CZ_OK; i++) {
         CzTarget *target = NULL;
         int n_target = 0;
-        status = cz_problem_find(builder->problem, written->paths.text[i], &target, &n_target,
-                                 builder->error);
+        status = find_targets(builder, written, written->paths.text[i], &target, &n_target);
         CzTarget *more = realloc(all, (size_t)(n_all + n_target + 1) * sizeof *all);
         if (more == NULL)
             status = fail_memory(builder);
@@ -341,6 +399,7 @@ CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *s
                        .design = design,
                        .most_variables = 1000,
                        .error = error};
+    design->is_fit = optimise->n_match > 0;
     builder.vehicles = cz_problem_vehicles(problem, &builder.n_vehicle);
     design->variable =
         cz_arena_allocate(arena, (size_t)builder.most_variables, sizeof *design->variable);
@@ -356,8 +415,9 @@ CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *s
 }
 
 void cz_design_apply(const CzDesign *design, const double *x, CzVehicle *vehicles) {
-    for (int i = 0; i < design->n_variable; i++)
-        for (int j = 0; j < design->variable[i].n_place; j++) {
+    for (int i = 0; i < design->n_variable && !design->is_fit; i++)
+        for (int j = 0; j < design->variable[i].n_place && design->variable[i].info.n_choice == 0;
+             j++) {
             const CzDesignPlace *place = &design->variable[i].place[j];
             const double value = x[i] * place->scale;
             memcpy((char *)&vehicles[place->vehicle] + place->offset, &value, sizeof value);

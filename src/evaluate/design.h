@@ -13,8 +13,9 @@
 #include "evaluate/scene.h"
 
 typedef struct CzDesignPlace {
-    int vehicle;   /* index into the vehicle array */
-    size_t offset; /* of the double in CzVehicle [byte] */
+    int vehicle;   /* index into the vehicle array; -1 for a number elsewhere, in a fit */
+    size_t offset; /* of the double, or of the buffer that is chosen, in CzVehicle [byte]; elsewhere
+                      what tells it from others */
     double scale;  /* SI value of one unit of the variable */
 } CzDesignPlace;
 
@@ -29,6 +30,8 @@ typedef struct CzDesignVariable {
 typedef struct CzDesign {
     int n_variable;
     CzDesignVariable *variable; /* (n_variable) */
+    bool
+        is_fit; /* every design is read again: its variables may be any number that may be fitted */
 } CzDesign;
 
 /* Builds the map of a problem; no variables without `optimise:`. Memory comes from the arena.
@@ -37,7 +40,9 @@ typedef struct CzDesign {
 CZ_MUST_CHECK CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *scene,
                                        CzArena *arena, CzDesign *design, CzError *error);
 
-/* Writes a design into a copy of the vehicle array; x is (n_variable). */
+/* Writes the numbers of a design into a copy of the vehicle array of its choices; x is
+ * (n_variable).
+ */
 void cz_design_apply(const CzDesign *design, const double *x, CzVehicle *vehicles);
 
 #endif

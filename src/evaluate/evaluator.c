@@ -1,6 +1,7 @@
 /* Evaluator: what it is built of, and what may be asked of it before anything runs. */
 #include "evaluate/evaluator_parts.h"
 #include "base/error.h"
+#include "evaluate/choices.h"
 #include "evaluate/tasks.h"
 
 #include <stdio.h>
@@ -14,25 +15,69 @@ CzEvaluatorOptions cz_evaluator_options_default(void) {
 
 /* ---- building -------------------------------------------------------------------------------- */
 
-static CzStatus build_models(CzEvaluator *evaluator, const char *only, CzError *error) {
-    evaluator->model =
-        cz_arena_allocate(&evaluator->arena, (size_t)evaluator->n_scene, sizeof(CzModel *));
-    if (evaluator->model == NULL)
+/* Gives a failure of a combination the place of the choices, and says which they are. */
+static CzStatus place_combination(const CzEvaluator *evaluator, const CzVariantSettings *settings,
+                                  CzStatus status, CzError *error) {
+    const CzOptimise *optimise = &cz_problem_input(evaluator->problem)->optimise;
+    if (status != CZ_STATUS_INPUT || error == NULL)
+        return status;
+    char names[160] = "", message[sizeof error->message];
+    for (int i = 0; i < settings->n; i++) {
+        const size_t n = strlen(names);
+        snprintf(names + n, sizeof names - n, "%s%s", n > 0 ? ", " : "", settings->value[i]);
+    }
+    snprintf(message, sizeof message, "with the choices %s: %.300s", names, error->message);
+    cz_fail(error, CZ_STATUS_INPUT, "%s", message);
+    for (int i = 0; i < optimise->n_variables; i++)
+        if (optimise->variables[i].choices.n_text > 0)
+            cz_problem_place(evaluator->problem, &optimise->variables[i].choices, error);
+    return status;
+}
+
+/* One variant for each combination of choices. */
+static CzStatus build_variants(CzEvaluator *evaluator, CzError *error) {
+    const CzDesign *design = &evaluator->design;
+    CzArena *arena = &evaluator->arena;
+    const int n = cz_design_n_combination(design);
+    double *start = cz_arena_allocate(arena, (size_t)design->n_variable + 1, sizeof *start);
+    evaluator->variant = cz_arena_allocate(arena, (size_t)n, sizeof *evaluator->variant);
+    if (start == NULL || evaluator->variant == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the models");
-    bool any = false;
+    for (int i = 0; i < design->n_variable; i++)
+        start[i] = design->variable[i].info.start;
+    evaluator->own = cz_design_combination(design, start);
+    for (; evaluator->n_variant < n; evaluator->n_variant++) {
+        CzVariantSettings settings;
+        const bool is_own = evaluator->n_variant == evaluator->own;
+        if (!cz_design_settings(design, evaluator->n_variant, NULL, arena, &settings))
+            return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the choices");
+        const CzStatus status = cz_variant_build(
+            evaluator->problem, is_own ? NULL : &settings, evaluator->n_scene, evaluator->scene,
+            evaluator->only, &evaluator->variant[evaluator->n_variant], error);
+        if (status != CZ_OK)
+            return is_own ? status : place_combination(evaluator, &settings, status, error);
+    }
+    evaluator->model = evaluator->variant[evaluator->own].model;
+    evaluator->vehicles = evaluator->variant[evaluator->own].vehicles;
+    return CZ_OK;
+}
+
+static CzStatus build_models(CzEvaluator *evaluator, const char *only, CzError *error) {
+    bool any = only == NULL;
     for (int s = 0; s < evaluator->n_scene; s++) {
         evaluator->rate = fmax(evaluator->rate, evaluator->scene[s].closing_speed / 2);
-        if (only != NULL && !cz_scene_is(&evaluator->scene[s], only))
+        if (only == NULL || strcmp(only, evaluator->scene[s].name) != 0)
             continue;
         any = true;
-        CZ_TRY(cz_model_build(evaluator->problem, s, &evaluator->model[s], error));
+        evaluator->only = evaluator->scene[s].name;
     }
-    return any ? CZ_OK : cz_fail(error, CZ_STATUS_INPUT, "there is no scenario '%s'", only);
+    return any ? build_variants(evaluator, error)
+               : cz_fail(error, CZ_STATUS_INPUT, "there is no scenario '%s'", only);
 }
 
 /* Names the constraints: check and scenario. */
 static CzStatus list_constraints(CzEvaluator *evaluator, CzError *error) {
-    const size_t n = (size_t)evaluator->list.n_constraint;
+    const size_t n = (size_t)(evaluator->list.n_constraint + evaluator->matches.n_item);
     CzArena *arena = &evaluator->arena;
     evaluator->constraint_check = cz_arena_allocate(arena, n + 1, sizeof(int));
     evaluator->constraint_name = cz_arena_allocate(arena, n + 1, sizeof(char *));
@@ -52,11 +97,17 @@ static CzStatus list_constraints(CzEvaluator *evaluator, CzError *error) {
         if (evaluator->constraint_name[j++] == NULL)
             return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the constraints");
     }
+    for (int i = 0; i < evaluator->matches.n_item; i++)
+        evaluator->constraint_name[j++] = evaluator->matches.item[i].written->name;
     return CZ_OK;
 }
 
 /* One detail per place of a constraint whose worst place counts, one for every other constraint. */
 static void count_details(CzEvaluator *evaluator) {
+    for (int i = 0; i < evaluator->matches.n_item; i++)
+        evaluator->n_detail += cz_match_n_detail(&evaluator->matches.item[i]);
+    if (evaluator->matches.n_item > 0)
+        return; /* the details of a fit are its residuals */
     for (int j = 0; j < evaluator->list.n_constraint; j++) {
         const CzCheck *check = &evaluator->list.check[evaluator->constraint_check[j]];
         const CzScene *scene =
@@ -69,6 +120,8 @@ static CzStatus build_objective(CzEvaluator *evaluator, CzError *error) {
     const CzOptimise *optimise = &cz_problem_input(evaluator->problem)->optimise;
     evaluator->objective_name = "smallest margin, negative";
     evaluator->objective_unit = "";
+    if (evaluator->matches.n_item > 0)
+        evaluator->objective_name = "weighted sum of squared residuals";
     if (!optimise->given || optimise->minimise == NULL)
         return CZ_OK;
     const CzStatus status = cz_metric_parse(optimise->minimise, &evaluator->objective, error);
@@ -85,12 +138,14 @@ static CzStatus build_objective(CzEvaluator *evaluator, CzError *error) {
 static CzStatus build(CzEvaluator *evaluator, const char *only, CzError *error) {
     const CzProblem *problem = evaluator->problem;
     CzArena *arena = &evaluator->arena;
-    evaluator->vehicles = cz_problem_vehicles(problem, &evaluator->n_vehicle);
+    cz_problem_vehicles(problem, &evaluator->n_vehicle);
     CZ_TRY(cz_scenes_build(problem, arena, &evaluator->n_scene, &evaluator->scene, error));
     CZ_TRY(cz_design_build(problem, evaluator->n_scene, evaluator->scene, arena, &evaluator->design,
                            error));
     CZ_TRY(cz_checklist_build(problem, evaluator->n_scene, evaluator->scene, arena,
                               &evaluator->list, error));
+    CZ_TRY(cz_matches_build(problem, evaluator->n_scene, evaluator->scene, arena,
+                            &evaluator->matches, error));
     CZ_TRY(list_constraints(evaluator, error));
     CZ_TRY(build_objective(evaluator, error));
     count_details(evaluator);
@@ -122,8 +177,8 @@ CzStatus cz_evaluator_build(const CzProblem *problem, const CzEvaluatorOptions *
 void cz_evaluator_free(CzEvaluator *evaluator) {
     if (evaluator == NULL)
         return;
-    for (int s = 0; evaluator->model != NULL && s < evaluator->n_scene; s++)
-        cz_model_free(evaluator->model[s]);
+    for (int i = 0; i < evaluator->n_variant; i++)
+        cz_variant_free(&evaluator->variant[i]);
     cz_arena_free(&evaluator->arena);
     free(evaluator);
 }
@@ -145,7 +200,7 @@ CzVariablePlace cz_evaluator_place(const CzEvaluator *evaluator, int variable, i
 }
 
 int cz_evaluator_n_constraint(const CzEvaluator *evaluator) {
-    return evaluator->list.n_constraint;
+    return evaluator->list.n_constraint + evaluator->matches.n_item;
 }
 
 const char *cz_evaluator_constraint_name(const CzEvaluator *evaluator, int constraint) {
@@ -169,6 +224,8 @@ int cz_evaluator_n_detail(const CzEvaluator *evaluator) {
 }
 
 bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint) {
+    if (constraint >= evaluator->list.n_constraint)
+        return true; /* the objective leads to what is matched */
     return evaluator->list.check[evaluator->constraint_check[constraint]].scale == CZ_FLAG_SCALE;
 }
 
@@ -176,8 +233,23 @@ void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *
     evaluator->stop = stop;
 }
 
+int cz_evaluator_n_combination(const CzEvaluator *evaluator) {
+    return evaluator->n_variant;
+}
+
+void cz_evaluator_set_combination(const CzEvaluator *evaluator, int combination, double *x) {
+    for (int i = 0; i < evaluator->design.n_variable; i++)
+        if (evaluator->design.variable[i].info.n_choice > 0)
+            x[i] = cz_design_choice(&evaluator->design, combination, i);
+}
+
+bool cz_evaluator_is_fit(const CzEvaluator *evaluator) {
+    return evaluator->matches.n_item > 0;
+}
+
 bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator) {
-    return evaluator->own_objective == NULL && evaluator->objective.kind == NULL;
+    return evaluator->own_objective == NULL && evaluator->objective.kind == NULL &&
+           !cz_evaluator_is_fit(evaluator);
 }
 
 void cz_evaluator_set_objective(CzEvaluator *evaluator, const char *name, const char *unit,

@@ -21,8 +21,17 @@ CZ_MUST_CHECK CzStatus cz_evaluator_again(const CzEvaluator *evaluator, const Cz
                                           const double *x, CzEvaluation *evaluation,
                                           CzError *error);
 
-/* Whether a constraint is a mere yes or no. */
+/* Whether the parameters of the problem are fitted to measurements: the objective is a sum of
+ * squares, and the last constraints are the matches. */
+bool cz_evaluator_is_fit(const CzEvaluator *evaluator);
+
+/* Whether a constraint is a mere yes or no, or one that the objective leads to. */
 bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint);
+
+/* Combinations of the variables that choose, 1 without any; the numbers of one combination's
+ * choices are written into a design x (n_variable), all else is left. */
+int cz_evaluator_n_combination(const CzEvaluator *evaluator);
+void cz_evaluator_set_combination(const CzEvaluator *evaluator, int combination, double *x);
 
 /* Whether the objective is the smallest margin, so the largest constraint up to a constant. */
 bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator);
@@ -32,7 +41,8 @@ bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator);
 void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *stop);
 
 /* Details are constraints before the worst place is taken: one per place, smooth where the worst of
- * all places has kinks. Without yes and no. */
+ * all places has kinks. Without yes and no. The details of a fit are its residuals instead, whose
+ * squares add up to the objective. */
 int cz_evaluator_n_detail(const CzEvaluator *evaluator);
 
 /* As cz_evaluate without keeping runs, for a search: runs end once they have settled, and `detail`

@@ -5,6 +5,8 @@
 #include "evaluate/checks.h"
 #include "evaluate/design.h"
 #include "evaluate/evaluator.h"
+#include "evaluate/match.h"
+#include "evaluate/variant.h"
 
 struct CzEvaluator {
     CzArena arena;
@@ -13,8 +15,12 @@ struct CzEvaluator {
     CzManner manner; /* of what is no search */
     int n_scene;
     CzScene *scene;            /* (n_scene) */
-    CzModel **model;           /* (n_scene); NULL for scenarios left out */
-    const CzVehicle *vehicles; /* as written (n_vehicle) */
+    const char *only;          /* scenario that is run; NULL for all */
+    int n_variant;             /* one per combination of choices, 1 without any */
+    CzVariant *variant;        /* (n_variant) */
+    int own;                   /* variant of the file as written */
+    CzModel *const *model;     /* its models; NULL for scenarios left out (n_scene) */
+    const CzVehicle *vehicles; /* and its vehicles (n_vehicle) */
     int n_vehicle;
     double rate; /* rate of flow that tube forces are judged at: half the largest closing speed
                     [m/s] */
@@ -23,7 +29,8 @@ struct CzEvaluator {
     int *constraint_check;        /* check behind each constraint (n_constraint) */
     const char **constraint_name; /* (n_constraint) */
     int n_detail;
-    CzMetric objective; /* kind NULL: the smallest margin */
+    CzMatchList matches; /* of a fit: the last constraints */
+    CzMetric objective;  /* kind NULL: the smallest margin */
     const char *objective_name, *objective_unit;
     CzObjective own_objective; /* the caller's; NULL when none */
     void *own_data;

@@ -6,6 +6,7 @@
  * threads nor the neighbours of a design change a bit of its answer.
  */
 #include "base/error.h"
+#include "evaluate/choices.h"
 #include "evaluate/compose.h"
 #include "evaluate/tasks.h"
 #include "simulate/batch.h"
@@ -16,64 +17,112 @@
 /* Designs whose vehicle records are held at a time. */
 enum { BLOCK = 64 };
 
+/* Designs of one variant that run side by side in one scenario. */
+typedef struct Task {
+    int scene, first, n; /* designs in the block's order */
+} Task;
+
 /* One block of designs on its way through all scenarios. */
 typedef struct Block {
     const CzEvaluator *evaluator;
     int n_point;
+    const double *x;                 /* (n_point x n_variable); NULL: the file's own values */
+    int combination[BLOCK];          /* of each design (n_point) */
+    int order[BLOCK];                /* designs sorted by combination (n_point) */
     const CzVehicle *vehicle[BLOCK]; /* the whole vehicle array of each design (n_point) */
+    CzVariant own[BLOCK];            /* variants of designs that are read again (n_point) */
+    bool is_refused[BLOCK];          /* designs that break a rule of files (n_point) */
     CzRun **run;                     /* (n_point x n_scene) */
     bool record, keep, brief;        /* channels are recorded, runs are kept, runs may end early */
     CzManner manner;
     int n_task;
-    struct {
-        int scene, first, n;
-    } * task;         /* (n_task) */
+    Task *task;       /* (n_task) */
     CzStatus *status; /* (n_task) */
     CzError *error;   /* (n_task) */
 } Block;
 
-static void run_task(int index, void *data) {
-    const Block *block = data;
+/* Runs n designs of one variant, given in the block's order, through one scenario. */
+static CzStatus run_designs(const Block *block, const CzModel *model, const Task *task,
+                            CzError *error) {
     const CzEvaluator *evaluator = block->evaluator;
-    const int s = block->task[index].scene, first = block->task[index].first;
-    const CzModel *model = evaluator->model[s];
-    if (evaluator->stop != NULL && *evaluator->stop != 0) {
-        block->status[index] =
-            cz_fail(&block->error[index], CZ_STATUS_INTERRUPTED, "the evaluation was interrupted");
-        return;
-    }
+    if (evaluator->stop != NULL && *evaluator->stop != 0)
+        return cz_fail(error, CZ_STATUS_INTERRUPTED, "the evaluation was interrupted");
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = block->record;
     options.brief = block->brief;
     options.integrator = block->manner.integrator;
     if (block->manner.step_factor != 1)
         options.time_step = cz_model_time_step(model) * block->manner.step_factor;
+    const CzVehicle *vehicles[BLOCK];
     CzRun *run[BLOCK] = {NULL};
-    block->status[index] = cz_simulate_batch(model, block->task[index].n, &block->vehicle[first],
-                                             &options, run, &block->error[index]);
-    for (int i = 0; i < block->task[index].n; i++)
-        block->run[(first + i) * evaluator->n_scene + s] = run[i];
+    for (int i = 0; i < task->n; i++)
+        vehicles[i] = block->vehicle[block->order[task->first + i]];
+    const CzStatus status = cz_simulate_batch(model, task->n, vehicles, &options, run, error);
+    for (int i = 0; i < task->n; i++)
+        block->run[block->order[task->first + i] * evaluator->n_scene + task->scene] = run[i];
+    return status;
 }
 
-/* Cuts designs and scenarios into tasks that fill the lanes, and at least one task per thread where
- * there are designs enough. */
+static void run_task(int index, void *data) {
+    const Block *block = data;
+    const Task *task = &block->task[index];
+    const int combination = block->combination[block->order[task->first]];
+    const CzModel *model = block->evaluator->variant[combination].model[task->scene];
+    block->status[index] = run_designs(block, model, task, &block->error[index]);
+}
+
+/* Cuts designs and scenarios into tasks that fill the lanes; a task has designs of one variant. */
 static void cut_tasks(Block *block) {
     const CzEvaluator *evaluator = block->evaluator;
     block->n_task = 0;
-    for (int s = 0; s < evaluator->n_scene; s++) {
-        if (evaluator->model[s] == NULL)
-            continue;
-        const int width = cz_simulate_batch_width(evaluator->model[s]);
-        const int n_chunk = (block->n_point + width - 1) / width;
-        for (int chunk = 0, first = 0; chunk < n_chunk; chunk++) {
-            const int n = (block->n_point - first) / (n_chunk - chunk); /* even chunks */
-            block->task[block->n_task].scene = s;
-            block->task[block->n_task].first = first;
-            block->task[block->n_task++].n = n;
-            first += n;
+    for (int begin = 0, end = 0; begin < block->n_point; begin = end) {
+        const int combination = block->combination[block->order[begin]];
+        while (end < block->n_point && block->combination[block->order[end]] == combination)
+            end++;
+        for (int s = 0; s < evaluator->n_scene; s++) {
+            const CzModel *model = evaluator->variant[combination].model[s];
+            if (model == NULL)
+                continue;
+            const int width = cz_simulate_batch_width(model);
+            const int n_chunk = (end - begin + width - 1) / width;
+            for (int chunk = 0, first = begin; chunk < n_chunk; chunk++) {
+                const int n = (end - first) / (n_chunk - chunk); /* even chunks */
+                block->task[block->n_task++] = (Task){s, first, n};
+                first += n;
+            }
         }
     }
 }
+
+/* ---- designs that are read again ------------------------------------------------------------- */
+
+/* Builds the variant of one design and runs it through all scenarios. A design that breaks a rule
+ * is refused, which is an answer and no error. */
+static void run_read_again(int index, void *data) {
+    Block *block = data;
+    const CzEvaluator *evaluator = block->evaluator;
+    CzVariant *variant = &block->own[index];
+    CzError *error = &block->error[index];
+    CzArena arena = {0};
+    CzVariantSettings settings;
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    const double *x = block->x + index * evaluator->design.n_variable;
+    if (cz_design_settings(&evaluator->design, 0, x, &arena, &settings))
+        status = cz_variant_build(evaluator->problem, &settings, evaluator->n_scene,
+                                  evaluator->scene, evaluator->only, variant, error);
+    else
+        cz_fail(error, status, "no memory for the settings of a design");
+    block->is_refused[index] = status == CZ_STATUS_INPUT;
+    if (status == CZ_OK)
+        block->vehicle[index] = variant->vehicles;
+    for (int s = 0; s < evaluator->n_scene && status == CZ_OK; s++)
+        if (variant->model[s] != NULL)
+            status = run_designs(block, variant->model[s], &(Task){s, index, 1}, error);
+    block->status[index] = block->is_refused[index] ? CZ_OK : status;
+    cz_arena_free(&arena);
+}
+
+/* ---- a block --------------------------------------------------------------------------------- */
 
 static CzStatus run_block(Block *block, CzError *error) {
     const CzEvaluator *evaluator = block->evaluator;
@@ -85,8 +134,13 @@ static CzStatus run_block(Block *block, CzError *error) {
     if (block->task == NULL || block->status == NULL || block->error == NULL) {
         status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", block->n_point);
     } else {
-        cut_tasks(block);
-        cz_tasks_run(block->n_task, evaluator->n_job, run_task, block);
+        const bool is_read_again = evaluator->design.is_fit && block->x != NULL;
+        if (is_read_again)
+            block->n_task = block->n_point;
+        else
+            cut_tasks(block);
+        cz_tasks_run(block->n_task, evaluator->n_job, is_read_again ? run_read_again : run_task,
+                     block);
     }
     for (int i = 0; status == CZ_OK && i < block->n_task; i++)
         if (block->status[i] != CZ_OK) {
@@ -113,12 +167,15 @@ static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *de
         CzRun **run = &block->run[i * n_scene];
         for (int s = 0; s < n_scene; s++)
             summary[s] = run[s] != NULL ? cz_run_summary(run[s]) : NULL;
-        status = cz_compose(block->evaluator, block->vehicle[i], summary, &evaluation[i], error);
+        status = block->is_refused[i] ? cz_compose_refused(block->evaluator, block->vehicle[i],
+                                                           &evaluation[i], error)
+                                      : cz_compose(block->evaluator, block->vehicle[i], summary,
+                                                   run, &evaluation[i], error);
         for (int k = 0; detail != NULL && k < block->evaluator->n_detail; k++)
             detail[i * block->evaluator->n_detail + k] = NAN;
         if (detail != NULL && status == CZ_OK && evaluation[i].status == CZ_OK)
-            cz_compose_details(block->evaluator, block->vehicle[i], summary,
-                               detail + i * block->evaluator->n_detail);
+            status = cz_compose_details(block->evaluator, block->vehicle[i], summary, run,
+                                        detail + i * block->evaluator->n_detail, error);
         if (status != CZ_OK || !block->keep)
             continue;
         evaluation[i].run = calloc((size_t)n_scene, sizeof(CzRun *));
@@ -134,21 +191,41 @@ static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *de
     return status;
 }
 
+/* Sorts the designs of a block by their combination of choices; an insertion sort keeps the order
+ * of the rest. */
+static void sort_block(Block *block) {
+    const CzDesign *design = &block->evaluator->design;
+    for (int i = 0; i < block->n_point; i++) {
+        const double *x = block->x != NULL ? block->x + i * design->n_variable : NULL;
+        block->combination[i] =
+            x != NULL ? cz_design_combination(design, x) : block->evaluator->own;
+        int k = i;
+        for (; k > 0 && block->combination[block->order[k - 1]] > block->combination[i]; k--)
+            block->order[k] = block->order[k - 1];
+        block->order[k] = i;
+    }
+}
+
 /* `wish` says how runs are made and what is kept of them. */
 static CzStatus evaluate_block(const Block *wish, int n_point, const double *x,
                                CzEvaluation *evaluation, double *detail, CzError *error) {
     Block block = *wish;
     const CzEvaluator *evaluator = block.evaluator;
-    const size_t n_vehicle = (size_t)evaluator->n_vehicle;
     block.n_point = n_point;
+    block.x = x;
+    block.record |= evaluator->matches.needs_record;
+    block.brief &= evaluator->matches.n_item == 0;
+    const size_t n_vehicle = (size_t)evaluator->n_vehicle;
     CzVehicle *copies = malloc((size_t)n_point * n_vehicle * sizeof *copies);
     block.run = calloc((size_t)n_point * (size_t)evaluator->n_scene, sizeof(CzRun *));
     CzStatus status = CZ_OK;
     if (copies == NULL || block.run == NULL)
         status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_point);
+    sort_block(&block);
     for (int i = 0; i < n_point && status == CZ_OK; i++) {
         CzVehicle *vehicles = copies + (size_t)i * n_vehicle;
-        memcpy(vehicles, evaluator->vehicles, n_vehicle * sizeof *vehicles);
+        memcpy(vehicles, evaluator->variant[block.combination[i]].vehicles,
+               n_vehicle * sizeof *vehicles);
         if (x != NULL)
             cz_design_apply(&evaluator->design, x + i * evaluator->design.n_variable, vehicles);
         block.vehicle[i] = vehicles;
@@ -159,6 +236,8 @@ static CzStatus evaluate_block(const Block *wish, int n_point, const double *x,
         status = compose_block(&block, evaluation, detail, error);
     for (int i = 0; block.run != NULL && i < n_point * evaluator->n_scene; i++)
         cz_run_free(block.run[i]);
+    for (int i = 0; i < n_point; i++)
+        cz_variant_free(&block.own[i]);
     free(block.run);
     free(copies);
     return status;
@@ -215,5 +294,6 @@ void cz_evaluation_free(CzEvaluation *evaluation) {
     free(evaluation->check);
     free(evaluation->constraint);
     free(evaluation->constraint_check);
+    free(evaluation->match);
     memset(evaluation, 0, sizeof *evaluation);
 }

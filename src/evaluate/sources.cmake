@@ -2,6 +2,7 @@
 set(CZ_SOURCES_evaluate
     checklist.c
     checks.c
+    choices.c
     climbing.c
     compose.c
     design.c
@@ -9,6 +10,7 @@ set(CZ_SOURCES_evaluate
     evaluator.c
     explain.c
     levers.c
+    match.c
     metric.c
     place.c
     runs.c
@@ -17,4 +19,5 @@ set(CZ_SOURCES_evaluate
     sweep.c
     sweep_axis.c
     tasks.c
+    variant.c
 )

@@ -2,8 +2,9 @@
 #include "crushzone/optimise.h"
 #include "base/error.h"
 #include "evaluate/evaluator.h"
+#include "optimise/alternatives.h"
+#include "optimise/hunt.h"
 #include "optimise/nlopt_adapter.h"
-#include "optimise/strategy.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,74 +26,24 @@ CzOptimiseOptions cz_optimise_options_default(void) {
     return (CzOptimiseOptions){.seed = -1};
 }
 
-/* ---- the evaluator as a function of numbers -------------------------------------------------- */
-
-static CzStatus evaluate_designs(void *data, int n_point, const double *x, double *objective,
-                                 double *constraint, double *detail, CzError *error) {
-    const CzEvaluator *evaluator = data;
-    CzEvaluation *evaluation = calloc((size_t)n_point, sizeof *evaluation);
-    if (evaluation == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_point);
-    const CzStatus status = cz_evaluator_search(evaluator, n_point, x, evaluation, detail, error);
-    for (int i = 0; i < n_point && status == CZ_OK; i++) {
-        const size_t m = (size_t)evaluation[i].n_constraint;
-        objective[i] = evaluation[i].objective;
-        memcpy(constraint + (size_t)i * m, evaluation[i].constraint, m * sizeof *constraint);
-        cz_evaluation_free(&evaluation[i]);
-    }
-    free(evaluation);
-    return status;
-}
-
-/* Fills a function from an evaluator; `numbers` is (4 x n_variable), `flags` (n_constraint). */
-static CzFunction function_of(CzEvaluator *evaluator, double *numbers, bool *flags) {
-    const int n = cz_evaluator_n_variable(evaluator);
-    for (int i = 0; i < n; i++) {
-        const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
-        numbers[i] = info->min;
-        numbers[n + i] = info->max;
-        numbers[2 * n + i] = info->start;
-        numbers[3 * n + i] = info->step;
-    }
-    for (int j = 0; j < cz_evaluator_n_constraint(evaluator); j++)
-        flags[j] = cz_evaluator_is_flag(evaluator, j);
-    return (CzFunction){.n_variable = n,
-                        .n_constraint = cz_evaluator_n_constraint(evaluator),
-                        .min = numbers,
-                        .max = numbers + n,
-                        .start = numbers + 2 * n,
-                        .step = numbers + 3 * n,
-                        .n_detail = cz_evaluator_n_detail(evaluator),
-                        .is_flag = flags,
-                        .is_minimax = cz_evaluator_maximises_margin(evaluator),
-                        .evaluate = evaluate_designs,
-                        .data = evaluator};
-}
-
 /* ---- the outcome ----------------------------------------------------------------------------- */
 
-/* The record that counts: the best on the catalogue steps when there are any. A search that ended
- * before it came to them gives the best it has seen, and so does one that was interrupted before it
- * found steps that pass. */
-static long chosen_record(const CzSearch *search) {
-    const long best = search->best, on_grid = search->best_on_grid;
-    if (!cz_search_has_steps(search) || !search->is_snapped || on_grid < 0)
-        return best;
-    const bool passes_only_between =
-        search->record[best].violation <= 0 && search->record[on_grid].violation > 0;
-    return search->status == CZ_STATUS_INTERRUPTED && passes_only_between ? best : on_grid;
-}
-
-static CzStatus copy_history(const CzSearch *search, CzOutcome *outcome, CzError *error) {
-    outcome->n_evaluation = outcome->n_trial = search->n_record;
-    outcome->trial = calloc((size_t)search->n_record + 1, sizeof *outcome->trial);
+static CzStatus copy_history(const CzHunt *hunt, CzOutcome *outcome, CzError *error) {
+    for (int k = 0; k < hunt->n; k++)
+        outcome->n_trial += hunt->search[k].n_record;
+    outcome->n_evaluation = outcome->n_trial;
+    outcome->trial = calloc((size_t)outcome->n_trial + 1, sizeof *outcome->trial);
     if (outcome->trial == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the history");
-    for (long i = 0; i < search->n_record; i++)
-        outcome->trial[i] = (CzTrial){.objective = search->record[i].objective,
-                                      .violation = search->record[i].violation,
-                                      .feasible = search->record[i].violation <= 0,
-                                      .phase = search->record[i].phase};
+    CzTrial *trial = outcome->trial;
+    for (int k = 0; k < hunt->n; k++)
+        for (long i = 0; i < hunt->search[k].n_record; i++) {
+            const CzRecord *record = &hunt->search[k].record[i];
+            *trial++ = (CzTrial){.objective = record->objective,
+                                 .violation = record->violation,
+                                 .feasible = record->violation <= 0,
+                                 .phase = record->phase};
+        }
     return CZ_OK;
 }
 
@@ -113,19 +64,31 @@ static long next_passing(const CzSearch *search, int n_refuted, const long *refu
     return best;
 }
 
+/* Evaluates the design of a record in full. */
+static CzStatus evaluate_record(CzEvaluator *evaluator, const CzSubspace *subspace,
+                                const double *number, double *x, CzEvaluation *evaluation,
+                                CzError *error) {
+    cz_subspace_expand(subspace, number, x);
+    return cz_evaluate(evaluator, 1, x, true, evaluation, error);
+}
+
 /* Evaluates the chosen record in full. Runs of a search end once they have settled; when the full
- * run finds a violation that this left out, the next best designs take their turn. */
-static CzStatus confirm_best(CzEvaluator *evaluator, const CzSearch *search, CzOutcome *outcome,
-                             CzError *error) {
-    const size_t size = (size_t)search->function->n_variable * sizeof *outcome->best;
+ * run finds a violation that this left out, the next best designs take their turn. `x` is scratch
+ * (n_variable). */
+static CzStatus confirm_best(CzEvaluator *evaluator, const CzHunt *hunt, double *x,
+                             CzOutcome *outcome, CzError *error) {
+    const CzSearch *search = &hunt->search[hunt->chosen];
+    const CzSubspace *subspace = &hunt->subspace[hunt->chosen];
+    const size_t size = (size_t)outcome->n_variable * sizeof *outcome->best;
     long tried[MOST_CONFIRMED];
     int n_tried = 0;
-    long record = chosen_record(search);
+    long record = cz_hunt_record(search);
     if (record < 0)
-        cz_search_round(search, search->function->start, outcome->best);
+        cz_search_round(search, search->function->start, x);
     else
-        memcpy(outcome->best, cz_search_x(search, record), size);
-    CZ_TRY(cz_evaluate(evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));
+        memcpy(x, cz_search_x(search, record), (size_t)search->function->n_variable * sizeof *x);
+    CZ_TRY(
+        evaluate_record(evaluator, subspace, x, outcome->best, &outcome->best_evaluation, error));
     if (record < 0 || search->record[record].violation > 0)
         return CZ_OK;
     while (outcome->best_evaluation.violation > 0 && n_tried < MOST_CONFIRMED) {
@@ -134,53 +97,73 @@ static CzStatus confirm_best(CzEvaluator *evaluator, const CzSearch *search, CzO
         if (record < 0)
             return CZ_OK;
         CzEvaluation next;
-        CZ_TRY(cz_evaluate(evaluator, 1, cz_search_x(search, record), true, &next, error));
+        CZ_TRY(evaluate_record(evaluator, subspace, cz_search_x(search, record), x, &next, error));
         if (next.violation >= outcome->best_evaluation.violation) {
             cz_evaluation_free(&next);
             continue;
         }
         cz_evaluation_free(&outcome->best_evaluation);
         outcome->best_evaluation = next;
-        memcpy(outcome->best, cz_search_x(search, record), size);
+        memcpy(outcome->best, x, size);
     }
     return CZ_OK;
 }
 
 /* Evaluates start and best once more, from the file's numbers, with everything recorded. */
-static CzStatus confirm(CzEvaluator *evaluator, const CzSearch *search, CzOutcome *outcome,
+static CzStatus confirm(CzEvaluator *evaluator, const CzHunt *hunt, CzOutcome *outcome,
                         CzError *error) {
-    const CzFunction *function = search->function;
-    const size_t n = (size_t)function->n_variable;
-    outcome->n_variable = function->n_variable;
+    outcome->n_variable = cz_evaluator_n_variable(evaluator);
+    const size_t n = (size_t)outcome->n_variable;
     outcome->start = calloc(n, sizeof *outcome->start);
     outcome->best = calloc(n, sizeof *outcome->best);
     outcome->at_bound = calloc(n, sizeof *outcome->at_bound);
-    if (outcome->start == NULL || outcome->best == NULL || outcome->at_bound == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the outcome");
-    memcpy(outcome->start, function->start, n * sizeof *outcome->start);
-    CZ_TRY(cz_evaluate(evaluator, 1, outcome->start, true, &outcome->start_evaluation, error));
-    CZ_TRY(confirm_best(evaluator, search, outcome, error));
-    for (size_t i = 0; i < n; i++) {
-        const double nearness = 1e-6 * (function->max[i] - function->min[i]);
-        outcome->at_bound[i] = outcome->best[i] <= function->min[i] + nearness ||
-                               outcome->best[i] >= function->max[i] - nearness;
+    double *x = calloc(n, sizeof *x);
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    if (outcome->start == NULL || outcome->best == NULL || outcome->at_bound == NULL || x == NULL) {
+        cz_fail(error, status, "no memory for the outcome");
+    } else {
+        for (int i = 0; i < outcome->n_variable; i++)
+            outcome->start[i] = cz_evaluator_variable(evaluator, i)->start;
+        status = cz_evaluate(evaluator, 1, outcome->start, true, &outcome->start_evaluation, error);
+        if (status == CZ_OK)
+            status = confirm_best(evaluator, hunt, x, outcome, error);
     }
-    return CZ_OK;
+    for (int i = 0; i < outcome->n_variable && status == CZ_OK; i++) {
+        const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
+        const double nearness = 1e-6 * (info->max - info->min);
+        outcome->at_bound[i] = info->n_choice == 0 && (outcome->best[i] <= info->min + nearness ||
+                                                       outcome->best[i] >= info->max - nearness);
+    }
+    free(x);
+    return status;
 }
 
-static void conclude(const CzSearch *search, CzOutcome *outcome) {
+/* Whether the best design misses a catalogue step. */
+static bool is_between_steps(const CzHunt *hunt, const CzOutcome *outcome) {
+    const CzSubspace *subspace = &hunt->subspace[hunt->chosen];
+    const CzSearch *search = &hunt->search[hunt->chosen];
+    for (long record = 0; record < search->n_record; record++) {
+        bool is_best = true;
+        for (int i = 0; i < subspace->function.n_variable && is_best; i++)
+            is_best = cz_search_x(search, record)[i] == outcome->best[subspace->number[i]];
+        if (is_best)
+            return !search->record[record].on_grid;
+    }
+    return false;
+}
+
+static void conclude(const CzHunt *hunt, CzOutcome *outcome) {
+    const CzSearch *search = &hunt->search[hunt->n - 1];
     const bool feasible =
         outcome->best_evaluation.status == CZ_OK && outcome->best_evaluation.violation <= 0;
     outcome->status = feasible ? CZ_OUTCOME_FEASIBLE : CZ_OUTCOME_INFEASIBLE;
     if (search->status == CZ_STATUS_INTERRUPTED)
         outcome->status = CZ_OUTCOME_INTERRUPTED;
-    const long best = cz_search_find(search, outcome->best);
-    const bool is_between = best >= 0 && !search->record[best].on_grid;
     snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%.80s%s",
              search->why[0] != '\0' ? search->why
              : search->is_spent     ? "the limit of evaluations is reached"
                                     : "nothing was left to gain",
-             is_between ? "; best not on catalogue steps yet" : "");
+             is_between_steps(hunt, outcome) ? "; best not on catalogue steps yet" : "");
 }
 
 /* ---- the search ------------------------------------------------------------------------------ */
@@ -216,21 +199,6 @@ CzStatus cz_optimise_check(const CzEvaluator *evaluator, const CzOptimiseOptions
     return settle_options(evaluator, options, &settled, error);
 }
 
-static CzStatus lead(CzSearch *search, const CzOptimiseOptions *options, CzError *error) {
-    const unsigned long seed = (unsigned long)options->seed;
-    const CzStatus status = strcmp(options->algorithm, "auto") == 0
-                                ? cz_strategy_auto(search, seed, error)
-                                : cz_strategy_named(search, options->algorithm, seed, error);
-    if (status != CZ_OK || search->status == CZ_OK || search->status == CZ_STATUS_INTERRUPTED)
-        return status;
-    if (search->status == CZ_STATUS_RUN_FAILED)
-        return cz_fail(error, search->status, "%s: the bounds of the variables may be too wide",
-                       search->why);
-    if (error != NULL)
-        *error = search->error;
-    return search->status;
-}
-
 static double now_s(void) {
     struct timespec time;
     clock_gettime(CLOCK_MONOTONIC, &time);
@@ -243,30 +211,24 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
     CzOptimiseOptions options;
     CZ_TRY(settle_options(evaluator, given, &options, error));
     const double began = now_s();
-    double *numbers = calloc(4 * (size_t)cz_evaluator_n_variable(evaluator), sizeof *numbers);
-    bool *flags = calloc((size_t)cz_evaluator_n_constraint(evaluator) + 1, sizeof *flags);
+    CzHunt hunt = {0};
     CzOutcome *made = calloc(1, sizeof *made);
-    CzStatus status = CZ_OK;
-    if (numbers == NULL || flags == NULL || made == NULL) {
-        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the search");
-    } else {
-        const CzFunction function = function_of(evaluator, numbers, flags);
-        CzSearch search;
-        cz_search_init(&search, &function, &options);
-        cz_evaluator_set_stop(evaluator, options.stop);
-        status = lead(&search, &options, error);
-        cz_evaluator_set_stop(evaluator, NULL); /* what was found is evaluated in any case */
-        if (status == CZ_OK)
-            status = copy_history(&search, made, error);
-        if (status == CZ_OK)
-            status = confirm(evaluator, &search, made, error);
-        if (status == CZ_OK)
-            conclude(&search, made);
-        made->wall_s = now_s() - began;
-        cz_search_free(&search);
-    }
-    free(numbers);
-    free(flags);
+    if (made == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the search");
+    cz_evaluator_set_stop(evaluator, options.stop);
+    CzStatus status = cz_hunt(evaluator, &options, &hunt, error);
+    cz_evaluator_set_stop(evaluator, NULL); /* what was found is evaluated in any case */
+    if (status == CZ_OK)
+        status = copy_history(&hunt, made, error);
+    if (status == CZ_OK)
+        status = confirm(evaluator, &hunt, made, error);
+    if (status == CZ_OK && cz_evaluator_is_fit(evaluator))
+        status = cz_alternatives_find(&hunt.subspace[hunt.chosen], &hunt.search[hunt.chosen],
+                                      cz_hunt_record(&hunt.search[hunt.chosen]), made, error);
+    if (status == CZ_OK)
+        conclude(&hunt, made);
+    made->wall_s = now_s() - began;
+    cz_hunt_free(&hunt);
     if (status != CZ_OK) {
         cz_outcome_free(made);
         return status;
@@ -283,6 +245,8 @@ void cz_outcome_free(CzOutcome *outcome) {
     free(outcome->at_bound);
     cz_evaluation_free(&outcome->start_evaluation);
     cz_evaluation_free(&outcome->best_evaluation);
+    free(outcome->alternative);
+    free(outcome->alternative_objective);
     free(outcome->trial);
     free(outcome);
 }

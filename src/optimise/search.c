@@ -14,6 +14,7 @@ void cz_search_init(CzSearch *search, const CzFunction *function,
                     const CzOptimiseOptions *options) {
     *search = (CzSearch){.function = function,
                          .most_evaluations = options->evaluations,
+                         .most_in_all = options->evaluations,
                          .stop = options->stop,
                          .progress = options->progress,
                          .progress_data = options->progress_data,
@@ -165,8 +166,8 @@ static void add_record(CzSearch *search, const double *x, const CzRecord *given)
 static void report_progress(const CzSearch *search, const char *phase) {
     if (search->progress == NULL)
         return;
-    CzProgress progress = {.n_evaluation = search->n_record,
-                           .most_evaluations = search->most_evaluations,
+    CzProgress progress = {.n_evaluation = search->n_earlier + search->n_record,
+                           .most_evaluations = search->most_in_all,
                            .best_objective = NAN,
                            .best_violation = INFINITY,
                            .phase = phase};

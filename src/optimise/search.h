@@ -48,6 +48,9 @@ typedef struct CzSearch {
     void (*progress)(const CzProgress *progress, void *data);
     void *progress_data;
 
+    long n_earlier, most_in_all; /* evaluations of earlier searches, and limit of all together, for
+                                    the progress */
+
     long n_record, room;
     CzRecord *record;  /* history in order (n_record) */
     double *x;         /* (n_record x n_variable) */

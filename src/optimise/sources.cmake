@@ -1,10 +1,14 @@
 # Sources of src/optimise, one per line.
 set(CZ_SOURCES_optimise
+    alternatives.c
+    gauss_newton.c
+    hunt.c
     nlopt_adapter.c
     optimise.c
     sample.c
     search.c
     snap.c
     strategy.c
+    subspace.c
     surface.c
 )

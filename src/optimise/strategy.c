@@ -5,10 +5,15 @@
  *   polish    COBYLA and elastic SLSQP by turns from the best, with smaller and smaller steps
  *   snap      to the catalogue steps
  *
+ * A fit goes another way: its objective is a sum of squares of residuals that change smoothly, so
+ * planes of the residuals lead further than planes of the objective; BOBYQA, Sbplx and COBYLA take
+ * over where they do not.
+ *
  * The gain of a long train's rattling is in secants: local derivatives are exact and useless.
  */
 #include "optimise/strategy.h"
 #include "base/error.h"
+#include "optimise/gauss_newton.h"
 #include "optimise/nlopt_adapter.h"
 
 #include <math.h>
@@ -176,6 +181,90 @@ static CzStatus lead(CzSurface *surface, unsigned long seed, CzError *error) {
     return polish(search, reserve, error);
 }
 
+/* ---- fits ------------------------------------------------------------------------------------ */
+
+/* The algorithm at the i-th turn; BOBYQA needs two variables. */
+static const char *turn_of(int i, int n_variable) {
+    static const char *const turns[] = {"LN_BOBYQA", "LN_SBPLX", "LN_COBYLA"};
+    return n_variable < 2 && i % 3 == 0 ? "LN_COBYLA" : turns[i % 3];
+}
+
+/* Steps on residuals from the best design. */
+static CzStatus step_from_best(CzSearch *search, long evaluations, bool *gained, CzError *error) {
+    const long before = search->last_gain;
+    double *u = calloc((size_t)search->function->n_variable, sizeof *u);
+    if (u == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a starting point");
+    cz_search_scale(search, cz_search_x(search, search->best), u);
+    const CzStatus status = cz_gauss_newton(search, "polish", u, evaluations, error);
+    free(u);
+    *gained = search->last_gain != before;
+    return status;
+}
+
+/* Steps on residuals from each of the best screened points that lie apart. */
+static CzStatus descend_apart(CzSearch *search, long evaluations, CzError *error) {
+    const int n = search->function->n_variable;
+    const long limit = search->n_record + evaluations;
+    double *chosen = calloc((size_t)(MOST_STARTS + 1) * (size_t)n, sizeof *chosen);
+    if (chosen == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the starting points");
+    double *u = chosen + MOST_STARTS * n;
+    CzStatus status = CZ_OK;
+    for (int start = 0; start < MOST_STARTS && status == CZ_OK; start++) {
+        const long record = best_apart(search, start, chosen, start == 0 ? 0 : 0.15, u);
+        const long left = limit - search->n_record;
+        if (record < 0 || left < 3 * (n + 3) || cz_search_left(search) == 0)
+            break;
+        cz_search_scale(search, cz_search_x(search, record), u);
+        memcpy(chosen + start * n, u, (size_t)n * sizeof *u);
+        status = cz_gauss_newton(search, "descend", u, left, error);
+    }
+    free(chosen);
+    return status;
+}
+
+/* Four methods by turns from the best design, until none of them gains with the smallest step. */
+static CzStatus refine(CzSearch *search, long reserve, CzError *error) {
+    const int n = search->function->n_variable;
+    double step = 0.05;
+    int n_idle = 0;
+    for (int turn = 0; step > 1e-4; turn++) {
+        const long left = cz_search_left(search) - reserve;
+        const long some = left < 25L * (n + 1) ? left : 25L * (n + 1);
+        if (left < n + 4 || search->best < 0)
+            break;
+        bool gained = false;
+        if (turn % 4 == 0) {
+            CZ_TRY(step_from_best(search, some, &gained, error));
+        } else {
+            CzNloptRun run = cz_nlopt_run_default(turn_of(turn % 4 - 1, n));
+            run.phase = "polish";
+            run.form = CZ_FORM_PENALTY;
+            run.first_step = step;
+            run.tolerance = step / 1000;
+            run.evaluations = some;
+            CZ_TRY(run_from_best(search, &run, &gained, error));
+        }
+        n_idle = gained ? 0 : n_idle + 1;
+        if (n_idle == 4) {
+            step /= 4;
+            n_idle = 0;
+        }
+    }
+    return CZ_OK;
+}
+
+static CzStatus fit(CzSearch *search, unsigned long seed, CzError *error) {
+    const long reserve = cz_snap_reserve(search);
+    const long total = search->most_evaluations - reserve;
+    if (!evaluate_start(search))
+        return CZ_OK;
+    screen(search, seed, total / 5);
+    CZ_TRY(descend_apart(search, total / 2, error));
+    return refine(search, reserve, error);
+}
+
 /* One algorithm again and again from the best design while that gains. */
 static CzStatus repeat(CzSearch *search, const char *algorithm, unsigned long seed,
                        CzError *error) {
@@ -191,14 +280,15 @@ static CzStatus repeat(CzSearch *search, const char *algorithm, unsigned long se
     return CZ_OK;
 }
 
-/* `algorithm` NULL: the usual strategy. */
-static CzStatus search_and_snap(CzSearch *search, const char *algorithm, unsigned long seed,
-                                CzError *error) {
+/* `algorithm` NULL: the usual strategy, or that of a fit. */
+static CzStatus search_and_snap(CzSearch *search, const char *algorithm, bool is_fit,
+                                unsigned long seed, CzError *error) {
     CzSurface surface;
     if (!cz_surface_create(&surface, search, MOST_BATCH))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the response surfaces");
-    const CzStatus status =
-        algorithm == NULL ? lead(&surface, seed, error) : repeat(search, algorithm, seed, error);
+    const CzStatus status = algorithm != NULL ? repeat(search, algorithm, seed, error)
+                            : is_fit          ? fit(search, seed, error)
+                                              : lead(&surface, seed, error);
     search->is_spent =
         cz_search_left(search) - cz_snap_reserve(search) < search->function->n_variable + 2;
     if (status == CZ_OK)
@@ -208,10 +298,14 @@ static CzStatus search_and_snap(CzSearch *search, const char *algorithm, unsigne
 }
 
 CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, CzError *error) {
-    return search_and_snap(search, NULL, seed, error);
+    return search_and_snap(search, NULL, false, seed, error);
+}
+
+CzStatus cz_strategy_fit(CzSearch *search, unsigned long seed, CzError *error) {
+    return search_and_snap(search, NULL, true, seed, error);
 }
 
 CzStatus cz_strategy_named(CzSearch *search, const char *algorithm, unsigned long seed,
                            CzError *error) {
-    return search_and_snap(search, algorithm, seed, error);
+    return search_and_snap(search, algorithm, false, seed, error);
 }

@@ -5,6 +5,11 @@
 
 #include "optimise/surface.h"
 
+/* Fits parameters: screen, then Gauss and Newton's method from the best points that lie apart, then
+ * that, BOBYQA, Sbplx and COBYLA by turns from the best with smaller and smaller steps, then snap.
+ * Statuses as below. */
+CZ_MUST_CHECK CzStatus cz_strategy_fit(CzSearch *search, unsigned long seed, CzError *error);
+
 /* Screen, descend, polish, snap. Statuses of the NLopt adapter; how the search ended stands in it.
  */
 CZ_MUST_CHECK CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, CzError *error);

@@ -39,27 +39,49 @@ static const CzError *first_mistake(const CzReader *reader, const CzNode *place)
     return NULL;
 }
 
-/* Whether a place is a stand-in inside the vehicles. */
-static bool is_target(const CzProblem *trial, const CzPlace *place) {
-    const char *start = (const char *)trial->vehicle;
-    const char *end = start + (size_t)trial->n_vehicle * sizeof(CzVehicle);
-    const char *at = place->address;
+/* The same field of the problem as at an address of the trial, which was read from the same tree;
+ * NULL when the address lies in no array of numbers that a path may name. */
+static const void *same_field(const CzProblem *problem, const CzProblem *trial,
+                              const void *address) {
+    const CzInput *from = &trial->input, *to = &problem->input;
+    const struct {
+        const void *from, *to;
+        size_t size;
+    } regions[] = {
+        {trial->vehicle, problem->vehicle, (size_t)trial->n_vehicle * sizeof(CzVehicle)},
+        {from->trains, to->trains, (size_t)from->n_trains * sizeof(CzTrain)},
+        {from->scenarios, to->scenarios, (size_t)from->n_scenarios * sizeof(CzScenario)},
+        {&from->simulation, &to->simulation, sizeof(CzSimulation)},
+    };
+    for (size_t i = 0; i < sizeof regions / sizeof regions[0]; i++) {
+        const uintptr_t at = (uintptr_t)address - (uintptr_t)regions[i].from;
+        if (at < regions[i].size)
+            return (const char *)regions[i].to + at;
+    }
+    return NULL;
+}
+
+/* Whether a place is a stand-in for a number. */
+static bool is_target(const CzProblem *problem, const CzProblem *trial, const CzPlace *place) {
     return place->key != NULL && place->key->kind == CZ_KEY_NUMBER && place->value->match > 0 &&
-           (uintptr_t)at >= (uintptr_t)start && (uintptr_t)at < (uintptr_t)end;
+           same_field(problem, trial, place->address) != NULL;
 }
 
 static CzTarget make_target(const CzProblem *problem, const CzProblem *trial, const CzPlace *place,
                             const CzMatches *matches) {
-    CzTarget target = {0};
-    const size_t at = (size_t)((const char *)place->address - (const char *)trial->vehicle);
-    target.vehicle = (int)(at / sizeof(CzVehicle));
-    target.offset = at % sizeof(CzVehicle);
-    target.value = *(const double *)(const void *)((const char *)&problem->vehicle[target.vehicle] +
-                                                   target.offset);
+    CzTarget target = {.vehicle = -1};
+    target.field = same_field(problem, trial, place->address);
+    const size_t at = (size_t)((uintptr_t)target.field - (uintptr_t)problem->vehicle);
+    if (at < (size_t)problem->n_vehicle * sizeof(CzVehicle)) {
+        target.vehicle = (int)(at / sizeof(CzVehicle));
+        target.offset = at % sizeof(CzVehicle);
+    }
+    target.value = *target.field;
     target.unit = place->unit->si;
     target.suffix = place->unit->suffix;
     target.match = place->value->match - 1;
-    target.may_vary = place->key->varies;
+    target.may_vary = place->key->variation == CZ_VARIATION_VARIES;
+    target.may_fit = place->key->variation != CZ_VARIATION_DATA;
     memcpy(target.place, matches->place[target.match], sizeof target.place);
     return target;
 }
@@ -68,9 +90,7 @@ static int compare_targets(const void *a, const void *b) {
     const CzTarget *first = a, *second = b;
     if (first->match != second->match)
         return first->match - second->match;
-    if (first->vehicle != second->vehicle)
-        return first->vehicle - second->vehicle;
-    return (first->offset > second->offset) - (first->offset < second->offset);
+    return (first->field > second->field) - (first->field < second->field);
 }
 
 static CzStatus collect(const CzProblem *problem, const CzProblem *trial, const CzMatches *matches,
@@ -80,7 +100,7 @@ static CzStatus collect(const CzProblem *problem, const CzProblem *trial, const 
     if (*targets == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
     for (int i = 0; i < places->n_place; i++)
-        if (is_target(trial, &places->place[i]))
+        if (is_target(problem, trial, &places->place[i]))
             (*targets)[(*n_target)++] = make_target(problem, trial, &places->place[i], matches);
     qsort(*targets, (size_t)*n_target, sizeof **targets, compare_targets);
     return CZ_OK;
@@ -109,7 +129,7 @@ static CzStatus find(const CzProblem *problem, CzProblem *trial, const char *pat
         return CZ_OK;
     free(*targets);
     *targets = NULL;
-    cz_fail(error, CZ_STATUS_INPUT, "path '%s' names no number of any vehicle", path);
+    cz_fail(error, CZ_STATUS_INPUT, "path '%s' names no number", path);
     if (error != NULL)
         snprintf(error->help, sizeof error->help,
                  "design variables are numbers of vehicles and parts");

@@ -8,8 +8,6 @@
 #include "base/suggest.h"
 #include "problem/input.h"
 
-enum { CZ_DATA = 0, CZ_VARIES = 1 };
-
 /* ---- units ---- */
 
 #define CZ_DIMENSION(dimension, text)
@@ -63,7 +61,7 @@ const CzWordSet cz_word_sets[CZ_N_WORDS] = {
      .lo = from,                                                                                   \
      .hi = to,                                                                                     \
      .absent = CZ_PRESENCE_##presence == CZ_PRESENCE_DEFAULT ? (without) : NAN,                    \
-     .varies = CZ_##kind},
+     .variation = CZ_VARIATION_##kind},
 #define CZ_COUNT(type, stem, from, to, presence, without, doc)                                     \
     {FIELD(CZ_KEY_COUNT, type, stem, presence, doc), .lo = from, .hi = to, .absent = without},
 #define CZ_CHOICE(type, stem, set, presence, without, doc)                                         \

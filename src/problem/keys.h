@@ -106,6 +106,10 @@ typedef enum CzPresence {
     CZ_PRESENCE_DEFAULT
 } CzPresence;
 
+/* Whether a search may change a number: never, when it only fits a model to measurements, or when
+ * it designs, too. */
+typedef enum CzVariation { CZ_VARIATION_DATA, CZ_VARIATION_FITS, CZ_VARIATION_VARIES } CzVariation;
+
 /* One key of a record. */
 typedef struct CzKey {
     CzKeyKind kind;
@@ -116,7 +120,7 @@ typedef struct CzKey {
     CzDimension dimension; /* number: its own; table: of x */
     double lo, hi;         /* number and count: range [SI] */
     double absent;         /* number, count, choice, flag: value when absent */
-    bool varies;           /* number: an optimiser may change it */
+    CzVariation variation; /* number: whether a search may change it */
     int words;             /* choice: index into cz_word_sets */
     CzRecordId child;      /* child, list, stages: record inside */
     size_t n_offset;       /* list, stages: of the count of items [byte] */

@@ -174,11 +174,19 @@ static bool is_fixed_key(const char *key) {
     return false;
 }
 
+/* Whether the path ends in the `use` of a record that has one: the record then takes another part.
+ */
+static bool sets_part(const Walk *walk, const CzNode *node, Step step) {
+    return step.level == walk->n_segment - 1 &&
+           strcmp(walk->segment[step.level].name, "use") == 0 &&
+           walk->segment[step.level].kind == SEGMENT_NAME && cz_node_find(node, "use") != NULL;
+}
+
 /* Puts the value under the path's last key. */
 static const CzNode *put_value(Walk *walk, const CzNode *mapping, Step step) {
     const char *name = walk->segment[step.level].name;
     const CzNode place = place_of(walk, step.level);
-    if (is_fixed_key(name)) {
+    if (is_fixed_key(name) && !sets_part(walk, mapping, step)) {
         cz_mistake(&walk->reader->mistakes, &place, NULL, "'%s' cannot be set by a path", name);
         walk->failed = true;
         return mapping;
@@ -386,6 +394,8 @@ static const CzNode *walk_list(Walk *walk, const CzNode *list, Step step) {
 }
 
 static const CzNode *walk_on(Walk *walk, const CzNode *node, Step step) {
+    if (!walk->failed && sets_part(walk, node, step))
+        return put_value(walk, node, step);
     const CzNode *taken = cz_take_part(walk->reader, walk->tree, node, step.trail);
     if (taken == NULL || walk->failed)
         return taken;

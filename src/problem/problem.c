@@ -105,6 +105,7 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     if (reader->arena.out_of_memory)
         return;
     cz_profile_read(problem);
+    cz_measured_read(problem);
     cz_rules_check(problem);
 }
 

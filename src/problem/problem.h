@@ -24,24 +24,45 @@ CZ_MUST_CHECK CzStatus cz_problem_check_vehicles(const CzProblem *problem,
 
 /* One number of the input that a path names. */
 typedef struct CzTarget {
-    int vehicle;        /* index into cz_problem_vehicles */
-    size_t offset;      /* of the double inside CzVehicle [byte] */
-    double value;       /* the file's own value [SI] */
-    double unit;        /* SI value of one unit of the path's key, such as 1000 for kN */
-    const char *suffix; /* unit as typed, such as "kN"; "" when none; borrowed */
-    int match;          /* which match of a [*] this belongs to, from 0 */
-    bool may_vary;      /* the key is one of the kinds an optimiser may change */
-    char place[160];    /* path of this match without any *, as `set:` takes it; the targets of one
-                           match share it */
+    const double *field; /* in the input */
+    int vehicle;         /* index into cz_problem_vehicles; -1 for a number elsewhere */
+    size_t offset;       /* of the double inside CzVehicle [byte]; 0 elsewhere */
+    double value;        /* the file's own value [SI] */
+    double unit;         /* SI value of one unit of the path's key, such as 1000 for kN */
+    const char *suffix;  /* unit as typed, such as "kN"; "" when none; borrowed */
+    int match;           /* which match of a [*] this belongs to, from 0 */
+    bool may_vary;       /* the key is one of the kinds an optimiser may change */
+    bool may_fit;        /* or one that may be fitted to measurements */
+    char place[160];     /* path of this match without any *, as `set:` takes it; the targets of one
+                            match share it */
 } CzTarget;
 
-/* All numbers of vehicles that setting a path would change, ordered by match. Through `parts.NAME`
+/* All numbers that setting a path would change, ordered by match. Through `parts.NAME`
  * those of every vehicle that uses the part and does not override the key; through a vehicle of a
  * train those of this vehicle and of all that repeat or copy it (they have no values of their own);
  * beyond a * the items that have the record. `targets` is allocated with malloc and freed by the
  * caller. Statuses: CZ_OK, CZ_STATUS_INPUT with a did-you-mean, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_problem_find(const CzProblem *problem, const char *path,
                                        CzTarget **targets, int *n_target, CzError *error);
+
+/* The problem once more with further settings "path" = "value", judged by every rule but those on
+ * limits and variables. Shares the problem's tree, so it must not outlive it; freed by the caller.
+ * May be called from several threads. Statuses: CZ_OK, CZ_STATUS_INPUT with the first mistake,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_problem_read_again(const CzProblem *problem, int n_more,
+                                             const char *const *path, const char *const *value,
+                                             CzProblem **again, CzError *error);
+
+/* A measured time history, borrowed from the problem. */
+typedef struct CzMeasured {
+    int n_point;
+    const double *time;  /* rising [s] (n_point) */
+    const double *value; /* in the unit of its channel (n_point) */
+} CzMeasured;
+
+/* The time history that the i-th match of the problem names, cut to its window; without points when
+ * it names none. */
+const CzMeasured *cz_problem_measured(const CzProblem *problem, int match);
 
 /* Reads a profile of limits: NAME.yaml in profiles/ beside the problem file, then in the share
  * folder. Borrowed from the problem, read with it when the problem names one; NULL when it names

@@ -70,6 +70,7 @@ struct CzProblem {
     int n_vehicle;
     CzVehicle *vehicle; /* those of all trains (n_vehicle) */
     CzProfile profile;
+    CzMeasured *measured; /* one per match; NULL while they are not read */
 };
 
 /* ---- load.c ---- */
@@ -189,6 +190,11 @@ void cz_rules_check(CzProblem *problem);
 
 /* Reads the profile that the problem names, with the limits of its category. */
 void cz_profile_read(CzProblem *problem);
+
+/* ---- measured.c ---- */
+
+/* Reads the time histories that the problem's matches name. */
+void cz_measured_read(CzProblem *problem);
 
 /* ---- problem.c ---- */
 

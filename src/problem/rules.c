@@ -98,15 +98,25 @@ static void check_vehicles(const CzRules *rules) {
     }
 }
 
-void cz_rules_check(CzProblem *problem) {
+static CzRules rules_of(CzProblem *problem) {
     CzReader *reader = &problem->reader;
-    const CzRules rules = {problem,           reader,           &problem->input, problem->vehicle,
-                           &reader->mistakes, &reader->warnings};
+    return (CzRules){problem,           reader,           &problem->input, problem->vehicle,
+                     &reader->mistakes, &reader->warnings};
+}
+
+void cz_rules_check_collision(CzProblem *problem) {
+    const CzRules rules = rules_of(problem);
     check_simulation(&rules);
     check_vehicles(&rules);
     cz_rules_check_trains(&rules);
     cz_rules_check_scenarios(&rules);
+}
+
+void cz_rules_check(CzProblem *problem) {
+    cz_rules_check_collision(problem);
+    const CzRules rules = rules_of(problem);
     cz_rules_check_design(&rules);
+    cz_rules_check_fit(&rules);
 }
 
 CzStatus cz_problem_check_vehicles(const CzProblem *problem, const CzVehicle *vehicles,

@@ -39,5 +39,8 @@ void cz_rules_check_vehicle(const CzRules *rules, const CzVehicle *vehicle);
 void cz_rules_check_trains(const CzRules *rules);
 void cz_rules_check_scenarios(const CzRules *rules);
 void cz_rules_check_design(const CzRules *rules);
+void cz_rules_check_fit(const CzRules *rules);
+/* All rules but those on limits and variables. */
+void cz_rules_check_collision(CzProblem *problem);
 
 #endif

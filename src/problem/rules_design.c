@@ -41,19 +41,29 @@ static void check_limits(const CzRules *rules, const CzLimit *limits, int n_limi
 
 /* ---- variables ---- */
 
+static bool is_fit(const CzRules *rules) {
+    return rules->input->optimise.n_match > 0;
+}
+
 /* Range of a variable against the range of the key that its path ends in. */
 static void check_target(const CzRules *rules, const CzVariable *variable, const char *const *path,
                          const CzTarget *target) {
-    if (!target->may_vary) {
-        cz_rule_broken(rules, path, "'%.120s' is data, not a design variable", *path);
-        cz_mistake_help(rules->mistakes,
-                        "stage forces and strokes, trigger and shear-off forces and "
-                        "gaps may vary");
+    if (!target->may_vary && !(target->may_fit && is_fit(rules))) {
+        cz_rule_broken(rules, path, "'%.120s' is data, not a %s", *path,
+                       is_fit(rules) ? "parameter of a fit" : "design variable");
+        if (is_fit(rules))
+            cz_mistake_help(rules->mistakes, "`crushzone help keys` tells what may be fitted");
+        else
+            cz_mistake_help(rules->mistakes,
+                            target->may_fit
+                                ? "stage forces and strokes, trigger and shear-off forces and "
+                                  "gaps may vary; this may, too, in a fit to `match`"
+                                : "stage forces and strokes, trigger and shear-off forces and "
+                                  "gaps may vary");
         return;
     }
-    const void *field = (const char *)&rules->problem->vehicle[target->vehicle] + target->offset;
-    const CzPlace *place = cz_places_find(&rules->reader->places, field);
-    if (place == NULL || place->address != field || place->key == NULL)
+    const CzPlace *place = cz_places_find(&rules->reader->places, target->field);
+    if (place == NULL || place->address != target->field || place->key == NULL)
         return;
     char limit[CZ_NUMBER_TEXT];
     const double lo = place->key->lo / target->unit, hi = place->key->hi / target->unit;
@@ -84,7 +94,9 @@ static void check_path(const CzRules *rules, const CzVariable *variable, const c
 }
 
 static void check_bounds(const CzRules *rules, const CzVariable *variable) {
-    if (variable->min >= variable->max)
+    if (!cz_rule_is_written(rules, &variable->min) || !cz_rule_is_written(rules, &variable->max))
+        cz_rule_broken(rules, variable, "a variable needs 'min' and 'max', or 'choices'");
+    else if (variable->min >= variable->max)
         cz_rule_broken(rules, &variable->min, "min %g must be below max %g", variable->min,
                        variable->max);
     else if (variable->start < variable->min || variable->start > variable->max)
@@ -96,12 +108,83 @@ static void check_bounds(const CzRules *rules, const CzVariable *variable) {
                        variable->min, variable->max);
 }
 
+/* ---- choices ---- */
+
+/* The buffer that a path of a variable with choices names, by a number that only buffers have. */
+static bool is_buffer(const CzRules *rules, const char *const *path) {
+    char inside[CZ_MAX_PLACE + 16];
+    CzTarget *target = NULL;
+    CzError error = {0};
+    int n_target = 0;
+    snprintf(inside, sizeof inside, "%.*s.preload_N", (int)CZ_MAX_PLACE, *path);
+    const CzStatus status = cz_problem_find(rules->problem, inside, &target, &n_target, &error);
+    free(target);
+    if (status == CZ_STATUS_NO_MEMORY)
+        rules->mistakes->arena->out_of_memory = true;
+    if (status == CZ_OK)
+        return true;
+    cz_rule_broken(rules, path, "'%.120s' names no buffer: only buffers may be chosen", *path);
+    return false;
+}
+
+/* Reads the problem with every choice in turn. */
+static void check_each_choice(const CzRules *rules, const CzVariable *variable,
+                              const char *const *path) {
+    char use[CZ_MAX_PLACE + 16];
+    snprintf(use, sizeof use, "%.*s.use", (int)CZ_MAX_PLACE, *path);
+    const char *const uses[] = {use};
+    for (int i = 0; i < variable->choices.n_text; i++) {
+        CzProblem *chosen = NULL;
+        CzError error = {0};
+        const CzStatus status = cz_problem_read_again(rules->problem, 1, uses,
+                                                      &variable->choices.text[i], &chosen, &error);
+        cz_problem_free(chosen);
+        if (status == CZ_STATUS_NO_MEMORY)
+            rules->mistakes->arena->out_of_memory = true;
+        if (status != CZ_STATUS_INPUT)
+            continue;
+        cz_rule_broken(rules, &variable->choices.text[i], "choice '%.60s': %s",
+                       variable->choices.text[i], error.message);
+        if (error.help[0] != '\0')
+            cz_mistake_help(rules->mistakes, "%s", error.help);
+    }
+}
+
+static void check_choices(const CzRules *rules, const CzVariable *variable) {
+    const struct {
+        const double *field;
+        const char *name;
+    } bounds[] = {{&variable->min, "min"},
+                  {&variable->max, "max"},
+                  {&variable->start, "start"},
+                  {&variable->step, "step"}};
+    for (int i = 0; i < 4; i++)
+        if (cz_rule_is_written(rules, bounds[i].field))
+            cz_rule_broken(rules, bounds[i].field, "a variable with choices has no '%s'",
+                           bounds[i].name);
+    if (variable->choices.n_text < 2)
+        cz_rule_broken(rules, &variable->choices, "a choice needs two parts or more");
+    if (is_fit(rules))
+        cz_rule_broken(rules, &variable->choices, "a fit has no choices");
+    if (rules->reader->has_holes || rules->mistakes->n_mistake > 0)
+        return; /* reading again would tell other mistakes once more */
+    if (variable->path != NULL && is_buffer(rules, &variable->path))
+        check_each_choice(rules, variable, &variable->path);
+    for (int i = 0; i < variable->paths.n_text; i++)
+        if (is_buffer(rules, &variable->paths.text[i]))
+            check_each_choice(rules, variable, &variable->paths.text[i]);
+}
+
 static void check_variable(const CzRules *rules, const CzVariable *variable) {
     const bool has_path = cz_rule_is_written(rules, &variable->path);
     const bool has_paths = cz_rule_is_written(rules, &variable->paths);
     if (has_path == has_paths)
         cz_rule_broken(rules, has_path ? (const void *)&variable->paths : variable,
                        "a variable has 'path' or 'paths', and only one of them");
+    if (cz_rule_is_written(rules, &variable->choices)) {
+        check_choices(rules, variable);
+        return;
+    }
     check_bounds(rules, variable);
     if (rules->reader->has_holes)
         return; /* a path may lead into what could not be read */

@@ -1,5 +1,6 @@
 # Sources of src/problem, one per line.
 set(CZ_SOURCES_problem
+    again.c
     bind.c
     bind_table.c
     bind_value.c
@@ -7,6 +8,7 @@ set(CZ_SOURCES_problem
     find.c
     keys.c
     load.c
+    measured.c
     merge.c
     mistakes.c
     node.c
@@ -18,6 +20,7 @@ set(CZ_SOURCES_problem
     rules.c
     rules_design.c
     rules_end.c
+    rules_fit.c
     rules_train.c
     settings.c
     source.c

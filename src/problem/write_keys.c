@@ -79,6 +79,13 @@ static bool belongs_to(const CzReuseKey *reuse, const CzRecord *record) {
     return strcmp(reuse->record, record->name) == 0;
 }
 
+static const char *variation_text(CzVariation variation) {
+    static const char *const texts[] = {[CZ_VARIATION_DATA] = "",
+                                        [CZ_VARIATION_FITS] = "; may be fitted",
+                                        [CZ_VARIATION_VARIES] = "; may be a design variable"};
+    return texts[variation];
+}
+
 void cz_keys_write_help(FILE *stream) {
     char spelled[200];
     fputs("Keys of a problem file. Every number with a dimension carries its unit in the key.\n"
@@ -94,7 +101,7 @@ void cz_keys_write_help(FILE *stream) {
             write_kind(stream, key);
             fputs("; ", stream);
             write_presence(stream, key);
-            fputs(key->varies ? "; may be a design variable\n" : "\n", stream);
+            fprintf(stream, "%s\n", variation_text(key->variation));
         }
         for (int i = 0; i < cz_n_reuse_key; i++)
             if (belongs_to(&cz_reuse_keys[i], record))
@@ -170,8 +177,7 @@ void cz_keys_write_reference(FILE *stream) {
             write_kind(stream, key);
             fputs(" | ", stream);
             write_presence(stream, key);
-            fprintf(stream, " | %s%s |\n", key->doc,
-                    key->varies ? "; may be a design variable" : "");
+            fprintf(stream, " | %s%s |\n", key->doc, variation_text(key->variation));
         }
     }
     write_reuse(stream);

@@ -1,6 +1,7 @@
 /* The documents `crushzone.outcome` and that of mistakes. */
 #include "crushzone/report.h"
 
+#include "evaluate/evaluator.h"
 #include "report/documents.h"
 
 #include <math.h>
@@ -17,6 +18,45 @@ static void put_variables(CzJson *json, const CzEvaluator *evaluator, const CzOu
         cz_json_real(json, "start", outcome->start[i]);
         cz_json_real(json, "value", outcome->best[i]);
         cz_json_flag(json, "at_bound", outcome->at_bound[i]);
+        if (variable->n_choice > 0) {
+            cz_json_text(json, "start_choice", variable->choice[(int)outcome->start[i]]);
+            cz_json_text(json, "choice", variable->choice[(int)outcome->best[i]]);
+        }
+        cz_json_close(json);
+    }
+    cz_json_close(json);
+}
+
+/* Of a fit: what was matched, and further parameter sets that match about as well. */
+static void put_fit(CzJson *json, const CzEvaluator *evaluator, const CzOutcome *outcome) {
+    const CzEvaluation *best = &outcome->best_evaluation, *start = &outcome->start_evaluation;
+    cz_json_open_list(json, "matches");
+    for (int i = 0; i < best->n_match; i++) {
+        const CzMatchResult *match = &best->match[i];
+        cz_json_open_object(json, NULL);
+        cz_json_text(json, "name", match->name);
+        cz_json_text(json, "scenario", match->scenario);
+        cz_json_text(json, "where", match->where);
+        cz_json_text(json, "kind", match->is_history ? "time history" : "value");
+        cz_json_text(json, "unit", match->unit);
+        cz_json_real(json, "target", match->target);
+        cz_json_real(json, "start", i < start->n_match ? start->match[i].value : NAN);
+        cz_json_real(json, "value", match->value);
+        cz_json_real(json, "tolerance", match->tolerance);
+        cz_json_real(json, "weight", match->weight);
+        cz_json_real(json, "residual", match->residual);
+        cz_json_close(json);
+    }
+    cz_json_close(json);
+    cz_json_open_list(json, "alternatives");
+    for (int i = 0; i < outcome->n_alternative; i++) {
+        cz_json_open_object(json, NULL);
+        cz_json_real(json, "objective", outcome->alternative_objective[i]);
+        cz_json_open_object(json, "values");
+        for (int k = 0; k < outcome->n_variable; k++)
+            cz_json_real(json, cz_evaluator_variable(evaluator, k)->name,
+                         outcome->alternative[i * outcome->n_variable + k]);
+        cz_json_close(json);
         cz_json_close(json);
     }
     cz_json_close(json);
@@ -73,6 +113,8 @@ CzStatus cz_report_write_outcome(const CzProblem *problem, const CzEvaluator *ev
     cz_json_real(json, "violation", outcome->best_evaluation.violation);
     put_variables(json, evaluator, outcome);
     put_objective(json, evaluator, outcome);
+    if (cz_evaluator_is_fit(evaluator))
+        put_fit(json, evaluator, outcome);
     cz_json_open_list(json, "constraints");
     for (int i = 0; i < outcome->best_evaluation.n_constraint; i++)
         put_constraint(json, evaluator, outcome, i);

@@ -7,6 +7,8 @@
 #include "report/figure.h"
 #include "report/overlay.h"
 
+#include <math.h>
+
 /* The objective before and after. */
 static void write_objective(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
                             FILE *stream) {
@@ -34,7 +36,12 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome, b
     static const char *const words[] = {[CZ_OUTCOME_FEASIBLE] = "FEASIBLE",
                                         [CZ_OUTCOME_INFEASIBLE] = "NOTHING FEASIBLE FOUND",
                                         [CZ_OUTCOME_INTERRUPTED] = "INTERRUPTED"};
-    cz_grid_write_text(words[outcome->status], styles[outcome->status], colour, stream);
+    const bool is_fit = cz_evaluator_is_fit(evaluator);
+    const char *word = is_fit && outcome->status == CZ_OUTCOME_FEASIBLE ? "WITHIN EVERY TOLERANCE"
+                       : is_fit && outcome->status == CZ_OUTCOME_INFEASIBLE
+                           ? "NOT WITHIN EVERY TOLERANCE"
+                           : words[outcome->status];
+    cz_grid_write_text(word, styles[outcome->status], colour, stream);
     fprintf(stream, " after %ld evaluations: ", outcome->n_evaluation);
     cz_grid_write_text(outcome->why_stopped, CZ_STYLE_PLAIN, colour, stream);
     if (outcome->status == CZ_OUTCOME_INTERRUPTED)
@@ -59,8 +66,74 @@ static void write_variables(const CzEvaluator *evaluator, const CzOutcome *outco
         cz_grid_put(&grid, variable->name, CZ_STYLE_PLAIN);
         cz_grid_put(&grid, variable->unit, CZ_STYLE_PLAIN);
         for (int k = 0; k < 4; k++)
-            cz_grid_put(&grid, cz_figure_digits(text, 6, numbers[k]), CZ_STYLE_PLAIN);
+            cz_grid_put(&grid,
+                        variable->n_choice > 0 && k < 2 ? ""
+                        : variable->n_choice > 0        ? variable->choice[(int)numbers[k]]
+                                                        : cz_figure_digits(text, 6, numbers[k]),
+                        CZ_STYLE_PLAIN);
         cz_grid_put(&grid, outcome->at_bound[i] ? "at its bound" : "", CZ_STYLE_CAREFUL);
+    }
+    cz_grid_write(&grid, colour, stream);
+    fputc('\n', stream);
+}
+
+/* What a fit was to reproduce, before and after. */
+static void write_matches(const CzOutcome *outcome, bool colour, FILE *stream) {
+    static const char *const names[] = {"match",     "where",  "unit",  "measured",
+                                        "tolerance", "before", "after", "off by"};
+    const CzEvaluation *best = &outcome->best_evaluation, *start = &outcome->start_evaluation;
+    CzGrid grid;
+    cz_grid_begin(&grid, "lllrrrrr");
+    for (int i = 0; i < 8; i++)
+        cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
+    for (int i = 0; i < best->n_match; i++) {
+        const CzMatchResult *match = &best->match[i];
+        const double numbers[] = {match->is_history ? NAN : match->target, match->tolerance,
+                                  i < start->n_match ? start->match[i].value : NAN, match->value};
+        char text[CZ_FIGURE_ROOM + 16];
+        cz_grid_put(&grid, match->name, CZ_STYLE_PLAIN);
+        cz_grid_put(&grid, match->where, CZ_STYLE_PLAIN);
+        cz_grid_put(&grid, match->unit, CZ_STYLE_PLAIN);
+        for (int k = 0; k < 4; k++)
+            cz_grid_put(&grid,
+                        k == 0 && match->is_history ? "history"
+                                                    : cz_figure_digits(text, 5, numbers[k]),
+                        CZ_STYLE_PLAIN);
+        snprintf(text, sizeof text, "%+.2f tol", match->residual);
+        cz_grid_put(&grid, text, fabs(match->residual) <= 1 ? CZ_STYLE_GOOD : CZ_STYLE_BAD);
+    }
+    cz_grid_write(&grid, colour, stream);
+    fputc('\n', stream);
+}
+
+/* Further parameter sets that fit about as well, a column each. */
+static void write_alternatives(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
+                               FILE *stream) {
+    char text[CZ_FIGURE_ROOM + 16];
+    if (outcome->n_alternative == 0) {
+        fputs("No other parameter set of this search fits as well.\n\n", stream);
+        return;
+    }
+    CzGrid grid;
+    cz_grid_begin(&grid, "lrrrrrr");
+    cz_grid_put(&grid, "sets that fit too", CZ_STYLE_PLAIN);
+    cz_grid_put(&grid, "best", CZ_STYLE_PLAIN);
+    for (int i = 0; i < 5; i++) {
+        snprintf(text, sizeof text, "set %d", i + 2);
+        cz_grid_put(&grid, i < outcome->n_alternative ? text : "", CZ_STYLE_PLAIN);
+    }
+    for (int k = -1; k < outcome->n_variable; k++) {
+        const double best = k < 0 ? outcome->best_evaluation.objective : outcome->best[k];
+        cz_grid_put(&grid, k < 0 ? "sum of squares" : cz_evaluator_variable(evaluator, k)->name,
+                    CZ_STYLE_PLAIN);
+        cz_grid_put(&grid, cz_figure_digits(text, 4, best), CZ_STYLE_PLAIN);
+        for (int i = 0; i < 5; i++) {
+            const bool is_there = i < outcome->n_alternative;
+            const double value = !is_there ? NAN
+                                 : k < 0   ? outcome->alternative_objective[i]
+                                           : outcome->alternative[i * outcome->n_variable + k];
+            cz_grid_put(&grid, is_there ? cz_figure_digits(text, 4, value) : "", CZ_STYLE_PLAIN);
+        }
     }
     cz_grid_write(&grid, colour, stream);
     fputc('\n', stream);
@@ -72,8 +145,8 @@ static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outc
     static const char *const names[] = {"violated", "where", "scenario",
                                         "limit",    "value", "margin"};
     const CzEvaluation *best = &outcome->best_evaluation;
-    if (best->violation <= 0)
-        return;
+    if (best->violation <= 0 || best->n_constraint == best->n_match)
+        return; /* what is matched has a table of its own */
     CzGrid grid;
     cz_grid_begin(&grid, "lllrrr");
     for (int i = 0; i < 6; i++)
@@ -108,6 +181,10 @@ void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *
     fputs("\n\n", stream);
     write_head(evaluator, outcome, colour, stream);
     write_variables(evaluator, outcome, colour, stream);
+    if (cz_evaluator_is_fit(evaluator)) {
+        write_matches(outcome, colour, stream);
+        write_alternatives(evaluator, outcome, colour, stream);
+    }
     cz_checks_write_table(&outcome->best_evaluation, &outcome->start_evaluation, colour, stream);
     write_violations(evaluator, outcome, colour, stream);
 

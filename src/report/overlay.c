@@ -42,6 +42,12 @@ static bool is_about(const char *setting, const char *path, size_t n) {
     return strncmp(setting, path, n) == 0 && setting[n] == '=';
 }
 
+/* What a variable sets at one of its places in the best design, as typed. */
+static const char *value_text(const CzVariableInfo *variable, double value,
+                              char number[CZ_NUMBER_TEXT]) {
+    return variable->n_choice > 0 ? variable->choice[(int)value] : cz_number_print(number, value);
+}
+
 /* Adds a setting in place of an earlier one about the same path. */
 static void add_setting(const char **setting, int *n_setting, const char *added) {
     const size_t n = strcspn(added, "=");
@@ -67,12 +73,14 @@ const char **cz_overlay_settings(const CzEvaluator *evaluator, const CzOutcome *
     for (int variable = 0; variable < outcome->n_variable && setting != NULL; variable++)
         for (int i = 0; i < cz_evaluator_n_place(evaluator, variable); i++) {
             const CzVariablePlace place = cz_evaluator_place(evaluator, variable, i);
-            const size_t n = strlen(place.path) + 1 + CZ_NUMBER_TEXT;
-            char number[CZ_NUMBER_TEXT], *text = cz_arena_allocate(arena, n, 1);
+            char number[CZ_NUMBER_TEXT];
+            const char *value = value_text(cz_evaluator_variable(evaluator, variable),
+                                           outcome->best[variable] * place.factor, number);
+            const size_t n = strlen(place.path) + 1 + strlen(value) + 1;
+            char *text = cz_arena_allocate(arena, n, 1);
             if (text == NULL)
                 return NULL;
-            cz_number_print(number, outcome->best[variable] * place.factor);
-            snprintf(text, n, "%s=%s", place.path, number);
+            snprintf(text, n, "%s=%s", place.path, value);
             add_setting(setting, n_setting, text);
         }
     return setting;

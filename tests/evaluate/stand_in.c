@@ -64,6 +64,29 @@ const CzRunSummary *cz_run_summary(const CzRun *run) {
     return &run->summary;
 }
 
+/* No channels. */
+int cz_run_n_channel(const CzRun *run) {
+    (void)run;
+    return 0;
+}
+
+int cz_run_n_sample(const CzRun *run) {
+    (void)run;
+    return 0;
+}
+
+const char *cz_run_channel_name(const CzRun *run, int channel) {
+    (void)run;
+    (void)channel;
+    return "";
+}
+
+const double *cz_run_channel(const CzRun *run, int channel) {
+    (void)run;
+    (void)channel;
+    return NULL;
+}
+
 /* Takes energy out of `rest` along a plateau and writes the element. */
 static void absorb(CzElementResult *element, double force, double stroke, double *rest) {
     element->energy = fmin(*rest, force * stroke);

@@ -122,6 +122,11 @@ const char *cz_evaluator_objective_unit(const CzEvaluator *evaluator) {
     return "kN";
 }
 
+bool cz_evaluator_is_fit(const CzEvaluator *evaluator) {
+    (void)evaluator;
+    return false;
+}
+
 bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator) {
     (void)evaluator;
     return false;

@@ -1,0 +1,221 @@
+/* Matches: finding what they name, and judging runs by them. */
+#include "evaluate/match.h"
+#include "base/error.h"
+#include "base/suggest.h"
+#include "evaluate/place.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Residual of what a run does not show (ours): further off than anything worth keeping. */
+static const double not_shown = 10;
+
+/* ---- building -------------------------------------------------------------------------------- */
+
+static CzStatus find_event(const char *text, CzEventKind *event, CzError *error) {
+    static const char *const words[] = {
+#define CZ_EVENT(constant, word, doc) word,
+#include "crushzone/events.def"
+#undef CZ_EVENT
+    };
+    CzSuggestion nearest = {0};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (strcmp(words[i], text) == 0) {
+            *event = (CzEventKind)i;
+            return CZ_OK;
+        }
+        cz_suggest(&nearest, text, words[i]);
+    }
+    const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no event '%.60s'", text);
+    if (error != NULL && nearest.best != NULL)
+        snprintf(error->help, sizeof error->help, "did you mean '%s'?", nearest.best);
+    return status;
+}
+
+/* The unit at the end of a channel's name: v_A1_m_s has m_s, F_A1-B1_kN has kN. */
+static const char *unit_of_channel(const char *channel) {
+    static const char *const units[] = {"m_s", "km_h", "mrad", "kN", "kJ", "mm", "ms", "m", "g"};
+    const size_t n = strlen(channel);
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
+        const size_t n_unit = strlen(units[i]);
+        if (n > n_unit && channel[n - n_unit - 1] == '_' &&
+            strcmp(channel + n - n_unit, units[i]) == 0)
+            return units[i];
+    }
+    return "";
+}
+
+/* Gives a failure the place of a field of the problem file. */
+static CzStatus place_failure(const CzProblem *problem, const void *field, CzStatus status,
+                              CzError *error) {
+    if (status == CZ_STATUS_INPUT && error != NULL)
+        cz_problem_place(problem, field, error);
+    return status;
+}
+
+static CzStatus build_item(const CzProblem *problem, int index, int n_scene, const CzScene *scene,
+                           CzMatchItem *item, CzError *error) {
+    const CzMatch *written = &cz_problem_input(problem)->optimise.match[index];
+    *item = (CzMatchItem){.written = written, .unit = "ms"};
+    for (int s = 0; written->scenario != NULL && s < n_scene; s++)
+        if (strcmp(scene[s].name, written->scenario) == 0)
+            item->scenario = s;
+    if (written->metric != NULL) {
+        CZ_TRY(place_failure(problem, &written->metric,
+                             cz_metric_parse(written->metric, &item->metric, error), error));
+        item->unit = item->metric.kind->unit;
+        if (!cz_metric_picks(&item->metric, &scene[item->scenario]))
+            return place_failure(problem, &written->metric,
+                                 cz_fail(error, CZ_STATUS_INPUT,
+                                         "'%s' picks nothing in scenario '%s'", written->metric,
+                                         scene[item->scenario].name),
+                                 error);
+    } else if (written->event != NULL) {
+        CZ_TRY(place_failure(problem, &written->event,
+                             find_event(written->event, &item->event, error), error));
+    } else {
+        item->unit = unit_of_channel(written->channel);
+        if (written->file != NULL)
+            item->measured = cz_problem_measured(problem, index);
+    }
+    return CZ_OK;
+}
+
+CzStatus cz_matches_build(const CzProblem *problem, int n_scene, const CzScene *scene,
+                          CzArena *arena, CzMatchList *list, CzError *error) {
+    const CzOptimise *optimise = &cz_problem_input(problem)->optimise;
+    *list = (CzMatchList){0};
+    if (!optimise->given || optimise->n_match == 0)
+        return CZ_OK;
+    list->item = cz_arena_allocate(arena, (size_t)optimise->n_match, sizeof *list->item);
+    if (list->item == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the matches");
+    for (int i = 0; i < optimise->n_match; i++) {
+        CZ_TRY(build_item(problem, i, n_scene, scene, &list->item[i], error));
+        list->needs_record |= list->item[i].metric.kind == NULL;
+        list->n_item++;
+    }
+    return CZ_OK;
+}
+
+/* ---- judging --------------------------------------------------------------------------------- */
+
+static CzStatus find_channel(const CzMatchItem *item, const CzProblem *problem, const CzRun *run,
+                             const double **values, CzError *error) {
+    CzSuggestion nearest = {0};
+    for (int i = 0; i < cz_run_n_channel(run); i++) {
+        if (strcmp(cz_run_channel_name(run, i), item->written->channel) == 0) {
+            *values = cz_run_channel(run, i);
+            return CZ_OK;
+        }
+        cz_suggest(&nearest, item->written->channel, cz_run_channel_name(run, i));
+    }
+    cz_fail(error, CZ_STATUS_INPUT, "there is no channel '%.60s'", item->written->channel);
+    if (error != NULL && nearest.best != NULL)
+        snprintf(error->help, sizeof error->help, "did you mean '%s'?", nearest.best);
+    return place_failure(problem, &item->written->channel, CZ_STATUS_INPUT, error);
+}
+
+/* Value of a channel at a time [s], on the line between its samples; NaN beyond the run. `from` is
+ * a sample to begin at and is moved on, for times that rise. */
+static double value_at(const CzRun *run, const double *values, double time, int *from) {
+    const double *t_ms = cz_run_channel(run, 0);
+    const int n = cz_run_n_sample(run);
+    const double at = 1e3 * time;
+    int i = *from;
+    while (i + 2 < n && t_ms[i + 1] < at)
+        i++;
+    *from = i;
+    if (n < 2 || at > t_ms[n - 1] * (1 + 1e-9) || at < t_ms[0])
+        return NAN;
+    const double span = t_ms[i + 1] - t_ms[i];
+    const double share = span > 0 ? fmin((at - t_ms[i]) / span, 1) : 1;
+    return values[i] + share * (values[i + 1] - values[i]);
+}
+
+enum { MOST_STRETCHES = 100 };
+
+int cz_match_n_detail(const CzMatchItem *item) {
+    if (item->measured == NULL)
+        return 1;
+    return item->measured->n_point < MOST_STRETCHES ? item->measured->n_point : MOST_STRETCHES;
+}
+
+/* The mean square difference; the mean difference of each stretch goes into its detail, so that
+ * their squares add up to the square of the whole residual when stretches are short. */
+static void judge_history(const CzMatchItem *item, const CzRun *run, const double *values,
+                          CzMatchResult *result, double *detail) {
+    const CzMeasured *measured = item->measured;
+    const int n = measured->n_point, n_stretch = cz_match_n_detail(item);
+    double sum = 0;
+    int from = 0;
+    for (int stretch = 0, i = 0; stretch < n_stretch; stretch++) {
+        const int first = i, end = (int)((long)n * (stretch + 1) / n_stretch);
+        double part = 0;
+        for (; i < end; i++) {
+            const double difference =
+                value_at(run, values, measured->time[i], &from) - measured->value[i];
+            sum += difference * difference;
+            part += difference;
+        }
+        if (detail != NULL)
+            detail[stretch] =
+                part / sqrt((double)(i - first) * n) * sqrt(result->weight) / result->tolerance;
+    }
+    result->is_history = true;
+    result->target = 0;
+    result->value = sqrt(sum / n); /* NaN when the run ends too early */
+    snprintf(result->where, sizeof result->where, "%.47s", item->written->channel);
+}
+
+static void judge_event(const CzMatchItem *item, const CzRunSummary *run, CzMatchResult *result) {
+    const CzMatch *written = item->written;
+    for (int i = 0; i < run->n_event; i++) {
+        const CzEvent *event = &run->event[i];
+        if (event->what != item->event ||
+            (written->where != NULL && !cz_matches(written->where, event->where)))
+            continue;
+        result->value = 1e3 * event->time;
+        memcpy(result->where, event->where, sizeof result->where);
+        return;
+    }
+    const double nearest = (1e3 * run->simulated - written->value) / written->tolerance;
+    result->residual = fmax(not_shown, nearest);
+}
+
+CzStatus cz_match_judge(const CzMatchItem *item, const CzSubject *subject, const CzRun *run,
+                        CzMatchResult *result, double *detail, CzError *error) {
+    const CzMatch *written = item->written;
+    *result = (CzMatchResult){.name = written->name,
+                              .scenario = subject->scene->name,
+                              .unit = item->unit,
+                              .target = written->value,
+                              .value = NAN,
+                              .tolerance = written->tolerance,
+                              .weight = written->weight,
+                              .residual = not_shown};
+    if (item->metric.kind != NULL) {
+        const CzMetricValue value = cz_metric_value(&item->metric, subject, true);
+        result->value = value.value;
+        memcpy(result->where, value.where, sizeof result->where);
+    } else if (written->event != NULL) {
+        judge_event(item, subject->run, result);
+    } else {
+        const double *values = NULL;
+        int from = 0;
+        CZ_TRY(find_channel(item, subject->problem, run, &values, error));
+        if (item->measured != NULL) {
+            judge_history(item, run, values, result, detail);
+        } else {
+            result->value = value_at(run, values, written->time, &from);
+            snprintf(result->where, sizeof result->where, "%.47s", written->channel);
+        }
+    }
+    if (!isnan(result->value))
+        result->residual = (result->value - result->target) / result->tolerance;
+    const bool is_in_stretches = item->measured != NULL && !isnan(result->value);
+    for (int k = 0; detail != NULL && !is_in_stretches && k < cz_match_n_detail(item); k++)
+        detail[k] = k == 0 ? sqrt(result->weight) * result->residual : 0;
+    return CZ_OK;
+}

@@ -1,0 +1,35 @@
+/* A variant: the problem with other settings, ready to run.
+ *
+ * Numbers of absorbers are written into copies of the vehicle array, so that many designs of one
+ * variant run side by side. What changes more than that, such as the buffer that was chosen or a
+ * mass that is being fitted, is read again from the file's tree: the variant is then judged and
+ * built just as the file would be that says so, to the last bit.
+ */
+#ifndef CZ_EVALUATE_VARIANT_H
+#define CZ_EVALUATE_VARIANT_H
+
+#include "crushzone/evaluate.h"
+#include "evaluate/scene.h"
+
+typedef struct CzVariant {
+    CzProblem *owned; /* NULL for the problem as written */
+    const CzVehicle *vehicles;
+    int n_scene;
+    CzModel **model; /* NULL for scenarios that are left out (n_scene) */
+} CzVariant;
+
+/* Settings "path" = "value" of a variant. */
+typedef struct CzVariantSettings {
+    int n;
+    const char *const *path, *const *value;
+} CzVariantSettings;
+
+/* Builds a variant; `settings` NULL for the problem as written, `only` NULL for every scenario. A
+ * variant that failed needs no free. Statuses: CZ_OK, CZ_STATUS_INPUT with the rule that the
+ * settings break, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_variant_build(const CzProblem *problem, const CzVariantSettings *settings,
+                                        int n_scene, const CzScene *scene, const char *only,
+                                        CzVariant *variant, CzError *error);
+void cz_variant_free(CzVariant *variant);
+
+#endif

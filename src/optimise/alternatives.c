@@ -1,0 +1,81 @@
+/* Further parameter sets that fit about as well: a fit that has more parameters than measurements,
+ * or insensitive ones, has many answers, and telling only one would hide it.
+ */
+#include "optimise/alternatives.h"
+#include "base/error.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Sets that are told at most, how much worse than the best they may be when it misses a tolerance,
+ * and how far apart they lie: root mean square share of the ranges (all ours). */
+enum { MOST = 5 };
+static const double about_as_well = 1.2;
+static const double apart = 0.1;
+
+static double distance(const double *a, const double *b, int n) {
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sqrt(sum / n);
+}
+
+/* Whether a record fits about as well as the best one: within every tolerance like it, or nearly
+ * the same sum. */
+static bool fits(const CzSearch *search, long record, long best) {
+    const CzRecord *mine = &search->record[record];
+    if (isnan(mine->objective))
+        return false;
+    return search->record[best].violation <= 0
+               ? mine->violation <= 0
+               : mine->objective <= about_as_well * search->record[best].objective;
+}
+
+/* The best record that fits and lies apart from the n chosen ones, -1 when there is none; u is
+ * scratch. */
+static long next_apart(const CzSearch *search, long best, int n_chosen, const double *chosen,
+                       double *u) {
+    const int n = search->function->n_variable;
+    long found = -1;
+    for (long record = 0; record < search->n_record; record++) {
+        if (!fits(search, record, best) ||
+            (found >= 0 && search->record[record].objective >= search->record[found].objective))
+            continue;
+        cz_search_scale(search, cz_search_x(search, record), u);
+        bool is_apart = true;
+        for (int i = 0; i < n_chosen && is_apart; i++)
+            is_apart = distance(u, chosen + i * n, n) >= apart;
+        if (is_apart)
+            found = record;
+    }
+    return found;
+}
+
+CzStatus cz_alternatives_find(const CzSubspace *subspace, const CzSearch *search, long best,
+                              CzOutcome *outcome, CzError *error) {
+    const int n = search->function->n_variable;
+    if (best < 0 || n == 0)
+        return CZ_OK;
+    double *chosen = calloc((size_t)(MOST + 2) * (size_t)n, sizeof *chosen);
+    outcome->alternative =
+        calloc((size_t)MOST * (size_t)subspace->n_all, sizeof *outcome->alternative);
+    outcome->alternative_objective = calloc(MOST, sizeof *outcome->alternative_objective);
+    if (chosen == NULL || outcome->alternative == NULL || outcome->alternative_objective == NULL) {
+        free(chosen);
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for further parameter sets");
+    }
+    double *u = chosen + (MOST + 1) * n;
+    cz_search_scale(search, cz_search_x(search, best), chosen);
+    for (int i = 0; i < MOST; i++) {
+        const long record = next_apart(search, best, i + 1, chosen, u);
+        if (record < 0)
+            break;
+        cz_search_scale(search, cz_search_x(search, record), chosen + (i + 1) * n);
+        cz_subspace_expand(subspace, cz_search_x(search, record),
+                           outcome->alternative + i * subspace->n_all);
+        outcome->alternative_objective[outcome->n_alternative++] = search->record[record].objective;
+    }
+    free(chosen);
+    return CZ_OK;
+}

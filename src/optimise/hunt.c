@@ -1,0 +1,131 @@
+/* All searches of one optimisation. */
+#include "optimise/hunt.h"
+#include "base/error.h"
+#include "evaluate/evaluator.h"
+#include "optimise/strategy.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The record that counts: the best on the catalogue steps when there are any. A search that ended
+ * before it came to them gives the best it has seen, and so does one that was interrupted before it
+ * found steps that pass. */
+long cz_hunt_record(const CzSearch *search) {
+    const long best = search->best, on_grid = search->best_on_grid;
+    if (!cz_search_has_steps(search) || !search->is_snapped || on_grid < 0)
+        return best;
+    const bool passes_only_between =
+        search->record[best].violation <= 0 && search->record[on_grid].violation > 0;
+    return search->status == CZ_STATUS_INTERRUPTED && passes_only_between ? best : on_grid;
+}
+
+/* ---- one search ------------------------------------------------------------------------------ */
+
+/* Evaluates the only design of a combination without numbers. */
+static void evaluate_only_design(CzSearch *search) {
+    double objective,
+        *constraint = calloc((size_t)search->function->n_constraint + 1, sizeof *constraint);
+    if (constraint != NULL)
+        cz_search_evaluate(search, "choices", 1, search->function->start, &objective, constraint);
+    free(constraint);
+}
+
+static CzStatus lead(CzSearch *search, bool is_fit, const CzOptimiseOptions *options,
+                     CzError *error) {
+    const unsigned long seed = (unsigned long)options->seed;
+    CzStatus status = CZ_OK;
+    if (search->function->n_variable == 0)
+        evaluate_only_design(search);
+    else if (strcmp(options->algorithm, "auto") != 0)
+        status = cz_strategy_named(search, options->algorithm, seed, error);
+    else
+        status =
+            is_fit ? cz_strategy_fit(search, seed, error) : cz_strategy_auto(search, seed, error);
+    if (status != CZ_OK || search->status == CZ_OK || search->status == CZ_STATUS_INTERRUPTED)
+        return status;
+    if (search->status == CZ_STATUS_RUN_FAILED)
+        return cz_fail(error, search->status, "%s: the bounds of the variables may be too wide",
+                       search->why);
+    if (error != NULL)
+        *error = search->error;
+    return search->status;
+}
+
+/* ---- several --------------------------------------------------------------------------------- */
+
+/* Whether the best design of one search is better than that of another. */
+static bool is_better(const CzSearch *search, const CzSearch *other) {
+    const long a = cz_hunt_record(search), b = cz_hunt_record(other);
+    if (a < 0 || b < 0)
+        return a >= 0;
+    const CzRecord *mine = &search->record[a], *theirs = &other->record[b];
+    if ((mine->violation <= 0) != (theirs->violation <= 0))
+        return mine->violation <= 0;
+    return mine->violation <= 0 ? mine->objective < theirs->objective
+                                : mine->penalty < theirs->penalty;
+}
+
+/* Begins and leads one more search. */
+static CzStatus begin(CzHunt *hunt, CzEvaluator *evaluator, int combination, const double *start,
+                      long evaluations, const CzOptimiseOptions *options, CzError *error) {
+    CzSubspace *subspace = &hunt->subspace[hunt->n];
+    CzSearch *search = &hunt->search[hunt->n];
+    CzOptimiseOptions own = *options;
+    long n_earlier = 0;
+    for (int i = 0; i < hunt->n; i++)
+        n_earlier += hunt->search[i].n_record;
+    own.evaluations = evaluations;
+    if (!cz_subspace_create(evaluator, combination, start, &hunt->arena, subspace))
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a search");
+    cz_search_init(search, &subspace->function, &own);
+    search->n_earlier = n_earlier;
+    search->most_in_all = options->evaluations;
+    hunt->n++;
+    const CzStatus status = lead(search, cz_evaluator_is_fit(evaluator), &own, error);
+    if (is_better(search, &hunt->search[hunt->chosen]))
+        hunt->chosen = hunt->n - 1;
+    return status;
+}
+
+/* A short search of every combination, then all that is left for the best one. */
+static CzStatus hunt_choices(CzEvaluator *evaluator, int n, const CzOptimiseOptions *options,
+                             CzHunt *hunt, CzError *error) {
+    const long half = options->evaluations / (2 * (long)n);
+    long left = options->evaluations;
+    int n_failed = 0;
+    for (int combination = 0; combination < n && left > 0; combination++) {
+        const CzStatus status =
+            begin(hunt, evaluator, combination, NULL, half > 0 ? half : 1, options, error);
+        n_failed += status == CZ_STATUS_RUN_FAILED;
+        if (status != CZ_OK && (status != CZ_STATUS_RUN_FAILED || n_failed == n))
+            return status;
+        left -= hunt->search[hunt->n - 1].n_record;
+        if (hunt->search[hunt->n - 1].status == CZ_STATUS_INTERRUPTED)
+            return CZ_OK;
+    }
+    const CzSearch *best = &hunt->search[hunt->chosen];
+    const long record = cz_hunt_record(best);
+    if (record < 0 || left < 1 || best->function->n_variable == 0)
+        return CZ_OK;
+    return begin(hunt, evaluator, hunt->chosen, cz_search_x(best, record), left, options, error);
+}
+
+CzStatus cz_hunt(CzEvaluator *evaluator, const CzOptimiseOptions *options, CzHunt *hunt,
+                 CzError *error) {
+    const int n = cz_evaluator_n_combination(evaluator);
+    *hunt = (CzHunt){0};
+    hunt->subspace = cz_arena_allocate(&hunt->arena, (size_t)n + 1, sizeof *hunt->subspace);
+    hunt->search = cz_arena_allocate(&hunt->arena, (size_t)n + 1, sizeof *hunt->search);
+    if (hunt->subspace == NULL || hunt->search == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the search");
+    if (n > 1)
+        return hunt_choices(evaluator, n, options, hunt, error);
+    return begin(hunt, evaluator, 0, NULL, options->evaluations, options, error);
+}
+
+void cz_hunt_free(CzHunt *hunt) {
+    for (int i = 0; i < hunt->n; i++)
+        cz_search_free(&hunt->search[i]);
+    cz_arena_free(&hunt->arena);
+}

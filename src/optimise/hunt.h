@@ -1,0 +1,27 @@
+/* All searches of one optimisation: one for each combination of choices, and one more from the best
+ * of them. Without choices it is a single search.
+ */
+#ifndef CZ_OPTIMISE_HUNT_H
+#define CZ_OPTIMISE_HUNT_H
+
+#include "optimise/subspace.h"
+
+typedef struct CzHunt {
+    CzArena arena;
+    int n;                /* searches that were begun */
+    CzSubspace *subspace; /* (n) */
+    CzSearch *search;     /* (n) */
+    int chosen;           /* search with the best design */
+} CzHunt;
+
+/* Leads all searches; options are settled. Statuses: CZ_OK, also when stopped;
+ * CZ_STATUS_RUN_FAILED when designs of every combination failed, CZ_STATUS_INPUT,
+ * CZ_STATUS_NO_MEMORY. The caller frees the hunt in any case. */
+CZ_MUST_CHECK CzStatus cz_hunt(CzEvaluator *evaluator, const CzOptimiseOptions *options,
+                               CzHunt *hunt, CzError *error);
+void cz_hunt_free(CzHunt *hunt);
+
+/* The record of a search that counts: the best on the catalogue steps when there are any. */
+long cz_hunt_record(const CzSearch *search);
+
+#endif

@@ -1,0 +1,81 @@
+/* The evaluator as a function of the numbers of one combination of choices. */
+#include "optimise/subspace.h"
+#include "base/error.h"
+#include "evaluate/evaluator.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void cz_subspace_expand(const CzSubspace *subspace, const double *number, double *x) {
+    memcpy(x, subspace->made, (size_t)subspace->n_all * sizeof *x);
+    for (int i = 0; i < subspace->function.n_variable; i++)
+        x[subspace->number[i]] = number[i];
+}
+
+static CzStatus evaluate_designs(void *data, int n_point, const double *numbers, double *objective,
+                                 double *constraint, double *detail, CzError *error) {
+    const CzSubspace *subspace = data;
+    const size_t n_all = (size_t)subspace->n_all;
+    CzEvaluation *evaluation = calloc((size_t)n_point, sizeof *evaluation);
+    double *x = calloc((size_t)n_point, n_all * sizeof *x);
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    if (evaluation == NULL || x == NULL) {
+        cz_fail(error, status, "no memory for %d designs", n_point);
+    } else {
+        for (int i = 0; i < n_point; i++)
+            cz_subspace_expand(subspace, numbers + i * subspace->function.n_variable,
+                               x + (size_t)i * n_all);
+        status = cz_evaluator_search(subspace->evaluator, n_point, x, evaluation, detail, error);
+    }
+    for (int i = 0; i < n_point && status == CZ_OK; i++) {
+        const size_t m = (size_t)evaluation[i].n_constraint;
+        objective[i] = evaluation[i].objective;
+        memcpy(constraint + (size_t)i * m, evaluation[i].constraint, m * sizeof *constraint);
+        cz_evaluation_free(&evaluation[i]);
+    }
+    free(evaluation);
+    free(x);
+    return status;
+}
+
+bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *start,
+                        CzArena *arena, CzSubspace *subspace) {
+    const int n_all = cz_evaluator_n_variable(evaluator);
+    const int n_constraint = cz_evaluator_n_constraint(evaluator);
+    const size_t room = (size_t)n_all;
+    double *numbers = cz_arena_allocate(arena, 5 * room, sizeof *numbers);
+    bool *flags = cz_arena_allocate(arena, (size_t)n_constraint + 1, sizeof *flags);
+    int *number = cz_arena_allocate(arena, room, sizeof *number);
+    if (numbers == NULL || flags == NULL || number == NULL)
+        return false;
+    double *min = numbers, *max = min + room, *first = max + room, *step = first + room;
+    double *made = step + room;
+    int n = 0;
+    cz_evaluator_set_combination(evaluator, combination, made);
+    for (int i = 0; i < n_all; i++) {
+        const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
+        if (info->n_choice > 0)
+            continue;
+        min[n] = info->min;
+        max[n] = info->max;
+        first[n] = start != NULL ? start[n] : info->start;
+        step[n] = info->step;
+        number[n++] = i;
+    }
+    for (int j = 0; j < n_constraint; j++)
+        flags[j] = cz_evaluator_is_flag(evaluator, j);
+    *subspace =
+        (CzSubspace){.evaluator = evaluator, .n_all = n_all, .number = number, .made = made};
+    subspace->function = (CzFunction){.n_variable = n,
+                                      .n_constraint = n_constraint,
+                                      .min = min,
+                                      .max = max,
+                                      .start = first,
+                                      .step = step,
+                                      .n_detail = cz_evaluator_n_detail(evaluator),
+                                      .is_flag = flags,
+                                      .is_minimax = cz_evaluator_maximises_margin(evaluator),
+                                      .evaluate = evaluate_designs,
+                                      .data = subspace};
+    return true;
+}

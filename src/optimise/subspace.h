@@ -1,0 +1,29 @@
+/* The evaluator as a function of numbers, with the choices of parts made.
+ *
+ * Parts are not in any order, so no algorithm is shown a choice: each combination of them is a
+ * search of its own over the numbers.
+ */
+#ifndef CZ_OPTIMISE_SUBSPACE_H
+#define CZ_OPTIMISE_SUBSPACE_H
+
+#include "base/arena.h"
+#include "optimise/search.h"
+
+typedef struct CzSubspace {
+    CzEvaluator *evaluator;
+    int n_all;           /* variables of the problem */
+    int *number;         /* those that are no choice (function.n_variable) */
+    double *made;        /* a design with the choices made (n_all) */
+    CzFunction function; /* of the numbers alone */
+} CzSubspace;
+
+/* Fills a subspace; `start` NULL begins at the file's own values, else at these numbers
+ * (n_variable). Memory comes from the arena, also that of every evaluation's scratch. False without
+ * memory. */
+bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *start,
+                        CzArena *arena, CzSubspace *subspace);
+
+/* The whole design with these numbers; x is (n_all). */
+void cz_subspace_expand(const CzSubspace *subspace, const double *number, double *x);
+
+#endif

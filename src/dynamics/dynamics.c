@@ -241,3 +241,16 @@ bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, doub
             return false;
     return true;
 }
+
+void cz_dynamics_track_rate(CzDynamics *dynamics, size_t lane, double *rate) {
+    CzBlock *block = cz_block_of(dynamics, lane);
+    const size_t i = lane % CZ_LANE_BLOCK;
+    double force[4], rail_rate[4], power = 0.0;
+    for (int axle = 0; axle < 4; ++axle)
+        force[axle] = -block->scratch[CZ_S_WHEEL_FORCE_0 + axle][i];
+    cz_track_rate(dynamics->track, lane, force, rate, rail_rate);
+    for (int axle = 0; axle < 4; ++axle)
+        power += force[axle] * rail_rate[axle];
+    block->power[CZ_L_TRACK][i] += power;
+    block->power[CZ_L_WHEEL_NORMAL][i] -= power;
+}

@@ -142,6 +142,11 @@ CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena);
 bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, double step,
                            CzArena *arena);
 
+/* For a solver that carries the track's states itself (track.h): after an evaluation, the rates of
+ * the states under one car, and the track's part of the powers. The track was laid for a step of 0.
+ */
+void cz_dynamics_track_rate(CzDynamics *dynamics, size_t lane, double *rate);
+
 /* The block of a lane; its place there is lane % CZ_LANE_BLOCK. */
 static inline CzBlock *cz_block_of(const CzDynamics *dynamics, size_t lane) {
     return &dynamics->block[lane / CZ_LANE_BLOCK];

@@ -95,17 +95,21 @@ static void look(const CzTrackMotion *track, const CzTrackUnder *under, const do
     }
 }
 
-/* Load of a mode where the shapes were taken: sum of g(x) P. */
-static CzComplex load_under(const CzTrackModes *modes, const CzTrackUnder *under, int k, int i) {
+/* g(x) of a mode at a wheel, where the shapes were taken. */
+static CzComplex shape_under(const CzTrackModes *modes, const CzTrackUnder *under, int k, int i,
+                             int wheel) {
     const CzTrackGroup *group = &modes->group[k];
+    const CzTrackRow *shape = under->shape + 4 * (wheel * modes->n_vector + group->vector);
+    return cz_complex_sum(cz_complex_scaled(shape[group->copy][i], group->direct[i]),
+                          cz_complex_scaled(shape[2 + group->copy][i], group->alias[i]));
+}
+
+/* Load of a mode: sum of g(x) P. */
+static CzComplex load_under(const CzTrackModes *modes, const CzTrackUnder *under, int k, int i) {
     CzComplex sum = {0.0, 0.0};
-    for (int wheel = 0; wheel < 4; ++wheel) {
-        const CzTrackRow *shape = under->shape + 4 * (wheel * modes->n_vector + group->vector);
-        const double p = under->force[wheel];
-        sum = cz_complex_sum(sum, cz_complex_scaled(p * shape[group->copy][i], group->direct[i]));
-        sum =
-            cz_complex_sum(sum, cz_complex_scaled(p * shape[2 + group->copy][i], group->alias[i]));
-    }
+    for (int wheel = 0; wheel < 4; ++wheel)
+        sum = cz_complex_sum(
+            sum, cz_complex_scaled(under->force[wheel], shape_under(modes, under, k, i, wheel)));
     return sum;
 }
 
@@ -262,75 +266,32 @@ size_t cz_track_n_state(const CzTrackModes *modes) {
     return (size_t)modes->n_group * 2 * CZ_TRACK_WIDTH;
 }
 
-/* Direct and alias wave of a group's copy at a place. */
-static void wave_at(const CzTrackModes *modes, const CzTrackGroup *group, int i, double place,
-                    double wave[2]) {
-    const int j = group->vector * CZ_TRACK_WIDTH + i;
-    const CzComplex direct = cz_turned(j * (place / modes->length));
-    const CzComplex alias = cz_turned((j - modes->n_seat) * (place / modes->length));
-    wave[0] = group->copy == 0 ? direct.re : direct.im;
-    wave[1] = group->copy == 0 ? alias.re : alias.im;
+void cz_track_get_state(const CzTrackMotion *track, size_t index, double *state) {
+    memcpy(state, track->under[index].state, cz_track_n_state(track->modes) * sizeof *state);
 }
 
-/* g(x) of a mode. */
-static CzComplex shape_at(const CzTrackModes *modes, const CzTrackGroup *group, int i,
-                          double place) {
-    double wave[2];
-    wave_at(modes, group, i, place, wave);
-    return cz_complex_sum(cz_complex_scaled(wave[0], group->direct[i]),
-                          cz_complex_scaled(wave[1], group->alias[i]));
+void cz_track_set_state(CzTrackMotion *track, size_t index, const double *state) {
+    memcpy(track->under[index].state, state, cz_track_n_state(track->modes) * sizeof *state);
+    cz_track_read(track, &track->under[index]);
 }
 
-/* Load of a mode: sum of g(x) P, forces upwards. */
-static CzComplex load_of(const CzTrackModes *modes, const CzTrackGroup *group, int i,
-                         const double place[4], const double load[4]) {
-    CzComplex sum = {0.0, 0.0};
+void cz_track_rate(CzTrackMotion *track, size_t index, const double force[4], double *rate,
+                   double rail_rate[4]) {
+    const CzTrackModes *modes = track->modes;
+    CzTrackUnder *under = &track->under[index];
+    memcpy(under->force, force, sizeof under->force);
     for (int wheel = 0; wheel < 4; ++wheel)
-        sum = cz_complex_difference(
-            sum, cz_complex_scaled(load[wheel], shape_at(modes, group, i, place[wheel])));
-    return sum;
-}
-
-void cz_track_rest(const CzTrackModes *modes, const double place[4], const double load[4],
-                   double *state) {
+        rail_rate[wheel] = 0.0;
     for (int k = 0; k < modes->n_group; ++k)
         for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
             const CzTrackGroup *group = &modes->group[k];
-            CzComplex y = {0.0, 0.0};
-            if (is_mode(group, i))
-                y = cz_complex_product(load_of(modes, group, i, place, load),
-                                       cz_track_constant_answer(group->lambda[i], 0.0));
-            state[2 * (k * CZ_TRACK_WIDTH + i)] = y.re;
-            state[2 * (k * CZ_TRACK_WIDTH + i) + 1] = y.im;
-        }
-}
-
-void cz_track_deflect(const CzTrackModes *modes, const CzTrackFlexibility *continuous,
-                      const double *state, const double place[4], double deflection[4],
-                      double flexibility[4]) {
-    for (int wheel = 0; wheel < 4; ++wheel) {
-        const double x = place[wheel], cosine = cz_turned(x / modes->seats.spacing).re;
-        flexibility[wheel] = cz_track_flexibility_at(continuous, cosine);
-        deflection[wheel] = 0.0;
-        for (int k = 0; k < modes->n_group; ++k)
-            for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
-                const double *y = state + 2 * (k * CZ_TRACK_WIDTH + i);
-                const CzComplex g = shape_at(modes, &modes->group[k], i, x);
-                deflection[wheel] += g.re * y[0] - g.im * y[1];
-            }
-    }
-}
-
-void cz_track_rate(const CzTrackModes *modes, const double *state, const double place[4],
-                   const double load[4], double *rate) {
-    for (int k = 0; k < modes->n_group; ++k)
-        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
-            const CzTrackGroup *group = &modes->group[k];
-            const size_t at = 2 * (size_t)(k * CZ_TRACK_WIDTH + i);
-            const CzComplex y = {state[at], state[at + 1]};
-            const CzComplex own = cz_complex_product(group->lambda[i], y);
-            const CzComplex sum = cz_complex_sum(own, load_of(modes, group, i, place, load));
-            rate[at] = sum.re;
-            rate[at + 1] = sum.im;
+            const CzComplex y = {under->state[2 * k][i], under->state[2 * k + 1][i]};
+            const CzComplex moved = cz_complex_sum(cz_complex_product(group->lambda[i], y),
+                                                   load_under(modes, under, k, i));
+            rate[2 * k * CZ_TRACK_WIDTH + i] = moved.re;
+            rate[(2 * k + 1) * CZ_TRACK_WIDTH + i] = moved.im;
+            for (int wheel = 0; wheel < 4; ++wheel)
+                rail_rate[wheel] +=
+                    cz_complex_product(shape_under(modes, under, k, i, wheel), moved).re;
         }
 }

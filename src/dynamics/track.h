@@ -81,26 +81,27 @@ double cz_track_loss(const CzTrackMotion *track, size_t index);
 
 /* ---- the same track for a solver of ordinary differential equations ----
  *
- * The state of one car's track is `cz_track_n_state` real numbers, the real and imaginary parts of
- * its modes. A solver that carries them beside a vehicle's co-ordinates does in its right-hand side
+ * A track that is laid for a step of 0 stands still until somebody sets its state, the real and
+ * imaginary parts of its modes; its flexibility is that of continuous time. A solver that carries
+ * these states beside the vehicles' co-ordinates does in its right-hand side
  *
- *   1. cz_track_deflect: deflection z_i, upwards, of the modes under each wheel, and the
- *      flexibility r_i beside the modes at that place;
- *   2. solve each wheel's force N_i: the contact is pressed by (rest_i + z_i - z_wheel_i), of
- *      which r_i N_i goes into the flexibility and the rest into Hertz's law
- *      (cz_wheel_force_on_spring of laws/wheel_rail.h does that);
- *   3. cz_track_rate: the rates of the states under the forces N_i, downwards on the rail.
+ *   1. cz_track_set_state for each car,
+ *   2. the kernel's evaluation, which finds the forces of the wheels,
+ *   3. cz_dynamics_track_rate (dynamics.h) for each car: the rates of its states under those
+ * forces, and the track's part of the powers.
  *
- * At the start cz_track_rest gives the states at rest under the static loads, and rest_i =
- * indentation_i + r_i N_i - z_i makes a standing wheel rest. All functions are pure.
+ * At t = 0 cz_track_get_state gives the state at rest. Under usual axle loads a state is of the size
+ * of 0.01 to 1 sqrt(J s), and 1e-3 of that moves a wheel by about 1 um.
  */
+
+/* Numbers of one car's state. */
 size_t cz_track_n_state(const CzTrackModes *modes);
-void cz_track_rest(const CzTrackModes *modes, const double place[4], const double load[4],
-                   double *state);
-void cz_track_deflect(const CzTrackModes *modes, const CzTrackFlexibility *continuous,
-                      const double *state, const double place[4], double deflection[4],
-                      double flexibility[4]);
-void cz_track_rate(const CzTrackModes *modes, const double *state, const double place[4],
-                   const double load[4], double *rate);
+void cz_track_get_state(const CzTrackMotion *track, size_t index, double *state);
+void cz_track_set_state(CzTrackMotion *track, size_t index, const double *state);
+
+/* Rates of the state under forces at the places of the last look, upwards on the rail [N], and the
+ * rate of the rail there [m/s]. */
+void cz_track_rate(CzTrackMotion *track, size_t index, const double force[4], double *rate,
+                   double rail_rate[4]);
 
 #endif

@@ -97,6 +97,8 @@ typedef struct CzVehicleResult {
     double peak_deceleration;         /* largest |acceleration| of the body, unfiltered [m/s2] */
     double mean_deceleration_contact; /* largest mean over a window of net contact force [m/s2] */
     double mean_deceleration_120ms;   /* largest mean over any window of 120 ms or more [m/s2] */
+    double contact_window[2];         /* begin and end of the first of these windows, and */
+    double window_120ms[2];           /* of the second [s]; equal where there is none */
     double wheel_lift[4];             /* largest lift of each wheelset, rear to front [m] */
     double wheel_lift_time[4];        /* [s] */
     double bogie_lift;          /* largest over bogies and time of the lower wheelset's lift [m] */

@@ -9,6 +9,7 @@ set(CZ_SOURCES_model
     kinks.c
     lanes.c
     rail.c
+    stand.c
     statics.c
     step_bounds.c
     track.c

@@ -224,6 +224,10 @@ const char *cz_problem_scenario_name(const CzProblem *problem, int scenario) {
     return problem->input.scenarios[scenario].name;
 }
 
+const CzSource *cz_problem_first_source(const CzProblem *problem) {
+    return problem->reader.sources.first;
+}
+
 const CzInput *cz_problem_input(const CzProblem *problem) {
     return &problem->input;
 }

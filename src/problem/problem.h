@@ -11,6 +11,10 @@
 const CzInput *cz_problem_input(const CzProblem *problem);
 const CzVehicle *cz_problem_vehicles(const CzProblem *problem, int *n_vehicle);
 
+/* The files that were read, in order, the problem file first; more by `next` (problem/node.h). NULL
+ * when nothing was. */
+const struct CzSource *cz_problem_first_source(const CzProblem *problem);
+
 /* Fills file, line, column of the place where a field of the input was written (the innermost
  * record when the field itself was not), and the status CZ_STATUS_INPUT. `field` is an address
  * inside the input. */

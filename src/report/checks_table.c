@@ -89,6 +89,15 @@ static bool is_worst_of_name(const CzEvaluation *evaluation, int i, bool of_fami
     return true;
 }
 
+const char *cz_checks_word(const CzCheckResult *check) {
+    return does_not_apply(check) ? "n/a" : verdict_words[check->verdict];
+}
+
+bool cz_checks_is_shown(const CzEvaluation *evaluation, int i) {
+    const bool fails = evaluation->check[i].verdict == CZ_VERDICT_FAIL;
+    return is_worst_of_name(evaluation, i, fails);
+}
+
 static const char *or_empty(const char *text) {
     return text != NULL ? text : "";
 }
@@ -109,10 +118,8 @@ static void put_check(CzGrid *grid, const CzCheckResult *check, const CzCheckRes
     cz_checks_format_value(check, sizeof text, text);
     cz_grid_put(grid, text, CZ_STYLE_PLAIN);
     cz_grid_put(grid, cz_figure_margin(text, check->margin), CZ_STYLE_PLAIN);
-    if (does_not_apply(check))
-        cz_grid_put(grid, "n/a", CZ_STYLE_PLAIN);
-    else
-        cz_grid_put(grid, verdict_words[check->verdict], verdict_styles[check->verdict]);
+    cz_grid_put(grid, cz_checks_word(check),
+                does_not_apply(check) ? CZ_STYLE_PLAIN : verdict_styles[check->verdict]);
     cz_grid_put(grid, or_empty(check->why), CZ_STYLE_PLAIN);
 }
 
@@ -160,8 +167,7 @@ void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *b
         cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
-        const bool fails = check->verdict == CZ_VERDICT_FAIL;
-        if (several && !is_worst_of_name(evaluation, i, fails))
+        if (several && !cz_checks_is_shown(evaluation, i))
             continue;
         put_check(&grid, check, with_before ? &before->check[i] : NULL, several);
     }

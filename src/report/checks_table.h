@@ -18,4 +18,10 @@ void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text)
 /* The limit in its unit; a lower one says so. */
 void cz_checks_format_limit(const CzCheckResult *check, size_t room, char *text);
 
+/* Its verdict as people read it: "pass", "FAIL", "n/a". */
+const char *cz_checks_word(const CzCheckResult *check);
+
+/* Whether a table that is short of room shows check i: it fails, or it is the worst of its name. */
+bool cz_checks_is_shown(const CzEvaluation *evaluation, int i);
+
 #endif

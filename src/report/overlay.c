@@ -110,20 +110,32 @@ static CzStatus read_best(const CzProblem *problem, const CzReportOptions *optio
                                 &read, best, error);
 }
 
+CzStatus cz_overlay_read_best(const CzProblem *problem, const CzEvaluator *evaluator,
+                              const CzOutcome *outcome, const CzReportOptions *options,
+                              CzProblem **best, CzError *error) {
+    CzArena arena = {0};
+    int n_setting;
+    const char **setting = cz_overlay_settings(evaluator, outcome, options, &arena, &n_setting);
+    const CzStatus status =
+        setting != NULL ? read_best(problem, options, n_setting, setting, best, error)
+                        : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
+    cz_arena_free(&arena);
+    return status;
+}
+
 CzStatus cz_overlay_write_resolved(const CzProblem *problem, const CzEvaluator *evaluator,
                                    const CzOutcome *outcome, const CzReportOptions *options,
                                    FILE *stream, CzError *error) {
     CzArena arena = {0};
     int n_setting;
+    CzProblem *best = NULL;
+    CzError mistake = {0};
     const char **setting = cz_overlay_settings(evaluator, outcome, options, &arena, &n_setting);
     if (setting == NULL) {
         cz_arena_free(&arena);
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
     }
-    CzProblem *best = NULL;
-    CzError mistake = {0};
-    const CzStatus status = read_best(problem, options, n_setting, setting, &best, &mistake);
-    if (status == CZ_OK) {
+    if (read_best(problem, options, n_setting, setting, &best, &mistake) == CZ_OK) {
         cz_problem_write_resolved(best, stream);
     } else { /* such as a file that has changed meanwhile: the values must not get lost */
         fprintf(stream, "# The problem cannot be read again (%s), so these are the values alone.\n",

@@ -16,6 +16,13 @@ const char **cz_overlay_settings(const CzEvaluator *evaluator, const CzOutcome *
 /* Writes settings as the record `set:`. */
 void cz_overlay_write_set(int n_setting, const char *const *setting, FILE *stream);
 
+/* Reads the problem again with the best values; the caller frees *best, also after a failure.
+ * Statuses: as cz_problem_read. */
+CZ_MUST_CHECK CzStatus cz_overlay_read_best(const CzProblem *problem, const CzEvaluator *evaluator,
+                                            const CzOutcome *outcome,
+                                            const CzReportOptions *options, CzProblem **best,
+                                            CzError *error);
+
 /* Writes the whole problem with the best values, as it is when it is read again with them. Status:
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_overlay_write_resolved(const CzProblem *problem,

@@ -4,6 +4,7 @@
 #include "report/csv.h"
 #include "report/folder.h"
 #include "report/overlay.h"
+#include "report/page.h"
 #include "report/runs.h"
 
 #include <string.h>
@@ -15,8 +16,13 @@ typedef struct Results {
     const CzOutcome *outcome;
     const CzEvaluation *evaluation;
     const CzReportOptions *options;
-    const CzRun *run;   /* of the scenario at hand */
-    const char *folder; /* final path */
+    const CzProblem *computed; /* what the runs were computed from: of a search, the problem with
+                                  the best values; NULL when it cannot be read again */
+    int scenario;              /* at hand */
+    bool has_report;           /* the figures' problem could be read */
+    bool is_top;               /* its files stand at the top of the folder */
+    const CzRun *run;          /* of the scenario at hand */
+    const char *folder;        /* final path */
 } Results;
 
 typedef CzStatus (*Writer)(const Results *results, FILE *stream, CzError *error);
@@ -107,6 +113,11 @@ static CzStatus write_log(const Results *results, FILE *stream, CzError *error) 
     return CZ_OK;
 }
 
+static CzStatus write_report(const Results *results, FILE *stream, CzError *error) {
+    return cz_page_write_run(results->computed, results->evaluation, results->scenario,
+                             results->is_top, results->options, stream, error);
+}
+
 static CzStatus write_file(CzFolder *folder, const char *name, Writer writer,
                            const Results *results, CzError *error) {
     FILE *stream = NULL;
@@ -120,27 +131,24 @@ static CzStatus write_file(CzFolder *folder, const char *name, Writer writer,
     return status != CZ_OK ? status : closed;
 }
 
-/* A scenario's name as the name of a folder. */
-static void folder_name(const char *scenario, char name[128]) {
-    snprintf(name, 128, "%s", scenario);
-    for (char *c = name; *c != '\0'; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f || strchr("/\\:*?\"<>|", *c) != NULL)
-            *c = '_';
-    if (name[0] == '.')
-        name[0] = '_';
-}
-
 static CzStatus write_run(CzFolder *folder, Results *results, int i, CzError *error) {
     const bool several = cz_n_kept_run(results->evaluation) > 1;
     char scenario[128], name[192];
+    results->scenario = i;
+    results->is_top = false;
     results->run = results->evaluation->run[i];
-    folder_name(cz_run_summary(results->run)->scenario, scenario);
+    cz_page_folder_name(cz_run_summary(results->run)->scenario, scenario);
     snprintf(name, sizeof name, "%s%s%s", several ? scenario : "", several ? "/" : "",
              "interfaces.csv");
     CzStatus status = write_file(folder, name, write_interfaces, results, error);
     snprintf(name, sizeof name, "%s%s%s", several ? scenario : "", several ? "/" : "",
              "channels.csv");
-    return status != CZ_OK ? status : write_file(folder, name, write_channels, results, error);
+    if (status == CZ_OK)
+        status = write_file(folder, name, write_channels, results, error);
+    snprintf(name, sizeof name, "%s/report.html", scenario);
+    return status == CZ_OK && several && results->has_report
+               ? write_file(folder, name, write_report, results, error)
+               : status;
 }
 
 static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
@@ -161,6 +169,10 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
     for (int i = 0; i < results->evaluation->n_run && status == CZ_OK; i++)
         if (cz_kept_run(results->evaluation, i) != NULL)
             status = write_run(folder, results, i, error);
+    results->scenario = cz_page_deciding(results->evaluation);
+    results->is_top = true;
+    if (status == CZ_OK && results->scenario >= 0 && results->has_report)
+        status = write_file(folder, "report.html", write_report, results, error);
     return status;
 }
 
@@ -185,6 +197,8 @@ CzStatus cz_report_write_folder(const CzProblem *problem, const CzEvaluation *ev
                                 CzError *error) {
     const CzReportOptions absent = cz_report_options_default();
     Results results = {.problem = problem,
+                       .computed = problem,
+                       .has_report = true,
                        .evaluation = evaluation,
                        .options = options != NULL ? options : &absent,
                        .folder = folder};
@@ -201,5 +215,12 @@ CzStatus cz_report_write_outcome_folder(const CzProblem *problem, const CzEvalua
                        .evaluation = &outcome->best_evaluation,
                        .options = options != NULL ? options : &absent,
                        .folder = folder};
-    return write_folder(&results, error);
+    CzProblem *best = NULL;
+    CzError mistake = {0}; /* such as a file that has changed meanwhile: then there is no report */
+    results.has_report = cz_overlay_read_best(problem, evaluator, outcome, results.options, &best,
+                                              &mistake) == CZ_OK;
+    results.computed = best;
+    const CzStatus status = write_folder(&results, error);
+    cz_problem_free(best);
+    return status;
 }

@@ -1,5 +1,6 @@
 # Sources of src/report, one per line.
 set(CZ_SOURCES_report
+    charts.c
     checks_table.c
     csv.c
     explanation.c
@@ -7,13 +8,27 @@ set(CZ_SOURCES_report
     fit_document.c
     folder.c
     grid.c
+    inputs_text.c
     json.c
+    markup.c
     options.c
     outcome.c
     outcome_table.c
     overlay.c
+    page.c
+    page_checks.c
+    page_data.c
+    page_figures.c
+    page_inputs.c
+    page_scene.c
+    page_trains.c
+    plot.c
     result_folder.c
+    scene.c
+    sha256.c
+    shares.c
     summary.c
     sweep.c
     table.c
+    thin.c
 )

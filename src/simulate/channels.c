@@ -1,10 +1,15 @@
 /* Recorded time histories of a single design: one column each, its unit in its name. */
 #include "simulate/run.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define NEVER                                                                                      \
+    1e29 /* a strength or an overlap from here on stands for a member that is not there            \
+          */
 
 typedef struct {
     CzChannels *channels;
@@ -55,6 +60,21 @@ static void put_car(Writer *writer, int car) {
     }
 }
 
+/* Strokes of the anti-climbers, and what keeps the faces from climbing. */
+static void put_face(Writer *writer, int interface) {
+    const CzBatch *batch = writer->batch;
+    const size_t lane = cz_lane(batch, interface, 0);
+    const CzCar *car = &batch->model->car[interface];
+    for (int side = 0; side < 2; ++side)
+        if (batch->lanes->curve[CZ_CURVE_FACE_A + side].start[lane] < NEVER)
+            put(writer, 1e3 * cz_memory(batch, CZ_M_FACE_A + side, lane), "d_anti-climber_%s_%s_mm",
+                side == 0 ? "front" : "rear", car[side].name);
+    const bool pushes = cz_scratch(batch, CZ_S_FACE_FORCE, lane) > 0.0;
+    if (cz_parameter(batch, CZ_P_FACE_OVERLAP, lane) < NEVER) /* there is none until they meet */
+        put(writer, pushes ? 1e3 * cz_scratch(batch, CZ_S_FACE_REMAINING, lane) : NAN,
+            "overlap_%s_mm", batch->model->interface_name[interface]);
+}
+
 static void put_interface(Writer *writer, int interface) {
     const CzBatch *batch = writer->batch;
     const size_t lane = cz_lane(batch, interface, 0), ahead = cz_lane(batch, interface + 1, 0);
@@ -69,6 +89,23 @@ static void put_interface(Writer *writer, int interface) {
     put(writer, 1e-3 * cz_scratch(batch, CZ_S_FACE_DEMAND, lane), "Fz_anti-climber_%s_kN", name);
     if (cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) > 0.5)
         put(writer, 1e-3 * cz_scratch(batch, CZ_S_SIDE_FORCE, lane), "F_side-buffers_%s_kN", name);
+    put_face(writer, interface);
+    CzInterfaceResult so_far = {0};
+    cz_interface_fill(batch, interface, 0, &so_far);
+    put(writer, 1e-3 * so_far.energy, "E_%s_kJ", name);
+}
+
+/* Energy so far: where it is now, and what does not add up. */
+static void put_energy(Writer *writer) {
+    const CzBatch *batch = writer->batch;
+    const double kinetic = cz_kinetic_energy(batch, 0), work = cz_total_work(batch, 0);
+    const CzEnergy energy = cz_energy_fill(batch, 0);
+    put(writer, 1e-3 * kinetic, "E_kinetic_kJ");
+    put(writer, 1e-3 * work, "E_taken_up_kJ");
+    put(writer, 1e-3 * energy.wheel_rail, "E_wheel_rail_kJ");
+    put(writer, 1e-3 * energy.running_gear, "E_running_gear_kJ");
+    put(writer, 1e-3 * energy.stored, "E_stored_kJ");
+    put(writer, 1e-3 * (kinetic + work - batch->design[0].initial_energy), "E_imbalance_kJ");
 }
 
 static void put_all(Writer *writer) {
@@ -78,10 +115,7 @@ static void put_all(Writer *writer) {
         put_car(writer, car);
     for (int interface = 0; interface + 1 < batch->model->n_car; ++interface)
         put_interface(writer, interface);
-    const double kinetic = cz_kinetic_energy(batch, 0), work = cz_total_work(batch, 0);
-    put(writer, 1e-3 * kinetic, "E_kinetic_kJ");
-    put(writer, 1e-3 * work, "E_taken_up_kJ");
-    put(writer, 1e-3 * (kinetic + work - batch->design[0].initial_energy), "E_imbalance_kJ");
+    put_energy(writer);
 }
 
 CzStatus cz_channels_begin(CzChannels *channels, const CzBatch *batch) {

@@ -235,8 +235,7 @@ CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleRes
     snprintf(result->name, sizeof result->name, "%s", description->name);
     result->final_speed = cz_velocity(batch, CZ_DOF_BODY_X, lane);
     result->peak_deceleration = cz_extreme(batch, CZ_E_BODY_ACCELERATION, lane);
-    CZ_TRY(cz_history_decelerations(batch, car, design, &result->mean_deceleration_contact,
-                                    &result->mean_deceleration_120ms));
+    CZ_TRY(cz_history_decelerations(batch, car, design, result));
     const bool full = description->model == CZ_MODEL_FULL;
     for (int axle = 0; axle < 4; ++axle) {
         result->wheel_lift[axle] = full ? cz_extreme(batch, CZ_E_LIFT_0 + axle, lane) : NAN;

@@ -68,7 +68,8 @@ static double net_force(const CzBatch *batch, int sample, int car, int design) {
 
 /* Largest |change of speed| / time over the intervals in which the net contact force keeps its sign
  * above the floor. */
-static double contact_mean(const double *speed, const double *force, int n_sample, double step) {
+static double contact_mean(const double *speed, const double *force, int n_sample, double step,
+                           double window[2]) {
     double peak = 0.0;
     for (int i = 0; i < n_sample; ++i)
         peak = fabs(force[i]) > peak ? fabs(force[i]) : peak;
@@ -80,8 +81,13 @@ static double contact_mean(const double *speed, const double *force, int n_sampl
         if (goes_on && i < n_sample - 1)
             continue;
         const double length = (i - start) * step;
-        if (start >= 0 && length >= SHORTEST_CONTACT)
-            largest = fmax(largest, fabs(speed[i] - speed[start]) / length);
+        const double mean =
+            start >= 0 && length >= SHORTEST_CONTACT ? fabs(speed[i] - speed[start]) / length : 0.0;
+        if (mean > largest) {
+            largest = mean;
+            window[0] = start * step;
+            window[1] = i * step;
+        }
         start = pushes ? i : -1;
         sign = force[i];
     }
@@ -91,9 +97,10 @@ static double contact_mean(const double *speed, const double *force, int n_sampl
 /* Largest |change of speed| / time over all windows of at least WINDOW. A longest-mean window is
  * shorter than twice the smallest length, because a longer one splits into two of which one has at
  * least its mean. `speed` holds the samples of one car. */
-static double window_mean(const double *speed, int n_sample, double step) {
+static double window_mean(const double *speed, int n_sample, double step, double window[2]) {
     const int shortest = (int)ceil(WINDOW / step - 1e-9);
     double largest = 0.0;
+    int longest = 0; /* the window's length [sample] */
     for (int length = shortest; length <= 2 * shortest && length < n_sample; ++length) {
         double change = 0.0;
 #pragma omp simd reduction(max : change)
@@ -101,13 +108,21 @@ static double window_mean(const double *speed, int n_sample, double step) {
             const double size = fabs(speed[start + length] - speed[start]);
             change = size > change ? size : change;
         }
-        largest = fmax(largest, change / (length * step));
+        const double mean = change / (length * step);
+        longest = mean > largest ? length : longest;
+        largest = mean > largest ? mean : largest;
     }
+    for (int start = 0; longest > 0 && start < n_sample - longest; ++start)
+        if (fabs(speed[start + longest] - speed[start]) / (longest * step) == largest) {
+            window[0] = start * step;
+            window[1] = (start + longest) * step;
+            break;
+        }
     return largest;
 }
 
-CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design, double *contact,
-                                  double *window) {
+CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design,
+                                  CzVehicleResult *result) {
     const CzHistory *history = &batch->history;
     const size_t lane = cz_lane(batch, car, design);
     double *speed = malloc((size_t)history->n_sample * sizeof *speed);
@@ -118,8 +133,10 @@ CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design, dou
         force[i] = net_force(batch, i, car, design);
     }
     if (fits) {
-        *contact = contact_mean(speed, force, history->n_sample, history->step);
-        *window = window_mean(speed, history->n_sample, history->step);
+        result->mean_deceleration_contact =
+            contact_mean(speed, force, history->n_sample, history->step, result->contact_window);
+        result->mean_deceleration_120ms =
+            window_mean(speed, history->n_sample, history->step, result->window_120ms);
     }
     free(speed);
     free(force);

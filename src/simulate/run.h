@@ -100,9 +100,9 @@ double cz_history_force(const CzHistory *history, int sample,
                         size_t lane); /* of the lane's interface */
 void cz_history_free(CzHistory *history);
 /* Largest mean deceleration of a car over windows of net contact force, and over any window of 120
- * ms or more. */
+ * ms or more, with these windows. */
 CZ_MUST_CHECK CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design,
-                                                double *contact, double *window);
+                                                CzVehicleResult *result);
 
 /* balance.c */
 double cz_kinetic_energy(const CzBatch *batch, int design);

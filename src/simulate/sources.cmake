@@ -5,7 +5,9 @@ set(CZ_SOURCES_simulate
     channels.c
     elements.c
     ending.c
+    filter.c
     history.c
+    input_curve.c
     reference.c
     run.c
     summary.c

@@ -29,7 +29,7 @@ else
     skipped "a terminal gets colours and progress" "no script command here"
 fi
 
-columns() { exits 0 "$C" run two-trains.yaml && head -1 out/channels.csv | grep -q '^t_ms,' && for file in summary.json checks.csv interfaces.csv channels.csv resolved.yaml run.log; do [ -s out/$file ] || return 1; done; }
+columns() { exits 0 "$C" run two-trains.yaml && head -1 out/channels.csv | grep -q '^t_ms,' && for file in summary.json checks.csv interfaces.csv channels.csv resolved.yaml run.log report.html; do [ -s out/$file ] || return 1; done; }
 check "run writes the result folder" columns
 continental() { exits 0 "$C" run two-trains.yaml --csv-sep ';' --csv-decimal , && head -1 out/channels.csv | grep -q '^t_ms;' && sed -n 3p out/channels.csv | grep -q '[0-9],[0-9]'; }
 check "CSV takes a decimal comma" continental

@@ -3,6 +3,7 @@
 
 #include "evaluate/evaluator.h"
 #include "problem/problem.h"
+#include "report/page.h"
 
 #include <math.h>
 #include <string.h>
@@ -87,6 +88,26 @@ const CzInput *cz_problem_input(const CzProblem *problem) {
         .trains = trains, .n_trains = 2, .scenarios = scenarios, .n_scenarios = 2};
     (void)problem;
     return &input;
+}
+
+/* What the figures show is tested elsewhere; here a report only has to be there. */
+int cz_page_deciding(const CzEvaluation *evaluation) {
+    return evaluation->n_run > 0 ? 0 : -1;
+}
+void cz_page_folder_name(const char *scenario, char name[128]) {
+    snprintf(name, 128, "%s", scenario);
+    for (char *c = name; *c != '\0'; c++)
+        *c = *c == '/' ? '_' : *c;
+}
+CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation, int scenario,
+                           bool is_top, const CzReportOptions *options, FILE *stream,
+                           CzError *error) {
+    (void)problem;
+    (void)evaluation;
+    (void)options;
+    (void)error;
+    fprintf(stream, "report of %d%s\n", scenario, is_top ? ", top" : "");
+    return CZ_OK;
 }
 
 int cz_evaluator_n_variable(const CzEvaluator *evaluator) {

@@ -69,7 +69,8 @@ static void one_scenario_lies_flat(void **state) {
     stand_in_fill(&s);
     assert_int_equal(write_run(&s, "results/deep/out", &error), CZ_OK);
     static const char *const names[] = {"summary.json", "checks.csv",    "interfaces.csv",
-                                        "channels.csv", "resolved.yaml", "run.log"};
+                                        "channels.csv", "resolved.yaml", "run.log",
+                                        "report.html"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[128];
         snprintf(path, sizeof path, "results/deep/out/%s", names[i]);
@@ -87,6 +88,9 @@ static void several_scenarios_have_a_folder_each(void **state) {
     assert_int_equal(write_run(&s, "out", &error), CZ_OK);
     assert_true(is_there("out/summary.json"));
     assert_true(is_there("out/36/channels.csv"));
+    assert_true(is_there("out/report.html"));
+    assert_true(is_there("out/36/report.html"));
+    assert_true(is_there("out/18_low/report.html"));
     assert_true(is_there("out/36/interfaces.csv"));
     assert_true(is_there("out/18_low/channels.csv")); /* a slash in a name opens no folder */
     assert_false(is_there("out/channels.csv"));

@@ -1,0 +1,25 @@
+/* The figures of a run, each by its name: for the report and alone, for papers. */
+#ifndef CZ_REPORT_CHARTS_H
+#define CZ_REPORT_CHARTS_H
+
+#include "report/page.h"
+
+typedef enum CzChart {
+#define CZ_CHART(constant, name, doc) CZ_CHART_##constant,
+#include "crushzone/charts.def"
+#undef CZ_CHART
+    CZ_N_CHART
+} CzChart;
+
+/* How many figures of a kind a run has: one per interface or car, or one, or none. */
+int cz_chart_count(const CzPage *page, CzChart chart);
+/* What one of them is about, such as "Force over closure, A4-B1". */
+void cz_chart_title(const CzPage *page, CzChart chart, int index, size_t room, char *title);
+/* Writes one of them as an element `svg`. Status: CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_chart_write(const CzPage *page, CzChart chart, int index,
+                                      CzMarkup *markup, CzError *error);
+
+/* Energies of the interfaces as stacked bars (shares.c). */
+void cz_chart_write_shares(const CzPage *page, CzMarkup *markup);
+
+#endif

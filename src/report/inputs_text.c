@@ -1,0 +1,214 @@
+/* The resolved problem, read line by line: its layout is ours (two spaces per level, one key a
+ * line, the origin behind #).
+ */
+#include "report/inputs_text.h"
+
+#include "base/error.h"
+#include "problem/node.h"
+#include "problem/problem.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { CAR_INDENT = 6, MOST_LEVELS = 16, MOST_DEFAULTS = 400 };
+
+CzStatus cz_inputs_text_begin(CzInputsText *inputs, const CzProblem *problem, CzError *error) {
+    size_t n_byte = 0;
+    *inputs = (CzInputsText){0};
+    const CzSource *source = cz_problem_first_source(problem);
+    inputs->folder = source != NULL ? source->folder : "";
+    FILE *stream = open_memstream(&inputs->text, &n_byte);
+    if (stream != NULL) {
+        cz_problem_write_resolved(problem, stream);
+        if (fclose(stream) == 0 && inputs->text != NULL)
+            inputs->line = malloc((n_byte + 1) * sizeof *inputs->line);
+    }
+    if (inputs->line == NULL) {
+        cz_inputs_text_free(inputs);
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the inputs");
+    }
+    char *next = NULL;
+    for (char *line = strtok_r(inputs->text, "\n", &next); line != NULL;
+         line = strtok_r(NULL, "\n", &next))
+        inputs->line[inputs->n_line++] = line;
+    return CZ_OK;
+}
+
+void cz_inputs_text_free(CzInputsText *inputs) {
+    free(inputs->line);
+    free(inputs->text);
+    *inputs = (CzInputsText){0};
+}
+
+static int indent_of(const char *line) {
+    return (int)strspn(line, " ");
+}
+
+/* Writes a line without the problem's folder in names of files. */
+static void write_line(const CzInputsText *inputs, const char *line, CzMarkup *markup) {
+    const size_t n = strlen(inputs->folder);
+    char text[2048];
+    size_t used = 0;
+    while (*line != '\0' && used + 1 < sizeof text) {
+        if (n > 0 && strncmp(line, inputs->folder, n) == 0 && line[n] == '/')
+            line += n + 1;
+        else
+            text[used++] = *line++;
+    }
+    text[used] = '\0';
+    cz_markup_text(markup, text);
+    cz_markup_text(markup, "\n");
+}
+
+static bool begins_car(const char *line) {
+    return indent_of(line) == CAR_INDENT && strncmp(line + CAR_INDENT, "- name: ", 8) == 0;
+}
+
+/* First line behind a car's. */
+static int end_of_car(const CzInputsText *inputs, int first) {
+    int i = first + 1;
+    while (i < inputs->n_line && indent_of(inputs->line[i]) > CAR_INDENT)
+        i++;
+    return i;
+}
+
+static bool are_equal(const CzInputsText *inputs, int a, int b) {
+    const int n = end_of_car(inputs, a) - a;
+    if (end_of_car(inputs, b) - b != n)
+        return false;
+    for (int i = 1; i < n; i++)
+        if (strcmp(inputs->line[a + i], inputs->line[b + i]) != 0)
+            return false;
+    return true;
+}
+
+/* First line of an earlier car that is the same; -1 when there is none. */
+static int same_car(const CzInputsText *inputs, int car) {
+    for (int i = 0; i < car; i++)
+        if (begins_car(inputs->line[i]) && are_equal(inputs, i, car))
+            return i;
+    return -1;
+}
+
+static void name_of(const char *line, char name[64]) {
+    const char *from = line + CAR_INDENT + 8;
+    snprintf(name, 64, "%.*s", (int)strcspn(from, " "), from);
+}
+
+void cz_inputs_text_write(const CzInputsText *inputs, CzMarkup *markup) {
+    for (int i = 0; i < inputs->n_line;) {
+        const int same = begins_car(inputs->line[i]) ? same_car(inputs, i) : -1;
+        if (same < 0) {
+            write_line(inputs, inputs->line[i++], markup);
+            continue;
+        }
+        char name[64], first[64], text[192];
+        name_of(inputs->line[i], name);
+        name_of(inputs->line[same], first);
+        snprintf(text, sizeof text, "      - name: %s   (all else as %s)", name, first);
+        write_line(inputs, text, markup);
+        i = end_of_car(inputs, i);
+    }
+}
+
+/* ---- defaults ---- */
+
+typedef struct Default {
+    char path[256], value[64];
+    bool is_ours;
+    int n; /* places */
+} Default;
+
+/* Splits "  - key: value   # default (ours)" into its parts; false when it is no default. */
+static bool read_default(const char *line, char value[64], bool *is_ours) {
+    const char *origin = strstr(line, "# default");
+    const char *colon = strchr(line, ':');
+    if (origin == NULL || colon == NULL || colon > origin)
+        return false;
+    const char *from = colon + 1 + strspn(colon + 1, " ");
+    const char *to = origin;
+    while (to > from && to[-1] == ' ')
+        to--;
+    *is_ours = strstr(origin, "(ours") != NULL;
+    snprintf(value, 64, "%.*s", (int)(to - from), from);
+    return to > from;
+}
+
+/* Keeps the key of a line as the last of the path. */
+static void follow_path(char keys[MOST_LEVELS][64], int *n_level, const char *line) {
+    const char *lead = line + strspn(line, "# ");
+    const bool is_item = strncmp(lead, "- ", 2) == 0;
+    const char *key = is_item ? lead + 2 : lead;
+    const int level = (int)(key - line) / 2;
+    if (level >= MOST_LEVELS)
+        return;
+    for (int i = *n_level; i < level; i++)
+        keys[i][0] = '\0';
+    snprintf(keys[level], 64, "%.*s", (int)strcspn(key, ":"), key);
+    *n_level = level + 1;
+}
+
+static void join_path(char keys[MOST_LEVELS][64], int n_level, char path[256]) {
+    size_t used = 0;
+    path[0] = '\0';
+    for (int i = 0; i < n_level; i++)
+        if (keys[i][0] != '\0' && strcmp(keys[i], "front") != 0 && strcmp(keys[i], "rear") != 0 &&
+            used < 200)
+            used +=
+                (size_t)snprintf(path + used, 256 - used, "%s%.60s", used > 0 ? "." : "", keys[i]);
+}
+
+static void add_default(Default *list, int *n, const char *path, const char *value, bool is_ours) {
+    for (int i = 0; i < *n; i++)
+        if (strcmp(list[i].path, path) == 0 && strcmp(list[i].value, value) == 0) {
+            list[i].n++;
+            return;
+        }
+    if (*n == MOST_DEFAULTS)
+        return;
+    Default *added = &list[(*n)++];
+    snprintf(added->path, sizeof added->path, "%s", path);
+    snprintf(added->value, sizeof added->value, "%s", value);
+    added->is_ours = is_ours;
+    added->n = 1;
+}
+
+static void write_default(const Default *found, CzMarkup *markup) {
+    char text[32];
+    snprintf(text, sizeof text, "%d", found->n);
+    cz_markup_open(markup, "tr");
+    cz_markup_element(markup, "td", found->path);
+    cz_markup_classed(markup, "td", "number", found->value);
+    cz_markup_classed(markup, "td", "number", text);
+    cz_markup_element(markup, "td", found->is_ours ? "ours, without a published source" : "");
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+void cz_inputs_text_write_defaults(const CzInputsText *inputs, CzMarkup *markup) {
+    Default *list = malloc(MOST_DEFAULTS * sizeof *list);
+    char keys[MOST_LEVELS][64], path[256], value[64];
+    int n = 0, n_level = 0;
+    for (int i = 0; list != NULL && i < inputs->n_line; i++) {
+        bool is_ours = false;
+        follow_path(keys, &n_level, inputs->line[i]);
+        if (!read_default(inputs->line[i], value, &is_ours))
+            continue;
+        join_path(keys, n_level, path);
+        add_default(list, &n, path, value, is_ours);
+    }
+    cz_markup_open(markup, "details");
+    cz_markup_element(markup, "summary",
+                      n == 0 ? "none" : "every value that no file states, with its default");
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open(markup, "table");
+    cz_markup_raw(markup, "<tr><th>key</th><th>value</th><th>places</th><th></th></tr>\n");
+    for (int i = 0; i < n; i++)
+        write_default(&list[i], markup);
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    free(list);
+}

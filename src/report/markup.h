@@ -1,0 +1,52 @@
+/* HTML and SVG, written from top to bottom: escaped, well-formed, the same bytes in every locale.
+ *
+ * What is written is HTML that an XML parser takes too. A start tag stays open for attributes until
+ * the first text or child. Whether the stream took everything shows when its file is closed.
+ */
+#ifndef CZ_REPORT_MARKUP_H
+#define CZ_REPORT_MARKUP_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+enum { CZ_MARKUP_DEPTH = 32 };
+
+/* Zero-initialise it and set the stream. */
+typedef struct CzMarkup {
+    FILE *stream;
+    bool in_tag; /* attributes may follow */
+    int depth;
+    const char *element[CZ_MARKUP_DEPTH]; /* those that are open, outermost first; borrowed */
+} CzMarkup;
+
+/* Opens an element inside the one that is open; `element` lives until it is closed. */
+void cz_markup_open(CzMarkup *markup, const char *element);
+/* Closes the element that was opened last. */
+void cz_markup_close(CzMarkup *markup);
+
+/* Attributes of the element that was opened last. Numbers get at most `decimals` places and no
+ * zeros at their end. */
+void cz_markup_attribute(CzMarkup *markup, const char *name, const char *value);
+void cz_markup_number(CzMarkup *markup, const char *name, int decimals, double value);
+void cz_markup_format(CzMarkup *markup, const char *name, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Text inside the element; control characters become '?'. */
+void cz_markup_text(CzMarkup *markup, const char *text);
+/* A line end, for people who look at the source. */
+void cz_markup_line(CzMarkup *markup);
+/* Bytes as they are: a script, a style sheet. */
+void cz_markup_raw(CzMarkup *markup, const char *text);
+
+/* An element with nothing but text, and one of a class. */
+void cz_markup_element(CzMarkup *markup, const char *element, const char *text);
+void cz_markup_classed(CzMarkup *markup, const char *element, const char *class_name,
+                       const char *text);
+
+/* A number as an attribute would have it: at most `decimals` places, "0" and never "-0". */
+void cz_markup_write_number(FILE *stream, int decimals, double value);
+
+/* How wide a text is in a sans-serif font [font size]; an estimate that is rather too large. */
+double cz_text_width(const char *text);
+
+#endif

@@ -1,0 +1,178 @@
+/* The report of a run: its skeleton, and what its parts are made of. */
+#include "report/page.h"
+
+#include "base/error.h"
+#include "problem/problem.h"
+#include "report/assets.h"
+#include "report/runs.h"
+#include "report/sha256.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+const double *cz_page_channel(const CzPage *page, const char *format, ...) {
+    char name[128];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(name, sizeof name, format, arguments);
+    va_end(arguments);
+    for (int i = 0; i < cz_run_n_channel(page->run); i++)
+        if (strcmp(cz_run_channel_name(page->run, i), name) == 0)
+            return cz_run_channel(page->run, i);
+    return NULL;
+}
+
+int cz_page_deciding(const CzEvaluation *evaluation) {
+    int found = -1;
+    double smallest = 1e300;
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        if (run == NULL)
+            continue;
+        if (found < 0 || (run->status != CZ_OK && smallest > -1e300)) {
+            found = i;
+            smallest = run->status != CZ_OK ? -1e300 : smallest;
+        }
+        for (int k = 0; k < evaluation->n_check; k++) {
+            const CzCheckResult *check = &evaluation->check[k];
+            if (check->scenario != NULL && strcmp(check->scenario, run->scenario) == 0 &&
+                check->margin < smallest) {
+                smallest = check->margin;
+                found = i;
+            }
+        }
+    }
+    return found;
+}
+
+/* The problem's scenario of that name; the runs of an evaluation may be fewer. */
+static int scenario_named(const CzProblem *problem, const char *name) {
+    for (int i = 0; i < cz_problem_n_scenario(problem); i++)
+        if (strcmp(cz_problem_scenario_name(problem, i), name) == 0)
+            return i;
+    return 0;
+}
+
+CzStatus cz_page_begin(CzPage *page, const CzProblem *problem, const CzEvaluation *evaluation,
+                       int scenario, const CzReportOptions *options, FILE *stream, CzError *error) {
+    *page = (CzPage){.markup = {.stream = stream},
+                     .problem = problem,
+                     .evaluation = evaluation,
+                     .options = options,
+                     .scenario = scenario,
+                     .run = evaluation->run[scenario],
+                     .summary = cz_kept_run(evaluation, scenario)};
+    int n_vehicle;
+    page->vehicles = cz_problem_vehicles(problem, &n_vehicle);
+    page->n_sample = cz_run_n_sample(page->run);
+    page->time = cz_page_channel(page, "t_ms");
+    if (page->time == NULL)
+        page->n_sample = 0;
+    CZ_TRY(cz_model_build(problem, scenario_named(problem, page->summary->scenario), &page->model,
+                          error));
+    page->stand = calloc((size_t)page->model->n_car, sizeof *page->stand);
+    if (page->stand == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
+    return cz_model_stand(page->model, page->stand, error);
+}
+
+void cz_page_free(CzPage *page) {
+    free(page->stand);
+    cz_model_free(page->model);
+    page->stand = NULL;
+    page->model = NULL;
+}
+
+/* Nothing may be loaded or sent; the one script and the one style sheet are known by their bytes.
+ */
+static void write_policy(CzMarkup *markup) {
+    char script[CZ_SHA256_ROOM], style[CZ_SHA256_ROOM];
+    cz_sha256_base64(cz_report_js, strlen(cz_report_js), script);
+    cz_sha256_base64(cz_report_css, strlen(cz_report_css), style);
+    cz_markup_open(markup, "meta");
+    cz_markup_attribute(markup, "http-equiv", "Content-Security-Policy");
+    cz_markup_format(markup, "content",
+                     "default-src 'none'; script-src 'sha256-%s'; style-src 'sha256-%s'; img-src "
+                     "data:; base-uri 'none'; form-action 'none'",
+                     script, style);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+void cz_page_write_head(CzMarkup *markup, const char *title) {
+    fputs("<!DOCTYPE html>\n", markup->stream);
+    cz_markup_open(markup, "html");
+    cz_markup_attribute(markup, "lang", "en");
+    cz_markup_line(markup);
+    cz_markup_open(markup, "head");
+    cz_markup_open(markup, "meta");
+    cz_markup_attribute(markup, "charset", "utf-8");
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    write_policy(markup);
+    cz_markup_open(markup, "meta");
+    cz_markup_attribute(markup, "name", "viewport");
+    cz_markup_attribute(markup, "content", "width=device-width, initial-scale=1");
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    cz_markup_element(markup, "title", title);
+    cz_markup_line(markup);
+    cz_markup_open(markup, "style");
+    cz_markup_raw(markup, cz_report_css);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    cz_markup_open(markup, "body");
+    cz_markup_line(markup);
+}
+
+void cz_page_write_foot(CzMarkup *markup) {
+    cz_markup_open(markup, "script");
+    cz_markup_raw(markup, cz_report_js);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading) {
+    cz_markup_open(markup, "section");
+    cz_markup_attribute(markup, "id", id);
+    cz_markup_line(markup);
+    cz_markup_element(markup, "h2", heading);
+    cz_markup_line(markup);
+}
+
+void cz_page_close_section(CzMarkup *markup) {
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation, int scenario,
+                           bool is_top, const CzReportOptions *options, FILE *stream,
+                           CzError *error) {
+    CzPage page;
+    CzStatus status = cz_page_begin(&page, problem, evaluation, scenario, options, stream, error);
+    if (status == CZ_OK) {
+        char title[256];
+        snprintf(title, sizeof title, "%s, %s", cz_problem_title(problem), page.summary->scenario);
+        cz_page_write_head(&page.markup, title);
+        cz_page_write_verdict(&page, is_top);
+        cz_page_write_trains(&page);
+        status = cz_page_write_figures(&page, error);
+    }
+    if (status == CZ_OK) {
+        cz_page_write_animation(&page);
+        cz_page_write_events(&page);
+        status = cz_page_write_inputs(&page, error);
+    }
+    if (status == CZ_OK)
+        status = cz_page_write_data(&page, error);
+    if (status == CZ_OK)
+        cz_page_write_foot(&page.markup);
+    cz_page_free(&page);
+    return status;
+}

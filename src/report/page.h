@@ -1,0 +1,76 @@
+/* The report of a run as one page: what its parts share.
+ *
+ * A page is a pure function of finished results: no time, host or thread stands in it, so the same
+ * run gives the same bytes.
+ */
+#ifndef CZ_REPORT_PAGE_H
+#define CZ_REPORT_PAGE_H
+
+#include "crushzone/report.h"
+#include "model/model.h"
+#include "model/stand.h"
+#include "report/markup.h"
+
+typedef struct CzPage {
+    CzMarkup markup;
+    const CzProblem *problem;
+    const CzEvaluation *evaluation;
+    const CzReportOptions *options;
+    int scenario; /* the one that the figures show */
+    const CzRun *run;
+    const CzRunSummary *summary;
+    CzModel *model;
+    CzStand *stand;     /* (n_vehicle) */
+    const double *time; /* [ms] (n_sample) */
+    int n_sample;
+    const CzVehicle *vehicles; /* the problem's array; model->car[].vehicle is an index into it */
+} CzPage;
+
+/* Makes a page about one scenario of an evaluation with kept runs. `problem` is the one that the
+ * run was computed from, an optimum's with its best values. Statuses: CZ_STATUS_INPUT,
+ * CZ_STATUS_NO_MEMORY; free it in any case. */
+CZ_MUST_CHECK CzStatus cz_page_begin(CzPage *page, const CzProblem *problem,
+                                     const CzEvaluation *evaluation, int scenario,
+                                     const CzReportOptions *options, FILE *stream, CzError *error);
+void cz_page_free(CzPage *page);
+
+/* The scenario that decides: of a check that fails, else the smallest margin, else the first that
+ * ran; -1 when none did. */
+int cz_page_deciding(const CzEvaluation *evaluation);
+
+/* A recorded channel by its name as printf would write it; NULL when there is none. */
+const double *cz_page_channel(const CzPage *page, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Writes the whole report of a run: the checks of all scenarios and the figures of one. At the top
+ * of a result folder it names the reports of the other scenarios, which stand in their folders.
+ * Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation,
+                                         int scenario, bool is_top, const CzReportOptions *options,
+                                         FILE *stream, CzError *error);
+
+/* The first and last lines of a page. */
+void cz_page_write_head(CzMarkup *markup, const char *title);
+void cz_page_write_foot(CzMarkup *markup);
+/* Opens a section with its heading; closes it. */
+void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading);
+void cz_page_close_section(CzMarkup *markup);
+
+/* ---- parts, in the order of the page ---- */
+
+/* page_checks.c, page_trains.c, page_figures.c, page_scene.c, page_inputs.c, page_data.c */
+void cz_page_write_verdict(CzPage *page, bool is_top);
+void cz_page_write_trains(CzPage *page);
+CZ_MUST_CHECK CzStatus cz_page_write_figures(CzPage *page, CzError *error);
+void cz_page_write_animation(CzPage *page);
+void cz_page_write_events(CzPage *page);
+CZ_MUST_CHECK CzStatus cz_page_write_inputs(CzPage *page, CzError *error);
+CZ_MUST_CHECK CzStatus cz_page_write_data(CzPage *page, CzError *error);
+
+/* The table of checks alone, with the values of a design before when there is one. */
+void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
+                          const CzEvaluation *before);
+/* A scenario's name as the name of a folder. */
+void cz_page_folder_name(const char *scenario, char name[128]);
+
+#endif

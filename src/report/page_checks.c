@@ -1,0 +1,246 @@
+/* Verdict and checks: the first thing that a reader looks for. */
+#include "report/page.h"
+
+#include "report/checks_table.h"
+#include "report/figure.h"
+#include "report/runs.h"
+#include "report/units.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const verdict_class[] = {[CZ_VERDICT_PASS] = "pass",
+                                            [CZ_VERDICT_PROVISIONAL] = "careful",
+                                            [CZ_VERDICT_FAIL] = "fail",
+                                            [CZ_VERDICT_NOT_CHECKED] = "careful"};
+static const char *const verdict_title[] = {[CZ_VERDICT_PASS] = "PASS",
+                                            [CZ_VERDICT_PROVISIONAL] = "PROVISIONAL PASS",
+                                            [CZ_VERDICT_FAIL] = "FAIL",
+                                            [CZ_VERDICT_NOT_CHECKED] = "NOT CHECKED"};
+
+static const char *or_empty(const char *text) {
+    return text != NULL ? text : "";
+}
+
+/* A margin as a bar: to the right what is left, to the left what is missing. */
+static void write_margin_bar(CzMarkup *markup, double margin, const char *class_name) {
+    const double half = 30, size = half * fmin(fabs(margin), 1);
+    cz_markup_open(markup, "svg");
+    cz_markup_attribute(markup, "class", "bar");
+    cz_markup_attribute(markup, "viewBox", "0 0 62 10");
+    cz_markup_attribute(markup, "aria-hidden", "true");
+    cz_markup_open(markup, "rect");
+    cz_markup_attribute(markup, "class", class_name);
+    cz_markup_number(markup, "x", 1, margin < 0 ? 31 - size : 31);
+    cz_markup_attribute(markup, "y", "1");
+    cz_markup_number(markup, "width", 1, fmax(size, 0.6));
+    cz_markup_attribute(markup, "height", "8");
+    cz_markup_attribute(markup, "fill", margin < 0 ? "#d0021b" : "#009e73");
+    cz_markup_close(markup);
+    cz_markup_open(markup, "path");
+    cz_markup_attribute(markup, "d", "M31 0v10");
+    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+}
+
+static void write_source(CzMarkup *markup, const CzCheckResult *check) {
+    char text[512];
+    snprintf(text, sizeof text, "%s%s%s%s%s%s%s", or_empty(check->why),
+             check->why != NULL && check->source != NULL ? "; " : "", or_empty(check->clause),
+             check->clause != NULL && check->source != NULL ? ", " : "", or_empty(check->source),
+             check->confidence != NULL ? ", confidence " : "", or_empty(check->confidence));
+    cz_markup_classed(markup, "td", "small", text);
+}
+
+static void write_check(CzMarkup *markup, const CzCheckResult *check, const CzCheckResult *before) {
+    char text[96];
+    cz_markup_open(markup, "tr");
+    cz_markup_element(markup, "td", check->name);
+    cz_markup_classed(markup, "td", verdict_class[check->verdict], cz_checks_word(check));
+    cz_markup_element(markup, "td", check->where);
+    cz_markup_element(markup, "td", or_empty(check->scenario));
+    cz_checks_format_limit(check, sizeof text, text);
+    cz_markup_classed(markup, "td", "number", text);
+    if (before != NULL) {
+        cz_checks_format_value(before, sizeof text, text);
+        cz_markup_classed(markup, "td", "number", text);
+    }
+    cz_checks_format_value(check, sizeof text, text);
+    cz_markup_classed(markup, "td", "number", text);
+    cz_markup_classed(markup, "td", "number", cz_figure_margin(text, check->margin));
+    cz_markup_open(markup, "td");
+    if (isfinite(check->margin))
+        write_margin_bar(markup, check->margin, "margin");
+    cz_markup_close(markup);
+    write_source(markup, check);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+static void write_table(CzMarkup *markup, const CzEvaluation *evaluation,
+                        const CzEvaluation *before, bool rest) {
+    const char *const names[] = {"check",
+                                 "verdict",
+                                 "where",
+                                 "scenario",
+                                 "limit",
+                                 before != NULL ? "before" : NULL,
+                                 before != NULL ? "after" : "value",
+                                 "margin",
+                                 "",
+                                 "remark and source"};
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open(markup, "table");
+    cz_markup_attribute(markup, "class", "checks");
+    cz_markup_open(markup, "tr");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (names[i] != NULL)
+            cz_markup_element(markup, "th", names[i]);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    for (int pass = 0; pass < 2; pass++) /* failures first */
+        for (int i = 0; i < evaluation->n_check; i++) {
+            const bool fails = evaluation->check[i].verdict == CZ_VERDICT_FAIL;
+            if (cz_checks_is_shown(evaluation, i) != rest && fails == (pass == 0))
+                write_check(markup, &evaluation->check[i],
+                            before != NULL ? &before->check[i] : NULL);
+        }
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
+                          const CzEvaluation *before) {
+    if (before != NULL && before->n_check != evaluation->n_check)
+        before = NULL;
+    if (evaluation->n_check == 0) {
+        cz_markup_element(markup, "p", "No checks: nothing was judged.");
+        return;
+    }
+    int n_more = 0;
+    for (int i = 0; i < evaluation->n_check; i++)
+        n_more += !cz_checks_is_shown(evaluation, i);
+    write_table(markup, evaluation, before, false);
+    if (n_more == 0)
+        return;
+    char text[128];
+    snprintf(text, sizeof text,
+             "%d more checks, each with a better margin than the one of its name above", n_more);
+    cz_markup_open(markup, "details");
+    cz_markup_element(markup, "summary", text);
+    write_table(markup, evaluation, before, true);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+void cz_page_folder_name(const char *scenario, char name[128]) {
+    snprintf(name, 128, "%s", scenario);
+    for (char *c = name; *c != '\0'; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f || strchr("/\\:*?\"<>|", *c) != NULL)
+            *c = '_';
+    if (name[0] == '.')
+        name[0] = '_';
+}
+
+/* A relative address: what is no letter, digit or plain sign stands as %XX. */
+static void write_address(CzMarkup *markup, const char *folder) {
+    char text[512];
+    size_t used = 0;
+    for (const char *c = folder; *c != '\0' && used + 4 < sizeof text; c++) {
+        const unsigned char byte = (unsigned char)*c;
+        const bool plain = (byte >= '0' && byte <= '9') || (byte >= 'a' && byte <= 'z') ||
+                           (byte >= 'A' && byte <= 'Z') || strchr("-._~", byte) != NULL;
+        used += (size_t)snprintf(text + used, sizeof text - used, plain ? "%c" : "%%%02X", byte);
+    }
+    cz_markup_format(markup, "href", "%s/report.html", text);
+}
+
+/* Which collision the figures show, and where the others are. */
+static void write_scenarios(CzPage *page, bool is_top) {
+    CzMarkup *markup = &page->markup;
+    if (cz_n_kept_run(page->evaluation) < 2)
+        return;
+    cz_markup_open(markup, "p");
+    cz_markup_text(markup, "The checks are those of all scenarios, the figures those of ");
+    cz_markup_element(markup, "strong", page->summary->scenario);
+    if (is_top) {
+        cz_markup_text(markup, ", which has the smallest margin. Reports of the others: ");
+        const char *between = "";
+        for (int i = 0; i < page->evaluation->n_run; i++) {
+            const CzRunSummary *run = cz_kept_run(page->evaluation, i);
+            char folder[128];
+            if (run == NULL || i == page->scenario)
+                continue;
+            cz_page_folder_name(run->scenario, folder);
+            cz_markup_text(markup, between);
+            cz_markup_open(markup, "a");
+            write_address(markup, folder);
+            cz_markup_text(markup, run->scenario);
+            cz_markup_close(markup);
+            between = ", ";
+        }
+    }
+    cz_markup_text(markup, ".");
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+/* What must be known before any number is believed. */
+static void write_caution(CzPage *page) {
+    const CzRunSummary *run = page->summary;
+    char text[512], number[CZ_FIGURE_ROOM], balance[CZ_FIGURE_ROOM];
+    CzMarkup *markup = &page->markup;
+    if (run->status != CZ_OK) {
+        snprintf(text, sizeof text, "This run failed: %s", run->failure);
+        cz_markup_classed(markup, "p", "fail", text);
+    } else if (run->ended == CZ_ENDED_INCOMPLETE) {
+        cz_markup_classed(markup, "p", "fail",
+                          "This run is incomplete: it was cut before the collision was over.");
+    }
+    if (run->beyond_validity) {
+        snprintf(text, sizeof text,
+                 "Override at %s ms: what the figures show from there on is beyond the model.",
+                 cz_figure_fixed(number, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
+        cz_markup_classed(markup, "p", "fail", text);
+    }
+    snprintf(text, sizeof text,
+             "%s s simulated, ended %s, time step %s ms. Energy is balanced to %s of the initial "
+             "energy%s.",
+             cz_figure_digits(number, 4, run->simulated), cz_ended_text(run->ended),
+             cz_figure_digits((char[CZ_FIGURE_ROOM]){0}, 4, run->time_step * CZ_MILLI_PER_UNIT),
+             cz_figure_percent(balance, run->energy.balance_error),
+             cz_run_is_inaccurate(run) ? ", WHICH IS POOR: take a smaller time step" : "");
+    cz_markup_element(markup, "p", text);
+    cz_markup_line(markup);
+}
+
+void cz_page_write_verdict(CzPage *page, bool is_top) {
+    CzMarkup *markup = &page->markup;
+    const CzEvaluation *evaluation = page->evaluation;
+    int n[4] = {0};
+    for (int i = 0; i < evaluation->n_check; i++)
+        n[evaluation->check[i].verdict]++;
+    cz_markup_open(markup, "header");
+    cz_markup_element(markup, "h1", cz_problem_title(page->problem));
+    cz_markup_classed(markup, "p",
+                      evaluation->n_check == 0                 ? "banner careful"
+                      : evaluation->verdict == CZ_VERDICT_FAIL ? "banner fail"
+                      : evaluation->verdict == CZ_VERDICT_PASS ? "banner pass"
+                                                               : "banner careful",
+                      verdict_title[evaluation->verdict]);
+    char text[256];
+    snprintf(text, sizeof text, "%d checks: %d fail, %d not checked, %d provisional, %d pass.",
+             evaluation->n_check, n[CZ_VERDICT_FAIL], n[CZ_VERDICT_NOT_CHECKED],
+             n[CZ_VERDICT_PROVISIONAL], n[CZ_VERDICT_PASS]);
+    cz_markup_element(markup, "p", text);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    cz_page_open_section(markup, "checks", "Checks");
+    write_scenarios(page, is_top);
+    write_caution(page);
+    cz_page_write_checks(markup, evaluation, NULL);
+    cz_page_close_section(markup);
+}

@@ -1,0 +1,167 @@
+/* Events, inputs, defaults, assumptions, and how to get the same again. */
+#include "report/page.h"
+
+#include "base/error.h"
+#include "problem/node.h"
+#include "problem/problem.h"
+#include "report/figure.h"
+#include "report/inputs_text.h"
+#include "report/runs.h"
+#include "report/units.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_SOURCE_LINES = 600 };
+
+static bool is_bad(CzEventKind what) {
+    return what == CZ_EVENT_BOTTOMED_OUT || what == CZ_EVENT_OVERRIDE ||
+           what == CZ_EVENT_WHEEL_LIFT;
+}
+
+void cz_page_write_events(CzPage *page) {
+    static const char *const names[] = {"time ms", "what", "where", "interface"};
+    CzMarkup *markup = &page->markup;
+    const CzRunSummary *run = page->summary;
+    cz_page_open_section(markup, "events", "Events");
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open(markup, "table");
+    cz_markup_open(markup, "tr");
+    for (int i = 0; i < 4; i++)
+        cz_markup_element(markup, "th", names[i]);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    for (int i = 0; i < run->n_event; i++) {
+        const CzEvent *event = &run->event[i];
+        char time[CZ_FIGURE_ROOM], what[48];
+        snprintf(what, sizeof what, "%s", cz_event_text(event->what));
+        for (char *c = what; *c != '\0'; c++)
+            *c = *c == '_' ? ' ' : *c;
+        cz_markup_open(markup, "tr");
+        cz_markup_classed(markup, "td", "number",
+                          cz_figure_fixed(time, 1, event->time * CZ_MILLI_PER_UNIT));
+        cz_markup_classed(markup, "td", is_bad(event->what) ? "fail" : "plain", what);
+        cz_markup_element(markup, "td", event->where);
+        cz_markup_element(markup, "td",
+                          event->interface >= 0 && event->interface < run->n_interface
+                              ? run->interface[event->interface].name
+                              : "");
+        cz_markup_close(markup);
+        cz_markup_line(markup);
+    }
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_page_close_section(markup);
+}
+
+/* ---- how to get it again ---- */
+
+static void quote(char *text, size_t room, const char *word) {
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+,:@%";
+    size_t used = strlen(text);
+    const bool needs = word[strspn(word, plain)] != '\0' || word[0] == '\0';
+    if (!needs) {
+        snprintf(text + used, room - used, " %s", word);
+        return;
+    }
+    used += (size_t)snprintf(text + used, room - used, " '");
+    for (; *word != '\0' && used + 8 < room; word++)
+        used += (size_t)snprintf(text + used, room - used, *word == '\'' ? "'\\''" : "%c", *word);
+    snprintf(text + used, room - used, "'");
+}
+
+static void write_command(CzPage *page) {
+    char text[4096] = "crushzone run";
+    const CzReportOptions *options = page->options;
+    quote(text, sizeof text, options->text != NULL ? "-" : cz_problem_file(page->problem));
+    for (int i = 0; i < options->n_set && strlen(text) + 512 < sizeof text; i++) {
+        snprintf(text + strlen(text), sizeof text - strlen(text), " --set");
+        quote(text, sizeof text, options->set[i]);
+    }
+    cz_markup_element(&page->markup, "h3", "The same again");
+    cz_markup_element(&page->markup, "pre", text);
+    cz_markup_element(&page->markup, "p",
+                      "or, from the result folder alone: crushzone run resolved.yaml. The same "
+                      "version gives the same bytes on every machine.");
+}
+
+static void write_versions(CzPage *page) {
+    char nlopt[32] = "", text[512];
+    cz_nlopt_version(nlopt, sizeof nlopt);
+    snprintf(text, sizeof text, "crushzone %s, NLopt %s; problem file %.200s, content hash %s",
+             cz_version(), nlopt, cz_problem_file(page->problem), cz_problem_hash(page->problem));
+    cz_markup_element(&page->markup, "p", text);
+}
+
+static void write_assumptions(CzPage *page) {
+    static const char *const assumptions[] = {
+        "The trains move along the track, up and down, and pitch; there is no lateral motion.",
+        "Car bodies are rigid between their crush zones; their bending and the strength beyond "
+        "the crush zones are not computed.",
+        "Absorbers are the curves that were given; beyond the last point they are stiff, which is "
+        "told as bottoming out.",
+        "Climbing is judged until engagement is lost or a wheel is above its flange; what follows "
+        "is beyond the model.",
+        "A check that passes is no certificate, and PROVISIONAL marks a limit that nobody has "
+        "confirmed."};
+    CzMarkup *markup = &page->markup;
+    cz_markup_element(markup, "h3", "Assumptions");
+    cz_markup_open(markup, "ul");
+    for (size_t i = 0; i < sizeof assumptions / sizeof *assumptions; i++)
+        cz_markup_element(markup, "li", assumptions[i]);
+    for (int i = 0; i < cz_problem_n_warning(page->problem); i++) {
+        char text[1400];
+        snprintf(text, sizeof text, "Warning: %s", cz_problem_warning(page->problem, i)->message);
+        cz_markup_element(markup, "li", text);
+    }
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+/* ---- inputs ---- */
+
+static void write_sources(CzPage *page) {
+    CzMarkup *markup = &page->markup;
+    cz_markup_element(markup, "h3", "Inputs as they were written");
+    for (const CzSource *source = cz_problem_first_source(page->problem); source != NULL;
+         source = source->next) {
+        char left_out[96];
+        cz_markup_open(markup, "details");
+        cz_markup_element(markup, "summary", source->name);
+        cz_markup_open(markup, "pre");
+        for (int i = 0; i < source->n_line && i < MOST_SOURCE_LINES; i++) {
+            cz_markup_text(markup, source->line[i]);
+            cz_markup_text(markup, "\n");
+        }
+        snprintf(left_out, sizeof left_out, "... and %d lines more",
+                 source->n_line - MOST_SOURCE_LINES);
+        cz_markup_text(markup, source->n_line > MOST_SOURCE_LINES ? left_out : "");
+        cz_markup_close(markup);
+        cz_markup_close(markup);
+        cz_markup_line(markup);
+    }
+}
+
+CzStatus cz_page_write_inputs(CzPage *page, CzError *error) {
+    CzMarkup *markup = &page->markup;
+    CzInputsText inputs;
+    CZ_TRY(cz_inputs_text_begin(&inputs, page->problem, error));
+    cz_page_open_section(markup, "inputs", "Inputs and how to get this again");
+    write_command(page);
+    write_versions(page);
+    write_assumptions(page);
+    cz_markup_element(markup, "h3", "Defaults that were taken");
+    cz_inputs_text_write_defaults(&inputs, markup);
+    write_sources(page);
+    cz_markup_element(markup, "h3", "The whole problem in SI, with the origin of each value");
+    cz_markup_open(markup, "details");
+    cz_markup_element(markup, "summary", "resolved problem; of equal cars only the first");
+    cz_markup_open(markup, "pre");
+    cz_inputs_text_write(&inputs, markup);
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_page_close_section(markup);
+    cz_inputs_text_free(&inputs);
+    return CZ_OK;
+}

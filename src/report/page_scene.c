@@ -1,0 +1,125 @@
+/* The animation, and a strip of frames for where no script runs. */
+#include "report/charts.h"
+#include "report/figure.h"
+#include "report/plot.h"
+#include "report/scene.h"
+
+#include <math.h>
+
+enum { N_FRAME = 6, WIDTH = 960 };
+
+/* Sample at which an interface is closed most. */
+static int most_closed(const CzPage *page, int interface) {
+    const double *closure =
+        cz_page_channel(page, "d_%s_mm", page->summary->interface[interface].name);
+    int found = page->n_sample - 1;
+    for (int i = 0; closure != NULL && i < page->n_sample; i++)
+        if (closure[i] > closure[found])
+            found = i;
+    return found;
+}
+
+static void write_frame(CzPage *page, int interface, int sample) {
+    CzMarkup *markup = &page->markup;
+    const double *force =
+        cz_page_channel(page, "F_%s_kN", page->summary->interface[interface].name);
+    char time[CZ_FIGURE_ROOM], number[CZ_FIGURE_ROOM], title[128];
+    snprintf(title, sizeof title, "%s ms, %s kN", cz_figure_fixed(time, 0, page->time[sample]),
+             cz_figure_fixed(number, 0, force != NULL ? force[sample] : NAN));
+    cz_markup_open(markup, "figure");
+    cz_markup_element(markup, "figcaption", title);
+    cz_svg_open(markup, title, CZ_PLOT_WIDTH, CZ_SCENE_HEIGHT);
+    cz_markup_attribute(markup, "class", "frame");
+    cz_scene_write(page, interface, sample, CZ_PLOT_WIDTH, false, markup);
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+static void write_control(CzMarkup *markup, const char *element, const char *id,
+                          const char *label) {
+    cz_markup_open(markup, element);
+    cz_markup_attribute(markup, "id", id);
+    cz_markup_attribute(markup, "aria-label", label);
+}
+
+/* Controls, hidden until the script shows them. */
+static void write_controls(CzPage *page) {
+    static const char *const speeds[] = {"0.02", "0.05", "0.1", "0.25", "1"};
+    CzMarkup *markup = &page->markup;
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "controls");
+    write_control(markup, "button", "play", "play or pause");
+    cz_markup_attribute(markup, "type", "button");
+    cz_markup_text(markup, "Play");
+    cz_markup_close(markup);
+    cz_markup_open(markup, "label");
+    cz_markup_text(markup, "speed ");
+    write_control(markup, "select", "speed", "speed of the animation");
+    for (int i = 0; i < 5; i++) {
+        cz_markup_open(markup, "option");
+        cz_markup_attribute(markup, "value", speeds[i]);
+        if (i == 2)
+            cz_markup_attribute(markup, "selected", "selected");
+        cz_markup_text(markup, speeds[i]);
+        cz_markup_close(markup);
+    }
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_open(markup, "label");
+    cz_markup_text(markup, "look at ");
+    write_control(markup, "select", "focus", "interface in the middle");
+    for (int i = 0; i < page->summary->n_interface; i++) {
+        cz_markup_open(markup, "option");
+        cz_markup_attribute(markup, "value", page->summary->interface[i].name);
+        if (i == page->model->colliding)
+            cz_markup_attribute(markup, "selected", "selected");
+        cz_markup_text(markup, page->summary->interface[i].name);
+        cz_markup_close(markup);
+    }
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    write_control(markup, "input", "scrub", "time");
+    cz_markup_attribute(markup, "type", "range");
+    cz_markup_attribute(markup, "min", "0");
+    cz_markup_attribute(markup, "max", "1");
+    cz_markup_attribute(markup, "value", "0");
+    cz_markup_close(markup);
+    cz_markup_open(markup, "output");
+    cz_markup_attribute(markup, "id", "now");
+    cz_markup_text(markup, "");
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+void cz_page_write_animation(CzPage *page) {
+    CzMarkup *markup = &page->markup;
+    const int interface = page->model->colliding;
+    if (page->n_sample < 2)
+        return;
+    cz_page_open_section(markup, "animation", "The collision from the side");
+    cz_markup_element(markup, "p",
+                      "Lengths are to scale; vertical movement, wheel lift and pitch are drawn ten "
+                      "times as large. Orange: crush zones of the car ends, red: anti-climbers, "
+                      "bars below: couplers.");
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "id", "stage");
+    cz_markup_attribute(markup, "class", "script wide");
+    write_controls(page);
+    cz_svg_open(markup, "animation of the collision", WIDTH, CZ_SCENE_HEIGHT);
+    cz_markup_attribute(markup, "class", "animation");
+    cz_markup_number(markup, "data-scale", 1, CZ_SCENE_SCALE);
+    cz_markup_number(markup, "data-magnify", 1, CZ_SCENE_MAGNIFY);
+    cz_scene_write(page, interface, 0, WIDTH, true, markup);
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "figures strip");
+    const int last = most_closed(page, interface);
+    for (int i = 0; i < N_FRAME; i++)
+        write_frame(page, interface, (int)((long)last * i / (N_FRAME - 1)));
+    cz_markup_close(markup);
+    cz_page_close_section(markup);
+}

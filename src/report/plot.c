@@ -1,0 +1,400 @@
+/* Diagrams of curves: range, axes, curves, legend. */
+#include "report/plot.h"
+
+#include "report/figure.h"
+#include "report/thin.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LEFT 56.0
+#define RIGHT 12.0
+#define TOP 8.0
+#define USUAL_HEIGHT 210.0
+#define BELOW_AXIS 40.0 /* numbers and label of the x axis */
+#define LEGEND_ROW 17.0
+#define SAMPLE_WIDTH 24.0 /* of a line in the legend, with its space */
+#define FONT_SIZE 11.0
+#define TOLERANCE 0.25 /* of thinning, in the units of the diagram */
+#define FINER 10.0     /* paths are written in tenths of a unit, as whole numbers */
+
+const char *cz_plot_colour(int colour) {
+    static const char *const colours[CZ_PLOT_N_COLOUR] = {
+        "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "currentColor"};
+    return colour < 0 ? "#999999" : colours[colour % CZ_PLOT_N_COLOUR];
+}
+
+/* Dash patterns, in the units of the diagram and on the finer grid. */
+static const char *const dashes[4][2] = {
+    {NULL, NULL}, {"6 3", "60 30"}, {"1.5 2.5", "15 25"}, {"8 3 1.5 3", "80 30 15 30"}};
+
+const char *cz_plot_dash(int dash) {
+    return dashes[dash % 4][0];
+}
+
+void cz_svg_open(CzMarkup *markup, const char *title, double width, double height) {
+    cz_markup_open(markup, "svg");
+    cz_markup_attribute(markup, "xmlns", "http://www.w3.org/2000/svg");
+    fputs(" viewBox=\"0 0 ", markup->stream);
+    cz_markup_write_number(markup->stream, 1, width);
+    fputc(' ', markup->stream);
+    cz_markup_write_number(markup->stream, 1, height);
+    fputc('"', markup->stream);
+    cz_markup_attribute(markup, "role", "img");
+    cz_markup_attribute(markup, "aria-label", title);
+    cz_markup_attribute(markup, "font-family", "system-ui, sans-serif");
+    cz_markup_number(markup, "font-size", 1, FONT_SIZE);
+    cz_markup_attribute(markup, "fill", "none");
+    cz_markup_attribute(markup, "stroke-linejoin", "round");
+}
+
+void cz_svg_text(CzMarkup *markup, double x, double y, const char *anchor, const char *text) {
+    cz_markup_open(markup, "text");
+    cz_markup_number(markup, "x", 1, x);
+    cz_markup_number(markup, "y", 1, y);
+    if (strcmp(anchor, "start") != 0)
+        cz_markup_attribute(markup, "text-anchor", anchor);
+    cz_markup_attribute(markup, "fill", "currentColor");
+    cz_markup_text(markup, text);
+    cz_markup_close(markup);
+}
+
+/* Where numbers lie on the paper. */
+typedef struct Frame {
+    double x_min, x_max, y_min, y_max; /* range of the axes */
+    double width, height;              /* between the axes */
+} Frame;
+
+static double paper_x(const Frame *frame, double x) {
+    return LEFT + (x - frame->x_min) / (frame->x_max - frame->x_min) * frame->width;
+}
+
+static double paper_y(const Frame *frame, double y) {
+    return TOP + (frame->y_max - y) / (frame->y_max - frame->y_min) * frame->height;
+}
+
+double cz_plot_round_step(double range, int n) {
+    static const double steps[] = {1, 2, 5, 10};
+    const double wanted = range / n;
+    double power = 1;
+    while (power > wanted)
+        power /= 10;
+    while (power * 10 <= wanted)
+        power *= 10;
+    for (int i = 0; i < 4; i++)
+        if (steps[i] * power >= wanted * 0.999)
+            return steps[i] * power;
+    return 10 * power;
+}
+
+static void widen(double value, double *smallest, double *largest) {
+    if (!isfinite(value))
+        return;
+    *smallest = value < *smallest ? value : *smallest;
+    *largest = value > *largest ? value : *largest;
+}
+
+/* A range that shows something: not empty, a little wider than the numbers. */
+static void give_room(double *smallest, double *largest, double share) {
+    if (!(*smallest <= *largest))
+        *smallest = 0, *largest = 1;
+    const double size = fmax(fabs(*smallest), fabs(*largest));
+    double range = *largest - *smallest;
+    if (!(range > 1e-9 * size) || !(range > 1e-12)) {
+        *largest += size > 0 ? 0.5 * size : 1;
+        *smallest -= size > 0 && *smallest != 0 ? 0.5 * size : 0;
+        range = *largest - *smallest;
+    }
+    *smallest -= *smallest == 0 ? 0 : share * range;
+    *largest += *largest == 0 ? 0 : share * range;
+}
+
+static Frame frame_of(const CzPlot *plot) {
+    Frame frame = {INFINITY,
+                   -INFINITY,
+                   INFINITY,
+                   -INFINITY,
+                   CZ_PLOT_WIDTH - LEFT - RIGHT,
+                   plot->height > 0 ? plot->height : USUAL_HEIGHT};
+    for (int i = 0; i < plot->n_series; i++)
+        for (int k = 0; k < plot->series[i].n; k++) {
+            if (!isfinite(plot->series[i].x[k]) || !isfinite(plot->series[i].y[k]))
+                continue;
+            widen(plot->series[i].x[k], &frame.x_min, &frame.x_max);
+            widen(plot->series[i].y[k], &frame.y_min, &frame.y_max);
+        }
+    for (int i = 0; i < plot->n_limit; i++)
+        widen(plot->limit[i].at, &frame.y_min, &frame.y_max);
+    if (plot->from_zero)
+        widen(0, &frame.y_min, &frame.y_max);
+    give_room(&frame.x_min, &frame.x_max, 0);
+    give_room(&frame.y_min, &frame.y_max, 0.05);
+    return frame;
+}
+
+static void write_line(CzMarkup *markup, double x1, double y1, double x2, double y2) {
+    cz_markup_open(markup, "line");
+    cz_markup_number(markup, "x1", 1, x1);
+    cz_markup_number(markup, "y1", 1, y1);
+    cz_markup_number(markup, "x2", 1, x2);
+    cz_markup_number(markup, "y2", 1, y2);
+}
+
+/* ---- axes ---- */
+
+static void tick_text(char text[CZ_FIGURE_ROOM], double value, double step) {
+    int decimals = 0;
+    for (double unit = step; unit < 0.999 && decimals < 9; unit *= 10)
+        decimals++;
+    cz_figure_fixed(text, decimals, fabs(value) < 1e-6 * step ? 0 : value);
+}
+
+static void write_x_axis(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
+    const double step = cz_plot_round_step(frame->x_max - frame->x_min, 7);
+    const double bottom = TOP + frame->height;
+    for (double i = ceil(frame->x_min / step - 1e-6); i * step <= frame->x_max + 1e-6 * step; i++) {
+        char text[CZ_FIGURE_ROOM];
+        const double x = paper_x(frame, i * step);
+        write_line(markup, x, TOP, x, bottom);
+        cz_markup_attribute(markup, "stroke", "currentColor");
+        cz_markup_attribute(markup, "stroke-opacity", ".13");
+        cz_markup_close(markup);
+        tick_text(text, i * step, step);
+        cz_svg_text(markup, x, bottom + 15, "middle", text);
+    }
+    cz_svg_text(markup, LEFT + frame->width / 2, bottom + 31, "middle", plot->x_label);
+}
+
+static void write_y_axis(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
+    const double step = cz_plot_round_step(frame->y_max - frame->y_min, 6);
+    for (double i = ceil(frame->y_min / step - 1e-6); i * step <= frame->y_max + 1e-6 * step; i++) {
+        char text[CZ_FIGURE_ROOM];
+        const double y = paper_y(frame, i * step);
+        write_line(markup, LEFT, y, LEFT + frame->width, y);
+        cz_markup_attribute(markup, "stroke", "currentColor");
+        cz_markup_attribute(markup, "stroke-opacity", i == 0 ? ".5" : ".13");
+        cz_markup_close(markup);
+        tick_text(text, i * step, step);
+        cz_svg_text(markup, LEFT - 5, y + 3.8, "end", text);
+    }
+    cz_markup_open(markup, "text");
+    cz_markup_attribute(markup, "transform", "rotate(-90)");
+    cz_markup_number(markup, "x", 1, -(TOP + frame->height / 2));
+    cz_markup_number(markup, "y", 1, 12);
+    cz_markup_attribute(markup, "text-anchor", "middle");
+    cz_markup_attribute(markup, "fill", "currentColor");
+    cz_markup_text(markup, plot->y_label);
+    cz_markup_close(markup);
+}
+
+/* ---- curves ---- */
+
+static void write_move(FILE *stream, char command, long x, long y) {
+    fprintf(stream, "%c%ld%s%ld", command, x, y < 0 ? "" : " ", y);
+}
+
+/* Points from one gap to the next: those that thinning keeps, as steps on the finer grid. */
+static bool write_piece(const Frame *frame, const CzSeries *series, int from, int to,
+                        FILE *stream) {
+    const int n = to - from;
+    double *paper = malloc(2 * (size_t)n * sizeof *paper);
+    bool *keep = malloc((size_t)n * sizeof *keep);
+    bool fits = paper != NULL && keep != NULL;
+    for (int i = 0; fits && i < n; i++) {
+        paper[i] = paper_x(frame, series->x[from + i]);
+        paper[n + i] = paper_y(frame, series->y[from + i]);
+    }
+    if (fits)
+        fits = cz_thin(n, paper, paper + n, TOLERANCE, CZ_PLOT_MOST_POINTS, keep) >= 0;
+    long last_x = 0, last_y = 0;
+    for (int i = 0; fits && i < n; i++) {
+        if (!keep[i])
+            continue;
+        const long x = lround(FINER * paper[i]), y = lround(FINER * paper[n + i]);
+        if (i == 0)
+            write_move(stream, 'M', x, y);
+        else
+            write_move(stream, 'l', x - last_x, y - last_y);
+        last_x = x;
+        last_y = y;
+    }
+    if (fits && n == 1)
+        fputs("h0", stream);
+    free(paper);
+    free(keep);
+    return fits;
+}
+
+static bool is_point(const CzSeries *series, int i) {
+    return isfinite(series->x[i]) && isfinite(series->y[i]);
+}
+
+static void write_curve(const Frame *frame, const CzSeries *series, CzMarkup *markup) {
+    const char *dash = dashes[series->dash % 4][1];
+    cz_markup_open(markup, "path");
+    if (series->y_channel != NULL) {
+        cz_markup_attribute(markup, "data-y", series->y_channel);
+        if (series->x_channel != NULL)
+            cz_markup_attribute(markup, "data-x", series->x_channel);
+        if (series->name != NULL)
+            cz_markup_attribute(markup, "data-name", series->name);
+    }
+    cz_markup_attribute(markup, "stroke", cz_plot_colour(series->colour));
+    if (series->colour < 0)
+        cz_markup_attribute(markup, "stroke-width", "30");
+    if (series->colour < 0)
+        cz_markup_attribute(markup, "stroke-opacity", ".5");
+    if (dash != NULL)
+        cz_markup_attribute(markup, "stroke-dasharray", dash);
+    fputs(" d=\"", markup->stream);
+    for (int from = 0; from < series->n;) {
+        int to = from;
+        while (to < series->n && is_point(series, to))
+            to++;
+        if (to > from)
+            write_piece(frame, series, from, to, markup->stream);
+        from = to + 1;
+    }
+    fputc('"', markup->stream);
+    if (series->name != NULL) {
+        cz_markup_element(markup, "title", series->name);
+    }
+    cz_markup_close(markup);
+}
+
+static void write_bands(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
+    for (int i = 0; i < plot->n_band; i++) {
+        const double from = paper_x(frame, fmax(plot->band[i].from, frame->x_min));
+        const double to = paper_x(frame, fmin(plot->band[i].to, frame->x_max));
+        cz_markup_open(markup, "rect");
+        cz_markup_number(markup, "x", 1, from);
+        cz_markup_number(markup, "y", 1, TOP);
+        cz_markup_number(markup, "width", 1, fmax(to - from, 0.5));
+        cz_markup_number(markup, "height", 1, frame->height);
+        cz_markup_attribute(markup, "fill", cz_plot_colour(plot->band[i].colour));
+        cz_markup_attribute(markup, "fill-opacity", ".16");
+        cz_markup_close(markup);
+    }
+}
+
+static void write_limits(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
+    for (int i = 0; i < plot->n_limit; i++) {
+        const double y = paper_y(frame, plot->limit[i].at);
+        write_line(markup, LEFT, y, LEFT + frame->width, y);
+        cz_markup_attribute(markup, "class", "limit");
+        cz_markup_attribute(markup, "stroke", "#d0021b");
+        cz_markup_attribute(markup, "stroke-width", "1.5");
+        cz_markup_attribute(markup, "stroke-dasharray", "10 4");
+        cz_markup_close(markup);
+    }
+}
+
+static void write_curves(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
+    cz_markup_open(markup, "g");
+    cz_markup_attribute(markup, "transform", "scale(.1)");
+    cz_markup_attribute(markup, "stroke-width", "14");
+    for (int i = 0; i < plot->n_series; i++)
+        write_curve(frame, &plot->series[i], markup);
+    cz_markup_close(markup);
+}
+
+/* ---- legend ---- */
+
+typedef struct Legend {
+    CzMarkup *markup; /* NULL: only the place is counted */
+    double x, y;
+} Legend;
+
+/* Moves on to the place of an entry. */
+static void begin_entry(Legend *legend, const char *name) {
+    const double width = SAMPLE_WIDTH + FONT_SIZE * cz_text_width(name) + 12;
+    if (legend->x > LEFT && legend->x + width > CZ_PLOT_WIDTH) {
+        legend->x = LEFT;
+        legend->y += LEGEND_ROW;
+    }
+    if (legend->markup != NULL)
+        cz_svg_text(legend->markup, legend->x + SAMPLE_WIDTH, legend->y, "start", name);
+    legend->x += width;
+}
+
+static void put_line(Legend *legend, const char *name, const char *colour, const char *dash) {
+    begin_entry(legend, name);
+    if (legend->markup == NULL)
+        return;
+    const double x = legend->x - FONT_SIZE * cz_text_width(name) - 12;
+    write_line(legend->markup, x - SAMPLE_WIDTH, legend->y - 4, x - 5, legend->y - 4);
+    cz_markup_attribute(legend->markup, "stroke", colour);
+    cz_markup_attribute(legend->markup, "stroke-width", "2");
+    if (dash != NULL)
+        cz_markup_attribute(legend->markup, "stroke-dasharray", dash);
+    cz_markup_close(legend->markup);
+}
+
+static void put_limit(Legend *legend, const CzPlotLimit *limit) {
+    char name[96];
+    snprintf(name, sizeof name, "limit: %s", limit->name);
+    put_line(legend, name, "#d0021b", "10 4");
+}
+
+static void put_band(Legend *legend, const CzPlotBand *band) {
+    begin_entry(legend, band->name);
+    if (legend->markup == NULL)
+        return;
+    const double x = legend->x - FONT_SIZE * cz_text_width(band->name) - 12;
+    cz_markup_open(legend->markup, "rect");
+    cz_markup_number(legend->markup, "x", 1, x - SAMPLE_WIDTH);
+    cz_markup_number(legend->markup, "y", 1, legend->y - 10);
+    cz_markup_attribute(legend->markup, "width", "18");
+    cz_markup_attribute(legend->markup, "height", "11");
+    cz_markup_attribute(legend->markup, "fill", cz_plot_colour(band->colour));
+    cz_markup_attribute(legend->markup, "fill-opacity", ".3");
+    cz_markup_close(legend->markup);
+}
+
+static bool is_named_before(const CzPlot *plot, int band) {
+    for (int i = 0; i < band; i++)
+        if (plot->band[i].name != NULL && strcmp(plot->band[i].name, plot->band[band].name) == 0)
+            return true;
+    return false;
+}
+
+/* Writes the legend from `top` on, or only counts its height. */
+static double write_legend(const CzPlot *plot, double top, CzMarkup *markup) {
+    Legend legend = {markup, LEFT, top + 12};
+    for (int i = 0; i < plot->n_series; i++)
+        if (plot->series[i].name != NULL)
+            put_line(&legend, plot->series[i].name, cz_plot_colour(plot->series[i].colour),
+                     cz_plot_dash(plot->series[i].dash));
+    for (int i = 0; i < plot->n_limit; i++)
+        put_limit(&legend, &plot->limit[i]);
+    for (int i = 0; i < plot->n_band; i++)
+        if (plot->band[i].name != NULL && !is_named_before(plot, i))
+            put_band(&legend, &plot->band[i]);
+    return legend.x > LEFT ? legend.y + 6 - top : 0;
+}
+
+void cz_plot_write(const CzPlot *plot, CzMarkup *markup) {
+    const Frame frame = frame_of(plot);
+    const double bottom = TOP + frame.height + BELOW_AXIS;
+    char range[4][CZ_FIGURE_ROOM];
+    cz_svg_open(markup, plot->title, CZ_PLOT_WIDTH, bottom + write_legend(plot, bottom, NULL));
+    cz_markup_attribute(markup, "class", "plot");
+    cz_markup_format(markup, "data-box", "%d %d %d %d", (int)LEFT, (int)TOP, (int)frame.width,
+                     (int)frame.height);
+    cz_markup_format(
+        markup, "data-range", "%s %s %s %s", cz_figure_digits(range[0], 12, frame.x_min),
+        cz_figure_digits(range[1], 12, frame.x_max), cz_figure_digits(range[2], 12, frame.y_min),
+        cz_figure_digits(range[3], 12, frame.y_max));
+    cz_markup_line(markup);
+    write_bands(plot, &frame, markup);
+    write_x_axis(plot, &frame, markup);
+    write_y_axis(plot, &frame, markup);
+    write_limits(plot, &frame, markup);
+    cz_markup_line(markup);
+    write_curves(plot, &frame, markup);
+    cz_markup_line(markup);
+    write_legend(plot, bottom, markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}

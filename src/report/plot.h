@@ -1,0 +1,69 @@
+/* Diagrams of curves as SVG: axes, limits, shaded windows, a legend below the axes where it hides
+ * nothing.
+ *
+ * Colours are those of Okabe and Ito, which people with any colour vision tell apart; dashes tell
+ * curves apart without colour. Ink is `currentColor`, so that a page may be light or dark.
+ */
+#ifndef CZ_REPORT_PLOT_H
+#define CZ_REPORT_PLOT_H
+
+#include "report/markup.h"
+
+enum {
+    CZ_PLOT_WIDTH = 480,       /* of every diagram, in the units of its text */
+    CZ_PLOT_N_COLOUR = 7,      /* colours before they repeat */
+    CZ_PLOT_QUIET = -1,        /* colour of a curve in the background */
+    CZ_PLOT_MOST_POINTS = 2000 /* of a curve */
+};
+
+/* One curve. Texts and numbers are borrowed; a point with a number that is not finite is a gap. */
+typedef struct CzSeries {
+    const char *name;                  /* in the legend; NULL: not there */
+    const char *x_channel, *y_channel; /* recorded channels that it shows, for the cursor; NULL when
+                                          none; x_channel NULL: time */
+    int n;
+    const double *x, *y; /* (n) */
+    int colour;          /* counted on beyond CZ_PLOT_N_COLOUR, or CZ_PLOT_QUIET */
+    int dash;            /* 0 solid, 1 dashed, 2 dotted, 3 dash-dotted */
+} CzSeries;
+
+/* A level that must not be passed. */
+typedef struct CzPlotLimit {
+    const char *name;
+    double at;
+} CzPlotLimit;
+
+/* A shaded stretch of the x axis. */
+typedef struct CzPlotBand {
+    const char *name; /* in the legend, once for bands of one name; NULL: not there */
+    double from, to;
+    int colour;
+} CzPlotBand;
+
+typedef struct CzPlot {
+    const char *title; /* what it shows, for those who cannot see it */
+    const char *x_label, *y_label;
+    int n_series, n_limit, n_band;
+    const CzSeries *series;   /* (n_series) */
+    const CzPlotLimit *limit; /* (n_limit) */
+    const CzPlotBand *band;   /* (n_band) */
+    bool from_zero;           /* the y axis includes 0 */
+    double height;            /* of the area between the axes; 0: as usual */
+} CzPlot;
+
+/* Writes the diagram as an element `svg`. */
+void cz_plot_write(const CzPlot *plot, CzMarkup *markup);
+
+/* Opens an `svg` of that size with what every figure has; the caller closes it. */
+void cz_svg_open(CzMarkup *markup, const char *title, double width, double height);
+/* Text in a figure, `anchor` being "start", "middle" or "end". */
+void cz_svg_text(CzMarkup *markup, double x, double y, const char *anchor, const char *text);
+
+/* Colour of a curve, and its dash pattern; NULL for a solid one. */
+const char *cz_plot_colour(int colour);
+const char *cz_plot_dash(int dash);
+
+/* A round step that divides a range into about `n` parts. */
+double cz_plot_round_step(double range, int n);
+
+#endif

@@ -1,0 +1,74 @@
+/* Who absorbs what: one bar per interface, its parts the kinds of elements. */
+#include "report/charts.h"
+#include "report/figure.h"
+#include "report/plot.h"
+#include "report/units.h"
+
+#include <math.h>
+
+#define LEFT 76.0
+#define RIGHT 118.0 /* room for the number behind a bar */
+#define ROW 20.0
+#define TOP 6.0
+
+static double energy_of_kind(const CzInterfaceResult *interface, int kind) {
+    double sum = 0;
+    for (int i = 0; i < interface->n_element; i++)
+        if ((int)interface->element[i].kind == kind && isfinite(interface->element[i].energy))
+            sum += fmax(interface->element[i].energy, 0);
+    return sum;
+}
+
+static void write_bar(CzMarkup *markup, double x, double y, double width, double height, int kind) {
+    cz_markup_open(markup, "rect");
+    cz_markup_number(markup, "x", 1, x);
+    cz_markup_number(markup, "y", 1, y);
+    cz_markup_number(markup, "width", 1, width);
+    cz_markup_number(markup, "height", 1, height);
+    cz_markup_attribute(markup, "fill", cz_plot_colour(kind));
+    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_attribute(markup, "stroke-width", ".5");
+    cz_markup_element(markup, "title", cz_element_text((CzElementKind)kind));
+    cz_markup_close(markup);
+}
+
+static void write_row(const CzInterfaceResult *interface, double y, double scale,
+                      CzMarkup *markup) {
+    char number[CZ_FIGURE_ROOM], share[CZ_FIGURE_ROOM], text[2 * CZ_FIGURE_ROOM + 8];
+    cz_svg_text(markup, LEFT - 6, y + 13, "end", interface->name);
+    double x = LEFT;
+    for (int kind = 0; kind < CZ_N_ELEMENT_KIND; kind++) {
+        const double width = scale * energy_of_kind(interface, kind);
+        if (width >= 0.1)
+            write_bar(markup, x, y + 2, width, ROW - 6, kind);
+        x += width;
+    }
+    snprintf(text, sizeof text, "%s kJ  %s", cz_figure_plain(number, interface->energy / CZ_KILO),
+             cz_figure_percent(share, interface->energy_share));
+    cz_svg_text(markup, x + 6, y + 13, "start", text);
+}
+
+void cz_chart_write_shares(const CzPage *page, CzMarkup *markup) {
+    const CzRunSummary *run = page->summary;
+    double most = 0;
+    for (int i = 0; i < run->n_interface; i++) {
+        double sum = 0;
+        for (int kind = 0; kind < CZ_N_ELEMENT_KIND; kind++)
+            sum += energy_of_kind(&run->interface[i], kind);
+        most = fmax(most, sum);
+    }
+    const double scale = most > 0 ? (CZ_PLOT_WIDTH - LEFT - RIGHT) / most : 0;
+    const double bottom = TOP + ROW * run->n_interface;
+    cz_svg_open(markup, "Dissipated energy by interface and element", CZ_PLOT_WIDTH, bottom + 24);
+    for (int i = 0; i < run->n_interface; i++)
+        write_row(&run->interface[i], TOP + ROW * i, scale, markup);
+    double x = LEFT;
+    for (int kind = 0; kind < CZ_N_ELEMENT_KIND; kind++) {
+        const char *name = cz_element_text((CzElementKind)kind);
+        write_bar(markup, x, bottom + 8, 12, 10, kind);
+        cz_svg_text(markup, x + 16, bottom + 17, "start", name);
+        x += 16 + 11 * cz_text_width(name) + 14;
+    }
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}

@@ -1,0 +1,13 @@
+/* Fewer points for a curve that looks the same: Douglas and Peucker's algorithm along the path. */
+#ifndef CZ_REPORT_THIN_H
+#define CZ_REPORT_THIN_H
+
+#include <stdbool.h>
+
+/* Marks in keep[n] the points of the path (x, y) that are drawn, the first and the last always. No
+ * point that is left out lies further than the tolerance from the line that replaces it, so peaks
+ * stay and loops keep their path. Where more than `most` points would stay the tolerance is
+ * doubled. Coordinates are finite. Returns the tolerance that was used; negative without memory. */
+double cz_thin(int n, const double *x, const double *y, double tolerance, int most, bool *keep);
+
+#endif

@@ -1,0 +1,141 @@
+/* A load path is a row of members, each with a force over its stroke. Closed slowly, the weakest
+ * gives way: of all members the one with the smallest force at its own stroke moves on, and the
+ * path carries that force. Paths side by side add up.
+ */
+#include "simulate/input_curve.h"
+
+#include <math.h>
+
+#include "base/error.h"
+#include "dynamics/stored.h"
+#include "model/own_design.h"
+
+#define NEVER 1e29 /* a strength from here on stands for a member that is not there */
+enum { MOST_MEMBERS = 8 };
+
+typedef struct Member {
+    CzCurveId curve;
+    size_t lane;
+    double stroke; /* so far [m] */
+} Member;
+
+typedef struct Path {
+    const CzLanes *lanes;
+    int n_member;
+    Member member[MOST_MEMBERS];
+    double starts_at; /* closure at which it touches [m] */
+    double shear_off; /* force that lets it go [N] */
+    double softening; /* closure over which it lets go [m] */
+    double let_go;    /* closure at which it began to; NaN before */
+} Path;
+
+static double strength(const Path *path, const Member *member) {
+    return cz_curve_value(&path->lanes->curve[member->curve], path->lanes->stride, member->lane,
+                          member->stroke);
+}
+
+/* Adds a member unless it is one that never gives way. */
+static void add(Path *path, CzCurveId curve, size_t lane) {
+    const Member member = {curve, lane, 1e-6};
+    if (strength(path, &member) < 1e20 * member.stroke)
+        path->member[path->n_member++] = (Member){curve, lane, 0.0};
+}
+
+static double advance(Path *path, double closure, double step) {
+    if (path->n_member == 0 || closure < path->starts_at)
+        return 0.0;
+    if (!isnan(path->let_go)) {
+        const double left = 1.0 - (closure - path->let_go) / path->softening;
+        return left > 0.0 ? left * path->shear_off : 0.0;
+    }
+    Member *weakest = &path->member[0];
+    for (int i = 1; i < path->n_member; i++)
+        if (strength(path, &path->member[i]) < strength(path, weakest))
+            weakest = &path->member[i];
+    const double force = strength(path, weakest);
+    if (force > path->shear_off) {
+        path->let_go = closure;
+        return path->shear_off;
+    }
+    weakest->stroke += step;
+    return force;
+}
+
+static Path coupler_path(const CzLanes *lanes, int interface) {
+    Path path = {.lanes = lanes, .let_go = NAN, .shear_off = INFINITY};
+    const size_t lane = (size_t)interface;
+    if (cz_lane_value(lanes, interface, CZ_P_COUPLER) < 0.5)
+        return path;
+    path.starts_at = cz_lane_value(lanes, interface, CZ_P_PIVOT_DISTANCE) -
+                     cz_lane_value(lanes, interface, CZ_P_COUPLER_LENGTH);
+    for (int side = 0; side < 2; side++) {
+        const int car = interface + side;
+        add(&path, CZ_CURVE_BUFFER_A + side, lane);
+        add(&path, CZ_CURVE_TUBE_A + side, lane);
+        add(&path, CZ_CURVE_SECOND_TUBE_A + side, lane);
+        if (cz_lane_value(lanes, interface, CZ_P_COUPLER_ON_END_A + side) > 0.5)
+            add(&path, side == 0 ? CZ_CURVE_END_FRONT : CZ_CURVE_END_REAR, (size_t)car);
+        const double force = cz_lane_value(lanes, interface, CZ_P_SHEAR_FORCE_A + side);
+        path.shear_off = fmin(path.shear_off, force);
+        path.softening =
+            fmax(path.softening, cz_lane_value(lanes, interface, CZ_P_SHEAR_SOFTENING_A + side));
+    }
+    return path;
+}
+
+/* Crush zones that stand behind what presses on the end of a car. */
+static void add_ends(Path *path, const CzModel *model, int interface) {
+    for (int side = 0; side < 2; side++) {
+        const int car = interface + side;
+        if (model->car[car].model == CZ_MODEL_FULL)
+            add(path, side == 0 ? CZ_CURVE_END_FRONT : CZ_CURVE_END_REAR, (size_t)car);
+    }
+}
+
+static Path face_path(const CzModel *model, const CzLanes *lanes, int interface) {
+    Path path = {.lanes = lanes, .let_go = NAN, .shear_off = INFINITY};
+    path.starts_at = cz_lane_value(lanes, interface, CZ_P_FACE_GAP);
+    for (int side = 0; side < 2; side++) {
+        add(&path, CZ_CURVE_FACE_A + side, (size_t)interface);
+        add(&path, CZ_CURVE_LIMP_END_A + side, (size_t)interface);
+    }
+    add_ends(&path, model, interface);
+    return path;
+}
+
+static Path side_path(const CzModel *model, const CzLanes *lanes, int interface) {
+    Path path = {.lanes = lanes, .let_go = NAN, .shear_off = INFINITY};
+    if (cz_lane_value(lanes, interface, CZ_P_SIDE_BUFFERS) < 0.5)
+        return path;
+    path.starts_at = cz_lane_value(lanes, interface, CZ_P_SIDE_GAP);
+    for (int side = 0; side < 2; side++) {
+        add(&path, CZ_CURVE_SIDE_BUFFER_A + side, (size_t)interface);
+        add(&path, CZ_CURVE_SIDE_TUBE_A + side, (size_t)interface);
+    }
+    add_ends(&path, model, interface);
+    return path;
+}
+
+CzStatus cz_input_curve(const CzModel *model, int interface, double longest, int n, double *closure,
+                        double *force, CzError *error) {
+    CzArena arena = {0};
+    CzLanes *lanes = cz_lanes_create(model, 1, &arena);
+    int n_vehicle;
+    CzStatus status = lanes == NULL
+                          ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the input curve")
+                          : cz_model_fill(model, cz_problem_vehicles(model->problem, &n_vehicle), 0,
+                                          lanes, error);
+    if (status == CZ_OK) {
+        Path path[3] = {coupler_path(lanes, interface), face_path(model, lanes, interface),
+                        side_path(model, lanes, interface)};
+        const double step = longest / (n - 1);
+        for (int i = 0; i < n; i++) {
+            closure[i] = i * step;
+            force[i] = 0.0;
+            for (int k = 0; k < 3; k++)
+                force[i] += advance(&path[k], closure[i], step);
+        }
+    }
+    cz_arena_free(&arena);
+    return status;
+}

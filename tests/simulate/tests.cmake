@@ -1,0 +1,1 @@
+cz_test(test_filter unit test_filter.c)

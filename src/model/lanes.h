@@ -26,7 +26,7 @@ typedef enum CzCurveId {
 } CzCurveId;
 
 typedef enum CzDof {
-#define CZ_DOF(name) CZ_DOF_##name,
+#define CZ_DOF(name, what) CZ_DOF_##name,
 #include "model/dof.def"
 #undef CZ_DOF
     CZ_N_DOF

@@ -110,7 +110,7 @@ void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *opt
         put_text(&table, interface->name);
         put_text(&table, NULL);
         put_number(&table, interface->peak_force / CZ_KILO);
-        put_number(&table, interface->peak_time * CZ_MILLI_PER_UNIT);
+        put_number(&table, cz_milliseconds(interface->peak_time));
         put_number(&table, interface->shortening * CZ_MILLI_PER_UNIT);
         put_text(&table, NULL);
         put_text(&table, NULL);

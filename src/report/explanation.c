@@ -170,7 +170,7 @@ CzStatus cz_report_write_explanation(const CzProblem *problem, const CzExplanati
     cz_json_text(json, "scenario", explanation->scenario);
     cz_json_text(json, "verdict", cz_verdict_text(explanation->verdict));
     cz_json_flag(json, "climbed", explanation->climbed);
-    cz_json_real(json, "climb_time_ms", explanation->climb_time * CZ_MILLI_PER_UNIT);
+    cz_json_real(json, "climb_time_ms", cz_milliseconds(explanation->climb_time));
     put_worst(json, &explanation->worst);
     const bool has_first = explanation->n_lever > 0 && explanation->lever[0].turns;
     cz_json_text(json, "first_cause",
@@ -181,7 +181,7 @@ CzStatus cz_report_write_explanation(const CzProblem *problem, const CzExplanati
         cz_json_open_object(json, NULL);
         cz_json_text(json, "cause", cz_cause_text(sign->cause));
         cz_json_text(json, "what", sign->what);
-        cz_json_real(json, "time_ms", sign->time * CZ_MILLI_PER_UNIT);
+        cz_json_real(json, "time_ms", cz_milliseconds(sign->time));
         cz_json_close(json);
     }
     cz_json_close(json);

@@ -132,7 +132,7 @@ static void put_interface(CzJson *json, const CzInterfaceResult *interface) {
     cz_json_open_object(json, NULL);
     cz_json_text(json, "name", interface->name);
     cz_json_real(json, "peak_force_kN", interface->peak_force / CZ_KILO);
-    cz_json_real(json, "peak_time_ms", interface->peak_time * CZ_MILLI_PER_UNIT);
+    cz_json_real(json, "peak_time_ms", cz_milliseconds(interface->peak_time));
     cz_json_real(json, "shortening_mm", interface->shortening * CZ_MILLI_PER_UNIT);
     cz_json_real(json, "energy_kJ", interface->energy / CZ_KILO);
     cz_json_real(json, "energy_share", interface->energy_share);
@@ -178,7 +178,7 @@ static void put_vehicle(CzJson *json, const CzVehicleResult *vehicle) {
 
 static void put_event(CzJson *json, const CzRunSummary *run, const CzEvent *event) {
     cz_json_open_object(json, NULL);
-    cz_json_real(json, "time_ms", event->time * CZ_MILLI_PER_UNIT);
+    cz_json_real(json, "time_ms", cz_milliseconds(event->time));
     cz_json_text(json, "what", cz_event_text(event->what));
     cz_json_text(json, "where", event->where);
     cz_json_text(json, "interface",
@@ -193,7 +193,7 @@ static void put_scenario(CzJson *json, const CzProblem *problem, const CzRunSumm
     cz_document_run_info(json, run->wall_s, run->setup_s, n_job);
     cz_json_text(json, "status", run->status == CZ_OK ? "completed" : "failed");
     cz_json_text(json, "failure", run->failure[0] != '\0' ? run->failure : NULL);
-    cz_json_real(json, "simulated_s", run->simulated);
+    cz_json_real(json, "simulated_s", cz_seconds(run->simulated));
     cz_json_text(json, "integrator", cz_integrator_text(run->integrator));
     cz_json_real(json, "time_step_s", run->time_step);
     cz_json_whole(json, "steps", run->n_step);
@@ -204,7 +204,7 @@ static void put_scenario(CzJson *json, const CzProblem *problem, const CzRunSumm
     cz_json_real(json, "closing_speed_km_h", run->closing_speed * CZ_KM_H_PER_M_S);
     cz_json_real(json, "plastic_energy_kJ", run->plastic_energy / CZ_KILO);
     cz_json_flag(json, "beyond_validity", run->beyond_validity);
-    cz_json_real(json, "beyond_validity_time_ms", run->beyond_validity_time * CZ_MILLI_PER_UNIT);
+    cz_json_real(json, "beyond_validity_time_ms", cz_milliseconds(run->beyond_validity_time));
 
     cz_json_open_list(json, "interfaces");
     for (int i = 0; i < run->n_interface; i++)

@@ -17,7 +17,7 @@
 #define LARGEST_RESIDUAL 1e-6  /* closure that a chain may leave unbalanced [m] (ours) */
 
 static const char *const dof_text[CZ_N_DOF] = {
-#define CZ_DOF(name) #name,
+#define CZ_DOF(name, what) what,
 #include "model/dof.def"
 #undef CZ_DOF
 };

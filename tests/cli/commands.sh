@@ -47,6 +47,12 @@ several() { exits 1 "$C" check two-trains.yaml two-trains.yaml -o many && [ -f m
 check "check takes several files, each with a folder of its own" several
 finer() { exits 0 "$C" run two-trains.yaml --json --time-step-ms 0.05 && json out.txt scenarios.0.time_step_s 5e-5; }
 check "--time-step-ms sets the time step" finer
+too_coarse() { # too_coarse OPTION...: beyond the largest stable step
+    exits 2 "$C" run "$SOURCE/problems/two-cars-25kmh.yaml" --set simulation.output_step_ms=5 "$@" &&
+        says err.txt 'the time step of 2 ms is too long: the largest stable step of wheel-rail contact A1 is 1.26022 ms'
+}
+check "--time-step-ms beyond the largest stable step is refused as in the file" too_coarse --time-step-ms 2
+check "a step of the file beyond the largest stable step is refused" too_coarse --set simulation.time_step_ms=2
 by_reference() { exits 0 "$C" run two-trains.yaml --json --integrator "$1" && json out.txt scenarios.0.integrator "$1"; }
 check "--integrator erk runs with the Runge-Kutta reference" by_reference erk
 check "--integrator adams runs with the Adams reference" by_reference adams

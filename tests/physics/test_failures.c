@@ -1,0 +1,59 @@
+/* Runs that cannot be believed fail, and say in words where and when. */
+#include "physics/collision.h"
+
+/* Runs with a step of the caller's, whatever the bounds say. */
+static Collision collide_with(const char *file, double step) {
+    Collision collision = collision_model(file, AS_WRITTEN, 0);
+    CzSimulateOptions options = cz_simulate_options_default();
+    options.time_step = step;
+    CzError error = {0};
+    if (cz_simulate(collision.model, &options, &collision.run, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    collision.summary = cz_run_summary(collision.run);
+    return collision;
+}
+
+/* A failed run is incomplete, and shows no number that somebody might take for a result. */
+static void assert_failed(const Collision *collision, const char *where, const char *what) {
+    const CzRunSummary *summary = collision->summary;
+    assert_int_equal(summary->status, CZ_STATUS_RUN_FAILED);
+    assert_int_equal(summary->ended, CZ_ENDED_INCOMPLETE);
+    if (strncmp(summary->failure, where, strlen(where)) != 0 ||
+        strstr(summary->failure, what) == NULL)
+        fail_msg("'%s' is not '%s ... %s'", summary->failure, where, what);
+    assert_true(isnan(summary->energy.dissipated));
+    assert_true(isnan(summary->energy.balance_error));
+    assert_true(isnan(summary->interface[0].peak_force));
+    assert_true(isnan(summary->interface[0].element[0].energy));
+    assert_true(isnan(summary->vehicle[0].final_speed));
+}
+
+/* One and a half times the largest stable step multiplies the fastest motion by a few a step: the
+ * books are off by more than 1 % long before a number overflows. */
+static void a_run_that_loses_its_energy_balance_fails(void **state) {
+    (void)state;
+    Collision collision = collision_model("problems/two-cars-25kmh.yaml", AS_WRITTEN, 0);
+    const double bound = cz_model_step_bound(collision.model, 0)->bound;
+    collision_free(&collision);
+    collision = collide_with("problems/two-cars-25kmh.yaml", 1.5 * bound);
+    assert_failed(&collision, "A1: ", ": energy balance lost (most work here) at ");
+    assert_null(strstr(collision.summary->failure, "_"));
+    collision_free(&collision);
+}
+
+/* A million times the largest stable step: beyond the range of numbers before the first look. */
+static void a_run_that_goes_beyond_all_numbers_fails(void **state) {
+    (void)state;
+    Collision collision = collide_with("problems/two-cars-25kmh.yaml", 1e3);
+    assert_failed(&collision, "A1: longitudinal motion of the body: not a finite number at ",
+                  " ms");
+    collision_free(&collision);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_run_that_loses_its_energy_balance_fails),
+        cmocka_unit_test(a_run_that_goes_beyond_all_numbers_fails),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -45,33 +45,42 @@ static double buffer_stored(const CzDynamics *dynamics, size_t lane, int curve, 
            cz_curve_integral(&dynamics->lanes->curve[curve], dynamics->lanes->stride, lane, stroke);
 }
 
+static double half_elastic(const CzDynamics *dynamics, size_t lane, int compliance, int row) {
+    const double force = memory(dynamics, row, lane);
+    return 0.25 * parameter(dynamics, compliance, lane) * force * force;
+}
+
+double cz_coupler_elastic(const CzDynamics *dynamics, size_t lane) {
+    return half_elastic(dynamics, lane, CZ_P_COUPLER_COMPLIANCE, CZ_M_COUPLER_FORCE);
+}
+
+double cz_side_elastic(const CzDynamics *dynamics, size_t lane) {
+    return half_elastic(dynamics, lane, CZ_P_SIDE_COMPLIANCE, CZ_M_SIDE_FORCE);
+}
+
 double cz_coupler_stored(const CzDynamics *dynamics, size_t lane, int side) {
     if (parameter(dynamics, CZ_P_COUPLER, lane) < 0.5)
         return 0.0;
-    const double force = memory(dynamics, CZ_M_COUPLER_FORCE, lane);
-    const double elastic =
-        0.25 * parameter(dynamics, CZ_P_COUPLER_COMPLIANCE, lane) * force * force;
-    return elastic + buffer_stored(dynamics, lane, CZ_CURVE_BUFFER_A + side,
-                                   memory(dynamics, CZ_M_BUFFER_A + side, lane),
-                                   parameter(dynamics, CZ_P_BUFFER_SHARE_A + side, lane),
-                                   parameter(dynamics, CZ_P_BUFFER_DRAW_STIFFNESS_A + side, lane),
-                                   parameter(dynamics, CZ_P_BUFFER_DRAW_SLACK_A + side, lane));
+    return cz_coupler_elastic(dynamics, lane) +
+           buffer_stored(dynamics, lane, CZ_CURVE_BUFFER_A + side,
+                         memory(dynamics, CZ_M_BUFFER_A + side, lane),
+                         parameter(dynamics, CZ_P_BUFFER_SHARE_A + side, lane),
+                         parameter(dynamics, CZ_P_BUFFER_DRAW_STIFFNESS_A + side, lane),
+                         parameter(dynamics, CZ_P_BUFFER_DRAW_SLACK_A + side, lane));
 }
 
 double cz_face_stored(const CzDynamics *dynamics, size_t lane, int side) {
     (void)side; /* the elasticity of both sides is one compliance */
-    const double force = memory(dynamics, CZ_M_FACE_FORCE, lane);
-    return 0.25 * parameter(dynamics, CZ_P_FACE_COMPLIANCE, lane) * force * force;
+    return half_elastic(dynamics, lane, CZ_P_FACE_COMPLIANCE, CZ_M_FACE_FORCE);
 }
 
 double cz_side_stored(const CzDynamics *dynamics, size_t lane, int side) {
     if (parameter(dynamics, CZ_P_SIDE_BUFFERS, lane) < 0.5)
         return 0.0;
-    const double force = memory(dynamics, CZ_M_SIDE_FORCE, lane);
-    const double elastic = 0.25 * parameter(dynamics, CZ_P_SIDE_COMPLIANCE, lane) * force * force;
-    return elastic + buffer_stored(dynamics, lane, CZ_CURVE_SIDE_BUFFER_A + side,
-                                   memory(dynamics, CZ_M_SIDE_BUFFER_A + side, lane),
-                                   parameter(dynamics, CZ_P_SIDE_SHARE_A + side, lane), 0.0, 0.0);
+    return cz_side_elastic(dynamics, lane) +
+           buffer_stored(dynamics, lane, CZ_CURVE_SIDE_BUFFER_A + side,
+                         memory(dynamics, CZ_M_SIDE_BUFFER_A + side, lane),
+                         parameter(dynamics, CZ_P_SIDE_SHARE_A + side, lane), 0.0, 0.0);
 }
 
 /* Energy that a crush zone gives back from shortening x, its largest being `largest`: along the

@@ -9,6 +9,10 @@ double cz_coupler_stored(const CzDynamics *dynamics, size_t lane, int side);
 double cz_face_stored(const CzDynamics *dynamics, size_t lane, int side);
 double cz_limp_stored(const CzDynamics *dynamics, size_t lane, int side);
 double cz_side_stored(const CzDynamics *dynamics, size_t lane, int side);
+
+/* The part of it that belongs to no member of the chain: half of what its compliance stores. */
+double cz_coupler_elastic(const CzDynamics *dynamics, size_t lane);
+double cz_side_elastic(const CzDynamics *dynamics, size_t lane);
 double cz_end_stored(const CzDynamics *dynamics, size_t lane, int end);
 
 /* Kinetic and elastic energy of the track under a car above that at t = 0. */

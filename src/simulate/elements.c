@@ -40,7 +40,9 @@ static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
     const double tube_usable = usable(batch, CZ_CURVE_TUBE_A + side, lane);
     const double second_usable = usable(batch, CZ_CURVE_SECOND_TUBE_A + side, lane);
     result->stored = cz_coupler_stored(batch->dynamics, lane, side);
-    result->energy = cz_memory(batch, CZ_M_COUPLER_ENERGY_A + side, lane) - result->stored;
+    /* The row holds the work on the members, without what the chain's compliance stores. */
+    const double of_members = result->stored - cz_coupler_elastic(batch->dynamics, lane);
+    result->energy = cz_memory(batch, CZ_M_COUPLER_ENERGY_A + side, lane) - of_members;
     result->tube_energy = cz_memory(batch, CZ_M_TUBE_ENERGY_A + side, lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
     result->stroke = tube + second;
@@ -91,7 +93,8 @@ static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int c
     const double reversible = usable(batch, CZ_CURVE_SIDE_BUFFER_A + side, lane);
     const bool alone = batch->lanes->curve[CZ_CURVE_SIDE_TUBE_A + side].start[lane] > MISSING;
     result->stored = cz_side_stored(batch->dynamics, lane, side);
-    result->energy = cz_memory(batch, CZ_M_SIDE_ENERGY_A + side, lane) - result->stored +
+    const double of_members = result->stored - cz_side_elastic(batch->dynamics, lane);
+    result->energy = cz_memory(batch, CZ_M_SIDE_ENERGY_A + side, lane) - of_members +
                      0.5 * cz_work(batch, CZ_L_SIDE_SLIDING, lane);
     result->tube_energy = cz_memory(batch, CZ_M_SIDE_TUBE_ENERGY_A + side, lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;

@@ -90,8 +90,8 @@ double cz_track_loss(const CzTrackMotion *track, size_t index);
  *   3. cz_dynamics_track_rate (dynamics.h) for each car: the rates of its states under those
  * forces, and the track's part of the powers.
  *
- * At t = 0 cz_track_get_state gives the state at rest. Under usual axle loads a state is of the size
- * of 0.01 to 1 sqrt(J s), and 1e-3 of that moves a wheel by about 1 um.
+ * At t = 0 cz_track_get_state gives the state at rest. Under usual axle loads a state is of the
+ * size of 0.01 to 1 sqrt(J s), and 1e-3 of that moves a wheel by about 1 um.
  */
 
 /* Numbers of one car's state. */

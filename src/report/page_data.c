@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EVEN_SAMPLES = 240, DIGITS = 5, MOST_DECIMALS = 6 };
+enum { EVEN_SAMPLES = 240, DIGITS = 5, MOST_DECIMALS = 4 };
 
 static bool is_shown(const char *name) {
     static const char *const prefixes[] = {"x_", "v_", "a_", "z_",      "pitch_",
@@ -37,15 +37,15 @@ static void take_extremes(const double *value, int n, bool *taken) {
     taken[high] = taken[low] = true;
 }
 
-/* Samples that the cursor can stand at: evenly spread, every extreme of a force, an acceleration or
- * a lift, every event. */
+/* Samples that the cursor can stand at: evenly spread, every extreme of a force or an acceleration,
+ * every event. */
 static void choose(const CzPage *page, bool *taken) {
     const int n = page->n_sample;
     for (int i = 0; i < EVEN_SAMPLES; i++)
         taken[(long)i * (n - 1) / (EVEN_SAMPLES - 1)] = true;
     for (int channel = 1; channel < cz_run_n_channel(page->run); channel++) {
         const char *name = cz_run_channel_name(page->run, channel);
-        if (strchr("Faz", name[0]) != NULL && is_shown(name))
+        if (strchr("Fa", name[0]) != NULL && is_shown(name))
             take_extremes(cz_run_channel(page->run, channel), n, taken);
     }
     for (int i = 0; i < page->summary->n_event; i++) {
@@ -57,8 +57,22 @@ static void choose(const CzPage *page, bool *taken) {
     }
 }
 
+/* Decimals beyond which nobody asks, by the unit at the end of a channel's name. */
+static int most_decimals(const char *name) {
+    static const struct {
+        const char *unit;
+        int decimals;
+    } units[] = {{"_mm", 3}, {"_kN", 1}, {"_kJ", 2}, {"_mrad", 3}};
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+        const size_t n = strlen(name), n_unit = strlen(units[i].unit);
+        if (n > n_unit && strcmp(name + n - n_unit, units[i].unit) == 0)
+            return units[i].decimals;
+    }
+    return MOST_DECIMALS;
+}
+
 /* Decimals that give the largest value DIGITS digits. */
-static int decimals_for(const double *value, int n) {
+static int decimals_for(const char *name, const double *value, int n) {
     double most = 0;
     for (int i = 0; i < n; i++)
         most = isfinite(value[i]) && fabs(value[i]) > most ? fabs(value[i]) : most;
@@ -66,7 +80,7 @@ static int decimals_for(const double *value, int n) {
     double room = 1;
     for (int i = 0; i < DIGITS; i++)
         room *= 10;
-    while (most > 0 && decimals < MOST_DECIMALS && most * 10 < room) {
+    while (most > 0 && decimals < most_decimals(name) && most * 10 < room) {
         most *= 10;
         decimals++;
     }
@@ -89,7 +103,7 @@ static void write_json_text(FILE *stream, const char *text) {
 /* "name":[decimals,first,difference,...]; null for a value that is no number. */
 static void write_channel(FILE *stream, const char *name, const double *value, int n,
                           const bool *taken) {
-    const int decimals = decimals_for(value, n);
+    const int decimals = decimals_for(name, value, n);
     double unit = 1;
     for (int i = 0; i < decimals; i++)
         unit *= 10;

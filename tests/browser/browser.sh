@@ -1,0 +1,43 @@
+# The report in a real browser: Debian's chromium, driven by playwright-core from npm. What is missing is told.
+. "$SOURCE/tests/support/cases.sh"
+
+for command in chromium node npm; do
+    command -v $command >/dev/null 2>&1 && continue
+    skipped "the report in a browser" "no $command here; packages.txt names what is needed under [browser]"
+    finish
+done
+
+if [ "$(node -p 'process.versions.node.split(".")[0]')" -lt 20 ]; then
+    skipped "the report in a browser" "playwright-core needs Node.js 20, here is $(node --version)"
+    finish
+fi
+
+# playwright-core is fetched once per build folder.
+modules=$BUILD/tests/browser-modules
+mkdir -p "$modules"
+cp "$SOURCE/tests/browser/package.json" "$SOURCE/tests/browser/package-lock.json" "$modules/"
+if ! [ -d "$modules/node_modules/playwright-core" ] &&
+    ! (cd "$modules" && npm ci --no-audit --no-fund) >npm.log 2>&1; then
+    cat npm.log
+    skipped "the report in a browser" "npm cannot fetch playwright-core here"
+    finish
+fi
+
+# A collision of full cars, one of rigid ones, and trains of eight full cars, whose report is the largest.
+long_metro() {
+    ln -s "$SOURCE/problems/catalogue" "$SOURCE/problems/profiles" .
+    sed -e 's/^\( *\)- {name: A3, use: metro-third-car, reversed: true}/&\n\1- {name: M1, use: metro-third-car, reversed: true}\n\1- {name: M2, use: metro-third-car}/' \
+        -e '/^optimise:/,$d' "$SOURCE/problems/metro-6-car.yaml" >long.yaml
+    "$PROGRAM" run long.yaml --scenario 25-km-h -o long
+}
+check "crushzone runs a metro" "$PROGRAM" run "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h -o metro
+check "crushzone runs rigid cars" sh -c '"$PROGRAM" new two-trains && "$PROGRAM" run two-trains.yaml -o rigid'
+check "crushzone runs trains of eight cars" long_metro
+
+NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" metro rigid long >cases.txt 2>&1
+code=$?
+cat cases.txt
+n_passed=$((n_passed + $(grep -c '^ok - ' cases.txt)))
+n_failed=$((n_failed + $(grep -c '^not ok - ' cases.txt)))
+[ $code = 0 ] || [ "$(grep -c '^not ok - ' cases.txt)" -gt 0 ] || check "the browser tests end" false
+finish

@@ -1,0 +1,260 @@
+// The report as a browser shows it: report.js FOLDER... prints one line "ok - sentence" or "not ok - sentence" per case.
+'use strict';
+const fs = require('fs');
+const path = require('path');
+const {chromium} = require('playwright-core');
+
+let failed = 0;
+async function check(sentence, test) {
+  let trouble;
+  try {
+    trouble = await test();
+  } catch (error) {
+    trouble = error.message.split('\n')[0];
+  }
+  console.log(`${trouble ? 'not ok' : 'ok'} - ${sentence}`);
+  if (trouble) console.log(`    ${trouble}`);
+  failed += trouble ? 1 : 0;
+}
+
+/* Columns of channels.csv by name, as numbers; NaN for an empty field. */
+function readChannels(folder) {
+  const [names, ...rows] = fs.readFileSync(path.join(folder, 'channels.csv'), 'utf8').trim().split('\r\n').map(row => row.split(','));
+  const columns = {};
+  names.forEach((name, i) => { columns[name] = rows.map(row => (row[i] === '' ? NaN : Number(row[i]))); });
+  return columns;
+}
+
+/* Half of the last digit that a number was written with. */
+function halfDigit(text) {
+  const point = text.indexOf('.');
+  return 0.500001 * Math.pow(10, point < 0 ? 0 : point + 1 - text.length);
+}
+
+async function open(browser, file, options) {
+  const context = await browser.newContext({viewport: {width: 1280, height: 900}, ...options});
+  const page = await context.newPage();
+  page.seen = {requests: [], messages: []};
+  page.on('request', request => page.seen.requests.push(request.url()));
+  page.on('console', message => page.seen.messages.push(message.text()));
+  page.on('pageerror', error => page.seen.messages.push(error.message));
+  await page.goto('file://' + path.resolve(file));
+  return page;
+}
+
+async function movesQuietly(page) {
+  await page.mouse.move(300, 300);
+  await page.click('#play');
+  await page.waitForTimeout(300);
+  await page.click('#play');
+  if (page.seen.requests.length !== 1) return 'requests: ' + page.seen.requests.join(' ');
+  if (page.seen.messages.length !== 0) return 'messages: ' + page.seen.messages.join(' | ');
+}
+
+async function isWellFormed(page, file) {
+  return page.evaluate(text => {
+    const parsed = new DOMParser().parseFromString(text, 'application/xml').querySelector('parsererror');
+    return parsed ? parsed.textContent : '';
+  }, fs.readFileSync(file, 'utf8'));
+}
+
+/* Moves the mouse over a time plot and compares what stands below it with the row of that time. */
+async function cursorShowsChannels(page, channels, prefix, shares) {
+  const plot = page.locator(`svg.plot:has(path[data-y^="${prefix}"]:not([data-x]))`).first();
+  await plot.scrollIntoViewIfNeeded();
+  const names = await plot.evaluate(svg => Array.from(svg.querySelectorAll('path[data-y]')).map(p => [p.dataset.name, p.dataset.y]));
+  for (const share of shares) {
+    await pointAt(page, plot, share, 0.5);
+    const text = await plot.evaluate(svg => svg.parentNode.querySelector('output').textContent);
+    const [time, ...values] = text.split(' \u00b7 ');
+    const row = channels.t_ms.findIndex(t => Math.abs(t - parseFloat(time)) <= halfDigit(time.split(' ')[0]));
+    if (row < 0) return `no sample at ${time}`;
+    if (values.length !== names.length) return `${values.length} values of ${names.length}: ${text}`;
+    for (let i = 0; i < names.length; i++) {
+      const shown = values[i].slice(names[i][0].length + 1), real = channels[names[i][1]][row];
+      if (!(Math.abs(Number(shown) - real) <= halfDigit(shown))) return `${names[i][1]} at ${time} is ${real}, shown as ${shown}`;
+    }
+  }
+}
+
+/* Moves the mouse to a place between the axes, in shares of width and height. */
+async function pointAt(page, plot, x, y) {
+  const place = await plot.evaluate((svg, [shareX, shareY]) => {
+    const [left, top, width, height] = svg.dataset.box.split(' ').map(Number);
+    const point = svg.createSVGPoint();
+    point.x = left + shareX * width;
+    point.y = top + shareY * height;
+    const screen = point.matrixTransform(svg.getScreenCTM());
+    return [screen.x, screen.y];
+  }, [x, y]);
+  await page.mouse.move(place[0], place[1]);
+}
+
+/* Over a loop the nearest point of it counts; force and closure are of one row. */
+async function cursorFollowsLoops(page, channels) {
+  for (const plot of await page.locator('svg.plot:has(path[data-x])').all()) {
+    await plot.scrollIntoViewIfNeeded();
+    const [x, y] = await plot.evaluate(svg => [svg.querySelector('path[data-x]').dataset.x, svg.querySelector('path[data-x]').dataset.y]);
+    for (const [shareX, shareY] of [[0.3, 0.5], [0.95, 0.7]]) {
+      await pointAt(page, plot, shareX, shareY);
+      const text = await plot.evaluate(svg => svg.parentNode.querySelector('output').textContent);
+      const [, time, closure, force] = text.match(/^([\d.]+) ms \u00b7 closure ([-\d.]+) mm, force ([-\d.]+) kN$/) || [];
+      const row = channels.t_ms.findIndex(t => Math.abs(t - Number(time)) <= halfDigit(time));
+      if (row < 0 || !(Math.abs(Number(closure) - channels[x][row]) <= halfDigit(closure)) ||
+          !(Math.abs(Number(force) - channels[y][row]) <= halfDigit(force)))
+        return `${y}: ${text}, row ${row}`;
+    }
+  }
+}
+
+/* The dot of a curve lies where its value is. */
+async function dotsLieOnCurves(page) {
+  return page.evaluate(() => {
+    for (const svg of document.querySelectorAll('svg.plot')) {
+      const paths = svg.querySelectorAll('path[data-y]'), dots = svg.querySelectorAll('circle.dot');
+      for (let i = 0; i < paths.length; i++) {
+        const at = [Number(dots[i].getAttribute('cx')), Number(dots[i].getAttribute('cy'))];
+        if (at[1] < 0) continue; // no value at this time
+        const length = paths[i].getTotalLength();
+        let nearest = Infinity;
+        for (let k = 0; k <= 4000; k++) {
+          const p = paths[i].getPointAtLength(length * k / 4000);
+          nearest = Math.min(nearest, Math.hypot(p.x / 10 - at[0], p.y / 10 - at[1]));
+        }
+        if (nearest > 0.5 + length / 10 / 4000) return `${paths[i].dataset.y}: dot ${nearest} away`;
+      }
+    }
+    return '';
+  });
+}
+
+async function scrub(page, share) {
+  await page.evaluate(s => {
+    const input = document.getElementById('scrub');
+    input.value = Math.round(s * input.max);
+    input.dispatchEvent(new Event('input'));
+  }, share);
+  return parseFloat(await page.locator('#now').textContent());
+}
+
+/* Cars, ends and wheels stand where the channels say. */
+async function animationFollowsChannels(page, channels) {
+  let crushed = 0;
+  for (const share of [0, 0.05, 0.1, 0.3, 1]) {
+    const time = await scrub(page, share);
+    const row = channels.t_ms.findIndex(t => Math.abs(t - time) < 0.051);
+    const cars = await page.evaluate(() => Array.from(document.querySelectorAll('svg.animation g.car')).map(g => ({
+      name: g.dataset.car, at: Number(g.dataset.at), x: g.transform.baseVal.getItem(0).matrix.e, bare: Number(g.dataset.front),
+      end: g.querySelector('.end.front') ? Number(g.querySelector('.end.front').getAttribute('x2')) : NaN,
+      wheel: g.querySelector('.wheel') ? Number(g.querySelector('.wheel').getAttribute('cy')) + Number(g.querySelector('.wheel').getAttribute('r')) : NaN})));
+    for (let i = 1; i < cars.length; i++) {
+      const apart = cars[i].at + channels[`x_${cars[i].name}_m`][row] - cars[0].at - channels[`x_${cars[0].name}_m`][row];
+      if (Math.abs((cars[i].x - cars[0].x) / 24 - apart) > 2e-3) return `${cars[i].name} at ${time} ms is ${(cars[i].x - cars[0].x) / 24} m ahead instead of ${apart}`;
+    }
+    for (const car of cars) {
+      const stroke = channels[`d_end_front_${car.name}_mm`], lift = channels[`z_${car.name}_w1_mm`];
+      if (stroke && Math.abs(car.bare - car.end / 24 - stroke[row] / 1e3) > 1e-3) return `end of ${car.name} at ${time} ms`;
+      if (lift && Math.abs(-car.wheel / 24 - 10 * lift[row] / 1e3) > 2e-3) return `wheel of ${car.name} at ${time} ms`;
+      crushed = Math.max(crushed, stroke ? stroke[row] : 0);
+    }
+  }
+  return '';
+}
+
+async function playsAndStops(page) {
+  await scrub(page, 0);
+  await page.click('#play');
+  await page.waitForTimeout(700);
+  await page.click('#play');
+  const then = parseFloat(await page.locator('#now').textContent());
+  if (!(then > 0)) return 'time stands still';
+  await page.waitForTimeout(200);
+  if (parseFloat(await page.locator('#now').textContent()) !== then) return 'it goes on after the pause';
+  const before = await page.locator('#now').textContent();
+  await page.locator('#focus').selectOption({index: 0});
+  if (await page.locator('#now').textContent() === before) return 'another interface shows nothing else';
+}
+
+/* No text of a figure lies on another one, none of the legend between the axes. */
+async function labelsKeepApart(page) {
+  return page.evaluate(() => {
+    document.querySelectorAll('details').forEach(d => { d.open = true; });
+    for (const svg of document.querySelectorAll('figure svg, svg.row')) {
+      const boxes = Array.from(svg.querySelectorAll('text')).map(t => [t.textContent, t.getBoundingClientRect()]);
+      const own = svg.getBoundingClientRect();
+      if (svg.classList.contains('frame')) continue; // names on cars lie where the cars are
+      for (let i = 0; i < boxes.length; i++) {
+        const a = boxes[i][1];
+        if (a.left < own.left - 1 || a.right > own.right + 1 || a.bottom > own.bottom + 1) return `"${boxes[i][0]}" leaves the figure`;
+        for (let k = 0; k < i; k++) {
+          const b = boxes[k][1];
+          if (Math.min(a.right, b.right) - Math.max(a.left, b.left) > 0.5 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 2)
+            return `"${boxes[i][0]}" on "${boxes[k][0]}"`;
+        }
+      }
+    }
+    return '';
+  });
+}
+
+async function isWholeWithoutScript(browser, file, withScript) {
+  const page = await open(browser, file, {javaScriptEnabled: false});
+  const n = await page.locator('svg.plot path[d]').count();
+  if (n !== withScript || n < 10) return `${n} curves instead of ${withScript}`;
+  if (!await page.locator('.strip').isVisible()) return 'the strip of frames is hidden';
+  if (await page.locator('#stage').isVisible()) return 'controls that do nothing are shown';
+  if (page.seen.messages.length > 0) return page.seen.messages.join(' | ');
+  await page.context().close();
+}
+
+async function fits(browser, file, width, picture, colorScheme) {
+  const page = await open(browser, file, {viewport: {width, height: 900}, colorScheme});
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  await page.screenshot({path: picture, fullPage: true});
+  const [ink, paper] = await page.evaluate(() => [getComputedStyle(document.body).color, getComputedStyle(document.body).backgroundColor]);
+  await page.context().close();
+  const bright = text => text.match(/\d+/g).map(Number).reduce((a, b) => a + b);
+  if (wide > width) return `it is ${wide} wide`;
+  if ((bright(ink) > bright(paper)) !== (colorScheme === 'dark')) return `ink ${ink} on ${paper}`;
+}
+
+async function prints(page) {
+  const pdf = await page.pdf({format: 'A4'});
+  if (pdf.slice(0, 5).toString() !== '%PDF-') return 'no PDF';
+  if (pdf.length < 50000) return `only ${pdf.length} bytes`;
+}
+
+async function look(browser, folder) {
+  const file = path.join(folder, 'report.html'), channels = readChannels(folder);
+  const page = await open(browser, file);
+  const n = await page.locator('svg.plot path[d]').count();
+  await check(`${folder}: the report asks for nothing and says nothing on the console`, () => movesQuietly(page));
+  await check(`${folder}: an XML parser takes it`, () => isWellFormed(page, file));
+  await check(`${folder}: it is smaller than 1 MB`, () => (fs.statSync(file).size <= 1e6 ? '' : `${fs.statSync(file).size} bytes`));
+  await check(`${folder}: speeds under the cursor are those of channels.csv`, () => cursorShowsChannels(page, channels, 'v_', [0.001, 0.1, 0.37, 0.8, 0.999]));
+  await check(`${folder}: forces under the cursor are those of channels.csv`, () => cursorShowsChannels(page, channels, 'F_', [0.02, 0.3, 0.9]));
+  await check(`${folder}: energies under the cursor are those of channels.csv`, () => cursorShowsChannels(page, channels, 'E_kinetic', [0.05, 0.5]));
+  await check(`${folder}: closure and force under the cursor belong together`, () => cursorFollowsLoops(page, channels));
+  await check(`${folder}: dots lie on their curves`, () => dotsLieOnCurves(page));
+  await check(`${folder}: cars, ends and wheels move as the channels say`, () => animationFollowsChannels(page, channels));
+  await check(`${folder}: the animation plays, stops and looks elsewhere`, () => playsAndStops(page));
+  await check(`${folder}: labels keep apart and legends out of the axes`, () => labelsKeepApart(page));
+  await check(`${folder}: it prints`, () => prints(page));
+  await check(`${folder}: it is whole without its script`, () => isWholeWithoutScript(browser, file, n));
+  await check(`${folder}: it fits 1280 pixels`, () => fits(browser, file, 1280, `${folder}-1280.png`, 'light'));
+  await check(`${folder}: it fits 400 pixels, in the dark`, () => fits(browser, file, 400, `${folder}-400.png`, 'dark'));
+  await page.context().close();
+}
+
+(async () => {
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+           '--disable-component-update', '--disable-sync']});
+  for (const folder of process.argv.slice(2)) await look(browser, folder);
+  await browser.close();
+  process.exit(failed > 0 ? 1 : 0);
+})().catch(error => {
+  console.log(`not ok - the browser starts\n    ${error.message}`);
+  process.exit(1);
+});

@@ -1,4 +1,4 @@
-/* Facts before a run: frequencies of benchmark vehicles, and the coupler as a strut. */
+/* Facts before a run: frequencies, and the coupler as a strut. */
 #include "model/built_model.h"
 
 #include "model/vertical_modes.h"
@@ -9,47 +9,6 @@ static CzVerticalModes modes_of(const CzVehicle *vehicle) {
                         4.0 * vehicle->bogie.wheelset_mass - vehicle->front.mass -
                         vehicle->rear.mass;
     return cz_vertical_modes(vehicle, &statics);
-}
-
-/* Iwnicki 1998; the frequencies were computed with an independent eigenvalue routine. */
-static void the_manchester_coach_has_its_frequencies_and_loads(void **state) {
-    (void)state;
-    const CzVehicle coach = typed_full();
-    struct CzProblem problem;
-    typed_problem_init(&problem, 1, &coach, 1, &coach, 10.0);
-    Built built = build_model(&problem);
-    const CzVehicleFacts facts = cz_model_vehicle_facts(built.model, 0);
-    assert_near(facts.bounce_frequency, 1.0725, 0.0, 5e-5);
-    assert_near(facts.pitch_frequency, 1.2973, 0.0, 5e-5);
-    for (int axle = 0; axle < 4; axle++)
-        assert_near(facts.axle_load[axle], 91.275e3 + 17.779e3, 0.0, 1.0);
-    free_model(&built);
-
-    static const double expected[] = {1.0725, 1.2973, 7.4187, 7.4255, 11.6174, 11.6174};
-    const CzVerticalModes modes = modes_of(&coach);
-    for (int mode = 0; mode < CZ_N_VERTICAL_MODE; mode++)
-        assert_near(modes.frequency[mode], expected[mode], 0.0, 5e-5);
-}
-
-/* Velaro E coach, Goicolea 2014. */
-static void the_velaro_coach_has_its_frequencies(void **state) {
-    (void)state;
-    CzVehicle coach = typed_full();
-    coach.mass = 47800.0 + 2.0 * 3500.0 + 4.0 * 1800.0;
-    coach.pitch_inertia = 1.958e6 - 2.0 * (600.0 + 1000.0 * 10.6 * 10.6);
-    coach.bogie_spacing = 17.375;
-    coach.bogie.mass = 3500.0;
-    coach.bogie.pitch_inertia = 1715.0;
-    coach.bogie.axle_spacing = 2.5;
-    coach.bogie.wheelset_mass = 1800.0;
-    coach.bogie.primary.stiffness = 2.4e6;
-    coach.bogie.secondary.stiffness = 7e5;
-    static const double expected[] = {0.8037, 1.0898, 6.3167, 6.3233, 10.5249, 10.5249};
-    const CzVerticalModes modes = modes_of(&coach);
-    for (int mode = 0; mode < CZ_N_VERTICAL_MODE; mode++)
-        assert_near(modes.frequency[mode], expected[mode], 0.0, 5e-5);
-    assert_near(modes.bounce, 0.8037, 0.0, 5e-5);
-    assert_near(modes.pitch, 1.0898, 0.0, 5e-5);
 }
 
 /* The trace of M^-1 K is the sum of the squared frequencies, whatever couples bounce and pitch. */
@@ -148,8 +107,6 @@ static void rigid_and_fixed_vehicles_have_no_facts(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_manchester_coach_has_its_frequencies_and_loads),
-        cmocka_unit_test(the_velaro_coach_has_its_frequencies),
         cmocka_unit_test(unequal_ends_keep_the_sum_of_the_squares),
         cmocka_unit_test(the_critical_force_of_the_strut_is_that_of_the_weaker_side),
         cmocka_unit_test(the_tube_force_is_that_of_the_weaker_coupler_before_it_shears),

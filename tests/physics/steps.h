@@ -1,0 +1,32 @@
+/* How results depend on the time step, how well the energy books of shipped problems close, and
+ * how far other solvers are: as rows. */
+#ifndef CZ_TESTS_PHYSICS_STEPS_H
+#define CZ_TESTS_PHYSICS_STEPS_H
+
+#include "physics/collision.h"
+#include "physics/rows.h"
+
+/* Runs a scenario with a step of its own [s]; 0 takes the model's. */
+Collision collide_with(const char *file, int scenario, double step);
+
+void rows_of_elastic_order(Rows *rows);
+void rows_of_elastic_exchange(Rows *rows);
+void rows_of_step_convergence(Rows *rows);
+void rows_of_books(Rows *rows);
+
+/* Largest relative differences in what a collision is judged by, of one run from another. Small
+ * values count against a floor (10 kN, 1 mm, 10 mm of an element's stroke, a `share` of all
+ * dissipated energy, 1 mm/s2, 0.1 mrad). */
+typedef struct Difference {
+    double force, stroke, energy, motion;
+} Difference;
+Difference difference_of(const CzRunSummary *a, const CzRunSummary *b, double share);
+
+/* The record against the adaptive solvers: short trains, and six and six cars. */
+void rows_of_solvers_for_short_trains(Rows *rows);
+void rows_of_solvers_for_the_metro(Rows *rows);
+
+/* A rigid car onto its like, and the car at half the speed against a wall. */
+void rows_of_equivalence(Rows *rows);
+
+#endif

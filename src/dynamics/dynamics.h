@@ -12,6 +12,8 @@
 
 #include "base/arena.h"
 #include "dynamics/track.h"
+#include "dynamics/track_elements.h"
+#include "model/co_running.h"
 #include "model/lanes.h"
 
 typedef enum CzMemory {
@@ -81,6 +83,8 @@ typedef struct CzBlock {
     CzRow extreme[CZ_N_EXTREME];           /* committed */
     CzRow parameter[CZ_N_PARAMETER];       /* the lanes' own */
     CzRow constant[CZ_N_CONSTANT];         /* numbers derived from the parameters once */
+    CzRow rail[8];                         /* co-running track: its mode under each axle */
+    CzRow rail_rest_energy;                /* of the track under each car at t = 0 [J] */
     CzRow memories[2][CZ_N_MEMORY];        /* for `memory` and `next_memory` to swap */
     CzRow powers[2][CZ_N_LEDGER];          /* for `power` and `last_power` to swap */
     CzBlockCurve curve[CZ_N_CURVE];
@@ -100,11 +104,24 @@ typedef struct CzBlock {
     CzRow *last_power;      /* committed (CZ_N_LEDGER) */
 } CzBlock;
 
+/* The co-running track's one mode for a step size; the forces of steps as in track_motion.h. */
+typedef struct CzCoRunningStep {
+    CzComplex flight, kick; /* exp(lambda h); state per force */
+    CzComplex rest;         /* state per force at rest */
+    CzComplex now, past;    /* deflection per state, now and half a step ago */
+    CzComplex past_rate;    /* rate half a step ago */
+    double flexibility;     /* beside the mode [m/N] */
+    CzCoRunning part;
+} CzCoRunningStep;
+
 typedef struct CzDynamics {
     const CzLanes *lanes; /* borrowed */
     int n_block;
     CzBlock *block; /* (n_block), and one more of zeros that stands for all lanes beyond them */
-    CzTrackMotion *track; /* what lies under each lane; NULL for a rigid track */
+    /* What lies under each lane; at most one of them is there. */
+    CzTrackMotion *track;
+    CzElements *elements;
+    const CzCoRunningStep *co_running;
 } CzDynamics;
 
 /* Evaluates accelerations, next memory and power at the current position and velocity. `step` is
@@ -137,13 +154,17 @@ const CzKernel *cz_kernel(const char *isa);
 /* State at rest with the lanes' start velocities; NULL when there is no memory. */
 CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena);
 
-/* Lays an elastic track under every car with wheels, at rest under its static loads, for steps of
- * `step` seconds; before the first evaluation. False when there is no memory. */
-bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, double step,
-                           CzArena *arena);
+/* Lays a track under every car with wheels, at rest under its static loads, for steps of `step`
+ * seconds; before the first evaluation. False when there is no memory. */
+bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTrack kind,
+                           double step, CzArena *arena);
+
+/* Kinetic and elastic energy of the track under a car, half a step ago [J]. */
+double cz_dynamics_track_energy(const CzDynamics *dynamics, size_t lane);
 
 /* For a solver that carries the track's states itself (track.h): after an evaluation, the rates of
- * the states under one car, and the track's part of the powers. The track was laid for a step of 0.
+ * the states under one car, and the track's part of the powers. The track is `modal`, laid for a
+ * step of 0.
  */
 void cz_dynamics_track_rate(CzDynamics *dynamics, size_t lane, double *rate);
 

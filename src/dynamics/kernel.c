@@ -134,10 +134,10 @@ static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
         bogie_to_body(d, bogie);
     for (int axle = 0; axle < 4; ++axle)
         axle_to_bogie(d, axle);
-    if (dynamics->track != NULL)
-        look_at_rails(dynamics->track, d, index);
+    const bool elastic = is_elastic(dynamics);
+    look_at_rails(dynamics, index);
     for (int axle = 0; axle < 4; ++axle) {
-        if (dynamics->track != NULL)
+        if (elastic)
             press_on_elastic(d, axle);
         else
             press_on_rigid(d, axle);
@@ -300,8 +300,7 @@ static void commit(CzDynamics *dynamics, double step, double time) {
 
 static void advance_block(const CzDynamics *dynamics, int index, double step, int first) {
     CzBlock *d = &dynamics->block[index];
-    if (dynamics->track != NULL)
-        advance_rails(dynamics->track, d, index);
+    advance_rails(dynamics, index);
     const size_t n = (size_t)CZ_N_ROW * CZ_LANE_BLOCK;
     cz_two_step_advance(n, step, first, d->position[0], d->velocity[0], d->acceleration[0],
                         d->last_acceleration[0]);

@@ -32,7 +32,7 @@ static void stand_on_rails(const CzTrackMotion *track, CzBlock *d, int axle, CzR
 }
 
 /* The rails under the wheels of a block, where these are now. */
-static void look_at_rails(const CzTrackMotion *track, CzBlock *d, int block) {
+static void look_at_modes(const CzTrackMotion *track, CzBlock *d, int block) {
     for (int axle = 0; axle < 4; ++axle) {
         CzRow ring[2], seat[2];
         stand_on_rails(track, d, axle, ring, seat);
@@ -51,9 +51,55 @@ static void look_at_rails(const CzTrackMotion *track, CzBlock *d, int block) {
     }
 }
 
+static void look_at_elements(CzElements *elements, CzBlock *d, int block) {
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+        const size_t index = (size_t)(block * CZ_LANE_BLOCK + i);
+        if (elements->under[index].u == NULL)
+            continue;
+        double place[4];
+        CzElementsPoint point[4];
+        for (int axle = 0; axle < 4; ++axle)
+            place[axle] =
+                cz_wheel_place(P(BOGIE_X)[i], P(AXLE_X)[i], axle) + X_AT(WHEEL_X_0, 3 * axle)[i];
+        cz_elements_look(elements, index, place, point);
+        for (int axle = 0; axle < 4; ++axle) {
+            S_AT(RAIL_Z_0, axle)[i] = point[axle].z;
+            S_AT(RAIL_PAST_0, axle)[i] = point[axle].past;
+            S_AT(RAIL_SLOPE_0, axle)[i] = point[axle].slope;
+            S_AT(RAIL_FLEXIBILITY_0, axle)[i] = point[axle].flexibility;
+            S_AT(RAIL_FLEXIBILITY_SLOPE_0, axle)[i] = point[axle].flexibility_slope;
+        }
+    }
+}
+
+/* What runs along has no slope. */
+static void look_at_co_running(const CzCoRunningStep *track, CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    for (int axle = 0; axle < 4; ++axle) {
+        const double *restrict re = d->rail[2 * axle], *restrict im = d->rail[2 * axle + 1];
+        double *restrict z = S_AT(RAIL_Z_0, axle), *restrict past = S_AT(RAIL_PAST_0, axle);
+        double *restrict flexibility = S_AT(RAIL_FLEXIBILITY_0, axle);
+        CZ_LANES (i, n) {
+            z[i] = track->now.re * re[i] - track->now.im * im[i];
+            past[i] = track->past.re * re[i] - track->past.im * im[i];
+            flexibility[i] = track->flexibility;
+        }
+    }
+}
+
+static void look_at_rails(const CzDynamics *dynamics, int block) {
+    CzBlock *d = &dynamics->block[block];
+    if (dynamics->track != NULL)
+        look_at_modes(dynamics->track, d, block);
+    if (dynamics->elements != NULL)
+        look_at_elements(dynamics->elements, d, block);
+    if (dynamics->co_running != NULL)
+        look_at_co_running(dynamics->co_running, d);
+}
+
 /* One step of the rails under the forces of the last evaluation. These held for a step about its
  * time, and their work is what the rail gave way from half a step before to half a step after. */
-static void advance_rails(const CzTrackMotion *track, CzBlock *d, int block) {
+static void advance_modes(const CzTrackMotion *track, CzBlock *d, int block) {
     for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
         CzTrackUnder *under = &track->under[block * CZ_LANE_BLOCK + i];
         if (under->state == NULL)
@@ -68,6 +114,60 @@ static void advance_rails(const CzTrackMotion *track, CzBlock *d, int block) {
         d->work[CZ_L_TRACK][i] += work;
         d->work[CZ_L_WHEEL_NORMAL][i] -= work;
     }
+}
+
+static void advance_elements(CzElements *elements, CzBlock *d, int block) {
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+        const size_t index = (size_t)(block * CZ_LANE_BLOCK + i);
+        if (elements->under[index].u == NULL)
+            continue;
+        double force[4], work = 0.0;
+        for (int axle = 0; axle < 4; ++axle)
+            force[axle] = -S_AT(WHEEL_FORCE_0, axle)[i];
+        cz_elements_step(elements, index, force);
+        for (int axle = 0; axle < 4; ++axle)
+            work += force[axle] *
+                    (cz_elements_past(elements, index, axle) - S_AT(RAIL_PAST_0, axle)[i]);
+        d->work[CZ_L_TRACK][i] += work;
+        d->work[CZ_L_WHEEL_NORMAL][i] -= work;
+    }
+}
+
+static void advance_co_running(const CzCoRunningStep *track, CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    double *restrict taken = d->work[CZ_L_TRACK], *restrict given = d->work[CZ_L_WHEEL_NORMAL];
+    for (int axle = 0; axle < 4; ++axle) {
+        const double *restrict force = S_AT(WHEEL_FORCE_0, axle), *restrict past =
+                                                                      S_AT(RAIL_PAST_0, axle);
+        double *restrict re = d->rail[2 * axle], *restrict im = d->rail[2 * axle + 1];
+        CZ_LANES (i, n) {
+            const double kicked_re = re[i] - track->kick.re * force[i];
+            const double kicked_im = im[i] - track->kick.im * force[i];
+            const double next_re = track->flight.re * kicked_re - track->flight.im * kicked_im;
+            const double next_im = track->flight.re * kicked_im + track->flight.im * kicked_re;
+            const double now = track->past.re * next_re - track->past.im * next_im;
+            const double work = force[i] * (past[i] - now);
+            re[i] = next_re;
+            im[i] = next_im;
+            taken[i] += work;
+            given[i] -= work;
+        }
+    }
+}
+
+static void advance_rails(const CzDynamics *dynamics, int block) {
+    CzBlock *d = &dynamics->block[block];
+    if (dynamics->track != NULL)
+        advance_modes(dynamics->track, d, block);
+    if (dynamics->elements != NULL)
+        advance_elements(dynamics->elements, d, block);
+    if (dynamics->co_running != NULL)
+        advance_co_running(dynamics->co_running, d);
+}
+
+/* Whether the rails give way. */
+static bool is_elastic(const CzDynamics *dynamics) {
+    return dynamics->track != NULL || dynamics->elements != NULL || dynamics->co_running != NULL;
 }
 
 #endif

@@ -129,7 +129,6 @@ double cz_limp_stored(const CzDynamics *dynamics, size_t lane, int side) {
 }
 
 double cz_track_stored(const CzDynamics *dynamics, size_t lane) {
-    if (dynamics->track == NULL || dynamics->track->under[lane].state == NULL)
-        return 0.0;
-    return cz_track_energy(dynamics->track, lane) - dynamics->track->under[lane].rest_energy;
+    return cz_dynamics_track_energy(dynamics, lane) -
+           cz_block_of(dynamics, lane)->rail_rest_energy[lane % CZ_LANE_BLOCK];
 }

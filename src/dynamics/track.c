@@ -141,7 +141,6 @@ bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], con
         under->force[wheel] = -load[wheel];
     rest_under(modes, under, track->step);
     cz_track_read(track, under);
-    under->rest_energy = cz_track_energy(track, index);
     return true;
 }
 

@@ -35,9 +35,8 @@ typedef struct CzTrackUnder {
     CzTrackRow *state; /* real and imaginary parts in turn (2 n_group); NULL without wheels */
     CzTrackRow
         *wave; /* of the state: direct now and half a step ago, alias likewise (2 n_vector x 4) */
-    CzTrackRow *shape;  /* of the last look: cosine, sine, alias's (4 wheels x n_vector x 4) */
-    double rest_energy; /* of the track at t = 0 [J] */
-    double force[4];    /* of the last step, upwards on the rail [N] */
+    CzTrackRow *shape; /* of the last look: cosine, sine, alias's (4 wheels x n_vector x 4) */
+    double force[4];   /* of the last step, upwards on the rail [N] */
 } CzTrackUnder;
 
 /* Place of a wheelset from the middle of its car, counted from the rear: half the spacing of the

@@ -1,6 +1,7 @@
 # Sources of src/model, one per line.
 set(CZ_SOURCES_model
     build.c
+    co_running.c
     curve_sizes.c
     facts.c
     fill.c

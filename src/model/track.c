@@ -172,6 +172,8 @@ CzStatus cz_track_build(const CzRoadbed *roadbed, const CzTrackOptions *options,
         options->n_seat > 0 ? options->n_seat : choose_seats(&made->seats, options->span);
     made->n_vector = (made->n_seat / 2 + CZ_TRACK_WIDTH) / CZ_TRACK_WIDTH;
     made->length = made->n_seat * made->seats.spacing;
+    made->span = options->span;
+    made->nodes = roadbed->nodes_per_bay;
     made->cut = 2.0 * CZ_PI * options->cut;
     const size_t n = (size_t)made->n_vector * CZ_TRACK_WIDTH;
     CzArena scratch = {0};

@@ -53,6 +53,8 @@ typedef struct CzTrackModes {
     int first_alias; /* first vector that has any alias wave */
     double length;   /* of the ring [m] */
     double cut;      /* largest eigenvalue kept [1/s] */
+    double span;     /* first to last wheel of the longest car [m] */
+    int nodes;       /* per bay, where finite elements take the place of the modes */
     CzTrackGroup *group;
 } CzTrackModes;
 

@@ -86,6 +86,10 @@ static const char *track_word(const CzProblem *problem) {
     switch ((CzTrack)cz_problem_input(problem)->simulation.track) {
     case CZ_TRACK_MODAL:
         return "modal";
+    case CZ_TRACK_FE:
+        return "fe";
+    case CZ_TRACK_CO_RUNNING:
+        return "co-running";
     case CZ_TRACK_RIGID:
         return "rigid";
     }

@@ -60,6 +60,12 @@ static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *erro
     return CZ_OK;
 }
 
+/* A run for a search takes the cheap track; the record is run with the file's own. */
+static CzTrack track_of(const CzBatch *batch) {
+    const CzTrack own = (CzTrack)batch->model->simulation->track;
+    return batch->brief && own != CZ_TRACK_RIGID ? CZ_TRACK_CO_RUNNING : own;
+}
+
 /* Memory, lanes and state at t = 0. */
 static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
                       const CzVehicle *const *vehicles, const CzSimulateOptions *options,
@@ -93,8 +99,8 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     batch->dynamics = cz_dynamics_create(batch->lanes, &batch->arena);
     if (batch->dynamics == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_design);
-    if (model->track != NULL &&
-        !cz_dynamics_lay_track(batch->dynamics, model->track, batch->step, &batch->arena))
+    if (model->track != NULL && !cz_dynamics_lay_track(batch->dynamics, model->track,
+                                                       track_of(batch), batch->step, &batch->arena))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the track");
     batch->closing_speed =
         cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, model->colliding, 0)) -

@@ -38,7 +38,9 @@ static inline void motion_start(Motion *motion) {
     assert_non_null(motion->dynamics);
     const CzTrackModes *track = motion->collision.model->track;
     if (track != NULL)
-        assert_true(cz_dynamics_lay_track(motion->dynamics, track, motion->step, &motion->arena));
+        assert_true(cz_dynamics_lay_track(motion->dynamics, track,
+                                          (CzTrack)motion->collision.model->simulation->track,
+                                          motion->step, &motion->arena));
     motion->kernel->evaluate(motion->dynamics, motion->step);
     motion->kernel->commit(motion->dynamics, 0.0, 0.0);
 }

@@ -70,7 +70,7 @@ typedef struct CzElementResult {
     double zone_energy[3]; /* plastic energy by zone: crush, temporary, occupied [J] */
 } CzElementResult;
 
-enum { CZ_MAX_ELEMENTS = 8 };
+enum { CZ_MAX_ELEMENTS = 10 };
 
 typedef struct CzInterfaceResult {
     char name[48];       /* "A4-B1" */

@@ -15,6 +15,7 @@
 #include "dynamics/kernel_face.h"
 #include "dynamics/kernel_neighbours.h"
 #include "dynamics/kernel_rows.h"
+#include "dynamics/kernel_superstructure.h"
 #include "dynamics/kernel_track.h"
 #include "dynamics/kernel_wheel.h"
 #include "integrate/two_step.h"
@@ -123,6 +124,8 @@ static void evaluate_interfaces(const CzLanes *lanes, CzBlock *d, double step) {
     faces(d, step);
     if (lanes->has_side_buffers)
         side_buffers(d, step);
+    if (lanes->has_superstructures)
+        superstructures(d);
 }
 
 /* Cars of a block. */
@@ -211,6 +214,8 @@ static void interface_extremes(CzBlock *d, double time) {
     const double *restrict normal = S(FACE_FORCE), *restrict remaining = S(FACE_REMAINING);
     const double *restrict demand = S(FACE_DEMAND), *restrict capacity = S(FACE_CAPACITY),
                            *restrict chain = M(FACE_FORCE);
+    const double *restrict stiffness = P(FACE_VERTICAL_STIFFNESS), *restrict slipped =
+                                                                       M(FACE_SLIPPED);
     double *restrict lost_overlap = E(FACE_LOST_OVERLAP), *restrict lost_margin =
                                                               E(FACE_LOST_MARGIN);
     double *restrict climbed = E(FACE_CLIMBED), *restrict climb_time = E(CLIMB_TIME);
@@ -221,7 +226,7 @@ static void interface_extremes(CzBlock *d, double time) {
                 : 0.0; /* the chain's own force: it is still there once the faces passed */
         const double gone = remaining[i] <= 0.0 ? pushing : 0.0;
         const double engaged = normal[i] > 1e4 ? 1.0 : 0.0;
-        const double excess = fabs(demand[i]) - capacity[i];
+        const double excess = fabs(demand[i]) - capacity[i] + stiffness[i] * slipped[i];
         lost_overlap[i] = cz_larger(lost_overlap[i], pushing > 0.0 ? -remaining[i] : -1e300);
         lost_margin[i] = cz_larger(lost_margin[i], engaged > 0.0 ? excess : -1e300);
         climbed[i] = cz_larger(climbed[i], gone);
@@ -285,6 +290,8 @@ static void commit_block(const CzLanes *lanes, CzBlock *d, double step, double t
     keep_larger_size(d, CZ_E_FACE_DEMAND, S(FACE_DEMAND));
     if (lanes->has_side_buffers)
         keep_larger(d, CZ_E_SIDE_FORCE, S(SIDE_FORCE));
+    if (lanes->has_superstructures)
+        keep_larger(d, CZ_E_SUPERSTRUCTURE_FORCE, S(SUPERSTRUCTURE_FORCE));
     keep_larger(d, CZ_E_SECTION_REAR, S(SECTION_REAR));
     keep_larger(d, CZ_E_SECTION_FRONT, S(SECTION_FRONT));
     keep_larger_size(d, CZ_E_BODY_ACCELERATION, d->acceleration[CZ_DOF_BODY_X]);

@@ -7,10 +7,10 @@
 #include "dynamics/kernel_contact.h"
 #include <string.h>
 
+#include "laws/ribs.h"
 #include "laws/slider.h"
 
 #define PLATE_STIFFNESS 2e7 /* vertical stiffness of buffer plates that stick [N/m] (ours) */
-#define GRIP_FORCE 1e4 /* normal force at which ribs and damping are fully engaged [N] (ours) */
 
 static const Chain face_chain = {2,
                                  2,
@@ -125,25 +125,29 @@ static void face_tangential(CzBlock *d) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict normal = S(FACE_FORCE), *restrict closure = S(CLOSURE),
                            *restrict slip = S(SLIP);
-    const double *restrict slip_rate = S(SLIP_RATE), *restrict remaining = S(FACE_REMAINING);
+    const double *restrict slip_rate = S(SLIP_RATE), *restrict pitch = P(RIB_PITCH);
     const double *restrict level = P(FACE_OVERLAP), *restrict depth = P(RIB_DEPTH),
                            *restrict ribs = P(RIB_CAPACITY);
     const double *restrict friction = P(FACE_FRICTION), *restrict stiffness =
                                                             P(FACE_VERTICAL_STIFFNESS);
     const double *restrict offset = M(FACE_SLIP), *restrict compliance = C(GRIP_COMPLIANCE);
-    double *restrict next = NEXT(FACE_SLIP), *restrict capacity = S(FACE_CAPACITY),
-                     *restrict tangential = S(FACE_DEMAND);
+    const double *restrict slipped = M(FACE_SLIPPED), *restrict sheared = M(FACE_SHEARED);
+    double *restrict next = NEXT(FACE_SLIP), *restrict next_slipped = NEXT(FACE_SLIPPED),
+                     *restrict next_sheared = NEXT(FACE_SHEARED);
+    double *restrict capacity = S(FACE_CAPACITY), *restrict tangential = S(FACE_DEMAND);
     double *restrict power = POWER(FACE_SLIDING);
     CZ_LANES (i, n) {
-        const double meshed = cz_clamp(remaining[i] / level[i], 0.0, 1.0);
-        const double engaged =
-            cz_clamp(closure[i] / depth[i], 0.0, 1.0) * cz_clamp(normal[i] / GRIP_FORCE, 0.0, 1.0);
-        capacity[i] = meshed * engaged * ribs[i] + friction[i] * normal[i];
-        const CzSliderResponse grip =
-            cz_slider_of(stiffness[i], compliance[i], capacity[i], slip[i], offset[i]);
-        next[i] = grip.offset;
-        tangential[i] = grip.force;
-        power[i] += grip.force * slip_rate[i];
+        const CzRibsLaw law = {pitch[i], level[i], depth[i], ribs[i], friction[i]};
+        const CzRibsResponse grip = cz_ribs(&law, slip[i], closure[i], normal[i], sheared[i]);
+        const CzSliderResponse held =
+            cz_slider_of(stiffness[i], compliance[i], grip.capacity, slip[i], offset[i]);
+        const double way = grip.engaged * fabs(held.offset - offset[i]);
+        capacity[i] = grip.capacity;
+        next[i] = held.offset;
+        next_slipped[i] = slipped[i] + way;
+        next_sheared[i] = sheared[i] + grip.mesh * way;
+        tangential[i] = held.force;
+        power[i] += held.force * slip_rate[i];
     }
 }
 

@@ -201,6 +201,8 @@ double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate) {
         return structure_force(end);
     case CZ_ELEMENT_SIDE_BUFFERS:
         return side_buffers_force(&end->side_buffers, rate);
+    case CZ_ELEMENT_SUPERSTRUCTURE:
+        return end->superstructure.given ? end->superstructure.strength : 0;
     case CZ_N_ELEMENT_KIND:
         break;
     }

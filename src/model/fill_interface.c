@@ -70,6 +70,10 @@ static bool has_side_buffers(const Side *side) {
     return side->end->given && side->end->side_buffers.given;
 }
 
+static bool has_superstructure(const Side *side) {
+    return side->is_full && side->end->given && side->end->superstructure.given;
+}
+
 /* Parts pair when both sides have them, or one has and the other is fixed. */
 static bool pairs(const Side *side, bool (*has)(const Side *)) {
     const bool a = has(&side[CZ_SIDE_A]), b = has(&side[CZ_SIDE_B]);
@@ -110,6 +114,10 @@ static double face_height(const Side *side) {
 
 static double side_buffer_height(const Side *side) {
     return has_side_buffers(side) ? side->end->side_buffers.height : NAN;
+}
+
+static double superstructure_height(const Side *side) {
+    return side->end->superstructure.height;
 }
 
 /* Heights of both sides as built, and how much higher B's part stands than A's with the offsets. */
@@ -410,6 +418,29 @@ static CzStatus fill_side_buffers(const Pair *pair) {
     return CZ_OK;
 }
 
+/* ---- superstructures ---- */
+
+static void fill_superstructures(const Pair *pair) {
+    static const CzParameter x[] = {CZ_P_SUPERSTRUCTURE_X_A, CZ_P_SUPERSTRUCTURE_X_B};
+    static const CzParameter z[] = {CZ_P_SUPERSTRUCTURE_Z_A, CZ_P_SUPERSTRUCTURE_Z_B};
+    const CzSuperstructure *a = &pair->side[CZ_SIDE_A].end->superstructure;
+    const CzSuperstructure *b = &pair->side[CZ_SIDE_B].end->superstructure;
+    if (!has_superstructure(&pair->side[CZ_SIDE_A]) || !has_superstructure(&pair->side[CZ_SIDE_B]))
+        return;
+    const Heights heights = heights_of(pair, superstructure_height);
+    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
+        const Side *side = &pair->side[which];
+        const CzEnd *end = side->end;
+        put(pair, x[which], side->sign * (side->plane - end->superstructure.gap - end->distance));
+        put(pair, z[which], heights.side[which] - end->cg_height);
+    }
+    put(pair, CZ_P_SUPERSTRUCTURE_GAP, pair->distance + a->gap + b->gap);
+    put(pair, CZ_P_SUPERSTRUCTURE_RISE, heights.rise);
+    put(pair, CZ_P_SUPERSTRUCTURE_STIFFNESS, in_series(a->stiffness, b->stiffness));
+    put(pair, CZ_P_SUPERSTRUCTURE_STRENGTH, fmin(a->strength, b->strength));
+    pair->fill->lanes->has_superstructures = 1;
+}
+
 CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *behind,
                            const CzStatics *ahead) {
     Pair pair = {.fill = fill,
@@ -422,5 +453,6 @@ CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *b
     CZ_TRY(place_cars(&pair));
     CZ_TRY(fill_couplers(&pair));
     CZ_TRY(fill_faces(&pair));
+    fill_superstructures(&pair);
     return fill_side_buffers(&pair);
 }

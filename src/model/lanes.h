@@ -50,10 +50,11 @@ typedef struct CzLanes {
     CzCurveLanes curve[CZ_N_CURVE];
     double *mass; /* mass or inertia of each degree of freedom; 0 where none [kg, kg m2] (CZ_N_DOF x
                      stride) */
-    double *velocity;     /* at t = 0 [m/s, rad/s] (CZ_N_DOF x stride) */
-    int has_side_buffers; /* any interface has them */
-    int has_couplers;     /* any interface has them */
-    int has_full_cars;    /* any car is a full one */
+    double *velocity;        /* at t = 0 [m/s, rad/s] (CZ_N_DOF x stride) */
+    int has_side_buffers;    /* any interface has them */
+    int has_superstructures; /* likewise */
+    int has_couplers;        /* any interface has them */
+    int has_full_cars;       /* any car is a full one */
 } CzLanes;
 
 #endif

@@ -15,7 +15,7 @@
 
 #include <stdio.h>
 
-enum { BOUNDS_PER_CAR = 20 };
+enum { BOUNDS_PER_CAR = 21 };
 
 #define SHORTEST_STRUT 0.2               /* of a coupler, as a share of its length (ours) */
 #define FOURFOLD_LOAD 2.5198420997897464 /* indentation at four times the load: 4^(2/3) */
@@ -184,6 +184,14 @@ static void note_faces(const Car *car, const char *name) {
              mobility(carrier, value(car, CZ_P_FACE_X_A), value(car, CZ_P_FACE_X_B)));
 }
 
+static void note_superstructures(const Car *car, const char *name) {
+    const Carrier carrier[2] = {carrier_of(car, CZ_SIDE_A, true), carrier_of(car, CZ_SIDE_B, true)};
+    if (value(car, CZ_P_SUPERSTRUCTURE_STRENGTH) > 0.0)
+        note(car->model, "superstructure", name, value(car, CZ_P_SUPERSTRUCTURE_STIFFNESS), 0.0,
+             mobility(carrier, value(car, CZ_P_SUPERSTRUCTURE_Z_A),
+                      value(car, CZ_P_SUPERSTRUCTURE_Z_B)));
+}
+
 static double buffer_stiffness(const Car *car, CzCurveId curve, CzParameter transition) {
     return fmax(steepest(car->lanes, curve, car->car), value(car, transition));
 }
@@ -286,6 +294,7 @@ CzStatus cz_model_find_bounds(CzModel *model, const CzLanes *lanes, CzError *err
         if (i == model->n_car - 1)
             break;
         note_faces(&car, model->interface_name[i]);
+        note_superstructures(&car, model->interface_name[i]);
         note_coupler(&car, model->interface_name[i]);
         note_side_buffers(&car, model->interface_name[i]);
     }

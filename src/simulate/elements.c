@@ -106,6 +106,23 @@ static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int c
     return true;
 }
 
+/* Both sides share one contact; what it crushes is room that people stand in. */
+static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
+                                CzElementResult *result) {
+    const double force = cz_scratch(batch, CZ_S_SUPERSTRUCTURE_FORCE, lane);
+    if (!(cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STRENGTH, lane) > 0.0))
+        return false;
+    name_element(result, CZ_ELEMENT_SUPERSTRUCTURE, batch, car);
+    result->stored =
+        0.25 * force * force / cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STIFFNESS, lane);
+    result->energy = 0.5 * cz_work(batch, CZ_L_SUPERSTRUCTURE, lane) - result->stored;
+    result->tube_energy = result->energy;
+    result->zone_energy[CZ_ZONE_OCCUPIED] = fmax(result->energy, 0.0);
+    result->stroke = 0.5 * cz_memory(batch, CZ_M_SUPERSTRUCTURE_SET, lane);
+    result->peak_force = cz_extreme(batch, CZ_E_SUPERSTRUCTURE_FORCE, lane);
+    return true;
+}
+
 static const CzEnd *end_of(const CzBatch *batch, int car, int design, int side) {
     const CzVehicle *vehicle = &batch->vehicles[design][batch->model->car[car].vehicle];
     return side == 0 ? &vehicle->front : &vehicle->rear; /* side A is a front end */
@@ -195,6 +212,7 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
         next += fill_anti_climber(batch, lane, side, car, next);
         next += fill_end(batch, lane, side, car, design, next);
         next += fill_side_buffers(batch, lane, side, car, next);
+        next += fill_superstructure(batch, lane, car, next);
         result->n_element = (int)(next - result->element);
     }
     for (int k = 0; k < result->n_element; ++k) {

@@ -12,8 +12,10 @@
 #include "drive.h"
 #include "laws/buffer.h"
 #include "laws/plastic_member.h"
+#include "laws/ribs.h"
 #include "laws/shear_off.h"
 #include "laws/slider.h"
+#include "laws/superstructure.h"
 #include "laws/suspension.h"
 #include "laws/vehicle_end.h"
 #include "laws/wheel_rail.h"
@@ -54,6 +56,21 @@ static void cz_shear_off_at(const double *input, double *output) {
     const CzShearOffResponse response = cz_shear_off(9.11e5, input[1], input[2], 1e9, input[0]);
     output[0] = response.strength;
     output[1] = response.damage;
+}
+
+/* Offset of the faces, closure, normal force, slip against meshed ribs. */
+static void cz_ribs_at(const double *input, double *output) {
+    const CzRibsLaw law = {0.05, 0.2, 0.03, 2.56e5, 0.2};
+    const CzRibsResponse response = cz_ribs(&law, input[0], input[1], input[2], input[3]);
+    output[0] = response.capacity;
+    output[1] = response.mesh;
+}
+
+/* Closure, set, strength. */
+static void cz_superstructure_at(const double *input, double *output) {
+    const CzSuperstructureResponse response = cz_superstructure(5e7, input[2], input[0], input[1]);
+    output[0] = response.force;
+    output[1] = response.set;
 }
 
 /* Displacement, offset, capacity. */
@@ -120,6 +137,20 @@ static const Law range_cz_shear_off = {
     .high = {0.2, 0.1, 0.15},
     .n_output = 2,
     .scale = {1e6, 1.0},
+};
+static const Law range_cz_ribs = {
+    .n_input = 4,
+    .low = {-0.3, -0.01, 0, 0},
+    .high = {0.3, 0.1, 1e6, 0.05},
+    .n_output = 2,
+    .scale = {1e6, 1.0},
+};
+static const Law range_cz_superstructure = {
+    .n_input = 3,
+    .low = {-0.1, 0, 0},
+    .high = {0.5, 0.4, 2e6},
+    .n_output = 2,
+    .scale = {1e6, 0.5},
 };
 static const Law range_cz_slider = {
     .n_input = 3,

@@ -1,0 +1,57 @@
+/* Ribs of two anti-climber faces: how many hold, how well they mesh, how they shear off.
+ *
+ *   r        = d - p round(d / p)                     offset of the faces modulo the rib pitch p
+ *   mesh     = clamp(2 - 4 |r| / p, 0, 1)             1 flank to flank, 0 tip to tip
+ *   left     = clamp(1 - w / (p / 2), 0, 1)           w: what the ribs were sheared by
+ *   capacity = meshed ribs x strength x mesh x left x engaged + mu N
+ *
+ * Ribs that meet within a quarter of a pitch of their valleys lock where they are; ribs that meet
+ * tip to tip slide over each other, held by friction, until the next valley takes them. A rib is
+ * gone once the faces have slipped by half a pitch against it (ours).
+ */
+#ifndef CZ_LAWS_RIBS_H
+#define CZ_LAWS_RIBS_H
+
+#include "laws/law.h"
+
+typedef struct {
+    double pitch;    /* p [m] */
+    double overlap;  /* of level faces [m] */
+    double depth;    /* closure over which ribs engage [m] */
+    double strength; /* of all ribs of level faces [N] */
+    double friction; /* mu */
+} CzRibsLaw;
+
+typedef struct {
+    double capacity; /* [N] */
+    double engaged;  /* share of the ribs' depth, and of the smallest normal force [-] */
+    double mesh;     /* [-] */
+} CzRibsResponse;
+
+/* Normal force at which ribs are fully engaged [N] (ours). */
+#define CZ_GRIP_FORCE 1e4
+
+/* Nearest whole number, halves to the even one: the sum leaves no room for a fraction. */
+static inline double cz_nearest_whole(double value) {
+    const double no_fraction = 6755399441055744.0; /* 1.5 x 2^52 */
+    return (value + no_fraction) - no_fraction;
+}
+
+/* `slip` is the offset of the faces, `closure` how far they are in each other, `normal` the force
+ * between them, `sheared` how far they have slipped against meshed ribs. */
+static inline CzRibsResponse cz_ribs(const CzRibsLaw *law, double slip, double closure,
+                                     double normal, double sheared) {
+    const double pitches = slip / law->pitch;
+    const double off = fabs(pitches - cz_nearest_whole(pitches));
+    const double left = cz_clamp(1.0 - 2.0 * sheared / law->pitch, 0.0, 1.0);
+    const double remaining = cz_clamp((law->overlap - fabs(slip)) / law->overlap, 0.0, 1.0);
+    CzRibsResponse response;
+    response.engaged = cz_clamp(closure / law->depth, 0.0, 1.0) *
+                       cz_clamp(normal * (1.0 / CZ_GRIP_FORCE), 0.0, 1.0);
+    response.mesh = cz_clamp(2.0 - 4.0 * off, 0.0, 1.0);
+    response.capacity = remaining * response.mesh * left * response.engaged * law->strength +
+                        law->friction * normal;
+    return response;
+}
+
+#endif

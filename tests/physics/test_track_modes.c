@@ -2,42 +2,28 @@
  *
  * Zhai's set per rail, CHN60 on sleepers 0.6 m apart, shear coefficient 0.40.
  */
+#include "physics/rails.h"
 #include "physics/roadbed.h"
 
 #include "model/track_block.h"
 
-#define LOAD 70e3 /* [N] */
+static void holds(void (*rows_of)(Rows *)) {
+    static Rows rows;
+    rows.n = 0;
+    rows_of(&rows);
+    assert_rows(&rows);
+}
 
 /* ---- statics ---- */
 
-/* On a continuous foundation: k = seat stiffness over spacing, beta^4 = k / (4 E I), y = P beta /
- * (2 k). */
 static void seats_smeared_out_are_winklers_foundation(void **state) {
     (void)state;
-    const CzRoadbed roadbed = usual_roadbed();
-    const CzSeats seats = cz_seats(&roadbed, 1);
-    const double seat = 1.0 / cz_seat_flexibility(&seats, 0.0);
-    const double k = seat / seats.spacing, beta = sqrt(sqrt(k / (4.0 * seats.bending)));
-    assert_near(seat, 28.1315e6, 1e-5, 0.0);
-    assert_near(k, 46.886e6, 1e-4, 0.0);
-    assert_near(beta, 1.15337, 1e-5, 0.0);
-    assert_near(LOAD * beta / (2.0 * k), 0.86098e-3, 1e-5, 0.0);
+    holds(rows_of_winkler);
 }
 
-/* Numbers of an independent solution with 80 spans; the digits given are all there are. */
 static void discrete_seats_give_way_as_published_numbers_do(void **state) {
     (void)state;
-    const CzRoadbed roadbed = usual_roadbed();
-    CzSeats seats = cz_seats(&roadbed, 1);
-    assert_near(LOAD * cz_ring_flexibility(&seats, 80, 0.0), 0.8980e-3, 0.0, 0.5e-7);
-    assert_near(LOAD * cz_ring_flexibility(&seats, 80, 0.5), 0.9194e-3, 0.0, 0.5e-7);
-    assert_near(LOAD * cz_ring_seat_share(&seats, 80, 0.0, 0), 25.26e3, 0.0, 5.0);
-    /* Without shear, Euler's beam. */
-    seats.shear *= 1e6;
-    seats.rotation *= 1e-6;
-    assert_near(LOAD * cz_ring_flexibility(&seats, 80, 0.0), 0.8592e-3, 0.0, 0.5e-7);
-    assert_near(LOAD * cz_ring_flexibility(&seats, 80, 0.5), 0.8642e-3, 0.0, 0.5e-7);
-    assert_near(LOAD * cz_ring_seat_share(&seats, 80, 0.0, 0), 24.17e3, 0.0, 5.0);
+    holds(rows_of_discrete_seats);
 }
 
 static void seats_carry_the_whole_load(void **state) {
@@ -54,33 +40,9 @@ static void seats_carry_the_whole_load(void **state) {
 
 /* ---- free waves ---- */
 
-static double frequency(const CzSeats *seats, double wavenumber) {
-    return sqrt(cz_rail_wave(seats, wavenumber).bending) / (2.0 * CZ_PI);
-}
-
 static void rail_waves_have_timoshenkos_frequencies(void **state) {
     (void)state;
-    CzRoadbed roadbed = usual_roadbed();
-    CzSeats seats = cz_seats(&roadbed, 1);
-    /* A pinned rail of 72 m. */
-    static const struct {
-        int mode;
-        double frequency, digit;
-    } pinned[] = {
-        {1, 0.1001, 0.5e-4}, {10, 9.9849, 0.5e-4}, {60, 327.864, 0.5e-3}, {120, 1072.679, 0.5e-3}};
-    for (size_t i = 0; i < sizeof pinned / sizeof pinned[0]; ++i)
-        assert_near(frequency(&seats, pinned[i].mode * CZ_PI / 72.0), pinned[i].frequency, 0.0,
-                    pinned[i].digit);
-    /* Nodes at the sleepers, for other shear coefficients and for Euler's beam. */
-    roadbed.rail.shear_coefficient = 0.38;
-    seats = cz_seats(&roadbed, 1);
-    assert_near(frequency(&seats, CZ_PI / 0.6), 1061.7, 0.0, 0.05);
-    roadbed.rail.shear_coefficient = 0.34;
-    seats = cz_seats(&roadbed, 1);
-    assert_near(frequency(&seats, CZ_PI / 0.6), 1037.2, 0.0, 0.1); /* its last digit is one off */
-    seats.shear *= 1e6;
-    seats.rotation *= 1e-6;
-    assert_near(frequency(&seats, CZ_PI / 0.6), 1442.09, 0.0, 0.02);
+    holds(rows_of_rail_waves);
 }
 
 static void both_branches_of_a_wave_give_way_as_its_statics(void **state) {
@@ -96,20 +58,9 @@ static void both_branches_of_a_wave_give_way_as_its_statics(void **state) {
     }
 }
 
-/* The rail wave with its nodes at the sleepers is a mode of the track as it is. */
 static void the_pinned_pinned_mode_is_among_the_modes(void **state) {
     (void)state;
-    CzArena arena = {0};
-    const CzTrackModes *modes = usual_modes(18.0, 0, 0.0, &arena);
-    double nearest = 1e9;
-    for (int k = 0; k < modes->n_group; ++k)
-        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
-            const CzComplex lambda = modes->group[k].lambda[i];
-            if (lambda.re == 0.0 && lambda.im > 0.0)
-                nearest = fmin(nearest, fabs(lambda.im / (2.0 * CZ_PI) - 1072.68));
-        }
-    assert_true(nearest < 0.005);
-    cz_arena_free(&arena);
+    holds(rows_of_pinned_mode);
 }
 
 /* ---- modes ---- */
@@ -188,6 +139,16 @@ static void roots_solve_the_equations_of_rail_pads_sleepers_and_ballast(void **s
     }
 }
 
+static void modes_converge_to_the_statics(void **state) {
+    (void)state;
+    holds(rows_of_mode_convergence);
+}
+
+static void shipped_problems_keep_their_books_on_rails(void **state) {
+    (void)state;
+    holds(rows_of_runs_on_rails);
+}
+
 static void a_track_with_overdamped_modes_is_built(void **state) {
     (void)state;
     CzRoadbed roadbed = usual_roadbed();
@@ -216,6 +177,8 @@ int main(void) {
         cmocka_unit_test(both_branches_of_a_wave_give_way_as_its_statics),
         cmocka_unit_test(the_pinned_pinned_mode_is_among_the_modes),
         cmocka_unit_test(roots_solve_the_equations_of_rail_pads_sleepers_and_ballast),
+        cmocka_unit_test(modes_converge_to_the_statics),
+        cmocka_unit_test(shipped_problems_keep_their_books_on_rails),
         cmocka_unit_test(a_track_with_overdamped_modes_is_built),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

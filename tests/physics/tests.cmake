@@ -1,6 +1,6 @@
-cz_test(test_track_modes physics test_track_modes.c)
 cz_test(test_integrator physics test_integrator.c scheme.c)
 if(CZ_IS_WHOLE)
+    cz_test(test_track_modes physics test_track_modes.c rails.c)
     cz_test(test_energy_sum physics test_energy_sum.c)
     cz_test(test_published physics test_published.c published.c)
     cz_test(test_closed_forms physics test_closed_forms.c closed_forms.c)

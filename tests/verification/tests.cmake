@@ -1,6 +1,7 @@
 if(CZ_IS_WHOLE)
     # The rows of tests/physics as a page; page.sh runs it and compares.
     cz_program(verification verification.c tests/physics/closed_forms.c tests/physics/published.c
+               tests/physics/rails.c
                tests/physics/scheme.c tests/physics/steps.c)
     cz_script(verification_page physics page.sh)
 endif()

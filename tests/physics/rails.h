@@ -1,0 +1,29 @@
+/* Statics and waves of the elastic track with known numbers, and how its modes converge, as rows.
+ *
+ * Zhai's set per rail, CHN60 on sleepers 0.6 m apart, shear coefficient 0.40.
+ */
+#ifndef CZ_TESTS_PHYSICS_RAILS_H
+#define CZ_TESTS_PHYSICS_RAILS_H
+
+#include "physics/rows.h"
+
+/* Seats smeared out: Winkler's foundation in closed form. */
+void rows_of_winkler(Rows *rows);
+
+/* Discrete seats, from an independent solution with 80 spans; the digits given are all there are.
+ */
+void rows_of_discrete_seats(Rows *rows);
+
+/* Free waves of Timoshenko's and of Euler's beam. */
+void rows_of_rail_waves(Rows *rows);
+
+/* The wave with its nodes at the sleepers is a mode of the track. */
+void rows_of_pinned_mode(Rows *rows);
+
+/* Modes up to a cut and the flexibility that they leave, against the exact statics. */
+void rows_of_mode_convergence(Rows *rows);
+
+/* Shipped problems on the elastic track: energy, momentum, step. */
+void rows_of_runs_on_rails(Rows *rows);
+
+#endif

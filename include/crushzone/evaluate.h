@@ -75,7 +75,7 @@ typedef struct CzEvaluation {
                                         value and the margin 1 - |residual| (n_constraint) */
     double violation; /* largest positive constraint, 0 when feasible, infinite when failed */
     int n_check;
-    CzCheckResult *check; /* (n_check) */
+    CzCheckResult *check; /* the matches of a fit last (n_check) */
     CzVerdict verdict;    /* over all checks */
     int n_match;          /* the last constraints belong to them */
     CzMatchResult *match; /* of a fit (n_match) */

@@ -101,9 +101,10 @@ typedef struct CzVehicleResult {
     double window_120ms[2];           /* of the second [s]; equal where there is none */
     double wheel_lift[4];             /* largest lift of each wheelset, rear to front [m] */
     double wheel_lift_time[4];        /* [s] */
-    double bogie_lift;          /* largest over bogies and time of the lower wheelset's lift [m] */
-    double max_pitch;           /* largest |pitch| of the body [rad] */
-    double link_force;          /* largest traction link force [N] */
+    double bogie_lift;  /* largest over bogies and time of the lower wheelset's lift [m] */
+    double max_pitch;   /* largest |pitch| of the body [rad] */
+    double link_force;  /* largest traction link force [N] */
+    double link_travel; /* largest way of a bogie against the body at its traction link [m] */
     double survival_shortening; /* stroke of occupied zones, both ends [m]; NaN when no end declares
                                    an occupied zone */
     bool checks_override;       /* bump and lift stops are declared, so override can be judged */

@@ -255,6 +255,7 @@ static void car_extremes(CzBlock *d, double time) {
             lift[i] = cz_larger(lift[i], cz_smaller(-first[i], -second[i]));
         }
         keep_larger_size(d, CZ_E_LINK_FORCE, S_AT(LINK_REAR, bogie));
+        keep_larger_size(d, CZ_E_LINK_TRAVEL, S_AT(LINK_TRAVEL_REAR, bogie));
     }
     keep_larger_size(d, CZ_E_BODY_PITCH, X(BODY_PITCH));
     keep_larger(d, CZ_E_END_FORCE_REAR, S(END_REAR));

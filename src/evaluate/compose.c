@@ -124,18 +124,31 @@ static void sort_results(const CzEvaluator *evaluator, const CzCheckResult *all,
 /* A match as a constraint that is kept within the tolerance. */
 static CzCheckResult check_of(const CzMatchResult *match) {
     const bool is_kept = fabs(match->residual) <= 1;
+    const bool is_unknown = isnan(match->residual);
     CzCheckResult check = {.name = match->name,
                            .scenario = match->scenario,
                            .limit = match->target,
                            .value = match->value,
                            .unit = match->unit,
                            .margin = 1 - fabs(match->residual),
-                           .verdict = is_kept ? CZ_VERDICT_PASS : CZ_VERDICT_FAIL};
+                           .verdict = is_kept      ? CZ_VERDICT_PASS
+                                      : is_unknown ? CZ_VERDICT_NOT_CHECKED
+                                                   : CZ_VERDICT_FAIL,
+                           .why = is_unknown ? "this scenario gave no answer" : NULL,
+                           .confidence = "user"};
     memcpy(check.where, match->where, sizeof check.where);
     return check;
 }
 
-/* Judges the matches of a fit; each is one more constraint. */
+/* A match counts in the verdict over all checks like any of them. */
+static void add_verdict(const CzEvaluator *evaluator, CzVerdict verdict, CzEvaluation *evaluation) {
+    const bool is_first = evaluator->list.n_check == 0 && evaluation->n_check == 1;
+    const CzVerdict before = is_first ? CZ_VERDICT_PASS : evaluation->verdict;
+    evaluation->verdict =
+        before == CZ_VERDICT_FAIL || verdict == CZ_VERDICT_PASS ? before : verdict;
+}
+
+/* Judges the matches of a fit; each is one more check and constraint. */
 static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                               const CzRunSummary *const *run, CzRun *const *whole,
                               CzEvaluation *evaluation, CzError *error) {
@@ -157,6 +170,8 @@ static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *veh
             CZ_TRY(cz_match_judge(item, &subject, whole[s], match, NULL, error));
         const int j = evaluation->n_constraint++;
         evaluation->constraint_check[j] = check_of(match);
+        evaluation->check[evaluation->n_check++] = evaluation->constraint_check[j];
+        add_verdict(evaluator, evaluation->constraint_check[j].verdict, evaluation);
         evaluation->constraint[j] = fabs(match->residual) - 1;
         evaluation->violation = fmax(evaluation->violation, evaluation->constraint[j]);
     }
@@ -164,8 +179,8 @@ static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *veh
 }
 
 static CzStatus allocate(const CzEvaluator *evaluator, CzEvaluation *evaluation, CzError *error) {
-    const size_t n_check = (size_t)evaluator->list.n_check + 1;
     const size_t n_match = (size_t)evaluator->matches.n_item;
+    const size_t n_check = (size_t)evaluator->list.n_check + n_match + 1;
     const size_t n_constraint = (size_t)evaluator->list.n_constraint + n_match + 1;
     evaluation->check = malloc(n_check * sizeof *evaluation->check);
     evaluation->constraint = malloc(n_constraint * sizeof(double));

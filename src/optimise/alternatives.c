@@ -21,15 +21,15 @@ static double distance(const double *a, const double *b, int n) {
     return sqrt(sum / n);
 }
 
-/* Whether a record fits about as well as the best one: within every tolerance like it, or nearly
- * the same sum. */
+/* Whether a record fits about as well as the best one: within every tolerance like it, or with
+ * nearly the same sum of squares, constraints beside them counted in. */
 static bool fits(const CzSearch *search, long record, long best) {
     const CzRecord *mine = &search->record[record];
     if (isnan(mine->objective))
         return false;
     return search->record[best].violation <= 0
                ? mine->violation <= 0
-               : mine->objective <= about_as_well * search->record[best].objective;
+               : mine->penalty <= about_as_well * search->record[best].penalty;
 }
 
 /* The best record that fits and lies apart from the n chosen ones, -1 when there is none; u is

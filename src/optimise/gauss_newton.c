@@ -17,9 +17,6 @@
 
 enum { DAMPINGS = 3, SWEEPS = 300 };
 
-/* Weight of a violated constraint against a residual of one tolerance. */
-static const double strictness = 10;
-
 typedef struct Newton {
     CzSearch *search;
     const char *phase;
@@ -83,7 +80,9 @@ static bool evaluate(Newton *newton, int n_point) {
         memcpy(r, newton->many_d + i * newton->n_detail, (size_t)newton->n_detail * sizeof *r);
         for (int j = 0; j < function->n_constraint; j++)
             r[newton->n_detail + j] =
-                strictness * fmax(newton->many_c[i * function->n_constraint + j], 0);
+                function->is_flag[j]
+                    ? 0
+                    : cz_search_residual(newton->many_c[i * function->n_constraint + j]);
         newton->many_f[i] = isnan(newton->search->record[first + i].objective)
                                 ? INFINITY
                                 : sum_of_squares(r, newton->m);

@@ -207,6 +207,11 @@ double cz_search_compressed(double constraint) {
     return constraint <= knee ? constraint : knee * (1 + log(constraint / knee));
 }
 
+double cz_search_residual(double compressed) {
+    const double weight = 30, reserve = 0.01; /* ours */
+    return weight * fmax(compressed + reserve, 0);
+}
+
 /* Distance of a design from the best one, in scaled variables; 0 when there is no best one. */
 static double distance_from_best(const CzSearch *search, const double *x) {
     if (search->best < 0)
@@ -233,8 +238,13 @@ static void take_answer(CzSearch *search, const char *phase, const double *x, do
     for (int j = 0; j < m; j++) {
         failed |= isnan(constraint[j]);
         record.violation = fmax(record.violation, constraint[j]);
-        record.penalty += cz_search_compressed(fmax(constraint[j], 0));
+        if (!search->function->is_fit)
+            record.penalty += cz_search_compressed(fmax(constraint[j], 0));
+        else if (!search->function->is_flag[j])
+            record.penalty += pow(cz_search_residual(cz_search_compressed(constraint[j])), 2);
     }
+    if (search->function->is_fit)
+        record.penalty += *objective;
     if (failed)
         record = (CzRecord){NAN, INFINITY, INFINITY, phase, false};
     add_record(search, x, &record);

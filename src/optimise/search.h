@@ -22,6 +22,8 @@ typedef struct CzFunction {
     int n_detail; /* constraints again, place by place and so without the kinks of the worst one; 0
                      when there are none */
     bool is_minimax; /* the objective is the largest constraint, up to a constant */
+    bool is_fit;     /* the objective is a sum of squares, the details its residuals, and the flags
+                        say whether they are small enough */
 
     /* Answers n_point designs: x is (n_point x n_variable), objective (n_point) with NaN for a
      * failed design, constraint (n_point x n_constraint), kept when at most 0, detail (n_point x
@@ -35,8 +37,8 @@ typedef struct CzFunction {
 typedef struct CzRecord {
     double objective; /* NaN when failed */
     double violation; /* largest positive constraint; infinite when failed */
-    double penalty;   /* sum of the compressed positive constraints: what infeasible designs are
-                         ranked by */
+    double penalty;   /* sum of the compressed positive constraints, of a fit beside the sum of
+                         squares: what infeasible designs are ranked by */
     const char *phase;
     bool on_grid; /* every variable lies on its catalogue step */
 } CzRecord;
@@ -97,6 +99,10 @@ int cz_search_n_detail(const CzSearch *search);
 
 /* How a violation counts: itself up to a tenth, its logarithm beyond. */
 double cz_search_compressed(double constraint);
+
+/* A constraint that a fit names beside its matches as one more residual: it pulls from a little
+ * below 0 on. */
+double cz_search_residual(double constraint);
 
 /* Scaled to natural variables: u in 0..1 is clamped. */
 void cz_search_unscale(const CzSearch *search, const double *u, double *x);

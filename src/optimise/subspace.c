@@ -75,6 +75,7 @@ bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *s
                                       .n_detail = cz_evaluator_n_detail(evaluator),
                                       .is_flag = flags,
                                       .is_minimax = cz_evaluator_maximises_margin(evaluator),
+                                      .is_fit = cz_evaluator_is_fit(evaluator),
                                       .evaluate = evaluate_designs,
                                       .data = subspace};
     return true;

@@ -7,22 +7,21 @@
 #include "base/error.h"
 #include "problem/reader.h"
 
-/* Settings of parts come before the rest, so the stand-ins take their turn among the settings. */
+/* The stand-ins take their turn among the settings. */
 static bool put_stand_ins(CzProblem *trial, const CzProblem *problem, const char *path,
                           const CzNode *place, CzTree *tree, CzMatches *matches) {
     CzReader *reader = &trial->reader;
-    const bool is_part = strncmp(path, "parts.", 6) == 0;
-    int n_part_setting = 0;
+    const int own = cz_setting_rank(&problem->tree, path);
+    int n = 0, n_before = 0;
     CzSetting *ordered = cz_reader_allocate(reader, (size_t)problem->n_setting, sizeof *ordered);
     if (ordered == NULL)
         return false;
-    for (int pass = 0, n = 0; pass < 2; pass++) {
+    for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < problem->n_setting; i++)
-            if ((strncmp(problem->setting[i].path, "parts.", 6) == 0) == (pass == 0))
+            if ((cz_setting_rank(&problem->tree, problem->setting[i].path) <= own) == (pass == 0))
                 ordered[n++] = problem->setting[i];
-        n_part_setting = pass == 0 ? n : n_part_setting;
+        n_before = pass == 0 ? n : n_before;
     }
-    const int n_before = is_part ? n_part_setting : problem->n_setting;
     *tree = cz_settings_apply(reader, &problem->tree, ordered, n_before);
     if (!cz_path_put(reader, tree, path, place, NULL, matches))
         return false;

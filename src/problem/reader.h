@@ -109,6 +109,10 @@ typedef struct CzSetting {
 /* Settings of the file's `set:`, then of the options. */
 const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root,
                                     const CzProblemOptions *options, int *n_setting);
+/* When a setting takes its turn: 0 for parts without parts in them, more the deeper parts are
+ * nested in a part, CZ_LAST_RANK for what is no part. */
+enum { CZ_LAST_RANK = 48 };
+int cz_setting_rank(const CzTree *tree, const char *path);
 /* The tree with all settings put in. */
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
                          int n_setting);

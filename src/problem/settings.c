@@ -1,8 +1,8 @@
 /* Values put in by path: `set:` of the file and --set of the command line.
  *
  * A setting means what typing the value at that place would mean. So settings of parts come first,
- * and what a vehicle says for itself goes before its part, whatever the order of the settings;
- * among settings of one place the later wins.
+ * those of a part before those of the parts that use it, and what a vehicle says for itself goes
+ * before its part, whatever the order of the settings; among settings of one place the later wins.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -104,6 +104,39 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root,
     return setting;
 }
 
+/* ---- their order ---- */
+
+enum { MOST_NESTED = 40 }; /* parts in parts; more is a circle, which is told elsewhere */
+
+/* How deep parts are nested below a node. */
+static int nesting(const CzTree *tree, const CzNode *node, int level) {
+    int deepest = 0;
+    for (int i = 0; level < MOST_NESTED && node->kind != CZ_NODE_TEXT && i < node->n_entry; i++) {
+        const CzEntry *entry = &node->entry[i];
+        const bool uses = entry->key != NULL && strcmp(entry->key->text, "use") == 0 &&
+                          entry->value->kind == CZ_NODE_TEXT;
+        int here = uses ? 0 : nesting(tree, entry->value, level);
+        for (int k = 0; uses && k < tree->n_part; k++)
+            if (strcmp(tree->part[k].name, entry->value->text) == 0)
+                here = 1 + nesting(tree, tree->part[k].node, level + 1);
+        deepest = here > deepest ? here : deepest;
+    }
+    return deepest;
+}
+
+int cz_setting_rank(const CzTree *tree, const char *path) {
+    if (strncmp(path, "parts.", 6) != 0)
+        return CZ_LAST_RANK;
+    const char *name = path + 6;
+    const size_t n = strcspn(name, ".[");
+    for (int k = 0; k < tree->n_part; k++)
+        if (strlen(tree->part[k].name) == n && strncmp(tree->part[k].name, name, n) == 0) {
+            const int rank = nesting(tree, tree->part[k].node, 0);
+            return rank < CZ_LAST_RANK ? rank : CZ_LAST_RANK - 1;
+        }
+    return 0;
+}
+
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
                          int n_setting) {
     CzTree changed = *tree;
@@ -114,9 +147,9 @@ CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *
         return *tree;
     if (tree->n_part > 0)
         memcpy(changed.part, tree->part, (size_t)tree->n_part * sizeof *changed.part);
-    for (int pass = 0; pass < 2; pass++)
+    for (int rank = 0; rank <= CZ_LAST_RANK; rank++)
         for (int i = 0; i < n_setting; i++)
-            if ((strncmp(setting[i].path, "parts.", 6) == 0) == (pass == 0))
+            if (cz_setting_rank(tree, setting[i].path) == rank)
                 cz_path_put(reader, &changed, setting[i].path, setting[i].place, setting[i].value,
                             NULL);
     return changed;

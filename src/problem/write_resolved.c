@@ -171,6 +171,10 @@ static void write_target(const Writer *writer, const CzTarget *target) {
     const CzInput *input = &writer->problem->input;
     char inner[CZ_MAX_PLACE] = "";
     int train = 0, vehicle = target->vehicle;
+    if (vehicle < 0) { /* of no vehicle, so of no part */
+        fprintf(writer->stream, "\"%s\"", target->place);
+        return;
+    }
     while (vehicle >= input->trains[train].n_vehicles)
         vehicle -= input->trains[train++].n_vehicles;
     write_inner_path(inner, sizeof inner, &cz_records[CZ_RECORD_CzVehicle], target->offset);
@@ -232,6 +236,13 @@ static bool find_targets(const CzProblem *problem, const CzVariable *variable, C
 static void write_variables(const Writer *writer, const CzVariable *variable, int indent) {
     CzTarget *target = NULL;
     int n_target = 0;
+    if (variable->choices.n_text > 0) { /* there are no parts here to choose from */
+        Writer remark = *writer;
+        remark.lead = "# ";
+        write_record(&remark, &cz_records[CZ_RECORD_CzVariable], (const char *)variable, indent,
+                     "- ");
+        return;
+    }
     const bool is_found = find_targets(writer->problem, variable, &target, &n_target);
     const int n_match = is_found && variable->path != NULL ? target[n_target - 1].match + 1 : 1;
     const char *name = variable->name != NULL   ? variable->name
@@ -265,13 +276,24 @@ static void write_list(const Writer *writer, const CzKey *key, const char *memor
         write_record(writer, record, item + (size_t)i * record->size, indent + 4, "- ");
 }
 
+/* Whether nothing is left to optimise once the choices of parts are made. */
+static bool has_only_choices(const CzKey *key, const char *field) {
+    const CzOptimise *optimise = (const CzOptimise *)(const void *)field;
+    if (key->child != CZ_RECORD_CzOptimise)
+        return false;
+    for (int i = 0; i < optimise->n_variables; i++)
+        if (optimise->variables[i].choices.n_text == 0)
+            return false;
+    return true;
+}
+
 static void write_child(const Writer *writer, const CzKey *key, const char *field, int indent) {
     const CzRecord *record = &cz_records[key->child];
     const bool is_given = *(const bool *)field;
     Writer inside = *writer;
     if (!is_given && key->child != CZ_RECORD_CzSimulation && key->child != CZ_RECORD_CzChecks)
         return;
-    if (!is_given) /* these hold without being written */
+    if (!is_given || has_only_choices(key, field)) /* these hold without being written */
         inside.lead = "# ";
     const int column = write_key(&inside, key->stem, "", indent, "");
     write_origin(writer, key, field, column);

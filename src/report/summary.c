@@ -175,6 +175,7 @@ static void put_vehicle(CzJson *json, const CzVehicleResult *vehicle) {
     cz_json_close(json);
     cz_json_real(json, "bogie_lift_mm", vehicle->bogie_lift * CZ_MILLI_PER_UNIT);
     cz_json_real(json, "link_force_kN", vehicle->link_force / CZ_KILO);
+    cz_json_real(json, "link_travel_mm", vehicle->link_travel * CZ_MILLI_PER_UNIT);
     cz_json_real(json, "survival_shortening_mm", vehicle->survival_shortening * CZ_MILLI_PER_UNIT);
     cz_json_flag(json, "checks_override", vehicle->checks_override);
     cz_json_close(json);

@@ -268,6 +268,7 @@ CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleRes
                               : NAN;
     result->max_pitch = full ? cz_extreme(batch, CZ_E_BODY_PITCH, lane) : NAN;
     result->link_force = full ? cz_extreme(batch, CZ_E_LINK_FORCE, lane) : NAN;
+    result->link_travel = full ? cz_extreme(batch, CZ_E_LINK_TRAVEL, lane) : NAN;
     result->survival_shortening = survival_shortening(batch, car, design);
     result->checks_override = full && description->has_stops;
     return CZ_OK;

@@ -126,6 +126,7 @@ static void blank_vehicle(CzVehicleResult *result) {
     for (int axle = 0; axle < 4; ++axle)
         result->wheel_lift[axle] = result->wheel_lift_time[axle] = NAN;
     result->bogie_lift = result->max_pitch = result->link_force = result->survival_shortening = NAN;
+    result->link_travel = NAN;
 }
 
 CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {

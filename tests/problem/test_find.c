@@ -186,8 +186,73 @@ static void a_candidate_is_held_to_the_rules_of_a_file(void **state) {
     cz_problem_free(problem);
 }
 
+/* What a part says of a part in it is set after that part, whichever is typed first: putting a
+ * value beside `use` takes what the part gives at that moment. */
+static void settings_of_parts_do_not_depend_on_their_order(void **state) {
+    (void)state;
+    static const char text[] =
+        "schema: 1\n"
+        "title: parts in parts\n"
+        "parts:\n"
+        "  tube: {stages: [{stroke_mm: 250, force_kN: 800}]}\n"
+        "  coupler: {buffer: {stages: [{stroke_mm: 50, force_kN: 400}]}, tube: {use: tube}}\n"
+        "  head: {face_gap_mm: 900, unloading_stiffness_MN_m: 600, coupler: {use: coupler}}\n"
+        "trains:\n"
+        "  - {name: A, speed_m_s: 5,\n"
+        "     vehicles: [{name: A1, model: rigid, mass_t: 40, front: {use: head}}]}\n"
+        "  - {name: B, vehicles: [{name: B1, model: rigid, mass_t: 40, rear: {use: head}}]}\n";
+    static const char *const set[2][2] = {
+        {"parts.head.coupler.tube.trigger_kN=1000", "parts.tube.stages[0].force_kN=700"},
+        {"parts.tube.stages[0].force_kN=700", "parts.head.coupler.tube.trigger_kN=1000"}};
+    for (int order = 0; order < 2; order++) {
+        CzProblemOptions options = cz_problem_options_default();
+        CzProblem *problem = NULL;
+        CzTarget *target = NULL;
+        CzError error = {0};
+        int n_vehicle, n_target;
+        options.set = set[order];
+        options.n_set = 2;
+        assert_int_equal(cz_problem_read_text(text, sizeof text - 1, "parts.yaml", ".", &options,
+                                              &problem, &error),
+                         CZ_OK);
+        const CzTube *tube = &cz_problem_vehicles(problem, &n_vehicle)->front.coupler.tube;
+        assert_near(tube->stages[0].force, 700e3, 0, 0);
+        assert_near(tube->trigger, 1000e3, 0, 0);
+        assert_int_equal(
+            cz_problem_find(problem, "parts.tube.stages[0].force_kN", &target, &n_target, &error),
+            CZ_OK);
+        assert_int_equal(n_target, 2);
+        free(target);
+        cz_problem_free(problem);
+    }
+}
+
+static void numbers_of_trains_and_of_the_simulation_are_found_too(void **state) {
+    (void)state;
+    CzProblem *problem = read_good("full.yaml", 0, NULL);
+    static const char *const paths[] = {"simulation.adhesion.friction", "trains.A.speed_km_h"};
+    const CzInput *input = cz_problem_input(problem);
+    const double *const fields[] = {&input->simulation.adhesion.friction, &input->trains[0].speed};
+    for (int i = 0; i < 2; i++) {
+        CzTarget *target = NULL;
+        CzError error = {0};
+        int n_target;
+        assert_int_equal(cz_problem_find(problem, paths[i], &target, &n_target, &error), CZ_OK);
+        assert_int_equal(n_target, 1);
+        assert_int_equal(target->vehicle, -1);
+        assert_ptr_equal(target->field, fields[i]);
+        assert_near(target->value, *fields[i], 0, 0);
+        assert_false(target->may_vary);
+        assert_int_equal(target->may_fit, i == 0); /* the speed is what was driven */
+        free(target);
+    }
+    cz_problem_free(problem);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(settings_of_parts_do_not_depend_on_their_order),
+        cmocka_unit_test(numbers_of_trains_and_of_the_simulation_are_found_too),
         cmocka_unit_test(a_path_through_a_part_names_every_user_that_does_not_override),
         cmocka_unit_test(a_star_makes_one_match_of_every_item),
         cmocka_unit_test(a_path_through_a_vehicle_names_its_repeats_and_copies_too),

@@ -97,6 +97,7 @@ static CzStatus finish(Sheet *sheet, CzChart chart, int index, CzMarkup *markup,
     const bool fits = !sheet->arena.out_of_memory;
     cz_chart_title(sheet->page, chart, index, sizeof title, title);
     sheet->plot.title = title;
+    sheet->plot.is_time = chart != CZ_CHART_FORCE_CLOSURE;
     sheet->plot.series = sheet->series;
     sheet->plot.limit = sheet->limit;
     sheet->plot.band = sheet->band;
@@ -113,6 +114,24 @@ static double largest(const double *value, int n) {
     for (int i = 0; i < n; i++)
         most = value[i] > most ? value[i] : most;
     return most;
+}
+
+/* The same interface in the runs beside this one. */
+static void add_other_loops(Sheet *sheet, const char *interface) {
+    const CzPage *page = sheet->page;
+    for (int i = 0; i < page->n_other; i++) {
+        const CzRun *run = page->other[i].run;
+        const double *closure = cz_run_channel_named(run, "d_%s_mm", interface);
+        const double *force = cz_run_channel_named(run, "F_%s_kN", interface);
+        if (closure == NULL || force == NULL || sheet->plot.n_series == sheet->room)
+            continue;
+        sheet->series[sheet->plot.n_series++] = (CzSeries){.name = page->other[i].label,
+                                                           .n = cz_run_n_sample(run),
+                                                           .x = closure,
+                                                           .y = force,
+                                                           .colour = i + 1,
+                                                           .dash = i + 1};
+    }
 }
 
 static CzStatus draw_force_closure(Sheet *sheet, int interface, CzError *error) {
@@ -144,9 +163,10 @@ static CzStatus draw_force_closure(Sheet *sheet, int interface, CzError *error) 
                                                            .y = input + INPUT_POINTS,
                                                            .colour = CZ_PLOT_QUIET};
     }
+    add_other_loops(sheet, name);
     CzSeries *series = add_channel(sheet, "F", name, "kN");
     if (series != NULL) {
-        series->name = "computed, with unloading";
+        series->name = page->label != NULL ? page->label : "computed, with unloading";
         series->x = closure;
         series->x_channel = x_channel;
     }
@@ -436,7 +456,8 @@ CzStatus cz_chart_write(const CzPage *page, CzChart chart, int index, CzMarkup *
     }
     Sheet sheet;
     const char *x_label = chart == CZ_CHART_FORCE_CLOSURE ? "closure [mm]" : "time [ms]";
-    if (!begin(&sheet, page, page->summary->n_vehicle + MOST_LIFTS, x_label, y_labels[chart]))
+    if (!begin(&sheet, page, page->summary->n_vehicle + MOST_LIFTS + page->n_other, x_label,
+               y_labels[chart]))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a figure");
     const CzStatus status = draw(&sheet, chart, index, error);
     if (status != CZ_OK) {

@@ -11,16 +11,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-const double *cz_page_channel(const CzPage *page, const char *format, ...) {
+static const double *channel_named(const CzRun *run, const char *format, va_list arguments) {
     char name[128];
+    vsnprintf(name, sizeof name, format, arguments);
+    for (int i = 0; run != NULL && i < cz_run_n_channel(run); i++)
+        if (strcmp(cz_run_channel_name(run, i), name) == 0)
+            return cz_run_channel(run, i);
+    return NULL;
+}
+
+const double *cz_run_channel_named(const CzRun *run, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(name, sizeof name, format, arguments);
+    const double *channel = channel_named(run, format, arguments);
     va_end(arguments);
-    for (int i = 0; i < cz_run_n_channel(page->run); i++)
-        if (strcmp(cz_run_channel_name(page->run, i), name) == 0)
-            return cz_run_channel(page->run, i);
-    return NULL;
+    return channel;
+}
+
+const double *cz_page_channel(const CzPage *page, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    const double *channel = channel_named(page->run, format, arguments);
+    va_end(arguments);
+    return channel;
 }
 
 int cz_page_deciding(const CzEvaluation *evaluation) {
@@ -151,6 +164,15 @@ void cz_page_close_section(CzMarkup *markup) {
     cz_markup_line(markup);
 }
 
+CzStatus cz_page_write_parts(CzPage *page, CzError *error) {
+    cz_page_write_trains(page);
+    CZ_TRY(cz_page_write_figures(page, error));
+    cz_page_write_animation(page);
+    cz_page_write_events(page);
+    CZ_TRY(cz_page_write_inputs(page, error));
+    return cz_page_write_data(page, error);
+}
+
 CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation, int scenario,
                            bool is_top, const CzReportOptions *options, FILE *stream,
                            CzError *error) {
@@ -161,16 +183,8 @@ CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluat
         snprintf(title, sizeof title, "%s, %s", cz_problem_title(problem), page.summary->scenario);
         cz_page_write_head(&page.markup, title);
         cz_page_write_verdict(&page, is_top);
-        cz_page_write_trains(&page);
-        status = cz_page_write_figures(&page, error);
+        status = cz_page_write_parts(&page, error);
     }
-    if (status == CZ_OK) {
-        cz_page_write_animation(&page);
-        cz_page_write_events(&page);
-        status = cz_page_write_inputs(&page, error);
-    }
-    if (status == CZ_OK)
-        status = cz_page_write_data(&page, error);
     if (status == CZ_OK)
         cz_page_write_foot(&page.markup);
     cz_page_free(&page);

@@ -11,6 +11,12 @@
 #include "model/stand.h"
 #include "report/markup.h"
 
+/* A further run that figures set beside the page's own. */
+typedef struct CzPageOther {
+    const char *label; /* such as "before" */
+    const CzRun *run;
+} CzPageOther;
+
 typedef struct CzPage {
     CzMarkup markup;
     const CzProblem *problem;
@@ -23,6 +29,9 @@ typedef struct CzPage {
     CzStand *stand;     /* (n_vehicle) */
     const double *time; /* [ms] (n_sample) */
     int n_sample;
+    const char *label; /* of the page's own run where there are others; NULL otherwise */
+    int n_other;
+    const CzPageOther *other;  /* (n_other) */
     const CzVehicle *vehicles; /* the problem's array; model->car[].vehicle is an index into it */
 } CzPage;
 
@@ -39,6 +48,8 @@ void cz_page_free(CzPage *page);
 int cz_page_deciding(const CzEvaluation *evaluation);
 
 /* A recorded channel by its name as printf would write it; NULL when there is none. */
+const double *cz_run_channel_named(const CzRun *run, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 const double *cz_page_channel(const CzPage *page, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
@@ -48,6 +59,17 @@ const double *cz_page_channel(const CzPage *page, const char *format, ...)
 CZ_MUST_CHECK CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation,
                                          int scenario, bool is_top, const CzReportOptions *options,
                                          FILE *stream, CzError *error);
+
+/* Writes the report of a search: what it changed and reached, then the best design's run beside the
+ * start's. `best` is the problem read with the best values. Statuses: CZ_STATUS_INPUT,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluator,
+                                             const CzOutcome *outcome,
+                                             const CzReportOptions *options, FILE *stream,
+                                             CzError *error);
+
+/* The parts about one run, from the trains to the inputs, and the data for the script. */
+CZ_MUST_CHECK CzStatus cz_page_write_parts(CzPage *page, CzError *error);
 
 /* The first and last lines of a page. */
 void cz_page_write_head(CzMarkup *markup, const char *title);

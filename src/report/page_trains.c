@@ -13,6 +13,7 @@
 #define MARGIN 8.0
 #define CAR_TOP 20.0
 #define CAR_HEIGHT 30.0
+#define NOTHING 100.0 /* energy of an element that does not count as one that worked [J] */
 
 static double largest_use(const CzInterfaceResult *interface) {
     double used = 0;
@@ -134,8 +135,8 @@ static void write_elements(const CzPage *page, CzMarkup *markup) {
         const CzInterfaceResult *interface = &page->summary->interface[i];
         bool is_first = true;
         for (int k = 0; k < interface->n_element; k++) {
-            if (!(interface->element[k].peak_force > 0))
-                continue; /* nothing ever pressed on it */
+            if (!(interface->element[k].energy > NOTHING) && !interface->element[k].bottomed_out)
+                continue;
             write_element(markup, is_first ? interface->name : "", &interface->element[k]);
             is_first = false;
         }
@@ -183,7 +184,9 @@ void cz_page_write_trains(CzPage *page) {
     cz_page_open_section(markup, "trains", "Trains");
     cz_markup_element(markup, "p",
                       "Below each interface: peak force, largest closure, largest share of a "
-                      "stroke used, energy dissipated, share of all that was dissipated.");
+                      "stroke used, energy dissipated, share of all that was dissipated. The first "
+                      "table has the elements that "
+                      "dissipated more than 0.1 kJ.");
     cz_markup_open(markup, "div");
     cz_markup_attribute(markup, "class", "wide");
     write_diagram(page, markup);

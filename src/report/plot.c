@@ -119,8 +119,6 @@ static Frame frame_of(const CzPlot *plot) {
                    plot->height > 0 ? plot->height : USUAL_HEIGHT};
     for (int i = 0; i < plot->n_series; i++)
         for (int k = 0; k < plot->series[i].n; k++) {
-            if (!isfinite(plot->series[i].x[k]) || !isfinite(plot->series[i].y[k]))
-                continue;
             widen(plot->series[i].x[k], &frame.x_min, &frame.x_max);
             widen(plot->series[i].y[k], &frame.y_min, &frame.y_max);
         }
@@ -379,7 +377,7 @@ void cz_plot_write(const CzPlot *plot, CzMarkup *markup) {
     const double bottom = TOP + frame.height + BELOW_AXIS;
     char range[4][CZ_FIGURE_ROOM];
     cz_svg_open(markup, plot->title, CZ_PLOT_WIDTH, bottom + write_legend(plot, bottom, NULL));
-    cz_markup_attribute(markup, "class", "plot");
+    cz_markup_attribute(markup, "class", plot->is_time ? "plot time" : "plot");
     cz_markup_format(markup, "data-box", "%d %d %d %d", (int)LEFT, (int)TOP, (int)frame.width,
                      (int)frame.height);
     cz_markup_format(

@@ -47,6 +47,7 @@ typedef struct CzPlot {
     const CzSeries *series;   /* (n_series) */
     const CzPlotLimit *limit; /* (n_limit) */
     const CzPlotBand *band;   /* (n_band) */
+    bool is_time;             /* the x axis is time, so the page's cursor goes over it */
     bool from_zero;           /* the y axis includes 0 */
     double height;            /* of the area between the axes; 0: as usual */
 } CzPlot;

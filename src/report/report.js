@@ -31,7 +31,9 @@
   }
 
   /* ---- plots ---- */
-  var plots = all('svg.plot').map(function (element) {
+  var plots = all('svg.plot').filter(function (element) {
+    return element.classList.contains('time') ? true : element.querySelector('path[data-x]');
+  }).map(function (element) {
     var box = numbers(element.dataset.box), range = numbers(element.dataset.range);
     var curves = all('path[data-y]', element).filter(function (path) { return data[path.dataset.y]; });
     var plot = {element: element, box: box, range: range, loop: false};
@@ -44,7 +46,7 @@
     if (!plot.loop) plot.line = svg('line', {y1: box[1], y2: box[1] + box[3], stroke: 'currentColor', 'stroke-width': 0.8, 'class': 'cursor'}, element);
     plot.output = document.createElement('output');
     element.parentNode.appendChild(plot.output);
-    if (curves.length || plot.line) element.addEventListener('pointermove', function (event) { point(plot, event); });
+    element.addEventListener('pointermove', function (event) { point(plot, event); });
     return plot;
   });
   function px(plot, x) { return plot.box[0] + (x - plot.range[0]) / (plot.range[1] - plot.range[0]) * plot.box[2]; }

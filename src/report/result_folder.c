@@ -114,6 +114,9 @@ static CzStatus write_log(const Results *results, FILE *stream, CzError *error) 
 }
 
 static CzStatus write_report(const Results *results, FILE *stream, CzError *error) {
+    if (results->outcome != NULL && results->is_top)
+        return cz_page_write_outcome(results->computed, results->evaluator, results->outcome,
+                                     results->options, stream, error);
     return cz_page_write_run(results->computed, results->evaluation, results->scenario,
                              results->is_top, results->options, stream, error);
 }

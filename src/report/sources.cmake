@@ -20,6 +20,7 @@ set(CZ_SOURCES_report
     page_data.c
     page_figures.c
     page_inputs.c
+    page_outcome.c
     page_scene.c
     page_trains.c
     plot.c

@@ -23,7 +23,7 @@ if ! [ -d "$modules/node_modules/playwright-core" ] &&
     finish
 fi
 
-# A collision of full cars, one of rigid ones, and trains of eight full cars, whose report is the largest.
+# A collision of full cars, one of rigid ones, a search, and trains of eight full cars, whose report is the largest.
 long_metro() {
     ln -s "$SOURCE/problems/catalogue" "$SOURCE/problems/profiles" .
     sed -e 's/^\( *\)- {name: A3, use: metro-third-car, reversed: true}/&\n\1- {name: M1, use: metro-third-car, reversed: true}\n\1- {name: M2, use: metro-third-car}/' \
@@ -32,9 +32,10 @@ long_metro() {
 }
 check "crushzone runs a metro" "$PROGRAM" run "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h -o metro
 check "crushzone runs rigid cars" sh -c '"$PROGRAM" new two-trains && "$PROGRAM" run two-trains.yaml -o rigid'
+check "crushzone optimises" sh -c '"$PROGRAM" optimise two-trains.yaml --evaluations 60 -o search; [ $? -le 1 ]'
 check "crushzone runs trains of eight cars" long_metro
 
-NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" metro rigid long >cases.txt 2>&1
+NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" metro rigid search long >cases.txt 2>&1
 code=$?
 cat cases.txt
 n_passed=$((n_passed + $(grep -c '^ok - ' cases.txt)))

@@ -109,6 +109,17 @@ CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluat
     fprintf(stream, "report of %d%s\n", scenario, is_top ? ", top" : "");
     return CZ_OK;
 }
+CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluator,
+                               const CzOutcome *outcome, const CzReportOptions *options,
+                               FILE *stream, CzError *error) {
+    (void)best;
+    (void)evaluator;
+    (void)outcome;
+    (void)options;
+    (void)error;
+    fputs("report of a search\n", stream);
+    return CZ_OK;
+}
 
 int cz_evaluator_n_variable(const CzEvaluator *evaluator) {
     (void)evaluator;

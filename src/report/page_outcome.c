@@ -1,0 +1,341 @@
+/* The report of a search: what changed, what it brought, how it was found, what holds it. */
+#include "report/page.h"
+
+#include "base/error.h"
+#include "evaluate/evaluator.h"
+#include "report/checks_table.h"
+#include "report/charts.h"
+#include "report/figure.h"
+#include "report/overlay.h"
+#include "report/plot.h"
+#include "report/runs.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_PERCENT 100.0 /* margins and violations beyond are drawn at this */
+
+enum { MOST_CONSTRAINTS = 8 }; /* that are told of as those that hold the optimum */
+
+static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const CzProblem *problem,
+                         const CzOutcome *outcome) {
+    static const char *const words[] = {[CZ_OUTCOME_FEASIBLE] = "FEASIBLE",
+                                        [CZ_OUTCOME_INFEASIBLE] = "NOTHING FEASIBLE FOUND",
+                                        [CZ_OUTCOME_INTERRUPTED] = "INTERRUPTED"};
+    char before[CZ_FIGURE_ROOM], after[CZ_FIGURE_ROOM], text[512];
+    const double start = outcome->start_evaluation.objective;
+    const double best = outcome->best_evaluation.objective;
+    cz_markup_open(markup, "header");
+    cz_markup_element(markup, "h1", cz_problem_title(problem));
+    cz_markup_classed(markup, "p",
+                      outcome->status == CZ_OUTCOME_FEASIBLE     ? "banner pass"
+                      : outcome->status == CZ_OUTCOME_INFEASIBLE ? "banner fail"
+                                                                 : "banner careful",
+                      words[outcome->status]);
+    snprintf(text, sizeof text, "%ld evaluations: %s.", outcome->n_evaluation,
+             outcome->why_stopped);
+    cz_markup_element(markup, "p", text);
+    if (cz_evaluator_maximises_margin(evaluator)) /* its negative is minimised */
+        snprintf(text, sizeof text, "Smallest margin of all constraints: before %s, after %s.",
+                 cz_figure_margin(before, -start), cz_figure_margin(after, -best));
+    else
+        snprintf(text, sizeof text, "Objective %s: before %s %s, after %s %s.",
+                 cz_evaluator_objective_name(evaluator), cz_figure_plain(before, start),
+                 cz_evaluator_objective_unit(evaluator), cz_figure_plain(after, best),
+                 cz_evaluator_objective_unit(evaluator));
+    cz_markup_element(markup, "p", text);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+/* ---- variables ---- */
+
+static void write_mark(CzMarkup *markup, double at, bool is_best) {
+    cz_markup_open(markup, "circle");
+    cz_markup_number(markup, "cx", 1, 8 + 104 * at);
+    cz_markup_attribute(markup, "cy", "8");
+    cz_markup_attribute(markup, "r", is_best ? "5" : "4");
+    cz_markup_attribute(markup, "fill", is_best ? "#0072b2" : "none");
+    cz_markup_attribute(markup, "stroke", is_best ? "#0072b2" : "#d55e00");
+    cz_markup_attribute(markup, "stroke-width", "2");
+    cz_markup_close(markup);
+}
+
+/* Where start (a ring) and best (a dot) lie between the bounds. */
+static void write_place(CzMarkup *markup, const CzVariableInfo *variable, double start,
+                        double best) {
+    const double range = variable->max - variable->min;
+    cz_markup_open(markup, "svg");
+    cz_markup_attribute(markup, "class", "place");
+    cz_markup_attribute(markup, "viewBox", "0 0 120 16");
+    cz_markup_attribute(markup, "aria-hidden", "true");
+    cz_markup_open(markup, "path");
+    cz_markup_attribute(markup, "d", "M8 8H112M8 3V13M112 3V13");
+    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_close(markup);
+    if (range > 0) {
+        write_mark(markup, fmin(fmax((start - variable->min) / range, 0), 1), false);
+        write_mark(markup, fmin(fmax((best - variable->min) / range, 0), 1), true);
+    }
+    cz_markup_close(markup);
+}
+
+static void write_variables(CzMarkup *markup, const CzEvaluator *evaluator,
+                            const CzOutcome *outcome) {
+    static const char *const names[] = {"variable", "unit", "min",   "before",
+                                        "after",    "max",  "where", ""};
+    cz_page_open_section(markup, "variables", "Variables");
+    cz_markup_element(markup, "p", "Between the bounds: a ring is the start, a dot the best.");
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open(markup, "table");
+    cz_markup_open(markup, "tr");
+    for (int i = 0; i < 8; i++)
+        cz_markup_element(markup, "th", names[i]);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    for (int i = 0; i < outcome->n_variable; i++) {
+        const CzVariableInfo *variable = cz_evaluator_variable(evaluator, i);
+        const double numbers[] = {variable->min, outcome->start[i], outcome->best[i],
+                                  variable->max};
+        char text[CZ_FIGURE_ROOM];
+        cz_markup_open(markup, "tr");
+        cz_markup_element(markup, "td", variable->name);
+        cz_markup_element(markup, "td", variable->unit != NULL ? variable->unit : "");
+        for (int k = 0; k < 4; k++)
+            cz_markup_classed(markup, "td", "number", cz_figure_digits(text, 6, numbers[k]));
+        cz_markup_open(markup, "td");
+        write_place(markup, variable, outcome->start[i], outcome->best[i]);
+        cz_markup_close(markup);
+        cz_markup_classed(markup, "td", "careful", outcome->at_bound[i] ? "at its bound" : "");
+        cz_markup_close(markup);
+        cz_markup_line(markup);
+    }
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_page_close_section(markup);
+}
+
+/* ---- the search ---- */
+
+/* Curves over the evaluations: each, and the best so far (NaN before the first feasible one). */
+typedef struct Course {
+    double *count, *objective, *best, *violation; /* (n) in one block that `count` owns */
+    int n;
+} Course;
+
+static bool course_begin(Course *course, const CzEvaluator *evaluator, const CzOutcome *outcome) {
+    const int n = (int)outcome->n_trial;
+    const double sign = cz_evaluator_maximises_margin(evaluator) ? -100 : 1; /* margins in % */
+    course->n = n;
+    course->count = malloc(4 * ((size_t)n + 1) * sizeof *course->count);
+    if (course->count == NULL)
+        return false;
+    course->objective = course->count + n;
+    course->best = course->objective + n;
+    course->violation = course->best + n;
+    double best = NAN;
+    for (int i = 0; i < n; i++) {
+        const CzTrial *trial = &outcome->trial[i];
+        const bool is_margin = sign < 0;
+        const double plain = trial->objective * sign;
+        const double value = is_margin ? fmax(plain, -MOST_PERCENT) : plain;
+        course->count[i] = i + 1;
+        course->objective[i] = value;
+        if (trial->feasible && (isnan(best) || value * sign < best * sign))
+            best = value;
+        course->best[i] = best;
+        course->violation[i] = fmin(100 * trial->violation, MOST_PERCENT);
+    }
+    return true;
+}
+
+static void write_course(CzMarkup *markup, const CzPlot *plot) {
+    cz_markup_open(markup, "figure");
+    cz_markup_element(markup, "figcaption", plot->title);
+    cz_plot_write(plot, markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
+                             const CzOutcome *outcome, CzError *error) {
+    Course course;
+    char label[160];
+    if (outcome->n_trial < 2)
+        return CZ_OK;
+    if (!course_begin(&course, evaluator, outcome))
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
+    const char *unit = cz_evaluator_objective_unit(evaluator);
+    if (cz_evaluator_maximises_margin(evaluator))
+        snprintf(label, sizeof label, "smallest margin [%%]");
+    else
+        snprintf(label, sizeof label, "%.100s [%.20s]", cz_evaluator_objective_name(evaluator),
+                 unit != NULL && unit[0] != '\0' ? unit : "-");
+    const CzSeries objective[] = {{.name = "each evaluation",
+                                   .n = course.n,
+                                   .x = course.count,
+                                   .y = course.objective,
+                                   .colour = CZ_PLOT_QUIET},
+                                  {.name = "best feasible so far",
+                                   .n = course.n,
+                                   .x = course.count,
+                                   .y = course.best,
+                                   .colour = 2}};
+    const CzSeries violation = {.name = "worst violation of each evaluation",
+                                .n = course.n,
+                                .x = course.count,
+                                .y = course.violation,
+                                .colour = 1};
+    const CzPlot plots[] = {
+        {.title = "Objective over the evaluations (margins below -100 % at -100 %)",
+         .x_label = "evaluation",
+         .y_label = label,
+         .n_series = 2,
+         .series = objective},
+        {.title = "Violation over the evaluations, 0 is feasible (above 100 % at 100 %)",
+         .x_label = "evaluation",
+         .y_label = "violation [%]",
+         .n_series = 1,
+         .series = &violation,
+         .from_zero = true}};
+    cz_page_open_section(markup, "search", "The search");
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "figures");
+    write_course(markup, &plots[0]);
+    write_course(markup, &plots[1]);
+    cz_markup_close(markup);
+    cz_page_close_section(markup);
+    free(course.count);
+    return CZ_OK;
+}
+
+/* ---- what holds the optimum ---- */
+
+static void write_constraint(CzMarkup *markup, const CzEvaluator *evaluator,
+                             const CzEvaluation *best, int i) {
+    const CzCheckResult *check = best->constraint_check != NULL ? &best->constraint_check[i] : NULL;
+    char text[96] = "";
+    cz_markup_open(markup, "tr");
+    cz_markup_element(markup, "td", cz_evaluator_constraint_name(evaluator, i));
+    cz_markup_element(markup, "td", check != NULL ? check->where : "");
+    cz_markup_element(markup, "td",
+                      check != NULL && check->scenario != NULL ? check->scenario : "");
+    if (check != NULL)
+        cz_checks_format_limit(check, sizeof text, text);
+    cz_markup_classed(markup, "td", "number", text);
+    if (check != NULL)
+        cz_checks_format_value(check, sizeof text, text);
+    cz_markup_classed(markup, "td", "number", text);
+    cz_markup_classed(markup, "td", best->constraint[i] > 0 ? "fail" : "number",
+                      cz_figure_margin(text, -best->constraint[i]));
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+/* The constraint with least left that has not been told of; -1 when there is none. */
+static int next_constraint(const CzEvaluation *evaluation, int n_told, const int *told) {
+    int found = -1;
+    for (int i = 0; i < evaluation->n_constraint; i++) {
+        bool is_told = !isfinite(evaluation->constraint[i]);
+        for (int k = 0; k < n_told; k++)
+            is_told |= told[k] == i;
+        if (!is_told && (found < 0 || evaluation->constraint[i] > evaluation->constraint[found]))
+            found = i;
+    }
+    return found;
+}
+
+static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const CzOutcome *outcome) {
+    static const char *const names[] = {"constraint", "where", "scenario",
+                                        "limit",      "value", "left"};
+    const CzEvaluation *best = &outcome->best_evaluation;
+    cz_page_open_section(markup, "active", "What holds the best design");
+    cz_markup_element(markup, "p", "The constraints with least left; below 0 is violated.");
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open(markup, "table");
+    cz_markup_open(markup, "tr");
+    for (int i = 0; i < 6; i++)
+        cz_markup_element(markup, "th", names[i]);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    int told[MOST_CONSTRAINTS];
+    for (int n = 0; n < MOST_CONSTRAINTS; n++) {
+        told[n] = next_constraint(best, n, told);
+        if (told[n] < 0)
+            break;
+        write_constraint(markup, evaluator, best, told[n]);
+    }
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_page_close_section(markup);
+}
+
+static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
+                             const CzOutcome *outcome, CzError *error) {
+    CzArena arena = {0};
+    char *text = NULL;
+    size_t n_byte = 0;
+    int n_setting;
+    FILE *stream = open_memstream(&text, &n_byte);
+    const char **setting = cz_overlay_settings(evaluator, outcome, NULL, &arena, &n_setting);
+    if (stream != NULL && setting != NULL)
+        cz_overlay_write_set(n_setting, setting, stream);
+    const bool fits = stream != NULL && setting != NULL && fclose(stream) == 0 && text != NULL;
+    if (fits) {
+        cz_page_open_section(markup, "values", "New values, to paste");
+        cz_markup_element(markup, "pre", text);
+        cz_page_close_section(markup);
+    }
+    cz_arena_free(&arena);
+    free(text);
+    return fits ? CZ_OK : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
+}
+
+/* ---- the page ---- */
+
+static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzOutcome *outcome,
+                           CzError *error) {
+    CzMarkup *markup = &page->markup;
+    char title[256];
+    snprintf(title, sizeof title, "%s, optimised", cz_problem_title(page->problem));
+    cz_page_write_head(markup, title);
+    write_banner(markup, evaluator, page->problem, outcome);
+    cz_page_open_section(markup, "checks", "Checks before and after");
+    cz_page_write_checks(markup, &outcome->best_evaluation, &outcome->start_evaluation);
+    cz_page_close_section(markup);
+    write_variables(markup, evaluator, outcome);
+    write_active(markup, evaluator, outcome);
+    CZ_TRY(write_search(markup, evaluator, outcome, error));
+    CZ_TRY(write_values(markup, evaluator, outcome, error));
+    snprintf(title, sizeof title, "What follows is scenario %s of the best design%s",
+             page->summary->scenario,
+             page->n_other > 0 ? "; force over closure has the design before beside it." : ".");
+    cz_markup_element(markup, "h2", "The best design");
+    cz_markup_element(markup, "p", title);
+    CZ_TRY(cz_page_write_parts(page, error));
+    cz_page_write_foot(markup);
+    return CZ_OK;
+}
+
+CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluator,
+                               const CzOutcome *outcome, const CzReportOptions *options,
+                               FILE *stream, CzError *error) {
+    const CzEvaluation *evaluation = &outcome->best_evaluation;
+    const CzEvaluation *start = &outcome->start_evaluation;
+    const int scenario = cz_page_deciding(evaluation);
+    CzPage page;
+    CzStatus status = cz_page_begin(&page, best, evaluation, scenario, options, stream, error);
+    const bool has_start =
+        start->run != NULL && scenario < start->n_run && start->run[scenario] != NULL;
+    const CzPageOther before = {"before", has_start ? start->run[scenario] : NULL};
+    page.label = has_start ? "after, with unloading" : NULL;
+    page.n_other = has_start;
+    page.other = &before;
+    if (status == CZ_OK)
+        status = write_page(&page, evaluator, outcome, error);
+    cz_page_free(&page);
+    return status;
+}

@@ -5,6 +5,7 @@
  *                        +--> CzEvaluator --> cz_evaluate --> CzEvaluation
  *                                  |
  *                                  +--> cz_optimise --> CzOutcome --> report
+ *                                  +--> cz_verify --> CzVerification (by other steps and solvers)
  *
  *                                  +--> cz_explain --> CzExplanation --> report
  *
@@ -27,5 +28,6 @@
 #include "crushzone/simulate.h"
 #include "crushzone/status.h"
 #include "crushzone/sweep.h"
+#include "crushzone/verify.h"
 
 #endif

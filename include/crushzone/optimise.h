@@ -6,7 +6,7 @@
 #include <signal.h>
 #include <stddef.h>
 
-#include "crushzone/evaluate.h"
+#include "crushzone/verify.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -32,6 +32,8 @@ typedef struct CzOptimiseOptions {
     const char *algorithm; /* "auto" or an NLopt name such as "LN_COBYLA"; NULL takes the file's */
     long evaluations;      /* most evaluations; 0 takes the file's */
     long seed;             /* -1 takes the file's */
+    unsigned verify_ways;  /* ways that a design that passes is verified by, as CzVerifyOptions has
+                              them; half the step and Runge-Kutta by default, 0 for none */
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */
     void (*progress)(const CzProgress *progress, void *data); /* NULL when none */
     void *progress_data;
@@ -60,6 +62,8 @@ typedef struct CzOutcome {
     int n_alternative;   /* of a fit: further parameter sets that fit about as well */
     double *alternative; /* in the variables' units, best first (n_alternative x n_variable) */
     double *alternative_objective; /* (n_alternative) */
+    CzVerification *verification;  /* of the best design; NULL when it does not pass or the search
+                                      was interrupted */
     long n_trial;
     CzTrial *trial; /* history in order (n_trial) */
     double wall_s;

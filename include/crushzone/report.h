@@ -12,6 +12,7 @@
 #include "crushzone/fit.h"
 #include "crushzone/optimise.h"
 #include "crushzone/sweep.h"
+#include "crushzone/verify.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -70,6 +71,16 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_explanation(const CzProblem *probl
                                                           FILE *stream, CzError *error);
 CZ_API void cz_report_write_explanation_table(const CzExplanation *explanation, bool colour,
                                               FILE *stream);
+
+/* A verification: the document `crushzone.verification`, and a table of the numbers that change
+ * most. Statuses as above. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_verification(const CzProblem *problem,
+                                                           const CzVerification *verification,
+                                                           const CzReportOptions *options,
+                                                           FILE *stream, CzError *error);
+CZ_API void cz_report_write_verification_table(const CzProblem *problem,
+                                               const CzVerification *verification, bool colour,
+                                               FILE *stream);
 
 /* A sweep: the document `crushzone.sweep`, the table of one path or the map of two, a folder with
  * sweep.json and sweep.csv. Statuses as above. */

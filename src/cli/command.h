@@ -8,6 +8,7 @@ int cz_command_run(const CzArguments *arguments); /* run and check */
 int cz_command_optimise(const CzArguments *arguments);
 int cz_command_sweep(const CzArguments *arguments);
 int cz_command_explain(const CzArguments *arguments);
+int cz_command_verify(const CzArguments *arguments);
 int cz_command_validate(const CzArguments *arguments);
 int cz_command_show(const CzArguments *arguments);
 int cz_command_fit(const CzArguments *arguments);

@@ -9,6 +9,7 @@ set(CZ_SOURCES_cli
     command_problem.c
     command_run.c
     command_sweep.c
+    command_verify.c
     help.c
     interrupt.c
     main.c

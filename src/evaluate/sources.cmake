@@ -20,4 +20,5 @@ set(CZ_SOURCES_evaluate
     sweep_axis.c
     tasks.c
     variant.c
+    verify.c
 )

@@ -23,7 +23,8 @@ const char *cz_outcome_text(CzOutcomeStatus status) {
 }
 
 CzOptimiseOptions cz_optimise_options_default(void) {
-    return (CzOptimiseOptions){.seed = -1};
+    return (CzOptimiseOptions){.seed = -1,
+                               .verify_ways = 1u << CZ_WAY_HALF_STEP | 1u << CZ_WAY_ERK};
 }
 
 /* ---- the outcome ----------------------------------------------------------------------------- */
@@ -166,6 +167,19 @@ static void conclude(const CzHunt *hunt, CzOutcome *outcome) {
              is_between_steps(hunt, outcome) ? "; best not on catalogue steps yet" : "");
 }
 
+/* Computes a design that passes once more by independent means. A signal leaves it unverified. */
+static CzStatus verify(CzEvaluator *evaluator, const CzOptimiseOptions *options, CzOutcome *outcome,
+                       CzError *error) {
+    if (outcome->status != CZ_OUTCOME_FEASIBLE || options->verify_ways == 0)
+        return CZ_OK;
+    CzVerifyOptions chosen = cz_verify_options_default();
+    chosen.ways = options->verify_ways;
+    chosen.stop = options->stop;
+    const CzStatus status = cz_verify(evaluator, outcome->best, &outcome->best_evaluation, &chosen,
+                                      &outcome->verification, error);
+    return status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
+}
+
 /* ---- the search ------------------------------------------------------------------------------ */
 
 static CzStatus settle_options(const CzEvaluator *evaluator, const CzOptimiseOptions *given,
@@ -227,6 +241,8 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
                                       cz_hunt_record(&hunt.search[hunt.chosen]), made, error);
     if (status == CZ_OK)
         conclude(&hunt, made);
+    if (status == CZ_OK)
+        status = verify(evaluator, &options, made, error);
     made->wall_s = now_s() - began;
     cz_hunt_free(&hunt);
     if (status != CZ_OK) {
@@ -247,6 +263,7 @@ void cz_outcome_free(CzOutcome *outcome) {
     cz_evaluation_free(&outcome->best_evaluation);
     free(outcome->alternative);
     free(outcome->alternative_objective);
+    cz_verification_free(outcome->verification);
     free(outcome->trial);
     free(outcome);
 }

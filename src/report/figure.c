@@ -81,3 +81,11 @@ const char *cz_figure_margin(char text[CZ_FIGURE_ROOM], double share) {
     snprintf(text, CZ_FIGURE_ROOM, "%c%.40s %%", share < 0 ? '-' : '+', number);
     return text;
 }
+
+const char *cz_figure_change(char text[CZ_FIGURE_ROOM], double change) {
+    char number[CZ_FIGURE_ROOM];
+    if (!isfinite(change))
+        return strcpy(text, "-");
+    snprintf(text, CZ_FIGURE_ROOM, "%.40s %%", cz_figure_digits(number, 2, 100.0 * change));
+    return text;
+}

@@ -19,4 +19,8 @@ const char *cz_figure_percent(char text[CZ_FIGURE_ROOM], double share);
 /* The same with its sign: "+54 %", "-0.03 %"; a negative share never reads as zero. */
 const char *cz_figure_margin(char text[CZ_FIGURE_ROOM], double share);
 
+/* A change as a percentage of two digits: what is a part in a million off is not "0 %"; "-" when it
+ * is not finite. */
+const char *cz_figure_change(char text[CZ_FIGURE_ROOM], double change);
+
 #endif

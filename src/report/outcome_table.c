@@ -175,6 +175,28 @@ static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outc
     cz_grid_write(&grid, colour, stream);
 }
 
+/* A change in per cent, up to the next tenth. */
+static double tenths_above(double change) {
+    return 0.1 * ceil(1e3 * change);
+}
+
+/* What independent means say of the optimum. */
+static void write_verification(const CzVerification *verification, bool colour, FILE *stream) {
+    char text[CZ_FIGURE_ROOM];
+    if (verification == NULL)
+        return;
+    const bool passes = verification->verdict == CZ_VERDICT_PASS;
+    fputs("\nComputed again: ", stream);
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
+        if (verification->is_done[way])
+            fprintf(stream, "%s changes %s %% at most, ", cz_verify_way_text((CzVerifyWay)way),
+                    cz_figure_fixed(text, 1, tenths_above(verification->largest_change[way])));
+    fputs("verification ", stream);
+    cz_grid_write_text(passes ? "pass" : "FAIL", passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, colour,
+                       stream);
+    fprintf(stream, "%s%s\n", verification->failure[0] != '\0' ? ": " : "", verification->failure);
+}
+
 void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,
                                    const CzOutcome *outcome, bool colour, FILE *stream) {
     cz_grid_write_text(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
@@ -187,6 +209,7 @@ void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *
     }
     cz_checks_write_table(&outcome->best_evaluation, &outcome->start_evaluation, colour, stream);
     write_violations(evaluator, outcome, colour, stream);
+    write_verification(outcome->verification, colour, stream);
 
     CzArena arena = {0};
     int n_setting;

@@ -32,4 +32,5 @@ set(CZ_SOURCES_report
     sweep.c
     table.c
     thin.c
+    verification.c
 )

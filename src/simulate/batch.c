@@ -12,7 +12,8 @@
 #include "simulate/run.h"
 
 enum {
-    STEPS_BETWEEN_LOOKS = 32, /* energy and end of run are looked at this often (ours) */
+    STEPS_BETWEEN_LOOKS = 32, /* of the model: energy and end of run are looked at this often, so
+                                 that a run with half the step ends at the same time (ours) */
     LANES_THAT_FILL = 96,     /* lanes of a batch that still stay in the first caches (measured) */
     MOST_STEPS = 100000       /* of a reference within one step of the model: more is a storm of
                                  events (ours) */
@@ -114,6 +115,9 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     batch->kernel->commit(batch->dynamics, 0.0, 0.0);
     if (batch->integrator == CZ_INTEGRATOR_ZHAI || batch->design[0].over)
         return CZ_OK;
+    if (model->track != NULL)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "the second solver knows no elastic track: take 'track: rigid' for it");
     const bool is_erk = batch->integrator == CZ_INTEGRATOR_ERK;
     return cz_reference_create(batch, is_erk ? CZ_METHOD_ERK : CZ_METHOD_ADAMS, options->tolerance,
                                &batch->reference, error);
@@ -203,6 +207,8 @@ static CzStatus march(CzBatch *batch, CzRun **run, Recording *recording, CzError
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the run");
     const long every = lround(batch->history.step / batch->step);
     const double length = batch->model->duration;
+    const long look =
+        (long)fmax(1.0, round(STEPS_BETWEEN_LOOKS * batch->model->time_step / batch->step));
     const long last = isnan(length) ? 0 : lround(length / batch->step);
     CzStatus status = cz_history_add(&batch->history, batch);
     bool all_over = false;
@@ -212,7 +218,7 @@ static CzStatus march(CzBatch *batch, CzRun **run, Recording *recording, CzError
             status = cz_history_add(&batch->history, batch);
         if (status == CZ_OK && recording != NULL)
             status = record_step(recording, batch);
-        if (status == CZ_OK && (batch->n_step % STEPS_BETWEEN_LOOKS == 0 || batch->n_step == last ||
+        if (status == CZ_OK && (batch->n_step % look == 0 || batch->n_step == last ||
                                 (batch->reference != NULL && batch->design[0].over))) {
             all_over = cz_ending_look(batch);
             status = finish(batch, run, written);

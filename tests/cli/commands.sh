@@ -90,6 +90,18 @@ bad_algorithm() { exits 2 "$C" validate two-trains.yaml --set optimise.algorithm
 check "validate tells an algorithm that does not exist" bad_algorithm
 folding() { exits 0 "$C" validate "$SOURCE/problems/two-cars-25kmh.yaml" && says out.txt 'interface A1-B1: F_crit'; }
 check "validate tells the force at which a coupler folds" folding
+verified() { exits 0 "$C" verify two-trains.yaml && says out.txt 'Verification: pass' && says out.txt 'Runge-Kutta'; }
+check "verify passes numbers that hang on no step and no solver" verified
+verified_json() { exits 0 "$C" verify two-trains.yaml --json && json out.txt format crushzone.verification && json out.txt verdict pass && json out.txt ways.adams.flips 0; }
+check "verify --json prints one document" verified_json
+check "verify of a run that does not end ends with 3" exits 3 "$C" verify two-trains.yaml --set simulation.longest_ms=50
+between() { # the limit on the force halfway between the record and half the step
+    "$C" verify two-trains.yaml --json >verified.json
+    awk -v a="$("$BUILD/tests/read_json" verified.json values.1.record)" \
+        -v b="$("$BUILD/tests/read_json" verified.json values.1.half_step.value)" 'BEGIN { printf "%.9g", (a + b) / 2 }'
+}
+hanging() { exits 1 "$C" verify two-trains.yaml --set "checks.limits[0].max=$(between)" && says out.txt FLIPS && says out.txt 'Verification: FAIL'; }
+check "verify of a verdict that hangs on the step ends with 1" hanging
 facts() { exits 0 "$C" show "$SOURCE/problems/two-cars-25kmh.yaml" && ! grep '^# A1 .* nan' out.txt && says out.txt 'bounce Hz' && says out.txt 'F_crit kN'; }
 check "show tells axle loads, deflections, frequencies and F_crit" facts
 finish

@@ -6,6 +6,8 @@
 found() { exits 0 "$C" optimise two-trains.yaml && says out.txt FEASIBLE && says out.txt 'Verdict: pass' && says out.txt 'set:'; }
 check "a design that passes is found" found
 check "outcome.json is feasible" json out/outcome.json status feasible
+verified() { json out/outcome.json verification.verdict pass && json out/outcome.json verification.half_step_change && says out.txt 'Computed again: half the step changes'; }
+check "the optimum is verified by half the step and by another solver" verified
 files() { for file in summary.json checks.csv outcome.json optimised.yaml history.csv resolved.yaml run.log; do [ -s out/$file ] || return 1; done; }
 check "the result folder holds the outcome, the optimum and the history" files
 check "the optimum passes its check" exits 0 "$C" check out/optimised.yaml -o checked

@@ -344,6 +344,18 @@ void stand_in_fill(StandIn *s) {
         s->start_check;
 }
 
+const char *cz_verify_way_key(CzVerifyWay way) {
+    static const char *const keys[] = {
+#define CZ_VERIFY_WAY(constant, key, text, doc) key,
+#include "crushzone/verify_ways.def"
+#undef CZ_VERIFY_WAY
+    };
+    return keys[way];
+}
+const char *cz_verify_way_text(CzVerifyWay way) {
+    return cz_verify_way_key(way);
+}
+
 const char *cz_ended_text(CzEnded ended) {
     static const char *const texts[] = {
 #define CZ_ENDED(constant, text) text,

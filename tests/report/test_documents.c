@@ -333,6 +333,21 @@ static void outcome_has_every_key_that_scripts_rely_on(void **state) {
     json_decref(json);
 }
 
+static void outcome_tells_how_far_the_optimum_changes(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    CzVerification verification = {.verdict = CZ_VERDICT_FAIL,
+                                   .largest_change = {0.004, 0.02, NAN}};
+    s.outcome.verification = &verification;
+    json_t *json = outcome_of(&s);
+    assert_real_at(json, "verification.half_step_change", 0.004);
+    assert_real_at(json, "verification.reference_change", 0.02);
+    assert_null_at(json, "verification.full_track_change");
+    assert_text_at(json, "verification.verdict", "fail");
+    json_decref(json);
+}
+
 static void mistakes_are_one_document_with_all_of_them(void **state) {
     (void)state;
     const CzError errors[2] = {{.status = CZ_STATUS_INPUT,
@@ -452,6 +467,7 @@ int main(void) {
         cmocka_unit_test(same_results_give_the_same_bytes),
         cmocka_unit_test(a_full_disk_is_an_output_error),
         cmocka_unit_test(outcome_has_every_key_that_scripts_rely_on),
+        cmocka_unit_test(outcome_tells_how_far_the_optimum_changes),
         cmocka_unit_test(mistakes_are_one_document_with_all_of_them),
         cmocka_unit_test(csv_quotes_what_would_break_a_row),
         cmocka_unit_test(csv_has_nine_digits_and_the_asked_for_signs),

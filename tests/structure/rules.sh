@@ -16,7 +16,7 @@ include_arrows() {
                     n = split("base problem model fit dynamics simulate evaluate optimise report cli", order, " ")
                     for (i = 1; i <= n; i++) { rank[order[i]] = i; public[order[i]] = order[i] }
                     public["status"] = "base"
-                    public["sweep"] = public["explain"] = "evaluate"
+                    public["sweep"] = public["explain"] = public["verify"] = "evaluate"
                     public["crushzone"] = "report"
                 }
                 /^[ \t]*#[ \t]*include[ \t]*"/ {

@@ -1,0 +1,77 @@
+/* Verification: the numbers that a design is judged by, computed once more by independent means.
+ *
+ * This says how far the answer depends on steps and solvers. It says nothing about parameters and
+ * physics: the laws are the same each time.
+ */
+#ifndef CRUSHZONE_VERIFY_H
+#define CRUSHZONE_VERIFY_H
+
+#include <signal.h>
+
+#include "crushzone/evaluate.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum CzVerifyWay {
+#define CZ_VERIFY_WAY(constant, key, text, doc) constant,
+#include "crushzone/verify_ways.def"
+#undef CZ_VERIFY_WAY
+    CZ_N_VERIFY_WAY
+} CzVerifyWay;
+CZ_API const char *cz_verify_way_key(CzVerifyWay way);  /* such as "half_step" */
+CZ_API const char *cz_verify_way_text(CzVerifyWay way); /* such as "half the step" */
+
+typedef struct CzVerifyOptions {
+    unsigned ways;                     /* which ones, bit 1 << CzVerifyWay each; all by default */
+    double limit;                      /* largest change that passes [-]; 0.01 by default */
+    const volatile sig_atomic_t *stop; /* a flag that ends it when not 0; NULL when none */
+} CzVerifyOptions;
+CZ_API CzVerifyOptions cz_verify_options_default(void);
+
+/* One number: the objective, a check or target, or the bulk of a scenario (largest interface force,
+ * largest closure, dissipated energy). Texts are borrowed from the evaluator. */
+typedef struct CzVerifiedValue {
+    const char *name;
+    char scenario[64]; /* empty for the objective and for the design itself */
+    char where[48];    /* of the record; empty when it has no place */
+    const char *unit;
+    double record;
+    double value[CZ_N_VERIFY_WAY];  /* NaN when not computed */
+    double change[CZ_N_VERIFY_WAY]; /* of a check or target: by how much its margin changes, a
+                                       margin above 1 counting as 1; of the others: |value -
+                                       record| over the record, over 1 for a smallest margin; NaN
+                                       for a mere yes or no and when not computed */
+    bool flips[CZ_N_VERIFY_WAY];    /* another verdict than that of the record */
+} CzVerifiedValue;
+
+/* Open result, owns its memory. */
+typedef struct CzVerification {
+    CzStatus status;   /* CZ_OK, or CZ_STATUS_RUN_FAILED when a run of any way failed or is
+                          incomplete */
+    char failure[320]; /* which way, scenario and why; empty otherwise */
+    double limit;
+    int n_value;
+    CzVerifiedValue *value;                 /* (n_value) */
+    bool is_done[CZ_N_VERIFY_WAY];          /* this way was gone to its end */
+    double largest_change[CZ_N_VERIFY_WAY]; /* over all values; NaN when not done */
+    int worst[CZ_N_VERIFY_WAY];             /* value with that change; -1 when none */
+    int n_flip[CZ_N_VERIFY_WAY];            /* verdicts that flip */
+    double wall_s[CZ_N_VERIFY_WAY];         /* for run_info only */
+    CzVerdict verdict; /* pass: every way asked for is done, changes at most the limit and flips no
+                          verdict */
+} CzVerification;
+
+/* Computes a design again. x as in cz_evaluate; `record` is its evaluation with runs kept, NULL
+ * when it has to be made first. Statuses: CZ_OK (look at the verdict), CZ_STATUS_INTERRUPTED,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_verify(CzEvaluator *evaluator, const double *x,
+                                        const CzEvaluation *record, const CzVerifyOptions *options,
+                                        CzVerification **verification, CzError *error);
+CZ_API void cz_verification_free(CzVerification *verification);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

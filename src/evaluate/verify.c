@@ -1,0 +1,312 @@
+/* A design computed once more by other means, and how far that changes what it is judged by.
+ *
+ *   record --evaluate in another manner--> the same numbers again --> change = |again - record| /
+ * scale
+ *
+ * A check changes by what its margin changes by, so that a wheel lift of some micrometres does not
+ * count by what it is but by what is allowed. A margin ends at 100 %: an upper limit leaves no
+ * more, and of what a lower limit leaves beyond that no verdict depends.
+ */
+#include "crushzone/verify.h"
+
+#include "base/error.h"
+#include "evaluate/evaluator_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define LIMIT 0.01 /* largest change that passes (ours) */
+
+static const char *const keys[] = {
+#define CZ_VERIFY_WAY(constant, key, text, doc) key,
+#include "crushzone/verify_ways.def"
+#undef CZ_VERIFY_WAY
+};
+static const char *const texts[] = {
+#define CZ_VERIFY_WAY(constant, key, text, doc) text,
+#include "crushzone/verify_ways.def"
+#undef CZ_VERIFY_WAY
+};
+
+const char *cz_verify_way_key(CzVerifyWay way) {
+    return keys[way];
+}
+
+const char *cz_verify_way_text(CzVerifyWay way) {
+    return texts[way];
+}
+
+CzVerifyOptions cz_verify_options_default(void) {
+    return (CzVerifyOptions){.ways = (1u << CZ_N_VERIFY_WAY) - 1, .limit = LIMIT};
+}
+
+/* How a way makes its runs. */
+static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyWay way) {
+    CzManner manner = evaluator->manner;
+    switch (way) {
+    case CZ_WAY_HALF_STEP:
+        manner.step_factor *= 0.5;
+        break;
+    case CZ_WAY_ERK:
+        manner.integrator = CZ_INTEGRATOR_ERK;
+        break;
+    case CZ_WAY_ADAMS:
+        manner.integrator = CZ_INTEGRATOR_ADAMS;
+        break;
+    case CZ_N_VERIFY_WAY:
+        break;
+    }
+    return manner;
+}
+
+/* ---- numbers of an evaluation ---------------------------------------------------------------- */
+
+/* What a design is judged by, in an order that is the same for every evaluation of it. */
+typedef struct Number {
+    const char *name, *scenario, *where, *unit;
+    double value;
+    double counted;             /* a change is the difference of this over `scale` */
+    double scale;               /* 0: the record's own size; infinite: no change counts */
+    const CzCheckResult *check; /* NULL for the objective and the bulk of a scenario */
+} Number;
+
+/* Whether only the verdict of a check counts: a yes or no, and what the faces have left when they
+ * just touch, which hangs on the step that sees them there first. */
+static bool is_yes_or_no(const CzCheck *check) {
+    return check->scale == CZ_FLAG_SCALE ||
+           (check->metric_text != NULL &&
+            strcmp(check->metric_text, "interfaces.vertical_margin_kN") == 0);
+}
+
+static Number number_of_check(const CzCheck *check, const CzCheckResult *result) {
+    return (Number){.name = result->name,
+                    .scenario = check->scenario == CZ_NO_SCENARIO ? NULL : result->scenario,
+                    .where = result->where,
+                    .unit = result->unit,
+                    .value = result->value,
+                    .counted = result->margin > 1.0 ? 1.0 : result->margin,
+                    .scale = is_yes_or_no(check) ? INFINITY : 1.0,
+                    .check = result};
+}
+
+enum { N_BULK = 3 };
+
+static Number bulk_of(const CzRunSummary *run, int which) {
+    static const char *const name[N_BULK] = {"largest interface force", "largest closure",
+                                             "dissipated energy"};
+    static const char *const unit[N_BULK] = {"kN", "mm", "kJ"};
+    Number number = {
+        .name = name[which], .scenario = run->scenario, .unit = unit[which], .where = ""};
+    if (which == 2)
+        number.value = 1e-3 * run->energy.dissipated;
+    for (int i = 0; which < 2 && i < run->n_interface; i++) {
+        const CzInterfaceResult *interface = &run->interface[i];
+        const double value =
+            which == 0 ? 1e-3 * interface->peak_force : 1e3 * interface->shortening;
+        if (value > number.value) {
+            number.value = value;
+            number.where = interface->name;
+        }
+    }
+    number.counted = number.value;
+    return number;
+}
+
+/* Lists the numbers; `number` may be NULL to count them. */
+static int list_numbers(const CzEvaluator *evaluator, const CzEvaluation *evaluation,
+                        Number *number) {
+    int n = 0, n_check = 0, n_constraint = 0;
+    const CzOptimise *optimise = &cz_problem_input(evaluator->problem)->optimise;
+    if (optimise->given || evaluator->own_objective != NULL) {
+        if (number != NULL)
+            number[n] = (Number){.name = evaluator->objective_name,
+                                 .where = "",
+                                 .unit = evaluator->objective_unit,
+                                 .value = evaluation->objective,
+                                 .counted = evaluation->objective,
+                                 .scale = cz_evaluator_maximises_margin(evaluator) ? 1.0 : 0.0};
+        n++;
+    }
+    for (int i = 0; i < evaluator->list.n_check; i++) {
+        const CzCheck *check = &evaluator->list.check[i];
+        const CzCheckResult *result = check->is_target ? &evaluation->constraint_check[n_constraint]
+                                                       : &evaluation->check[n_check++];
+        n_constraint += check->is_constraint;
+        if (number != NULL)
+            number[n] = number_of_check(check, result);
+        n++;
+    }
+    for (int i = 0; i < evaluation->n_run; i++)
+        for (int which = 0; which < N_BULK; which++) {
+            if (number != NULL)
+                number[n] = bulk_of(cz_run_summary(evaluation->run[i]), which);
+            n++;
+        }
+    return n;
+}
+
+/* ---- comparison ------------------------------------------------------------------------------ */
+
+static bool passes(CzVerdict verdict) {
+    return verdict == CZ_VERDICT_PASS || verdict == CZ_VERDICT_PROVISIONAL;
+}
+
+/* Whether a check is judged otherwise; provisional or not is no matter of numbers. */
+static bool differs(CzVerdict a, CzVerdict b) {
+    return passes(a) != passes(b) || (a == CZ_VERDICT_FAIL) != (b == CZ_VERDICT_FAIL);
+}
+
+static void begin_value(CzVerifiedValue *value, const Number *number) {
+    *value = (CzVerifiedValue){.name = number->name, .unit = number->unit, .record = number->value};
+    snprintf(value->scenario, sizeof value->scenario, "%s",
+             number->scenario != NULL ? number->scenario : "");
+    snprintf(value->where, sizeof value->where, "%s", number->where);
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
+        value->value[way] = value->change[way] = NAN;
+}
+
+static void compare(CzVerification *verification, CzVerifyWay way, int index, const Number *record,
+                    const Number *again) {
+    CzVerifiedValue *value = &verification->value[index];
+    const double scale = record->scale > 0.0 ? record->scale : fabs(record->counted);
+    const double difference = fabs(again->counted - record->counted);
+    value->value[way] = again->value;
+    if (isfinite(scale))
+        value->change[way] = difference == 0.0 ? 0.0 : difference / scale;
+    value->flips[way] =
+        record->check != NULL && differs(record->check->verdict, again->check->verdict);
+    verification->n_flip[way] += value->flips[way];
+    if (value->change[way] > verification->largest_change[way]) { /* not for NaN */
+        verification->largest_change[way] = value->change[way];
+        verification->worst[way] = index;
+    }
+}
+
+/* Says which scenario of an evaluation failed. */
+static void tell_failure(CzVerification *verification, const char *way,
+                         const CzEvaluation *evaluation) {
+    verification->status = CZ_STATUS_RUN_FAILED;
+    snprintf(verification->failure, sizeof verification->failure, "%s: a run failed", way);
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_run_summary(evaluation->run[i]);
+        if (run->status == CZ_OK && run->ended != CZ_ENDED_INCOMPLETE)
+            continue;
+        const char *why =
+            run->failure[0] != '\0' ? run->failure : "the run did not come to its end";
+        snprintf(verification->failure, sizeof verification->failure, "%s, scenario %.60s: %.220s",
+                 way, run->scenario, why);
+        return;
+    }
+}
+
+/* Goes one way. */
+static CzStatus go(CzVerification *verification, const CzEvaluator *evaluator, CzVerifyWay way,
+                   const double *x, const Number *record, Number *again, CzError *error) {
+    const CzManner manner = manner_of(evaluator, way);
+    CzEvaluation evaluation = {0};
+    CZ_TRY(cz_evaluator_again(evaluator, &manner, x, &evaluation, error));
+    if (evaluation.status != CZ_OK) {
+        tell_failure(verification, texts[way], &evaluation);
+    } else {
+        verification->is_done[way] = true;
+        verification->largest_change[way] = 0.0;
+        list_numbers(evaluator, &evaluation, again);
+        for (int i = 0; i < verification->n_value; i++)
+            compare(verification, way, i, &record[i], &again[i]);
+    }
+    cz_evaluation_free(&evaluation);
+    return CZ_OK;
+}
+
+static double now_s(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static CzStatus go_all(CzVerification *verification, const CzEvaluator *evaluator, const double *x,
+                       const CzEvaluation *record, unsigned ways, CzError *error) {
+    const int n = list_numbers(evaluator, record, NULL);
+    Number *number = calloc(2 * (size_t)n + 1, sizeof *number);
+    verification->value = calloc((size_t)n + 1, sizeof *verification->value);
+    CzStatus status = CZ_OK;
+    if (number == NULL || verification->value == NULL) {
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the verification");
+    } else {
+        verification->n_value = list_numbers(evaluator, record, number);
+        for (int i = 0; i < n; i++)
+            begin_value(&verification->value[i], &number[i]);
+    }
+    for (int way = 0; way < CZ_N_VERIFY_WAY && status == CZ_OK; way++) {
+        if ((ways & (1u << way)) == 0)
+            continue;
+        const double began = now_s();
+        status = go(verification, evaluator, (CzVerifyWay)way, x, number, number + n, error);
+        verification->wall_s[way] = now_s() - began;
+    }
+    free(number);
+    return status;
+}
+
+static CzVerdict judge(const CzVerification *verification, unsigned ways) {
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
+        if ((ways & (1u << way)) == 0)
+            continue;
+        if (!verification->is_done[way] || verification->n_flip[way] > 0 ||
+            !(verification->largest_change[way] <= verification->limit))
+            return CZ_VERDICT_FAIL;
+    }
+    return verification->status == CZ_OK && ways != 0 ? CZ_VERDICT_PASS : CZ_VERDICT_NOT_CHECKED;
+}
+
+/* Verifies against a record that has its runs. */
+static CzStatus verify(CzVerification *verification, CzEvaluator *evaluator, const double *x,
+                       const CzEvaluation *record, const CzVerifyOptions *options, CzError *error) {
+    verification->limit = options->limit;
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
+        verification->largest_change[way] = NAN;
+        verification->worst[way] = -1;
+    }
+    if (record->status != CZ_OK) {
+        tell_failure(verification, "the record", record);
+        verification->verdict = CZ_VERDICT_FAIL;
+        return CZ_OK;
+    }
+    const volatile sig_atomic_t *stop = evaluator->stop;
+    cz_evaluator_set_stop(evaluator, options->stop);
+    const CzStatus status = go_all(verification, evaluator, x, record, options->ways, error);
+    cz_evaluator_set_stop(evaluator, stop);
+    verification->verdict = judge(verification, options->ways);
+    return status;
+}
+
+CzStatus cz_verify(CzEvaluator *evaluator, const double *x, const CzEvaluation *record,
+                   const CzVerifyOptions *options, CzVerification **made, CzError *error) {
+    const CzVerifyOptions chosen = options != NULL ? *options : cz_verify_options_default();
+    CzVerification *verification = calloc(1, sizeof *verification);
+    CzEvaluation own = {0};
+    CzStatus status = CZ_OK;
+    *made = NULL;
+    if (verification == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the verification");
+    if (record == NULL)
+        status = cz_evaluator_again(evaluator, &evaluator->manner, x, &own, error);
+    if (status == CZ_OK)
+        status = verify(verification, evaluator, x, record != NULL ? record : &own, &chosen, error);
+    cz_evaluation_free(&own);
+    if (status == CZ_OK)
+        *made = verification;
+    else
+        cz_verification_free(verification);
+    return status;
+}
+
+void cz_verification_free(CzVerification *verification) {
+    if (verification == NULL)
+        return;
+    free(verification->value);
+    free(verification);
+}

@@ -1,0 +1,211 @@
+/* Verification: what is compared, what passes, what does not. */
+#include "support/check.h"
+
+#include "crushzone/verify.h"
+#include "evaluate/small_problem.h"
+
+typedef struct Case {
+    CzProblem *problem;
+    CzEvaluator *evaluator;
+    CzVerification *verification;
+} Case;
+
+static Case begin(const char *more) {
+    Case made = {.problem = small_problem(more)};
+    CzError error = {0};
+    const CzEvaluatorOptions options = cz_evaluator_options_default();
+    if (cz_evaluator_build(made.problem, &options, &made.evaluator, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    return made;
+}
+
+static void verify(Case *made, const CzVerifyOptions *options) {
+    CzError error = {0};
+    cz_verification_free(made->verification);
+    if (cz_verify(made->evaluator, NULL, NULL, options, &made->verification, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+}
+
+static void end(Case *made) {
+    cz_verification_free(made->verification);
+    cz_evaluator_free(made->evaluator);
+    cz_problem_free(made->problem);
+}
+
+static const CzVerifiedValue *value_of(const CzVerification *verification, const char *name,
+                                       const char *scenario) {
+    for (int i = 0; i < verification->n_value; i++)
+        if (strcmp(verification->value[i].name, name) == 0 &&
+            strcmp(verification->value[i].scenario, scenario) == 0)
+            return &verification->value[i];
+    fail_msg("no value '%s' in '%s'", name, scenario);
+    return NULL;
+}
+
+static const char limits[] = "checks:\n"
+                             "  closing_rules: false\n"
+                             "  limits:\n"
+                             "    - {name: closure, metric: interfaces.shortening_mm, max: 3000}\n";
+
+/* Rigid cars: all three ways agree to much better than 1 %. */
+static void numbers_that_do_not_hang_on_steps_and_solvers_pass(void **state) {
+    (void)state;
+    Case made = begin(limits);
+    verify(&made, NULL);
+    const CzVerification *verification = made.verification;
+    assert_int_equal(verification->verdict, CZ_VERDICT_PASS);
+    assert_int_equal(verification->status, CZ_OK);
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
+        assert_true(verification->is_done[way]);
+        assert_int_equal(verification->n_flip[way], 0);
+        assert_true(verification->largest_change[way] > 0.0);
+        assert_true(verification->largest_change[way] < 0.01);
+    }
+    end(&made);
+}
+
+/* A check changes by its margin, so by the share of its limit; the bulk of a scenario by its own
+ * size; the largest is the largest. */
+static void changes_are_relative_to_what_is_allowed(void **state) {
+    (void)state;
+    Case made = begin(limits);
+    verify(&made, NULL);
+    const CzVerification *verification = made.verification;
+    const CzVerifiedValue *closure = value_of(verification, "closure", "crash");
+    const CzVerifiedValue *bulk = value_of(verification, "largest closure", "crash");
+    assert_near(closure->record, bulk->record, 1e-12, 0.0);
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
+        const double difference = fabs(closure->value[way] - closure->record);
+        assert_near(closure->change[way], difference / 3000.0, 1e-9, 1e-15);
+        assert_near(bulk->change[way], difference / bulk->record, 1e-9, 1e-15);
+        double largest = 0.0;
+        for (int i = 0; i < verification->n_value; i++)
+            largest = fmax(largest, verification->value[i].change[way]);
+        assert_near(verification->largest_change[way], largest, 0.0, 0.0);
+        assert_near(verification->value[verification->worst[way]].change[way], largest, 0.0, 0.0);
+    }
+    end(&made);
+}
+
+static void a_change_beyond_the_limit_does_not_pass(void **state) {
+    (void)state;
+    Case made = begin(limits);
+    CzVerifyOptions options = cz_verify_options_default();
+    options.limit = 1e-12;
+    verify(&made, &options);
+    assert_int_equal(made.verification->verdict, CZ_VERDICT_FAIL);
+    end(&made);
+}
+
+/* A limit between the record's closure and that of half the step: the verdict hangs on the step,
+ * however small the change. */
+static void a_verdict_that_flips_does_not_pass(void **state) {
+    (void)state;
+    Case made = begin(limits);
+    CzVerifyOptions options = cz_verify_options_default();
+    options.ways = 1u << CZ_WAY_HALF_STEP;
+    verify(&made, &options);
+    const CzVerifiedValue *closure = value_of(made.verification, "closure", "crash");
+    const double between = 0.5 * (closure->record + closure->value[CZ_WAY_HALF_STEP]);
+    assert_true(closure->record != closure->value[CZ_WAY_HALF_STEP]);
+    assert_int_equal(made.verification->verdict, CZ_VERDICT_PASS);
+    end(&made);
+
+    char closer[512];
+    snprintf(closer, sizeof closer,
+             "checks:\n"
+             "  closing_rules: false\n"
+             "  limits:\n"
+             "    - {name: closure, metric: interfaces.shortening_mm, max: %.17g}\n",
+             between);
+    made = begin(closer);
+    verify(&made, &options);
+    assert_true(value_of(made.verification, "closure", "crash")->flips[CZ_WAY_HALF_STEP]);
+    assert_int_equal(made.verification->n_flip[CZ_WAY_HALF_STEP], 1);
+    assert_true(made.verification->largest_change[CZ_WAY_HALF_STEP] < 0.01);
+    assert_int_equal(made.verification->verdict, CZ_VERDICT_FAIL);
+    end(&made);
+}
+
+static void a_yes_or_no_counts_by_its_verdict_alone(void **state) {
+    (void)state;
+    Case made = begin("checks:\n"
+                      "  closing_rules: false\n"
+                      "  limits:\n"
+                      "    - {name: bottom, metric: elements.bottomed_out, max: 0}\n");
+    verify(&made, NULL);
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
+        assert_true(isnan(value_of(made.verification, "bottom", "crash")->change[way]));
+    end(&made);
+}
+
+/* Only the ways that are asked for are gone, and only they count. */
+static void ways_are_chosen(void **state) {
+    (void)state;
+    Case made = begin(limits);
+    CzVerifyOptions options = cz_verify_options_default();
+    options.ways = 1u << CZ_WAY_ADAMS;
+    verify(&made, &options);
+    assert_int_equal(made.verification->verdict, CZ_VERDICT_PASS);
+    assert_false(made.verification->is_done[CZ_WAY_HALF_STEP]);
+    assert_true(isnan(made.verification->largest_change[CZ_WAY_ERK]));
+    assert_true(made.verification->is_done[CZ_WAY_ADAMS]);
+    options.ways = 0;
+    verify(&made, &options);
+    assert_int_equal(made.verification->verdict, CZ_VERDICT_NOT_CHECKED);
+    end(&made);
+}
+
+static void a_record_that_did_not_end_is_a_failure(void **state) {
+    (void)state;
+    Case made = begin("simulation: {longest_ms: 20}\n");
+    verify(&made, NULL);
+    assert_int_equal(made.verification->status, CZ_STATUS_RUN_FAILED);
+    assert_int_equal(made.verification->verdict, CZ_VERDICT_FAIL);
+    assert_non_null(strstr(made.verification->failure, "the record, scenario crash"));
+    end(&made);
+}
+
+static void a_flag_ends_it(void **state) {
+    (void)state;
+    Case made = begin(limits);
+    const volatile sig_atomic_t stop = 1;
+    CzVerifyOptions options = cz_verify_options_default();
+    options.stop = &stop;
+    CzError error = {0};
+    assert_int_equal(cz_verify(made.evaluator, NULL, NULL, &options, &made.verification, &error),
+                     CZ_STATUS_INTERRUPTED);
+    assert_null(made.verification);
+    end(&made);
+}
+
+static double constant(int n_scenario, const CzRunSummary *const *summary, void *data) {
+    (void)n_scenario, (void)data;
+    return 1e-3 * summary[0]->interface[0].peak_force;
+}
+
+static void an_objective_of_the_callers_own_is_verified_too(void **state) {
+    (void)state;
+    Case made = begin(limits);
+    cz_evaluator_set_objective(made.evaluator, "own", "kN", constant, NULL);
+    verify(&made, NULL);
+    assert_string_equal(made.verification->value[0].name, "own");
+    assert_string_equal(made.verification->value[0].scenario, "");
+    assert_true(made.verification->value[0].record > 100.0);
+    end(&made);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_that_do_not_hang_on_steps_and_solvers_pass),
+        cmocka_unit_test(changes_are_relative_to_what_is_allowed),
+        cmocka_unit_test(a_change_beyond_the_limit_does_not_pass),
+        cmocka_unit_test(a_verdict_that_flips_does_not_pass),
+        cmocka_unit_test(a_yes_or_no_counts_by_its_verdict_alone),
+        cmocka_unit_test(ways_are_chosen),
+        cmocka_unit_test(a_record_that_did_not_end_is_a_failure),
+        cmocka_unit_test(a_flag_ends_it),
+        cmocka_unit_test(an_objective_of_the_callers_own_is_verified_too),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,105 @@
+/* What is written of a verification: the document and the table. */
+#include "report/stand_in.h"
+#include "support/check.h"
+
+#include <jansson.h>
+
+#include "crushzone/report.h"
+
+/* Value at a path of keys and indices. */
+static const json_t *at(const json_t *json, const char *path) {
+    char key[64];
+    while (*path != '\0') {
+        const size_t n = strcspn(path, ".");
+        snprintf(key, sizeof key, "%.*s", (int)n, path);
+        json = json_is_array(json) ? json_array_get(json, (size_t)strtoul(key, NULL, 10))
+                                   : json_object_get(json, key);
+        path += n + (path[n] == '.');
+    }
+    assert_non_null(json);
+    return json;
+}
+
+#define assert_text_at(json, path, expected)                                                       \
+    assert_string_equal(json_string_value(at(json, path)), expected)
+#define assert_real_at(json, path, expected)                                                       \
+    assert_near(json_number_value(at(json, path)), expected, 1e-15, 0)
+#define assert_null_at(json, path) assert_true(json_is_null(at(json, path)))
+
+/* Two numbers: the second changes most, and a verdict flips. */
+static CzVerification filled_verification(CzVerifiedValue *value) {
+    value[0] = (CzVerifiedValue){.name = "stroke used",
+                                 .scenario = "36",
+                                 .where = "coupler A1",
+                                 .unit = "",
+                                 .record = 0.5,
+                                 .value = {0.5, 0.501, NAN},
+                                 .change = {0.0, 0.001, NAN}};
+    value[1] = (CzVerifiedValue){.name = "interface force",
+                                 .scenario = "36",
+                                 .unit = "kN",
+                                 .record = 1500,
+                                 .value = {1503, 1490, NAN},
+                                 .change = {0.002, 0.0067, NAN},
+                                 .flips = {true, false, false}};
+    return (CzVerification){.limit = 0.01,
+                            .n_value = 2,
+                            .value = value,
+                            .is_done = {true, true, false},
+                            .largest_change = {0.002, 0.0067, NAN},
+                            .worst = {1, 1, -1},
+                            .n_flip = {1, 0, 0},
+                            .verdict = CZ_VERDICT_FAIL};
+}
+
+static void a_verification_is_one_document(void **state) {
+    (void)state;
+    CzVerifiedValue value[2];
+    const CzVerification verification = filled_verification(value);
+    StandIn s;
+    stand_in_fill(&s);
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    CzError error = {0};
+    assert_int_equal(
+        cz_report_write_verification(stand_in_problem, &verification, NULL, stream, &error), CZ_OK);
+    fclose(stream);
+    json_t *json = json_loads(text, 0, NULL);
+    assert_non_null(json);
+    assert_text_at(json, "format", "crushzone.verification");
+    assert_text_at(json, "verdict", "fail");
+    assert_text_at(json, "ways.half_step.of", "interface force");
+    assert_real_at(json, "ways.reference.largest_change", 0.0067);
+    assert_null_at(json, "ways.adams.largest_change");
+    assert_true(json_is_false(at(json, "ways.adams.done")));
+    assert_real_at(json, "values.1.half_step.value", 1503);
+    assert_true(json_is_true(at(json, "values.1.half_step.flips")));
+    assert_null_at(json, "values.1.where");
+    json_decref(json);
+    free(text);
+}
+
+static void a_verification_is_a_table_with_the_largest_change_first(void **state) {
+    (void)state;
+    CzVerifiedValue value[2];
+    const CzVerification verification = filled_verification(value);
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    cz_report_write_verification_table(stand_in_problem, &verification, false, stream);
+    fclose(stream);
+    assert_true(strstr(text, "interface force") < strstr(text, "stroke used"));
+    assert_non_null(strstr(text, "FLIPS"));
+    assert_non_null(strstr(text, "not done"));
+    assert_non_null(strstr(text, "Verification: FAIL (2 numbers, 1 % allowed)"));
+    free(text);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_verification_is_one_document),
+        cmocka_unit_test(a_verification_is_a_table_with_the_largest_change_first),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

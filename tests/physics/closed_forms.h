@@ -8,14 +8,16 @@
 
 #include "physics/rows.h"
 
-/* A step [s] and what it is good for. */
+/* A step and what it is good for. */
 typedef struct {
-    const char *set; /* NULL: the default step */
+    double length; /* [s] */
     const char *name;
     double tolerance;
+    double stiffness; /* of interfaces that close from rest, where their elasticity counts [N/m] */
 } Step;
 
 extern const Step default_step, fine_step;
+extern const Step stiff_step, stiffer_step; /* for interfaces that close from rest */
 
 void rows_of_plateaus(Rows *rows, const Step *step);
 void rows_of_crush_zones_in_series(Rows *rows, const Step *step);

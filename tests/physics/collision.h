@@ -8,6 +8,7 @@
 
 #include "crushzone/simulate.h"
 #include "problem/problem.h"
+#include "simulate/batch.h"
 
 typedef struct {
     CzProblem *problem;
@@ -53,6 +54,32 @@ static inline Collision collide_so(const char *file, const char *const *set, int
 static inline Collision collide(const char *file, const char *const *set, int scenario) {
     const CzSimulateOptions options = cz_simulate_options_default();
     return collide_so(file, set, scenario, &options);
+}
+
+/* The same with vehicles that no file would have: `change` is given each vehicle and a value. What
+ * a file may say is bounded by what devices are like, and closed forms are simplest far beyond
+ * that. `step` is the caller's responsibility too [s]. */
+typedef void ChangeVehicle(CzVehicle *vehicle, double value);
+
+static inline Collision collide_changed(const char *file, const char *const *set,
+                                        ChangeVehicle *change, double value, double step) {
+    Collision collision = collision_model(file, set, 0);
+    int n_vehicle = 0;
+    const CzVehicle *own = cz_problem_vehicles(collision.problem, &n_vehicle);
+    CzVehicle *vehicles = malloc((size_t)n_vehicle * sizeof *vehicles);
+    assert_non_null(vehicles);
+    memcpy(vehicles, own, (size_t)n_vehicle * sizeof *vehicles);
+    for (int i = 0; i < n_vehicle; i++)
+        change(&vehicles[i], value);
+    const CzVehicle *design = vehicles;
+    CzSimulateOptions options = cz_simulate_options_default();
+    options.time_step = step;
+    CzError error = {0};
+    if (cz_simulate_batch(collision.model, 1, &design, &options, &collision.run, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    collision.summary = cz_run_summary(collision.run);
+    free(vehicles);
+    return collision;
 }
 
 static inline void collision_free(Collision *collision) {

@@ -3,11 +3,15 @@
 
 static Rows rows; /* large; each test begins it anew */
 
-static void with_both_steps(void (*rows_of)(Rows *, const Step *)) {
+static void with_steps(void (*rows_of)(Rows *, const Step *), const Step *a, const Step *b) {
     rows.n = 0;
-    rows_of(&rows, &default_step);
-    rows_of(&rows, &fine_step);
+    rows_of(&rows, a);
+    rows_of(&rows, b);
     assert_rows(&rows);
+}
+
+static void with_both_steps(void (*rows_of)(Rows *, const Step *)) {
+    with_steps(rows_of, &default_step, &fine_step);
 }
 
 static void a_plateau_between_two_masses_follows_the_closed_form(void **state) {
@@ -41,12 +45,12 @@ static void coupler_gap_anti_climber_and_end_work_in_sequence(void **state) {
 
 static void two_cars_into_a_wall_stop_one_after_the_other(void **state) {
     (void)state;
-    with_both_steps(rows_of_two_into_wall);
+    with_steps(rows_of_two_into_wall, &stiff_step, &stiffer_step);
 }
 
 static void eight_cars_onto_eight_crush_at_three_interfaces(void **state) {
     (void)state;
-    with_both_steps(rows_of_eight_and_eight);
+    with_steps(rows_of_eight_and_eight, &stiff_step, &stiffer_step);
 }
 
 int main(void) {

@@ -120,10 +120,7 @@ static CzStatus fit_buffer(CzFit *fit, const CzBranch *part, CzError *error) {
         fit->buffer = preloaded;
     fit->buffer.bottom_stiffness = cz_fit_key(CZ_RECORD_CzBuffer, "bottom_stiffness")->absent;
 
-    /* The force of a buffer does not fall while it is pressed. */
-    double force = fit->buffer.preload;
-    for (int i = 0; i < fit->buffer.n_stage; i++)
-        force = fit->buffer.stage[i].force = fmax(fit->buffer.stage[i].force, force);
+    cz_fit_let_rise(&fit->buffer);
     return CZ_OK;
 }
 

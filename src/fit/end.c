@@ -78,6 +78,10 @@ static double find_share(const CzTrace *trace, double peak) {
     return 0.5 * (low + high);
 }
 
+static double within(const CzKey *key, double stiffness) {
+    return cz_fit_round(fmin(fmax(stiffness, key->lo), key->hi), 1e6);
+}
+
 /* Steepest rise of the lines, of the first or of all others. */
 static double steepest(const CzStaged *staged, bool of_first) {
     double rise = 0.0, force = 0.0;
@@ -89,24 +93,32 @@ static double steepest(const CzStaged *staged, bool of_first) {
     return rise;
 }
 
-/* Makes the unloading stiff enough not to give back more than a stage took. */
-static void stiffen(CzFit *fit) {
+/* How many times stiffer the unloading must be not to give back more than a stage took. */
+static double missing_stiffness(const CzFit *fit) {
     const CzVehicleEndLaw law = {.unloading = fit->unloading,
                                  .share = fit->share,
                                  .second_unloading = fit->second_unloading};
-    const double allowed = cz_vehicle_end_steepest(&law);
-    const double later = steepest(&fit->member, false),
-                 all = fmax(later, steepest(&fit->member, true));
-    const double factor = fmax(later / allowed, all / fit->unloading);
+    const double later = steepest(&fit->member, false);
+    const double all = fmax(later, steepest(&fit->member, true));
+    return fmax(later / cz_vehicle_end_steepest(&law), all / fit->unloading);
+}
+
+/* Makes the unloading stiff enough: both stages together, or as one where that is too much. */
+static void stiffen(CzFit *fit, const CzKey *key) {
+    const double more = 1.0 + 1e-4; /* beyond what rounding takes */
+    const double factor = missing_stiffness(fit);
     if (factor <= 1.0)
         return;
     cz_fit_note_down(fit,
                      "unloading is %.3g times as stiff as found: a softer one would give back "
                      "more than the steepest stage took",
                      factor);
-    const double more = 1.0 + 1e-4; /* beyond what rounding takes */
-    fit->unloading = cz_fit_round(fit->unloading * factor * more, 1e6);
-    fit->second_unloading = cz_fit_round(fit->second_unloading * factor * more, 1e6);
+    fit->unloading = within(key, fit->unloading * factor * more);
+    fit->second_unloading = within(key, fit->second_unloading * factor * more);
+    if (missing_stiffness(fit) <= 1.0)
+        return;
+    const double all = fmax(steepest(&fit->member, false), steepest(&fit->member, true));
+    fit->unloading = fit->second_unloading = cz_fit_round(all * more, 1e6);
 }
 
 /* One stiffness for the whole unloading, where two stages make no sense. */
@@ -131,10 +143,6 @@ static bool one_line_will_do(const CzTrace *trace, double peak, double stiffness
     return sqrt(squares / weights) <= ONE_LINE * length;
 }
 
-static double within(const CzKey *key, double stiffness) {
-    return cz_fit_round(fmin(fmax(stiffness, key->lo), key->hi), 1e6);
-}
-
 static void fit_unloading(CzFit *fit, double peak) {
     const CzKey *key = cz_fit_key(CZ_RECORD_CzEnd, "unloading_stiffness");
     double first = ASSUMED_UNLOADING, second = ASSUMED_UNLOADING;
@@ -155,7 +163,7 @@ static void fit_unloading(CzFit *fit, double peak) {
         cz_fit_note_down(fit, "the curve does not unload; unloading_stiffness is a guess (ours)");
     fit->unloading = within(key, first);
     fit->second_unloading = within(key, second);
-    stiffen(fit);
+    stiffen(fit, key);
 }
 
 CzStatus cz_fit_end(CzFit *fit, int n_stage, CzError *error) {

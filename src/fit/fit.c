@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/number.h"
 
 #define FAR_OFF 0.5    /* that equal energy may move a force by: more is no fit (ours) */
 #define ROUNDING 1e-13 /* what a sum may be off by, as a share of it */
@@ -127,20 +128,49 @@ void cz_fit_round_staged(CzStaged *staged) {
     round_forces(staged);
 }
 
-/* Newton's method with a slope by differences: the energy is almost linear in one force. */
-static void settle_force(CzFit *fit, double *force) {
+/* A stage's force, or all forces of a curve that must not fall, times a factor. */
+static void scale_forces(CzStaged *staged, int stage, double factor) {
+    for (int i = 0; i < staged->n_stage; i++)
+        staged->stage[i].force *= stage < 0 || i == stage ? factor : 1.0;
+    staged->preload *= stage < 0 ? factor : 1.0;
+}
+
+/* Newton's method with a slope by differences: the energy is almost linear in a force. Returns the
+ * factor that the forces got; stage -1 stands for all. */
+static double settle_energy(CzFit *fit, CzStaged *staged, int stage) {
+    const CzStaged found = *staged;
+    double factor = 1.0;
     for (int i = 0; i < 20; i++) {
-        const double wanted = fit->summary.energy, start = *force;
-        const double missing = wanted - cz_fit_law_energy(fit);
-        if (fabs(missing) <= ROUNDING * wanted)
-            return;
-        *force = start * (1.0 + 1e-6);
-        const double slope = (cz_fit_law_energy(fit) - (wanted - missing)) / (*force - start);
-        *force = start + missing / slope;
+        const double wanted = fit->summary.energy, by = 1e-6;
+        const double now = cz_fit_law_energy(fit);
+        if (fabs(wanted - now) <= ROUNDING * wanted)
+            break;
+        *staged = found;
+        scale_forces(staged, stage, factor + by);
+        const double slope = (cz_fit_law_energy(fit) - now) / by;
+        factor += (wanted - now) / slope;
+        *staged = found;
+        scale_forces(staged, stage, factor);
     }
+    return factor;
+}
+
+static int longest_of(const CzStaged *staged) {
+    int longest = 0;
+    for (int i = 1; i < staged->n_stage; i++)
+        if (staged->stage[i].stroke > staged->stage[longest].stroke)
+            longest = i;
+    return longest;
+}
+
+void cz_fit_let_rise(CzStaged *staged) {
+    double force = staged->preload;
+    for (int i = 0; i < staged->n_stage; i++)
+        force = staged->stage[i].force = fmax(staged->stage[i].force, force);
 }
 
 CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzError *error) {
+    const bool must_rise = staged == &fit->buffer;
     round_strokes(staged);
     for (int i = 0; i < 3; i++) { /* the elastic part depends on the last force a little */
         CzStaged found = *staged;
@@ -148,15 +178,15 @@ CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzE
         if (cz_staged_solve(&found, branch, fit->summary.energy - others) < INFINITY)
             *staged = found;
     }
+    if (must_rise)
+        cz_fit_let_rise(staged);
     round_forces(staged);
-    int longest = 0;
-    for (int i = 1; i < staged->n_stage; i++)
-        if (staged->stage[i].stroke > staged->stage[longest].stroke)
-            longest = i;
-    const double found = staged->stage[longest].force;
-    settle_force(fit, &staged->stage[longest].force);
-    const double settled = staged->stage[longest].force;
-    if (fabs(settled - found) <= FAR_OFF * found)
+    const double factor = settle_energy(fit, staged, must_rise ? -1 : longest_of(staged));
+    if (staged->trigger < staged->stage[0].force) { /* a peak that is none any more */
+        staged->trigger = NAN;
+        return cz_fit_settle(fit, staged, branch, error);
+    }
+    if (fabs(factor - 1.0) <= FAR_OFF)
         return CZ_OK;
     return cz_fail(error, CZ_STATUS_INPUT,
                    "no law as %s is like this curve: stages of its energy are far from its force",
@@ -243,6 +273,40 @@ static void put_values(CzFit *fit) {
     }
 }
 
+/* The record of the problem file that a value's path leads into. */
+static CzRecordId record_of(const CzFit *fit, const char *path) {
+    if (strstr(path, "stages[") != NULL)
+        return CZ_RECORD_CzStage;
+    if (fit->summary.kind == CZ_FIT_END)
+        return CZ_RECORD_CzEnd;
+    return strncmp(path, "buffer.", 7) == 0       ? CZ_RECORD_CzBuffer
+           : strncmp(path, "shear_off.", 10) == 0 ? CZ_RECORD_CzShearOff
+           : strncmp(path, "tube.", 5) == 0       ? CZ_RECORD_CzTube
+                                                  : CZ_RECORD_CzAntiClimber;
+}
+
+/* Every value is one that the problem file takes. */
+static CzStatus check_values(const CzFit *fit, CzError *error) {
+    char number[CZ_NUMBER_TEXT];
+    for (int i = 0; i < fit->n_value; i++) {
+        const char *path = fit->value[i].path, *point = strrchr(path, '.');
+        const CzUnit *unit = NULL;
+        const CzKey *key = cz_record_match(&cz_records[record_of(fit, path)],
+                                           point != NULL ? point + 1 : path, &unit);
+        const double value = key != NULL ? fit->value[i].value * unit->si : NAN;
+        const bool is_force = key != NULL && strcmp(key->stem, "force") == 0;
+        if (key != NULL && value >= key->lo * (1 - 1e-12) && value <= key->hi * (1 + 1e-12) &&
+            !(is_force && value <= 0.0)) /* a stage without force absorbs nothing */
+            continue;
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "no law as %s is like this curve: %s would be %s, which no problem file "
+                       "takes; are the units right?",
+                       cz_fit_kind_word(fit->summary.kind), path,
+                       cz_number_print_short(number, fit->value[i].value));
+    }
+    return CZ_OK;
+}
+
 /* ---- the way through ---- */
 
 static CzStatus check_stages(const CzFitOptions *options, CzError *error) {
@@ -278,7 +342,7 @@ static CzStatus fit_law(CzFit *fit, int n_stage, CzError *error) {
     summary->law_energy = cz_fit_law_energy(fit);
     cz_fit_compare(fit);
     put_values(fit);
-    return CZ_OK;
+    return check_values(fit, error);
 }
 
 /* Name of the part: the one asked for, or the file's without folder and ending; in letters, digits,

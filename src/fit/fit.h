@@ -64,9 +64,12 @@ double cz_fit_work(const CzFit *fit, int point);
 /* Rounds strokes, forces, trigger and its length. */
 void cz_fit_round_staged(CzStaged *staged);
 
+/* Raises forces that are below the one before: a buffer's force does not fall. */
+void cz_fit_let_rise(CzStaged *staged);
+
 /* Rounds a member of the law over its part of the branch, strokes first, and settles the force of
- * its longest stage so that the law takes exactly summary.energy. Fails when that force would be no
- * longer like the curve. */
+ * its longest stage, or all forces of a buffer, so that the law takes exactly summary.energy. Fails
+ * when that force would be no longer like the curve. */
 CZ_MUST_CHECK CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch,
                                      CzError *error);
 

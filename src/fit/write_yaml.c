@@ -23,7 +23,7 @@ static void write_head(const CzFitSummary *summary, FILE *stream) {
     const double error = summary->law_energy - summary->energy;
     fprintf(stream, "#   energy      %s kJ, law %s kJ, error %s J\n",
             text_of(a, 1e-3 * summary->energy), text_of(b, 1e-3 * summary->law_energy),
-            fabs(error) <= 1e-12 * summary->energy ? "0" : text_of(c, error));
+            fabs(error) <= 1e-11 * summary->energy ? "0" : text_of(c, error));
     if (!isnan(summary->returned) && !isnan(summary->law_returned))
         fprintf(stream, "#   given back  %s kJ, law %s kJ\n", text_of(a, 1e-3 * summary->returned),
                 text_of(b, 1e-3 * summary->law_returned));

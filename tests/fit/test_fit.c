@@ -285,6 +285,41 @@ static void expect_refusal(const double points[][2], int n, int line, const char
         expect_refusal(points, (int)(sizeof points / sizeof *points), line, sentence);             \
     } while (0)
 
+/* A rise of 1 mm to 90 MN asks for a transition stiffness that no problem file takes. */
+static void a_law_beyond_the_ranges_of_a_problem_file_is_refused(void **state) {
+    (void)state;
+    CzFit *fit = NULL;
+    CzError error = {0};
+    CzFitOptions options = cz_fit_options_default();
+    curve.n = 0;
+    add_point(&curve, 0.0, 0.0);
+    add_point(&curve, 0.001, 9e7);
+    options.kind = CZ_FIT_COUPLER;
+    options.n_stage = 0;
+    assert_int_equal(cz_fit_points(curve.n, curve.x, curve.f, &options, &fit, &error),
+                     CZ_STATUS_INPUT);
+    assert_null(fit);
+    assert_non_null(strstr(error.message, "buffer.transition_stiffness_MN_m would be"));
+}
+
+static void a_buffer_never_falls(void **state) {
+    (void)state;
+    curve.n = 0;
+    for (int i = 0; i <= 40; i++)
+        add_point(&curve, 0.08 * i / 40, 3e5 + 2e5 * ((i * 7) % 5 < 2) - 3e3 * i);
+    CzFit *fit = fit_of(&curve, CZ_FIT_COUPLER, 0);
+    energy_is_equal(fit, work_of_loading(&curve));
+    double before = value_of(fit, "buffer.preload_kN");
+    for (int i = 0; i < 3; i++) {
+        char path[40];
+        snprintf(path, sizeof path, "buffer.stages[%d].force_kN", i);
+        const double now = value_of(fit, path);
+        assert_false(now < before);
+        before = isnan(now) ? before : now;
+    }
+    cz_fit_free(fit);
+}
+
 static void a_curve_that_is_none_is_refused_with_its_point(void **state) {
     (void)state;
     REFUSED(2, "not finite", {{0, 0}, {0.1, NAN}});
@@ -315,7 +350,7 @@ static void a_curve_that_is_none_is_refused_with_its_point(void **state) {
 /* Curves of any size and few points get through, with equal energy. */
 static void small_and_large_curves_are_fitted_alike(void **state) {
     (void)state;
-    for (int power = -3; power <= 0; power++) {
+    for (int power = -2; power <= 0; power++) {
         const double scale = pow(10.0, power);
         curve.n = 0;
         add_point(&curve, 0.0, 0.0);
@@ -345,6 +380,8 @@ int main(void) {
         cmocka_unit_test(a_noisy_coupler_has_the_same_members),
         cmocka_unit_test(a_coupler_that_comes_back_is_a_buffer_alone),
         cmocka_unit_test(duplicate_strokes_are_jumps),
+        cmocka_unit_test(a_law_beyond_the_ranges_of_a_problem_file_is_refused),
+        cmocka_unit_test(a_buffer_never_falls),
         cmocka_unit_test(a_curve_that_is_none_is_refused_with_its_point),
         cmocka_unit_test(small_and_large_curves_are_fitted_alike),
     };

@@ -1,8 +1,6 @@
 /* Elastic energy that the elements could still give back. */
 #include "dynamics/stored.h"
 
-#include <math.h>
-
 #include "laws/vehicle_end.h"
 
 static double parameter(const CzDynamics *dynamics, int row, size_t lane) {
@@ -21,14 +19,14 @@ double cz_curve_value(const CzCurveLanes *curve, size_t stride, size_t lane, dou
     double value = curve->start[lane];
     for (int kink = 0; kink < curve->n_kink; ++kink)
         value += cz_row(curve->slope_change, stride, kink)[lane] *
-                 fmax(x - cz_row(curve->at, stride, kink)[lane], 0.0);
+                 cz_larger(x - cz_row(curve->at, stride, kink)[lane], 0.0);
     return value;
 }
 
 double cz_curve_integral(const CzCurveLanes *curve, size_t stride, size_t lane, double x) {
     double integral = curve->start[lane] * x;
     for (int kink = 0; kink < curve->n_kink; ++kink) {
-        const double beyond = fmax(x - cz_row(curve->at, stride, kink)[lane], 0.0);
+        const double beyond = cz_larger(x - cz_row(curve->at, stride, kink)[lane], 0.0);
         integral += 0.5 * cz_row(curve->slope_change, stride, kink)[lane] * beyond * beyond;
     }
     return integral;
@@ -38,7 +36,7 @@ double cz_curve_integral(const CzCurveLanes *curve, size_t stride, size_t lane, 
 static double buffer_stored(const CzDynamics *dynamics, size_t lane, int curve, double stroke,
                             double share, double draw, double slack) {
     if (stroke < 0.0) {
-        const double drawn = fmax(-stroke - slack, 0.0);
+        const double drawn = cz_larger(-stroke - slack, 0.0);
         return 0.5 * draw * drawn * drawn;
     }
     return share *
@@ -88,27 +86,27 @@ double cz_side_stored(const CzDynamics *dynamics, size_t lane, int side) {
 static double crush_stored(const CzCurveLanes *curve, size_t stride, size_t lane,
                            const CzVehicleEndLaw *law, double x, double largest) {
     const double whole = curve->usable[lane];
-    const double held = fmin(largest, whole);
-    const double inside = fmin(x, whole);
+    const double held = cz_smaller(largest, whole);
+    const double inside = cz_smaller(x, whole);
     const double backbone = cz_curve_value(curve, stride, lane, inside);
     const double peak = cz_curve_value(curve, stride, lane, held);
     const CzVehicleEndResponse response = cz_vehicle_end(law, backbone, peak, inside, held);
     if (response.force < 0.0)
-        return 0.5 * response.force * response.force / fmax(law->tension, 1.0);
+        return 0.5 * response.force * response.force / cz_larger(law->tension, 1.0);
     const double path = cz_vehicle_end_stored(law, peak, response.force);
     const double stop = x > whole ? cz_curve_integral(curve, stride, lane, x) -
                                         cz_curve_integral(curve, stride, lane, whole)
                                   : 0.0;
-    return fmin(path, cz_curve_integral(curve, stride, lane, fmax(inside, 0.0))) + stop;
+    return cz_smaller(path, cz_curve_integral(curve, stride, lane, cz_larger(inside, 0.0))) + stop;
 }
 
 double cz_end_stored(const CzDynamics *dynamics, size_t lane, int end) {
     if (parameter(dynamics, CZ_P_SLAVED_ENDS, lane) > 0.5)
         return 0.0;
     const CzVehicleEndLaw law = {
-        fmax(parameter(dynamics, CZ_P_END_UNLOADING_REAR + end, lane), 1.0),
+        cz_larger(parameter(dynamics, CZ_P_END_UNLOADING_REAR + end, lane), 1.0),
         parameter(dynamics, CZ_P_END_SHARE_REAR + end, lane),
-        fmax(parameter(dynamics, CZ_P_END_SECOND_UNLOADING_REAR + end, lane), 1.0),
+        cz_larger(parameter(dynamics, CZ_P_END_SECOND_UNLOADING_REAR + end, lane), 1.0),
         parameter(dynamics, CZ_P_END_TENSION_REAR + end, lane)};
     return crush_stored(&dynamics->lanes->curve[CZ_CURVE_END_REAR + end], dynamics->lanes->stride,
                         lane, &law, scratch(dynamics, CZ_S_END_STROKE_REAR + end, lane),
@@ -119,9 +117,9 @@ double cz_limp_stored(const CzDynamics *dynamics, size_t lane, int side) {
     if (parameter(dynamics, CZ_P_LIMP_END_A + side, lane) < 0.5)
         return 0.0;
     const CzVehicleEndLaw law = {
-        fmax(parameter(dynamics, CZ_P_LIMP_UNLOADING_A + side, lane), 1.0),
+        cz_larger(parameter(dynamics, CZ_P_LIMP_UNLOADING_A + side, lane), 1.0),
         parameter(dynamics, CZ_P_LIMP_SHARE_A + side, lane),
-        fmax(parameter(dynamics, CZ_P_LIMP_SECOND_UNLOADING_A + side, lane), 1.0), 0.0};
+        cz_larger(parameter(dynamics, CZ_P_LIMP_SECOND_UNLOADING_A + side, lane), 1.0), 0.0};
     return crush_stored(&dynamics->lanes->curve[CZ_CURVE_LIMP_END_A + side],
                         dynamics->lanes->stride, lane, &law,
                         memory(dynamics, CZ_M_LIMP_A + side, lane),

@@ -90,16 +90,14 @@ static void put_interface(Writer *writer, int interface) {
     if (cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) > 0.5)
         put(writer, 1e-3 * cz_scratch(batch, CZ_S_SIDE_FORCE, lane), "F_side-buffers_%s_kN", name);
     put_face(writer, interface);
-    CzInterfaceResult so_far = {0};
-    cz_interface_fill(batch, interface, 0, &so_far);
-    put(writer, 1e-3 * so_far.energy, "E_%s_kJ", name);
+    put(writer, 1e-3 * cz_interface_energy(batch, interface, 0), "E_%s_kJ", name);
 }
 
 /* Energy so far: where it is now, and what does not add up. */
 static void put_energy(Writer *writer) {
     const CzBatch *batch = writer->batch;
-    const double kinetic = cz_kinetic_energy(batch, 0), work = cz_total_work(batch, 0);
     const CzEnergy energy = cz_energy_fill(batch, 0);
+    const double kinetic = energy.final_kinetic, work = cz_total_work(batch, 0);
     put(writer, 1e-3 * kinetic, "E_kinetic_kJ");
     put(writer, 1e-3 * work, "E_taken_up_kJ");
     put(writer, 1e-3 * energy.wheel_rail, "E_wheel_rail_kJ");

@@ -18,12 +18,9 @@ static double used(double stroke, double whole) {
     return isfinite(whole) && whole > 0.0 ? stroke / whole : 0.0;
 }
 
-static void name_element(CzElementResult *result, CzElementKind kind, const CzBatch *batch,
-                         int car) {
-    result->kind = kind;
-    result->vehicle = car;
-    snprintf(result->name, sizeof result->name, "%s %s", cz_element_text(kind),
-             batch->model->car[car].name);
+static void name_element(CzElementResult *result, const CzBatch *batch) {
+    snprintf(result->name, sizeof result->name, "%s %s", cz_element_text(result->kind),
+             batch->model->car[result->vehicle].name);
 }
 
 /* Coupler of side A (0) or B (1) of the interface in a lane. */
@@ -32,7 +29,8 @@ static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
     if (cz_parameter(batch, CZ_P_COUPLER, lane) < 0.5 ||
         cz_parameter(batch, CZ_P_BUFFER_TRANSITION_A + side, lane) > MISSING) /* a bare wall */
         return false;
-    name_element(result, CZ_ELEMENT_COUPLER, batch, car);
+    result->kind = CZ_ELEMENT_COUPLER;
+    result->vehicle = car;
     const double tube = cz_memory(batch, CZ_M_TUBE_A + side, lane);
     const double second = cz_memory(batch, CZ_M_SECOND_TUBE_A + side, lane);
     const double travel = cz_memory(batch, CZ_M_SHEAR_A + side, lane);
@@ -65,7 +63,8 @@ static bool fill_anti_climber(const CzBatch *batch, size_t lane, int side, int c
                               CzElementResult *result) {
     if (!has_anti_climber(batch, lane, side))
         return false;
-    name_element(result, CZ_ELEMENT_ANTI_CLIMBER, batch, car);
+    result->kind = CZ_ELEMENT_ANTI_CLIMBER;
+    result->vehicle = car;
     const double stroke = cz_memory(batch, CZ_M_FACE_A + side, lane);
     const double whole = usable(batch, CZ_CURVE_FACE_A + side, lane);
     const double shared =
@@ -87,7 +86,8 @@ static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int c
     if (cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) < 0.5 ||
         cz_parameter(batch, CZ_P_SIDE_TRANSITION_A + side, lane) > MISSING)
         return false;
-    name_element(result, CZ_ELEMENT_SIDE_BUFFERS, batch, car);
+    result->kind = CZ_ELEMENT_SIDE_BUFFERS;
+    result->vehicle = car;
     const double stroke = cz_memory(batch, CZ_M_SIDE_TUBE_A + side, lane);
     const double whole = usable(batch, CZ_CURVE_SIDE_TUBE_A + side, lane);
     const double reversible = usable(batch, CZ_CURVE_SIDE_BUFFER_A + side, lane);
@@ -112,7 +112,8 @@ static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
     const double force = cz_scratch(batch, CZ_S_SUPERSTRUCTURE_FORCE, lane);
     if (!(cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STRENGTH, lane) > 0.0))
         return false;
-    name_element(result, CZ_ELEMENT_SUPERSTRUCTURE, batch, car);
+    result->kind = CZ_ELEMENT_SUPERSTRUCTURE;
+    result->vehicle = car;
     result->stored =
         0.25 * force * force / cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STIFFNESS, lane);
     result->energy = 0.5 * cz_work(batch, CZ_L_SUPERSTRUCTURE, lane) - result->stored;
@@ -161,7 +162,8 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
     const CzEnd *end = end_of(batch, car, design, side);
     if (!end->given || (end->n_stages == 0 && !end->curve.given))
         return false;
-    name_element(result, CZ_ELEMENT_END, batch, car);
+    result->kind = CZ_ELEMENT_END;
+    result->vehicle = car;
     const bool slaved = batch->model->car[car].model != CZ_MODEL_FULL;
     const size_t own = cz_lane(batch, car, design);
     const int which = side == 0 ? 1 : 0; /* front or rear end of the car */
@@ -184,8 +186,43 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
     result->peak_force = slaved ? cz_extreme(batch, CZ_E_FACE_FORCE, lane)
                                 : cz_extreme(batch, CZ_E_END_FORCE_REAR + which, own);
     result->bottomed_out = largest > whole;
-    split_zones(batch, end, curve, curve_lane, largest, result->tube_energy, result->zone_energy);
     return true;
+}
+
+/* Fills the zones of an end that fill_end has filled. */
+static void fill_zones(const CzBatch *batch, size_t lane, int side, int design,
+                       CzElementResult *result) {
+    const int car = result->vehicle;
+    const bool slaved = batch->model->car[car].model != CZ_MODEL_FULL;
+    const int which = side == 0 ? 1 : 0; /* front or rear end of the car */
+    split_zones(batch, end_of(batch, car, design, side),
+                slaved ? CZ_CURVE_LIMP_END_A + side : CZ_CURVE_END_REAR + which,
+                slaved ? lane : cz_lane(batch, car, design), result->stroke, result->tube_energy,
+                result->zone_energy);
+}
+
+/* Elements of one side of an interface; returns how many. */
+static int fill_side(const CzBatch *batch, size_t lane, int side, int car, int design,
+                     CzElementResult *element) {
+    CzElementResult *next = element;
+    next += fill_coupler(batch, lane, side, car, next);
+    next += fill_anti_climber(batch, lane, side, car, next);
+    next += fill_end(batch, lane, side, car, design, next);
+    next += fill_side_buffers(batch, lane, side, car, next);
+    next += fill_superstructure(batch, lane, car, next);
+    return (int)(next - element);
+}
+
+double cz_interface_energy(const CzBatch *batch, int interface, int design) {
+    CzElementResult element[CZ_MAX_ELEMENTS];
+    double energy = 0.0;
+    for (int side = 0; side < 2; ++side) {
+        const int n = fill_side(batch, cz_lane(batch, interface, design), side, interface + side,
+                                design, element);
+        for (int k = 0; k < n; ++k)
+            energy += element[k].energy;
+    }
+    return energy;
 }
 
 void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result) {
@@ -206,14 +243,14 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
     result->vertical_demand = cz_extreme(batch, CZ_E_FACE_DEMAND, lane);
     result->n_element = 0;
     for (int side = 0; side < 2; ++side) {
-        const int car = interface + side;
-        CzElementResult *next = &result->element[result->n_element];
-        next += fill_coupler(batch, lane, side, car, next);
-        next += fill_anti_climber(batch, lane, side, car, next);
-        next += fill_end(batch, lane, side, car, design, next);
-        next += fill_side_buffers(batch, lane, side, car, next);
-        next += fill_superstructure(batch, lane, car, next);
-        result->n_element = (int)(next - result->element);
+        CzElementResult *first = &result->element[result->n_element];
+        const int n = fill_side(batch, lane, side, interface + side, design, first);
+        for (int k = 0; k < n; ++k) {
+            name_element(&first[k], batch);
+            if (first[k].kind == CZ_ELEMENT_END)
+                fill_zones(batch, lane, side, design, &first[k]);
+        }
+        result->n_element += n;
     }
     for (int k = 0; k < result->n_element; ++k) {
         result->energy += result->element[k].energy;

@@ -120,6 +120,8 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design);
 
 /* elements.c */
 void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result);
+/* What the elements of an interface have dissipated so far [J], as cz_interface_fill tells it. */
+double cz_interface_energy(const CzBatch *batch, int interface, int design);
 CZ_MUST_CHECK CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design,
                                        CzVehicleResult *result);
 

@@ -52,6 +52,8 @@ typedef struct CzExplanation {
     double climb_time;    /* [s]; NaN when not */
     CzVerdict verdict; /* FAIL when a climbing margin is broken, NOT CHECKED when one is unknown */
     CzCheckResult worst; /* the check with the smallest climbing margin */
+    int vehicle;         /* whose body the budget of the run is about: that of the worst check, or
+                            behind its interface */
     int n_sign;
     CzSign sign[CZ_MOST_SIGNS]; /* in order of time */
     int n_lever;

@@ -110,6 +110,30 @@ typedef struct CzVehicleResult {
     bool checks_override;       /* bump and lift stops are declared, so override can be judged */
 } CzVehicleResult;
 
+/* Where the turning and lifting of a body came from. */
+typedef enum CzBudgetSource {
+#define CZ_BUDGET(constant, text, counts, doc) constant,
+#include "crushzone/budget.def"
+#undef CZ_BUDGET
+    CZ_N_BUDGET
+} CzBudgetSource;
+CZ_API const char *cz_budget_text(CzBudgetSource source);
+
+/* Whether a source acts on the body itself: those that do add up to its momenta. */
+CZ_API bool cz_budget_counts(CzBudgetSource source);
+
+/* Impulses on the body of one vehicle from the start to the time of its largest wheel lift, of its
+ * largest pitch when no wheel lifts by 0.1 mm, or to the override that ends what the model can say.
+ */
+typedef struct CzVehicleBudget {
+    bool of_lift;               /* to the largest wheel lift */
+    double time;                /* where it ends [s] */
+    double moment[CZ_N_BUDGET]; /* about the body's centre of gravity, nose-up [N m s] */
+    double lift[CZ_N_BUDGET];   /* upwards, beyond the weight [N s] */
+    double spin;                /* angular momentum of the body then, nose-up [N m s] */
+    double rise;                /* its vertical momentum [N s] */
+} CzVehicleBudget;
+
 /* Energy at the end of the run [J]. */
 typedef struct CzEnergy {
     double initial;
@@ -147,6 +171,8 @@ typedef struct CzRunSummary {
     const CzInterfaceResult *interface; /* (n_interface) */
     int n_vehicle;
     const CzVehicleResult *vehicle; /* (n_vehicle) */
+    const CzVehicleBudget *budget;  /* of a recorded run of the usual integrator, else NULL; all 0
+                                       for vehicles that are not full (n_vehicle) */
     int n_event;
     const CzEvent *event;   /* (n_event), in time order */
     double setup_s, wall_s; /* for run_info only */

@@ -11,6 +11,7 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
+#include "dynamics/budget.h"
 #include "dynamics/track.h"
 #include "dynamics/track_elements.h"
 #include "model/co_running.h"
@@ -98,6 +99,7 @@ typedef struct CzBlock {
     int faces_rest;         /* so did that of the faces */
     int leaves_nothing_out; /* evaluates couplers and faces even where that changes nothing: tests
                                compare with it */
+    CzBudgetRows *budget;   /* notes of where forces come from; NULL when nobody asks */
     CzRow *memory;          /* committed (CZ_N_MEMORY) */
     CzRow *next_memory;     /* of the last evaluation (CZ_N_MEMORY) */
     CzRow *power;           /* of the last evaluation [W] (CZ_N_LEDGER) */

@@ -10,6 +10,7 @@
 
 #include <string.h>
 
+#include "dynamics/kernel_budget.h"
 #include "dynamics/kernel_car.h"
 #include "dynamics/kernel_coupler.h"
 #include "dynamics/kernel_face.h"
@@ -119,9 +120,11 @@ static void divide_by_masses(CzBlock *d) {
 
 /* Interfaces of a block. */
 static void evaluate_interfaces(const CzLanes *lanes, CzBlock *d, double step) {
-    if (lanes->has_couplers)
-        couplers(d, step);
-    faces(d, step);
+    const int notes = d->budget != NULL;
+    if (lanes->has_couplers && couplers(d, step) && notes)
+        note_couplers(d);
+    if (faces(d, step) && notes)
+        note_faces(d);
     if (lanes->has_side_buffers)
         side_buffers(d, step);
     if (lanes->has_superstructures)
@@ -131,10 +134,19 @@ static void evaluate_interfaces(const CzLanes *lanes, CzBlock *d, double step) {
 /* Cars of a block. */
 static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
     CzBlock *d = &dynamics->block[index];
-    for (int end = 0; end < 2; ++end)
+    for (int end = 0; end < 2; ++end) {
         vehicle_end(d, end);
-    for (int bogie = 0; bogie < 2; ++bogie)
+        if (d->budget != NULL)
+            note_end(d, end);
+    }
+    for (int bogie = 0; bogie < 2; ++bogie) {
+        CzRow before[2];
+        if (d->budget != NULL)
+            memcpy(before[0], G(BODY_Z), 2 * sizeof(CzRow));
         bogie_to_body(d, bogie);
+        if (d->budget != NULL)
+            note_bogie(d, bogie, before[0], before[1]);
+    }
     for (int axle = 0; axle < 4; ++axle)
         axle_to_bogie(d, axle);
     const bool elastic = is_elastic(dynamics);
@@ -151,6 +163,8 @@ static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
 /* Everything of a block before the interfaces. */
 static void begin_block(CzBlock *d) {
     clear(d);
+    if (d->budget != NULL)
+        memset(d->budget, 0, sizeof *d->budget);
     rotations(d);
 }
 

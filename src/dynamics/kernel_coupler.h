@@ -212,12 +212,12 @@ static int couplers_are_apart(const CzBlock *d) {
     return n_near == 0.0;
 }
 
-/* All couplers. Where they changed nothing and are still apart they are left out: no force, and
- * both copies of their memory hold what they would leave. */
-static void couplers(CzBlock *d, double step) {
+/* All couplers; 0 when none was at work. Where they changed nothing and are still apart they are
+ * left out: no force, and both copies of their memory hold what they would leave. */
+static int couplers(CzBlock *d, double step) {
     if (couplers_are_apart(d)) {
         memcpy(S(COUPLER_FORCE), M(COUPLER_FORCE), sizeof(CzRow));
-        return;
+        return 0;
     }
     const Carrier a = coupler_carrier(d, 0);
     const Carrier b = coupler_carrier(d, 1);
@@ -228,6 +228,7 @@ static void couplers(CzBlock *d, double step) {
     hinge_moment(d, 1, &b);
     d->couplers_rest = slack && couplers_remember(d) && !d->leaves_nothing_out;
     coupler_forces(d);
+    return 1;
 }
 
 #endif

@@ -204,14 +204,14 @@ static void leave_faces(CzBlock *d) {
     memcpy(NEXT(FACE_SLIP), S(SLIP), sizeof(CzRow));
 }
 
-/* All anti-climbers and bare ends. */
-static void faces(CzBlock *d, double step) {
+/* All anti-climbers and bare ends; 0 when all are apart. */
+static int faces(CzBlock *d, double step) {
     const size_t n = CZ_LANE_BLOCK;
     const Carrier a = end_carrier(d, 0), b = end_carrier(d, 1);
     contact_geometry(d, &a, &b, &face_contact);
     if (faces_are_apart(d)) {
         leave_faces(d);
-        return;
+        return 0;
     }
     for (int side = 0; side < 2; ++side)
         speed_factor(d, side);
@@ -238,6 +238,7 @@ static void faces(CzBlock *d, double step) {
     /* Where the ends have no mass, the force goes straight into the body's section. */
     add(n, S(SECTION_FRONT), P(SLAVED_ENDS), S(CURVE_VALUE));
     add(n, S(PUSHED_SECTION), C(SLAVED_ENDS_AHEAD), S(CURVE_VALUE));
+    return 1;
 }
 
 static double linearise_side_buffer(CzBlock *d, int side, double step, int again) {

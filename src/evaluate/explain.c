@@ -298,6 +298,17 @@ static CzStatus search_levers(Search *search, CzExplanation *explanation, CzErro
 
 /* ---- the run to explain ---------------------------------------------------------------------- */
 
+/* The vehicle that a place names: itself, or the one behind an interface. */
+static int vehicle_at(const CzRunSummary *run, const char *where) {
+    for (int i = 0; i < run->n_vehicle; i++)
+        if (strcmp(run->vehicle[i].name, where) == 0)
+            return i;
+    for (int i = 0; i < run->n_interface; i++)
+        if (strcmp(run->interface[i].name, where) == 0)
+            return i;
+    return 0;
+}
+
 /* Takes the run with the smallest climbing margin out of an evaluation. */
 static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluation, Search *search,
                            CzExplanation *explanation, CzError *error) {
@@ -328,6 +339,7 @@ static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluatio
     evaluation->run[chosen_run] = NULL;
     const CzRunSummary *summary = cz_run_summary(explanation->run);
     explanation->scenario = summary->scenario;
+    explanation->vehicle = vehicle_at(summary, explanation->worst.where);
     explanation->climbed = summary->beyond_validity;
     explanation->climb_time = summary->beyond_validity_time;
     explanation->verdict = summary->beyond_validity ? CZ_VERDICT_FAIL : explanation->worst.verdict;

@@ -24,11 +24,16 @@ typedef struct {
     double damping_beyond; /* c_b [N s/m] */
 } CzSuspensionLaw;
 
-static inline double cz_suspension_spring(const CzSuspensionLaw *law, double compression) {
-    const double spring = cz_larger(law->stiffness * compression, -law->preload);
+/* Bump and lift stop alone. */
+static inline double cz_suspension_stops(const CzSuspensionLaw *law, double compression) {
     const double bump = law->bump_stiffness * cz_positive_part(compression - law->bump_gap);
     const double lift = law->lift_stiffness * cz_positive_part(-compression - law->lift_gap);
-    return spring + bump - lift;
+    return bump - lift;
+}
+
+static inline double cz_suspension_spring(const CzSuspensionLaw *law, double compression) {
+    const double spring = cz_larger(law->stiffness * compression, -law->preload);
+    return spring + cz_suspension_stops(law, compression);
 }
 
 static inline double cz_suspension_damper(const CzSuspensionLaw *law, double rate) {

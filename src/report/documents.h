@@ -15,6 +15,10 @@ void cz_document_run_info(CzJson *json, double wall_s, double setup_s, int n_job
 /* List of the warnings of the problem and of the kept runs. */
 void cz_document_warnings(CzJson *json, const CzProblem *problem, const CzEvaluation *evaluation);
 
+/* Where the turning and lifting of a body came from, into an open record: the n sources in `order`,
+ * or all of them with NULL. */
+void cz_document_budget(CzJson *json, const CzVehicleBudget *budget, int n, const int *order);
+
 /* One mistake or warning with its place; key is NULL inside a list. */
 void cz_document_mistake(CzJson *json, const char *key, const CzError *mistake);
 

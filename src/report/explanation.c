@@ -76,6 +76,52 @@ static void write_signs(const CzExplanation *explanation, bool colour, FILE *str
     cz_grid_write(&grid, colour, stream);
 }
 
+/* Sources by the size of their moment. */
+static int sort_sources(const CzVehicleBudget *budget, int order[CZ_N_BUDGET]) {
+    int n = 0;
+    for (int source = 0; source < CZ_N_BUDGET; source++) {
+        if (budget->moment[source] == 0 && budget->lift[source] == 0)
+            continue;
+        int k = n++;
+        for (; k > 0 && fabs(budget->moment[order[k - 1]]) < fabs(budget->moment[source]); k--)
+            order[k] = order[k - 1];
+        order[k] = source;
+    }
+    return n;
+}
+
+/* What turned the body of the car that is worst off. */
+static void write_budget(const CzExplanation *explanation, bool colour, FILE *stream) {
+    const CzRunSummary *run = cz_run_summary(explanation->run);
+    if (run->budget == NULL)
+        return;
+    const CzVehicleBudget *budget = &run->budget[explanation->vehicle];
+    int order[CZ_N_BUDGET];
+    const int n = sort_sources(budget, order);
+    char text[CZ_FIGURE_ROOM];
+    if (n == 0)
+        return;
+    fprintf(stream, "\nWhat turned the body of %s until its largest %s at %s ms, nose-up:\n",
+            run->vehicle[explanation->vehicle].name, budget->of_lift ? "wheel lift" : "pitch",
+            cz_figure_fixed(text, 0, budget->time * CZ_MILLI_PER_UNIT));
+    CzGrid grid;
+    cz_grid_begin(&grid, "lrrl");
+    cz_grid_put(&grid, "source", CZ_STYLE_PLAIN);
+    cz_grid_put(&grid, "moment kNms", CZ_STYLE_PLAIN);
+    cz_grid_put(&grid, "lift kNs", CZ_STYLE_PLAIN);
+    cz_grid_put(&grid, "", CZ_STYLE_PLAIN);
+    for (int k = 0; k < n; k++) {
+        const CzBudgetSource source = (CzBudgetSource)order[k];
+        cz_grid_put(&grid, cz_budget_text(source), CZ_STYLE_PLAIN);
+        cz_grid_put(&grid, cz_figure_fixed(text, 1, budget->moment[source] / CZ_KILO),
+                    CZ_STYLE_PLAIN);
+        cz_grid_put(&grid, cz_figure_fixed(text, 1, budget->lift[source] / CZ_KILO),
+                    CZ_STYLE_PLAIN);
+        cz_grid_put(&grid, cz_budget_counts(source) ? "" : "through the end", CZ_STYLE_PLAIN);
+    }
+    cz_grid_write(&grid, colour, stream);
+}
+
 static void put_lever(CzGrid *grid, const CzLever *lever) {
     char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 16];
     const char *unit = unit_of(lever->key);
@@ -121,6 +167,7 @@ void cz_report_write_explanation_table(const CzExplanation *explanation, bool co
                                        FILE *stream) {
     write_head(explanation, colour, stream);
     write_signs(explanation, colour, stream);
+    write_budget(explanation, colour, stream);
     write_levers(explanation, true, colour, stream);
     write_levers(explanation, false, colour, stream);
     if (explanation->n_lever > 0 && explanation->lever[0].turns)
@@ -185,6 +232,16 @@ CzStatus cz_report_write_explanation(const CzProblem *problem, const CzExplanati
         cz_json_close(json);
     }
     cz_json_close(json);
+    const CzRunSummary *run = cz_run_summary(explanation->run);
+    if (run->budget != NULL) {
+        const CzVehicleBudget *budget = &run->budget[explanation->vehicle];
+        int order[CZ_N_BUDGET];
+        const int n = sort_sources(budget, order);
+        cz_json_open_object(json, "budget");
+        cz_json_text(json, "vehicle", run->vehicle[explanation->vehicle].name);
+        cz_document_budget(json, budget, n, order);
+        cz_json_close(json);
+    }
     cz_json_open_list(json, "levers");
     for (int i = 0; i < explanation->n_lever; i++)
         put_json_lever(json, &explanation->lever[i]);

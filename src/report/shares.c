@@ -48,6 +48,15 @@ static void write_row(const CzInterfaceResult *interface, double y, double scale
     cz_svg_text(markup, x + 6, y + 13, "start", text);
 }
 
+/* A key names what the train has. */
+static bool has_kind(const CzRunSummary *run, int kind) {
+    for (int i = 0; i < run->n_interface; i++)
+        for (int k = 0; k < run->interface[i].n_element; k++)
+            if ((int)run->interface[i].element[k].kind == kind)
+                return true;
+    return false;
+}
+
 void cz_chart_write_shares(const CzPage *page, CzMarkup *markup) {
     const CzRunSummary *run = page->summary;
     double most = 0;
@@ -65,6 +74,8 @@ void cz_chart_write_shares(const CzPage *page, CzMarkup *markup) {
     double x = LEFT;
     for (int kind = 0; kind < CZ_N_ELEMENT_KIND; kind++) {
         const char *name = cz_element_text((CzElementKind)kind);
+        if (!has_kind(run, kind))
+            continue;
         write_bar(markup, x, bottom + 8, 12, 10, kind);
         cz_svg_text(markup, x + 16, bottom + 17, "start", name);
         x += 16 + 11 * cz_text_width(name) + 14;

@@ -155,7 +155,24 @@ static void put_interface(CzJson *json, const CzInterfaceResult *interface) {
     cz_json_close(json);
 }
 
-static void put_vehicle(CzJson *json, const CzVehicleResult *vehicle) {
+void cz_document_budget(CzJson *json, const CzVehicleBudget *budget, int n, const int *order) {
+    cz_json_text(json, "until", budget->of_lift ? "largest wheel lift" : "largest pitch");
+    cz_json_real(json, "until_ms", cz_milliseconds(budget->time));
+    cz_json_open_list(json, "sources");
+    for (int k = 0; k < (order != NULL ? n : (int)CZ_N_BUDGET); k++) {
+        const CzBudgetSource source = (CzBudgetSource)(order != NULL ? order[k] : k);
+        cz_json_open_object(json, NULL);
+        cz_json_text(json, "name", cz_budget_text(source));
+        cz_json_flag(json, "acts_on_body", cz_budget_counts(source));
+        cz_json_real(json, "moment_kNms", budget->moment[source] / CZ_KILO);
+        cz_json_real(json, "lift_kNs", budget->lift[source] / CZ_KILO);
+        cz_json_close(json);
+    }
+    cz_json_close(json);
+}
+
+static void put_vehicle(CzJson *json, const CzVehicleResult *vehicle,
+                        const CzVehicleBudget *budget) {
     double lift = NAN;
     for (int wheelset = 0; wheelset < 4; wheelset++)
         lift = fmax(lift, vehicle->wheel_lift[wheelset]);
@@ -178,6 +195,11 @@ static void put_vehicle(CzJson *json, const CzVehicleResult *vehicle) {
     cz_json_real(json, "link_travel_mm", vehicle->link_travel * CZ_MILLI_PER_UNIT);
     cz_json_real(json, "survival_shortening_mm", vehicle->survival_shortening * CZ_MILLI_PER_UNIT);
     cz_json_flag(json, "checks_override", vehicle->checks_override);
+    if (budget != NULL && vehicle->checks_override) {
+        cz_json_open_object(json, "budget");
+        cz_document_budget(json, budget, 0, NULL);
+        cz_json_close(json);
+    }
     cz_json_close(json);
 }
 
@@ -217,7 +239,7 @@ static void put_scenario(CzJson *json, const CzProblem *problem, const CzRunSumm
     cz_json_close(json);
     cz_json_open_list(json, "vehicles");
     for (int i = 0; i < run->n_vehicle; i++)
-        put_vehicle(json, &run->vehicle[i]);
+        put_vehicle(json, &run->vehicle[i], run->budget != NULL ? &run->budget[i] : NULL);
     cz_json_close(json);
     cz_json_open_list(json, "events");
     for (int i = 0; i < run->n_event; i++)

@@ -127,7 +127,8 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
 typedef struct {
     CzRun *run;
     CzWatch *watch;
-    long every; /* steps between samples */
+    CzBudgetBook *budget; /* NULL for a reference */
+    long every;           /* steps between samples */
 } Recording;
 
 static CzStatus record_begin(Recording *recording, CzBatch *batch, CzRun *run, CzError *error) {
@@ -135,21 +136,28 @@ static CzStatus record_begin(Recording *recording, CzBatch *batch, CzRun *run, C
     const double wanted = batch->model->simulation->output_step / batch->step;
     recording->every = wanted > 1.0 ? lround(wanted) : 1;
     recording->watch = cz_watch_begin(batch, &run->arena);
-    if (recording->watch == NULL || cz_channels_begin(&run->channels, batch) != CZ_OK ||
+    if (batch->reference == NULL)
+        recording->budget = cz_budget_begin(batch, &run->arena);
+    if (recording->watch == NULL || (recording->budget == NULL && batch->reference == NULL) ||
+        cz_channels_begin(&run->channels, batch) != CZ_OK ||
         cz_channels_add(&run->channels, batch) != CZ_OK)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the recording");
     return CZ_OK;
 }
 
 static CzStatus record_step(Recording *recording, const CzBatch *batch) {
-    if (batch->reference == NULL)
+    if (batch->reference == NULL) {
         cz_watch_look(recording->watch, batch);
+        cz_budget_add(recording->budget, batch);
+    }
     return batch->n_step % recording->every == 0 ? cz_channels_add(&recording->run->channels, batch)
                                                  : CZ_OK;
 }
 
 static void record_end(Recording *recording) {
     CzRunSummary *summary = &recording->run->summary;
+    if (recording->budget != NULL)
+        summary->budget = cz_budget_result(recording->budget);
     summary->event = cz_watch_events(recording->watch, &summary->n_event);
 }
 

@@ -130,6 +130,13 @@ CZ_MUST_CHECK CzStatus cz_channels_begin(CzChannels *channels, const CzBatch *ba
 CZ_MUST_CHECK CzStatus cz_channels_add(CzChannels *channels, const CzBatch *batch);
 void cz_channels_free(CzChannels *channels);
 
+/* budget.c: where the turning of a single design's bodies comes from. */
+typedef struct CzBudgetBook CzBudgetBook;
+/* Starts taking notes; NULL when there is no memory. */
+CzBudgetBook *cz_budget_begin(CzBatch *batch, CzArena *arena);
+void cz_budget_add(CzBudgetBook *book, const CzBatch *batch);
+const CzVehicleBudget *cz_budget_result(const CzBudgetBook *book); /* (n_car) */
+
 /* watch.c: events of a single design. */
 typedef struct CzWatch CzWatch;
 CzWatch *cz_watch_begin(CzBatch *batch, CzArena *arena);

@@ -2,6 +2,7 @@
 set(CZ_SOURCES_simulate
     balance.c
     batch.c
+    budget.c
     channels.c
     elements.c
     ending.c

@@ -33,7 +33,7 @@ typedef struct CzOptimiseOptions {
     long evaluations;      /* most evaluations; 0 takes the file's */
     long seed;             /* -1 takes the file's */
     unsigned verify_ways;  /* ways that a design that passes is verified by, as CzVerifyOptions has
-                              them; half the step and Runge-Kutta by default, 0 for none */
+                              them; all but Adams by default, 0 for none */
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */
     void (*progress)(const CzProgress *progress, void *data); /* NULL when none */
     void *progress_data;

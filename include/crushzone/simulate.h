@@ -178,6 +178,13 @@ typedef struct CzRunSummary {
     double setup_s, wall_s; /* for run_info only */
 } CzRunSummary;
 
+/* Which track an elastic one is run on; a rigid one stays rigid. */
+typedef enum CzTrackUse {
+    CZ_TRACK_USE_OWN,    /* the problem's; of a brief run: that of the search */
+    CZ_TRACK_USE_SEARCH, /* `co-running` */
+    CZ_TRACK_USE_RECORD  /* `modal` */
+} CzTrackUse;
+
 typedef struct CzSimulateOptions {
     double time_step; /* [s]; 0 takes the model's */
     bool record;      /* keep channels at the output step */
@@ -185,7 +192,9 @@ typedef struct CzSimulateOptions {
     bool brief;       /* for a search: also end once nothing flows any more and no cars can meet
                          again at more than 0.4 of the first closing speed; the run has then
                          CZ_ENDED_SETTLED and is no record */
-    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI is the record */
+    CzTrackUse track;
+    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI is the record; the others know the tracks `modal`
+                                and `rigid` */
     double tolerance;        /* of a reference: local error of a step, 1 m/s or 1 rad/s times it in
                                 velocities, 10 mm or 10 mrad in displacements. The default of 1e-6 adds up
                                 to far less than what the largest step leaves (ours) */
@@ -197,7 +206,7 @@ typedef struct CzRun CzRun;
 
 /* Runs the model. A run that goes non-finite, loses its energy balance or does not end is a result,
  * not an error: the function returns CZ_OK and the summary says so. Statuses: CZ_OK,
- * CZ_STATUS_NO_MEMORY. */
+ * CZ_STATUS_INPUT for a track that the integrator does not know, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_simulate(const CzModel *model, const CzSimulateOptions *options,
                                           CzRun **run, CzError *error);
 CZ_API void cz_run_free(CzRun *run);

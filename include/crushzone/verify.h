@@ -52,6 +52,7 @@ typedef struct CzVerification {
                           incomplete */
     char failure[320]; /* which way, scenario and why; empty otherwise */
     double limit;
+    unsigned ways; /* that were asked for and apply here: bit 1 << CzVerifyWay each */
     int n_value;
     CzVerifiedValue *value;                 /* (n_value) */
     bool is_done[CZ_N_VERIFY_WAY];          /* this way was gone to its end */

@@ -13,6 +13,7 @@ const CzProblem *cz_evaluator_problem(const CzEvaluator *evaluator);
 typedef struct CzManner {
     double step_factor; /* factor on every time step */
     CzIntegrator integrator;
+    CzTrackUse track;
 } CzManner;
 
 /* Evaluates one design in another manner, with its runs kept but no channels; x as in cz_evaluate.

@@ -51,6 +51,7 @@ static CzStatus run_designs(const Block *block, const CzModel *model, const Task
     options.record = block->record;
     options.brief = block->brief;
     options.integrator = block->manner.integrator;
+    options.track = block->manner.track;
     if (block->manner.step_factor != 1)
         options.time_step = cz_model_time_step(model) * block->manner.step_factor;
     const CzVehicle *vehicles[BLOCK];

@@ -43,18 +43,29 @@ CzVerifyOptions cz_verify_options_default(void) {
     return (CzVerifyOptions){.ways = (1u << CZ_N_VERIFY_WAY) - 1, .limit = LIMIT};
 }
 
-/* How a way makes its runs. */
+static CzTrack track_of(const CzEvaluator *evaluator) {
+    return (CzTrack)cz_problem_input(evaluator->problem)->simulation.track;
+}
+
+/* How a way makes its runs. The solvers know the modal track, which is the record; what runs along
+ * with the wheels, and finite elements, are compared with it. */
 static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyWay way) {
     CzManner manner = evaluator->manner;
     switch (way) {
     case CZ_WAY_HALF_STEP:
         manner.step_factor *= 0.5;
         break;
+    case CZ_WAY_TRACK:
+        manner.track =
+            track_of(evaluator) == CZ_TRACK_CO_RUNNING ? CZ_TRACK_USE_RECORD : CZ_TRACK_USE_SEARCH;
+        break;
     case CZ_WAY_ERK:
         manner.integrator = CZ_INTEGRATOR_ERK;
+        manner.track = CZ_TRACK_USE_RECORD;
         break;
     case CZ_WAY_ADAMS:
         manner.integrator = CZ_INTEGRATOR_ADAMS;
+        manner.track = CZ_TRACK_USE_RECORD;
         break;
     case CZ_N_VERIFY_WAY:
         break;
@@ -228,7 +239,7 @@ static double now_s(void) {
 }
 
 static CzStatus go_all(CzVerification *verification, const CzEvaluator *evaluator, const double *x,
-                       const CzEvaluation *record, unsigned ways, CzError *error) {
+                       const CzEvaluation *record, CzError *error) {
     const int n = list_numbers(evaluator, record, NULL);
     Number *number = calloc(2 * (size_t)n + 1, sizeof *number);
     verification->value = calloc((size_t)n + 1, sizeof *verification->value);
@@ -241,7 +252,7 @@ static CzStatus go_all(CzVerification *verification, const CzEvaluator *evaluato
             begin_value(&verification->value[i], &number[i]);
     }
     for (int way = 0; way < CZ_N_VERIFY_WAY && status == CZ_OK; way++) {
-        if ((ways & (1u << way)) == 0)
+        if ((verification->ways & (1u << way)) == 0)
             continue;
         const double began = now_s();
         status = go(verification, evaluator, (CzVerifyWay)way, x, number, number + n, error);
@@ -251,7 +262,8 @@ static CzStatus go_all(CzVerification *verification, const CzEvaluator *evaluato
     return status;
 }
 
-static CzVerdict judge(const CzVerification *verification, unsigned ways) {
+static CzVerdict judge(const CzVerification *verification) {
+    const unsigned ways = verification->ways;
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
         if ((ways & (1u << way)) == 0)
             continue;
@@ -266,6 +278,9 @@ static CzVerdict judge(const CzVerification *verification, unsigned ways) {
 static CzStatus verify(CzVerification *verification, CzEvaluator *evaluator, const double *x,
                        const CzEvaluation *record, const CzVerifyOptions *options, CzError *error) {
     verification->limit = options->limit;
+    verification->ways = options->ways;
+    if (track_of(evaluator) == CZ_TRACK_RIGID)
+        verification->ways &= ~(1u << CZ_WAY_TRACK);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
         verification->largest_change[way] = NAN;
         verification->worst[way] = -1;
@@ -277,9 +292,9 @@ static CzStatus verify(CzVerification *verification, CzEvaluator *evaluator, con
     }
     const volatile sig_atomic_t *stop = evaluator->stop;
     cz_evaluator_set_stop(evaluator, options->stop);
-    const CzStatus status = go_all(verification, evaluator, x, record, options->ways, error);
+    const CzStatus status = go_all(verification, evaluator, x, record, error);
     cz_evaluator_set_stop(evaluator, stop);
-    verification->verdict = judge(verification, options->ways);
+    verification->verdict = judge(verification);
     return status;
 }
 

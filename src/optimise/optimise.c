@@ -23,8 +23,8 @@ const char *cz_outcome_text(CzOutcomeStatus status) {
 }
 
 CzOptimiseOptions cz_optimise_options_default(void) {
-    return (CzOptimiseOptions){.seed = -1,
-                               .verify_ways = 1u << CZ_WAY_HALF_STEP | 1u << CZ_WAY_ERK};
+    return (CzOptimiseOptions){
+        .seed = -1, .verify_ways = 1u << CZ_WAY_HALF_STEP | 1u << CZ_WAY_TRACK | 1u << CZ_WAY_ERK};
 }
 
 /* ---- the outcome ----------------------------------------------------------------------------- */

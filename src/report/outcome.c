@@ -101,7 +101,8 @@ static void put_verification(CzJson *json, const CzVerification *verification) {
                  is_made ? verification->largest_change[CZ_WAY_HALF_STEP] : NAN);
     cz_json_real(json, "reference_change",
                  is_made ? verification->largest_change[CZ_WAY_ERK] : NAN);
-    cz_json_text(json, "full_track_change", NULL); /* the search has the track of the record */
+    cz_json_real(json, "full_track_change",
+                 is_made ? verification->largest_change[CZ_WAY_TRACK] : NAN);
     cz_json_text(json, "verdict",
                  cz_verdict_text(is_made ? verification->verdict : CZ_VERDICT_NOT_CHECKED));
     cz_json_text(json, "failure",

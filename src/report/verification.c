@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MOST_ROWS = 12 }; /* of the table: the rest changes less and stands in the document */
 
@@ -42,6 +43,8 @@ static void put_row(CzGrid *grid, const CzVerification *verification,
              unit[0] != '\0' ? " " : "", unit);
     cz_grid_put(grid, record, CZ_STYLE_PLAIN);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
+        if ((verification->ways & (1u << way)) == 0)
+            continue;
         const bool bad = value->flips[way] || value->change[way] > verification->limit;
         cz_grid_put(grid, value->flips[way] ? "FLIPS" : cz_figure_change(text, value->change[way]),
                     bad ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
@@ -56,13 +59,18 @@ static void write_values(const CzVerification *verification, bool colour, FILE *
     for (size_t i = 0; i < n; i++)
         value[i] = &verification->value[i];
     qsort(value, n, sizeof *value, by_change);
+    char columns[5 + CZ_N_VERIFY_WAY] = "lllr";
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
+        if ((verification->ways & (1u << way)) != 0)
+            columns[strlen(columns)] = 'r';
     CzGrid grid;
-    cz_grid_begin(&grid, "lllrrrr");
+    cz_grid_begin(&grid, columns);
     static const char *const names[] = {"changes most", "where", "scenario", "record"};
     for (int i = 0; i < 4; i++)
         cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        cz_grid_put(&grid, cz_verify_way_text((CzVerifyWay)way), CZ_STYLE_PLAIN);
+        if ((verification->ways & (1u << way)) != 0)
+            cz_grid_put(&grid, cz_verify_way_text((CzVerifyWay)way), CZ_STYLE_PLAIN);
     for (size_t i = 0; i < n && i < MOST_ROWS; i++)
         put_row(&grid, verification, value[i]);
     cz_grid_write(&grid, colour, stream);
@@ -78,6 +86,8 @@ static void write_ways(const CzVerification *verification, bool colour, FILE *st
         cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
         const double change = verification->largest_change[way];
+        if ((verification->ways & (1u << way)) == 0)
+            continue;
         const bool bad = !verification->is_done[way] || !(change <= verification->limit) ||
                          verification->n_flip[way] > 0;
         cz_grid_put(&grid, cz_verify_way_text((CzVerifyWay)way), CZ_STYLE_PLAIN);

@@ -62,9 +62,12 @@ static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *erro
 }
 
 /* A run for a search takes the cheap track; the record is run with the file's own. */
-static CzTrack track_of(const CzBatch *batch) {
+static CzTrack track_of(const CzBatch *batch, CzTrackUse use) {
     const CzTrack own = (CzTrack)batch->model->simulation->track;
-    return batch->brief && own != CZ_TRACK_RIGID ? CZ_TRACK_CO_RUNNING : own;
+    if (own == CZ_TRACK_RIGID)
+        return own;
+    const bool searches = use == CZ_TRACK_USE_SEARCH || (use == CZ_TRACK_USE_OWN && batch->brief);
+    return searches ? CZ_TRACK_CO_RUNNING : use == CZ_TRACK_USE_RECORD ? CZ_TRACK_MODAL : own;
 }
 
 /* Memory, lanes and state at t = 0. */
@@ -100,8 +103,10 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     batch->dynamics = cz_dynamics_create(batch->lanes, &batch->arena);
     if (batch->dynamics == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_design);
-    if (model->track != NULL && !cz_dynamics_lay_track(batch->dynamics, model->track,
-                                                       track_of(batch), batch->step, &batch->arena))
+    const double track_step = batch->integrator == CZ_INTEGRATOR_ZHAI ? batch->step : 0.0;
+    if (model->track != NULL &&
+        !cz_dynamics_lay_track(batch->dynamics, model->track, track_of(batch, options->track),
+                               track_step, &batch->arena))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the track");
     batch->closing_speed =
         cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, model->colliding, 0)) -
@@ -115,9 +120,6 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     batch->kernel->commit(batch->dynamics, 0.0, 0.0);
     if (batch->integrator == CZ_INTEGRATOR_ZHAI || batch->design[0].over)
         return CZ_OK;
-    if (model->track != NULL)
-        return cz_fail(error, CZ_STATUS_INPUT,
-                       "the second solver knows no elastic track: take 'track: rigid' for it");
     const bool is_erk = batch->integrator == CZ_INTEGRATOR_ERK;
     return cz_reference_create(batch, is_erk ? CZ_METHOD_ERK : CZ_METHOD_ADAMS, options->tolerance,
                                &batch->reference, error);

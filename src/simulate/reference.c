@@ -13,8 +13,9 @@
     1e-9 /* of the laws: a state on the commit itself is taken as this far on [s] */
 #define VELOCITY_SCALE 1.0      /* [m/s, rad/s] (ours) */
 #define DISPLACEMENT_SCALE 0.01 /* [m, rad] (ours) */
-#define IMPULSE_SCALE 1e3       /* of external forces [N s] (ours) */
-#define SHEARED 1e-4            /* travel at which a shear-off counts as let go [m] (ours) */
+#define TRACK_SCALE 10.0  /* of a mode's state, that moves a wheel by 10 mm [sqrt(J s)] (ours) */
+#define IMPULSE_SCALE 1e3 /* of external forces [N s] (ours) */
+#define SHEARED 1e-4      /* travel at which a shear-off counts as let go [m] (ours) */
 
 /* A degree of freedom in its block. */
 typedef struct Place {
@@ -35,11 +36,15 @@ struct CzReference {
     CzBatch *batch;
     CzSolver *solver;
     size_t n_place;
-    Place *place;     /* (n_place); the state is each one's position and velocity in turn */
-    Drop *drop;       /* (ode.n_drop) */
-    double committed; /* time of the last commit [s] */
-    double evaluated; /* time of the last evaluation [s]; NaN: none since the commit */
-    double *at;       /* its state (ode.n_unknown) */
+    Place *place;       /* (n_place); the state is each one's position and velocity in turn */
+    size_t n_track;     /* cars on an elastic track */
+    size_t n_mode;      /* numbers of the state of one of them */
+    size_t *track;      /* their lanes (n_track); their states follow those of the places */
+    double *track_rate; /* of the last evaluation (n_track x n_mode) */
+    Drop *drop;         /* (ode.n_drop) */
+    double committed;   /* time of the last commit [s] */
+    double evaluated;   /* time of the last evaluation [s]; NaN: none since the commit */
+    double *at;         /* its state (ode.n_unknown) */
     long n_step;
 };
 
@@ -75,11 +80,28 @@ static size_t list_places(const CzBatch *batch, Place *place, double *allowed, d
     return n;
 }
 
+/* Fills the lanes of the cars that stand on an elastic track, or only counts them. */
+static size_t list_track(const CzBatch *batch, size_t *lane) {
+    const CzTrackMotion *track = batch->dynamics->track;
+    size_t n = 0;
+    for (size_t i = 0; track != NULL && i < track->n_under; i++)
+        if (track->under[i].state != NULL) {
+            if (lane != NULL)
+                lane[n] = i;
+            n++;
+        }
+    return n;
+}
+
 static void get_state(const CzReference *reference, double *state) {
     for (size_t i = 0; i < reference->n_place; i++) {
         state[2 * i] = *reference->place[i].position;
         state[2 * i + 1] = *reference->place[i].velocity;
     }
+    double *modes = state + 2 * reference->n_place;
+    for (size_t k = 0; k < reference->n_track; k++)
+        cz_track_get_state(reference->batch->dynamics->track, reference->track[k],
+                           modes + k * reference->n_mode);
 }
 
 static void set_state(const CzReference *reference, const double *state) {
@@ -87,6 +109,10 @@ static void set_state(const CzReference *reference, const double *state) {
         *reference->place[i].position = state[2 * i];
         *reference->place[i].velocity = state[2 * i + 1];
     }
+    const double *modes = state + 2 * reference->n_place;
+    for (size_t k = 0; k < reference->n_track; k++)
+        cz_track_set_state(reference->batch->dynamics->track, reference->track[k],
+                           modes + k * reference->n_mode);
 }
 
 /* Evaluates the laws at a state; twice the same state costs one evaluation. */
@@ -96,7 +122,11 @@ static void evaluate(CzReference *reference, double time, const double *state) {
         return;
     set_state(reference, state);
     const double step = fmax(time - reference->committed, SHORTEST_STEP);
-    reference->batch->kernel->evaluate(reference->batch->dynamics, step);
+    CzDynamics *dynamics = reference->batch->dynamics;
+    reference->batch->kernel->evaluate(dynamics, step);
+    for (size_t k = 0; k < reference->n_track; k++)
+        cz_dynamics_track_rate(dynamics, reference->track[k],
+                               reference->track_rate + k * reference->n_mode);
     memcpy(reference->at, state, size);
     reference->evaluated = time;
 }
@@ -112,6 +142,9 @@ static bool rates(CzOde *ode, double time, const double *state, double *rate) {
         rate[2 * i + 1] = *reference->place[i].acceleration;
         is_finite = is_finite && isfinite(rate[2 * i + 1]);
     }
+    if (reference->n_track > 0)
+        memcpy(rate + 2 * reference->n_place, reference->track_rate,
+               reference->n_track * reference->n_mode * sizeof *rate);
     return is_finite;
 }
 
@@ -150,16 +183,24 @@ static CzStatus allocate(CzBatch *batch, CzReference **made, CzError *error) {
     CzReference *reference = cz_arena_allocate(arena, 1, sizeof *reference);
     if (reference == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the reference run");
-    const size_t n = list_places(batch, NULL, NULL, 0.0);
+    const size_t n_place = list_places(batch, NULL, NULL, 0.0), n_track = list_track(batch, NULL);
+    const size_t n_mode = n_track > 0 ? cz_track_n_state(batch->dynamics->track->modes) : 0;
+    const size_t n_mode_all = n_track * n_mode, n = 2 * n_place + n_mode_all;
     const int n_drop = list_drops(batch, NULL);
-    reference->n_place = n;
-    reference->place = cz_arena_allocate(arena, n, sizeof *reference->place);
+    reference->n_place = n_place;
+    reference->n_track = n_track;
+    reference->n_mode = n_mode;
+    reference->place = cz_arena_allocate(arena, n_place, sizeof *reference->place);
+    reference->track = cz_arena_allocate(arena, n_track + 1, sizeof *reference->track);
+    reference->track_rate = cz_arena_allocate(arena, n_mode_all + 1, sizeof(double));
     reference->drop = cz_arena_allocate(arena, (size_t)n_drop + 1, sizeof *reference->drop);
-    reference->at = cz_arena_allocate(arena, 2 * n, sizeof *reference->at);
-    if (reference->place == NULL || reference->drop == NULL || reference->at == NULL)
+    reference->at = cz_arena_allocate(arena, n, sizeof *reference->at);
+    if (reference->place == NULL || reference->track == NULL || reference->track_rate == NULL ||
+        reference->drop == NULL || reference->at == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the reference run");
+    list_track(batch, reference->track);
     reference->batch = batch;
-    reference->ode = (CzOde){.n_unknown = 2 * n,
+    reference->ode = (CzOde){.n_unknown = n,
                              .rates = rates,
                              .n_drop = list_drops(batch, reference->drop),
                              .drops = drops};
@@ -167,19 +208,34 @@ static CzStatus allocate(CzBatch *batch, CzReference **made, CzError *error) {
     return CZ_OK;
 }
 
+/* What is allowed as local error. The solvers take the mean of the squares over all unknowns; the
+ * thousand modes of a track, most of them at rest, must not dilute it for the vehicles. */
+static void set_allowed(CzReference *reference, double tolerance, double *allowed) {
+    const size_t n = reference->ode.n_unknown, n_vehicle = 2 * reference->n_place;
+    const double share = sqrt((double)n_vehicle / (double)n);
+    list_places(reference->batch, reference->place, allowed, tolerance);
+    for (size_t i = n_vehicle; i < n; i++)
+        allowed[i] = tolerance * TRACK_SCALE;
+    for (size_t i = 0; i < n; i++)
+        allowed[i] *= share;
+    reference->ode.allowed = allowed;
+}
+
 CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance, CzReference **made,
                              CzError *error) {
     CzReference *reference = NULL;
     *made = NULL;
+    if (batch->dynamics->elements != NULL || batch->dynamics->co_running != NULL)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "the second solver knows the track models modal and rigid only");
     CZ_TRY(allocate(batch, &reference, error));
     const size_t n = reference->ode.n_unknown;
     double *state = cz_arena_allocate(&batch->arena, n, sizeof *state);
     double *allowed = cz_arena_allocate(&batch->arena, n, sizeof *allowed);
     if (state == NULL || allowed == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the reference run");
-    list_places(batch, reference->place, allowed, tolerance);
+    set_allowed(reference, tolerance, allowed);
     get_state(reference, state);
-    reference->ode.allowed = allowed;
     reference->evaluated = NAN;
     reference->committed = 0.0;
     CZ_TRY(cz_solver_create(method, &reference->ode, 0.0, state, LONGEST_STEP * batch->step,

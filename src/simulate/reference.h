@@ -1,7 +1,7 @@
 /* The run of one design by an adaptive solver instead of the fixed-step scheme: the same laws, the
  * same ledger, the same extremes, an independent integration.
  *
- *   y = (x, v) of every degree of freedom that moves, y' = (v, a)
+ *   y = (x, v) of every degree of freedom that moves, y' = (v, a), and the modes of the track
  *
  * A trial state is evaluated from the committed memory, with the time since the commit as the step
  * of the laws; memory is committed where a step is accepted. The laws answer by return mapping, so
@@ -19,7 +19,8 @@ typedef struct CzReference CzReference;
 
 /* A reference for a batch of one design that stands at t = 0, allocated in its arena; free with
  * cz_reference_free. `tolerance` scales what cz_reference_step allows as local error: 1 m/s and
- * 1 rad/s times it in velocities, 10 mm and 10 mrad in displacements. Statuses: CZ_OK,
+ * 1 rad/s times it in velocities, 10 mm and 10 mrad in displacements. A modal track was laid for a
+ * step of 0. Statuses: CZ_OK, CZ_STATUS_INPUT for a track that it does not know,
  * CZ_STATUS_NO_MEMORY, CZ_STATUS_RUN_FAILED. */
 CZ_MUST_CHECK CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance,
                                            CzReference **reference, CzError *error);

@@ -55,7 +55,10 @@ static void numbers_that_do_not_hang_on_steps_and_solvers_pass(void **state) {
     const CzVerification *verification = made.verification;
     assert_int_equal(verification->verdict, CZ_VERDICT_PASS);
     assert_int_equal(verification->status, CZ_OK);
+    assert_false(verification->is_done[CZ_WAY_TRACK]); /* the track is rigid both ways */
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
+        if (way == CZ_WAY_TRACK)
+            continue;
         assert_true(verification->is_done[way]);
         assert_int_equal(verification->n_flip[way], 0);
         assert_true(verification->largest_change[way] > 0.0);
@@ -75,6 +78,8 @@ static void changes_are_relative_to_what_is_allowed(void **state) {
     const CzVerifiedValue *bulk = value_of(verification, "largest closure", "crash");
     assert_near(closure->record, bulk->record, 1e-12, 0.0);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
+        if (way == CZ_WAY_TRACK)
+            continue;
         const double difference = fabs(closure->value[way] - closure->record);
         assert_near(closure->change[way], difference / 3000.0, 1e-9, 1e-15);
         assert_near(bulk->change[way], difference / bulk->record, 1e-9, 1e-15);

@@ -130,6 +130,46 @@ static void six_and_six_cars_agree_to_the_scatter_of_their_rattling(void **state
     holds(rows_of_solvers_for_the_metro);
 }
 
+/* The track's modes are advanced exactly by the record, and as differential equations by the
+ * references. What the track takes up is some joules, most of it in the first milliseconds of each
+ * contact: two per cent. */
+static void two_cars_on_an_elastic_track_agree(void **state) {
+    (void)state;
+    const char *file = "problems/two-cars-25kmh.yaml";
+    const char *const *elastic = WITH("simulation.track=modal");
+    Collision zhai = collide_by(CZ_INTEGRATOR_ZHAI, file, elastic, 0);
+    assert_completed(&zhai);
+    assert_true(zhai.summary->energy.track > 1.0);
+    for (int i = 0; i < 2; i++) {
+        Collision other = collide_by(references[i], file, elastic, 0);
+        assert_completed(&other);
+        const Difference d = difference_of(zhai.summary, other.summary, 0.01);
+        assert_near(d.force, 0.0, 0.0, 1e-3);
+        assert_near(d.stroke, 0.0, 0.0, 1e-3);
+        assert_near(d.energy, 0.0, 0.0, 1e-3);
+        assert_near(d.motion, 0.0, 0.0, 1e-3);
+        assert_near(other.summary->energy.track, zhai.summary->energy.track, 2e-2, 0.0);
+        assert_near(other.summary->energy.moving_load, zhai.summary->energy.moving_load, 2e-2, 0.0);
+        assert_near(other.summary->energy.balance_error, 0.0, 0.0, 1e-4);
+        collision_free(&other);
+    }
+    collision_free(&zhai);
+}
+
+static void a_track_that_a_reference_does_not_know_is_refused(void **state) {
+    (void)state;
+    Collision collision =
+        collision_model("problems/two-cars-25kmh.yaml", WITH("simulation.track=co-running"), 0);
+    CzSimulateOptions options = cz_simulate_options_default();
+    options.integrator = CZ_INTEGRATOR_ERK;
+    CzError error = {0};
+    assert_int_equal(cz_simulate(collision.model, &options, &collision.run, &error),
+                     CZ_STATUS_INPUT);
+    assert_non_null(strstr(error.message, "modal and rigid"));
+    assert_null(collision.run);
+    collision_free(&collision);
+}
+
 /* ---- the reference itself ---- */
 
 /* Rate-dependent strokes and creep are advanced implicitly, so a reference converges with its step
@@ -188,6 +228,8 @@ int main(void) {
         cmocka_unit_test(every_integrator_finds_the_time_at_which_a_coupler_shears_off),
         cmocka_unit_test(a_located_drop_does_not_hang_on_the_step),
         cmocka_unit_test(two_cars_agree_to_one_in_a_thousand),
+        cmocka_unit_test(two_cars_on_an_elastic_track_agree),
+        cmocka_unit_test(a_track_that_a_reference_does_not_know_is_refused),
         cmocka_unit_test(six_and_six_cars_agree_to_the_scatter_of_their_rattling),
         cmocka_unit_test(a_reference_converges_to_the_limit_of_the_fixed_step),
         cmocka_unit_test(the_error_of_a_reference_falls_with_its_tolerance),

@@ -338,7 +338,7 @@ static void outcome_tells_how_far_the_optimum_changes(void **state) {
     StandIn s;
     stand_in_fill(&s);
     CzVerification verification = {.verdict = CZ_VERDICT_FAIL,
-                                   .largest_change = {0.004, 0.02, NAN}};
+                                   .largest_change = {0.004, NAN, 0.02, NAN}};
     s.outcome.verification = &verification;
     json_t *json = outcome_of(&s);
     assert_real_at(json, "verification.half_step_change", 0.004);

@@ -33,22 +33,23 @@ static CzVerification filled_verification(CzVerifiedValue *value) {
                                  .where = "coupler A1",
                                  .unit = "",
                                  .record = 0.5,
-                                 .value = {0.5, 0.501, NAN},
-                                 .change = {0.0, 0.001, NAN}};
+                                 .value = {0.5, NAN, 0.501, NAN},
+                                 .change = {0.0, NAN, 0.001, NAN}};
     value[1] = (CzVerifiedValue){.name = "interface force",
                                  .scenario = "36",
                                  .unit = "kN",
                                  .record = 1500,
-                                 .value = {1503, 1490, NAN},
-                                 .change = {0.002, 0.0067, NAN},
-                                 .flips = {true, false, false}};
+                                 .value = {1503, NAN, 1490, NAN},
+                                 .change = {0.002, NAN, 0.0067, NAN},
+                                 .flips = {true, false, false, false}};
     return (CzVerification){.limit = 0.01,
                             .n_value = 2,
                             .value = value,
-                            .is_done = {true, true, false},
-                            .largest_change = {0.002, 0.0067, NAN},
-                            .worst = {1, 1, -1},
-                            .n_flip = {1, 0, 0},
+                            .ways = 1u << CZ_WAY_HALF_STEP | 1u << CZ_WAY_ERK | 1u << CZ_WAY_ADAMS,
+                            .is_done = {true, false, true, false},
+                            .largest_change = {0.002, NAN, 0.0067, NAN},
+                            .worst = {1, -1, 1, -1},
+                            .n_flip = {1, 0, 0, 0},
                             .verdict = CZ_VERDICT_FAIL};
 }
 
@@ -92,6 +93,7 @@ static void a_verification_is_a_table_with_the_largest_change_first(void **state
     assert_true(strstr(text, "interface force") < strstr(text, "stroke used"));
     assert_non_null(strstr(text, "FLIPS"));
     assert_non_null(strstr(text, "not done"));
+    assert_null(strstr(text, "full_track")); /* a way that does not apply is not told */
     assert_non_null(strstr(text, "Verification: FAIL (2 numbers, 1 % allowed)"));
     free(text);
 }

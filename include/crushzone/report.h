@@ -98,6 +98,43 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_overlay(
     const CzProblem *problem, const CzEvaluator *evaluator, const CzOutcome *outcome,
     const CzReportOptions *options, const char *folder, FILE *stream, CzError *error);
 
+/* A run that pages and figures are made of: an evaluation with kept runs, and the problem that it
+ * was computed from. */
+typedef struct CzReportRun {
+    const char *label; /* such as the name of its folder */
+    const CzProblem *problem;
+    const CzEvaluation *evaluation;
+    int scenario; /* whose figures are drawn; -1: the one with the smallest margin */
+} CzReportRun;
+
+/* The report of a run as one HTML page that loads nothing. Same run, same bytes. Statuses:
+ * CZ_STATUS_INPUT when no run was kept, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_page(const CzReportRun *run,
+                                                   const CzReportOptions *options, FILE *stream,
+                                                   CzError *error);
+
+/* Figures of a run (charts.def), by name; NULL beyond the last. */
+CZ_API const char *cz_report_chart_name(int index);
+/* One figure as an SVG document: `what` is its name, `at` the interface or car that it is about
+ * (NULL: the colliding interface, the car with the largest mean deceleration; no meaning for
+ * figures of the whole run). Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_chart(const CzReportRun *run, const char *what,
+                                                    const char *at, FILE *stream, CzError *error);
+
+/* Runs side by side: n of them, the first is what the others are compared with. On a terminal:
+ * checks, interfaces, cars that differ; as a page: the same with curves over each other. Statuses
+ * of the page: as above. */
+CZ_API void cz_report_write_comparison(int n, const CzReportRun *run, bool colour, FILE *stream);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_comparison_page(int n, const CzReportRun *run,
+                                                              const CzReportOptions *options,
+                                                              FILE *stream, CzError *error);
+
+/* The two ends of the colliding interface from the side, to scale, as an SVG document: heights,
+ * gaps, and the strokes against the length that is there. Statuses: CZ_STATUS_INPUT,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_elevation(const CzProblem *problem, int scenario,
+                                                        FILE *stream, CzError *error);
+
 /* Whether a result folder can be written there: the place is free, or holds a result folder of our
  * own with nothing else in it. Status: CZ_STATUS_OUTPUT. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_check_folder(const char *folder, CzError *error);

@@ -1,6 +1,7 @@
 /* `validate` and `show`: what can be said of a problem without running it. */
 #include "cli/command.h"
 #include "cli/messages.h"
+#include "cli/result.h"
 #include "cli/session.h"
 #include "crushzone/optimise.h"
 
@@ -173,6 +174,16 @@ static int chosen_scenario(const CzSession *session) {
     return -1;
 }
 
+typedef struct Elevation {
+    const CzProblem *problem;
+    int scenario;
+} Elevation;
+
+static CzStatus write_elevation(const void *data, FILE *stream, CzError *error) {
+    const Elevation *elevation = data;
+    return cz_report_write_elevation(elevation->problem, elevation->scenario, stream, error);
+}
+
 static int show_facts(const CzSession *session) {
     CzModel *model = NULL;
     CzError error = {0};
@@ -183,6 +194,9 @@ static int show_facts(const CzSession *session) {
                  session->arguments->text[CZ_OPTION_SCENARIO]);
         return cz_session_fail(session, &error);
     }
+    if (session->arguments->text[CZ_OPTION_SVG] != NULL)
+        return cz_result_write(session->arguments, session->arguments->text[CZ_OPTION_SVG],
+                               write_elevation, &(Elevation){session->problem, scenario});
     if (cz_model_build(session->problem, scenario, &model, &error) != CZ_OK)
         return cz_session_fail(session, &error);
     cz_problem_write_resolved(session->problem, stdout);

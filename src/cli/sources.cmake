@@ -4,6 +4,7 @@ set(CZ_SOURCES_cli
     arguments.c
     command_explain.c
     command_fit.c
+    command_figures.c
     command_new.c
     command_optimise.c
     command_problem.c
@@ -14,6 +15,7 @@ set(CZ_SOURCES_cli
     interrupt.c
     main.c
     messages.c
+    result.c
     progress.c
     session.c
 )

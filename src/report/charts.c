@@ -191,7 +191,8 @@ static void draw_energy(Sheet *sheet) {
     } parts[] = {{"E_kinetic", "kinetic"},
                  {"E_stored", "stored"},
                  {"E_wheel_rail", "wheel and rail"},
-                 {"E_running_gear", "running gear"}};
+                 {"E_running_gear", "running gear"},
+                 {"E_track", "track"}};
     const CzPage *page = sheet->page;
     double *sum = cz_arena_allocate(&sheet->arena, (size_t)page->n_sample, sizeof *sum);
     for (int i = 0; sum != NULL && i < page->summary->n_interface; i++) {
@@ -212,7 +213,7 @@ static void draw_energy(Sheet *sheet) {
                                                            .n = page->n_sample,
                                                            .x = page->time,
                                                            .y = sum,
-                                                           .colour = 4};
+                                                           .colour = 6};
     sheet->plot.from_zero = true;
 }
 
@@ -362,6 +363,14 @@ static bool has_any(const CzPage *page, const char *format_of_car, bool of_inter
             return true;
     }
     return false;
+}
+
+int cz_chart_hardest_car(const CzRunSummary *run) {
+    int found = 0;
+    for (int i = 1; i < run->n_vehicle; i++)
+        if (run->vehicle[i].mean_deceleration_120ms > run->vehicle[found].mean_deceleration_120ms)
+            found = i;
+    return found;
 }
 
 int cz_chart_count(const CzPage *page, CzChart chart) {

@@ -22,4 +22,7 @@ CZ_MUST_CHECK CzStatus cz_chart_write(const CzPage *page, CzChart chart, int ind
 /* Energies of the interfaces as stacked bars (shares.c). */
 void cz_chart_write_shares(const CzPage *page, CzMarkup *markup);
 
+/* The car with the largest mean deceleration. */
+int cz_chart_hardest_car(const CzRunSummary *run);
+
 #endif

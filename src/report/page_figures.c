@@ -49,15 +49,6 @@ static CzStatus write_section(CzPage *page, const char *id, const char *heading,
     return status;
 }
 
-/* The car with the largest mean deceleration. */
-static int hardest_car(const CzRunSummary *run) {
-    int found = 0;
-    for (int i = 1; i < run->n_vehicle; i++)
-        if (run->vehicle[i].mean_deceleration_120ms > run->vehicle[found].mean_deceleration_120ms)
-            found = i;
-    return found;
-}
-
 static CzStatus write_motion(CzPage *page, CzError *error) {
     static const CzChart charts[] = {CZ_CHART_VELOCITY, CZ_CHART_ACCELERATION};
     const int n = cz_chart_count(page, CZ_CHART_CAR_ACCELERATION);
@@ -71,14 +62,15 @@ static CzStatus write_motion(CzPage *page, CzError *error) {
     for (int i = 0; i < 2 && status == CZ_OK; i++)
         status = write_all(page, charts[i], error);
     if (status == CZ_OK && n > 0)
-        status = write_figure(page, CZ_CHART_CAR_ACCELERATION, hardest_car(page->summary), error);
+        status = write_figure(page, CZ_CHART_CAR_ACCELERATION, cz_chart_hardest_car(page->summary),
+                              error);
     close_figures(page);
     if (n > 1) {
         cz_markup_open(&page->markup, "details");
         cz_markup_element(&page->markup, "summary", "Acceleration of each other car");
         open_figures(page);
         for (int i = 0; i < n && status == CZ_OK; i++)
-            if (i != hardest_car(page->summary))
+            if (i != cz_chart_hardest_car(page->summary))
                 status = write_figure(page, CZ_CHART_CAR_ACCELERATION, i, error);
         close_figures(page);
         cz_markup_close(&page->markup);

@@ -1,6 +1,7 @@
 /* The trains as a row, with what happened between the cars. */
 #include "report/page.h"
 
+#include "report/elevation.h"
 #include "report/figure.h"
 #include "report/plot.h"
 #include "report/units.h"
@@ -190,6 +191,12 @@ void cz_page_write_trains(CzPage *page) {
     cz_markup_open(markup, "div");
     cz_markup_attribute(markup, "class", "wide");
     write_diagram(page, markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    cz_markup_element(markup, "h3", "The two ends that collide, at rest, to scale");
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_elevation_write(page->model, page->stand, markup);
     cz_markup_close(markup);
     cz_markup_line(markup);
     cz_markup_open(markup, "div");

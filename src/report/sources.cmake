@@ -1,8 +1,11 @@
 # Sources of src/report, one per line.
 set(CZ_SOURCES_report
+    alone.c
     charts.c
     checks_table.c
+    compare.c
     csv.c
+    elevation.c
     explanation.c
     figure.c
     fit_document.c
@@ -17,6 +20,7 @@ set(CZ_SOURCES_report
     overlay.c
     page.c
     page_checks.c
+    page_compare.c
     page_data.c
     page_figures.c
     page_inputs.c

@@ -4,6 +4,7 @@ cz_test(test_arguments cli test_arguments.c src/cli/arguments.c)
 if(CZ_IS_WHOLE)
     cz_script(cli_commands cli commands.sh) # words of cli.sh
     cz_script(cli_fit cli fit.sh)
+    cz_script(cli_figures cli figures.sh)
     cz_script(cli_input cli input.sh)
     cz_script(cli_output cli output.sh)
     cz_script(cli_optimise cli optimise.sh)

@@ -1,0 +1,115 @@
+/* `report`, `plot` and `compare`: results looked at again. */
+#include "cli/command.h"
+#include "cli/messages.h"
+#include "cli/result.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- report ---- */
+
+static CzStatus write_page(const void *data, FILE *stream, CzError *error) {
+    const CzResult *result = data;
+    const CzReportOptions options = cz_session_report_options(&result->session, 0);
+    return cz_report_write_page(&result->run, &options, stream, error);
+}
+
+/* Where the report of a folder goes. That of a search cannot be made without the search. */
+static int find_report(const CzArguments *arguments, char path[4096]) {
+    const char *folder = arguments->operand[0];
+    struct stat found;
+    CzError error = {.status = CZ_STATUS_INPUT};
+    snprintf(path, 4096, "%s/outcome.json", folder);
+    if (arguments->text[CZ_OPTION_OUTPUT] != NULL) {
+        snprintf(path, 4096, "%s", arguments->text[CZ_OPTION_OUTPUT]);
+        return 0;
+    }
+    if (stat(path, &found) == 0) {
+        snprintf(error.message, sizeof error.message,
+                 "%.200s holds a search, whose report was written with it", folder);
+        snprintf(error.help, sizeof error.help,
+                 "for a report of its best design alone give a file: -o best.html");
+        return cz_tell_error(arguments, &error);
+    }
+    const bool is_folder = stat(folder, &found) == 0 && S_ISDIR(found.st_mode);
+    snprintf(path, 4096, "%s%s", is_folder ? folder : "",
+             is_folder ? "/report.html" : "report.html");
+    return 0;
+}
+
+int cz_command_report(const CzArguments *arguments) {
+    char path[4096];
+    int code = find_report(arguments, path);
+    if (code != 0)
+        return code;
+    CzResult result;
+    code = cz_result_begin(&result, arguments, arguments->operand[0]);
+    if (code == 0)
+        code = cz_result_write(arguments, path, write_page, &result);
+    cz_result_end(&result);
+    return code;
+}
+
+/* ---- plot ---- */
+
+static CzStatus write_chart(const void *data, FILE *stream, CzError *error) {
+    const CzResult *result = data;
+    const char *const *text = result->arguments.text;
+    return cz_report_write_chart(&result->run,
+                                 text[CZ_OPTION_WHAT] != NULL ? text[CZ_OPTION_WHAT] : "fd",
+                                 text[CZ_OPTION_AT], stream, error);
+}
+
+int cz_command_plot(const CzArguments *arguments) {
+    const char *path = arguments->text[CZ_OPTION_SVG];
+    CzResult result;
+    int code = cz_result_begin(&result, arguments, arguments->operand[0]);
+    if (code == 0)
+        code = cz_result_write(arguments, path != NULL ? path : "-", write_chart, &result);
+    cz_result_end(&result);
+    return code;
+}
+
+/* ---- compare ---- */
+
+enum { MOST_COMPARED = 8 };
+
+typedef struct Comparison {
+    int n;
+    CzReportRun run[MOST_COMPARED];
+} Comparison;
+
+static CzStatus write_comparison(const void *data, FILE *stream, CzError *error) {
+    const Comparison *comparison = data;
+    return cz_report_write_comparison_page(comparison->n, comparison->run, NULL, stream, error);
+}
+
+static int compare(const CzArguments *arguments, const CzResult *result) {
+    Comparison comparison = {.n = arguments->n_operand};
+    for (int i = 0; i < comparison.n; i++)
+        comparison.run[i] = result[i].run;
+    cz_report_write_comparison(comparison.n, comparison.run,
+                               cz_wants_colour(arguments, STDOUT_FILENO), stdout);
+    if (arguments->text[CZ_OPTION_OUTPUT] == NULL)
+        return 0;
+    return cz_result_write(arguments, arguments->text[CZ_OPTION_OUTPUT], write_comparison,
+                           &comparison);
+}
+
+int cz_command_compare(const CzArguments *arguments) {
+    CzResult *result = calloc((size_t)arguments->n_operand, sizeof *result);
+    if (result == NULL)
+        return cz_status_exit_code(CZ_STATUS_NO_MEMORY);
+    int code = 0;
+    for (int i = 0; i < arguments->n_operand && code == 0; i++)
+        code = cz_result_begin(&result[i], arguments, arguments->operand[i]);
+    if (code == 0)
+        code = compare(arguments, result);
+    for (int i = 0; i < arguments->n_operand; i++)
+        cz_result_end(&result[i]);
+    free(result);
+    return code;
+}

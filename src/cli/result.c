@@ -1,0 +1,154 @@
+/* Reading result folders back by running them again, and writing single files. */
+#include "cli/result.h"
+
+#include "cli/messages.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static bool is_there(const char *folder, const char *name) {
+    char path[4096];
+    struct stat found;
+    const int n = snprintf(path, sizeof path, "%s/%s", folder, name);
+    return n > 0 && (size_t)n < sizeof path && stat(path, &found) == 0;
+}
+
+/* The scenario of a folder that holds the files of a single one, from its log. */
+static void read_scenario(const char *folder, char scenario[128]) {
+    char path[4096], line[512];
+    static const char before[] = "scenario ";
+    snprintf(path, sizeof path, "%s/run.log", folder);
+    FILE *stream = fopen(path, "r");
+    while (stream != NULL && fgets(line, sizeof line, stream) != NULL) {
+        char *end = strstr(line, ": ");
+        if (strncmp(line, before, strlen(before)) != 0 || end == NULL)
+            continue;
+        *end = '\0';
+        snprintf(scenario, 128, "%.127s", line + strlen(before));
+    }
+    if (stream != NULL)
+        fclose(stream);
+}
+
+/* The folder in which the profile was found when the results were made: the head of a resolved file
+ * names every file that was read. */
+static void read_share(const char *resolved, char share[4096]) {
+    static const char before[] = "# read: ";
+    char line[4352];
+    FILE *stream = fopen(resolved, "r");
+    while (stream != NULL && fgets(line, sizeof line, stream) != NULL && line[0] == '#') {
+        char *end = NULL;
+        for (char *found = strstr(line, "/profiles/"); found != NULL;
+             found = strstr(found + 1, "/profiles/"))
+            end = found;
+        if (strncmp(line, before, strlen(before)) != 0 || end == NULL)
+            continue;
+        *end = '\0';
+        snprintf(share, 4096, "%.4095s", line + strlen(before));
+    }
+    if (stream != NULL)
+        fclose(stream);
+}
+
+/* Another version may compute something else than what the folder holds. */
+static void tell_version(const CzArguments *arguments, const char *folder) {
+    char path[4096], line[512], ours[64];
+    bool is_ours = false;
+    snprintf(path, sizeof path, "%s/run.log", folder);
+    snprintf(ours, sizeof ours, "crushzone %s,", cz_version());
+    FILE *stream = fopen(path, "r");
+    if (stream != NULL && fgets(line, sizeof line, stream) != NULL)
+        is_ours = strncmp(line, ours, strlen(ours)) == 0;
+    if (stream != NULL)
+        fclose(stream);
+    if (!is_ours)
+        cz_tell(arguments,
+                "warning: the results in %s are of another version; shown is what this one "
+                "computes",
+                folder);
+}
+
+/* What to run for an operand: the file itself, or what its folder holds. */
+static int find_file(CzResult *result, const char *operand) {
+    struct stat found;
+    CzError error = {.status = CZ_STATUS_INPUT};
+    if (stat(operand, &found) != 0 || !S_ISDIR(found.st_mode)) {
+        snprintf(result->file, sizeof result->file, "%s", operand);
+        return 0;
+    }
+    if (!is_there(operand, "resolved.yaml")) {
+        snprintf(error.message, sizeof error.message,
+                 "%.200s is no result folder: it has no resolved.yaml", operand);
+        return cz_tell_error(&result->arguments, &error);
+    }
+    snprintf(result->file, sizeof result->file, "%s/resolved.yaml", operand);
+    tell_version(&result->arguments, operand);
+    read_share(result->file, result->share);
+    if (result->share[0] != '\0')
+        result->arguments.share_folder = result->share;
+    if (is_there(operand, "channels.csv") && result->arguments.text[CZ_OPTION_SCENARIO] == NULL) {
+        read_scenario(operand, result->scenario);
+        if (result->scenario[0] != '\0')
+            result->arguments.text[CZ_OPTION_SCENARIO] = result->scenario;
+    }
+    return 0;
+}
+
+int cz_result_begin(CzResult *result, const CzArguments *arguments, const char *operand) {
+    memset(result, 0, sizeof *result);
+    result->arguments = *arguments;
+    int code = find_file(result, operand);
+    if (code == 0)
+        code = cz_session_begin(&result->session, &result->arguments, result->file);
+    if (code != 0)
+        return code;
+    CzError error = {0};
+    if (cz_evaluate(result->session.evaluator, 1, NULL, true, &result->evaluation, &error) != CZ_OK)
+        return cz_session_fail(&result->session, &error);
+    result->run = (CzReportRun){.label = operand,
+                                .problem = result->session.problem,
+                                .evaluation = &result->evaluation,
+                                .scenario = -1};
+    return 0;
+}
+
+void cz_result_end(CzResult *result) {
+    cz_evaluation_free(&result->evaluation);
+    cz_session_end(&result->session);
+}
+
+static int fail_to_write(const CzArguments *arguments, const char *path, int why) {
+    CzError error = {.status = CZ_STATUS_OUTPUT};
+    snprintf(error.message, sizeof error.message, "%.200s cannot be written: %s", path,
+             strerror(why));
+    return cz_tell_error(arguments, &error);
+}
+
+int cz_result_write(const CzArguments *arguments, const char *path,
+                    CzStatus (*write)(const void *data, FILE *stream, CzError *error),
+                    const void *data) {
+    char temporary[4096];
+    CzError error = {0};
+    if (strcmp(path, "-") == 0) {
+        const CzStatus status = write(data, stdout, &error);
+        return status == CZ_OK ? 0 : cz_tell_error(arguments, &error);
+    }
+    const int n = snprintf(temporary, sizeof temporary, "%s.tmp", path);
+    if (n < 0 || (size_t)n >= sizeof temporary)
+        return fail_to_write(arguments, path, ENAMETOOLONG);
+    FILE *stream = fopen(temporary, "w");
+    if (stream == NULL)
+        return fail_to_write(arguments, path, errno);
+    const CzStatus status = write(data, stream, &error);
+    const bool is_written = !ferror(stream);
+    const bool is_whole = fclose(stream) == 0 && is_written;
+    if (status == CZ_OK && is_whole && rename(temporary, path) == 0) {
+        cz_tell(arguments, "wrote %s", path);
+        return 0;
+    }
+    const int why = errno;
+    remove(temporary);
+    return status != CZ_OK ? cz_tell_error(arguments, &error) : fail_to_write(arguments, path, why);
+}

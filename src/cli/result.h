@@ -1,0 +1,30 @@
+/* Results that are looked at again: a result folder or a problem file, run once more. */
+#ifndef CZ_CLI_RESULT_H
+#define CZ_CLI_RESULT_H
+
+#include "cli/session.h"
+
+/* A run to draw from. */
+typedef struct CzResult {
+    CzArguments arguments; /* of this result: with the scenario that its folder holds */
+    char scenario[128];    /* room for that name */
+    char share[4096];      /* room for the folder with the profile that it was made with */
+    char file[4096];       /* what is run: resolved.yaml of a folder */
+    CzSession session;
+    CzEvaluation evaluation;
+    CzReportRun run; /* label: the operand */
+} CzResult;
+
+/* Runs what a folder holds, or a problem file, with everything recorded: the same bytes come out as
+ * when the folder was written, so nothing that a figure needs has to be stored. Tells what is wrong
+ * and returns the exit code, 0 when all is well; end with cz_result_end in any case. */
+CZ_MUST_CHECK int cz_result_begin(CzResult *result, const CzArguments *arguments,
+                                  const char *operand);
+void cz_result_end(CzResult *result);
+
+/* Writes a file whole or not at all; "-" is standard output. Returns the exit code. */
+CZ_MUST_CHECK int cz_result_write(const CzArguments *arguments, const char *path,
+                                  CzStatus (*write)(const void *data, FILE *stream, CzError *error),
+                                  const void *data);
+
+#endif

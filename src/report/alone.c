@@ -1,0 +1,117 @@
+/* A page or a figure by itself, for callers of the library and for papers. */
+#include "crushzone/report.h"
+
+#include "base/error.h"
+#include "base/suggest.h"
+#include "report/charts.h"
+#include "report/elevation.h"
+#include "report/runs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const chart_names[CZ_N_CHART] = {
+#define CZ_CHART(constant, name, doc) name,
+#include "crushzone/charts.def"
+#undef CZ_CHART
+};
+
+const char *cz_report_chart_name(int index) {
+    return index >= 0 && index < CZ_N_CHART ? chart_names[index] : NULL;
+}
+
+/* The scenario to draw; a failure when nothing was kept of it. */
+static CzStatus find_scenario(const CzReportRun *run, int *scenario, CzError *error) {
+    *scenario = run->scenario >= 0 ? run->scenario : cz_page_deciding(run->evaluation);
+    const bool has_run = *scenario >= 0 && *scenario < run->evaluation->n_run &&
+                         cz_kept_run(run->evaluation, *scenario) != NULL;
+    return has_run ? CZ_OK : cz_fail(error, CZ_STATUS_INPUT, "no run was kept to draw");
+}
+
+CzStatus cz_report_write_page(const CzReportRun *run, const CzReportOptions *options, FILE *stream,
+                              CzError *error) {
+    const CzReportOptions absent = cz_report_options_default();
+    int scenario;
+    CZ_TRY(find_scenario(run, &scenario, error));
+    return cz_page_write_run(run->problem, run->evaluation, scenario, true,
+                             options != NULL ? options : &absent, stream, error);
+}
+
+static CzStatus find_chart(const char *what, CzChart *chart, CzError *error) {
+    CzSuggestion suggestion = {0};
+    for (int i = 0; i < CZ_N_CHART; i++) {
+        *chart = (CzChart)i;
+        if (strcmp(chart_names[i], what) == 0)
+            return CZ_OK;
+        cz_suggest(&suggestion, what, chart_names[i]);
+    }
+    const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no figure '%.100s'", what);
+    if (error != NULL && suggestion.best != NULL)
+        snprintf(error->help, sizeof error->help, "did you mean '%s'?", suggestion.best);
+    return status;
+}
+
+/* Which of several figures of a kind is meant. */
+static CzStatus find_place(const CzPage *page, CzChart chart, const char *at, int *index,
+                           CzError *error) {
+    const bool of_interface = chart == CZ_CHART_FORCE_CLOSURE;
+    const int n = cz_chart_count(page, chart);
+    if (n == 0)
+        return cz_fail(error, CZ_STATUS_INPUT, "this run has nothing to show as '%s'",
+                       chart_names[chart]);
+    *index = 0;
+    if (!of_interface && chart != CZ_CHART_CAR_ACCELERATION)
+        return CZ_OK;
+    if (at == NULL) {
+        *index = of_interface ? page->model->colliding : cz_chart_hardest_car(page->summary);
+        return CZ_OK;
+    }
+    for (*index = 0; *index < n; ++*index) {
+        const char *name = of_interface ? page->summary->interface[*index].name
+                                        : page->summary->vehicle[*index].name;
+        if (strcmp(name, at) == 0)
+            return CZ_OK;
+    }
+    return cz_fail(error, CZ_STATUS_INPUT, "there is no %s '%.100s'",
+                   of_interface ? "interface" : "car", at);
+}
+
+CzStatus cz_report_write_chart(const CzReportRun *run, const char *what, const char *at,
+                               FILE *stream, CzError *error) {
+    const CzReportOptions absent = cz_report_options_default();
+    CzPage page = {0};
+    CzChart chart;
+    int scenario, index = 0;
+    CZ_TRY(find_chart(what, &chart, error));
+    CZ_TRY(find_scenario(run, &scenario, error));
+    CzStatus status =
+        cz_page_begin(&page, run->problem, run->evaluation, scenario, &absent, stream, error);
+    if (status == CZ_OK)
+        status = find_place(&page, chart, at, &index, error);
+    if (status == CZ_OK) {
+        fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", stream);
+        status = cz_chart_write(&page, chart, index, &page.markup, error);
+    }
+    cz_page_free(&page);
+    return status;
+}
+
+CzStatus cz_report_write_elevation(const CzProblem *problem, int scenario, FILE *stream,
+                                   CzError *error) {
+    CzMarkup markup = {.stream = stream};
+    CzModel *model = NULL;
+    CzStand *stand = NULL;
+    CzStatus status = cz_model_build(problem, scenario, &model, error);
+    if (status == CZ_OK) {
+        stand = calloc((size_t)model->n_car, sizeof *stand);
+        status = stand != NULL ? cz_model_stand(model, stand, error)
+                               : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a figure");
+    }
+    if (status == CZ_OK) {
+        fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", stream);
+        cz_elevation_write(model, stand, &markup);
+    }
+    free(stand);
+    cz_model_free(model);
+    return status;
+}

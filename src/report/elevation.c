@@ -1,0 +1,284 @@
+/* Side elevation of the two ends that collide, to scale, and the chain of strokes below. */
+#include "report/elevation.h"
+
+#include "report/figure.h"
+#include "report/plot.h"
+#include "report/units.h"
+
+#include <math.h>
+#include <string.h>
+
+#define WIDTH 960.0
+#define SCALE 72.0   /* units of the drawing in a metre */
+#define COLUMN 150.0 /* room for labels at both sides */
+#define RAIL 212.0   /* height of the rail head in the drawing */
+#define FLOOR 0.75   /* of the drawn body above rail [m] */
+#define ROOF 2.6     /* where the drawing is cut [m] */
+#define LABEL_ROW 14.0
+#define CHAIN_TOP 240.0
+#define CHAIN_ROW 36.0
+enum { REAR, FRONT, MOST_LABELS = 6 };
+
+/* One of the two ends. */
+typedef struct Side {
+    const CzVehicle *vehicle;
+    const CzEnd *end;
+    const char *name;
+    double centre; /* of its body in the drawing */
+    double sign;   /* of outwards in the drawing */
+    double plane;  /* foremost plane from the centre [m] */
+    double edge;   /* inner edge of its label column in the drawing */
+} Side;
+
+/* Place in the drawing of a distance from the body's centre, outwards. */
+static double place(const Side *side, double outwards) {
+    return side->centre + side->sign * SCALE * outwards;
+}
+
+static double height(double z) {
+    return RAIL - SCALE * z;
+}
+
+static double stroke_of(int n_stage, const CzStage *stage, const CzTable *curve) {
+    double sum = 0;
+    for (int i = 0; i < n_stage; i++)
+        sum += stage[i].stroke;
+    return curve != NULL && curve->given ? curve->x[curve->n_point - 1] : sum;
+}
+
+static double end_stroke(const CzEnd *end) {
+    return stroke_of(end->n_stages, end->stages, &end->curve);
+}
+
+static void write_bar(CzMarkup *markup, double from, double to, double y, double thickness,
+                      const char *colour, const char *title) {
+    cz_markup_open(markup, "rect");
+    cz_markup_number(markup, "x", 1, fmin(from, to));
+    cz_markup_number(markup, "y", 1, y - thickness / 2);
+    cz_markup_number(markup, "width", 1, fabs(to - from));
+    cz_markup_number(markup, "height", 1, thickness);
+    cz_markup_attribute(markup, "fill", colour);
+    cz_markup_attribute(markup, "fill-opacity", ".55");
+    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_attribute(markup, "stroke-width", ".7");
+    cz_markup_element(markup, "title", title);
+    cz_markup_close(markup);
+}
+
+/* ---- parts ---- */
+
+static void write_parts(CzMarkup *markup, const Side *side) {
+    const CzEnd *end = side->end;
+    const double bare = side->plane - (end->given && isfinite(end->face_gap) ? end->face_gap : 0);
+    const double body = bare - (end->given ? end_stroke(end) : 0);
+    const double middle = height((FLOOR + ROOF) / 2), tall = SCALE * (ROOF - FLOOR);
+    write_bar(markup, side->edge, place(side, body), middle, tall, cz_plot_colour(5), "body");
+    if (!end->given)
+        return;
+    if (body < bare)
+        write_bar(markup, place(side, body), place(side, bare), middle, tall, cz_plot_colour(4),
+                  "crush zone of the end");
+    if (end->side_buffers.given)
+        write_bar(markup, place(side, bare), place(side, side->plane - end->side_buffers.gap),
+                  height(isnan(end->side_buffers.height) ? 1.05 : end->side_buffers.height), 14,
+                  cz_plot_colour(3), "side buffers");
+    if (end->anti_climber.given) {
+        const CzAntiClimber *face = &end->anti_climber;
+        const double z = isnan(face->height) ? end->crush_height : face->height;
+        const double tall_face = isnan(face->face_height) ? 0.2 : face->face_height;
+        write_bar(markup, place(side, bare), place(side, side->plane - face->gap), height(z),
+                  SCALE * tall_face, cz_plot_colour(1), "anti-climber");
+    }
+    if (end->coupler.given && isfinite(end->coupler.length) && isfinite(end->coupler.height)) {
+        const double tip = side->plane - end->coupler.gap, pivot = tip - end->coupler.length;
+        write_bar(markup, place(side, pivot), place(side, tip), height(end->coupler.height), 9,
+                  cz_plot_colour(0), "coupler");
+        cz_markup_open(markup, "circle");
+        cz_markup_number(markup, "cx", 1, place(side, pivot));
+        cz_markup_number(markup, "cy", 1, height(end->coupler.height));
+        cz_markup_attribute(markup, "r", "5");
+        cz_markup_attribute(markup, "stroke", "currentColor");
+        cz_markup_attribute(markup, "stroke-width", "2");
+        cz_markup_close(markup);
+    }
+}
+
+/* ---- heights ---- */
+
+typedef struct Label {
+    const char *what;
+    double z;  /* above rail [m] */
+    double to; /* where the line to the part ends, from the centre [m] */
+    double y;  /* of the text in the drawing */
+} Label;
+
+static void add_label(Label *label, int *n, const char *what, double z, double to) {
+    if (isfinite(z) && z > 0 && *n < MOST_LABELS)
+        label[(*n)++] = (Label){what, z, to, height(z) + 4};
+}
+
+static int gather_labels(const Side *side, Label label[MOST_LABELS]) {
+    const CzEnd *end = side->end;
+    const double inside = side->plane - (WIDTH / 2 - COLUMN) / SCALE + 0.2;
+    int n = 0;
+    add_label(label, &n, "centre of gravity", side->vehicle->cg_height, inside);
+    if (side->vehicle->bogie.given)
+        add_label(label, &n, "traction link", side->vehicle->bogie.link.height, inside);
+    if (!end->given)
+        return n;
+    const double bare = side->plane - (isfinite(end->face_gap) ? end->face_gap : 0);
+    add_label(label, &n, "crush zone", end->crush_height, bare - end_stroke(end) / 2);
+    if (end->anti_climber.given)
+        add_label(label, &n, "anti-climber", end->anti_climber.height,
+                  side->plane - end->anti_climber.gap);
+    if (end->coupler.given && isfinite(end->coupler.length))
+        add_label(label, &n, "coupler", end->coupler.height,
+                  side->plane - end->coupler.gap - end->coupler.length);
+    if (end->side_buffers.given)
+        add_label(label, &n, "side buffers", end->side_buffers.height,
+                  side->plane - end->side_buffers.gap);
+    return n;
+}
+
+/* Puts labels from top to bottom, a row apart at least, and none below the rail. */
+static void spread(Label *label, int n) {
+    for (int i = 1; i < n; i++)
+        for (int k = i; k > 0 && label[k].y < label[k - 1].y; k--) {
+            const Label other = label[k];
+            label[k] = label[k - 1];
+            label[k - 1] = other;
+        }
+    for (int i = 1; i < n; i++)
+        label[i].y = fmax(label[i].y, label[i - 1].y + LABEL_ROW);
+    double lowest = RAIL - 2;
+    for (int i = n - 1; i >= 0; i--) {
+        label[i].y = fmin(label[i].y, lowest);
+        lowest = label[i].y - LABEL_ROW;
+    }
+}
+
+static void write_heights(CzMarkup *markup, const Side *side) {
+    Label label[MOST_LABELS];
+    const int n = gather_labels(side, label);
+    spread(label, n);
+    for (int i = 0; i < n; i++) {
+        char number[CZ_FIGURE_ROOM], text[96];
+        snprintf(text, sizeof text, "%s %s m", label[i].what,
+                 cz_figure_fixed(number, 3, label[i].z));
+        cz_svg_text(markup, side->sign > 0 ? 4 : WIDTH - 4, label[i].y,
+                    side->sign > 0 ? "start" : "end", text);
+        cz_markup_open(markup, "path");
+        cz_markup_format(markup, "d", "M%d %dL%d %dH%d", (int)(side->edge - side->sign * 4),
+                         (int)label[i].y - 4, (int)(side->edge + side->sign * 8),
+                         (int)height(label[i].z), (int)place(side, label[i].to));
+        cz_markup_attribute(markup, "stroke", "currentColor");
+        cz_markup_attribute(markup, "stroke-width", ".8");
+        cz_markup_attribute(markup, "stroke-dasharray", "3 2");
+        cz_markup_close(markup);
+    }
+}
+
+/* ---- the chain of strokes ---- */
+
+typedef struct Link {
+    const char *what;
+    double length; /* [m] */
+    int colour;    /* CZ_PLOT_QUIET for room that is empty */
+} Link;
+
+/* A row of lengths, one behind the other, from the foremost plane inwards, with its text above. */
+static void write_chain(CzMarkup *markup, const Side *side, int row, const char *name, int n,
+                        const Link *link) {
+    const double y = CHAIN_TOP + CHAIN_ROW * row;
+    char text[256];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s:", name);
+    const char *between = " ";
+    double at = side->plane;
+    for (int i = 0; i < n; i++) {
+        char number[CZ_FIGURE_ROOM];
+        if (!(link[i].length > 0))
+            continue;
+        write_bar(markup, place(side, at), place(side, at - link[i].length), y + 14, 10,
+                  link[i].colour < 0 ? "none" : cz_plot_colour(link[i].colour), link[i].what);
+        at -= link[i].length;
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s %s", between, link[i].what,
+                                 cz_figure_fixed(number, 0, link[i].length * CZ_MILLI_PER_UNIT));
+        between = ", ";
+    }
+    const bool is_empty = at == side->plane;
+    snprintf(text + used, sizeof text - used, is_empty ? " none" : " mm");
+    cz_svg_text(markup, side->sign > 0 ? WIDTH / 2 - 12 : WIDTH / 2 + 12, y + 4,
+                side->sign > 0 ? "end" : "start", text);
+}
+
+static void write_chains(CzMarkup *markup, const Side *side) {
+    const CzEnd *end = side->end;
+    if (!end->given)
+        return;
+    const CzCoupler *coupler = &end->coupler;
+    const CzAntiClimber *face = &end->anti_climber;
+    if (coupler->given) {
+        const Link chain[] = {
+            {"gap", coupler->gap, CZ_PLOT_QUIET},
+            {"buffer", stroke_of(coupler->buffer.n_stages, coupler->buffer.stages, NULL), 5},
+            {"tube", stroke_of(coupler->tube.n_stages, coupler->tube.stages, &coupler->tube.curve),
+             0},
+            {"second tube",
+             stroke_of(coupler->second_tube.n_stages, coupler->second_tube.stages,
+                       &coupler->second_tube.curve),
+             0},
+            {"retraction", coupler->shear_off.given ? coupler->shear_off.retraction_space : 0,
+             CZ_PLOT_QUIET}};
+        write_chain(markup, side, 0, "coupler", 5, chain);
+    }
+    const Link chain[] = {{"gap", face->given ? face->gap : end->face_gap, CZ_PLOT_QUIET},
+                          {"anti-climber",
+                           face->given ? stroke_of(face->n_stages, face->stages, &face->curve) : 0,
+                           1},
+                          {"end", end_stroke(end), 4}};
+    write_chain(markup, side, 1, "anti-climber and end", 3, chain);
+    const Link room[] = {{"in front of occupied space", end->available_length, 2}};
+    write_chain(markup, side, 2, isnan(end->available_length) ? "room, not stated" : "room", 1,
+                room);
+}
+
+/* ---- the drawing ---- */
+
+static Side make_side(const CzModel *model, const CzStand *stand, int which, double origin) {
+    int n_vehicle;
+    const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
+    const int car = model->colliding + which;
+    const CzVehicle *vehicle = &vehicles[model->car[car].vehicle];
+    return (Side){.vehicle = vehicle,
+                  .end = which == 0 ? &vehicle->front : &vehicle->rear,
+                  .name = model->car[car].name,
+                  .centre = WIDTH / 2 + SCALE * (stand[car].x - origin),
+                  .sign = which == 0 ? 1 : -1,
+                  .plane = stand[car].plane[which == 0 ? FRONT : REAR],
+                  .edge = which == 0 ? COLUMN : WIDTH - COLUMN};
+}
+
+void cz_elevation_write(const CzModel *model, const CzStand *stand, CzMarkup *markup) {
+    const CzStand *a = &stand[model->colliding], *b = a + 1;
+    const double origin = (a->x + a->plane[FRONT] + b->x - b->plane[REAR]) / 2;
+    cz_svg_open(markup, "The two ends that collide, to scale, with heights and strokes", WIDTH,
+                CHAIN_TOP + 3 * CHAIN_ROW);
+    cz_markup_attribute(markup, "class", "elevation");
+    cz_markup_line(markup);
+    for (int which = 0; which < 2; which++) {
+        const Side side = make_side(model, stand, which, origin);
+        write_parts(markup, &side);
+        cz_svg_text(markup, side.edge + side.sign * 10, height(ROOF) - 5,
+                    which == 0 ? "start" : "end", side.name);
+        write_heights(markup, &side);
+        write_chains(markup, &side);
+        cz_markup_line(markup);
+    }
+    cz_markup_open(markup, "path");
+    cz_markup_format(markup, "d", "M%d %dH%d", (int)COLUMN, (int)RAIL, (int)(WIDTH - COLUMN));
+    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_attribute(markup, "stroke-width", "2.5");
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}

@@ -1,0 +1,14 @@
+/* The two ends that collide, from the side, as they were drawn up. */
+#ifndef CZ_REPORT_ELEVATION_H
+#define CZ_REPORT_ELEVATION_H
+
+#include "model/model.h"
+#include "model/stand.h"
+#include "report/markup.h"
+
+/* Writes an element `svg`: both ends of the colliding interface to scale at first contact, heights
+ * above rail, and below each end what is there in front of the occupied space against the strokes
+ * that want to fit in. */
+void cz_elevation_write(const CzModel *model, const CzStand *stand, CzMarkup *markup);
+
+#endif

@@ -1,0 +1,215 @@
+/* Runs side by side as a page: checks, numbers, and force over closure on top of each other. */
+#include "crushzone/report.h"
+
+#include "base/error.h"
+#include "report/charts.h"
+#include "report/checks_table.h"
+#include "report/compare.h"
+#include "report/figure.h"
+#include "report/plot.h"
+
+#include <math.h>
+
+static void open_table(CzMarkup *markup, int n, const CzReportRun *run, const char *first,
+                       const char *second) {
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open(markup, "table");
+    cz_markup_open(markup, "tr");
+    cz_markup_element(markup, "th", first);
+    cz_markup_element(markup, "th", second);
+    for (int i = 0; i < n; i++)
+        cz_markup_element(markup, "th", run[i].label);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+static void close_table(CzMarkup *markup) {
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
+    const CzEvaluation *first = run[0].evaluation;
+    int n_same = 0;
+    cz_page_open_section(markup, "checks", "Checks that differ");
+    open_table(markup, n, run, "check", "limit");
+    for (int k = 0; k < first->n_check; k++) {
+        const CzCheckResult *check = &first->check[k];
+        char text[192], value[96];
+        if (!cz_compared_differs(n, run, check)) {
+            n_same++;
+            continue;
+        }
+        snprintf(text, sizeof text, "%.80s, %.60s", check->name,
+                 check->scenario != NULL ? check->scenario : "");
+        cz_markup_open(markup, "tr");
+        cz_markup_element(markup, "td", text);
+        cz_checks_format_limit(check, sizeof value, value);
+        cz_markup_classed(markup, "td", "number", value);
+        for (int i = 0; i < n; i++) {
+            const CzCheckResult *other = cz_compared_check(&run[i], check);
+            if (other != NULL)
+                cz_checks_format_value(other, sizeof value, value);
+            snprintf(text, sizeof text, "%s %s", other != NULL ? value : "-",
+                     other != NULL ? cz_checks_word(other) : "");
+            cz_markup_classed(
+                markup, "td",
+                other != NULL && other->verdict == CZ_VERDICT_FAIL ? "fail" : "number", text);
+        }
+        cz_markup_close(markup);
+        cz_markup_line(markup);
+    }
+    close_table(markup);
+    char text[64];
+    snprintf(text, sizeof text, "%d checks are the same.", n_same);
+    cz_markup_element(markup, "p", text);
+    cz_page_close_section(markup);
+}
+
+static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool of_interface) {
+    const CzRunSummary *first = cz_compared_run(run, 0);
+    open_table(markup, n, run, of_interface ? "interface" : "car", "");
+    for (int k = 0; k < CZ_N_COMPARED_NUMBER; k++) {
+        const CzComparedNumber *number = &cz_compared_numbers[k];
+        for (int i = 0;
+             number->of_interface == of_interface && i < cz_compared_count(first, number); i++) {
+            const char *name = cz_compared_name(first, number, i);
+            char text[CZ_FIGURE_ROOM];
+            cz_markup_open(markup, "tr");
+            cz_markup_element(markup, "td", name);
+            cz_markup_element(markup, "td", number->name);
+            for (int m = 0; m < n; m++)
+                cz_markup_classed(markup, "td", "number",
+                                  cz_figure_plain(text, cz_compared_value(run, m, number, name)));
+            cz_markup_close(markup);
+            cz_markup_line(markup);
+        }
+    }
+    close_table(markup);
+}
+
+/* One channel of all runs over time. */
+static void write_overlay(CzMarkup *markup, int n, const CzReportRun *run, const char *title,
+                          const char *y_label, const char *channel) {
+    CzSeries series[CZ_MOST_COMPARED];
+    int n_series = 0;
+    for (int i = 0; i < n; i++) {
+        const int scenario = cz_compared_scenario(run, i);
+        const CzRun *own = scenario >= 0 ? run[i].evaluation->run[scenario] : NULL;
+        const double *time = cz_run_channel_named(own, "t_ms");
+        const double *y = cz_run_channel_named(own, "%s", channel);
+        if (time != NULL && y != NULL)
+            series[n_series++] = (CzSeries){.name = run[i].label,
+                                            .n = cz_run_n_sample(own),
+                                            .x = time,
+                                            .y = y,
+                                            .colour = i,
+                                            .dash = i};
+    }
+    if (n_series == 0)
+        return;
+    const CzPlot plot = {.title = title,
+                         .x_label = "time [ms]",
+                         .y_label = y_label,
+                         .n_series = n_series,
+                         .series = series,
+                         .from_zero = true};
+    cz_markup_open(markup, "figure");
+    cz_markup_element(markup, "figcaption", title);
+    cz_plot_write(&plot, markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+static CzStatus write_loops(CzPage *page, CzError *error) {
+    CzMarkup *markup = &page->markup;
+    CzStatus status = CZ_OK;
+    cz_page_open_section(markup, "loops", "Force over closure");
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "figures");
+    for (int i = 0; i < cz_chart_count(page, CZ_CHART_FORCE_CLOSURE) && status == CZ_OK; i++) {
+        char title[160];
+        cz_chart_title(page, CZ_CHART_FORCE_CLOSURE, i, sizeof title, title);
+        cz_markup_open(markup, "figure");
+        cz_markup_element(markup, "figcaption", title);
+        status = cz_chart_write(page, CZ_CHART_FORCE_CLOSURE, i, markup, error);
+        cz_markup_close(markup);
+        cz_markup_line(markup);
+    }
+    cz_markup_close(markup);
+    cz_page_close_section(markup);
+    return status;
+}
+
+static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
+    static const struct {
+        const char *title, *y_label, *stem, *unit;
+        bool of_interface;
+    } overlays[] = {
+        {"Force of the colliding interface", "force [kN]", "F", "kN", true},
+        {"Energy of the colliding interface", "energy [kJ]", "E", "kJ", true},
+        {"Speed of the car behind it", "speed [m/s]", "v", "m_s", false},
+        {"Pitch of the car behind it, nose up", "pitch [mrad]", "pitch", "mrad", false}};
+    const int colliding = page->model->colliding;
+    cz_page_open_section(&page->markup, "time", "Over time");
+    cz_markup_open(&page->markup, "div");
+    cz_markup_attribute(&page->markup, "class", "figures");
+    for (size_t i = 0; i < sizeof overlays / sizeof *overlays; i++) {
+        char channel[96];
+        snprintf(channel, sizeof channel, "%s_%s_%s", overlays[i].stem,
+                 overlays[i].of_interface ? page->summary->interface[colliding].name
+                                          : page->summary->vehicle[colliding].name,
+                 overlays[i].unit);
+        write_overlay(&page->markup, n, run, overlays[i].title, overlays[i].y_label, channel);
+    }
+    cz_markup_close(&page->markup);
+    cz_page_close_section(&page->markup);
+}
+
+static CzStatus write_page(CzPage *page, int n, const CzReportRun *run, CzError *error) {
+    CzMarkup *markup = &page->markup;
+    char title[256];
+    snprintf(title, sizeof title, "%.200s, compared", cz_problem_title(page->problem));
+    cz_page_write_head(markup, title);
+    cz_markup_element(markup, "h1", title);
+    snprintf(title, sizeof title, "Figures are those of scenario %.100s.", page->summary->scenario);
+    cz_markup_element(markup, "p", title);
+    write_checks(markup, n, run);
+    cz_page_open_section(markup, "numbers", "Interfaces and cars");
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "tables");
+    write_numbers(markup, n, run, true);
+    write_numbers(markup, n, run, false);
+    cz_markup_close(markup);
+    cz_page_close_section(markup);
+    CZ_TRY(write_loops(page, error));
+    write_overlays(page, n, run);
+    cz_page_write_foot(markup);
+    return CZ_OK;
+}
+
+CzStatus cz_report_write_comparison_page(int n, const CzReportRun *run,
+                                         const CzReportOptions *options, FILE *stream,
+                                         CzError *error) {
+    CzPageOther other[CZ_MOST_COMPARED];
+    CzPage page;
+    n = n < CZ_MOST_COMPARED ? n : CZ_MOST_COMPARED;
+    if (n < 1 || cz_compared_run(run, 0) == NULL)
+        return cz_fail(error, CZ_STATUS_INPUT, "no run was kept to compare");
+    const int scenario = cz_compared_scenario(run, 0);
+    CzStatus status =
+        cz_page_begin(&page, run[0].problem, run[0].evaluation, scenario, options, stream, error);
+    page.label = run[0].label;
+    page.other = other;
+    for (int i = 1; i < n; i++) {
+        const int its = cz_compared_scenario(run, i);
+        if (cz_compared_run(run, i) != NULL)
+            other[page.n_other++] = (CzPageOther){run[i].label, run[i].evaluation->run[its]};
+    }
+    if (status == CZ_OK)
+        status = write_page(&page, n, run, error);
+    cz_page_free(&page);
+    return status;
+}

@@ -1,0 +1,67 @@
+# Results looked at again: report, plot, compare, show --svg.
+. "$SOURCE/tests/support/cases.sh"
+. "$SOURCE/tests/cli/cli.sh"
+
+exits 0 "$C" new two-trains
+exits 0 "$C" run two-trains.yaml -o first
+exits 0 "$C" run two-trains.yaml --set 'parts.cab-end.coupler.tube.stages[0].force_kN=800' -o second
+
+same_report() {
+    exits 0 "$C" run two-trains.yaml -o again --jobs 1 && cmp first/report.html again/report.html &&
+        LC_ALL=de_DE.UTF-8 "$C" run two-trains.yaml -o comma && cmp first/report.html comma/report.html
+}
+check "the report is the same from run to run, for any number of threads and in any locale" same_report
+no_times() { ! grep -qiE 'wall|computed in|[0-9]{4}-[0-9]{2}-[0-9]{2}T' first/report.html && ! grep -q "$(uname -n)" first/report.html; }
+check "no time and no host stands in the report" no_times
+small_script() { [ "$(wc -c <"$SOURCE/src/report/report.js")" -le 10240 ]; }
+check "the script has at most 10 KB" small_script
+policy() { grep -q "default-src 'none'; script-src 'sha256-" first/report.html && ! grep -qE '(src|href)="?https?:' first/report.html && ! grep -q ' style="' first/report.html; }
+check "the report has a policy that allows no request" policy
+
+anew() {
+    cp first/report.html kept.html && rm first/report.html && exits 0 "$C" report first &&
+        tail -n +12 kept.html >a && tail -n +12 first/report.html >b && # the file's name differs
+        [ "$(grep -c '<path' a)" = "$(grep -c '<path' b)" ] && [ "$(grep -c '<section' b)" -ge 8 ]
+}
+check "report writes the page of a folder anew" anew
+still_ours() { exits 0 "$C" run two-trains.yaml -o first; }
+check "the folder is still the program's own" still_ours
+one_scenario() {
+    exits 0 "$C" run "$SOURCE/problems/metro-6-car.yaml" --scenario 8-km-h -o slow -q && exits 0 "$C" report slow -o slow.html &&
+        says slow.html '<title>6-car metro onto an identical standing train, 8-km-h</title>'
+}
+check "a folder of one scenario is run with that one" one_scenario
+other_version() { sed -i '1s/crushzone [0-9.]*/crushzone 0.0.0/' again/run.log && exits 0 "$C" report again -o x.html && says err.txt 'another version'; }
+check "results of another version are told" other_version
+no_folder() { mkdir -p empty && exits 2 "$C" report empty && says err.txt 'no resolved.yaml'; }
+check "a folder without results is told" no_folder
+search() { exits 1 "$C" optimise two-trains.yaml --evaluations 3 -o search -q || exits 0 true; exits 2 "$C" report search && says err.txt 'holds a search' && exits 0 "$C" report search -o best.html; }
+check "the report of a search is not painted over" search
+
+each_figure() {
+    for what in fd shares energy balance force velocity acceleration car-acceleration; do
+        exits 0 "$C" plot first --what $what --svg $what.svg && grep -q '<svg xmlns' $what.svg && ! grep -qi 'nan\|inf"' $what.svg || return 1
+    done
+}
+check "plot writes each figure" each_figure
+at() { exits 0 "$C" plot first --at A3-A4 --svg - && says out.txt 'aria-label="Force over closure, A3-A4"' && exits 0 "$C" plot two-trains.yaml --what car-acceleration --at B2 && says out.txt 'Acceleration, B2'; }
+check "plot takes an interface or a car, and a problem file" at
+unknown_figure() { exits 2 "$C" plot first --what enrgy && says err.txt "did you mean 'energy'" && exits 2 "$C" plot first --at A9 && says err.txt "no interface 'A9'"; }
+check "plot tells what there is not" unknown_figure
+nothing_to_lift() { exits 2 "$C" plot first --what lift && says err.txt "nothing to show as 'lift'"; }
+check "rigid cars have no wheels to lift" nothing_to_lift
+no_room() { exits 4 "$C" plot first --svg /nowhere/a.svg && says err.txt 'cannot be written' && [ ! -e /nowhere/a.svg.tmp ]; }
+check "a figure that cannot be written is told" no_room
+
+compared() { exits 0 "$C" compare first second && says out.txt 'interface force, collision' && grep -q 'A4-B1 *peak force kN' out.txt && grep -q 'first *second' out.txt; }
+check "compare tells what differs" compared
+compared_same() { exits 0 "$C" compare first first && says out.txt '5 checks are the same'; }
+check "a run does not differ from itself" compared_same
+compared_page() { exits 0 "$C" compare first second -o cmp.html && grep -q 'Force over closure, A4-B1' cmp.html && grep -q '>second<' cmp.html; }
+check "compare writes a page" compared_page
+compared_one() { exits 2 "$C" compare first; }
+check "compare wants two" compared_one
+
+elevation() { exits 0 "$C" show "$SOURCE/problems/metro-6-car.yaml" --svg side.svg && grep -q 'centre of gravity 1.600 m' side.svg && grep -q 'buffer 73, tube 200' side.svg; }
+check "show draws the two ends with heights and strokes" elevation
+finish

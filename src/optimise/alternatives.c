@@ -14,13 +14,6 @@ enum { MOST = 5 };
 static const double about_as_well = 1.2;
 static const double apart = 0.1;
 
-static double distance(const double *a, const double *b, int n) {
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return sqrt(sum / n);
-}
-
 /* Whether a record fits about as well as the best one: within every tolerance like it, or with
  * nearly the same sum of squares, constraints beside them counted in. */
 static bool fits(const CzSearch *search, long record, long best) {
@@ -36,17 +29,12 @@ static bool fits(const CzSearch *search, long record, long best) {
  * scratch. */
 static long next_apart(const CzSearch *search, long best, int n_chosen, const double *chosen,
                        double *u) {
-    const int n = search->function->n_variable;
     long found = -1;
     for (long record = 0; record < search->n_record; record++) {
         if (!fits(search, record, best) ||
             (found >= 0 && search->record[record].objective >= search->record[found].objective))
             continue;
-        cz_search_scale(search, cz_search_x(search, record), u);
-        bool is_apart = true;
-        for (int i = 0; i < n_chosen && is_apart; i++)
-            is_apart = distance(u, chosen + i * n, n) >= apart;
-        if (is_apart)
+        if (cz_search_is_apart(search, record, n_chosen, chosen, apart, u))
             found = record;
     }
     return found;

@@ -71,6 +71,23 @@ void cz_search_scale(const CzSearch *search, const double *x, double *u) {
         u[i] = (x[i] - function->min[i]) / (function->max[i] - function->min[i]);
 }
 
+static double distance(const double *a, const double *b, int n) {
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sqrt(sum / n);
+}
+
+bool cz_search_is_apart(const CzSearch *search, long record, int n_chosen, const double *chosen,
+                        double apart, double *u) {
+    const int n = search->function->n_variable;
+    cz_search_scale(search, cz_search_x(search, record), u);
+    for (int i = 0; i < n_chosen; i++)
+        if (!(distance(u, chosen + i * n, n) >= apart))
+            return false;
+    return true;
+}
+
 void cz_search_round(const CzSearch *search, const double *x, double *rounded) {
     const CzFunction *function = search->function;
     for (int i = 0; i < function->n_variable; i++) {

@@ -108,6 +108,11 @@ double cz_search_residual(double constraint);
 void cz_search_unscale(const CzSearch *search, const double *u, double *x);
 void cz_search_scale(const CzSearch *search, const double *x, double *u);
 
+/* Whether a record's scaled point, which is put into u (n_variable), lies apart from all chosen
+ * ones (n_chosen x n_variable): by their root mean square distance. */
+bool cz_search_is_apart(const CzSearch *search, long record, int n_chosen, const double *chosen,
+                        double apart, double *u);
+
 /* Variables of a record (n_variable). */
 const double *cz_search_x(const CzSearch *search, long record);
 

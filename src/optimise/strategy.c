@@ -76,26 +76,14 @@ static void screen(CzSearch *search, unsigned long seed, long n_point) {
     free(u);
 }
 
-static double distance(const double *a, const double *b, int n) {
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return sqrt(sum / n);
-}
-
 /* The best record that lies apart from all chosen points, -1 when there is none. */
 static long best_apart(const CzSearch *search, int n_chosen, const double *chosen, double apart,
                        double *u) {
-    const int n = search->function->n_variable;
     long best = -1;
     for (long record = 0; record < search->n_record; record++) {
         if (isnan(search->record[record].objective) || !cz_search_is_better(search, record, best))
             continue;
-        cz_search_scale(search, cz_search_x(search, record), u);
-        bool is_apart = true;
-        for (int i = 0; i < n_chosen && is_apart; i++)
-            is_apart = distance(u, chosen + i * n, n) >= apart;
-        if (is_apart)
+        if (cz_search_is_apart(search, record, n_chosen, chosen, apart, u))
             best = record;
     }
     return best;

@@ -65,17 +65,6 @@ typedef struct CzTexts {
     }                                                                                              \
     type;
 #include "problem/keys.def"
-#undef CZ_RECORD
-#undef CZ_NUMBER
-#undef CZ_COUNT
-#undef CZ_CHOICE
-#undef CZ_FLAG
-#undef CZ_TEXT
-#undef CZ_CHILD
-#undef CZ_STAGES
-#undef CZ_TABLE
-#undef CZ_LIST
-#undef CZ_TEXTS
-#undef CZ_RECORD_END
+#include "problem/keys_undefine.def"
 
 #endif

@@ -94,21 +94,9 @@ const CzWordSet cz_word_sets[CZ_N_WORDS] = {
      .size = sizeof(type),                                                                         \
      .n_key = sizeof type##_keys / sizeof type##_keys[0],                                          \
      .key = type##_keys},
-#define CZ_NUMBER(type, stem, dimension, lo, hi, presence, absent, kind, doc)
-#define CZ_COUNT(type, stem, lo, hi, presence, absent, doc)
-#define CZ_CHOICE(type, stem, set, presence, absent, doc)
-#define CZ_FLAG(type, stem, absent, doc)
-#define CZ_TEXT(type, stem, presence, doc)
-#define CZ_CHILD(type, stem, child, presence, doc)
-#define CZ_STAGES(type, stem, presence, doc)
-#define CZ_TABLE(type, stem, x, x_dimension, y, y_dimension, presence, doc)
-#define CZ_LIST(type, stem, child, presence, doc)
-#define CZ_TEXTS(type, stem, presence, doc)
-#define CZ_RECORD_END(type)
 const CzRecord cz_records[CZ_N_RECORD] = {
-#include "problem/keys.def"
+#include "problem/keys_records.def"
 };
-#include "problem/keys_undefine.def"
 
 /* ---- reuse ---- */
 

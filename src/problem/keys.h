@@ -69,22 +69,10 @@ extern const CzWordSet cz_word_sets[CZ_N_WORDS];
 /* ---- records (keys.def) ---- */
 
 #define CZ_RECORD(type, name, doc) CZ_RECORD_##type,
-#define CZ_NUMBER(type, stem, dimension, lo, hi, presence, absent, kind, doc)
-#define CZ_COUNT(type, stem, lo, hi, presence, absent, doc)
-#define CZ_CHOICE(type, stem, set, presence, absent, doc)
-#define CZ_FLAG(type, stem, absent, doc)
-#define CZ_TEXT(type, stem, presence, doc)
-#define CZ_CHILD(type, stem, child, presence, doc)
-#define CZ_STAGES(type, stem, presence, doc)
-#define CZ_TABLE(type, stem, x, x_dimension, y, y_dimension, presence, doc)
-#define CZ_LIST(type, stem, child, presence, doc)
-#define CZ_TEXTS(type, stem, presence, doc)
-#define CZ_RECORD_END(type)
 typedef enum CzRecordId {
-#include "problem/keys.def"
+#include "problem/keys_records.def"
     CZ_N_RECORD
 } CzRecordId;
-#include "problem/keys_undefine.def"
 
 typedef enum CzKeyKind {
     CZ_KEY_NUMBER,

@@ -76,4 +76,12 @@ static inline void assert_rows(const Rows *rows) {
     assert_int_equal(n_wrong, 0);
 }
 
+/* Gathers rows and holds them. */
+static inline void assert_rows_of(void (*rows_of)(Rows *)) {
+    static Rows rows; /* large */
+    rows.n = 0;
+    rows_of(&rows);
+    assert_rows(&rows);
+}
+
 #endif

@@ -26,16 +26,12 @@ static void crush_zones_in_series_follow_the_closed_form(void **state) {
 
 static void an_elastic_and_plastic_spring_follows_the_closed_form(void **state) {
     (void)state;
-    rows.n = 0;
-    rows_of_spring_and_plateau(&rows);
-    assert_rows(&rows);
+    assert_rows_of(rows_of_spring_and_plateau);
 }
 
 static void four_stages_and_two_stages_back_follow_the_closed_form(void **state) {
     (void)state;
-    rows.n = 0;
-    rows_of_four_stages(&rows);
-    assert_rows(&rows);
+    assert_rows_of(rows_of_four_stages);
 }
 
 static void coupler_gap_anti_climber_and_end_work_in_sequence(void **state) {

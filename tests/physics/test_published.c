@@ -1,41 +1,34 @@
 /* Published vehicles and bulk numbers of full-scale tests. */
 #include "physics/published.h"
 
-static void holds(void (*rows_of)(Rows *)) {
-    static Rows rows;
-    rows.n = 0;
-    rows_of(&rows);
-    assert_rows(&rows);
-}
-
 static void published_coaches_have_their_frequencies_and_loads(void **state) {
     (void)state;
-    holds(rows_of_coaches);
+    assert_rows_of(rows_of_coaches);
 }
 
 static void a_force_off_the_centre_of_gravity_loads_the_bogies_unequally(void **state) {
     (void)state;
-    holds(rows_of_pitch_by_force);
+    assert_rows_of(rows_of_pitch_by_force);
 }
 
 static void two_trains_have_the_published_energy_and_speed(void **state) {
     (void)state;
-    holds(rows_of_train_to_train);
+    assert_rows_of(rows_of_train_to_train);
 }
 
 static void constant_forces_do_not_explain_the_crush_of_two_cars(void **state) {
     (void)state;
-    holds(rows_of_crush_of_single_cars);
+    assert_rows_of(rows_of_crush_of_single_cars);
 }
 
 static void a_push_back_device_sorts_coupling_speeds(void **state) {
     (void)state;
-    holds(rows_of_coupling_speeds);
+    assert_rows_of(rows_of_coupling_speeds);
 }
 
 static void eight_car_trains_have_the_published_energy(void **state) {
     (void)state;
-    holds(rows_of_eight_car_trains);
+    assert_rows_of(rows_of_eight_car_trains);
 }
 
 int main(void) {

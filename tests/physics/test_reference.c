@@ -113,21 +113,14 @@ static void a_located_drop_does_not_hang_on_the_step(void **state) {
 
 /* ---- solver against solver ---- */
 
-static void holds(void (*rows_of)(Rows *)) {
-    static Rows rows;
-    rows.n = 0;
-    rows_of(&rows);
-    assert_rows(&rows);
-}
-
 static void two_cars_agree_to_one_in_a_thousand(void **state) {
     (void)state;
-    holds(rows_of_solvers_for_short_trains);
+    assert_rows_of(rows_of_solvers_for_short_trains);
 }
 
 static void six_and_six_cars_agree_to_the_scatter_of_their_rattling(void **state) {
     (void)state;
-    holds(rows_of_solvers_for_the_metro);
+    assert_rows_of(rows_of_solvers_for_the_metro);
 }
 
 /* The track's modes are advanced exactly by the record, and as differential equations by the

@@ -2,6 +2,7 @@
 #include "support/check.h"
 
 #include "report/csv.h"
+#include "report/json_at.h"
 #include "report/stand_in.h"
 
 #include <locale.h>
@@ -61,28 +62,6 @@ static json_t *outcome_of(const StandIn *s) {
     free(written);
     return json;
 }
-
-/* The value at a path of keys and indices such as "scenarios.0.name". */
-static json_t *at(json_t *json, const char *path) {
-    char key[64];
-    while (json != NULL && *path != '\0') {
-        const size_t n = strcspn(path, ".");
-        snprintf(key, sizeof key, "%.*s", (int)n, path);
-        json = json_is_array(json) ? json_array_get(json, (size_t)atoi(key))
-                                   : json_object_get(json, key);
-        if (json == NULL)
-            print_error("no key '%s'\n", key);
-        path += n + (path[n] == '.');
-    }
-    assert_non_null(json);
-    return json;
-}
-
-#define assert_text_at(json, path, expected)                                                       \
-    assert_string_equal(json_string_value(at(json, path)), expected)
-#define assert_real_at(json, path, expected)                                                       \
-    assert_near(json_number_value(at(json, path)), expected, 1e-15, 0)
-#define assert_null_at(json, path) assert_true(json_is_null(at(json, path)))
 
 static void summary_has_every_key_that_scripts_rely_on(void **state) {
     (void)state;

@@ -1,30 +1,11 @@
 /* What is written of a verification: the document and the table. */
+#include "report/json_at.h"
 #include "report/stand_in.h"
 #include "support/check.h"
 
 #include <jansson.h>
 
 #include "crushzone/report.h"
-
-/* Value at a path of keys and indices. */
-static const json_t *at(const json_t *json, const char *path) {
-    char key[64];
-    while (*path != '\0') {
-        const size_t n = strcspn(path, ".");
-        snprintf(key, sizeof key, "%.*s", (int)n, path);
-        json = json_is_array(json) ? json_array_get(json, (size_t)strtoul(key, NULL, 10))
-                                   : json_object_get(json, key);
-        path += n + (path[n] == '.');
-    }
-    assert_non_null(json);
-    return json;
-}
-
-#define assert_text_at(json, path, expected)                                                       \
-    assert_string_equal(json_string_value(at(json, path)), expected)
-#define assert_real_at(json, path, expected)                                                       \
-    assert_near(json_number_value(at(json, path)), expected, 1e-15, 0)
-#define assert_null_at(json, path) assert_true(json_is_null(at(json, path)))
 
 /* Two numbers: the second changes most, and a verdict flips. */
 static CzVerification filled_verification(CzVerifiedValue *value) {

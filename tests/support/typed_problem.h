@@ -7,8 +7,7 @@
 
 /* A record as the reader would leave it when nothing is given: default_CzTube() and so on. */
 #define CZ_RECORD(type, name, doc) type default_##type(void);
-#include "support/records_only.h"
-#undef CZ_RECORD
+#include "problem/keys_records.def"
 
 enum { TYPED_MAX_VEHICLE = 16, TYPED_MAX_SCENARIO = 4 };
 

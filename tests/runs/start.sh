@@ -48,7 +48,7 @@ failure_is_told() {
     ! installs build && grep -q 'no such archive' said && grep -q 'Installing cmake failed' said
 }
 list_is_known_to_debian() { # every package of the list has a section and a plausible name
-    ! grep -vE '^(#.*|\[(run-time|build|test)\]|[a-z0-9][a-z0-9.+-]+( +# .*)?)?$' "$SOURCE/packages.txt"
+    ! grep -vE '^(#.*|\[(run-time|build|test|browser)\]|[a-z0-9][a-z0-9.+-]+( +# .*)?)?$' "$SOURCE/packages.txt"
 }
 check "nothing is installed when nothing is missing" nothing_is_missing
 check "root installs what is missing of the wanted sections" root_installs

@@ -24,7 +24,8 @@ typedef struct Sheet {
     CzSeries *series;
     CzPlotLimit limit[4];
     CzPlotBand band[4];
-    int room; /* for series */
+    int room;    /* for series */
+    bool failed; /* no memory for a derived curve */
 } Sheet;
 
 static bool begin(Sheet *sheet, const CzPage *page, int room, const char *x_label,
@@ -94,7 +95,7 @@ static void add_force_limits(Sheet *sheet) {
 
 static CzStatus finish(Sheet *sheet, CzChart chart, int index, CzMarkup *markup, CzError *error) {
     char title[160];
-    const bool fits = !sheet->arena.out_of_memory;
+    const bool fits = !sheet->arena.out_of_memory && !sheet->failed;
     cz_chart_title(sheet->page, chart, index, sizeof title, title);
     sheet->plot.title = title;
     sheet->plot.is_time = chart != CZ_CHART_FORCE_CLOSURE;
@@ -104,7 +105,8 @@ static CzStatus finish(Sheet *sheet, CzChart chart, int index, CzMarkup *markup,
     if (fits)
         cz_plot_write(&sheet->plot, markup);
     cz_arena_free(&sheet->arena);
-    return fits ? CZ_OK : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a figure");
+    return fits && !markup->failed ? CZ_OK
+                                   : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a figure");
 }
 
 /* ---- forces and energies ---- */
@@ -246,9 +248,10 @@ static const double *filtered(Sheet *sheet, const double *raw) {
     const CzPage *page = sheet->page;
     const double step = page->n_sample > 1 ? (page->time[1] - page->time[0]) * 1e-3 : 0;
     double *smooth = cz_arena_allocate(&sheet->arena, (size_t)page->n_sample, sizeof *smooth);
-    if (smooth == NULL || !cz_filter_fits(CFC, step) ||
-        cz_filter_cfc(CFC, step, page->n_sample, raw, smooth) != CZ_OK)
+    if (smooth == NULL || !cz_filter_fits(CFC, step))
         return NULL;
+    if (cz_filter_cfc(CFC, step, page->n_sample, raw, smooth) != CZ_OK)
+        sheet->failed = true;
     return smooth;
 }
 

@@ -189,6 +189,7 @@ void cz_inputs_text_write_defaults(const CzInputsText *inputs, CzMarkup *markup)
     Default *list = malloc(MOST_DEFAULTS * sizeof *list);
     char keys[MOST_LEVELS][64], path[256], value[64];
     int n = 0, n_level = 0;
+    markup->failed |= list == NULL;
     for (int i = 0; list != NULL && i < inputs->n_line; i++) {
         bool is_ours = false;
         follow_path(keys, &n_level, inputs->line[i]);

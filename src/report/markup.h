@@ -14,6 +14,7 @@ enum { CZ_MARKUP_DEPTH = 32 };
 /* Zero-initialise it and set the stream. */
 typedef struct CzMarkup {
     FILE *stream;
+    bool failed; /* there was no memory for something: the page must not be shown */
     bool in_tag; /* attributes may follow */
     int depth;
     const char *element[CZ_MARKUP_DEPTH]; /* those that are open, outermost first; borrowed */

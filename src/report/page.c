@@ -170,7 +170,13 @@ CzStatus cz_page_write_parts(CzPage *page, CzError *error) {
     cz_page_write_animation(page);
     cz_page_write_events(page);
     CZ_TRY(cz_page_write_inputs(page, error));
-    return cz_page_write_data(page, error);
+    CZ_TRY(cz_page_write_data(page, error));
+    return cz_page_finish(page, error);
+}
+
+CzStatus cz_page_finish(const CzPage *page, CzError *error) {
+    return page->markup.failed ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report")
+                               : CZ_OK;
 }
 
 CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation, int scenario,

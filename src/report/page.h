@@ -71,6 +71,9 @@ CZ_MUST_CHECK CzStatus cz_page_write_outcome(const CzProblem *best, const CzEval
 /* The parts about one run, from the trains to the inputs, and the data for the script. */
 CZ_MUST_CHECK CzStatus cz_page_write_parts(CzPage *page, CzError *error);
 
+/* Whether everything could be written. Status: CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_page_finish(const CzPage *page, CzError *error);
+
 /* The first and last lines of a page. */
 void cz_page_write_head(CzMarkup *markup, const char *title);
 void cz_page_write_foot(CzMarkup *markup);

@@ -187,7 +187,7 @@ static CzStatus write_page(CzPage *page, int n, const CzReportRun *run, CzError 
     CZ_TRY(write_loops(page, error));
     write_overlays(page, n, run);
     cz_page_write_foot(markup);
-    return CZ_OK;
+    return cz_page_finish(page, error);
 }
 
 CzStatus cz_report_write_comparison_page(int n, const CzReportRun *run,

@@ -192,7 +192,8 @@ static void write_move(FILE *stream, char command, long x, long y) {
     fprintf(stream, "%c%ld%s%ld", command, x, y < 0 ? "" : " ", y);
 }
 
-/* Points from one gap to the next: those that thinning keeps, as steps on the finer grid. */
+/* Points from one gap to the next: those that thinning keeps, as steps on the finer grid. False
+ * without memory. */
 static bool write_piece(const Frame *frame, const CzSeries *series, int from, int to,
                         FILE *stream) {
     const int n = to - from;
@@ -250,8 +251,8 @@ static void write_curve(const Frame *frame, const CzSeries *series, CzMarkup *ma
         int to = from;
         while (to < series->n && is_point(series, to))
             to++;
-        if (to > from)
-            write_piece(frame, series, from, to, markup->stream);
+        if (to > from && !write_piece(frame, series, from, to, markup->stream))
+            markup->failed = true;
         from = to + 1;
     }
     fputc('"', markup->stream);

@@ -52,7 +52,7 @@ typedef struct CzPlot {
     double height;            /* of the area between the axes; 0: as usual */
 } CzPlot;
 
-/* Writes the diagram as an element `svg`. */
+/* Writes the diagram as an element `svg`; without memory the markup has failed. */
 void cz_plot_write(const CzPlot *plot, CzMarkup *markup);
 
 /* Opens an `svg` of that size with what every figure has; the caller closes it. */

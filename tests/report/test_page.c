@@ -1,0 +1,181 @@
+/* The pages about a real run: complete, in order, and never cut short in silence. */
+#include "support/check.h"
+
+#include "report/page.h"
+#include "report/well_formed.h"
+#include "simulate/input_curve.h"
+
+static int n_request;    /* so far */
+static int failing = -1; /* number of the request that fails; -1: none */
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t n, size_t size);
+void *__real_realloc(void *memory, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t n, size_t size);
+void *__wrap_realloc(void *memory, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
+
+static bool is_failing(void) {
+    return n_request++ == failing;
+}
+void *__wrap_malloc(size_t size) {
+    return is_failing() ? NULL : __real_malloc(size);
+}
+void *__wrap_calloc(size_t n, size_t size) {
+    return is_failing() ? NULL : __real_calloc(n, size);
+}
+void *__wrap_realloc(void *memory, size_t size) {
+    return is_failing() ? NULL : __real_realloc(memory, size);
+}
+void *__wrap_aligned_alloc(size_t alignment, size_t size) {
+    return is_failing() ? NULL : __real_aligned_alloc(alignment, size);
+}
+
+/* A problem that was run, and what a page about it needs. */
+typedef struct Ran {
+    CzProblem *problem;
+    CzEvaluator *evaluator;
+    CzEvaluation evaluation;
+    CzReportRun run;
+} Ran;
+
+static Ran run_problem(const char *name) {
+    static const char *const set[] = {"simulation.duration_ms=150"};
+    char path[300];
+    Ran ran = {0};
+    CzError error = {0};
+    CzProblemOptions options = cz_problem_options_default();
+    options.set = set;
+    options.n_set = 1;
+    options.share_folder = CZ_SOURCE_FOLDER "/problems";
+    snprintf(path, sizeof path, CZ_SOURCE_FOLDER "/problems/%s", name);
+    if (cz_problem_read(path, &options, &ran.problem, &error) != CZ_OK ||
+        cz_evaluator_build(ran.problem, NULL, &ran.evaluator, &error) != CZ_OK ||
+        cz_evaluate(ran.evaluator, 1, NULL, true, &ran.evaluation, &error) != CZ_OK)
+        fail_msg("%s: %s", name, error.message);
+    return ran;
+}
+
+static CzReportRun run_of(const Ran *ran) {
+    return (CzReportRun){"first", ran->problem, &ran->evaluation, -1};
+}
+
+static void free_ran(Ran *ran) {
+    cz_evaluation_free(&ran->evaluation);
+    cz_evaluator_free(ran->evaluator);
+    cz_problem_free(ran->problem);
+}
+
+/* The page, or the status that it ended with. */
+static CzStatus write_page(const CzReportRun *run, char **text) {
+    size_t n = 0;
+    CzError error = {0};
+    FILE *stream = open_memstream(text, &n);
+    assert_non_null(stream);
+    const CzStatus status = cz_report_write_page(run, NULL, stream, &error);
+    fclose(stream);
+    assert_true((status == CZ_OK) == (error.message[0] == '\0'));
+    return status;
+}
+
+static void sections_come_in_the_order_of_questions(void **state) {
+    (void)state;
+    static const char *const order[] = {
+        "<h1>",          "id=\"checks\"", "id=\"trains\"",   "id=\"loops\"",
+        "id=\"energy\"", "id=\"motion\"", "id=\"vertical\"", "id=\"animation\"",
+        "id=\"events\"", "id=\"inputs\"", "id=\"data\""};
+    Ran ran = run_problem("two-cars-25kmh.yaml");
+    const CzReportRun run = run_of(&ran);
+    char *text = NULL;
+    assert_int_equal(write_page(&run, &text), CZ_OK);
+    const char *from = text;
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
+        const char *found = strstr(from, order[i]);
+        if (found == NULL)
+            print_error("%s is not where it belongs\n", order[i]);
+        assert_non_null(found);
+        from = found;
+    }
+    const char *doctype = strchr(text, '\n'); /* no element */
+    assert_true(is_well_formed(doctype));
+    assert_int_equal(count_of(text, "class=\"car\" transform"), 2 * (6 + 1)); /* frames and stage */
+    free(text);
+    free_ran(&ran);
+}
+
+static void every_lack_of_memory_is_told(void **state) {
+    (void)state;
+    Ran ran = run_problem("two-cars-25kmh.yaml");
+    const CzReportRun run = run_of(&ran);
+    int n_failed = 0;
+    for (bool has_failed = true; has_failed; n_failed++) {
+        char *text = NULL;
+        n_request = 0;
+        failing = n_failed;
+        const CzStatus status = write_page(&run, &text);
+        has_failed = n_request > failing;
+        failing = -1;
+        free(text);
+        assert_int_equal(status, has_failed ? CZ_STATUS_NO_MEMORY : CZ_OK);
+    }
+    assert_true(n_failed > 50);
+    free_ran(&ran);
+}
+
+static void a_run_that_was_not_kept_has_no_page(void **state) {
+    (void)state;
+    Ran ran = run_problem("two-cars-25kmh.yaml");
+    CzEvaluation none = ran.evaluation;
+    none.run = NULL;
+    const CzReportRun run = {"none", ran.problem, &none, -1};
+    char *text = NULL;
+    assert_int_equal(write_page(&run, &text), CZ_STATUS_INPUT);
+    free(text);
+    free_ran(&ran);
+}
+
+/* The hand check of the problem file: each coupler takes 20 kN rising to 0.4 MN over 50 mm of its
+ * buffer and 0.6 MN over 250 mm of its tube, two of them 321 kJ, then lets go at 911 kN; two
+ * anti-climbers push with 1 MN. Members advance by the spacing of the points, which is what the
+ * areas are off by: one spacing times the force for each of six members. */
+static void the_input_curve_is_that_of_the_weakest_member(void **state) {
+    (void)state;
+    enum { N = 4001 };
+    static double closure[N], force[N];
+    Ran ran = run_problem("two-cars-25kmh.yaml");
+    CzModel *model = NULL;
+    assert_int_equal(cz_model_build(ran.problem, 0, &model, NULL), CZ_OK);
+    const int colliding = cz_model_colliding_interface(model);
+    assert_int_equal(cz_input_curve(model, colliding, 1.0, N, closure, force, NULL), CZ_OK);
+    const double step = closure[1];
+    assert_near(closure[N - 1], 1.0, 1e-12, 0);
+    assert_near(force[(int)lround(0.05 / step)], 210e3, 0, 2 * 400e3 / 0.05 * step);
+    assert_near(force[(int)lround(0.35 / step)], 600e3, 0, 1);
+    double area = 0, largest = 0;
+    int i = 0;
+    for (; force[i] < 911e3; i++) {
+        area += force[i] * step;
+        largest = fmax(largest, force[i]);
+    }
+    assert_near(closure[i], 0.6, 0, 8 * step + 2e-3); /* two buffers and tubes used up */
+    assert_near(area, 321e3, 0, 6 * step * 911e3 + 2e-3 * 911e3);
+    for (; force[i] > 0; i++)
+        assert_true(force[i] <= 911e3); /* it lets go */
+    while (force[i] < 990e3)
+        i++;
+    assert_near(force[i + 40], 1e6, 0.01, 0);
+    cz_model_free(model);
+    free_ran(&ran);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sections_come_in_the_order_of_questions),
+        cmocka_unit_test(every_lack_of_memory_is_told),
+        cmocka_unit_test(a_run_that_was_not_kept_has_no_page),
+        cmocka_unit_test(the_input_curve_is_that_of_the_weakest_member),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,48 @@
+/* The worst window of 120 ms and more is the worst of all of them, looked at one by one. */
+#include "physics/collision.h"
+
+#define SHORTEST 120 /* samples of 1 ms */
+
+/* All windows up to twice the shortest length, of the recorded speed. */
+static void assert_worst_window(const Collision *collision, int car) {
+    const CzVehicleResult *vehicle = &collision->summary->vehicle[car];
+    char name[32];
+    snprintf(name, sizeof name, "v_%s_m_s", vehicle->name);
+    const double *speed = channel(collision, name);
+    const int n = n_sample(collision);
+    double worst = 0.0, from = 0.0, to = 0.0;
+    for (int length = SHORTEST; length <= 2 * SHORTEST; length++) {
+        for (int start = 0; start + length < n; start++) {
+            const double mean = fabs(speed[start + length] - speed[start]) / (length * 1e-3);
+            if (mean > worst) {
+                worst = mean;
+                from = start * 1e-3;
+                to = (start + length) * 1e-3;
+            }
+        }
+    }
+    assert_near(vehicle->mean_deceleration_120ms, worst, 1e-12, 0.0);
+    assert_near(vehicle->window_120ms[0], from, 0.0, 1e-9);
+    assert_near(vehicle->window_120ms[1], to, 0.0, 1e-9);
+}
+
+static void the_worst_window_is_found_in_a_short_run_and_in_long_ones(void **state) {
+    (void)state;
+    static const char *const files[] = {"problems/two-cars-25kmh.yaml", "problems/wall.yaml",
+                                        "problems/first-collision.yaml",
+                                        "problems/metro-6-car.yaml"};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        Collision collision = collide(files[i], WITH("simulation.output_step_ms=1"), 0);
+        assert_completed(&collision);
+        for (int car = 0; car < collision.summary->n_vehicle; car++)
+            assert_worst_window(&collision, car);
+        collision_free(&collision);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_worst_window_is_found_in_a_short_run_and_in_long_ones),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -85,8 +85,19 @@ typedef struct CzInterfaceResult {
     double min_overlap; /* smallest remaining vertical overlap of the anti-climber faces while they
                            push [m]; NaN when they never did */
     double vertical_demand; /* largest vertical force between the anti-climbers [N] */
-    double vertical_margin; /* smallest (capacity - demand) while they push [N]; NaN when they never
+    double vertical_margin; /* smallest (capacity - demand) while they push [N], below 0 once they
+                               slip by the force that would have held the slip; NaN when they never
                                did */
+    double overlap_time;    /* when the overlap was smallest [s]; NaN likewise */
+    double margin_time;     /* when the vertical margin was smallest [s]; NaN likewise */
+    double ramp;            /* largest slope of the faces while they push [-]; NaN likewise */
+    double friction;        /* of the faces, for comparison [-]; NaN without anti-climbers */
+    double underframe_rise; /* largest change of the height of one underframe over the other at the
+                               pivots of the couplers [m]; NaN without couplers on underframes */
+    double swing[2];        /* largest angle of the engaged coupler against its car, rear vehicle's
+                               and front vehicle's [rad]; NaN without couplers */
+    double swing_stop[2];   /* angle of their stops [rad]; NaN without */
+    double critical_force;  /* F_crit of the couplers as written [N]; NaN without */
     int n_element;
     CzElementResult element[CZ_MAX_ELEMENTS];
 } CzInterfaceResult;
@@ -101,6 +112,8 @@ typedef struct CzVehicleResult {
     double window_120ms[2];           /* of the second [s]; equal where there is none */
     double wheel_lift[4];             /* largest lift of each wheelset, rear to front [m] */
     double wheel_lift_time[4];        /* [s] */
+    double bogie_lift_time;           /* when the next was reached [s] */
+    int lifted_bogie;                 /* where: 0 rear, 1 front */
     double bogie_lift;  /* largest over bogies and time of the lower wheelset's lift [m] */
     double max_pitch;   /* largest |pitch| of the body [rad] */
     double link_force;  /* largest traction link force [N] */

@@ -232,6 +232,10 @@ static void interface_extremes(CzBlock *d, double time) {
                                                                        M(FACE_SLIPPED);
     double *restrict lost_overlap = E(FACE_LOST_OVERLAP), *restrict lost_margin =
                                                               E(FACE_LOST_MARGIN);
+    double *restrict overlap_time = E(FACE_OVERLAP_TIME), *restrict margin_time =
+                                                              E(FACE_MARGIN_TIME);
+    const double *restrict ramp = S(FACE_RAMP);
+    double *restrict steepest = E(FACE_RAMP);
     double *restrict climbed = E(FACE_CLIMBED), *restrict climb_time = E(CLIMB_TIME);
     CZ_LANES (i, n) {
         const double pushing =
@@ -241,11 +245,34 @@ static void interface_extremes(CzBlock *d, double time) {
         const double gone = remaining[i] <= 0.0 ? pushing : 0.0;
         const double engaged = normal[i] > 1e4 ? 1.0 : 0.0;
         const double excess = fabs(demand[i]) - capacity[i] + stiffness[i] * slipped[i];
-        lost_overlap[i] = cz_larger(lost_overlap[i], pushing > 0.0 ? -remaining[i] : -1e300);
-        lost_margin[i] = cz_larger(lost_margin[i], engaged > 0.0 ? excess : -1e300);
+        const double used = pushing > 0.0 ? -remaining[i] : -1e300;
+        const double asked = engaged > 0.0 ? excess : -1e300;
+        overlap_time[i] = used > lost_overlap[i] ? time : overlap_time[i];
+        margin_time[i] = asked > lost_margin[i] ? time : margin_time[i];
+        lost_overlap[i] = cz_larger(lost_overlap[i], used);
+        lost_margin[i] = cz_larger(lost_margin[i], asked);
+        steepest[i] = cz_larger(steepest[i], engaged * ramp[i]);
         climbed[i] = cz_larger(climbed[i], gone);
         climb_time[i] = cz_larger(climb_time[i], gone > 0.0 ? -time : -1e300);
     }
+}
+
+/* How the bodies of an interface stand to each other where their pivots are. */
+static void coupler_extremes(CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict z = X(BODY_Z), *restrict s = S(BODY_SIN);
+    const double *restrict z_ahead = S(BODY_AHEAD_Z), *restrict s_ahead = S(BODY_AHEAD_SIN);
+    const double *restrict at = P(PIVOT_X_A), *restrict at_ahead = P(PIVOT_X_B);
+    const double *restrict tilts = C(TILTS);
+    double *restrict rise = E(UNDERFRAME_RISE);
+    CZ_LANES (i, n) {
+        const double own = z[i] + at[i] * s[i];
+        const double ahead = z_ahead[i] + at_ahead[i] * s_ahead[i];
+        rise[i] = cz_larger(rise[i], tilts[i] * fabs(ahead - own));
+    }
+    for (int side = 0; side < 2; ++side)
+        keep_larger_size(d, CZ_E_SWING_A + side, S_AT(SWING_A, side));
+    keep_larger_size(d, CZ_E_COUPLER_FORCE, S(COUPLER_FORCE));
 }
 
 static void car_extremes(CzBlock *d, double time) {
@@ -265,8 +292,11 @@ static void car_extremes(CzBlock *d, double time) {
                                                                               S_AT(WHEEL_APPROACH_0,
                                                                                    2 * bogie + 1);
         double *restrict lift = d->extreme[CZ_E_BOGIE_LIFT_REAR + bogie];
+        double *restrict when = d->extreme[CZ_E_BOGIE_LIFT_TIME_REAR + bogie];
         CZ_LANES (i, n) {
-            lift[i] = cz_larger(lift[i], cz_smaller(-first[i], -second[i]));
+            const double lower = cz_smaller(-first[i], -second[i]);
+            when[i] = lower > lift[i] ? time : when[i];
+            lift[i] = cz_larger(lift[i], lower);
         }
         keep_larger_size(d, CZ_E_LINK_FORCE, S_AT(LINK_REAR, bogie));
         keep_larger_size(d, CZ_E_LINK_TRAVEL, S_AT(LINK_TRAVEL_REAR, bogie));
@@ -298,7 +328,7 @@ static void commit_block(const CzLanes *lanes, CzBlock *d, double step, double t
     swap(&d->memory, &d->next_memory);
     interface_extremes(d, time);
     if (lanes->has_couplers) {
-        keep_larger_size(d, CZ_E_COUPLER_FORCE, S(COUPLER_FORCE));
+        coupler_extremes(d);
         keep_larger(d, CZ_E_COUPLER_FORCE, S(RELEASE_FORCE));
     }
     keep_larger(d, CZ_E_FACE_FORCE, S(FACE_FORCE));

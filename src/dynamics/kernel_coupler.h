@@ -115,13 +115,14 @@ static void hinge_moment(CzBlock *d, int side, const Carrier *carrier) {
     const double *restrict line_turn = S(SLIP_RATE), *restrict yielded = M_AT(HINGE_A, side);
     const double *restrict pitch = carrier->pitch, *restrict turn = carrier->turn;
     double *restrict next = NEXT_AT(HINGE_A, side), *restrict moment = S_AT(SPRING_UP_A, side);
-    double *restrict power = POWER(HINGE);
+    double *restrict power = POWER(HINGE), *restrict kept = S_AT(SWING_A, side);
     CZ_LANES (i, n) {
         const double angle = nz[i] * (1.0 + nz[i] * nz[i] * (1.0 / 6.0));
         const double swing = angle - rest[i] - pitch[i];
         const CzSliderResponse hinge =
             cz_slider_of(stiffness[i], compliance[i], capacity[i], swing, yielded[i]);
         next[i] = engaged[i] >= 1.0 ? hinge.offset : yielded[i];
+        kept[i] = engaged[i] * swing;
         moment[i] = engaged[i] * (hinge.force + cz_stop(stop[i], range[i], swing));
         power[i] += moment[i] * (line_turn[i] - turn[i]);
     }

@@ -136,6 +136,8 @@ static void face_tangential(CzBlock *d) {
                      *restrict next_sheared = NEXT(FACE_SHEARED);
     double *restrict capacity = S(FACE_CAPACITY), *restrict tangential = S(FACE_DEMAND);
     double *restrict power = POWER(FACE_SLIDING);
+    const double *restrict nx = S(NORMAL_X), *restrict nz = S(NORMAL_Z);
+    double *restrict ramp = S(FACE_RAMP);
     CZ_LANES (i, n) {
         const CzRibsLaw law = {pitch[i], level[i], depth[i], ribs[i], friction[i]};
         const CzRibsResponse grip = cz_ribs(&law, slip[i], closure[i], normal[i], sheared[i]);
@@ -147,6 +149,7 @@ static void face_tangential(CzBlock *d) {
         next_slipped[i] = slipped[i] + way;
         next_sheared[i] = sheared[i] + grip.mesh * way;
         tangential[i] = held.force;
+        ramp[i] = fabs(nz[i]) / nx[i];
         power[i] += held.force * slip_rate[i];
     }
 }

@@ -98,6 +98,15 @@ static double largest_wheel_lift(const CzPlace *place) {
     return lift;
 }
 
+/* Largest force of a coupler of the interface; NaN when it has none. */
+static double coupler_force(const CzPlace *place) {
+    double force = NAN;
+    for (int i = 0; i < place->interface->n_element; i++)
+        if (place->interface->element[i].kind == CZ_ELEMENT_COUPLER)
+            force = fmax(force, place->interface->element[i].peak_force);
+    return force;
+}
+
 /* Whether a design could not be written down and read back. Memory that is lacking counts as
  * broken: such a design is not one to win with. */
 static double breaks_rules(const CzPlace *place) {

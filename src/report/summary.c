@@ -148,6 +148,15 @@ static void put_interface(CzJson *json, const CzInterfaceResult *interface) {
     cz_json_real(json, "min_overlap_mm", interface->min_overlap * CZ_MILLI_PER_UNIT);
     cz_json_real(json, "vertical_demand_kN", interface->vertical_demand / CZ_KILO);
     cz_json_real(json, "vertical_margin_kN", interface->vertical_margin / CZ_KILO);
+    cz_json_real(json, "min_overlap_time_ms", cz_milliseconds(interface->overlap_time));
+    cz_json_real(json, "vertical_margin_time_ms", cz_milliseconds(interface->margin_time));
+    cz_json_real(json, "ramp", interface->ramp);
+    cz_json_real(json, "underframe_rise_mm", interface->underframe_rise * CZ_MILLI_PER_UNIT);
+    cz_json_open_list(json, "swing_mrad");
+    for (int side = 0; side < 2; side++)
+        cz_json_real(json, NULL, interface->swing[side] * CZ_MILLI_PER_UNIT);
+    cz_json_close(json);
+    cz_json_real(json, "critical_force_kN", interface->critical_force / CZ_KILO);
     cz_json_open_list(json, "elements");
     for (int i = 0; i < interface->n_element; i++)
         put_element(json, &interface->element[i]);
@@ -190,7 +199,16 @@ static void put_vehicle(CzJson *json, const CzVehicleResult *vehicle,
     for (int wheelset = 0; wheelset < 4; wheelset++)
         cz_json_real(json, NULL, vehicle->wheel_lift[wheelset] * CZ_MILLI_PER_UNIT);
     cz_json_close(json);
+    cz_json_open_list(json, "wheel_lift_time_ms");
+    for (int wheelset = 0; wheelset < 4; wheelset++)
+        cz_json_real(json, NULL, cz_milliseconds(vehicle->wheel_lift_time[wheelset]));
+    cz_json_close(json);
     cz_json_real(json, "bogie_lift_mm", vehicle->bogie_lift * CZ_MILLI_PER_UNIT);
+    cz_json_text(json, "lifted_bogie",
+                 !(vehicle->bogie_lift > 0)   ? NULL
+                 : vehicle->lifted_bogie == 0 ? "rear"
+                                              : "front");
+    cz_json_real(json, "bogie_lift_time_ms", cz_milliseconds(vehicle->bogie_lift_time));
     cz_json_real(json, "link_force_kN", vehicle->link_force / CZ_KILO);
     cz_json_real(json, "link_travel_mm", vehicle->link_travel * CZ_MILLI_PER_UNIT);
     cz_json_real(json, "survival_shortening_mm", vehicle->survival_shortening * CZ_MILLI_PER_UNIT);

@@ -117,8 +117,7 @@ static void look(const CzBatch *batch, int car, double lift[CZ_N_BUDGET],
 static double lift_of_wheels(const CzBatch *batch, size_t lane) {
     double largest = 0.0;
     for (int axle = 0; axle < 4; ++axle)
-        largest = fmax(largest, cz_position(batch, CZ_DOF_WHEEL_Z_0 + 3 * axle, lane) -
-                                    cz_parameter(batch, CZ_P_INDENTATION_0 + axle, lane));
+        largest = fmax(largest, -cz_scratch(batch, CZ_S_WHEEL_APPROACH_0 + axle, lane));
     return largest;
 }
 

@@ -225,6 +225,30 @@ double cz_interface_energy(const CzBatch *batch, int interface, int design) {
     return energy;
 }
 
+/* How near an interface came to climbing, and when. */
+static void fill_climbing(const CzBatch *batch, int interface, int design,
+                          CzInterfaceResult *result) {
+    const size_t lane = cz_lane(batch, interface, design);
+    const bool pushed = !isnan(result->min_overlap);
+    const bool has_couplers = cz_parameter(batch, CZ_P_COUPLER, lane) > 0.5;
+    const bool on_ends = cz_parameter(batch, CZ_P_COUPLER_ON_END_A, lane) +
+                             cz_parameter(batch, CZ_P_COUPLER_ON_END_B, lane) >
+                         0.5;
+    result->overlap_time = pushed ? cz_extreme(batch, CZ_E_FACE_OVERLAP_TIME, lane) : NAN;
+    result->margin_time =
+        isnan(result->vertical_margin) ? NAN : cz_extreme(batch, CZ_E_FACE_MARGIN_TIME, lane);
+    result->ramp = pushed ? cz_extreme(batch, CZ_E_FACE_RAMP, lane) : NAN;
+    result->friction = pushed ? cz_parameter(batch, CZ_P_FACE_FRICTION, lane) : NAN;
+    result->underframe_rise =
+        has_couplers && !on_ends ? cz_extreme(batch, CZ_E_UNDERFRAME_RISE, lane) : NAN;
+    for (int side = 0; side < 2; ++side) {
+        const double stop = cz_parameter(batch, CZ_P_SWING_STOP_A + side, lane);
+        result->swing[side] = has_couplers ? cz_extreme(batch, CZ_E_SWING_A + side, lane) : NAN;
+        result->swing_stop[side] = has_couplers && stop < MISSING ? stop : NAN;
+    }
+    result->critical_force = batch->model->interface_facts[interface].critical_force;
+}
+
 void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result) {
     const CzModel *model = batch->model;
     const size_t lane = cz_lane(batch, interface, design);
@@ -241,6 +265,7 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
     result->min_overlap = can_climb && lost_overlap > -1e299 ? -lost_overlap : NAN;
     result->vertical_margin = can_climb && lost_margin > -1e299 ? -lost_margin : NAN;
     result->vertical_demand = cz_extreme(batch, CZ_E_FACE_DEMAND, lane);
+    fill_climbing(batch, interface, design, result);
     result->n_element = 0;
     for (int side = 0; side < 2; ++side) {
         CzElementResult *first = &result->element[result->n_element];
@@ -300,9 +325,12 @@ CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleRes
         result->wheel_lift_time[axle] =
             full ? cz_extreme(batch, CZ_E_LIFT_TIME_0 + axle, lane) : NAN;
     }
-    result->bogie_lift = full ? fmax(cz_extreme(batch, CZ_E_BOGIE_LIFT_REAR, lane),
-                                     cz_extreme(batch, CZ_E_BOGIE_LIFT_FRONT, lane))
-                              : NAN;
+    const double of_rear = cz_extreme(batch, CZ_E_BOGIE_LIFT_REAR, lane);
+    const double of_front = cz_extreme(batch, CZ_E_BOGIE_LIFT_FRONT, lane);
+    result->lifted_bogie = of_front > of_rear;
+    result->bogie_lift = full ? fmax(of_rear, of_front) : NAN;
+    result->bogie_lift_time =
+        full ? cz_extreme(batch, CZ_E_BOGIE_LIFT_TIME_REAR + result->lifted_bogie, lane) : NAN;
     result->max_pitch = full ? cz_extreme(batch, CZ_E_BODY_PITCH, lane) : NAN;
     result->link_force = full ? cz_extreme(batch, CZ_E_LINK_FORCE, lane) : NAN;
     result->link_travel = full ? cz_extreme(batch, CZ_E_LINK_TRAVEL, lane) : NAN;

@@ -112,6 +112,8 @@ static void blank_interface(CzInterfaceResult *result) {
         result->energy_share = NAN;
     result->section_force[0] = result->section_force[1] = NAN;
     result->min_overlap = result->vertical_demand = result->vertical_margin = NAN;
+    result->overlap_time = result->margin_time = result->ramp = result->underframe_rise = NAN;
+    result->swing[0] = result->swing[1] = NAN;
     for (int k = 0; k < result->n_element; ++k) {
         CzElementResult *element = &result->element[k];
         element->energy = element->stored = element->stroke = element->stroke_used = NAN;
@@ -125,7 +127,8 @@ static void blank_vehicle(CzVehicleResult *result) {
     result->mean_deceleration_contact = result->mean_deceleration_120ms = NAN;
     for (int axle = 0; axle < 4; ++axle)
         result->wheel_lift[axle] = result->wheel_lift_time[axle] = NAN;
-    result->bogie_lift = result->max_pitch = result->link_force = result->survival_shortening = NAN;
+    result->bogie_lift = result->bogie_lift_time = result->max_pitch = result->link_force =
+        result->survival_shortening = NAN;
     result->link_travel = NAN;
 }
 

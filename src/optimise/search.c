@@ -49,6 +49,7 @@ bool cz_search_is_stopped(CzSearch *search) {
 
 void cz_search_resume(CzSearch *search) {
     search->is_paused = false;
+    search->why[0] = '\0';
     search->n_before_window = search->n_record;
 }
 

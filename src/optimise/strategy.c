@@ -201,6 +201,7 @@ static CzStatus descend_apart(CzSearch *search, long evaluations, CzError *error
     CzStatus status = CZ_OK;
     for (int start = 0; start < MOST_STARTS && status == CZ_OK; start++) {
         const long record = best_apart(search, start, chosen, start == 0 ? 0 : 0.15, u);
+        cz_search_resume(search); /* failures further away say nothing about here */
         const long left = limit - search->n_record;
         if (record < 0 || left < 3 * (n + 3) || cz_search_left(search) == 0)
             break;
@@ -218,6 +219,7 @@ static CzStatus refine(CzSearch *search, long reserve, CzError *error) {
     double step = 0.05;
     int n_idle = 0;
     for (int turn = 0; step > 1e-4; turn++) {
+        cz_search_resume(search);
         const long left = cz_search_left(search) - reserve;
         const long some = left < 25L * (n + 1) ? left : 25L * (n + 1);
         if (left < n + 4 || search->best < 0)

@@ -1,4 +1,5 @@
 cz_script(start runs start.sh)
+cz_script(paper runs paper.sh)
 if(CZ_IS_WHOLE)
     cz_script(examples runs examples.sh)
     cz_script(install runs install.sh)

@@ -1,0 +1,42 @@
+# The published example: the five numbers, on the elastic track and the rigid one; other sets; the fit.
+. "$SOURCE/tests/support/cases.sh"
+paper=$SOURCE/problems/paper-25kmh.yaml
+
+# The verdict is over the five numbers with their tolerances and the way of a bogie at its link.
+holds() { "$PROGRAM" check "$paper" --quiet -o out "$@"; }
+value() { sed -n "/\"name\": \"$1\"/,/\"value\"/s/.*\"value\": \([-0-9.e]*\).*/\1/p" out/summary.json | head -1; }
+within() { # within NAME TARGET TOLERANCE
+    awk -v v="$(value "$1")" -v t="$2" -v w="$3" 'BEGIN { exit !(v != "" && v - t <= w && t - v <= w) }'
+}
+
+check "the five published numbers hold on the elastic track" holds
+check "the track is the elastic one" grep -q '"track": "modal"' out/summary.json
+check "the anti-climbers touch at 50 ms +- 2 ms" within "anti-climbers touch" 50 2
+check "the shear-off lets go at 911 kN +- 1 %" within "shear-off force" 911 9.11
+check "the 300 mm of the anti-climber are used up" within "share of the anti-climber's 300 mm" 1 0.01
+check "the interface carries 4500 kN +- 5 %" within "peak interface force" 4500 225
+check "the body moves back at 9 km/h +- 0.5 km/h at 150 ms" within "speed of the body at 150 ms" -2.5 0.139
+check "the energy balance is below 1e-4" \
+    awk -v v="$(sed -n 's/.*"balance_error": \([-0-9.e]*\).*/\1/p' out/summary.json | head -1)" 'BEGIN { exit !(v < 1e-4) }'
+check "they hold on the rigid track" holds --set simulation.track=rigid
+check "they hold for the other set that the documentation shows" holds \
+    --set parts.paper-car.mass_t=28.75 --set parts.paper-bogie.mass_kg=3785 \
+    --set parts.paper-bogie.link.stiffness_MN_m=17.92 \
+    --set parts.paper-bogie.guidance_stiffness_MN_m=34.7 \
+    --set "parts.paper-tube.stages[0].stroke_mm=47.4" --set "parts.paper-tube.stages[0].force_kN=489" \
+    --set parts.paper-anti-climber.gap_mm=335.2 \
+    --set "parts.paper-anti-climber.stages[0].force_kN=887" \
+    --set "parts.paper-end.stages[0].force_kN=4316" --set "parts.paper-end.stages[1].force_kN=7253" \
+    --set "parts.paper-end.stages[2].force_kN=6360" \
+    --set parts.paper-end.unloading_stiffness_MN_m=230.3 \
+    --set parts.paper-end.second_unloading_stiffness_MN_m=39.5 \
+    --set parts.paper-end.mass_t=0.985 --set trains.A.brake.ratio=0.149 --set trains.B.brake.ratio=0.149
+check "a heavy car misses them" sh -c "! '$PROGRAM' check '$paper' --quiet -o out --set parts.paper-car.mass_t=38"
+
+check "a short fit from the file's start ends within every tolerance" \
+    "$PROGRAM" optimise "$SOURCE/problems/paper-25kmh-identify.yaml" --evaluations 400 --quiet -o found
+nothing "none of its parameters is at a bound" grep '"at_bound": true' found/outcome.json
+check "what it found is written as a file that holds too" "$PROGRAM" check found/optimised.yaml --quiet -o again
+check "two trains of such cars run to their end" \
+    "$PROGRAM" run "$SOURCE/problems/paper-trains-25kmh.yaml" --quiet -o trains
+finish

@@ -23,7 +23,11 @@ void rows_of_pinned_mode(Rows *rows);
 /* Modes up to a cut and the flexibility that they leave, against the exact statics. */
 void rows_of_mode_convergence(Rows *rows);
 
-/* Shipped problems on the elastic track: energy, momentum, step. */
+/* Finite elements against the exact frequency and statics. */
+void rows_of_element_frequencies(Rows *rows);
+void rows_of_element_statics(Rows *rows);
+
+/* Shipped problems on the elastic track: step, and the other elastic tracks. */
 void rows_of_runs_on_rails(Rows *rows);
 
 #endif

@@ -2,6 +2,7 @@
  * work put in, and neither window nor solver shows in what a wheel feels.
  */
 #include "physics/motion.h"
+#include "physics/rails.h"
 #include "physics/roadbed.h"
 
 #include "dynamics/track_motion.h"
@@ -255,73 +256,14 @@ static void cars_at_rest_on_any_track_stay_at_rest(void **state) {
 
 /* ---- finite elements ---- */
 
-/* The rail wave with its nodes at the seats, in a row of elements with lumped masses: too low by
- * the square of the nodes' distance. */
-static double pinned_pinned_frequency(int nodes) {
-    CzArena arena = {0};
-    const CzRoadbed roadbed = usual_roadbed();
-    const CzSeats seats = cz_seats(&roadbed, 2);
-    const double step = 5e-6, none[4] = {0.0};
-    CzElements *elements = cz_elements_create(&seats, nodes, 0.0, step, 1, &arena);
-    assert_non_null(elements);
-    assert_true(cz_elements_lay(elements, 0, none, none, &arena));
-    CzElementsUnder *under = &elements->under[0];
-    for (size_t bay = 0; bay < (size_t)elements->n_bay; ++bay)
-        for (size_t node = 0; node < (size_t)nodes; ++node) {
-            const double phase = 0.5 * ((double)bay + (double)node / nodes);
-            const size_t at = bay * elements->per_bay + (node == 0 ? 0 : 2 + 2 * node);
-            under->v[at] = node == 0 ? 0.0 : cz_turned(phase).im;
-            under->v[at + 1] = 0.9 * CZ_PI / seats.spacing * cz_turned(phase).re;
-        }
-    const size_t seen = (size_t)elements->n_bay / 2 * elements->per_bay + 2 + (size_t)nodes;
-    double first = NAN, latest = NAN, before = 0.0;
-    int n = -1;
-    for (int k = 0; k < 20000; ++k) {
-        cz_elements_step(elements, 0, none);
-        const double now = under->u[seen];
-        if (before < 0.0 && now >= 0.0) {
-            latest = (k - now / (now - before)) * step;
-            first = n < 0 ? latest : first;
-            ++n;
-        }
-        before = now;
-    }
-    cz_arena_free(&arena);
-    return n / (latest - first);
-}
-
 static void elements_converge_to_the_pinned_pinned_frequency(void **state) {
     (void)state;
-    const double exact = 1072.679, two = pinned_pinned_frequency(2) / exact - 1.0;
-    const double four = pinned_pinned_frequency(4) / exact - 1.0;
-    const double eight = pinned_pinned_frequency(8) / exact - 1.0;
-    print_message("%.3f %%, %.3f %%, %.3f %%\n", 100.0 * two, 100.0 * four, 100.0 * eight);
-    assert_near(two, -0.046, 0.0, 5e-4);
-    assert_near(four, -0.0106, 0.0, 5e-4);
-    assert_near(eight, -0.0026, 0.0, 2e-4);
-    assert_near(two / four, 4.0, 0.1, 0.0);
-    assert_near(four / eight, 4.0, 0.02, 0.0);
+    assert_rows_of(rows_of_element_frequencies);
 }
 
-/* Assembled from elements and solved as one band, the statics are those of the closed form, for any
- * number of nodes and any place. */
 static void elements_give_way_as_the_closed_form(void **state) {
     (void)state;
-    const CzRoadbed roadbed = usual_roadbed();
-    const CzSeats seats = cz_seats(&roadbed, 2);
-    for (int nodes = 1; nodes <= 8; nodes *= 2)
-        for (double x = 0.0; x < 0.6; x += 0.07) {
-            CzArena arena = {0};
-            const double place[4] = {x, 0.0, 0.0, 0.0}, load[4] = {70e3, 0.0, 0.0, 0.0};
-            CzElements *elements = cz_elements_create(&seats, nodes, SPAN, 1e-4, 1, &arena);
-            assert_non_null(elements);
-            assert_true(cz_elements_lay(elements, 0, place, load, &arena));
-            CzElementsPoint point[4];
-            cz_elements_look(elements, 0, place, point);
-            assert_near(point[0].flexibility * load[0] - point[0].z,
-                        load[0] * cz_ring_flexibility(&seats, 62, x / 0.6), 1e-9, 0.0);
-            cz_arena_free(&arena);
-        }
+    assert_rows_of(rows_of_element_statics);
 }
 
 /* Rolling wheels that press three times as hard as at rest in pulses of 6 ms: elements and modes

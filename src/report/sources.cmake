@@ -26,6 +26,7 @@ set(CZ_SOURCES_report
     page_inputs.c
     page_outcome.c
     page_scene.c
+    page_sweep.c
     page_trains.c
     plot.c
     result_folder.c

@@ -7,6 +7,7 @@
 #include "report/figure.h"
 #include "report/folder.h"
 #include "report/grid.h"
+#include "report/page_sweep.h"
 
 #include <math.h>
 #include <string.h>
@@ -226,7 +227,12 @@ static CzStatus write_files(CzFolder *folder, const CzSweep *sweep, const CzRepo
     if (status != CZ_OK)
         return status;
     cz_csv_write_sweep(sweep, options, stream);
-    return cz_folder_close(folder, error); /* a full disk shows here */
+    status = cz_folder_close(folder, error); /* a full disk shows here */
+    if (status == CZ_OK)
+        status = cz_folder_open(folder, "report.html", &stream, error);
+    if (status == CZ_OK)
+        status = cz_page_write_sweep(sweep, stream, error);
+    return status == CZ_OK ? cz_folder_close(folder, error) : status;
 }
 
 CzStatus cz_report_write_sweep_folder(const CzSweep *sweep, const CzReportOptions *options,

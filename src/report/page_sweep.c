@@ -1,0 +1,234 @@
+/* A sweep as a page: margin and metrics over the value, or a map of verdicts over two. */
+#include "report/page_sweep.h"
+
+#include "base/error.h"
+#include "report/figure.h"
+#include "report/page.h"
+#include "report/plot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_PERCENT 100.0 /* margins below are drawn at its negative */
+#define MAP_LEFT 80.0
+#define MAP_TOP 10.0
+#define MAP_BELOW 70.0 /* numbers, label and legend */
+
+/* How a point looks: word, sign in a map, colour, class of its cell in the table. */
+typedef struct Look {
+    const char *word, *sign, *colour, *class_name;
+} Look;
+
+static Look look_of(const CzSweepPoint *point) {
+    static const Look of_state[] = {[CZ_SWEEP_RUN_FAILED] = {"RUN FAILED", "!", "#5c0010", "fail"},
+                                    [CZ_SWEEP_INVALID] = {"invalid", "-", "#9a9a9a", "small"},
+                                    [CZ_SWEEP_NOT_RUN] = {"not run", "", "none", "small"}};
+    static const Look of_verdict[] = {
+        [CZ_VERDICT_PASS] = {"pass", "+", "#009e73", "pass"},
+        [CZ_VERDICT_PROVISIONAL] = {"PROVISIONAL", "~", "#e69f00", "careful"},
+        [CZ_VERDICT_FAIL] = {"FAIL", "X", "#d0021b", "fail"},
+        [CZ_VERDICT_NOT_CHECKED] = {"NOT CHECKED", "?", "#9a9a9a", "careful"}};
+    return point->state == CZ_SWEEP_DONE ? of_verdict[point->verdict] : of_state[point->state];
+}
+
+/* ---- curves over one value ---- */
+
+/* Stretches of values that fail, from halfway to the last point that does not to halfway to the
+ * next. Returns how many; bands[n_point] has room. */
+static int failing_bands(const CzSweep *sweep, CzPlotBand *bands) {
+    int n = 0;
+    for (int i = 0; i < sweep->n_point; i++) {
+        const CzSweepPoint *point = &sweep->point[i];
+        const bool fails = point->state == CZ_SWEEP_RUN_FAILED ||
+                           (point->state == CZ_SWEEP_DONE && point->verdict == CZ_VERDICT_FAIL);
+        if (!fails)
+            continue;
+        const double before = i > 0 ? sweep->point[i - 1].value[0] : point->value[0];
+        const double after = i + 1 < sweep->n_point ? point[1].value[0] : point->value[0];
+        const double ends[] = {(before + point->value[0]) / 2, (after + point->value[0]) / 2};
+        bands[n++] = (CzPlotBand){"FAIL", fmin(ends[0], ends[1]), fmax(ends[0], ends[1]), 1};
+    }
+    return n;
+}
+
+static void write_curve(CzMarkup *markup, const CzSweep *sweep, const char *title,
+                        const char *y_label, bool has_limit, const double *x, const double *y,
+                        int n_band, const CzPlotBand *band) {
+    const CzSeries series = {
+        .name = "each point the worst place and scenario", .n = sweep->n_point, .x = x, .y = y};
+    const CzPlotLimit limit = {"no margin left", 0};
+    const CzPlot plot = {.title = title,
+                         .x_label = sweep->axis[0].path,
+                         .y_label = y_label,
+                         .n_series = 1,
+                         .series = &series,
+                         .n_limit = has_limit,
+                         .limit = &limit,
+                         .n_band = n_band,
+                         .band = band,
+                         .from_zero = true};
+    cz_markup_open(markup, "figure");
+    cz_markup_element(markup, "figcaption", title);
+    cz_plot_write(&plot, markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *error) {
+    const size_t n = (size_t)sweep->n_point;
+    double *x = malloc(2 * (n + 1) * sizeof *x);
+    CzPlotBand *band = malloc((n + 1) * sizeof *band);
+    const bool fits = x != NULL && band != NULL;
+    if (fits) {
+        double *y = x + n;
+        const int n_band = failing_bands(sweep, band);
+        for (size_t i = 0; i < n; i++) {
+            x[i] = sweep->point[i].value[0];
+            y[i] = fmax(100 * sweep->point[i].margin, -MOST_PERCENT);
+        }
+        write_curve(markup, sweep, "Smallest margin of all checks (below -100 % at -100 %)",
+                    "margin [%]", true, x, y, n_band, band);
+        for (int k = 0; k < sweep->n_metric; k++) {
+            char label[128];
+            const char *unit = sweep->metric_unit[k];
+            snprintf(label, sizeof label, "%s%s%s%s", "value", unit[0] != '\0' ? " [" : "", unit,
+                     unit[0] != '\0' ? "]" : "");
+            for (size_t i = 0; i < n; i++)
+                y[i] = sweep->point[i].metric[k];
+            write_curve(markup, sweep, sweep->metric[k], label, false, x, y, n_band, band);
+        }
+    }
+    free(x);
+    free(band);
+    return fits ? CZ_OK : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
+}
+
+/* ---- the map ---- */
+
+static void write_cell(CzMarkup *markup, const CzSweepPoint *point, double x, double y,
+                       double width, double height) {
+    const Look look = look_of(point);
+    cz_markup_open(markup, "rect");
+    cz_markup_number(markup, "x", 1, x);
+    cz_markup_number(markup, "y", 1, y);
+    cz_markup_number(markup, "width", 1, width);
+    cz_markup_number(markup, "height", 1, height);
+    cz_markup_attribute(markup, "fill", look.colour);
+    cz_markup_attribute(markup, "fill-opacity", ".75");
+    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_attribute(markup, "stroke-width", ".4");
+    cz_markup_close(markup);
+    if (width >= 8 && height >= 10)
+        cz_svg_text(markup, x + width / 2, y + height / 2 + 4, "middle", look.sign);
+}
+
+/* A number about every `every`-th row or column. */
+static bool is_numbered(int index, double size, double needed) {
+    const int every = size >= needed ? 1 : (int)ceil(needed / size);
+    return index % every == 0;
+}
+
+static void write_map(CzMarkup *markup, const CzSweep *sweep) {
+    const int n_row = sweep->axis[0].n, n_column = sweep->axis[1].n;
+    const double width = (CZ_PLOT_WIDTH - MAP_LEFT - 8) / n_column;
+    const double height = fmax(6, fmin(24, 360.0 / n_row));
+    const double bottom = MAP_TOP + height * n_row;
+    cz_markup_open(markup, "figure");
+    cz_markup_element(markup, "figcaption", "Verdicts");
+    cz_svg_open(markup, "Map of verdicts", CZ_PLOT_WIDTH, bottom + MAP_BELOW);
+    for (int row = 0; row < n_row; row++) {
+        char text[CZ_FIGURE_ROOM];
+        const double y = bottom - height * (row + 1); /* upwards, as in any diagram */
+        if (is_numbered(row, height, 13))
+            cz_svg_text(markup, MAP_LEFT - 5, y + height / 2 + 4, "end",
+                        cz_figure_digits(text, 5, cz_sweep_axis_value(&sweep->axis[0], row)));
+        for (int column = 0; column < n_column; column++)
+            write_cell(markup, &sweep->point[row * n_column + column], MAP_LEFT + width * column, y,
+                       width, height);
+    }
+    for (int column = 0; column < n_column; column++) {
+        char text[CZ_FIGURE_ROOM];
+        if (is_numbered(column, width, 38))
+            cz_svg_text(markup, MAP_LEFT + width * (column + 0.5), bottom + 14, "middle",
+                        cz_figure_digits(text, 5, cz_sweep_axis_value(&sweep->axis[1], column)));
+    }
+    cz_svg_text(markup, MAP_LEFT, bottom + 32, "start", sweep->axis[1].path);
+    char up[200];
+    snprintf(up, sizeof up, "upwards: %s", sweep->axis[0].path);
+    cz_svg_text(markup, MAP_LEFT, bottom + 47, "start", up);
+    cz_svg_text(markup, MAP_LEFT, bottom + 64, "start",
+                "+ pass   ~ provisional   X FAIL   ? not checked   ! run failed   - invalid");
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+/* ---- table ---- */
+
+static void write_point(CzMarkup *markup, const CzSweep *sweep, const CzSweepPoint *point) {
+    const Look look = look_of(point);
+    char text[CZ_FIGURE_ROOM];
+    cz_markup_open(markup, "tr");
+    for (int k = 0; k < sweep->n_axis; k++)
+        cz_markup_classed(markup, "td", "number", cz_figure_digits(text, 6, point->value[k]));
+    cz_markup_classed(markup, "td", look.class_name, look.word);
+    cz_markup_classed(markup, "td", "number", cz_figure_margin(text, point->margin));
+    for (int k = 0; k < sweep->n_metric; k++)
+        cz_markup_classed(markup, "td", "number", cz_figure_plain(text, point->metric[k]));
+    cz_markup_element(markup, "td", point->check[0] != '\0' ? point->check : point->message);
+    cz_markup_element(markup, "td", point->where);
+    cz_markup_element(markup, "td", point->scenario);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+static void write_table(CzMarkup *markup, const CzSweep *sweep) {
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open(markup, "table");
+    cz_markup_open(markup, "tr");
+    for (int k = 0; k < sweep->n_axis; k++)
+        cz_markup_element(markup, "th", sweep->axis[k].path);
+    cz_markup_element(markup, "th", "verdict");
+    cz_markup_element(markup, "th", "margin");
+    for (int k = 0; k < sweep->n_metric; k++)
+        cz_markup_element(markup, "th", sweep->metric[k]);
+    cz_markup_element(markup, "th", "smallest margin");
+    cz_markup_element(markup, "th", "where");
+    cz_markup_element(markup, "th", "scenario");
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    for (int i = 0; i < sweep->n_point; i++)
+        write_point(markup, sweep, &sweep->point[i]);
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error) {
+    CzMarkup markup = {.stream = stream};
+    char title[256];
+    snprintf(title, sizeof title, "%.150s, swept", cz_problem_title(sweep->problem));
+    cz_page_write_head(&markup, title);
+    cz_markup_element(&markup, "h1", title);
+    if (sweep->is_interrupted)
+        cz_markup_classed(&markup, "p", "fail", "The sweep was interrupted: points are missing.");
+    if (sweep->n_metric == 0)
+        cz_markup_element(&markup, "p",
+                          "No metrics were asked for; crushzone sweep --metric NAME adds them.");
+    cz_page_open_section(&markup, "figures", sweep->n_axis == 1 ? "Over the value" : "Map");
+    cz_markup_open(&markup, "div");
+    cz_markup_attribute(&markup, "class", "figures");
+    if (sweep->n_axis == 1)
+        CZ_TRY(write_curves(&markup, sweep, error));
+    else
+        write_map(&markup, sweep);
+    cz_markup_close(&markup);
+    cz_page_close_section(&markup);
+    cz_page_open_section(&markup, "points", "Points");
+    write_table(&markup, sweep);
+    cz_page_close_section(&markup);
+    cz_page_write_foot(&markup);
+    return markup.failed ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report") : CZ_OK;
+}

@@ -175,6 +175,8 @@ typedef struct CzRunSummary {
     long n_step;
     CzEnergy energy;
     double momentum_error;
+    double rest_residual;  /* largest force left unbalanced at rest over the weight of its vehicle
+                              [-]; NaN without full vehicles, and of runs that are not recorded */
     double closing_speed;  /* largest closing speed of neighbours at the end [m/s] */
     double plastic_energy; /* what a perfectly plastic collision would dissipate, less the work at
                               wheels and brakes until the trains first have one speed [J] */
@@ -224,6 +226,23 @@ CZ_MUST_CHECK CZ_API CzStatus cz_simulate(const CzModel *model, const CzSimulate
                                           CzRun **run, CzError *error);
 CZ_API void cz_run_free(CzRun *run);
 CZ_API const CzRunSummary *cz_run_summary(const CzRun *run);
+
+/* A full vehicle at rest on its springs, wheels and track, found by Newton's method (KINSOL) from
+ * the laws alone; the model is built from closed forms, which this tests. Measured from springs
+ * without load and wheels that just touch. NaN throughout for rigid and fixed vehicles. */
+typedef struct CzRest {
+    double axle_load[4];            /* of each wheelset on the rails, rear to front [N] */
+    double secondary_deflection[2]; /* rear and front [m] */
+    double primary_deflection[4];   /* [m] */
+    double rail_deflection[4];      /* downwards under each wheelset; 0 on a rigid track [m] */
+    double indentation[4];          /* of wheel and rail [m] */
+    double body_sag, body_pitch;    /* downwards [m]; nose-up [rad] */
+    double residual;                /* largest force left unbalanced over the weight [-] */
+} CzRest;
+
+/* Fills the rest of every vehicle (n_vehicle). Statuses: CZ_OK, CZ_STATUS_RUN_FAILED when there is
+ * no equilibrium, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_rest_find(const CzModel *model, CzRest *rest, CzError *error);
 
 /* Recorded channels, names with unit such as "v_A1_m_s"; column 0 is t_ms. Borrowed; n_sample
  * values each. */

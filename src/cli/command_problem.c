@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Interfaces that have been told of, by name; several scenarios have the same ones. */
@@ -137,6 +138,33 @@ static void show_vehicles(const CzModel *model) {
     }
 }
 
+/* The vehicles at rest, solved anew from the laws; returns the exit code. */
+static int show_rest(const CzSession *session, const CzModel *model) {
+    const int n = cz_model_n_vehicle(model);
+    CzRest *rest = calloc((size_t)n, sizeof *rest);
+    CzError error = {.status = CZ_STATUS_NO_MEMORY, .message = "no memory for the vehicles"};
+    if (rest == NULL || cz_rest_find(model, rest, &error) != CZ_OK) {
+        free(rest);
+        return cz_session_fail(session, &error);
+    }
+    printf("#\n# at rest by the laws: mm, and the largest force left unbalanced over the weight\n"
+           "# %-9s %9s %9s %9s %9s %9s\n",
+           "vehicle", "sec. mm", "prim. mm", "rail mm", "dent mm", "residual");
+    for (int i = 0; i < n; i++) {
+        printf("# %-9s", cz_model_vehicle_name(model, i));
+        put_number(rest[i].secondary_deflection[0], 1e-3, 3);
+        put_number(rest[i].primary_deflection[0], 1e-3, 3);
+        put_number(rest[i].rail_deflection[0], 1e-3, 3);
+        put_number(rest[i].indentation[0], 1e-3, 3);
+        if (isnan(rest[i].residual))
+            printf(" %9s\n", "-");
+        else /* rounding decides the digits, so only its size is told */
+            printf(" %9s\n", rest[i].residual < 1e-10 ? "< 1e-10" : ">= 1e-10");
+    }
+    free(rest);
+    return 0;
+}
+
 static void show_interfaces(const CzModel *model) {
     printf("#\n# %-11s %9s %9s %9s %9s\n", "interface", "strut mm", "F_crit kN", "tube kN",
            "gap mm");
@@ -203,10 +231,11 @@ static int show_facts(const CzSession *session) {
     printf("\n# Known before the run, scenario %s; axles and ends are counted from the rear.\n",
            cz_problem_scenario_name(session->problem, scenario));
     show_vehicles(model);
+    const int code = show_rest(session, model);
     show_interfaces(model);
     show_steps(model);
     cz_model_free(model);
-    return 0;
+    return code;
 }
 
 int cz_command_show(const CzArguments *arguments) {

@@ -246,6 +246,7 @@ static void put_scenario(CzJson *json, const CzProblem *problem, const CzRunSumm
     cz_json_text(json, "ended", cz_ended_text(run->ended));
     put_energy(json, &run->energy);
     cz_json_real(json, "momentum_error", run->momentum_error);
+    cz_json_real(json, "rest_residual", run->rest_residual);
     cz_json_real(json, "closing_speed_km_h", run->closing_speed * CZ_KM_H_PER_M_S);
     cz_json_real(json, "plastic_energy_kJ", run->plastic_energy / CZ_KILO);
     cz_json_flag(json, "beyond_validity", run->beyond_validity);

@@ -131,10 +131,24 @@ typedef struct {
     CzWatch *watch;
     CzBudgetBook *budget; /* NULL for a reference */
     long every;           /* steps between samples */
+    double rest_residual;
 } Recording;
+
+/* Largest residual of the vehicles at rest; NaN when none is a full one. */
+static CzStatus look_at_rest(const CzBatch *batch, double *residual, CzError *error) {
+    *residual = NAN;
+    for (int car = 0; car < batch->model->n_car; ++car) {
+        CzRest rest;
+        CZ_TRY(
+            cz_rest_of_lane(batch->model, batch->lanes, car, cz_lane(batch, car, 0), &rest, error));
+        *residual = fmax(*residual, rest.residual);
+    }
+    return CZ_OK;
+}
 
 static CzStatus record_begin(Recording *recording, CzBatch *batch, CzRun *run, CzError *error) {
     recording->run = run;
+    CZ_TRY(look_at_rest(batch, &recording->rest_residual, error));
     const double wanted = batch->model->simulation->output_step / batch->step;
     recording->every = wanted > 1.0 ? lround(wanted) : 1;
     recording->watch = cz_watch_begin(batch, &run->arena);
@@ -158,6 +172,7 @@ static CzStatus record_step(Recording *recording, const CzBatch *batch) {
 
 static void record_end(Recording *recording) {
     CzRunSummary *summary = &recording->run->summary;
+    summary->rest_residual = recording->rest_residual;
     if (recording->budget != NULL)
         summary->budget = cz_budget_result(recording->budget);
     summary->event = cz_watch_events(recording->watch, &summary->n_event);

@@ -125,6 +125,10 @@ double cz_interface_energy(const CzBatch *batch, int interface, int design);
 CZ_MUST_CHECK CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design,
                                        CzVehicleResult *result);
 
+/* rest.c: of one vehicle in its lane; NaN throughout for one that is not full. */
+CZ_MUST_CHECK CzStatus cz_rest_of_lane(const CzModel *model, const CzLanes *lanes, int vehicle,
+                                       size_t lane, CzRest *rest, CzError *error);
+
 /* channels.c: a single design only. */
 CZ_MUST_CHECK CzStatus cz_channels_begin(CzChannels *channels, const CzBatch *batch);
 CZ_MUST_CHECK CzStatus cz_channels_add(CzChannels *channels, const CzBatch *batch);

@@ -10,6 +10,7 @@ set(CZ_SOURCES_simulate
     history.c
     input_curve.c
     reference.c
+    rest.c
     run.c
     summary.c
     watch.c

@@ -155,6 +155,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
         batch->reference != NULL ? cz_reference_n_step(batch->reference) : batch->n_step;
     summary->energy = cz_energy_fill(batch, design);
     summary->momentum_error = cz_momentum_error(batch, design);
+    summary->rest_residual = NAN; /* known of recorded runs */
     summary->closing_speed = closing_speed(batch, design);
     const double wheel_rail =
         isnan(progress->wheel_rail) ? summary->energy.wheel_rail : progress->wheel_rail;

@@ -73,6 +73,8 @@ check "an omitted scenario is no pass" omitted
 no_scenario() { exits 2 "$C" run two.yaml --scenario slwo && says err.txt "there is no scenario 'slwo'"; }
 check "an unknown scenario is refused" no_scenario
 
+rest() { exits 0 "$C" show "$SOURCE/problems/two-cars-25kmh.yaml" && says out.txt 'at rest by the laws' && says out.txt '< 1e-10'; }
+check "show tells the rest of the cars, solved from the laws" rest
 shown() { exits 0 "$C" show two-trains.yaml && says out.txt 'time step' && mv out.txt shown.yaml && exits 0 "$C" validate shown.yaml; }
 check "show prints a problem that is valid itself" shown
 same_numbers() {

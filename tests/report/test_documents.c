@@ -96,6 +96,7 @@ static void summary_has_every_key_that_scripts_rely_on(void **state) {
                                         "scenarios.0.energy.wheel_rail_kJ",
                                         "scenarios.0.energy.balance_error",
                                         "scenarios.0.momentum_error",
+                                        "scenarios.0.rest_residual",
                                         "scenarios.0.interfaces.0.name",
                                         "scenarios.0.interfaces.0.peak_force_kN",
                                         "scenarios.0.interfaces.0.peak_time_ms",

@@ -1,0 +1,192 @@
+/* Static equilibrium:
+ *
+ *   body:   sum F_s = (m_body + m_ends) g          sum x_b F_s = sum x_e m_e g
+ *   bogie:  sum F_p - F_s = m_bogie g              sum x_a F_p = 0
+ *   wheel:  N - F_p = m_wheelset g                 N = Hertz's law on the rail, under the approach
+ *
+ * with F_s, F_p from the suspension's law and the rail's deflection from the track at rest under
+ * all four N. Unknown are the ten displacements and the four forces N.
+ */
+#include "dynamics/equilibrium.h"
+
+#include <math.h>
+
+#include "base/error.h"
+#include "integrate/integrator.h"
+#include "laws/suspension.h"
+#include "laws/wheel_rail.h"
+#include "model/kinks.h"
+
+#define GRAVITY 9.80665 /* [m/s2] */
+#define TOLERANCE 1e-11 /* of a residual, over the weight: rounding leaves some 1e-14 (ours) */
+#define FIRST_SAG 0.02  /* of every spring at the first guess, so that all bear [m] (ours) */
+#define FIRST_DENT 1e-3 /* of every wheel [m] (ours) */
+
+enum { BODY_Z, BODY_PITCH, BOGIE_Z, BOGIE_PITCH = BOGIE_Z + 2, WHEEL_Z = BOGIE_PITCH + 2 };
+enum { LOAD = WHEEL_Z + 4, N_UNKNOWN = LOAD + 4 };
+
+typedef struct Car {
+    CzEquations equations; /* first: the solver hands it back */
+    double bogie_x, axle_x;
+    double end_x[2], end_mass[2], body_mass, bogie_mass, wheelset_mass;
+    CzSuspensionLaw secondary, primary;
+    double hertz;
+    double influence[4][4]; /* rail's way upwards at i per force downwards at j [m/N] */
+    double flexibility[4];  /* beside it, under the wheel itself [m/N] */
+} Car;
+
+static double value(const CzLanes *lanes, CzParameter parameter, size_t lane) {
+    return lanes->parameter[(size_t)parameter * lanes->stride + lane];
+}
+
+static double mass(const CzLanes *lanes, CzDof dof, size_t lane) {
+    return lanes->mass[(size_t)dof * lanes->stride + lane];
+}
+
+/* A spring from its unloaded length on, without the stops that it does not reach at rest. */
+static CzSuspensionLaw unloaded_spring(double stiffness, bool pulls) {
+    return (CzSuspensionLaw){.stiffness = stiffness,
+                             .preload = pulls ? CZ_NEVER : 0.0,
+                             .bump_gap = CZ_NEVER,
+                             .lift_gap = CZ_NEVER};
+}
+
+static Car car_of(const CzLanes *lanes, size_t lane) {
+    Car car = {
+        .bogie_x = value(lanes, CZ_P_BOGIE_X, lane),
+        .axle_x = value(lanes, CZ_P_AXLE_X, lane),
+        .end_x = {value(lanes, CZ_P_END_X_REAR, lane), value(lanes, CZ_P_END_X_FRONT, lane)},
+        .end_mass = {mass(lanes, CZ_DOF_END_X_REAR, lane), mass(lanes, CZ_DOF_END_X_FRONT, lane)},
+        .body_mass = mass(lanes, CZ_DOF_BODY_Z, lane),
+        .bogie_mass = mass(lanes, CZ_DOF_BOGIE_Z_REAR, lane),
+        .wheelset_mass = mass(lanes, CZ_DOF_WHEEL_Z_0, lane),
+        .hertz = value(lanes, CZ_P_HERTZ, lane)};
+    car.secondary = unloaded_spring(value(lanes, CZ_P_SECONDARY_STIFFNESS, lane),
+                                    value(lanes, CZ_P_SECONDARY_PRELOAD_REAR, lane) >= CZ_NEVER);
+    car.primary = unloaded_spring(value(lanes, CZ_P_PRIMARY_STIFFNESS, lane),
+                                  value(lanes, CZ_P_PRIMARY_PRELOAD_0, lane) >= CZ_NEVER);
+    return car;
+}
+
+/* What the rail gives way under each wheel per force under each. */
+static bool find_influence(Car *car, const CzTrackModes *modes) {
+    CzArena arena = {0};
+    CzTrackMotion *track = cz_track_motion_create(modes, 0.0, 4, &arena);
+    bool fits = track != NULL;
+    double place[4];
+    for (int axle = 0; axle < 4; axle++)
+        place[axle] = cz_wheel_place(car->bogie_x, car->axle_x, axle);
+    for (size_t j = 0; j < 4 && fits; j++) {
+        double load[4] = {0.0}, deflection[4];
+        load[j] = 1.0;
+        fits = cz_track_lay(track, j, place, load, &arena);
+        if (!fits)
+            break;
+        cz_track_look(track, j, place, deflection, car->flexibility);
+        for (int i = 0; i < 4; i++)
+            car->influence[i][j] = deflection[i];
+    }
+    cz_arena_free(&arena);
+    return fits;
+}
+
+/* ---- the equations --------------------------------------------------------------------------- */
+
+static double side_of(int index) {
+    return index % 2 == 0 ? -1.0 : 1.0;
+}
+
+static double secondary_compression(const Car *car, const double *q, int bogie) {
+    return q[BOGIE_Z + bogie] - (q[BODY_Z] + side_of(bogie) * car->bogie_x * q[BODY_PITCH]);
+}
+
+static double primary_compression(const Car *car, const double *q, int axle) {
+    const int bogie = axle / 2;
+    return q[WHEEL_Z + axle] -
+           (q[BOGIE_Z + bogie] + side_of(axle) * car->axle_x * q[BOGIE_PITCH + bogie]);
+}
+
+static double rail_way(const Car *car, const double *q, int axle) {
+    double z = 0.0;
+    for (int j = 0; j < 4; j++)
+        z += car->influence[axle][j] * q[LOAD + j];
+    return z;
+}
+
+static void residuals(CzEquations *equations, const double *q, double *residual) {
+    const Car *car = (const Car *)equations;
+    for (int i = 0; i < N_UNKNOWN; i++)
+        residual[i] = 0.0;
+    residual[BODY_Z] = -car->body_mass * GRAVITY;
+    for (int end = 0; end < 2; end++) {
+        residual[BODY_Z] -= car->end_mass[end] * GRAVITY;
+        residual[BODY_PITCH] -= car->end_x[end] * car->end_mass[end] * GRAVITY;
+    }
+    for (int bogie = 0; bogie < 2; bogie++) {
+        const double force =
+            cz_suspension_spring(&car->secondary, secondary_compression(car, q, bogie));
+        residual[BODY_Z] += force;
+        residual[BODY_PITCH] += side_of(bogie) * car->bogie_x * force;
+        residual[BOGIE_Z + bogie] -= force + car->bogie_mass * GRAVITY;
+    }
+    for (int axle = 0; axle < 4; axle++) {
+        const int bogie = axle / 2;
+        const double force = cz_suspension_spring(&car->primary, primary_compression(car, q, axle));
+        const double approach = rail_way(car, q, axle) - q[WHEEL_Z + axle];
+        residual[BOGIE_Z + bogie] += force;
+        residual[BOGIE_PITCH + bogie] += side_of(axle) * car->axle_x * force;
+        residual[WHEEL_Z + axle] = q[LOAD + axle] - force - car->wheelset_mass * GRAVITY;
+        residual[LOAD + axle] =
+            cz_wheel_force_on_spring(car->hertz, car->flexibility[axle], approach) - q[LOAD + axle];
+    }
+}
+
+/* Every spring and wheel bears: an estimate that knows nothing of the loads' distribution. */
+static void guess(double weight, double *q) {
+    for (int i = 0; i < N_UNKNOWN; i++)
+        q[i] = 0.0;
+    q[BODY_Z] = -FIRST_DENT - 2.0 * FIRST_SAG;
+    for (int bogie = 0; bogie < 2; bogie++)
+        q[BOGIE_Z + bogie] = -FIRST_DENT - FIRST_SAG;
+    for (int axle = 0; axle < 4; axle++) {
+        q[WHEEL_Z + axle] = -FIRST_DENT;
+        q[LOAD + axle] = 0.25 * weight;
+    }
+}
+
+static CzEquilibrium read(Car *car, const double *q, double weight) {
+    CzEquilibrium found = {.body_z = q[BODY_Z], .body_pitch = q[BODY_PITCH]};
+    double residual[N_UNKNOWN];
+    residuals(&car->equations, q, residual);
+    for (int i = 0; i < N_UNKNOWN; i++)
+        found.residual = fmax(found.residual, fabs(residual[i]) / weight);
+    for (int bogie = 0; bogie < 2; bogie++)
+        found.secondary[bogie] = secondary_compression(car, q, bogie);
+    for (int axle = 0; axle < 4; axle++) {
+        const double flexible = car->flexibility[axle] * q[LOAD + axle];
+        found.primary[axle] = primary_compression(car, q, axle);
+        found.wheel_load[axle] = q[LOAD + axle];
+        found.rail[axle] = flexible - rail_way(car, q, axle);
+        found.indentation[axle] = -q[WHEEL_Z + axle] - found.rail[axle];
+    }
+    return found;
+}
+
+CzStatus cz_equilibrium_find(const CzLanes *lanes, size_t lane, const CzTrackModes *modes,
+                             CzEquilibrium *equilibrium, CzError *error) {
+    Car car = car_of(lanes, lane);
+    if (modes != NULL && !find_influence(&car, modes))
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the track");
+    const double weight = GRAVITY * (car.body_mass + car.end_mass[0] + car.end_mass[1] +
+                                     2.0 * car.bogie_mass + 4.0 * car.wheelset_mass);
+    double q[N_UNKNOWN], unknown_scale[N_UNKNOWN], residual_scale[N_UNKNOWN];
+    for (int i = 0; i < N_UNKNOWN; i++) {
+        unknown_scale[i] = i >= LOAD ? weight : FIRST_SAG;
+        residual_scale[i] = weight;
+    }
+    car.equations = (CzEquations){N_UNKNOWN, unknown_scale, residual_scale, residuals};
+    guess(weight, q);
+    CZ_TRY(cz_equations_solve(&car.equations, TOLERANCE, q, error));
+    *equilibrium = read(&car, q, weight);
+    return CZ_OK;
+}

@@ -1,0 +1,28 @@
+/* Static equilibrium of a car on its springs, wheels and track, found by the laws themselves and
+ * without the closed forms that the model is built with. */
+#ifndef CZ_DYNAMICS_EQUILIBRIUM_H
+#define CZ_DYNAMICS_EQUILIBRIUM_H
+
+#include "base/arena.h"
+#include "crushzone/status.h"
+#include "dynamics/track.h"
+#include "model/lanes.h"
+
+/* A car at rest, all measured from springs without load and wheels that just touch. */
+typedef struct CzEquilibrium {
+    double body_z, body_pitch; /* upwards [m]; nose-up [rad] */
+    double secondary[2];       /* compression, rear and front [m] */
+    double primary[4];         /* [m] */
+    double wheel_load[4];      /* force of a wheelset on the rails [N] */
+    double rail[4];            /* the rails' way downwards under each wheelset [m] */
+    double indentation[4];     /* of the contact [m] */
+    double residual;           /* largest force left unbalanced over the car's weight [-] */
+} CzEquilibrium;
+
+/* Solves for the full car in a lane; `modes` is its track, NULL for a rigid one. Statuses: CZ_OK,
+ * CZ_STATUS_RUN_FAILED, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_equilibrium_find(const CzLanes *lanes, size_t lane,
+                                           const CzTrackModes *modes, CzEquilibrium *equilibrium,
+                                           CzError *error);
+
+#endif

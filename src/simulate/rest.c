@@ -1,0 +1,55 @@
+/* Static equilibrium of the vehicles of a model. */
+#include "simulate/run.h"
+
+#include "base/error.h"
+#include "dynamics/equilibrium.h"
+
+#include <math.h>
+
+static CzRest no_rest(void) {
+    CzRest rest = {.body_sag = NAN, .body_pitch = NAN, .residual = NAN};
+    for (int axle = 0; axle < 4; axle++)
+        rest.axle_load[axle] = rest.primary_deflection[axle] = rest.rail_deflection[axle] =
+            rest.indentation[axle] = NAN;
+    rest.secondary_deflection[0] = rest.secondary_deflection[1] = NAN;
+    return rest;
+}
+
+static CzRest rest_of(const CzEquilibrium *found) {
+    CzRest rest = {
+        .body_sag = -found->body_z, .body_pitch = found->body_pitch, .residual = found->residual};
+    for (int bogie = 0; bogie < 2; bogie++)
+        rest.secondary_deflection[bogie] = found->secondary[bogie];
+    for (int axle = 0; axle < 4; axle++) {
+        rest.axle_load[axle] = found->wheel_load[axle];
+        rest.primary_deflection[axle] = found->primary[axle];
+        rest.rail_deflection[axle] = found->rail[axle];
+        rest.indentation[axle] = found->indentation[axle];
+    }
+    return rest;
+}
+
+CzStatus cz_rest_of_lane(const CzModel *model, const CzLanes *lanes, int vehicle, size_t lane,
+                         CzRest *rest, CzError *error) {
+    *rest = no_rest();
+    if (model->car[vehicle].model != CZ_MODEL_FULL)
+        return CZ_OK;
+    CzEquilibrium found;
+    CZ_TRY(cz_equilibrium_find(lanes, lane, model->track, &found, error));
+    *rest = rest_of(&found);
+    return CZ_OK;
+}
+
+CzStatus cz_rest_find(const CzModel *model, CzRest *rest, CzError *error) {
+    CzArena arena = {0};
+    int n_vehicle;
+    const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
+    CzLanes *lanes = cz_lanes_create(model, 1, &arena);
+    CzStatus status = lanes != NULL
+                          ? cz_model_fill(model, vehicles, 0, lanes, error)
+                          : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the vehicles");
+    for (int i = 0; i < model->n_car && status == CZ_OK; i++)
+        status = cz_rest_of_lane(model, lanes, i, (size_t)i, &rest[i], error);
+    cz_arena_free(&arena);
+    return status;
+}

@@ -1,0 +1,123 @@
+/* Vehicles at rest, solved from the laws, against the closed forms that the model is built with. */
+#include "physics/motion.h"
+
+#include "dynamics/equilibrium.h"
+
+static const char file[] = "problems/two-cars-25kmh.yaml";
+
+static CzRest rest_in(const Collision *collision, int vehicle) {
+    CzRest rest[16];
+    CzError error = {0};
+    assert_true(cz_model_n_vehicle(collision->model) <= 16);
+    if (cz_rest_find(collision->model, rest, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    return rest[vehicle];
+}
+
+/* Loads and deflections are those of statics by hand, whatever the solver started from; Newton's
+ * method ends at 1e-11 of the weight, which is 5 uN on 0.5 MN and 1e-11 of each deflection. */
+static void check_closed_form(const char *const *set) {
+    Collision collision = collision_model(file, set, 0);
+    for (int vehicle = 0; vehicle < 2; vehicle++) {
+        const CzRest rest = rest_in(&collision, vehicle);
+        const CzVehicleFacts facts = cz_model_vehicle_facts(collision.model, vehicle);
+        assert_near(rest.residual, 0.0, 0.0, 1e-10);
+        for (int bogie = 0; bogie < 2; bogie++)
+            assert_near(rest.secondary_deflection[bogie], facts.secondary_deflection[bogie], 1e-9,
+                        0.0);
+        for (int axle = 0; axle < 4; axle++) {
+            assert_near(rest.axle_load[axle], facts.axle_load[axle], 1e-9, 0.0);
+            assert_near(rest.primary_deflection[axle], facts.primary_deflection[axle], 1e-9, 0.0);
+            assert_near(rest.rail_deflection[axle], 0.0, 0.0, 0.0);
+        }
+        const double sum =
+            rest.axle_load[0] + rest.axle_load[1] + rest.axle_load[2] + rest.axle_load[3];
+        assert_near(sum, facts.mass * 9.80665, 1e-10, 0.0);
+    }
+    collision_free(&collision);
+}
+
+static void a_car_at_rest_is_where_the_closed_form_says(void **state) {
+    (void)state;
+    check_closed_form(AS_WRITTEN);
+}
+
+/* A heavy front end pitches the body and loads the front bogie. */
+static void unequal_ends_share_the_load_by_their_levers(void **state) {
+    (void)state;
+    check_closed_form(WITH("trains.A.vehicles.A1.front.mass_t=3"));
+    Collision collision = collision_model(file, WITH("trains.A.vehicles.A1.front.mass_t=3"), 0);
+    const CzRest rest = rest_in(&collision, 0);
+    assert_true(rest.axle_load[3] > rest.axle_load[0]);
+    assert_true(rest.body_pitch < 0.0);
+    collision_free(&collision);
+}
+
+/* On the elastic track a wheelset goes down by dent and rail together: by what the kernel has as
+ * the approach at rest, which comes from another sum over the modes. The loads stay what they are.
+ */
+static void an_elastic_track_takes_the_wheels_down(void **state) {
+    (void)state;
+    Motion motion = motion_open(file, WITH("simulation.track=modal"));
+    const CzModel *model = motion.collision.model;
+    const CzRest rest = rest_in(&motion.collision, 0);
+    motion.dynamics = cz_dynamics_create(motion.lanes, &motion.arena);
+    assert_true(
+        cz_dynamics_lay_track(motion.dynamics, model->track, CZ_TRACK_MODAL, 0.0, &motion.arena));
+    for (int axle = 0; axle < 4; axle++) {
+        const double approach = motion.dynamics->block[0].constant[CZ_C_WHEEL_REST_0 + axle][0];
+        assert_near(rest.axle_load[axle], cz_model_vehicle_facts(model, 0).axle_load[axle], 1e-9,
+                    0.0);
+        assert_true(rest.rail_deflection[axle] > 1e-4);
+        assert_near(rest.rail_deflection[axle] + rest.indentation[axle], approach, 1e-9, 0.0);
+    }
+    assert_near(rest.residual, 0.0, 0.0, 1e-10);
+    motion_close(&motion);
+}
+
+/* What is at rest by the laws is at rest in the kernel: no force moves a car that stands still. */
+static void the_kernel_moves_nothing_at_rest(void **state) {
+    (void)state;
+    const char *const tracks[] = {"simulation.track=rigid", "simulation.track=modal"};
+    for (int t = 0; t < 2; t++) {
+        Motion motion = motion_open(file, WITH(tracks[t]));
+        for (int dof = 0; dof < CZ_N_DOF; dof++)
+            for (int car = 0; car < 2; car++)
+                motion.lanes->velocity[(size_t)dof * motion.lanes->stride + (size_t)car] = 0.0;
+        motion_start(&motion);
+        const double weight = cz_model_vehicle_facts(motion.collision.model, 0).mass * 9.80665;
+        for (int dof = CZ_DOF_BODY_Z; dof < CZ_N_DOF; dof++)
+            assert_near(force(&motion, dof, 0), 0.0, 0.0, 1e-9 * weight);
+        motion_close(&motion);
+    }
+}
+
+static void rigid_cars_and_walls_have_no_rest(void **state) {
+    (void)state;
+    Collision collision = collision_model("tests/physics/cases/plateau.yaml", AS_WRITTEN, 0);
+    const CzRest rest = rest_in(&collision, 0);
+    assert_true(isnan(rest.residual) && isnan(rest.axle_load[2]) && isnan(rest.body_sag));
+    collision_free(&collision);
+}
+
+static void a_recorded_run_tells_its_residual(void **state) {
+    (void)state;
+    Collision full = collide(file, AS_WRITTEN, 0);
+    assert_near(full.summary->rest_residual, 0.0, 0.0, 1e-10);
+    collision_free(&full);
+    Collision rigid = collide("tests/physics/cases/plateau.yaml", AS_WRITTEN, 0);
+    assert_true(isnan(rigid.summary->rest_residual));
+    collision_free(&rigid);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_car_at_rest_is_where_the_closed_form_says),
+        cmocka_unit_test(unequal_ends_share_the_load_by_their_levers),
+        cmocka_unit_test(an_elastic_track_takes_the_wheels_down),
+        cmocka_unit_test(the_kernel_moves_nothing_at_rest),
+        cmocka_unit_test(rigid_cars_and_walls_have_no_rest),
+        cmocka_unit_test(a_recorded_run_tells_its_residual),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -323,6 +323,14 @@ static void bind_value(Binder binder, const Record *record, const CzKey *key, co
                                     .unit = unit});
 }
 
+/* The word under a mistyped key holds as if the key were right, so that nothing else is blamed. */
+static void take_meant_word(const Record *record, const CzKey *key, const CzNode *value) {
+    const int word =
+        value->kind == CZ_NODE_TEXT ? cz_word_nearest(&cz_word_sets[key->words], value->text) : -1;
+    if (word >= 0)
+        *(int *)(void *)(record->memory + key->offset) = word;
+}
+
 /* Finds the key that an entry names and reads its value. */
 static void bind_entry(Binder binder, Record *record, const CzEntry *entry) {
     const CzUnit *unit = NULL;
@@ -338,6 +346,8 @@ static void bind_entry(Binder binder, Record *record, const CzEntry *entry) {
         binder.reader->has_holes |= key->kind >= CZ_KEY_CHILD;
         if (key->kind == CZ_KEY_NUMBER) /* what was not read breaks no rule */
             *(double *)(void *)(record->memory + key->offset) = NAN;
+        if (key->kind == CZ_KEY_CHOICE)
+            take_meant_word(record, key, entry->value);
         cz_places_add(binder.reader, (CzPlace){.address = record->memory + key->offset,
                                                .node = entry->key,
                                                .value = entry->value,
@@ -359,9 +369,26 @@ static void bind_entry(Binder binder, Record *record, const CzEntry *entry) {
         bind_value(binder, record, key, unit, entry);
 }
 
+/* What a vehicle says of its model, also under a mistyped key; NULL when it says nothing. */
+static const char *find_model(const CzNode *node) {
+    const CzRecord *record = &cz_records[CZ_RECORD_CzVehicle];
+    const CzKey *model = cz_record_key(record, "model");
+    for (int i = 0; i < node->n_entry; i++) {
+        const CzEntry *entry = &node->entry[i];
+        const CzUnit *unit = NULL;
+        char nearest[96];
+        const CzKey *key = cz_record_match(record, entry->key->text, &unit);
+        if (key == NULL)
+            key = nearest_key(record, entry->key->text, nearest, sizeof nearest);
+        if (key == model && entry->value->kind == CZ_NODE_TEXT)
+            return entry->value->text;
+    }
+    return NULL;
+}
+
 /* Whether a vehicle is full, or is mistyped as something near it. */
 static bool is_full_vehicle(const CzNode *node) {
-    const char *model = cz_node_find_text(node, "model");
+    const char *model = find_model(node);
     return model == NULL || cz_word_nearest(&cz_word_sets[CZ_WORDS_MODEL], model) == CZ_MODEL_FULL;
 }
 

@@ -95,6 +95,7 @@ typedef struct CzBlock {
     CzRow coupler_reach;    /* closure up to which resting couplers do nothing [m] */
     CzRow face_reach;       /* the same of the faces */
     int releases;           /* a shear-off let go in the last evaluation */
+    int falls;              /* a strength fell in the step of the chain at hand */
     int couplers_rest;      /* the last evaluation of the couplers changed nothing */
     int faces_rest;         /* so did that of the faces */
     int leaves_nothing_out; /* evaluates couplers and faces even where that changes nothing: tests

@@ -218,7 +218,7 @@ static void interface_extremes(CzBlock *d, double time) {
                            *restrict x_ahead = S(BODY_AHEAD_X);
     double *restrict peak = E(INTERFACE_FORCE), *restrict when = E(INTERFACE_TIME);
     double *restrict shortening = E(INTERFACE_SHORTENING);
-    const double *restrict drop = S(RELEASE_DROP); /* since a shear-off let go in this step */
+    const double *restrict drop = S(STEP_DROP);
     CZ_LANES (i, n) {
         const double size = cz_larger(fabs(total[i]), fabs(total[i] + drop[i]));
         when[i] = size > peak[i] ? time : when[i];
@@ -328,13 +328,21 @@ static void commit_block(const CzLanes *lanes, CzBlock *d, double step, double t
     swap(&d->memory, &d->next_memory);
     interface_extremes(d, time);
     if (lanes->has_couplers) {
+<<<<<<< Updated upstream
         coupler_extremes(d);
         keep_larger(d, CZ_E_COUPLER_FORCE, S(RELEASE_FORCE));
+=======
+        keep_larger_size(d, CZ_E_COUPLER_FORCE, S(COUPLER_FORCE));
+        keep_larger(d, CZ_E_COUPLER_FORCE, S(COUPLER_TOP));
+>>>>>>> Stashed changes
     }
     keep_larger(d, CZ_E_FACE_FORCE, S(FACE_FORCE));
+    keep_larger(d, CZ_E_FACE_FORCE, S(FACE_TOP));
     keep_larger_size(d, CZ_E_FACE_DEMAND, S(FACE_DEMAND));
-    if (lanes->has_side_buffers)
+    if (lanes->has_side_buffers) {
         keep_larger(d, CZ_E_SIDE_FORCE, S(SIDE_FORCE));
+        keep_larger(d, CZ_E_SIDE_FORCE, S(SIDE_TOP));
+    }
     if (lanes->has_superstructures)
         keep_larger(d, CZ_E_SUPERSTRUCTURE_FORCE, S(SUPERSTRUCTURE_FORCE));
     keep_larger(d, CZ_E_SECTION_REAR, S(SECTION_REAR));

@@ -316,8 +316,10 @@ static double relinearise_plastic(CzBlock *d, const Chain *chain, int member, do
         curve[i] *= 1.0 + rise[i];
         slope[i] *= 1.0 + rise[i];
     }
-    return accept_plastic(d, chain, member, stroke, curve, slope,
-                          d->parameter[chain->rate + member], step);
+    const double n_changed = accept_plastic(d, chain, member, stroke, curve, slope,
+                                            d->parameter[chain->rate + member], step);
+    d->falls |= n_changed > 0.0; /* may: a kink upwards is taken too */
+    return n_changed;
 }
 
 /* Linearises all members about their committed strokes, `springs` the springs, and finds the force
@@ -330,6 +332,7 @@ static int start_chain(CzBlock *d, const Chain *chain, Linearise *springs, doubl
     CZ_LANES (i, n) {
         force[i] = cz_larger(last[i], lowest[i]);
     }
+    d->falls = 0;
     for (int side = 0; side < 2; ++side)
         springs(d, side, step, 0);
     for (int member = 0; member < chain->n_curve; ++member)
@@ -435,6 +438,27 @@ static void move_members(CzBlock *d, const Chain *chain, int first, int second) 
             CZ_LANES (i, n) {
                 after[i] = before[i] + 0.5 * (last[i] + force[i]) * (next[i] - stroke[i]);
             }
+        }
+    }
+}
+
+/* Strengths that members had where they began to flow in this step, into S(CHAIN_TOP): where a
+ * strength falls, such as behind a trigger peak, that is the largest force of the step. */
+static void chain_top(CzBlock *d, const Chain *chain) {
+    const size_t n = CZ_LANE_BLOCK;
+    double *restrict top = S(CHAIN_TOP);
+    double *restrict curve = S(CURVE_VALUE);
+    memset(top, 0, sizeof(CzRow));
+    for (int member = 0; member < chain->n_curve; ++member) {
+        if (is_missing(d, chain, member))
+            continue;
+        const double *restrict stroke = d->memory[chain->plastic + member];
+        const double *restrict next = d->next_memory[chain->plastic + member];
+        const double *restrict rise = rise_of(d, chain, member);
+        evaluate_curve(d, chain->curve + member, stroke, curve, S(CURVE_SLOPE));
+        CZ_LANES (i, n) {
+            const double strength = curve[i] * (1.0 + rise[i]);
+            top[i] = cz_larger(top[i], next[i] > stroke[i] ? strength : 0.0);
         }
     }
 }

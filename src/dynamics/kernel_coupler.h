@@ -149,17 +149,18 @@ static void coupler_forces(CzBlock *d) {
     double *restrict fx = S(CURVE_VALUE), *restrict fz = S(CURVE_SLOPE),
                      *restrict total = S(INTERFACE_FORCE);
     const double *restrict tilts = C(TILTS);
-    const double *restrict released = S(RELEASE_FORCE), *restrict more = S(RELEASE_MORE);
+    const double *restrict top = S(COUPLER_TOP), *restrict more = S(RELEASE_MORE);
     double *restrict kept = S(COUPLER_FORCE), *restrict power = POWER(COUPLER);
-    double *restrict push = S(COUPLER_PUSH), *restrict drop = S(RELEASE_DROP);
+    double *restrict push = S(COUPLER_PUSH), *restrict drop = S(STEP_DROP);
     CZ_LANES (i, n) { /* on side B */
         const double transverse = tilts[i] * (moment_a[i] + moment_b[i]) * inverse_length[i];
         const double pushing = force[i] + more[i];
         const double at_end = force[i] * nx[i] + transverse * nz[i];
         fx[i] = pushing * nx[i] + transverse * nz[i];
         fz[i] = pushing * nz[i] - transverse * nx[i];
-        drop[i] = released[i] > 0.0 ? (released[i] - force[i]) * nx[i] : 0.0;
-        push[i] = at_end + drop[i];
+        const double lost = top[i] > 0.0 ? cz_positive_part(top[i] - force[i]) * nx[i] : 0.0;
+        drop[i] += lost;
+        push[i] = at_end + lost;
         total[i] += at_end;
         kept[i] = force[i];
         power[i] += pushing * rate[i];

@@ -217,6 +217,22 @@ static int couplers_are_slack(CzBlock *d) {
     return n_closed == 0.0;
 }
 
+/* Largest force of a step in which a shear-off lets go or a tube's strength falls. */
+static void coupler_top(CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    double *restrict top = S(COUPLER_TOP);
+    if (d->falls) {
+        chain_top(d, &coupler_chain);
+        memcpy(top, S(CHAIN_TOP), sizeof(CzRow));
+    }
+    if (d->releases) {
+        const double *restrict released = S(RELEASE_FORCE);
+        CZ_LANES (i, n) {
+            top[i] = cz_larger(top[i], released[i]);
+        }
+    }
+}
+
 /* Strengths of the shear-offs, what the chains can pull, and where they exist. */
 static void prepare_couplers(CzBlock *d, double step) {
     const size_t n = CZ_LANE_BLOCK;
@@ -253,6 +269,7 @@ static int coupler_chain_force(CzBlock *d, double step) {
     move_members(d, &coupler_chain, CZ_M_COUPLER_ENERGY_A, CZ_M_TUBE_ENERGY_A);
     if (d->releases)
         release_work(d, step);
+    coupler_top(d);
     keep_rates(d, &coupler_chain, CZ_M_BUFFER_RATE_A, step);
     return n_anew == 0 && couplers_are_slack(d);
 }

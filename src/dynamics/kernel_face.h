@@ -207,6 +207,31 @@ static void leave_faces(CzBlock *d) {
     memcpy(NEXT(FACE_SLIP), S(SLIP), sizeof(CzRow));
 }
 
+/* Largest force of a step in which a strength of the chain at hand falls, into the element's `top`,
+ * and what the interface and sections without end mass lost by it; `normal` is the force at the end
+ * of the step. */
+static void contact_top(CzBlock *d, const Chain *chain, const double *restrict normal,
+                        double *restrict top) {
+    const size_t n = CZ_LANE_BLOCK;
+    if (!d->falls)
+        return;
+    chain_top(d, chain);
+    const double *restrict force = S(CHAIN_FORCE), *restrict chain_most = S(CHAIN_TOP);
+    const double *restrict nx = S(NORMAL_X), *restrict slaved = P(SLAVED_ENDS),
+                           *restrict slaved_ahead = C(SLAVED_ENDS_AHEAD);
+    double *restrict drop = S(STEP_DROP), *restrict section = S(SECTION_FRONT),
+                     *restrict pushed = S(PUSHED_SECTION);
+    CZ_LANES (i, n) {
+        const double held = normal[i] / cz_larger(force[i], 1.0); /* damped, on what overlaps */
+        const double more = held * cz_positive_part(chain_most[i] - force[i]);
+        const double lost = more * nx[i];
+        top[i] = normal[i] + more;
+        drop[i] += lost;
+        section[i] += slaved[i] * lost;
+        pushed[i] += slaved_ahead[i] * lost;
+    }
+}
+
 /* All anti-climbers and bare ends; 0 when all are apart. */
 static int faces(CzBlock *d, double step) {
     const size_t n = CZ_LANE_BLOCK;
@@ -235,6 +260,7 @@ static int faces(CzBlock *d, double step) {
     }
     d->faces_rest = settled && faces_are_slack(d) && faces_remember(d) && !d->leaves_nothing_out;
     face_normal(d);
+    contact_top(d, &face_chain, S(FACE_FORCE), S(FACE_TOP));
     face_tangential(d);
     const CarrierForce on_a = end_force(d, 0), on_b = end_force(d, 1);
     contact_forces(d, &on_a, &on_b, S(FACE_FORCE), S(FACE_DEMAND));
@@ -280,6 +306,7 @@ static void side_buffers(CzBlock *d, double step) {
         power[i] += force[i] * rate[i];
         sliding[i] += grip.force * slip_rate[i];
     }
+    contact_top(d, &side_chain, S(SIDE_FORCE), S(SIDE_TOP));
     const CarrierForce on_a = end_force(d, 0), on_b = end_force(d, 1);
     contact_forces(d, &on_a, &on_b, S(SIDE_FORCE), S(SIDE_SLIDING));
     add(n, S(SECTION_FRONT), P(SLAVED_ENDS), S(CURVE_VALUE));

@@ -53,6 +53,26 @@ static void the_peak_is_the_force_of_the_shear_off(void **state) {
     }
 }
 
+/* Ten steps take the strength from its trigger peak down to the plateau: the peak lies in the first
+ * one, at its begin. */
+static void the_peak_of_a_trigger_is_the_force_that_is_set(void **state) {
+    (void)state;
+    static const char *const steps[] = {"simulation.time_step_ms=0.1",
+                                        "simulation.time_step_ms=0.03"};
+    for (int i = 0; i < 2; i++) {
+        Collision collision =
+            collide("tests/physics/cases/plateau.yaml",
+                    WITH("trains.A.vehicles.A1.front.anti_climber.trigger_MN=2", steps[i]), 0);
+        const CzInterfaceResult *interface = &collision.summary->interface[0];
+        assert_completed(&collision);
+        assert_near(interface->peak_force, 2e6, 1e-9, 0.0);
+        assert_near(interface->element[0].peak_force, 2e6, 1e-9, 0.0);
+        assert_near(interface->section_force[0], 2e6, 1e-9, 0.0);
+        assert_near(interface->section_force[1], 2e6, 1e-9, 0.0);
+        collision_free(&collision);
+    }
+}
+
 /* In the paper's case the coupler's line is level to a few millionths. */
 static void two_full_cars_let_go_at_the_force_that_is_set(void **state) {
     (void)state;
@@ -99,6 +119,7 @@ static void the_speed_after_a_fall_follows_the_force_as_in_closed_form(void **st
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_peak_is_the_force_of_the_shear_off),
+        cmocka_unit_test(the_peak_of_a_trigger_is_the_force_that_is_set),
         cmocka_unit_test(two_full_cars_let_go_at_the_force_that_is_set),
         cmocka_unit_test(the_speed_after_a_drop_follows_the_force_as_in_closed_form),
         cmocka_unit_test(the_speed_after_a_fall_follows_the_force_as_in_closed_form),

@@ -141,21 +141,17 @@ static bool begin_tube_at(CzStaged *tube, double stop, double from) {
 /* What one line before and the tube's plateaus behind a stroke leave. */
 static CzStatus left_by(CzFit *fit, const CzBranch *branch, const Parts *parts, double from,
                         double *left, CzError *error) {
-    CzBranch before, behind;
-    CzStaged line = cz_staged_begin(false), tube = fit->member;
+    CzArena scratch = {0};
+    CzBranch behind;
+    CzStaged tube = fit->member;
     *left = INFINITY;
     if (!begin_tube_at(&tube, parts->stop, from) || !(from > 0.0))
         return CZ_OK;
-    if (!cz_branch_cut(&fit->arena, branch, 0.0, from, &before) ||
-        !cz_branch_cut(&fit->arena, branch, from, parts->stop, &behind))
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
-    line.n_stage = 1;
-    line.stage[0] = (CzStage){.stroke = from, .end_force = NAN};
-    double in_line = cz_staged_solve(&line, &before, NAN);
-    line.has_preload = true;
-    in_line = fmin(in_line, cz_staged_solve(&line, &before, NAN));
-    *left = in_line + cz_staged_solve(&tube, &behind, NAN);
-    return CZ_OK;
+    const bool has_memory = cz_branch_cut(&scratch, branch, from, parts->stop, &behind);
+    if (has_memory)
+        *left = cz_fit_left_by_line(branch, from) + cz_staged_solve(&tube, &behind, NAN);
+    cz_arena_free(&scratch);
+    return has_memory ? CZ_OK : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
 }
 
 /* Scans around where the tube begins, ever closer. */

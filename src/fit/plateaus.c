@@ -175,8 +175,7 @@ static bool mirror(CzArena *arena, const CzBranch *branch, CzBranch *mirrored) {
     return cz_branch_build(arena, n, x, f, mirrored);
 }
 
-/* What the best line over the first part leaves, through zero or from a preload. */
-static double left_by_line(const CzBranch *branch, double to) {
+double cz_fit_left_by_line(const CzBranch *branch, double to) {
     const CzBranchSums sums = cz_branch_sums(branch, to);
     const double through_zero = sums.squares - 3.0 * sums.moment * sums.moment / (to * to * to);
     const double mean = sums.area / to;
@@ -192,7 +191,7 @@ static double split_before(const Table *table, const CzBranch *branch, int n, do
     double least = INFINITY;
     for (int i = 1; i < CELLS; i++) {
         const double from = cz_branch_last(branch) * i / CELLS;
-        const double left = left_by_line(branch, from) + table->cost[n - 1][CELLS - i];
+        const double left = cz_fit_left_by_line(branch, from) + table->cost[n - 1][CELLS - i];
         if (left < least) {
             least = left;
             *at = from;

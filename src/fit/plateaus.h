@@ -21,6 +21,9 @@ typedef struct CzLines {
 /* Best lines of a branch that begins at stroke 0. False without memory. */
 bool cz_fit_lines(CzArena *arena, const CzBranch *branch, const CzLines *lines, CzStaged *staged);
 
+/* What the best line over the first part of a branch leaves, through zero or from a preload. */
+double cz_fit_left_by_line(const CzBranch *branch, double to);
+
 /* Stroke at which one line before and plateaus behind (`n_stage`, -1: the most that are taken
  * without being asked for) leave the least squares. False without memory. */
 bool cz_fit_split(CzArena *arena, const CzBranch *branch, int n_stage, double *at);

@@ -328,13 +328,8 @@ static void commit_block(const CzLanes *lanes, CzBlock *d, double step, double t
     swap(&d->memory, &d->next_memory);
     interface_extremes(d, time);
     if (lanes->has_couplers) {
-<<<<<<< Updated upstream
         coupler_extremes(d);
-        keep_larger(d, CZ_E_COUPLER_FORCE, S(RELEASE_FORCE));
-=======
-        keep_larger_size(d, CZ_E_COUPLER_FORCE, S(COUPLER_FORCE));
         keep_larger(d, CZ_E_COUPLER_FORCE, S(COUPLER_TOP));
->>>>>>> Stashed changes
     }
     keep_larger(d, CZ_E_FACE_FORCE, S(FACE_FORCE));
     keep_larger(d, CZ_E_FACE_FORCE, S(FACE_TOP));

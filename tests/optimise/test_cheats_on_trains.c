@@ -173,8 +173,56 @@ static void optimiser_cannot_dilute_the_mean_deceleration(void **state) {
     "    anti_climber: {count: 2, gap_mm: 400, stages: [{stroke_mm: 400, force_kN: 300}]}\n"       \
     "trains:\n"                                                                                    \
     "  - {name: A, vehicles: [{name: A1, model: rigid, mass_t: 40, front: {use: head}}]}\n"        \
-    "  - {name: B, vehicles: [{name: B1, model: rigid, mass_t: 40, rear: {use: head}}]}\n"         \
-    "scenarios: [{name: crash, speed_km_h: 25}]\n"
+    "  - {name: B, vehicles: [{name: B1, model: rigid, mass_t: 40, rear: {use: head}}]}\n"
+
+#define AT(scenario) "scenarios: [{name: crash, " scenario "}]\n"
+
+static void optimiser_cannot_win_with_a_tube_longer_than_its_coupler(void **state) {
+    (void)state;
+    check_cheat(
+        &(Cheat){.problem = TWO_RIGID("") AT("speed_km_h: 15"),
+                 .limits = "{name: visible, metric: ends.coupler_length_used, max: 1e9}",
+                 .minimise = "elements.coupler *.stroke_used",
+                 .variables = "{path: \"parts.tube.stages[0].stroke_mm\", min: 100, max: 3000}",
+                 .check = "room in the coupler",
+                 .scenario = "design"});
+}
+
+/* A soft tube spares the rest, and is spent at every coupling. */
+static void optimiser_cannot_win_with_a_tube_that_is_spent_in_service(void **state) {
+    (void)state;
+    check_cheat(
+        &(Cheat){.problem = TWO_RIGID("") AT("speed_km_h: 6"),
+                 .limits = "{name: visible, metric: elements.coupler *.tube_energy_kJ, max: 1e9}",
+                 .minimise = "interfaces.peak_force_kN",
+                 .variables = "{path: \"parts.tube.stages[0].force_kN\", min: 410, max: 1500}",
+                 .check = "no tube works when buffing",
+                 .scenario = "crash"});
+}
+
+/* A tube that is nearly strong enough puts off its last point until the run is over. */
+static void optimiser_cannot_win_by_letting_the_collision_outlast_the_run(void **state) {
+    (void)state;
+    check_cheat(
+        &(Cheat){.problem = TWO_RIGID("") AT("speed_km_h: 25, duration_ms: 130"),
+                 .limits = "{name: visible, metric: closing_speed_m_s, max: 1e9}",
+                 .minimise = "interfaces.peak_force_kN",
+                 .variables = "{path: \"parts.tube.stages[0].force_kN\", min: 410, max: 800}",
+                 .check = "closing speed at the end",
+                 .scenario = "crash"});
+}
+
+/* A short tube makes a short coupler and runs beyond its last point. */
+static void optimiser_cannot_win_by_bottoming_out(void **state) {
+    (void)state;
+    check_cheat(
+        &(Cheat){.problem = TWO_RIGID("") AT("speed_km_h: 15"),
+                 .limits = "{name: visible, metric: elements.bottomed_out, max: 1e9}",
+                 .minimise = "ends.coupler_length_used",
+                 .variables = "{path: \"parts.tube.stages[0].stroke_mm\", min: 5, max: 400}",
+                 .check = "bottoming out",
+                 .scenario = "crash"});
+}
 
 /* Searches, and gives the evaluation of the value that would win if its run counted. */
 static Case run_failing(const char *problem, const char *minimise, const char *variable,
@@ -200,11 +248,11 @@ static Case run_failing(const char *problem, const char *minimise, const char *v
 static void optimiser_cannot_win_where_the_run_fails(void **state) {
     (void)state;
     CzStatus status = CZ_OK;
-    Case made =
-        run_failing(TWO_RIGID("time_step_ms: 10, output_step_ms: 10"), "ends.coupler_length_used",
-                    "{path: \"parts.head.coupler.buffer.stages[0].stroke_mm\", min: 10, "
-                    "max: 60}",
-                    10, &status);
+    Case made = run_failing(TWO_RIGID("time_step_ms: 10, output_step_ms: 10") AT("speed_km_h: 25"),
+                            "ends.coupler_length_used",
+                            "{path: \"parts.head.coupler.buffer.stages[0].stroke_mm\", min: 10, "
+                            "max: 60}",
+                            10, &status);
     assert_int_equal(status, CZ_STATUS_RUN_FAILED);
     assert_true(made.outcome->best[0] > 10);
     assert_int_equal(made.outcome->best_evaluation.status, CZ_OK);
@@ -215,10 +263,11 @@ static void optimiser_cannot_win_where_the_run_fails(void **state) {
 static void optimiser_cannot_win_with_a_run_that_does_not_end(void **state) {
     (void)state;
     CzStatus status = CZ_OK;
-    Case made = run_failing(TWO_RIGID("longest_s: 0.165"), "interfaces.peak_force_kN",
-                            "{path: \"parts.tube.stages[0].force_kN\", min: 450, max: 800, "
-                            "start: 500}",
-                            800, &status);
+    Case made =
+        run_failing(TWO_RIGID("longest_s: 0.165") AT("speed_km_h: 25"), "interfaces.peak_force_kN",
+                    "{path: \"parts.tube.stages[0].force_kN\", min: 450, max: 800, "
+                    "start: 500}",
+                    800, &status);
     assert_int_equal(status, CZ_STATUS_RUN_FAILED);
     assert_true(made.outcome->best[0] < 800);
     assert_true(made.outcome->best[0] > 500);
@@ -235,6 +284,10 @@ int main(void) {
         cmocka_unit_test(optimiser_cannot_win_by_working_the_running_gear),
         cmocka_unit_test(optimiser_cannot_win_by_crushing_the_occupied_space),
         cmocka_unit_test(optimiser_cannot_dilute_the_mean_deceleration),
+        cmocka_unit_test(optimiser_cannot_win_with_a_tube_longer_than_its_coupler),
+        cmocka_unit_test(optimiser_cannot_win_with_a_tube_that_is_spent_in_service),
+        cmocka_unit_test(optimiser_cannot_win_by_letting_the_collision_outlast_the_run),
+        cmocka_unit_test(optimiser_cannot_win_by_bottoming_out),
         cmocka_unit_test(optimiser_cannot_win_where_the_run_fails),
         cmocka_unit_test(optimiser_cannot_win_with_a_run_that_does_not_end),
     };

@@ -49,7 +49,8 @@ bool cz_search_is_stopped(CzSearch *search) {
 
 void cz_search_resume(CzSearch *search) {
     search->is_paused = false;
-    search->why[0] = '\0';
+    if (!search->is_over)
+        search->why[0] = '\0';
     search->n_before_window = search->n_record;
 }
 

@@ -97,7 +97,7 @@ static void speed_factor(CzBlock *d, int side) {
 }
 
 /* Normal force of the faces: chain, damping, and what is left of them while the overlap runs out.
- */
+ * What has let go does not take hold again before the faces have parted. */
 static void face_normal(CzBlock *d) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict chain = S(CHAIN_FORCE), *restrict closure = S(CLOSURE),
@@ -106,17 +106,31 @@ static void face_normal(CzBlock *d) {
                            *restrict pitch = P(RIB_PITCH);
     const double *restrict slip = S(SLIP);
     double *restrict normal = S(FACE_FORCE), *restrict remaining = S(FACE_REMAINING);
+    const double *restrict lost_before = M(FACE_LOST);
+    double *restrict lost_next = NEXT(FACE_LOST);
     double *restrict power = POWER(FACE), *restrict lost = POWER(FACE_DAMPING);
     CZ_LANES (i, n) {
         const double wanted =
             damping[i] * cz_positive_part(rate[i]) * cz_fade_in(closure[i], CZ_FADE_LENGTH);
         const double damped = cz_smaller(wanted, chain[i]);
         const double overlap = level[i] - fabs(slip[i]);
-        const double held = cz_clamp(overlap / pitch[i], 0.0, 1.0);
+        const double gone = 1.0 - cz_clamp(overlap / pitch[i], 0.0, 1.0);
+        const double most = cz_larger(lost_before[i], gone);
+        const double held = 1.0 - most;
+        lost_next[i] = closure[i] > 0.0 ? most : 0.0;
         remaining[i] = overlap;
         normal[i] = held * (chain[i] + damped);
         power[i] += held * chain[i] * rate[i];
         lost[i] += held * damped * rate[i];
+    }
+}
+
+/* Members of faces that have let go are carried on without work. */
+static void count_held(CzBlock *d, const double *restrict before, double *restrict next) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict lost = NEXT(FACE_LOST);
+    CZ_LANES (i, n) {
+        next[i] = before[i] + (1.0 - lost[i]) * (next[i] - before[i]);
     }
 }
 
@@ -261,6 +275,10 @@ static int faces(CzBlock *d, double step) {
     d->faces_rest = settled && faces_are_slack(d) && faces_remember(d) && !d->leaves_nothing_out;
     face_normal(d);
     contact_top(d, &face_chain, S(FACE_FORCE), S(FACE_TOP));
+    for (int side = 0; side < 2; ++side) {
+        count_held(d, M_AT(FACE_ENERGY_A, side), NEXT_AT(FACE_ENERGY_A, side));
+        count_held(d, M_AT(LIMP_ENERGY_A, side), NEXT_AT(LIMP_ENERGY_A, side));
+    }
     face_tangential(d);
     const CarrierForce on_a = end_force(d, 0), on_b = end_force(d, 1);
     contact_forces(d, &on_a, &on_b, S(FACE_FORCE), S(FACE_DEMAND));

@@ -69,7 +69,8 @@ double cz_coupler_stored(const CzDynamics *dynamics, size_t lane, int side) {
 
 double cz_face_stored(const CzDynamics *dynamics, size_t lane, int side) {
     (void)side; /* the elasticity of both sides is one compliance */
-    return half_elastic(dynamics, lane, CZ_P_FACE_COMPLIANCE, CZ_M_FACE_FORCE);
+    const double held = 1.0 - memory(dynamics, CZ_M_FACE_LOST, lane);
+    return held * half_elastic(dynamics, lane, CZ_P_FACE_COMPLIANCE, CZ_M_FACE_FORCE);
 }
 
 double cz_side_stored(const CzDynamics *dynamics, size_t lane, int side) {

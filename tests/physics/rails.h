@@ -23,6 +23,9 @@ void rows_of_pinned_mode(Rows *rows);
 /* Modes up to a cut and the flexibility that they leave, against the exact statics. */
 void rows_of_mode_convergence(Rows *rows);
 
+/* A car at rest, solved from the laws, on the rigid and on the elastic track. */
+void rows_of_rest(Rows *rows);
+
 /* Finite elements against the exact frequency and statics. */
 void rows_of_element_frequencies(Rows *rows);
 void rows_of_element_statics(Rows *rows);

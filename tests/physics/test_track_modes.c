@@ -132,6 +132,11 @@ static void roots_solve_the_equations_of_rail_pads_sleepers_and_ballast(void **s
     }
 }
 
+static void cars_at_rest_stand_as_the_closed_form_says(void **state) {
+    (void)state;
+    assert_rows_of(rows_of_rest);
+}
+
 static void modes_converge_to_the_statics(void **state) {
     (void)state;
     assert_rows_of(rows_of_mode_convergence);
@@ -170,6 +175,7 @@ int main(void) {
         cmocka_unit_test(both_branches_of_a_wave_give_way_as_its_statics),
         cmocka_unit_test(the_pinned_pinned_mode_is_among_the_modes),
         cmocka_unit_test(roots_solve_the_equations_of_rail_pads_sleepers_and_ballast),
+        cmocka_unit_test(cars_at_rest_stand_as_the_closed_form_says),
         cmocka_unit_test(modes_converge_to_the_statics),
         cmocka_unit_test(shipped_problems_keep_their_books_on_rails),
         cmocka_unit_test(a_track_with_overdamped_modes_is_built),

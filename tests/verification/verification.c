@@ -165,6 +165,13 @@ static void put_closed_forms(void) {
     rows_of_coaches(&rows);
     rows_of_pitch_by_force(&rows);
     put_table();
+    begin(
+        "A5c. Static equilibrium",
+        "Rest as solved from the laws by KINSOL (computed) against the closed forms that the model "
+        "is built with (expected), on the rigid and on the elastic track; the residual is the "
+        "largest force out of balance over the weight.");
+    rows_of_rest(&rows);
+    put_table();
     begin("A6. The integrator on Bathe's example",
           "Two degrees of freedom, M = diag(2, 1), K = [6 -2; -2 4], a constant force of 10 on "
           "the second, from rest.");

@@ -31,7 +31,7 @@ static void put_row(const Row *row) {
         put_number(row->expected, row->unit);
         printf(" | ");
         if (fabs(row->computed) < 1e-9) /* rounding, which is each machine's own */
-            printf("below 1e-09");
+            printf("below %.0e", fmin(1e-9, row->expected));
         else if (row->unit[0] == '\0')
             printf("%.1e", row->computed);
         else

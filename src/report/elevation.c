@@ -206,7 +206,7 @@ static void write_chain(CzMarkup *markup, const Side *side, int row, const char 
         between = ", ";
     }
     const bool is_empty = at == side->plane;
-    snprintf(text + used, sizeof text - used, is_empty ? " none" : " mm");
+    snprintf(text + used, sizeof text - used, is_empty ? " not stated" : " mm");
     cz_svg_text(markup, side->sign > 0 ? WIDTH / 2 - 12 : WIDTH / 2 + 12, y + 4,
                 side->sign > 0 ? "end" : "start", text);
 }
@@ -230,16 +230,24 @@ static void write_chains(CzMarkup *markup, const Side *side) {
             {"retraction", coupler->shear_off.given ? coupler->shear_off.retraction_space : 0,
              CZ_PLOT_QUIET}};
         write_chain(markup, side, 0, "coupler", 5, chain);
+    } else if (end->side_buffers.given) {
+        const CzSideBuffers *set = &end->side_buffers;
+        const Link chain[] = {
+            {"gap", set->gap, CZ_PLOT_QUIET},
+            {"buffer", stroke_of(set->buffer.n_stages, set->buffer.stages, NULL), 5},
+            {"tube", stroke_of(set->tube.n_stages, set->tube.stages, &set->tube.curve), 3}};
+        write_chain(markup, side, 0, "side buffers", 3, chain);
     }
+    if (!face->given && end_stroke(end) == 0)
+        return;
     const Link chain[] = {{"gap", face->given ? face->gap : end->face_gap, CZ_PLOT_QUIET},
                           {"anti-climber",
                            face->given ? stroke_of(face->n_stages, face->stages, &face->curve) : 0,
                            1},
                           {"end", end_stroke(end), 4}};
-    write_chain(markup, side, 1, "anti-climber and end", 3, chain);
+    write_chain(markup, side, 1, face->given ? "anti-climber and end" : "end", 3, chain);
     const Link room[] = {{"in front of occupied space", end->available_length, 2}};
-    write_chain(markup, side, 2, isnan(end->available_length) ? "room, not stated" : "room", 1,
-                room);
+    write_chain(markup, side, 2, "room", 1, room);
 }
 
 /* ---- the drawing ---- */

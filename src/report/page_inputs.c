@@ -2,6 +2,7 @@
 #include "report/page.h"
 
 #include "base/error.h"
+#include "problem/keys.h"
 #include "problem/node.h"
 #include "problem/problem.h"
 #include "report/figure.h"
@@ -87,10 +88,13 @@ static void write_command(CzPage *page) {
 }
 
 static void write_versions(CzPage *page) {
-    char nlopt[32] = "", text[512];
+    char nlopt[32] = "", sundials[32] = "", text[512];
     cz_nlopt_version(nlopt, sizeof nlopt);
-    snprintf(text, sizeof text, "crushzone %s, NLopt %s; problem file %.200s, content hash %s",
-             cz_version(), nlopt, cz_problem_file(page->problem), cz_problem_hash(page->problem));
+    cz_sundials_version(sundials, sizeof sundials);
+    snprintf(text, sizeof text,
+             "crushzone %s, NLopt %s, SUNDIALS %s; problem file %.200s, content hash %s",
+             cz_version(), nlopt, sundials, cz_problem_file(page->problem),
+             cz_problem_hash(page->problem));
     cz_markup_element(&page->markup, "p", text);
 }
 
@@ -107,7 +111,12 @@ static void write_assumptions(CzPage *page) {
         "confirmed."};
     CzMarkup *markup = &page->markup;
     cz_markup_element(markup, "h3", "Assumptions");
+    const CzWord *track =
+        &cz_word_sets[CZ_WORDS_TRACK].word[cz_problem_input(page->problem)->simulation.track];
+    char of_track[256];
+    snprintf(of_track, sizeof of_track, "Track: %s, %s.", track->word, track->doc);
     cz_markup_open(markup, "ul");
+    cz_markup_element(markup, "li", of_track);
     for (size_t i = 0; i < sizeof assumptions / sizeof *assumptions; i++)
         cz_markup_element(markup, "li", assumptions[i]);
     for (int i = 0; i < cz_problem_n_warning(page->problem); i++) {

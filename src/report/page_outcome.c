@@ -140,13 +140,14 @@ static bool course_begin(Course *course, const CzEvaluator *evaluator, const CzO
         const CzTrial *trial = &outcome->trial[i];
         const bool is_margin = sign < 0;
         const double plain = trial->objective * sign;
-        const double value = is_margin ? fmax(plain, -MOST_PERCENT) : plain;
+        const double value = is_margin && plain < -MOST_PERCENT ? -MOST_PERCENT : plain;
         course->count[i] = i + 1;
         course->objective[i] = value;
         if (trial->feasible && (isnan(best) || value * sign < best * sign))
             best = value;
         course->best[i] = best;
-        course->violation[i] = fmin(100 * trial->violation, MOST_PERCENT);
+        const double percent = 100 * trial->violation;
+        course->violation[i] = percent > MOST_PERCENT ? MOST_PERCENT : percent; /* NaN: a gap */
     }
     return true;
 }
@@ -294,6 +295,63 @@ static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
     return fits ? CZ_OK : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
 }
 
+/* ---- the same by other means ---- */
+
+static void write_way(CzMarkup *markup, const CzVerification *verification, CzVerifyWay way) {
+    const int worst = verification->worst[way];
+    char text[CZ_FIGURE_ROOM];
+    cz_markup_open(markup, "tr");
+    cz_markup_element(markup, "td", cz_verify_way_text(way));
+    if (!verification->is_done[way]) {
+        cz_markup_classed(markup, "td", "careful", "not done");
+        cz_markup_element(markup, "td", "");
+        cz_markup_element(markup, "td", "");
+    } else {
+        const double change = verification->largest_change[way];
+        cz_markup_classed(markup, "td", change > verification->limit ? "fail" : "number",
+                          cz_figure_percent(text, change));
+        cz_markup_element(markup, "td", worst >= 0 ? verification->value[worst].name : "");
+        cz_markup_classed(markup, "td", verification->n_flip[way] > 0 ? "fail" : "number",
+                          cz_figure_fixed(text, 0, verification->n_flip[way]));
+    }
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+static void write_verification(CzMarkup *markup, const CzVerification *verification) {
+    static const char *const names[] = {"computed by", "largest change", "of",
+                                        "verdicts that flip"};
+    char text[512], limit[CZ_FIGURE_ROOM];
+    cz_page_open_section(markup, "verification", "The best design computed again");
+    if (verification == NULL) {
+        cz_markup_element(markup, "p",
+                          "Not done: the best design breaks a constraint, or the "
+                          "search was not asked to.");
+        cz_page_close_section(markup);
+        return;
+    }
+    const bool passes = verification->verdict == CZ_VERDICT_PASS;
+    snprintf(text, sizeof text,
+             "%s: no number may change by more than %s, and no verdict may flip.%s%s",
+             passes ? "Passed" : "NOT passed", cz_figure_percent(limit, verification->limit),
+             verification->failure[0] != '\0' ? " " : "", verification->failure);
+    cz_markup_classed(markup, "p", passes ? "pass" : "fail", text);
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open(markup, "table");
+    cz_markup_open(markup, "tr");
+    for (int i = 0; i < 4; i++)
+        cz_markup_element(markup, "th", names[i]);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
+        if ((verification->ways & (1u << way)) != 0)
+            write_way(markup, verification, (CzVerifyWay)way);
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_page_close_section(markup);
+}
+
 /* ---- the page ---- */
 
 static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzOutcome *outcome,
@@ -308,6 +366,7 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     cz_page_close_section(markup);
     write_variables(markup, evaluator, outcome);
     write_active(markup, evaluator, outcome);
+    write_verification(markup, outcome->verification);
     CZ_TRY(write_search(markup, evaluator, outcome, error));
     CZ_TRY(write_values(markup, evaluator, outcome, error));
     snprintf(title, sizeof title, "What follows is scenario %s of the best design%s",

@@ -85,7 +85,8 @@ static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *er
         const int n_band = failing_bands(sweep, band);
         for (size_t i = 0; i < n; i++) {
             x[i] = sweep->point[i].value[0];
-            y[i] = fmax(100 * sweep->point[i].margin, -MOST_PERCENT);
+            const double percent = 100 * sweep->point[i].margin;
+            y[i] = percent < -MOST_PERCENT ? -MOST_PERCENT : percent; /* NaN stays a gap */
         }
         write_curve(markup, sweep, "Smallest margin of all checks (below -100 % at -100 %)",
                     "margin [%]", true, x, y, n_band, band);

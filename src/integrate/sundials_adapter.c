@@ -100,6 +100,22 @@ static void scale(sunrealtype c, N_Vector x, N_Vector z) {
         scaled[i] = c * p[i];
 }
 
+static void take_sizes(N_Vector x, N_Vector z) {
+    const double *p = N_VGetArrayPointer(x);
+    double *size = N_VGetArrayPointer(z);
+    const size_t n = length_of(z);
+    for (size_t i = 0; i < n; i++)
+        size[i] = fabs(p[i]);
+}
+
+static void invert(N_Vector x, N_Vector z) {
+    const double *p = N_VGetArrayPointer(x);
+    double *inverse = N_VGetArrayPointer(z);
+    const size_t n = length_of(z);
+    for (size_t i = 0; i < n; i++)
+        inverse[i] = 1.0 / p[i];
+}
+
 /* Four sums in a fixed order, so that the bits are the same on every machine. */
 static sunrealtype weighted_norm(N_Vector x, N_Vector w) {
     const double *p = N_VGetArrayPointer(x), *weight = N_VGetArrayPointer(w);
@@ -139,6 +155,8 @@ static N_Vector vector_of(size_t n, const double *value, SUNContext context) {
     v->ops->nvlinearsum = linear_sum;
     v->ops->nvconst = set_constant;
     v->ops->nvscale = scale;
+    v->ops->nvabs = take_sizes;
+    v->ops->nvinv = invert;
     v->ops->nvwrmsnorm = weighted_norm;
     v->ops->nvlinearcombination = linear_combination;
     memcpy(N_VGetArrayPointer(v), value, n * sizeof *value);

@@ -34,7 +34,15 @@ missing_functions() {
     done
 }
 
+# Every law of the list stands in the theory.
+missing_laws() {
+    sed -n 's/^CZ_LAW(\([a-z_0-9]*\),.*/\1/p' src/laws/laws.def | while read -r law; do
+        grep -qF "\`$law()\`" "$1" || echo "$1 does not name $law()"
+    done
+}
+
 nothing "every file that the theory names is there" missing_files docs/theory.md
+nothing "every law stands in the theory" missing_laws docs/theory.md
 nothing "every function that the theory names is in its file" missing_functions docs/theory.md
 nothing "the other pages name files that are there" missing_files docs/architecture.md docs/fitting-curves.md docs/verification.md
 
@@ -45,6 +53,9 @@ echo 'int there(int a) { return a; }' >src/a.c
 printf 'In `src/a.c`: `there()`, `gone()`.\nIn `src/b.c`.\n`nowhere()`\n' >page.md
 echo 'int nowhere_else(void);' >src/b.h
 finds() { "$2" page.md >found.txt 2>&1; cat found.txt; grep -q "$1" found.txt; }
+mkdir src/laws
+echo 'CZ_LAW(cz_new, "new.h", "a law")' >src/laws/laws.def
+check "a law that the theory leaves out is found" finds 'page.md does not name cz_new()' missing_laws
 check "a file that is gone is found" finds 'src/b.c is not there' missing_files
 check "a function that is gone is found" finds 'page.md:1: gone() is not in src/a.c' missing_functions
 check "a function that is nowhere is found" finds 'page.md:3: nowhere() is not in src/' missing_functions

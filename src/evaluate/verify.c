@@ -44,7 +44,7 @@ CzVerifyOptions cz_verify_options_default(void) {
 }
 
 static CzTrack track_of(const CzEvaluator *evaluator) {
-    return (CzTrack)cz_problem_input(evaluator->problem)->simulation.track;
+    return cz_problem_track(evaluator->problem);
 }
 
 /* How a way makes its runs. The solvers know the modal track, which is the record; what runs along

@@ -39,7 +39,7 @@ static const CzSimulation *default_simulation(CzArena *arena) {
     if (simulation == NULL)
         return NULL;
     *simulation = (CzSimulation){
-        .track = CZ_TRACK_RIGID,
+        .track = CZ_TRACK_MODAL,
         .time_step = NAN,
         .duration = NAN,
         .longest = 6.0,

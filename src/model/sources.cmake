@@ -15,5 +15,6 @@ set(CZ_SOURCES_model
     step_bounds.c
     track.c
     track_block.c
+    track_bound.c
     vertical_modes.c
 )

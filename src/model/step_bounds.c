@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "model/fill.h"
 #include "model/own_design.h"
+#include "model/track_bound.h"
 
 #include <stdio.h>
 
@@ -20,10 +21,19 @@ enum { BOUNDS_PER_CAR = 21 };
 #define SHORTEST_STRUT 0.2               /* of a coupler, as a share of its length (ours) */
 #define FOURFOLD_LOAD 2.5198420997897464 /* indentation at four times the load: 4^(2/3) */
 
+/* A wheelset on the elastic track and its bound. */
+typedef struct OnRails {
+    double contact;  /* stiffness [N/m] */
+    double wheelset; /* inverse mass [1/kg] */
+    double primary;  /* stiffness [N/m] */
+    double bound;    /* [s] */
+} OnRails;
+
 typedef struct Car {
     CzModel *model;
     const CzLanes *lanes;
     int car;
+    OnRails *on_rails; /* the last one */
 } Car;
 
 static double value(const Car *car, CzParameter parameter) {
@@ -31,18 +41,23 @@ static double value(const Car *car, CzParameter parameter) {
 }
 
 /* Keeps the list in order, the smallest first. */
+static void note_bound(CzModel *model, const char *what, const char *of, const char *where,
+                       double value_of) {
+    CzStepBound bound = {.bound = value_of};
+    snprintf(bound.element, sizeof bound.element, "%s%s %s", what, of, where);
+    int place = model->n_bound++;
+    for (; place > 0 && model->bound[place - 1].bound > bound.bound; place--)
+        model->bound[place] = model->bound[place - 1];
+    model->bound[place] = bound;
+}
+
 static void note(CzModel *model, const char *what, const char *where, double stiffness,
                  double damping, double mobility) {
     if (!(mobility > 0.0) || stiffness >= CZ_NEVER || stiffness + damping <= 0.0)
         return;
     const double square = stiffness * mobility, rate = damping * mobility;
-    CzStepBound bound = {.bound = 2.0 / (sqrt(square + rate * rate) + rate)};
-    snprintf(bound.element, sizeof bound.element, "%s%s %s", what,
-             rate * rate > square ? " damper" : "", where);
-    int place = model->n_bound++;
-    for (; place > 0 && model->bound[place - 1].bound > bound.bound; place--)
-        model->bound[place] = model->bound[place - 1];
-    model->bound[place] = bound;
+    note_bound(model, what, rate * rate > square ? " damper" : "", where,
+               2.0 / (sqrt(square + rate * rate) + rate));
 }
 
 /* Steepest part of a curve in one lane. */
@@ -63,6 +78,18 @@ static double steepest(const CzLanes *lanes, CzCurveId id, int lane) {
 
 /* ---- one car ---- */
 
+/* Cars that are alike share a bound that is searched for. */
+static void note_elastic_track(const Car *car, const char *name, double contact, double primary) {
+    const double wheelset = value(car, CZ_P_INVERSE_WHEELSET_MASS);
+    OnRails *last = car->on_rails;
+    if (last->bound == 0.0 || last->contact != contact || last->wheelset != wheelset ||
+        last->primary != primary)
+        *last =
+            (OnRails){contact, wheelset, primary,
+                      cz_track_longest_step(car->model->track, 1.0 / contact, wheelset, primary)};
+    note_bound(car->model, "wheel on elastic rail", "", name, last->bound);
+}
+
 static void note_wheels(const Car *car, const char *name) {
     const double wheelset = value(car, CZ_P_INVERSE_WHEELSET_MASS);
     const double spin = value(car, CZ_P_INVERSE_WHEELSET_INERTIA);
@@ -74,8 +101,11 @@ static void note_wheels(const Car *car, const char *name) {
     const double stop =
         fmax(value(car, CZ_P_PRIMARY_BUMP_STIFFNESS), value(car, CZ_P_PRIMARY_LIFT_STIFFNESS));
     const double primary = value(car, CZ_P_PRIMARY_STIFFNESS) + stop;
-    note(car->model, "wheel-rail contact", name, contact + primary,
-         value(car, CZ_P_PRIMARY_DAMPING), wheelset);
+    if (car->model->track == NULL)
+        note(car->model, "wheel-rail contact", name, contact + primary,
+             value(car, CZ_P_PRIMARY_DAMPING), wheelset);
+    else
+        note_elastic_track(car, name, contact, primary);
     note(car->model, "creep", name, value(car, CZ_P_CREEP_STIFFNESS), 0.0,
          wheelset + radius * radius * spin);
     note(car->model, "brake", name, value(car, CZ_P_BRAKE_STIFFNESS), 0.0, spin);
@@ -144,7 +174,7 @@ typedef struct Carrier {
 } Carrier;
 
 static Carrier carrier_of(const Car *car, int side, bool on_end) {
-    const Car own = {car->model, car->lanes, car->car + side};
+    const Car own = {car->model, car->lanes, car->car + side, car->on_rails};
     const int which = side == CZ_SIDE_A ? CZ_FRONT : CZ_REAR;
     if (on_end && value(&own, CZ_P_SLAVED_ENDS) == 0.0)
         return (Carrier){value(&own, CZ_OF_END(CZ_P_INVERSE_END_MASS, which)),
@@ -282,8 +312,9 @@ CzStatus cz_model_find_bounds(CzModel *model, const CzLanes *lanes, CzError *err
     model->bound = cz_arena_allocate(&model->arena, n, sizeof *model->bound);
     if (model->bound == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d cars", model->n_car);
+    OnRails on_rails = {0};
     for (int i = 0; i < model->n_car; i++) {
-        const Car car = {model, lanes, i};
+        const Car car = {model, lanes, i, &on_rails};
         const char *name = model->car[i].name;
         if (model->car[i].model == CZ_MODEL_FULL) {
             note_wheels(&car, name);

@@ -204,10 +204,8 @@ CzComplex cz_track_constant_answer(CzComplex lambda, double step) {
     return cz_complex_scaled(-1.0, cz_complex_ratio(half, lambda));
 }
 
-/* What the modes show under a constant force: mean + swing cos(2 pi xi). In the two copies of a
- * block cosine and sine of its waves' squares add up to one; the blocks at the edges stand alone.
- */
-static void add_modes(const CzTrackModes *modes, double step, double sum[2]) {
+void cz_track_add_modes(const CzTrackModes *modes, CzTrackAnswer *answer_of, double step,
+                        double sum[2]) {
     for (int k = 0; k < modes->n_group; ++k) {
         const CzTrackGroup *group = &modes->group[k];
         for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
@@ -215,7 +213,7 @@ static void add_modes(const CzTrackModes *modes, double step, double sum[2]) {
             if (cz_complex_square_size(g) == 0.0)
                 continue;
             const int j = group->vector * CZ_TRACK_WIDTH + i;
-            const CzComplex answer = cz_track_constant_answer(lambda, step);
+            const CzComplex answer = answer_of(lambda, step);
             const double of_direct = cz_complex_product(cz_complex_product(g, g), answer).re;
             const double of_alias = cz_complex_product(cz_complex_product(a, a), answer).re;
             const double of_both = cz_complex_product(cz_complex_product(g, a), answer).re;
@@ -264,7 +262,7 @@ CzTrackFlexibility cz_track_flexibility(const CzTrackModes *modes, double step) 
             series[k] += (k == 0 ? 1.0 : 2.0) / n * smooth * cz_turned(k * place).re;
     }
     double of_modes[2] = {0.0, 0.0};
-    add_modes(modes, step, of_modes);
+    cz_track_add_modes(modes, cz_track_constant_answer, step, of_modes);
     series[0] -= of_modes[0];
     series[1] -= of_modes[1];
     powers_of_series(series, flexibility.term);

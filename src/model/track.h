@@ -91,6 +91,13 @@ static inline double cz_track_flexibility_at(const CzTrackFlexibility *flexibili
  * exactly as its statics; `step` as below. */
 CzTrackFlexibility cz_track_flexibility(const CzTrackModes *modes, double step);
 
+/* Mean and swing, over the place between two seats, of the sum of g(x)^2 times an answer of each
+ * mode: mean + swing cos(2 pi xi). In the two copies of a block cosine and sine of its waves'
+ * squares add up to one; the blocks at the edges stand alone. */
+typedef CzComplex CzTrackAnswer(CzComplex lambda, double step);
+void cz_track_add_modes(const CzTrackModes *modes, CzTrackAnswer *answer, double step,
+                        double sum[2]);
+
 /* Modes in steps: a force holds from step / 2 before to step / 2 after the time it is taken at, and
  * the modes are read without its first half. Per g and force:
  *

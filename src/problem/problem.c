@@ -237,6 +237,15 @@ const CzVehicle *cz_problem_vehicles(const CzProblem *problem, int *n_vehicle) {
     return problem->vehicle;
 }
 
+CzTrack cz_problem_track(const CzProblem *problem) {
+    int n_vehicle;
+    const CzVehicle *vehicle = cz_problem_vehicles(problem, &n_vehicle);
+    for (int i = 0; i < n_vehicle; ++i)
+        if (vehicle[i].model == CZ_MODEL_FULL)
+            return (CzTrack)cz_problem_input(problem)->simulation.track;
+    return CZ_TRACK_RIGID;
+}
+
 const CzProfile *cz_problem_profile(const CzProblem *problem) {
     return problem->profile.given ? &problem->profile : NULL;
 }

@@ -11,6 +11,9 @@
 const CzInput *cz_problem_input(const CzProblem *problem);
 const CzVehicle *cz_problem_vehicles(const CzProblem *problem, int *n_vehicle);
 
+/* The track that makes a difference: rigid where no vehicle has wheels. */
+CzTrack cz_problem_track(const CzProblem *problem);
+
 /* The files that were read, in order, the problem file first; more by `next` (problem/node.h). NULL
  * when nothing was. */
 const struct CzSource *cz_problem_first_source(const CzProblem *problem);

@@ -83,7 +83,7 @@ static void put_verdict(CzJson *json, CzVerdict verdict) {
 }
 
 static const char *track_word(const CzProblem *problem) {
-    switch ((CzTrack)cz_problem_input(problem)->simulation.track) {
+    switch (cz_problem_track(problem)) {
     case CZ_TRACK_MODAL:
         return "modal";
     case CZ_TRACK_FE:

@@ -172,7 +172,8 @@ static void a_time_step_above_a_bound_names_the_element(void **state) {
     (void)state;
     make_problem();
     problem.input.simulation.time_step = 5e-3;
-    expect_refusal("the time step of 5 ms is too long: the largest stable step of wheel-rail", 0);
+    expect_refusal(
+        "the time step of 5 ms is too long: the largest stable step of wheel on elastic ", 0);
 }
 
 static void a_candidate_with_more_stages_is_refused(void **state) {

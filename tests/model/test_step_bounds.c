@@ -85,6 +85,7 @@ static void every_element_of_a_full_car_is_named_and_the_smallest_comes_first(vo
     const CzVehicle car = typed_full();
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
+    problem.input.simulation.track = CZ_TRACK_RIGID;
     Built built = build_model(&problem);
     for (size_t i = 0; i < sizeof elements / sizeof elements[0]; i++)
         assert_true(bound_of(built.model, elements[i])->bound > 0.0);
@@ -99,6 +100,7 @@ static void wheel_and_rail_are_taken_at_four_times_the_static_load(void **state)
     const CzVehicle car = typed_full();
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
+    problem.input.simulation.track = CZ_TRACK_RIGID;
     Built built = build_model(&problem);
     const double hertz = parameter(&built, 0, CZ_P_HERTZ);
     const double load = 4.0 * cz_model_vehicle_facts(built.model, 0).axle_load[0];
@@ -106,6 +108,22 @@ static void wheel_and_rail_are_taken_at_four_times_the_static_load(void **state)
     const double square = (tangent + 2.4e6 + 2e7) / 1813.0, rate = 8e3 / 1813.0;
     assert_near(bound_of(built.model, "wheel-rail contact A1")->bound,
                 2.0 / (sqrt(square + rate * rate) + rate), 1e-12, 0.0);
+    free_model(&built);
+}
+
+/* On an elastic rail a bound of the whole takes its place; the modes up to 1.5 kHz must be seen by
+ * the step: 2 / (2 pi 1500 Hz). Contact and rail by themselves allow for more. */
+static void a_wheel_on_an_elastic_rail_has_a_bound_of_its_own(void **state) {
+    (void)state;
+    const CzVehicle car = typed_full();
+    struct CzProblem problem;
+    typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
+    problem.input.simulation.track = CZ_TRACK_MODAL;
+    Built built = build_model(&problem);
+    assert_near(bound_of(built.model, "wheel on elastic rail A1")->bound,
+                2.0 / (2.0 * 3.14159265358979 * 1500.0), 1e-9, 0.0);
+    assert_near(bound_of(built.model, "wheel on elastic rail B1")->bound,
+                bound_of(built.model, "wheel on elastic rail A1")->bound, 0.0, 0.0);
     free_model(&built);
 }
 
@@ -159,6 +177,7 @@ int main(void) {
         cmocka_unit_test(the_scheme_is_stable_below_the_bound_and_not_above),
         cmocka_unit_test(every_element_of_a_full_car_is_named_and_the_smallest_comes_first),
         cmocka_unit_test(wheel_and_rail_are_taken_at_four_times_the_static_load),
+        cmocka_unit_test(a_wheel_on_an_elastic_rail_has_a_bound_of_its_own),
         cmocka_unit_test(hydraulic_damping_counts_as_far_as_the_tubes_let_it_act),
         cmocka_unit_test(the_step_is_half_the_smallest_bound_or_a_tenth_of_a_millisecond),
     };

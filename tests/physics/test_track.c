@@ -7,6 +7,7 @@
 
 #include "dynamics/track_motion.h"
 #include "laws/wheel_rail.h"
+#include "model/track_bound.h"
 
 #define SPAN 18.26 /* of the cars of the catalogue [m] */
 
@@ -254,6 +255,44 @@ static void cars_at_rest_on_any_track_stay_at_rest(void **state) {
     stays_at_rest("simulation.track=fe");
 }
 
+/* A standing car whose first wheel is nudged by a nanometre, in steps of a share of the bound: how
+ * far a wheel is off in the end. Its wheels stand over sleepers, where the rail gives way least,
+ * and their contact is as good as rigid. */
+static double swing_after(double share) {
+    Motion motion =
+        motion_open("tests/physics/cases/standing.yaml", WITH("simulation.track=modal"));
+    memset(motion.lanes->velocity, 0, CZ_N_DOF * motion.lanes->stride * sizeof(double));
+    double *hertz = parameter(&motion, CZ_P_HERTZ, 0);
+    *hertz *= 1e3;
+    for (int axle = 0; axle < 4; axle++)
+        *parameter(&motion, (CzParameter)(CZ_P_INDENTATION_0 + axle), 0) *= 1e-2;
+    *parameter(&motion, CZ_P_BOGIE_X, 0) = 13 * 0.6;
+    *parameter(&motion, CZ_P_AXLE_X, 0) = 2 * 0.6;
+    const double indentation = *parameter(&motion, CZ_P_INDENTATION_0, 0);
+    const double contact = 1.5 * *hertz * sqrt(indentation);
+    motion.step = share * cz_track_longest_step(motion.collision.model->track, 1.0 / contact,
+                                                *parameter(&motion, CZ_P_INVERSE_WHEELSET_MASS, 0),
+                                                *parameter(&motion, CZ_P_PRIMARY_STIFFNESS, 0));
+    assert_true(motion.step < 2e-4 * share); /* not the one that the modes themselves set */
+    motion_start(&motion);
+    *position(&motion, CZ_DOF_WHEEL_Z_0, 0) = 1e-9;
+    motion_evaluate(&motion);
+    double largest = 0.0;
+    for (int i = 0; i < 4000; i++) {
+        motion_advance(&motion);
+        motion_evaluate(&motion);
+        largest = fmax(largest, fabs(*position(&motion, CZ_DOF_WHEEL_Z_0, 0)));
+    }
+    motion_close(&motion);
+    return largest;
+}
+
+static void a_wheel_on_the_rail_is_stable_up_to_its_bound(void **state) {
+    (void)state;
+    assert_true(swing_after(0.98) < 3e-9);
+    assert_true(swing_after(1.02) > 1e-6);
+}
+
 /* ---- finite elements ---- */
 
 static void elements_converge_to_the_pinned_pinned_frequency(void **state) {
@@ -313,6 +352,7 @@ int main(void) {
         cmocka_unit_test(a_solver_of_differential_equations_finds_the_same),
         cmocka_unit_test(contact_and_rail_share_the_approach),
         cmocka_unit_test(cars_at_rest_on_any_track_stay_at_rest),
+        cmocka_unit_test(a_wheel_on_the_rail_is_stable_up_to_its_bound),
         cmocka_unit_test(elements_converge_to_the_pinned_pinned_frequency),
         cmocka_unit_test(elements_give_way_as_the_closed_form),
         cmocka_unit_test(modes_and_elements_feel_the_same),

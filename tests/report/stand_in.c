@@ -90,6 +90,10 @@ const CzInput *cz_problem_input(const CzProblem *problem) {
     return &input;
 }
 
+CzTrack cz_problem_track(const CzProblem *problem) {
+    return (CzTrack)cz_problem_input(problem)->simulation.track;
+}
+
 /* What the figures show is tested elsewhere; here a report only has to be there. */
 int cz_page_deciding(const CzEvaluation *evaluation) {
     return evaluation->n_run > 0 ? 0 : -1;

@@ -38,16 +38,16 @@ static void optimiser_cannot_win_by_closing_inner_gaps_further_than_there_is_roo
         .scenario = "crash"});
 }
 
-/* A strong front tube buckles the couplers upwards, the faces pass each other, and what has passed
- * pushes no more. */
+/* A strong front tube buckles the couplers upwards, the faces pass each other, and anti-climbers
+ * that pass push no more. */
 static void optimiser_cannot_win_by_climbing(void **state) {
     (void)state;
     check_cheat(
-        &(Cheat){.problem = TWO_AND_TWO("speed_km_h: 20, duration_ms: 600, height_offset_mm: 160",
+        &(Cheat){.problem = TWO_AND_TWO("speed_km_h: 22, duration_ms: 600, height_offset_mm: 160",
                                         "  anti-climber: {rib_strength_kN: 0, friction: 0,\n"
                                         "    stages: [{stroke_mm: 600, force_kN: 900}]}\n"),
                  .limits = "{name: visible, metric: override, max: 1e9}",
-                 .minimise = "interfaces.colliding.peak_force_kN",
+                 .minimise = "elements.anti-climber *.peak_force_kN",
                  .variables = "{path: \"parts.front-coupler.tube.stages[0].force_kN\", min: 690, "
                               "max: 850, start: 700}",
                  .check = "override",
@@ -100,7 +100,7 @@ static void optimiser_cannot_win_by_working_the_running_gear(void **state) {
 static void optimiser_cannot_win_by_crushing_the_occupied_space(void **state) {
     (void)state;
     check_cheat(&(Cheat){
-        .problem = TWO_AND_TWO("speed_km_h: 32, duration_ms: 600",
+        .problem = TWO_AND_TWO("speed_km_h: 28, duration_ms: 600",
                                "    stages:\n" /* of the front end */
                                "      - {stroke_mm: 20, force_MN: 1.2}\n"
                                "      - {stroke_mm: 100, force_MN: 1.5}\n"
@@ -123,8 +123,8 @@ static Case run_diluted(const char *subject) {
              "checks:\n"
              "  closing_rules: false\n"
              "  limits:\n"
-             "    - {name: worse, metric: vehicles.mean_deceleration_g, max: 1.5}\n"
-             "    - {name: diluted, metric: vehicles.mean_deceleration_contact_g, max: 1.5}\n"
+             "    - {name: worse, metric: vehicles.mean_deceleration_g, max: 1.6}\n"
+             "    - {name: diluted, metric: vehicles.mean_deceleration_contact_g, max: 1.6}\n"
              "optimise:\n"
              "  minimise: interfaces.colliding.shortening_mm\n"
              "  subject_to: [%s]\n"
@@ -146,9 +146,9 @@ static void optimiser_cannot_dilute_the_mean_deceleration(void **state) {
     Case cheated = run_diluted("diluted"), honest = run_diluted("worse");
     assert_int_equal(cheated.outcome->status, CZ_OUTCOME_FEASIBLE);
     assert_int_equal(honest.outcome->status, CZ_OUTCOME_FEASIBLE);
-    assert_true(value_of(&cheated, "diluted", "crash") <= 1.5);
-    assert_true(value_of(&cheated, "worse", "crash") > 1.5);
-    assert_true(value_of(&honest, "worse", "crash") <= 1.5);
+    assert_true(value_of(&cheated, "diluted", "crash") <= 1.6);
+    assert_true(value_of(&cheated, "worse", "crash") > 1.6);
+    assert_true(value_of(&honest, "worse", "crash") <= 1.6);
     assert_true(honest.outcome->best_evaluation.objective >
                 cheated.outcome->best_evaluation.objective);
     end(&cheated);

@@ -151,6 +151,37 @@ void cz_page_write_foot(CzMarkup *markup) {
     cz_markup_line(markup);
 }
 
+void cz_page_write_contents(CzPage *page) {
+    static const struct {
+        const char *id, *name;
+    } parts[] = {{"checks", "checks"},
+                 {"trains", "trains"},
+                 {"loops", "force over closure"},
+                 {"energy", "energy"},
+                 {"motion", "speed and acceleration"},
+                 {"vertical", "wheels and pitch"},
+                 {"animation", "animation"},
+                 {"events", "events"},
+                 {"inputs", "inputs"}};
+    const bool has_figures = page->n_sample > 1;
+    bool has_full_cars = false;
+    for (int car = 0; car < page->model->n_car; car++)
+        has_full_cars |= page->model->car[car].model == CZ_MODEL_FULL;
+    CzMarkup *markup = &page->markup;
+    cz_markup_open(markup, "nav");
+    for (int i = 0; i < (int)(sizeof parts / sizeof *parts); i++) {
+        if ((i >= 2 && i <= 6 && !has_figures) || (i == 5 && !has_full_cars))
+            continue;
+        cz_markup_open(markup, "a");
+        cz_markup_format(markup, "href", "#%s", parts[i].id);
+        cz_markup_text(markup, parts[i].name);
+        cz_markup_close(markup);
+        cz_markup_text(markup, " ");
+    }
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
 void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading) {
     cz_markup_open(markup, "section");
     cz_markup_attribute(markup, "id", id);

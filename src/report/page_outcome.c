@@ -361,6 +361,7 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     snprintf(title, sizeof title, "%s, optimised", cz_problem_title(page->problem));
     cz_page_write_head(markup, title);
     write_banner(markup, evaluator, page->problem, outcome);
+    cz_page_write_contents(page);
     cz_page_open_section(markup, "checks", "Checks before and after");
     cz_page_write_checks(markup, &outcome->best_evaluation, &outcome->start_evaluation);
     cz_page_close_section(markup);

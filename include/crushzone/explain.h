@@ -59,8 +59,12 @@ typedef struct CzExplanation {
     int n_lever;
     CzLever *lever; /* those that turn the verdict by the size of the change, then the rest by the
                        margin that they reach (n_lever) */
-    CzRun *run;     /* of the scenario, with its events */
-    long n_run;     /* collisions run for the search */
+    bool has_cause; /* some change turns the verdict */
+    CzCause cause; /* of the smallest change that does, among the causes that the run shows signs of
+                      (stops aside, which are met in the end whatever lifts the wheels), else among
+                      all */
+    CzRun *run;    /* of the scenario, with its events */
+    long n_run;    /* collisions run for the search */
     double wall_s;
 } CzExplanation;
 

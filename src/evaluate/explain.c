@@ -272,6 +272,26 @@ static void sort(const Search *search, int n, CzLever *lever) {
         }
 }
 
+/* Whether the run shows that a cause is at work. Stops are met in the end whatever lifts a body. */
+static bool shows(const CzExplanation *explanation, CzCause cause) {
+    for (int i = 0; i < explanation->n_sign; i++)
+        if (explanation->sign[i].cause == cause && cause != CZ_CAUSE_SUSPENSION)
+            return true;
+    return false;
+}
+
+/* The levers stand in order of their changes. */
+static void name_cause(CzExplanation *explanation) {
+    for (int pass = 0; pass < 2 && !explanation->has_cause; pass++)
+        for (int i = 0; i < explanation->n_lever && !explanation->has_cause; i++) {
+            const CzLever *lever = &explanation->lever[i];
+            if (!lever->turns || (pass == 0 && !shows(explanation, lever->cause)))
+                continue;
+            explanation->has_cause = true;
+            explanation->cause = lever->cause;
+        }
+}
+
 static CzStatus search_levers(Search *search, CzExplanation *explanation, CzError *error) {
     const CzEvaluator *evaluator = search->evaluator;
     int kind[64], n = 0;
@@ -293,6 +313,8 @@ static CzStatus search_levers(Search *search, CzExplanation *explanation, CzErro
     if (status == CZ_OK)
         sort(search, n, explanation->lever);
     explanation->n_lever = n;
+    if (status == CZ_OK)
+        name_cause(explanation);
     return status;
 }
 

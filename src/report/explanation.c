@@ -170,11 +170,10 @@ void cz_report_write_explanation_table(const CzExplanation *explanation, bool co
     write_budget(explanation, colour, stream);
     write_levers(explanation, true, colour, stream);
     write_levers(explanation, false, colour, stream);
-    if (explanation->n_lever > 0 && explanation->lever[0].turns)
+    if (explanation->has_cause)
         fprintf(stream, "\n%s: %s: %s.\n",
                 explanation->worst.margin < 0 ? "First cause" : "First to give way",
-                cz_cause_text(explanation->lever[0].cause),
-                cz_cause_doc(explanation->lever[0].cause));
+                cz_cause_text(explanation->cause), cz_cause_doc(explanation->cause));
 }
 
 /* ---- document -------------------------------------------------------------------------------- */
@@ -219,9 +218,8 @@ CzStatus cz_report_write_explanation(const CzProblem *problem, const CzExplanati
     cz_json_flag(json, "climbed", explanation->climbed);
     cz_json_real(json, "climb_time_ms", cz_milliseconds(explanation->climb_time));
     put_worst(json, &explanation->worst);
-    const bool has_first = explanation->n_lever > 0 && explanation->lever[0].turns;
     cz_json_text(json, "first_cause",
-                 has_first ? cz_cause_text(explanation->lever[0].cause) : NULL);
+                 explanation->has_cause ? cz_cause_text(explanation->cause) : NULL);
     cz_json_open_list(json, "signs");
     for (int i = 0; i < explanation->n_sign; i++) {
         const CzSign *sign = &explanation->sign[i];

@@ -268,14 +268,14 @@ static bool nothing_pushes(const CzBatch *batch) {
     return all_rest;
 }
 
-/* Whether some lane of a block is beyond one of its limits: all of them at once cost little more
- * than one value by its own. */
-static bool is_beyond(const CzBlock *block, const Limits *limits) {
+/* Whether some lane of a block, of the first n, is beyond one of its limits: all of them at once
+ * cost little more than one value by its own. */
+static bool is_beyond(const CzBlock *block, const Limits *limits, size_t n) {
     const CzRow *lift = &block->extreme[CZ_E_LIFT_0];
     const CzRow *end = (const CzRow *)&block->memory[CZ_M_END_PEAK_REAR];
     double n_beyond = 0.0;
 #pragma omp simd reduction(+ : n_beyond)
-    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
+    for (size_t i = 0; i < n; ++i) {
         const double rear = compression(block, 0, i), front = compression(block, 1, i);
         double beyond = 0.0;
         beyond += lift[0][i] > limits->lift[0][i] ? 1.0 : 0.0;
@@ -297,8 +297,12 @@ void cz_watch_look(CzWatch *list, const CzBatch *batch) {
     if (!nothing_pushes(batch))
         look_at_list(list, batch, WHILE_PUSHED);
     bool any_beyond = false;
-    for (int i = 0; i < batch->dynamics->n_block && !any_beyond; ++i)
-        any_beyond = is_beyond(&batch->dynamics->block[i], &list->limits[i]);
+    size_t n_left = (size_t)batch->model->n_car; /* lanes: events are those of a single design */
+    for (int i = 0; i < batch->dynamics->n_block && !any_beyond; ++i) {
+        const size_t n = n_left < CZ_LANE_BLOCK ? n_left : CZ_LANE_BLOCK;
+        any_beyond = is_beyond(&batch->dynamics->block[i], &list->limits[i], n);
+        n_left -= n;
+    }
     if (any_beyond) {
         look_at_list(list, batch, GUARDED);
         set_limits(list, batch);

@@ -164,7 +164,7 @@ static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
 static void begin_block(CzBlock *d) {
     clear(d);
     if (d->budget != NULL)
-        memset(d->budget, 0, sizeof *d->budget);
+        zero((CzRow *)d->budget, (int)(sizeof *d->budget / sizeof(CzRow)));
     rotations(d);
 }
 

@@ -67,6 +67,8 @@ static void face_of(const CzBatch *batch, int car, int side, double *lift, doubl
     const int interface = side == 0 ? car : car - 1, end = side == 0 ? 1 : 0;
     size_t i;
     const CzBudgetRows *rows = rows_of(batch, cz_lane(batch, interface, 0), &i);
+    if (rows->face_x[i] == 0.0 && rows->face_z[i] == 0.0)
+        return; /* most of the time; both are zero as they came */
     const size_t own = cz_lane(batch, car, 0);
     const double sign = side == 0 ? -1.0 : 1.0;
     const double x = cz_parameter(batch, CZ_P_END_X_REAR + end, own);

@@ -49,7 +49,7 @@ finer() { exits 0 "$C" run two-trains.yaml --json --time-step-ms 0.05 && json ou
 check "--time-step-ms sets the time step" finer
 too_coarse() { # too_coarse OPTION...: beyond the largest stable step
     exits 2 "$C" run "$SOURCE/problems/two-cars-25kmh.yaml" --set simulation.output_step_ms=5 "$@" &&
-        says err.txt 'the time step of 2 ms is too long: the largest stable step of wheel on elastic rail A1 is 0.212207 ms'
+        says err.txt 'the time step of 2 ms is too long: the largest stable step of wheel-rail contact A1 is 1.26022 ms'
 }
 check "--time-step-ms beyond the largest stable step is refused as in the file" too_coarse --time-step-ms 2
 check "a step of the file beyond the largest stable step is refused" too_coarse --set simulation.time_step_ms=2

@@ -39,6 +39,50 @@ static CzTrackRows rows_of(const CzTrackGroup *group, double step) {
     return rows;
 }
 
+static CzTrackAmplitudes amplitudes_of(const CzTrackBlock *block, const CzTrackGroup *group, int i,
+                                       double step) {
+    const CzSeats *seats = block->seats;
+    const CzComplex lambda = group->lambda[i], pad = group->pad[i];
+    CzTrackAmplitudes amplitudes;
+    memset(&amplitudes, 0, sizeof amplitudes);
+    amplitudes.back = cz_complex_exponential(cz_complex_scaled(-0.5 * step, lambda));
+    amplitudes.wave[0] = group->direct[i];
+    if (cz_complex_square_size(pad) == 0.0)
+        return amplitudes;
+    for (int w = 1; w < block->n_wave; ++w)
+        amplitudes.wave[w] = cz_complex_scaled(
+            -block->crests, cz_complex_product(cz_track_wave_answer(block, w, lambda), pad));
+    const CzTrackBelow below = cz_track_below(block, lambda);
+    const CzComplex stiffness = {seats->pad_k + seats->pad_c * lambda.re, seats->pad_c * lambda.im};
+    amplitudes.force = pad;
+    amplitudes.stretch = cz_complex_ratio(pad, stiffness);
+    amplitudes.sleeper = cz_complex_product(below.sleeper, pad);
+    amplitudes.ballast = cz_complex_product(below.ballast, pad);
+    return amplitudes;
+}
+
+/* Blocks and their modes' amplitudes; false when there is no memory. */
+static bool prepare_energy(CzTrackMotion *track, CzArena *arena) {
+    const CzTrackModes *modes = track->modes;
+    const size_t n_block = (size_t)modes->n_seat / 2 + 1;
+    CzTrackBlock *block = cz_arena_allocate(arena, n_block, sizeof *block);
+    CzTrackAmplitudes *amplitudes =
+        cz_arena_allocate(arena, (size_t)modes->n_group * CZ_TRACK_WIDTH, sizeof *amplitudes);
+    if (block == NULL || amplitudes == NULL)
+        return false;
+    for (size_t j = 0; j < n_block; ++j)
+        block[j] = cz_track_block(&modes->seats, modes->n_seat, (int)j);
+    for (int k = 0; k < modes->n_group; ++k)
+        for (int i = 0; i < CZ_TRACK_WIDTH; ++i)
+            if (is_mode(&modes->group[k], i))
+                amplitudes[CZ_TRACK_WIDTH * k + i] =
+                    amplitudes_of(&block[modes->group[k].vector * CZ_TRACK_WIDTH + i],
+                                  &modes->group[k], i, track->step);
+    track->block = block;
+    track->amplitudes = amplitudes;
+    return true;
+}
+
 static void fill_spans(const CzTrackModes *modes, CzTrackSpan *span) {
     for (int k = 0; k < modes->n_group; ++k) {
         const CzTrackGroup *group = &modes->group[k];
@@ -81,7 +125,7 @@ CzTrackMotion *cz_track_motion_create(const CzTrackModes *modes, double step, si
                              .flexibility = cz_track_flexibility(modes, step),
                              .n_under = n_under,
                              .under = under};
-    return track;
+    return prepare_energy(track, arena) ? track : NULL;
 }
 
 /* ---- one car ---- */
@@ -173,24 +217,15 @@ static void add_part(CzComplex amplitude, const Motion *motion, double *value, d
     *rate += cz_complex_product(amplitude, motion->rate).re;
 }
 
-static void add_mode(const CzTrackBlock *block, const CzTrackGroup *group, int i,
-                     const Motion *motion, Parts *parts) {
-    const CzSeats *seats = block->seats;
-    const CzComplex lambda = group->lambda[i], pad = group->pad[i];
-    add_part(group->direct[i], motion, &parts->wave[0], &parts->wave_rate[0]);
-    if (cz_complex_square_size(pad) == 0.0)
-        return;
-    for (int w = 1; w < block->n_wave; ++w)
-        add_part(cz_complex_scaled(-block->crests,
-                                   cz_complex_product(cz_track_wave_answer(block, w, lambda), pad)),
-                 motion, &parts->wave[w], &parts->wave_rate[w]);
-    const CzTrackBelow below = cz_track_below(block, lambda);
-    const CzComplex stiffness = {seats->pad_k + seats->pad_c * lambda.re, seats->pad_c * lambda.im};
+static void add_mode(const CzTrackAmplitudes *amplitudes, int n_wave, const Motion *motion,
+                     Parts *parts) {
+    for (int w = 0; w < n_wave; ++w)
+        add_part(amplitudes->wave[w], motion, &parts->wave[w], &parts->wave_rate[w]);
     double none = 0.0;
-    add_part(pad, motion, &parts->force, &none);
-    add_part(cz_complex_ratio(pad, stiffness), motion, &parts->stretch, &parts->stretch_rate);
-    add_part(cz_complex_product(below.sleeper, pad), motion, &parts->sleeper, &parts->sleeper_rate);
-    add_part(cz_complex_product(below.ballast, pad), motion, &parts->ballast, &parts->ballast_rate);
+    add_part(amplitudes->force, motion, &parts->force, &none);
+    add_part(amplitudes->stretch, motion, &parts->stretch, &parts->stretch_rate);
+    add_part(amplitudes->sleeper, motion, &parts->sleeper, &parts->sleeper_rate);
+    add_part(amplitudes->ballast, motion, &parts->ballast, &parts->ballast_rate);
 }
 
 static double square(double value) {
@@ -221,8 +256,7 @@ static Motion half_a_step_ago(const CzTrackMotion *track, size_t index, int k, i
     const CzTrackUnder *under = &track->under[index];
     const CzComplex lambda = track->modes->group[k].lambda[i];
     const CzComplex now = {under->state[2 * k][i], under->state[2 * k + 1][i]};
-    const CzComplex back = cz_complex_exponential(cz_complex_scaled(-0.5 * track->step, lambda));
-    const CzComplex y = cz_complex_product(back, now);
+    const CzComplex y = cz_complex_product(track->amplitudes[CZ_TRACK_WIDTH * k + i].back, now);
     return (Motion){
         y, cz_complex_sum(cz_complex_product(lambda, y), load_under(track->modes, under, k, i))};
 }
@@ -234,16 +268,17 @@ static void add_up(const CzTrackMotion *track, size_t index, double *energy, dou
             const int j = row % modes->n_vector * CZ_TRACK_WIDTH + i;
             if (2 * j > modes->n_seat)
                 continue;
-            const CzTrackBlock block = cz_track_block(&modes->seats, modes->n_seat, j);
+            const CzTrackBlock *block = &track->block[j];
             Parts parts;
             memset(&parts, 0, sizeof parts);
             for (int k = track->span[row].first; k < track->span[row].end; ++k) {
                 if (!is_mode(&modes->group[k], i))
                     continue;
                 const Motion motion = half_a_step_ago(track, index, k, i);
-                add_mode(&block, &modes->group[k], i, &motion, &parts);
+                add_mode(&track->amplitudes[CZ_TRACK_WIDTH * k + i], block->n_wave, &motion,
+                         &parts);
             }
-            parts_energy(&block, &parts, energy, loss);
+            parts_energy(block, &parts, energy, loss);
         }
 }
 

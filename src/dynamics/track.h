@@ -11,6 +11,7 @@
 
 #include "base/arena.h"
 #include "model/track.h"
+#include "model/track_block.h"
 
 typedef double CzTrackRow[CZ_TRACK_WIDTH];
 
@@ -24,6 +25,15 @@ typedef struct CzTrackRows {
     CzTrackRow past_re, past_im; /* the same half a step ago, without forces since */
     CzTrackRow alias_past_re, alias_past_im;
 } CzTrackRows;
+
+/* What a mode of one block means for the block's parts, per state: their amplitudes at the crest.
+ */
+typedef struct CzTrackAmplitudes {
+    CzComplex back;                 /* exp(-lambda h / 2): from the state to half a step ago */
+    CzComplex wave[CZ_BLOCK_WAVES]; /* of the rail */
+    CzComplex force, stretch;       /* of a pad */
+    CzComplex sleeper, ballast;
+} CzTrackAmplitudes;
 
 /* Groups of one copy and vector: first ... end - 1. */
 typedef struct CzTrackSpan {
@@ -52,7 +62,9 @@ typedef struct CzTrackMotion {
     const CzTrackRows *rows;        /* (n_group) */
     const CzTrackSpan *span;        /* (2 n_vector) */
     const CzTrackRow *wavenumber;   /* direct, alias [1/m] (2 n_vector) */
-    CzTrackFlexibility flexibility; /* under a wheel, beside the modes */
+    const CzTrackBlock *block;      /* for the energy, as are the amplitudes (n_seat / 2 + 1) */
+    const CzTrackAmplitudes *amplitudes; /* (n_group x CZ_TRACK_WIDTH) */
+    CzTrackFlexibility flexibility;      /* under a wheel, beside the modes */
     size_t n_under;
     CzTrackUnder *under; /* (n_under) */
 } CzTrackMotion;

@@ -113,12 +113,12 @@ const CzNode *cz_merge(CzArena *arena, const CzNode *base, const CzTrail *base_t
 
 static const CzPart *find_part(CzReader *reader, const CzTree *tree, const CzNode *used,
                                const CzTrail *trail) {
-    CzSuggestion suggestion = {0};
-    for (int i = 0; i < tree->n_part; i++) {
+    for (int i = 0; i < tree->n_part; i++)
         if (strcmp(tree->part[i].name, used->text) == 0)
             return &tree->part[i];
+    CzSuggestion suggestion = {0};
+    for (int i = 0; i < tree->n_part; i++)
         cz_suggest(&suggestion, used->text, tree->part[i].name);
-    }
     cz_mistake(&reader->mistakes, used, trail, "there is no part '%s'", used->text);
     cz_mistake_suggest(&reader->mistakes, suggestion.best);
     if (suggestion.best == NULL)

@@ -27,6 +27,8 @@ typedef struct CzVerifyOptions {
     unsigned ways;                     /* which ones, bit 1 << CzVerifyWay each; all by default */
     double limit;                      /* largest change that passes [-]; 0.01 by default */
     const volatile sig_atomic_t *stop; /* a flag that ends it when not 0; NULL when none */
+    double solver_step; /* longest step of the solvers, in half steps of the record; 1 by default, 2
+                           halves their time and still sees every peak [-] */
 } CzVerifyOptions;
 CZ_API CzVerifyOptions cz_verify_options_default(void);
 
@@ -48,9 +50,10 @@ typedef struct CzVerifiedValue {
 
 /* Open result, owns its memory. */
 typedef struct CzVerification {
-    CzStatus status;   /* CZ_OK, or CZ_STATUS_RUN_FAILED when a run of any way failed or is
-                          incomplete */
-    char failure[320]; /* which way, scenario and why; empty otherwise */
+    CzStatus status;    /* CZ_OK, or CZ_STATUS_RUN_FAILED when a run of any way failed or is
+                           incomplete */
+    char failure[320];  /* which way, scenario and why; empty otherwise */
+    double solver_step; /* as it was asked for */
     double limit;
     unsigned ways; /* that were asked for and apply here: bit 1 << CzVerifyWay each */
     int n_value;

@@ -6,48 +6,42 @@
 #include "dynamics/kernel_rows.h"
 #include "dynamics/track_motion.h"
 
-/* Where one axle stands on the ring and between two seats, and what it feels there beside the
- * modes.
- */
-static void stand_on_rails(const CzTrackMotion *track, CzBlock *d, int axle, CzRow ring[2],
-                           CzRow seat[2]) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict bogie = P(BOGIE_X), *restrict half = P(AXLE_X);
-    const double *restrict way = X_AT(WHEEL_X_0, 3 * axle);
-    double *restrict flexibility = S_AT(RAIL_FLEXIBILITY_0, axle), *restrict change = S_AT(
-                                                                       RAIL_FLEXIBILITY_SLOPE_0,
-                                                                       axle);
-    CZ_LANES (i, n) {
-        const double place = cz_wheel_place(bogie[i], half[i], axle) + way[i];
-        const CzComplex on_ring = cz_turned(place * track->per_length);
-        const CzComplex on_seat = cz_turned(place * track->per_spacing);
-        const CzTrackSpring spring = cz_track_spring(track, on_seat);
-        ring[0][i] = on_ring.re;
-        ring[1][i] = on_ring.im;
-        seat[0][i] = on_seat.re;
-        seat[1][i] = on_seat.im;
-        flexibility[i] = spring.flexibility;
-        change[i] = spring.slope;
+/* The rails under the four wheelsets of one car, at their places now. Ring and bay are turned in
+ * one go: four of each fill a register. */
+static void look_under(const CzTrackMotion *track, const CzTrackUnder *under, CzBlock *d,
+                       int lane) {
+    double turns[8], cosine[8], sine[8];
+    for (int axle = 0; axle < 4; ++axle) {
+        const double place = cz_wheel_place(P(BOGIE_X)[lane], P(AXLE_X)[lane], axle) +
+                             X_AT(WHEEL_X_0, 3 * axle)[lane];
+        turns[axle] = place * track->per_length;
+        turns[4 + axle] = place * track->per_spacing;
+    }
+    CZ_LANES (i, 8) {
+        const CzComplex turned = cz_turned(turns[i]);
+        cosine[i] = turned.re;
+        sine[i] = turned.im;
+    }
+    for (int axle = 0; axle < 4; ++axle) {
+        const CzComplex ring = {cosine[axle], sine[axle]};
+        const CzComplex seat = {cosine[4 + axle], sine[4 + axle]};
+        cz_track_shape(track, ring, seat, under->shape + 4 * axle * track->modes->n_vector);
+        const CzTrackPoint point = cz_track_at(track, under, axle);
+        const CzTrackSpring spring = cz_track_spring(track, seat);
+        S_AT(RAIL_Z_0, axle)[lane] = point.z;
+        S_AT(RAIL_PAST_0, axle)[lane] = point.past;
+        S_AT(RAIL_SLOPE_0, axle)[lane] = point.slope;
+        S_AT(RAIL_FLEXIBILITY_0, axle)[lane] = spring.flexibility;
+        S_AT(RAIL_FLEXIBILITY_SLOPE_0, axle)[lane] = spring.slope;
     }
 }
 
 /* The rails under the wheels of a block, where these are now. */
 static void look_at_modes(const CzTrackMotion *track, CzBlock *d, int block) {
-    for (int axle = 0; axle < 4; ++axle) {
-        CzRow ring[2], seat[2];
-        stand_on_rails(track, d, axle, ring, seat);
-        for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
-            const CzTrackUnder *under = &track->under[block * CZ_LANE_BLOCK + i];
-            if (under->state == NULL)
-                continue;
-            cz_track_shape(track, (CzComplex){ring[0][i], ring[1][i]},
-                           (CzComplex){seat[0][i], seat[1][i]},
-                           under->shape + 4 * axle * track->modes->n_vector);
-            const CzTrackPoint point = cz_track_at(track, under, axle);
-            S_AT(RAIL_Z_0, axle)[i] = point.z;
-            S_AT(RAIL_PAST_0, axle)[i] = point.past;
-            S_AT(RAIL_SLOPE_0, axle)[i] = point.slope;
-        }
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+        const CzTrackUnder *under = &track->under[block * CZ_LANE_BLOCK + i];
+        if (under->state != NULL)
+            look_under(track, under, d, i);
     }
 }
 

@@ -25,16 +25,20 @@ static inline double cz_track_sum(const CzTrackRow row) {
  * `ring` and `seat` are cosine and sine of 2 pi x over the ring's length and over the spacing. */
 static inline void cz_track_shape(const CzTrackMotion *track, CzComplex ring, CzComplex seat,
                                   CzTrackRow *shape) {
-    CzComplex power[CZ_TRACK_WIDTH + 1] = {{1.0, 0.0}, ring};
-    for (int k = 2; k <= CZ_TRACK_WIDTH; ++k)
-        power[k] = cz_complex_product(power[k / 2], power[k - k / 2]);
-    const CzComplex eighth = power[CZ_TRACK_WIDTH];
+    const CzComplex square = cz_complex_product(ring, ring);
+    const CzComplex fourth = cz_complex_product(square, square);
+    const CzComplex eighth = cz_complex_product(fourth, fourth);
     for (int v = 0; v < track->modes->n_vector; ++v) {
         double *restrict cosine = shape[4 * v], *restrict sine = shape[4 * v + 1];
         if (v == 0) {
-            for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
-                cosine[i] = power[i].re;
-                sine[i] = power[i].im;
+            /* Power i of the ring's turn is the product of those of its binary digits. */
+            CZ_WAVES(i) {
+                const double c1 = i & 1 ? ring.re : 1.0, s1 = i & 1 ? ring.im : 0.0;
+                const double c2 = i & 2 ? square.re : 1.0, s2 = i & 2 ? square.im : 0.0;
+                const double c4 = i & 4 ? fourth.re : 1.0, s4 = i & 4 ? fourth.im : 0.0;
+                const double c3 = c1 * c2 - s1 * s2, s3 = c1 * s2 + s1 * c2;
+                cosine[i] = c3 * c4 - s3 * s4;
+                sine[i] = c3 * s4 + s3 * c4;
             }
         } else {
             const double *restrict c = shape[4 * v - 4], *restrict s = shape[4 * v - 3];

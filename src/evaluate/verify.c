@@ -40,7 +40,8 @@ const char *cz_verify_way_text(CzVerifyWay way) {
 }
 
 CzVerifyOptions cz_verify_options_default(void) {
-    return (CzVerifyOptions){.ways = (1u << CZ_N_VERIFY_WAY) - 1, .limit = LIMIT};
+    return (CzVerifyOptions){
+        .ways = (1u << CZ_N_VERIFY_WAY) - 1, .limit = LIMIT, .solver_step = 1.0};
 }
 
 static CzTrack track_of(const CzEvaluator *evaluator) {
@@ -49,7 +50,7 @@ static CzTrack track_of(const CzEvaluator *evaluator) {
 
 /* How a way makes its runs. The solvers know the modal track, which is the record; what runs along
  * with the wheels, and finite elements, are compared with it. */
-static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyWay way) {
+static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyWay way, double solver_step) {
     CzManner manner = evaluator->manner;
     switch (way) {
     case CZ_WAY_HALF_STEP:
@@ -60,10 +61,12 @@ static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyWay way) {
             track_of(evaluator) == CZ_TRACK_CO_RUNNING ? CZ_TRACK_USE_RECORD : CZ_TRACK_USE_SEARCH;
         break;
     case CZ_WAY_ERK:
+        manner.step_factor *= solver_step;
         manner.integrator = CZ_INTEGRATOR_ERK;
         manner.track = CZ_TRACK_USE_RECORD;
         break;
     case CZ_WAY_ADAMS:
+        manner.step_factor *= solver_step;
         manner.integrator = CZ_INTEGRATOR_ADAMS;
         manner.track = CZ_TRACK_USE_RECORD;
         break;
@@ -216,7 +219,7 @@ static void tell_failure(CzVerification *verification, const char *way,
 /* Goes one way. */
 static CzStatus go(CzVerification *verification, const CzEvaluator *evaluator, CzVerifyWay way,
                    const double *x, const Number *record, Number *again, CzError *error) {
-    const CzManner manner = manner_of(evaluator, way);
+    const CzManner manner = manner_of(evaluator, way, verification->solver_step);
     CzEvaluation evaluation = {0};
     CZ_TRY(cz_evaluator_again(evaluator, &manner, x, &evaluation, error));
     if (evaluation.status != CZ_OK) {
@@ -279,6 +282,7 @@ static CzStatus verify(CzVerification *verification, CzEvaluator *evaluator, con
                        const CzEvaluation *record, const CzVerifyOptions *options, CzError *error) {
     verification->limit = options->limit;
     verification->ways = options->ways;
+    verification->solver_step = options->solver_step;
     if (track_of(evaluator) == CZ_TRACK_RIGID)
         verification->ways &= ~(1u << CZ_WAY_TRACK);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {

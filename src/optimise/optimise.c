@@ -174,6 +174,7 @@ static CzStatus verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
         return CZ_OK;
     CzVerifyOptions chosen = cz_verify_options_default();
     chosen.ways = options->verify_ways;
+    chosen.solver_step = 2.0;
     chosen.stop = options->stop;
     const CzStatus status = cz_verify(evaluator, outcome->best, &outcome->best_evaluation, &chosen,
                                       &outcome->verification, error);

@@ -10,7 +10,7 @@
     "schema: 1\n"                                                                                  \
     "title: two cars onto two\n"                                                                   \
     "catalogue: [problems/catalogue/generic.yaml]\n"                                               \
-    "simulation: {adhesion: {friction: 0.3}}\n"                                                    \
+    "simulation: {track: rigid, adhesion: {friction: 0.3}}\n"                                      \
     "trains:\n"                                                                                    \
     "  - name: A\n"                                                                                \
     "    brake: {ratio: 0, axle_share: 0}\n"                                                       \

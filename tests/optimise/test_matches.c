@@ -9,7 +9,7 @@ static const char collision[] =
     "schema: 1\n"
     "title: a car whose parameters are sought\n"
     "catalogue: [problems/catalogue/generic.yaml]\n"
-    "simulation: {adhesion: {friction: 0.3}, output_step_ms: 1}\n"
+    "simulation: {track: rigid, adhesion: {friction: 0.3}, output_step_ms: 1}\n"
     "trains:\n"
     "  - {name: A, speed_km_h: 25, brake: {ratio: 0.1, axle_share: 1},\n"
     "     vehicles: [{name: A1, use: driving-car}]}\n"

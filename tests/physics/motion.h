@@ -33,7 +33,8 @@ static inline Motion motion_open(const char *file, const char *const *set) {
     return motion;
 }
 
-static inline void motion_start(Motion *motion) {
+/* The state on its track, nothing evaluated yet. */
+static inline void motion_lay(Motion *motion) {
     motion->dynamics = cz_dynamics_create(motion->lanes, &motion->arena);
     assert_non_null(motion->dynamics);
     const CzTrackModes *track = motion->collision.model->track;
@@ -41,6 +42,10 @@ static inline void motion_start(Motion *motion) {
         assert_true(cz_dynamics_lay_track(motion->dynamics, track,
                                           (CzTrack)motion->collision.model->simulation->track,
                                           motion->step, &motion->arena));
+}
+
+static inline void motion_start(Motion *motion) {
+    motion_lay(motion);
     motion->kernel->evaluate(motion->dynamics, motion->step);
     motion->kernel->commit(motion->dynamics, 0.0, 0.0);
 }

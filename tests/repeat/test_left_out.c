@@ -44,8 +44,7 @@ static LeftOut compare(const char *file, const char *const *set, const char *isa
     Motion quick = motion_open(file, set), whole = motion_open(file, set);
     quick.kernel = whole.kernel = cz_kernel(isa);
     motion_start(&quick);
-    whole.dynamics = cz_dynamics_create(whole.lanes, &whole.arena);
-    assert_non_null(whole.dynamics);
+    motion_lay(&whole);
     evaluate_everything(&whole);
     whole.kernel->evaluate(whole.dynamics, whole.step);
     whole.kernel->commit(whole.dynamics, 0.0, 0.0);

@@ -6,6 +6,9 @@ install(DIRECTORY include/crushzone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY problems/ DESTINATION ${CMAKE_INSTALL_DATADIR}/crushzone)
 install(FILES README.md CHANGELOG.md LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+install(FILES docs/crushzone.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES docs/crushzone.bash RENAME crushzone DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+
 set(CZ_PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/crushzone)
 install(EXPORT crushzone NAMESPACE crushzone:: FILE crushzone-targets.cmake DESTINATION ${CZ_PACKAGE_FOLDER})
 configure_package_config_file(cmake/crushzone-config.cmake.in crushzone-config.cmake

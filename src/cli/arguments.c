@@ -208,12 +208,13 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     static const char *const colours[] = {"auto", "always", "never"};
     static const char *const separators[] = {",", ";", "tab"};
     static const char *const decimals[] = {".", ","};
+    static const char *const shells[] = {"bash"};
     static const char *const integrators[] = {
 #define CZ_INTEGRATOR(constant, text, doc) text,
 #include "crushzone/integrators.def"
 #undef CZ_INTEGRATOR
     };
-    int colour = 0, separator = 0, decimal = 0, integrator = CZ_INTEGRATOR_ZHAI;
+    int colour = 0, separator = 0, decimal = 0, shell = 0, integrator = CZ_INTEGRATOR_ZHAI;
     long n_job = 0, n_stage = -1;
     CzStatus status = CZ_OK;
     if (status == CZ_OK)
@@ -234,6 +235,8 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
         status = read_choice(arguments, CZ_OPTION_CSV_SEP, 3, separators, &separator, error);
     if (status == CZ_OK)
         status = read_choice(arguments, CZ_OPTION_CSV_DECIMAL, 2, decimals, &decimal, error);
+    if (status == CZ_OK)
+        status = read_choice(arguments, CZ_OPTION_COMPLETION, 1, shells, &shell, error);
     if (status != CZ_OK)
         return status;
     arguments->n_job = (int)n_job;

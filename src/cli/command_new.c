@@ -8,10 +8,12 @@
 #include <string.h>
 
 static const char two_trains[] =
+    "# yaml-language-server: $schema=./crushzone.schema.json\n"
     "# Two identical trains meet: a first crush zone to play with.\n"
     "#   crushzone run two-trains.yaml        collide, judge, write the results to out/\n"
     "#   crushzone optimise two-trains.yaml   size the absorbers until every check passes\n"
     "#   crushzone help keys                  every key; 'help units' and 'help checks' the rest\n"
+    "#   crushzone schema > crushzone.schema.json   lets editors complete and check keys\n"
     "# All numbers are invented for learning; replace them by those of your train.\n"
     "schema: 1\n"
     "title: Two identical 4-car units, 25 km/h\n"

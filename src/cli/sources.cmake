@@ -12,6 +12,8 @@ set(CZ_SOURCES_cli
     command_sweep.c
     command_verify.c
     help.c
+    help_pages.c
+    help_topics.c
     interrupt.c
     main.c
     messages.c

@@ -174,6 +174,10 @@ static void write_record(FILE *stream, const CzRecord *record) {
     for (int i = 0; i < record->n_key; i++)
         write_key(stream, &is_first, &record->key[i]);
     write_reuse(stream, &is_first, record);
+    if (strcmp(record->name, "profile") == 0) { /* the head of its file is not of the record */
+        open_property(stream, &is_first, "schema", "", "version of the format");
+        fputs(", \"type\": \"integer\"}", stream);
+    }
     fputs("\n      }", stream);
     if (has_pairs(record)) {
         fputs(",\n      \"allOf\": [", stream);
@@ -185,8 +189,10 @@ static void write_record(FILE *stream, const CzRecord *record) {
 
 void cz_keys_write_schema(FILE *stream) {
     fputs("{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
-          "  \"title\": \"crushzone problem file\",\n"
-          "  \"allOf\": [{\"$ref\": \"#/definitions/problem\"}],\n"
+          "  \"title\": \"crushzone problem file, catalogue or profile\",\n"
+          "  \"if\": {\"required\": [\"limits\"]},\n" /* a profile has them at the top */
+          "  \"then\": {\"$ref\": \"#/definitions/profile\"},\n"
+          "  \"else\": {\"$ref\": \"#/definitions/problem\"},\n"
           "  \"type\": \"object\",\n"
           "  \"definitions\": {\n",
           stream);

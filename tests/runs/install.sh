@@ -47,5 +47,7 @@ check "the outside program runs" runs ./by-pkg-config
 check "the outside program links crushzone alone" needs_only_the_library
 check "pkg-config tells the version" sh -c "grep -q '^## \[Unreleased\]\|^## \[$(pc --modversion)\]' '$SOURCE/CHANGELOG.md'"
 check "the installed program runs a shipped problem" installed_program_runs
+teaches() { [ -s "$prefix/share/man/man1/crushzone.1" ] && bash -n "$prefix/share/bash-completion/completions/crushzone"; }
+check "the manual page and the completion are installed" teaches
 check "an installed tree can be moved" moved_tree_runs
 finish

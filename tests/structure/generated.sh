@@ -13,4 +13,15 @@ check "docs/problem-file.md is what 'crushzone help keys --markdown' prints" \
     same docs/problem-file.md "$PROGRAM" help keys --markdown
 check "docs/command-line.md is what 'crushzone help --markdown' prints" \
     same docs/command-line.md "$PROGRAM" help --markdown
+check "docs/crushzone.1 is what 'crushzone help --man' prints" \
+    same docs/crushzone.1 "$PROGRAM" help --man
+check "docs/crushzone.bash is what 'crushzone help --completion bash' prints" \
+    same docs/crushzone.bash "$PROGRAM" help --completion bash
+schema_lines() {
+    find "$SOURCE/problems" -name '*.yaml' | while read -r file; do
+        line=$(head -1 "$file") && schema=${line#"# yaml-language-server: \$schema="} && [ "$schema" != "$line" ] &&
+            [ -f "$(dirname "$file")/$schema" ] || { echo "$file names no schema to editors"; exit 1; }
+    done
+}
+check "every shipped problem, catalogue and profile names its schema to editors" schema_lines
 finish

@@ -1,0 +1,69 @@
+# Completion of crushzone for bash. Printed by crushzone help --completion bash.
+_crushzone() {
+    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words='' options=''
+    COMPREPLY=()
+    if [ "$COMP_CWORD" = 1 ]; then
+        words='run check optimise sweep explain verify report plot compare validate show fit new schema help version'
+        COMPREPLY=($(compgen -W "$words" -- "$word"))
+        return
+    fi
+    case $before in
+    --output | -o) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    --set) return ;;
+    --scenario) return ;;
+    --time-step-ms) return ;;
+    --integrator) words='zhai erk adams' ;;
+    --vary) return ;;
+    --metric) return ;;
+    --check) return ;;
+    --what) words='fd shares energy balance force velocity acceleration car-acceleration lift overlap pitch' ;;
+    --at) return ;;
+    --svg) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    --algorithm) return ;;
+    --evaluations) return ;;
+    --seed) return ;;
+    --jobs | -j) return ;;
+    --as) return ;;
+    --basis) words='static dynamic' ;;
+    --stages) return ;;
+    --name) return ;;
+    --stroke) return ;;
+    --force) return ;;
+    --stroke-unit) return ;;
+    --force-unit) return ;;
+    --csv-sep) return ;;
+    --csv-decimal) return ;;
+    --color) words='auto always never' ;;
+    --completion) return ;;
+    esac
+    if [ -n "$words" ]; then
+        COMPREPLY=($(compgen -W "$words" -- "$word"))
+        return
+    fi
+    case ${COMP_WORDS[1]} in
+    run) options='--output --json --quiet --verbose --set --scenario --time-step-ms --integrator --strict --jobs --csv-sep --csv-decimal --color --help' ;;
+    check) options='--output --json --quiet --verbose --set --scenario --time-step-ms --integrator --jobs --csv-sep --csv-decimal --color --help' ;;
+    optimise | optimize) options='--output --json --quiet --verbose --set --time-step-ms --algorithm --evaluations --seed --jobs --csv-sep --csv-decimal --color --help' ;;
+    sweep) options='--output --json --quiet --set --scenario --time-step-ms --strict --vary --metric --check --jobs --csv-sep --csv-decimal --color --help' ;;
+    explain) options='--json --quiet --set --scenario --time-step-ms --jobs --color --help' ;;
+    verify) options='--json --quiet --verbose --set --scenario --time-step-ms --jobs --color --help' ;;
+    report) options='--output --quiet --scenario --jobs --help' ;;
+    plot) options='--quiet --set --scenario --what --at --svg --jobs --help' ;;
+    compare) options='--output --quiet --scenario --jobs --color --help' ;;
+    validate) options='--json --quiet --set --color --help' ;;
+    show) options='--quiet --set --scenario --time-step-ms --svg --color --help' ;;
+    fit) options='--json --as --basis --stages --name --stroke --force --stroke-unit --force-unit --csv-sep --csv-decimal --help' ;;
+    new) options='--output --quiet --help' ;;
+    schema) options='--help' ;;
+    help) options='--markdown --man --completion --help' ;;
+    version) options='--json --help' ;;
+    esac
+    if [[ $word == -* ]]; then
+        COMPREPLY=($(compgen -W "$options" -- "$word"))
+    elif [ "${COMP_WORDS[1]}" = help ]; then
+        COMPREPLY=($(compgen -W 'keys units checks profiles paths algorithms channels events figures files exit-codes run check optimise sweep explain verify report plot compare validate show fit new schema help version' -- "$word"))
+    elif [ "${COMP_WORDS[1]}" != new ]; then
+        COMPREPLY=($(compgen -f -- "$word"))
+    fi
+}
+complete -o filenames -F _crushzone crushzone

@@ -1,0 +1,35 @@
+/* What help is made of: topics beside the commands, and pages for other programs. */
+#ifndef CZ_CLI_HELP_H
+#define CZ_CLI_HELP_H
+
+typedef enum CzTopic {
+#define CZ_TOPIC(constant, name, doc) CZ_TOPIC_##constant,
+#include "cli/topics.def"
+#undef CZ_TOPIC
+    CZ_N_TOPIC
+} CzTopic;
+
+typedef struct CzTopicInfo {
+    const char *name, *doc;
+} CzTopicInfo;
+
+extern const CzTopicInfo cz_topics[CZ_N_TOPIC];
+
+/* The topic of a name, CZ_N_TOPIC when there is none. */
+CzTopic cz_topic_named(const char *name);
+void cz_help_write_topic(CzTopic topic);
+
+/* Codes that commands end with, a line each, with what stands before it. */
+int cz_n_exit_code(void);
+const char *cz_exit_code_number(int index);
+const char *cz_exit_code_text(int index);
+
+/* Writes a text from column `indent` on, broken between words; the line is at that column. */
+void cz_help_write_wrapped(const char *text, int indent);
+
+/* The command line as a page in Markdown, as a manual page for man, and as completion for bash. */
+void cz_help_write_markdown(void);
+void cz_help_write_man(void);
+void cz_help_write_bash(void);
+
+#endif

@@ -1,0 +1,222 @@
+/* Topics of help that are no command: lists of what there is, expanded from the program's own. */
+#include "cli/help.h"
+
+#include "crushzone/optimise.h"
+#include "crushzone/problem.h"
+#include "crushzone/report.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const CzTopicInfo cz_topics[CZ_N_TOPIC] = {
+#define CZ_TOPIC(constant, name, doc) {name, doc},
+#include "cli/topics.def"
+#undef CZ_TOPIC
+};
+
+CzTopic cz_topic_named(const char *name) {
+    CzTopic topic = 0;
+    while (topic < CZ_N_TOPIC && strcmp(cz_topics[topic].name, name) != 0)
+        topic++;
+    return topic;
+}
+
+/* ---- exit codes ---- */
+
+static const char *const codes[][2] = {
+    {"0", "done"},
+    {"1", "a check fails or could not be made (check, run --strict), nothing feasible (optimise)"},
+    {"2", "something is wrong with the command line or a problem file"},
+    {"3", "a run failed or is incomplete"},
+    {"4", "results cannot be written"},
+    {"5", "a fault of the program's own, or no memory"},
+    {"130", "interrupted (143 by SIGTERM); the best design so far is written"}};
+
+int cz_n_exit_code(void) {
+    return (int)(sizeof codes / sizeof *codes);
+}
+const char *cz_exit_code_number(int index) {
+    return codes[index][0];
+}
+const char *cz_exit_code_text(int index) {
+    return codes[index][1];
+}
+
+static void write_exit_codes(void) {
+    for (int i = 0; i < cz_n_exit_code(); i++)
+        printf("  %-4s %s\n", codes[i][0], codes[i][1]);
+}
+
+/* ---- lists ---- */
+
+typedef struct Entry {
+    const char *name, *doc;
+} Entry;
+
+static void write_entries(int n, const Entry *entries, int width) {
+    for (int i = 0; i < n; i++) {
+        printf("  %-*s ", width, entries[i].name);
+        cz_help_write_wrapped(entries[i].doc, width + 3);
+    }
+}
+
+static void write_keys(void) {
+    cz_keys_write_help(stdout);
+}
+
+static void write_units(void) {
+    static const struct {
+        const char *dimension, *suffix, *text;
+    } units[] = {
+#define CZ_DIMENSION(dimension, text) {#dimension, NULL, text},
+#define CZ_UNIT(dimension, suffix, value) {#dimension, suffix, NULL},
+#include "problem/units.def"
+#undef CZ_DIMENSION
+#undef CZ_UNIT
+    };
+    puts("Every key with a dimension ends in one of its units, such as force_kN or stroke_mm:\n");
+    const char *before = "";
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+        if (strcmp(units[i].dimension, "NONE") == 0)
+            continue;
+        if (units[i].text != NULL)
+            printf("%s  %-20s", before, units[i].text);
+        else
+            printf(" _%s", units[i].suffix);
+        before = "\n";
+    }
+    putchar('\n');
+}
+
+static void write_checks(void) {
+    static const struct {
+        const char *name, *unit, *doc;
+    } metrics[] = {
+#define CZ_METRIC(level, name, unit, per_unit, scale, absent, expression, doc) {name, unit, doc},
+#include "evaluate/metrics.def"
+#undef CZ_METRIC
+    };
+    puts("What a limit, a target or the objective can be about. The worst place counts unless the "
+         "name picks\none: interfaces.A4-B1.peak_force_kN, vehicles.A1.max_pitch_mrad.\n");
+    for (size_t i = 0; i < sizeof metrics / sizeof *metrics; i++) {
+        printf("  %-40s ", metrics[i].name);
+        cz_help_write_wrapped(metrics[i].doc, 43);
+    }
+}
+
+static void write_algorithms(void) {
+    puts("auto: the program's own strategy. Others, by NLopt's names:\n");
+    for (int i = 0; i < cz_n_algorithm(); i++)
+        printf("  %s\n", cz_algorithm_name(i));
+}
+
+static void write_paths(void) {
+    static const Entry paths[] = {
+        {"trains.A.speed_km_h", "a key of a train, by the train's name"},
+        {"trains.A.vehicles.A1.mass_t", "of a vehicle, by its name"},
+        {"parts.cab-end.coupler.tube.stages[0].force_kN", "of a part, wherever it is used"},
+        {"parts.cab-end.stages[*].force_kN", "of every entry of a list: one variable each"},
+        {"simulation.time_step_ms", "of the run itself"}};
+    puts("A path names the place in the file where one would type the value. It ends in a key with "
+         "its unit,\nand the value is in that unit:\n");
+    write_entries((int)(sizeof paths / sizeof *paths), paths, 46);
+    puts("\nA vehicle that repeats or copies another has no values of its own; its original is "
+         "named instead.\n'crushzone show FILE' prints the whole problem with its names.");
+}
+
+static void write_profiles(void) {
+    static const Entry profiles[] = {
+        {"en15227-2008", "EN 15227:2008+A1:2010; categories C-I, C-II, C-III, C-IV"},
+        {"en15227-2020a1", "EN 15227:2020+A1:2024, where a change is announced with less "
+                           "confidence; the same categories"},
+        {"us-49cfr238", "49 CFR 238, Tier III and the Tier I alternative"}};
+    puts(
+        "A profile is a file of limits with clause, source and confidence; a problem takes it by\n"
+        "checks: {profile: NAME, category: C-II}. It is looked for as profiles/NAME.yaml beside "
+        "the\n"
+        "problem file, then where crushzone is installed. No text of a standard is in them, and a\n"
+        "pass is no certificate. Those that come with crushzone:\n");
+    write_entries((int)(sizeof profiles / sizeof *profiles), profiles, 16);
+    puts("\nA limit that nobody has confirmed passes as PROVISIONAL; `confidence: user` in a limit "
+         "of your own\nmakes it yours.");
+}
+
+static void write_channels(void) {
+    static const Entry channels[] = {
+        {"t_ms", "time; 0 is the first contact of the colliding interface"},
+        {"x_A1_m, v_A1_m_s, a_A1_g", "a body along the track, positive along the way of the train "
+                                     "behind; the acceleration raw"},
+        {"z_A1_mm, pitch_A1_mrad", "body of a full car, up and nose-up"},
+        {"z_A1_w1_mm", "lift of a wheelset above the rail"},
+        {"F_end_front_A1_kN, d_end_front_A1_mm", "force and stroke of a car end"},
+        {"d_anti-climber_front_A1_mm", "stroke of an anti-climber"},
+        {"F_A4-B1_kN, d_A4-B1_mm, E_A4-B1_kJ", "an interface: force, closure, dissipated energy"},
+        {"F_coupler_A4-B1_kN", "its coupler's part of the force; F_anti-climber and F_side-buffers "
+                               "the others'"},
+        {"Fz_anti-climber_A4-B1_kN", "vertical force between the faces"},
+        {"overlap_A4-B1_mm", "overlap of the faces while they push"},
+        {"E_kinetic_kJ, E_stored_kJ", "energies of all; E_taken_up, E_wheel_rail, E_running_gear, "
+                                      "E_track likewise"},
+        {"E_imbalance_kJ", "what the balance is off by"}};
+    puts("One row every simulation.output_step_ms. Which columns there are depends on the "
+         "vehicles; A1 "
+         "stands\nfor any car, A4-B1 for any interface, front for either end, w1 to w4 are "
+         "wheelsets "
+         "from the rear:\n");
+    write_entries((int)(sizeof channels / sizeof *channels), channels, 38);
+}
+
+static void write_events(void) {
+    static const Entry events[] = {
+#define CZ_EVENT(constant, text, doc) {text, doc},
+#include "crushzone/events.def"
+#undef CZ_EVENT
+    };
+    puts("What is noted once at a place, with its time:\n");
+    write_entries((int)(sizeof events / sizeof *events), events, 22);
+}
+
+static void write_figures(void) {
+    static const Entry figures[] = {
+#define CZ_CHART(constant, name, doc) {name, doc},
+#include "crushzone/charts.def"
+#undef CZ_CHART
+    };
+    puts("crushzone plot DIR --what NAME --svg FILE; --at names the interface or car:\n");
+    write_entries((int)(sizeof figures / sizeof *figures), figures, 18);
+}
+
+static void write_files(void) {
+    static const Entry files[] = {
+        {"report.html", "all of it to look at, in any browser"},
+        {"summary.json", "all of it for scripts (crushzone.summary)"},
+        {"checks.csv", "every check with limit, value, margin, source"},
+        {"interfaces.csv", "what each element of each interface went through"},
+        {"channels.csv", "time histories; see 'crushzone help channels'"},
+        {"resolved.yaml", "the problem with every default and part filled in; runs by itself"},
+        {"run.log", "versions, and how each scenario was computed"},
+        {"outcome.json", "of a search: variables, objective, constraints (crushzone.outcome)"},
+        {"optimised.yaml", "of a search: the best design, on top of your file"},
+        {"history.csv", "of a search: every evaluation"},
+        {"sweep.json, sweep.csv", "of a sweep: every point"}};
+    puts("A result folder (-o DIR) holds:\n");
+    write_entries((int)(sizeof files / sizeof *files), files, 22);
+    puts("\nWith several scenarios each has a folder of its own in it. A folder that crushzone "
+         "wrote "
+         "is replaced\nby the next run, any other is left alone.");
+}
+
+void cz_help_write_topic(CzTopic topic) {
+    static void (*const writers[CZ_N_TOPIC])(void) = {[CZ_TOPIC_KEYS] = write_keys,
+                                                      [CZ_TOPIC_UNITS] = write_units,
+                                                      [CZ_TOPIC_CHECKS] = write_checks,
+                                                      [CZ_TOPIC_PROFILES] = write_profiles,
+                                                      [CZ_TOPIC_PATHS] = write_paths,
+                                                      [CZ_TOPIC_ALGORITHMS] = write_algorithms,
+                                                      [CZ_TOPIC_CHANNELS] = write_channels,
+                                                      [CZ_TOPIC_EVENTS] = write_events,
+                                                      [CZ_TOPIC_FIGURES] = write_figures,
+                                                      [CZ_TOPIC_FILES] = write_files,
+                                                      [CZ_TOPIC_EXIT_CODES] = write_exit_codes};
+    writers[topic]();
+}

@@ -226,7 +226,7 @@ static void interface_extremes(CzBlock *d, double time) {
         shortening[i] = cz_larger(shortening[i], x[i] - x_ahead[i]);
     }
     const double *restrict normal = S(FACE_FORCE), *restrict remaining = S(FACE_REMAINING);
-    const double *restrict demand = S(FACE_DEMAND), *restrict capacity = S(FACE_CAPACITY),
+    const double *restrict demand = S(FACE_DEMAND), *restrict ready = S(FACE_READY),
                            *restrict chain = M(FACE_FORCE);
     const double *restrict stiffness = P(FACE_VERTICAL_STIFFNESS), *restrict slipped =
                                                                        M(FACE_SLIPPED);
@@ -244,9 +244,9 @@ static void interface_extremes(CzBlock *d, double time) {
                 : 0.0; /* the chain's own force: it is still there once the faces passed */
         const double gone = remaining[i] <= 0.0 ? pushing : 0.0;
         const double engaged = normal[i] > 1e4 ? 1.0 : 0.0;
-        const double excess = fabs(demand[i]) - capacity[i] + stiffness[i] * slipped[i];
+        const double excess = fabs(demand[i]) - ready[i] + stiffness[i] * slipped[i];
         const double used = pushing > 0.0 ? -remaining[i] : -1e300;
-        const double asked = engaged > 0.0 ? excess : -1e300;
+        const double asked = normal[i] > 0.0 ? excess : -1e300;
         overlap_time[i] = used > lost_overlap[i] ? time : overlap_time[i];
         margin_time[i] = asked > lost_margin[i] ? time : margin_time[i];
         lost_overlap[i] = cz_larger(lost_overlap[i], used);

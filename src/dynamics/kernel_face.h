@@ -148,7 +148,7 @@ static void face_tangential(CzBlock *d) {
     const double *restrict slipped = M(FACE_SLIPPED), *restrict sheared = M(FACE_SHEARED);
     double *restrict next = NEXT(FACE_SLIP), *restrict next_slipped = NEXT(FACE_SLIPPED),
                      *restrict next_sheared = NEXT(FACE_SHEARED);
-    double *restrict capacity = S(FACE_CAPACITY), *restrict tangential = S(FACE_DEMAND);
+    double *restrict ready = S(FACE_READY), *restrict tangential = S(FACE_DEMAND);
     double *restrict power = POWER(FACE_SLIDING);
     const double *restrict nx = S(NORMAL_X), *restrict nz = S(NORMAL_Z);
     double *restrict ramp = S(FACE_RAMP);
@@ -158,7 +158,7 @@ static void face_tangential(CzBlock *d) {
         const CzSliderResponse held =
             cz_slider_of(stiffness[i], compliance[i], grip.capacity, slip[i], offset[i]);
         const double way = grip.engaged * fabs(held.offset - offset[i]);
-        capacity[i] = grip.capacity;
+        ready[i] = grip.ready;
         next[i] = held.offset;
         next_slipped[i] = slipped[i] + way;
         next_sheared[i] = sheared[i] + grip.mesh * way;
@@ -217,7 +217,7 @@ static int faces_are_apart(CzBlock *d) {
 static void leave_faces(CzBlock *d) {
     memset(S(FACE_FORCE), 0, sizeof(CzRow));
     memset(S(FACE_DEMAND), 0, sizeof(CzRow));
-    memset(S(FACE_CAPACITY), 0, sizeof(CzRow));
+    memset(S(FACE_READY), 0, sizeof(CzRow));
     memcpy(NEXT(FACE_SLIP), S(SLIP), sizeof(CzRow));
 }
 

@@ -87,14 +87,6 @@ typedef struct Number {
     const CzCheckResult *check; /* NULL for the objective and the bulk of a scenario */
 } Number;
 
-/* Whether only the verdict of a check counts: a yes or no, and what the faces have left when they
- * just touch, which hangs on the step that sees them there first. */
-static bool is_yes_or_no(const CzCheck *check) {
-    return check->scale == CZ_FLAG_SCALE ||
-           (check->metric_text != NULL &&
-            strcmp(check->metric_text, "interfaces.vertical_margin_kN") == 0);
-}
-
 static Number number_of_check(const CzCheck *check, const CzCheckResult *result) {
     return (Number){.name = result->name,
                     .scenario = check->scenario == CZ_NO_SCENARIO ? NULL : result->scenario,
@@ -102,7 +94,7 @@ static Number number_of_check(const CzCheck *check, const CzCheckResult *result)
                     .unit = result->unit,
                     .value = result->value,
                     .counted = result->margin > 1.0 ? 1.0 : result->margin,
-                    .scale = is_yes_or_no(check) ? INFINITY : 1.0,
+                    .scale = check->scale == CZ_FLAG_SCALE ? INFINITY : 1.0,
                     .check = result};
 }
 

@@ -4,10 +4,15 @@
  *   mesh     = clamp(2 - 4 |r| / p, 0, 1)             1 flank to flank, 0 tip to tip
  *   left     = clamp(1 - w / (p / 2), 0, 1)           w: what the ribs were sheared by
  *   capacity = meshed ribs x strength x mesh x left x engaged + mu N
+ *   ready    = meshed ribs x strength x mesh x left + mu max(N, 100 kN)
  *
  * Ribs that meet within a quarter of a pitch of their valleys lock where they are; ribs that meet
  * tip to tip slide over each other, held by friction, until the next valley takes them. A rib is
  * gone once the faces have slipped by half a pitch against it (ours).
+ *
+ * Faces that just touch, or just part, carry next to nothing, and that little hangs on the moment
+ * at which one looks. What they have left is therefore counted from `ready`: what the same ribs
+ * hold once they are wholly in each other and pressed by a force that can lift a car at all (ours).
  */
 #ifndef CZ_LAWS_RIBS_H
 #define CZ_LAWS_RIBS_H
@@ -24,12 +29,15 @@ typedef struct {
 
 typedef struct {
     double capacity; /* [N] */
+    double ready;    /* capacity of the ribs in full engagement [N] */
     double engaged;  /* share of the ribs' depth, and of the smallest normal force [-] */
     double mesh;     /* [-] */
 } CzRibsResponse;
 
 /* Normal force at which ribs are fully engaged [N] (ours). */
 #define CZ_GRIP_FORCE 1e4
+/* Smallest normal force that the friction of faces in full engagement counts with [N] (ours). */
+#define CZ_READY_FORCE 1e5
 
 /* Nearest whole number, halves to the even one: the sum leaves no room for a fraction. */
 static inline double cz_nearest_whole(double value) {
@@ -49,8 +57,9 @@ static inline CzRibsResponse cz_ribs(const CzRibsLaw *law, double slip, double c
     response.engaged = cz_clamp(closure / law->depth, 0.0, 1.0) *
                        cz_clamp(normal * (1.0 / CZ_GRIP_FORCE), 0.0, 1.0);
     response.mesh = cz_clamp(2.0 - 4.0 * off, 0.0, 1.0);
-    response.capacity = remaining * response.mesh * left * response.engaged * law->strength +
-                        law->friction * normal;
+    const double ribs = remaining * response.mesh * left * law->strength;
+    response.capacity = ribs * response.engaged + law->friction * normal;
+    response.ready = ribs + law->friction * cz_larger(normal, CZ_READY_FORCE);
     return response;
 }
 

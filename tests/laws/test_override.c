@@ -45,6 +45,18 @@ static void ribs_engage_over_their_depth(void **state) {
     assert_near(cz_ribs(&ribs, 0.0, 0.1, 0.5 * CZ_GRIP_FORCE, 0.0).engaged, 0.5, 1e-14, 0.0);
 }
 
+/* What is left is counted in full depth: the same above depth and force of full engagement, and
+ * where faces just touch the ribs and the friction of the smallest force that counts. */
+static void capacity_in_full_engagement_does_not_hang_on_the_touch(void **state) {
+    (void)state;
+    const CzRibsResponse deep = cz_ribs(&ribs, 0.01, 0.1, 5e5, 0.01);
+    assert_near(deep.ready, deep.capacity, 1e-14, 0.0);
+    const CzRibsResponse touch = cz_ribs(&ribs, 0.01, 1e-9, 1.0, 0.01);
+    assert_true(touch.capacity < 1.0);
+    assert_near(touch.ready, cz_ribs(&ribs, 0.01, 0.1, CZ_READY_FORCE, 0.01).capacity, 1e-14, 0.0);
+    assert_near(cz_ribs(&ribs, 0.025, 1e-9, 1.0, 0.0).ready, 0.2 * CZ_READY_FORCE, 1e-9, 0.0);
+}
+
 /* Half a pitch of slip against meshed ribs leaves friction alone. */
 static void ribs_shear_off_over_half_a_pitch(void **state) {
     (void)state;
@@ -85,6 +97,7 @@ static void superstructure_absorbs_its_strength_times_the_way(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(capacity_is_engaged_ribs_and_friction),
+        cmocka_unit_test(capacity_in_full_engagement_does_not_hang_on_the_touch),
         cmocka_unit_test(ribs_seat_at_the_offset_modulo_the_pitch),
         cmocka_unit_test(ribs_engage_over_their_depth),
         cmocka_unit_test(ribs_shear_off_over_half_a_pitch),

@@ -149,6 +149,34 @@ static void two_cars_on_an_elastic_track_agree(void **state) {
     collision_free(&zhai);
 }
 
+/* What two faces have left, of 276 kN when level: tip to tip, where they meet with friction alone,
+ * and at 40 mm, where they lock. It is the smallest value of a function without jumps, so a step
+ * changes it by what the faces move across each other in it, some hundredths of a millimetre. */
+static void what_faces_have_left_hangs_neither_on_the_step_nor_on_the_solver(void **state) {
+    (void)state;
+    static const char *const offset[] = {"trains.B.height_offset_mm=25",
+                                         "trains.B.height_offset_mm=40"};
+    static const double step[] = {1e-4, 5e-5, 2e-5};
+    for (int k = 0; k < 2; k++) {
+        const char *const *set = WITH(offset[k], "simulation.duration_ms=250");
+        double by_step[3];
+        for (int i = 0; i < 3; i++) {
+            CzSimulateOptions options = cz_simulate_options_default();
+            options.time_step = step[i];
+            Collision run = collide_so("problems/two-cars-25kmh.yaml", set, 0, &options);
+            by_step[i] = run.summary->interface[0].vertical_margin;
+            collision_free(&run);
+        }
+        assert_near(by_step[0], by_step[2], 0.0, 1e3);
+        assert_true(fabs(by_step[1] - by_step[2]) < 0.5 * fabs(by_step[0] - by_step[2]));
+        for (int i = 0; i < 2; i++) {
+            Collision other = collide_by(references[i], "problems/two-cars-25kmh.yaml", set, 0);
+            assert_near(other.summary->interface[0].vertical_margin, by_step[2], 0.0, 1e3);
+            collision_free(&other);
+        }
+    }
+}
+
 static void a_track_that_a_reference_does_not_know_is_refused(void **state) {
     (void)state;
     Collision collision =
@@ -222,6 +250,7 @@ int main(void) {
         cmocka_unit_test(a_located_drop_does_not_hang_on_the_step),
         cmocka_unit_test(two_cars_agree_to_one_in_a_thousand),
         cmocka_unit_test(two_cars_on_an_elastic_track_agree),
+        cmocka_unit_test(what_faces_have_left_hangs_neither_on_the_step_nor_on_the_solver),
         cmocka_unit_test(a_track_that_a_reference_does_not_know_is_refused),
         cmocka_unit_test(six_and_six_cars_agree_to_the_scatter_of_their_rattling),
         cmocka_unit_test(a_reference_converges_to_the_limit_of_the_fixed_step),

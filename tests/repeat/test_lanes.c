@@ -10,10 +10,13 @@ typedef struct Case {
     CzModel *model;
 } Case;
 
-static Case case_open(const char *file) {
+/* `set` is one setting, or NULL. */
+static Case case_open(const char *file, const char *set) {
     char path[512];
     snprintf(path, sizeof path, "%s/problems/%s", CZ_SOURCE_FOLDER, file);
-    const CzProblemOptions options = cz_problem_options_default();
+    CzProblemOptions options = cz_problem_options_default();
+    options.set = &set;
+    options.n_set = set != NULL;
     CzError error = {0};
     Case opened = {0};
     if (cz_problem_read(path, &options, &opened.problem, &error) != CZ_OK ||
@@ -32,11 +35,12 @@ static size_t numbers_of(const CzRun *run, double *number, size_t n_most) {
     size_t n = 0;
     const CzRunSummary *summary = cz_run_summary(run);
     const double scalars[] = {
-        (double)summary->status,       (double)summary->ended,    summary->simulated,
-        (double)summary->n_step,       summary->energy.initial,   summary->energy.final_kinetic,
-        summary->energy.dissipated,    summary->energy.stored,    summary->energy.wheel_rail,
-        summary->energy.balance_error, summary->energy.absorbers, summary->momentum_error,
-        summary->closing_speed,        (double)summary->n_event,
+        (double)summary->status,       (double)summary->ended,      summary->simulated,
+        (double)summary->n_step,       summary->energy.initial,     summary->energy.final_kinetic,
+        summary->energy.dissipated,    summary->energy.stored,      summary->energy.wheel_rail,
+        summary->energy.balance_error, summary->energy.absorbers,   summary->momentum_error,
+        summary->energy.track,         summary->energy.moving_load, summary->closing_speed,
+        (double)summary->n_event,
     };
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++)
         number[n++] = scalars[i];
@@ -94,10 +98,10 @@ static CzRun *run_alone(const CzModel *model, const char *isa, bool record) {
     return run;
 }
 
-static void check_instruction_sets(const char *file) {
+static void check_instruction_sets(const char *file, const char *set) {
     /* Each set holds the ones before it. */
     const char *const isa[] = {"baseline", "v3", "v4"};
-    Case opened = case_open(file);
+    Case opened = case_open(file, set);
     CzRun *reference = run_alone(opened.model, "auto", true);
     bool is_here = true;
     for (int i = 0; i < 3 && is_here; i++) {
@@ -113,12 +117,21 @@ static void check_instruction_sets(const char *file) {
 
 static void instruction_sets_agree_on_two_cars(void **state) {
     (void)state;
-    check_instruction_sets("two-cars-25kmh.yaml");
+    check_instruction_sets("two-cars-25kmh.yaml", NULL);
 }
 
 static void instruction_sets_agree_on_two_trains(void **state) {
     (void)state;
-    check_instruction_sets("first-collision.yaml");
+    check_instruction_sets("first-collision.yaml", NULL);
+}
+
+/* On rails that give way, and wheels that leave them. */
+static const char *const elastic[] = {"simulation.track=modal", "simulation.track=co-running"};
+
+static void instruction_sets_agree_on_elastic_rails(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++)
+        check_instruction_sets("paper-25kmh.yaml", elastic[i]);
 }
 
 enum { N_DESIGN = 11, OWN = 6 };
@@ -137,8 +150,8 @@ static void vary(CzVehicle *vehicle, int n_vehicle, int design) {
     }
 }
 
-static void check_batch(const char *file) {
-    Case opened = case_open(file);
+static void check_batch(const char *file, const char *set) {
+    Case opened = case_open(file, set);
     int n_vehicle = 0;
     const CzVehicle *own = cz_problem_vehicles(opened.problem, &n_vehicle);
     CzVehicle *vehicles = malloc(sizeof *vehicles * (size_t)(N_DESIGN * n_vehicle));
@@ -180,18 +193,26 @@ static void check_batch(const char *file) {
 
 static void a_design_among_others_is_what_it_is_alone_for_two_cars(void **state) {
     (void)state;
-    check_batch("two-cars-25kmh.yaml");
+    check_batch("two-cars-25kmh.yaml", NULL);
 }
 
 static void a_design_among_others_is_what_it_is_alone_for_two_trains(void **state) {
     (void)state;
-    check_batch("first-collision.yaml");
+    check_batch("first-collision.yaml", NULL);
+}
+
+static void a_design_among_others_is_what_it_is_alone_on_elastic_rails(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++)
+        check_batch("paper-25kmh.yaml", elastic[i]);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(instruction_sets_agree_on_two_cars),
         cmocka_unit_test(instruction_sets_agree_on_two_trains),
+        cmocka_unit_test(instruction_sets_agree_on_elastic_rails),
+        cmocka_unit_test(a_design_among_others_is_what_it_is_alone_on_elastic_rails),
         cmocka_unit_test(a_design_among_others_is_what_it_is_alone_for_two_cars),
         cmocka_unit_test(a_design_among_others_is_what_it_is_alone_for_two_trains),
     };

@@ -29,7 +29,7 @@ typedef struct Shortlist {
     const CzSurface *surface;
     int n_design;
     double *x; /* natural variables (BATCH x n_variable) */
-    double penalty[BATCH + 1], objective[BATCH + 1];
+    double penalty[BATCH + 1], objective[BATCH + 1], distance[BATCH + 1];
     double *u; /* scratch (n_variable) */
 } Shortlist;
 
@@ -45,11 +45,12 @@ static void swap_designs(Shortlist *list, int a, int b, int n) {
         list->x[a * n + i] = list->x[b * n + i];
         list->x[b * n + i] = kept;
     }
-    const double penalty = list->penalty[a], objective = list->objective[a];
-    list->penalty[a] = list->penalty[b];
-    list->objective[a] = list->objective[b];
-    list->penalty[b] = penalty;
-    list->objective[b] = objective;
+    double *const ranks[] = {list->penalty, list->objective, list->distance};
+    for (int k = 0; k < 3; k++) {
+        const double kept = ranks[k][a];
+        ranks[k][a] = ranks[k][b];
+        ranks[k][b] = kept;
+    }
 }
 
 static bool is_near(const CzSurface *surface, const double *u) {
@@ -62,22 +63,44 @@ static bool is_near(const CzSurface *surface, const double *u) {
     return true;
 }
 
-/* Takes a design into the list unless it has been simulated or is not among the best. */
+static double distance_from_base(const CzSurface *surface, const double *u) {
+    double square = 0;
+    for (int i = 0; i < surface->n; i++)
+        square += (u[i] - surface->u[i]) * (u[i] - surface->u[i]);
+    return square;
+}
+
+/* The listed design that the planes cannot tell from the one behind the list: they differ in what
+ * decides nothing here, and simulating both would teach the same. -1 when there is none. */
+static int find_alike(const Shortlist *list) {
+    const double close = 1e-3; /* of a margin; ours */
+    const int at = list->n_design;
+    for (int i = 0; i < at; i++)
+        if (fabs(list->penalty[at] - list->penalty[i]) < close &&
+            fabs(list->objective[at] - list->objective[i]) < close)
+            return i;
+    return -1;
+}
+
+/* Takes a design into the list unless it has been simulated, is like a listed one that lies nearer
+ * to the base, or is not among the best. */
 static void offer(Shortlist *list, const double *x) {
     const CzSurface *surface = list->surface;
     const int n = surface->n, at = list->n_design;
     cz_search_scale(surface->search, x, list->u);
-    if (!is_near(surface, list->u))
+    if (!is_near(surface, list->u) || cz_search_find(surface->search, x) >= 0)
         return;
     list->objective[at] = cz_surface_predict(surface, list->u, &list->penalty[at]);
-    if (at == BATCH && !is_before(list, at, BATCH - 1))
-        return;
-    for (int i = 0; i < at; i++)
-        if (memcmp(list->x + i * n, x, (size_t)n * sizeof *x) == 0)
-            return;
-    if (cz_search_find(surface->search, x) >= 0)
+    list->distance[at] = distance_from_base(surface, list->u);
+    const int alike = find_alike(list);
+    if (alike < 0 ? at == BATCH && !is_before(list, at, BATCH - 1)
+                  : list->distance[at] >= list->distance[alike])
         return;
     memcpy(list->x + at * n, x, (size_t)n * sizeof *x);
+    if (alike >= 0) {
+        swap_designs(list, at, alike, n);
+        return;
+    }
     for (int i = at; i > 0 && is_before(list, i, i - 1); i--)
         swap_designs(list, i, i - 1, n);
     list->n_design = at < BATCH ? at + 1 : BATCH;

@@ -54,10 +54,10 @@ typedef struct CzOutcome {
     char why_stopped[128];
     long n_evaluation;
     int n_variable;
-    double *start,
-        *best; /* in the variables' units; best is snapped to the catalogue steps unless the search
-                  ended before that, which why_stopped then says (n_variable) */
-    bool *at_bound;                                 /* (n_variable) */
+    double *start, *best; /* in the variables' units; best is snapped to the catalogue steps unless
+                             the search ended before that or only designs between them pass, which
+                             why_stopped then says (n_variable) */
+    bool *at_bound;       /* (n_variable) */
     CzEvaluation start_evaluation, best_evaluation; /* with runs kept */
     int n_alternative;   /* of a fit: further parameter sets that fit about as well */
     double *alternative; /* in the variables' units, best first (n_alternative x n_variable) */

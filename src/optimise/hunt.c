@@ -9,15 +9,15 @@
 #include <string.h>
 
 /* The record that counts: the best on the catalogue steps when there are any. A search that ended
- * before it came to them gives the best it has seen, and so does one that was interrupted before it
- * found steps that pass. */
+ * before it came to them gives the best it has seen, and so does one whose only designs that pass
+ * lie between them. */
 long cz_hunt_record(const CzSearch *search) {
     const long best = search->best, on_grid = search->best_on_grid;
     if (!cz_search_has_steps(search) || !search->is_snapped || on_grid < 0)
         return best;
     const bool passes_only_between =
         search->record[best].violation <= 0 && search->record[on_grid].violation > 0;
-    return search->status == CZ_STATUS_INTERRUPTED && passes_only_between ? best : on_grid;
+    return passes_only_between ? best : on_grid;
 }
 
 /* ---- one search ------------------------------------------------------------------------------ */

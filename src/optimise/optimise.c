@@ -164,7 +164,7 @@ static void conclude(const CzHunt *hunt, CzOutcome *outcome) {
              search->why[0] != '\0' ? search->why
              : search->is_spent     ? "the limit of evaluations is reached"
                                     : "nothing was left to gain",
-             is_between_steps(hunt, outcome) ? "; best not on catalogue steps yet" : "");
+             is_between_steps(hunt, outcome) ? "; the best lies between catalogue steps" : "");
 }
 
 /* Computes a design that passes once more by independent means. A signal leaves it unverified. */

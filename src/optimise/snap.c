@@ -221,6 +221,16 @@ static void snap(CzSurface *surface, Shortlist *list, long limit, double *scratc
     }
 }
 
+/* Slopes around the best design where there are evaluations for them and for one design more, else
+ * those there are; without any, what lies nearest is tried first. */
+static bool begin(CzSurface *surface, const double *u, long evaluations) {
+    if (evaluations > surface->n + 1)
+        return cz_surface_begin(surface, "snap", u, secant);
+    if (surface->record < 0)
+        memcpy(surface->u, u, (size_t)surface->n * sizeof *u);
+    return true;
+}
+
 void cz_snap(CzSurface *surface, long evaluations) {
     CzSearch *search = surface->search;
     if (!cz_search_has_steps(search) || search->best < 0)
@@ -234,9 +244,7 @@ void cz_snap(CzSurface *surface, long evaluations) {
     double *u = memory + (BATCH + 1 + 3) * n;
     cz_search_scale(search, cz_search_x(search, search->best), u);
     Shortlist list = {.surface = surface, .x = memory, .u = u};
-    const bool is_affordable =
-        evaluations >= surface->n + 1 + BATCH; /* else by the slopes there are */
-    if (!is_affordable || cz_surface_begin(surface, "snap", u, secant))
+    if (begin(surface, u, evaluations))
         snap(surface, &list, limit, memory + (BATCH + 1) * n);
     free(memory);
 }

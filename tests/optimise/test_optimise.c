@@ -87,6 +87,34 @@ static void nothing_feasible_is_said_and_the_least_violated_design_given(void **
     end(&made);
 }
 
+/* No step of 50 kN holds the peak between 1030 and 1070 kN: two anti-climbers each. */
+static void what_passes_only_between_the_steps_is_given_and_said(void **state) {
+    (void)state;
+    stand_in_reset();
+    Case made =
+        begin("checks:\n"
+              "  closing_rules: false\n"
+              "  limits:\n"
+              "    - {name: low, metric: elements.anti-climber *.peak_force_kN, max: 1070,\n"
+              "       scenarios: [crash]}\n"
+              "    - {name: high, metric: elements.anti-climber *.peak_force_kN, min: 1030,\n"
+              "       scenarios: [crash]}\n"
+              "optimise:\n"
+              "  evaluations: 200\n"
+              "  variables:\n"
+              "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 300, max: 700, "
+              "step: 50}\n"
+              "    - {path: parts.shear-off.force_kN, min: 950, max: 1500}\n",
+              2);
+    optimise(&made, NULL);
+    const CzOutcome *outcome = made.outcome;
+    assert_int_equal(outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_true(outcome->best_evaluation.violation <= 0);
+    assert_true(fabs(outcome->best[0] / 50 - round(outcome->best[0] / 50)) > 1e-6);
+    assert_non_null(strstr(outcome->why_stopped, "the best lies between catalogue steps"));
+    end(&made);
+}
+
 static void interrupt_at_once(const CzProgress *progress, void *data) {
     if (progress->n_evaluation >= 100)
         *(volatile sig_atomic_t *)data = 1;
@@ -104,7 +132,7 @@ static void interruption_gives_the_best_so_far(void **state) {
     optimise(&made, &options);
     const CzOutcome *outcome = made.outcome;
     assert_int_equal(outcome->status, CZ_OUTCOME_INTERRUPTED);
-    assert_string_equal(outcome->why_stopped, "interrupted; best not on catalogue steps yet");
+    assert_string_equal(outcome->why_stopped, "interrupted; the best lies between catalogue steps");
     assert_true(outcome->n_evaluation < 150);
     double least = INFINITY;
     for (long i = 0; i < outcome->n_trial; i++)
@@ -243,6 +271,7 @@ int main(void) {
         cmocka_unit_test(design_that_passes_is_found_on_the_catalogue_steps),
         cmocka_unit_test(outcome_does_not_depend_on_the_number_of_threads),
         cmocka_unit_test(nothing_feasible_is_said_and_the_least_violated_design_given),
+        cmocka_unit_test(what_passes_only_between_the_steps_is_given_and_said),
         cmocka_unit_test(interruption_gives_the_best_so_far),
         cmocka_unit_test(what_only_a_full_run_shows_is_never_called_success),
         cmocka_unit_test(problem_without_variables_is_refused),

@@ -279,6 +279,23 @@ static void optimum_lies_on_the_catalogue_steps(void **state) {
     cz_search_free(&search);
 }
 
+/* A search too short for slopes still tries steps near its best design; the start, which lies on
+ * the steps, is not taken for them. */
+static void few_evaluations_still_come_to_the_steps(void **state) {
+    (void)state;
+    Analytic stepped = analytic_hs43;
+    for (int i = 0; i < 4; i++)
+        stepped.step[i] = 0.25;
+    const CzFunction function = analytic_function(&stepped);
+    for (long most = 8; most <= 24; most += 4) {
+        CzSearch search = run_auto(&function, most, 1);
+        assert_true(search.is_snapped);
+        assert_true(search.n_record <= most);
+        assert_true(search.best_on_grid > 0);
+        cz_search_free(&search);
+    }
+}
+
 static void rounding_stays_within_the_bounds(void **state) {
     (void)state;
     Analytic stepped = analytic_hs22;
@@ -335,6 +352,7 @@ int main(void) {
         cmocka_unit_test(algorithms_survive_failing_designs),
         cmocka_unit_test(unknown_and_absent_algorithms_are_refused_with_a_sentence),
         cmocka_unit_test(optimum_lies_on_the_catalogue_steps),
+        cmocka_unit_test(few_evaluations_still_come_to_the_steps),
         cmocka_unit_test(rounding_stays_within_the_bounds),
         cmocka_unit_test(sample_fills_the_box_evenly),
     };

@@ -36,6 +36,8 @@ typedef struct CzCheckResult {
     const char *scenario; /* "design" for a check of the design itself */
     const char *family;   /* family of scenarios that it belongs to; NULL for none */
     char where[48];       /* place of the worst value */
+    double when[2];       /* begin and end of the time that it was reached in [s]; NaN when that is
+                             not known, or it was nothing */
     double limit;         /* in `unit` */
     double value;         /* in `unit`; NaN when not checked or when it does not apply */
     const char *unit;

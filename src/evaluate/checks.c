@@ -33,6 +33,7 @@ static CzCheckResult blank_result(const CzCheck *check, const CzScene *scene) {
                            .family = scene != NULL ? scene->family : NULL,
                            .limit = check->limit,
                            .value = NAN,
+                           .when = {NAN, NAN},
                            .unit = check->missing != NULL ? "" : check->metric.kind->unit,
                            .margin = NAN,
                            .is_minimum = check->is_minimum,
@@ -67,6 +68,7 @@ CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, con
     memcpy(result.where, value.where, sizeof result.where);
     result.why = NULL;
     result.value = value.value;
+    memcpy(result.when, value.when, sizeof result.when);
     result.margin = margin;
     result.verdict = fails ? CZ_VERDICT_FAIL : passing_verdict(check);
     return result;

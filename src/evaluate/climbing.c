@@ -65,7 +65,8 @@ CzClimbing cz_climbing_of(const CzEvaluator *evaluator, int scenario) {
 
 CzCheckResult cz_climbing_judge(const CzClimbing *climbing, const CzEvaluator *evaluator,
                                 const CzVehicle *vehicles, const CzRunSummary *run) {
-    CzCheckResult worst = {.margin = NAN, .value = NAN, .verdict = CZ_VERDICT_NOT_CHECKED};
+    CzCheckResult worst = {
+        .margin = NAN, .value = NAN, .when = {NAN, NAN}, .verdict = CZ_VERDICT_NOT_CHECKED};
     const bool failed = run->status != CZ_OK || run->ended == CZ_ENDED_INCOMPLETE;
     const char *unknown = NULL;
     for (int i = 0; i < climbing->n_check; i++) {

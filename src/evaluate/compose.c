@@ -126,6 +126,7 @@ static CzCheckResult check_of(const CzMatchResult *match) {
     const bool is_kept = fabs(match->residual) <= 1;
     const bool is_unknown = isnan(match->residual);
     CzCheckResult check = {.name = match->name,
+                           .when = {NAN, NAN},
                            .scenario = match->scenario,
                            .limit = match->target,
                            .value = match->value,

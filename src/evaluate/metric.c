@@ -242,6 +242,7 @@ typedef struct Sum {
     bool seeks_max;
     int n_known;
     double extreme, total; /* in the unit */
+    double when[2];        /* of the extreme [s] */
     char where[48], unknown_where[48];
     bool any_unknown;
 } Sum;
@@ -261,6 +262,7 @@ static void add_place(const CzPlace *place, void *data) {
     if (first || (sum->seeks_max ? value > sum->extreme : value < sum->extreme)) {
         sum->extreme = value;
         memcpy(sum->where, place->name, sizeof sum->where);
+        cz_metric_when(sum->kind, place, sum->when);
     }
 }
 
@@ -275,10 +277,14 @@ static double aggregate_value(const Sum *sum, CzAggregate aggregate) {
 CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, bool worst_is_max) {
     const CzAggregate aggregate = metric->aggregate;
     Sum sum = {.kind = metric->kind,
+               .when = {NAN, NAN},
                .seeks_max = aggregate == CZ_AGGREGATE_MAX ||
                             (aggregate != CZ_AGGREGATE_MIN && worst_is_max)};
     cz_places_visit(subject, metric->kind->level, metric->selector, add_place, &sum);
     CzMetricValue value = {.known = CZ_KNOWN, .value = aggregate_value(&sum, aggregate)};
+    const bool is_one = aggregate != CZ_AGGREGATE_SUM && aggregate != CZ_AGGREGATE_MEAN;
+    value.when[0] = is_one ? sum.when[0] : NAN;
+    value.when[1] = is_one ? sum.when[1] : NAN;
     memcpy(value.where, sum.where, sizeof value.where);
     memcpy(value.unknown_where, sum.unknown_where, sizeof value.unknown_where);
     if (sum.any_unknown || (sum.n_known == 0 && metric->kind->may_be_unknown))

@@ -93,6 +93,8 @@ typedef struct CzMetricValue {
     CzKnown known;
     double value;           /* in the metric's unit */
     char where[48];         /* place of the worst value */
+    double when[2];         /* begin and end of the time that it was reached in [s]; NaN when no
+                               place stands for the value, or its time is not kept */
     char unknown_where[48]; /* first place that does not declare enough; empty when none */
     const char *why;        /* when not known; static */
 } CzMetricValue;
@@ -102,6 +104,9 @@ CZ_MUST_CHECK CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzErr
 
 /* Value over all places that the selector picks; `worst_is_max` settles CZ_AGGREGATE_WORST. */
 CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, bool worst_is_max);
+
+/* When the value was reached at a place [s]: begin and end, NaN when that is not kept. */
+void cz_metric_when(const CzMetricKind *kind, const CzPlace *place, double when[2]);
 
 /* Whether the selector picks anything in this scene, as written. */
 bool cz_metric_picks(const CzMetric *metric, const CzScene *scene);

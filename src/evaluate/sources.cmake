@@ -21,4 +21,5 @@ set(CZ_SOURCES_evaluate
     tasks.c
     variant.c
     verify.c
+    when.c
 )

@@ -160,6 +160,7 @@ void cz_page_write_contents(CzPage *page) {
                  {"energy", "energy"},
                  {"motion", "speed and acceleration"},
                  {"vertical", "wheels and pitch"},
+                 {"budget", "what turned the cars"},
                  {"animation", "animation"},
                  {"events", "events"},
                  {"inputs", "inputs"}};
@@ -170,7 +171,8 @@ void cz_page_write_contents(CzPage *page) {
     CzMarkup *markup = &page->markup;
     cz_markup_open(markup, "nav");
     for (int i = 0; i < (int)(sizeof parts / sizeof *parts); i++) {
-        if ((i >= 2 && i <= 6 && !has_figures) || (i == 5 && !has_full_cars))
+        if ((i >= 2 && i <= 7 && !has_figures) || (i == 5 && !has_full_cars) ||
+            (i == 6 && (!has_full_cars || page->summary->budget == NULL)))
             continue;
         cz_markup_open(markup, "a");
         cz_markup_format(markup, "href", "#%s", parts[i].id);
@@ -198,6 +200,7 @@ void cz_page_close_section(CzMarkup *markup) {
 CzStatus cz_page_write_parts(CzPage *page, CzError *error) {
     cz_page_write_trains(page);
     CZ_TRY(cz_page_write_figures(page, error));
+    cz_page_write_budget(page);
     cz_page_write_animation(page);
     cz_page_write_events(page);
     CZ_TRY(cz_page_write_inputs(page, error));

@@ -89,6 +89,7 @@ void cz_page_close_section(CzMarkup *markup);
 void cz_page_write_verdict(CzPage *page, bool is_top);
 void cz_page_write_trains(CzPage *page);
 CZ_MUST_CHECK CzStatus cz_page_write_figures(CzPage *page, CzError *error);
+void cz_page_write_budget(CzPage *page); /* page_budget.c; nothing where no car is full */
 void cz_page_write_animation(CzPage *page);
 void cz_page_write_events(CzPage *page);
 CZ_MUST_CHECK CzStatus cz_page_write_inputs(CzPage *page, CzError *error);

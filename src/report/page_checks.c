@@ -53,6 +53,18 @@ static void write_source(CzMarkup *markup, const CzCheckResult *check) {
     cz_markup_classed(markup, "td", "small", text);
 }
 
+/* When the value was reached, or the window of a mean. */
+static void format_when(const CzCheckResult *check, size_t room, char *text) {
+    char from[CZ_FIGURE_ROOM], to[CZ_FIGURE_ROOM];
+    text[0] = '\0';
+    if (!isfinite(check->when[0]))
+        return;
+    cz_figure_fixed(from, 0, check->when[0] * CZ_MILLI_PER_UNIT);
+    cz_figure_fixed(to, 0, check->when[1] * CZ_MILLI_PER_UNIT);
+    const bool is_window = check->when[1] > check->when[0];
+    snprintf(text, room, "%.20s%s%.20s", from, is_window ? " to " : "", is_window ? to : "");
+}
+
 static void write_check(CzMarkup *markup, const CzCheckResult *check, const CzCheckResult *before) {
     char text[96];
     cz_markup_open(markup, "tr");
@@ -60,6 +72,8 @@ static void write_check(CzMarkup *markup, const CzCheckResult *check, const CzCh
     cz_markup_classed(markup, "td", verdict_class[check->verdict], cz_checks_word(check));
     cz_markup_element(markup, "td", check->where);
     cz_markup_element(markup, "td", or_empty(check->scenario));
+    format_when(check, sizeof text, text);
+    cz_markup_classed(markup, "td", "number", text);
     cz_checks_format_limit(check, sizeof text, text);
     cz_markup_classed(markup, "td", "number", text);
     if (before != NULL) {
@@ -84,6 +98,7 @@ static void write_table(CzMarkup *markup, const CzEvaluation *evaluation,
                                  "verdict",
                                  "where",
                                  "scenario",
+                                 "when ms",
                                  "limit",
                                  before != NULL ? "before" : NULL,
                                  before != NULL ? "after" : "value",

@@ -19,6 +19,7 @@ set(CZ_SOURCES_report
     outcome_table.c
     overlay.c
     page.c
+    page_budget.c
     page_checks.c
     page_compare.c
     page_data.c

@@ -274,6 +274,10 @@ static void put_check(CzJson *json, const CzCheckResult *check) {
     if (check->family != NULL)
         cz_json_text(json, "family", check->family);
     cz_json_text(json, "where", check->where);
+    if (isfinite(check->when[0])) {
+        cz_json_real(json, "from_ms", cz_milliseconds(check->when[0]));
+        cz_json_real(json, "to_ms", cz_milliseconds(check->when[1]));
+    }
     cz_json_text(json, "kind", check->is_minimum ? "min" : "max");
     cz_json_real(json, "limit", check->limit);
     cz_json_real(json, "value", check->value);

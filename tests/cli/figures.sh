@@ -53,6 +53,21 @@ check "rigid cars have no wheels to lift" nothing_to_lift
 no_room() { exits 4 "$C" plot first --svg /nowhere/a.svg && says err.txt 'cannot be written' && [ ! -e /nowhere/a.svg.tmp ]; }
 check "a figure that cannot be written is told" no_room
 
+json_of() { "$BUILD/tests/read_json" "$1" "$2"; }
+told_when() { # the check of the largest force tells the time of the interface's peak, in JSON and in the table
+    at=$(json_of first/summary.json checks.0.from_ms) && [ "$at" = "$(json_of first/summary.json scenarios.0.interfaces.2.peak_time_ms)" ] &&
+        [ "$at" = "$(json_of first/summary.json checks.0.to_ms)" ] && grep -q "<td class=\"number\">$(printf %.0f "$at")<" first/report.html
+}
+check "a check tells when its value was reached" told_when
+window() { # a mean over 120 ms or more has a begin and an end that far apart
+    from=$(json_of first/summary.json checks.1.from_ms) && to=$(json_of first/summary.json checks.1.to_ms) && awk -v a="$from" -v b="$to" 'BEGIN { exit !(b - a > 119.9) }'
+}
+check "a mean tells its window" window
+turned() { # the report tells the budget of a full car by the same numbers as the summary
+    exits 0 "$C" run "$SOURCE/problems/two-cars-25kmh.yaml" -o turned -q && grep -q 'id="budget"' turned/report.html && ! grep -q 'id="budget"' first/report.html &&
+        grep -q 'front coupler\|wheel and rail' turned/report.html
+}
+check "the report of full cars tells what turned them, that of rigid ones does not" turned
 compared() { exits 0 "$C" compare first second && says out.txt 'interface force, collision' && grep -q 'A4-B1 *peak force kN' out.txt && grep -q 'first *second' out.txt; }
 check "compare tells what differs" compared
 compared_same() { exits 0 "$C" compare first first && says out.txt '5 checks are the same'; }

@@ -1,0 +1,139 @@
+/* What turned and lifted the bodies: impulses by source, as bars. */
+#include "report/page.h"
+
+#include "report/figure.h"
+#include "report/units.h"
+
+#include <math.h>
+
+#define BAR_HALF 90.0 /* of a bar to either side of zero */
+
+/* Sources by the size of their moment; those that did nothing are left out. */
+static int sort_sources(const CzVehicleBudget *budget, int order[CZ_N_BUDGET]) {
+    int n = 0;
+    for (int source = 0; source < CZ_N_BUDGET; source++) {
+        if (budget->moment[source] == 0 && budget->lift[source] == 0)
+            continue;
+        int k = n++;
+        for (; k > 0 && fabs(budget->moment[order[k - 1]]) < fabs(budget->moment[source]); k--)
+            order[k] = order[k - 1];
+        order[k] = source;
+    }
+    return n;
+}
+
+/* An impulse in kilo-units; what rounds to nothing has no sign. */
+static const char *in_kilo(char text[CZ_FIGURE_ROOM], double impulse) {
+    const double value = impulse / CZ_KILO;
+    return cz_figure_fixed(text, 1, fabs(value) < 0.05 ? 0 : value);
+}
+
+static void write_bar(CzMarkup *markup, double share) {
+    const double size = BAR_HALF * fmin(fabs(share), 1);
+    cz_markup_open(markup, "td");
+    cz_markup_open(markup, "svg");
+    cz_markup_attribute(markup, "class", "budget");
+    cz_markup_attribute(markup, "viewBox", "0 0 184 10");
+    cz_markup_attribute(markup, "aria-hidden", "true");
+    cz_markup_open(markup, "rect");
+    cz_markup_number(markup, "x", 1, share < 0 ? 92 - size : 92);
+    cz_markup_attribute(markup, "y", "1");
+    cz_markup_number(markup, "width", 1, fmax(size, 0.6));
+    cz_markup_attribute(markup, "height", "8");
+    cz_markup_attribute(markup, "fill", share < 0 ? "#d55e00" : "#0072b2");
+    cz_markup_close(markup);
+    cz_markup_open(markup, "path");
+    cz_markup_attribute(markup, "d", "M92 0v10");
+    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+}
+
+/* One row; `most` is the length of the longest bar. */
+static void write_row(CzMarkup *markup, const char *name, double moment, double lift, double most,
+                      const char *remark) {
+    char text[CZ_FIGURE_ROOM];
+    cz_markup_open(markup, "tr");
+    cz_markup_element(markup, "td", name);
+    cz_markup_classed(markup, "td", "number", in_kilo(text, moment));
+    write_bar(markup, most > 0 ? moment / most : 0);
+    cz_markup_classed(markup, "td", "number", in_kilo(text, lift));
+    cz_markup_classed(markup, "td", "small", remark);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *budget) {
+    static const char *const names[] = {"source", "moment kNms", "nose-down | nose-up", "lift kNs",
+                                        ""};
+    int order[CZ_N_BUDGET];
+    char text[160], time[CZ_FIGURE_ROOM];
+    const int n = sort_sources(budget, order);
+    const double most = n > 0 ? fabs(budget->moment[order[0]]) : 0;
+    snprintf(text, sizeof text, "%s, until its largest %s at %s ms", car,
+             budget->of_lift ? "wheel lift" : "pitch",
+             cz_figure_fixed(time, 0, budget->time * CZ_MILLI_PER_UNIT));
+    cz_markup_element(markup, "h3", text);
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open(markup, "table");
+    cz_markup_open(markup, "tr");
+    for (int i = 0; i < 5; i++)
+        cz_markup_element(markup, "th", names[i]);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    for (int i = 0; i < n; i++) {
+        const CzBudgetSource source = (CzBudgetSource)order[i];
+        write_row(markup, cz_budget_text(source), budget->moment[source], budget->lift[source],
+                  most, cz_budget_counts(source) ? "" : "through the end mass");
+    }
+    write_row(markup, "the body then", budget->spin, budget->rise, most,
+              "its momenta: the sum of all that acts on it directly");
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+/* The car that lifted or pitched most; -1 when none is full. */
+static int worst_car(const CzRunSummary *run) {
+    int found = -1;
+    double most_lift = 0, most_pitch = 0;
+    for (int i = 0; i < run->n_vehicle; i++) {
+        double lift = 0;
+        for (int k = 0; k < 4; k++)
+            lift = fmax(lift, run->vehicle[i].wheel_lift[k]);
+        if (!run->budget[i].of_lift)
+            lift = 0;
+        const double pitch = run->vehicle[i].max_pitch;
+        const bool is_worse = lift > most_lift || (lift == most_lift && pitch > most_pitch);
+        if (!is_worse || !(run->budget[i].time > 0))
+            continue;
+        found = i;
+        most_lift = lift;
+        most_pitch = pitch;
+    }
+    return found;
+}
+
+void cz_page_write_budget(CzPage *page) {
+    const CzRunSummary *run = page->summary;
+    CzMarkup *markup = &page->markup;
+    const int worst = run->budget != NULL ? worst_car(run) : -1;
+    if (worst < 0)
+        return;
+    cz_page_open_section(markup, "budget", "What turned the cars");
+    cz_markup_element(markup, "p",
+                      "Impulses about the centre of gravity of a body, by where they came from, "
+                      "from the first contact until its wheels lifted most, or it pitched most "
+                      "where none lifted by 0.1 mm. Nose-up is positive for a car that looks along "
+                      "the track.");
+    write_car(markup, run->vehicle[worst].name, &run->budget[worst]);
+    cz_markup_open(markup, "details");
+    cz_markup_element(markup, "summary", "The other cars");
+    for (int i = 0; i < run->n_vehicle; i++)
+        if (i != worst && run->budget[i].time > 0)
+            write_car(markup, run->vehicle[i].name, &run->budget[i]);
+    cz_markup_close(markup);
+    cz_page_close_section(markup);
+}

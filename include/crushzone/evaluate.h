@@ -44,7 +44,8 @@ typedef struct CzCheckResult {
     double margin;   /* (limit - value) / max(|limit|, scale), sign turned for lower limits */
     bool is_minimum; /* the limit is a lower one */
     CzVerdict verdict;
-    const char *why; /* why it was not checked, or why it does not apply; NULL otherwise */
+    const char *why; /* why it was not checked, or does not apply, or that its run went beyond the
+                        model's validity; NULL otherwise */
     const char *profile, *clause, *source, *confidence; /* NULL when none */
 } CzCheckResult;
 

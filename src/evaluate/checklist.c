@@ -59,12 +59,14 @@ static bool is_listed(const CzTexts *texts, const char *name) {
 }
 
 /* A limit without scenarios holds in all but the overload cases, which are judged for bottoming
- * only. */
+ * only, and those that name other checks as their judges. */
 static bool holds_in(const CzLimit *limit, const CzScene *scene) {
     bool is_named = false;
     for (int i = 0; i < limit->scenarios.n_text; i++)
         is_named |= cz_scene_is(scene, limit->scenarios.text[i]);
-    return limit->scenarios.n_text > 0 ? is_named : !scene->is_overload;
+    return limit->scenarios.n_text > 0
+               ? is_named
+               : !scene->is_overload && cz_scene_is_judged_by(scene, limit->name);
 }
 
 static bool is_of_design(const CzMetric *metric) {
@@ -254,6 +256,12 @@ static void note_needs(const Builder *builder, bool has[N_NEEDS]) {
     }
 }
 
+static CzStatus append_missing(Builder *builder, const char *name, const char *missing) {
+    const CzCheck check = {
+        .name = name, .scenario = CZ_NO_SCENARIO, .limit = NAN, .missing = missing};
+    return append(builder, &check);
+}
+
 static CzStatus append_rule(Builder *builder, const Rule *rule) {
     CzCheck check = {.name = rule->name,
                      .metric_text = rule->metric,
@@ -266,20 +274,30 @@ static CzStatus append_rule(Builder *builder, const Rule *rule) {
         check.scenario = CZ_NO_SCENARIO;
         return append(builder, &check);
     }
+    bool is_judged = false, is_left_out = false;
     for (int s = 0; s < builder->n_scene; s++) {
         check.scenario = s;
-        if (rule_holds_in(rule->speeds, &builder->scene[s]))
+        if (!rule_holds_in(rule->speeds, &builder->scene[s]))
+            continue;
+        const bool judges = cz_scene_is_judged_by(&builder->scene[s], rule->name);
+        if (judges)
             CZ_TRY(append(builder, &check));
+        is_judged |= judges;
+        is_left_out |= !judges;
     }
+    if (is_left_out && !is_judged)
+        return append_missing(builder, rule->name, "no scenario names it among its judges");
     return CZ_OK;
 }
 
-/* Largest closing speed up to a bound, 0 when there is none [m/s]. */
+/* Largest closing speed up to a bound among the scenarios that every check judges, 0 when there is
+ * none [m/s]. */
 static double fastest_up_to(const Builder *builder, double bound) {
     double fastest = 0;
     for (int s = 0; s < builder->n_scene; s++) {
         const CzScene *scene = &builder->scene[s];
-        if (!scene->is_overload && scene->closing_speed * (1 - 1e-9) <= bound)
+        if (!scene->is_overload && scene->judged_by == NULL &&
+            scene->closing_speed * (1 - 1e-9) <= bound)
             fastest = fmax(fastest, scene->closing_speed);
     }
     return fastest;
@@ -288,7 +306,8 @@ static double fastest_up_to(const Builder *builder, double bound) {
 static bool covers_overload(const Builder *builder) {
     const double needed = CZ_OVERLOAD_FACTOR * fastest_up_to(builder, INFINITY) * (1 - 1e-9);
     for (int s = 0; s < builder->n_scene; s++)
-        if (builder->scene[s].is_overload && builder->scene[s].closing_speed >= needed)
+        if (builder->scene[s].is_overload && builder->scene[s].judged_by == NULL &&
+            builder->scene[s].closing_speed >= needed)
             return true;
     return false;
 }
@@ -298,12 +317,6 @@ static bool covers_between(const Builder *builder) {
     const double fastest = fastest_up_to(builder, INFINITY);
     const double between = fastest_up_to(builder, 0.95 * fastest);
     return fastest <= 1.1 * service_speed || between > 1.05 * service_speed;
-}
-
-static CzStatus append_missing(Builder *builder, const char *name, const char *missing) {
-    const CzCheck check = {
-        .name = name, .scenario = CZ_NO_SCENARIO, .limit = NAN, .missing = missing};
-    return append(builder, &check);
 }
 
 /* What the rules ask for and no scenario shows is said to be unchecked. */
@@ -346,6 +359,39 @@ static CzStatus append_rules_of_files(Builder *builder) {
     return append(builder, &check);
 }
 
+/* ---- names ----------------------------------------------------------------------------------- */
+
+static bool is_check(const CzChecklist *list, const char *name, CzSuggestion *nearest) {
+    for (int i = 0; i < list->n_check; i++) {
+        if (strcmp(list->check[i].name, name) == 0)
+            return true;
+        cz_suggest(nearest, name, list->check[i].name);
+    }
+    return false;
+}
+
+static CzStatus fail_name(const Builder *builder, const void *field, const char *name,
+                          const char *key, const CzSuggestion *nearest) {
+    cz_fail(builder->error, CZ_STATUS_INPUT, "%s: there is no check '%s'", key, name);
+    if (builder->error != NULL && nearest->best != NULL)
+        snprintf(builder->error->help, sizeof builder->error->help, "did you mean '%s'?",
+                 nearest->best);
+    return place_failure(builder, field, CZ_STATUS_INPUT);
+}
+
+/* A misspelt judge would judge nothing. */
+static CzStatus check_judges_exist(const Builder *builder) {
+    for (int s = 0; s < builder->n_scene; s++) {
+        const CzTexts *judges = builder->scene[s].judged_by;
+        for (int i = 0; judges != NULL && i < judges->n_text; i++) {
+            CzSuggestion nearest = {0};
+            if (!is_check(builder->list, judges->text[i], &nearest))
+                return fail_name(builder, judges, judges->text[i], "judged_by", &nearest);
+        }
+    }
+    return CZ_OK;
+}
+
 /* ---- constraints ----------------------------------------------------------------------------- */
 
 /* Which checks the optimiser must keep. */
@@ -356,20 +402,10 @@ static CzStatus choose_constraints(Builder *builder) {
     const bool all = (subject_to->n_text == 0 && !is_fit) || is_listed(subject_to, "checks");
     CzChecklist *list = builder->list;
     for (int i = 0; i < subject_to->n_text; i++) {
-        bool found = strcmp(subject_to->text[i], "checks") == 0;
         CzSuggestion nearest = {0};
-        for (int j = 0; j < list->n_check && !found; j++) {
-            found = strcmp(list->check[j].name, subject_to->text[i]) == 0;
-            cz_suggest(&nearest, subject_to->text[i], list->check[j].name);
-        }
-        if (found)
-            continue;
-        cz_fail(builder->error, CZ_STATUS_INPUT, "subject_to: there is no check '%s'",
-                subject_to->text[i]);
-        if (builder->error != NULL && nearest.best != NULL)
-            snprintf(builder->error->help, sizeof builder->error->help, "did you mean '%s'?",
-                     nearest.best);
-        return place_failure(builder, subject_to, CZ_STATUS_INPUT);
+        if (strcmp(subject_to->text[i], "checks") != 0 &&
+            !is_check(list, subject_to->text[i], &nearest))
+            return fail_name(builder, subject_to, subject_to->text[i], "subject_to", &nearest);
     }
     for (int i = 0; i < list->n_check; i++) {
         CzCheck *check = &list->check[i];
@@ -400,5 +436,6 @@ CzStatus cz_checklist_build(const CzProblem *problem, int n_scene, const CzScene
         CZ_TRY(append_limit(&builder, &input->optimise.targets[i], NULL, true));
     if (input->optimise.given && input->optimise.n_variables > 0 && input->optimise.n_match == 0)
         CZ_TRY(append_rules_of_files(&builder));
+    CZ_TRY(check_judges_exist(&builder));
     return choose_constraints(&builder);
 }

@@ -66,7 +66,9 @@ CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, con
         return result;
     }
     memcpy(result.where, value.where, sizeof result.where);
-    result.why = NULL;
+    result.why = subject->run != NULL && subject->run->beyond_validity
+                     ? "beyond model validity: something climbed in this run"
+                     : NULL;
     result.value = value.value;
     memcpy(result.when, value.when, sizeof result.when);
     result.margin = margin;

@@ -39,7 +39,8 @@ static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *ve
     }
     double worst = NAN;
     for (int s = 0; s < evaluator->n_scene; s++) {
-        if (evaluator->scene[s].is_overload || run[s] == NULL)
+        const CzScene *scene = &evaluator->scene[s];
+        if (scene->is_overload || scene->judged_by != NULL || run[s] == NULL)
             continue;
         const CzSubject subject = cz_subject_of(evaluator, vehicles, s, run[s]);
         worst = fmax(worst, cz_metric_value(&evaluator->objective, &subject, true).value);
@@ -193,6 +194,14 @@ static CzStatus allocate(const CzEvaluator *evaluator, CzEvaluation *evaluation,
     return CZ_OK;
 }
 
+/* A climb fails whatever checks were asked for: what they say of later is beyond the model. */
+static bool any_climbed(const CzEvaluator *evaluator, const CzRunSummary *const *run) {
+    for (int s = 0; s < evaluator->n_scene; s++)
+        if (run[s] != NULL && run[s]->beyond_validity)
+            return true;
+    return false;
+}
+
 /* The checks, listed and as constraints. */
 static CzStatus compose_checks(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                                const CzRunSummary *const *run, CzEvaluation *evaluation,
@@ -203,6 +212,8 @@ static CzStatus compose_checks(const CzEvaluator *evaluator, const CzVehicle *ve
     judge_all(evaluator, vehicles, run, all);
     sort_results(evaluator, all, evaluation);
     evaluation->verdict = cz_verdict_over(evaluator->list.n_check, evaluator->list.check, all);
+    if (any_climbed(evaluator, run))
+        evaluation->verdict = CZ_VERDICT_FAIL;
     free(all);
     return CZ_OK;
 }

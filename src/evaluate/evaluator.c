@@ -66,10 +66,11 @@ static CzStatus build_models(CzEvaluator *evaluator, const char *only, CzError *
     bool any = only == NULL;
     for (int s = 0; s < evaluator->n_scene; s++) {
         evaluator->rate = fmax(evaluator->rate, evaluator->scene[s].closing_speed / 2);
-        if (only == NULL || strcmp(only, evaluator->scene[s].name) != 0)
+        const CzScene *scene = &evaluator->scene[s];
+        if (only == NULL || !cz_scene_is(scene, only))
             continue;
         any = true;
-        evaluator->only = evaluator->scene[s].name;
+        evaluator->only = strcmp(only, scene->name) == 0 ? scene->name : scene->family;
     }
     return any ? build_variants(evaluator, error)
                : cz_fail(error, CZ_STATUS_INPUT, "there is no scenario '%s'", only);

@@ -68,6 +68,7 @@ static CzStatus build_scene(const CzProblem *problem, int index, CzArena *arena,
         scene->family = scenario->family;
         speed = value_or(scenario->speed, speed);
         partner_speed = value_or(scenario->partner_speed, partner_speed);
+        scene->judged_by = scenario->judged_by.n_text > 0 ? &scenario->judged_by : NULL;
         scene->is_overload = scenario->mass_factor >= CZ_OVERLOAD_FACTOR * (1 - 1e-9);
     }
     scene->closing_speed = speed - partner_speed;
@@ -77,6 +78,14 @@ static CzStatus build_scene(const CzProblem *problem, int index, CzArena *arena,
 bool cz_scene_is(const CzScene *scene, const char *name) {
     return strcmp(scene->name, name) == 0 ||
            (scene->family != NULL && strcmp(scene->family, name) == 0);
+}
+
+bool cz_scene_is_judged_by(const CzScene *scene, const char *check) {
+    const int n = scene->judged_by != NULL ? scene->judged_by->n_text : 0;
+    for (int i = 0; i < n; i++)
+        if (strcmp(scene->judged_by->text[i], check) == 0)
+            return true;
+    return n == 0;
 }
 
 CzStatus cz_scenes_build(const CzProblem *problem, CzArena *arena, int *n_scene, CzScene **scene,

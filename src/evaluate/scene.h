@@ -14,11 +14,15 @@ typedef struct CzScene {
     const int *record;               /* their places in the problem's vehicle array (n_vehicle) */
     int colliding;                   /* interface between the two trains */
     double closing_speed;            /* at the start [m/s] */
+    const CzTexts *judged_by;        /* names of the only checks that judge it; NULL for all */
     bool is_overload;                /* heavier than the others: judged for bottoming only */
 } CzScene;
 
 /* Whether a name means this scenario: its own or that of its family. */
 bool cz_scene_is(const CzScene *scene, const char *name);
+
+/* Whether checks of this name judge the scenario. */
+bool cz_scene_is_judged_by(const CzScene *scene, const char *check);
 
 /* Mass factor from which a scenario is an overload case, and the factor on the speed that it must
  * reach to cover the others. */

@@ -3,7 +3,6 @@
 #include "base/error.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static CzStatus build(const CzProblem *problem, const CzScene *scene, const char *only,
                       CzVariant *variant, CzError *error) {
@@ -13,7 +12,7 @@ static CzStatus build(const CzProblem *problem, const CzScene *scene, const char
     if (variant->model == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the models");
     for (int s = 0; s < variant->n_scene; s++)
-        if (only == NULL || strcmp(only, scene[s].name) == 0)
+        if (only == NULL || cz_scene_is(&scene[s], only))
             CZ_TRY(cz_model_build(problem, s, &variant->model[s], error));
     return CZ_OK;
 }

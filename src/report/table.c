@@ -148,7 +148,7 @@ static void write_climbing(const CzRunSummary *run, bool colour, FILE *stream) {
     }
     if (!run->beyond_validity)
         return;
-    snprintf(text, sizeof text, "From %s ms on this run is beyond what the model can say.",
+    snprintf(text, sizeof text, "From %s ms on this run is beyond model validity.",
              cz_figure_fixed(time, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
     cz_grid_write_text(text, CZ_STYLE_BAD, colour, stream);
     fputc('\n', stream);

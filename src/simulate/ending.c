@@ -151,7 +151,8 @@ static double holds_since(bool holds, double since, double now) {
     return !holds ? NAN : isnan(since) ? now : since;
 }
 
-/* Looks at the wheels: off the rail now, and higher than their flange ever. */
+/* Looks at the wheels: off the rail now, and higher than their flange ever. Without stops a body
+ * lifts its wheels by any amount or none, which tells nothing of a climb. */
 static bool wheels_are_off(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
     bool off = false;
@@ -164,7 +165,7 @@ static bool wheels_are_off(CzBatch *batch, int design) {
         for (int axle = 0; axle < 4; ++axle) {
             const double lift = -cz_scratch(batch, CZ_S_WHEEL_APPROACH_0 + axle, lane);
             off |= lift > 0.0;
-            if (isnan(progress->override_time) &&
+            if (isnan(progress->override_time) && description->has_stops &&
                 cz_extreme(batch, CZ_E_LIFT_0 + axle, lane) > flange)
                 progress->override_time = batch->time;
         }

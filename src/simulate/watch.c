@@ -127,9 +127,10 @@ static void watch_car(CzWatch *list, const CzBatch *batch, int car) {
         snprintf(kind, sizeof kind, "wheelset %d", axle + 1);
         watch(list, batch, CZ_EVENT_WHEEL_LIFT, FROM_EXTREME, CZ_E_LIFT_0 + axle, lane, 1e-3, kind,
               description->name);
-        watch(list, batch, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_E_LIFT_0 + axle, lane,
-              batch->vehicles[0][description->vehicle].bogie.flange_height, kind,
-              description->name);
+        if (description->has_stops)
+            watch(list, batch, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_E_LIFT_0 + axle, lane,
+                  batch->vehicles[0][description->vehicle].bogie.flange_height, kind,
+                  description->name);
     }
     for (int bogie = 0; bogie < 2; ++bogie) {
         watch(list, batch, CZ_EVENT_LIFT_STOP, FROM_LIFT_STOP, bogie, lane,

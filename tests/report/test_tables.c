@@ -144,7 +144,7 @@ static void failed_and_incomplete_runs_say_so(void **state) {
     s.run[0].summary.beyond_validity_time = 0.4;
     text = table_text(&s, false);
     assert_has(text, "INCOMPLETE");
-    assert_has(text, "From 400 ms on this run is beyond what the model can say.");
+    assert_has(text, "From 400 ms on this run is beyond model validity.");
     free(text);
 }
 

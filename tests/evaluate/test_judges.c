@@ -1,0 +1,167 @@
+/* Scenarios that name the checks by which they are judged: beyond the design speed strokes may run
+ * out, and that must not loosen what holds up to it. */
+#include "support/check.h"
+
+#include "evaluate/evaluator.h"
+#include "evaluate/small_problem.h"
+#include "evaluate/stand_in.h"
+
+static const char fast[] =
+    "  - {name: fast, speed_km_h: 40, judged_by: [force, stroke used]}\n"
+    "checks: {limits: [{name: force, metric: interfaces.peak_force_kN, max: "
+    "9000},\n"
+    "  {name: named, metric: interfaces.peak_force_kN, max: 9000, scenarios: "
+    "[fast]}]}\n";
+
+typedef struct Case {
+    CzProblem *problem;
+    CzEvaluator *evaluator;
+    CzEvaluation evaluation;
+} Case;
+
+static Case judge(const char *more) {
+    Case made = {0};
+    CzError error = {0};
+    stand_in_reset();
+    made.problem = small_problem(more);
+    if (cz_evaluator_build(made.problem, NULL, &made.evaluator, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(cz_evaluate(made.evaluator, 1, NULL, false, &made.evaluation, &error), CZ_OK);
+    return made;
+}
+
+static void end(Case *made) {
+    cz_evaluation_free(&made->evaluation);
+    cz_evaluator_free(made->evaluator);
+    cz_problem_free(made->problem);
+}
+
+static const CzCheckResult *find(const Case *made, const char *name, const char *scenario) {
+    for (int i = 0; i < made->evaluation.n_check; i++)
+        if (strcmp(made->evaluation.check[i].name, name) == 0 &&
+            strcmp(made->evaluation.check[i].scenario, scenario) == 0)
+            return &made->evaluation.check[i];
+    return NULL;
+}
+
+static void only_the_named_checks_and_limits_that_name_it_judge_a_scenario(void **state) {
+    (void)state;
+    Case made = judge(fast);
+    assert_non_null(find(&made, "force", "fast"));
+    assert_non_null(find(&made, "stroke used", "fast"));
+    assert_non_null(find(&made, "named", "fast"));
+    int n = 0;
+    for (int i = 0; i < made.evaluation.n_check; i++)
+        n += strcmp(made.evaluation.check[i].scenario, "fast") == 0;
+    assert_int_equal(n, 3);
+    assert_non_null(find(&made, "bottoming out", "crash")); /* others are judged as ever */
+    end(&made);
+}
+
+/* 25 km/h is the largest speed that every check judges: its overload covers it, and 40 km/h asks
+ * for none. */
+static void it_is_no_design_speed(void **state) {
+    (void)state;
+    Case made = judge(fast);
+    assert_null(find(&made, "bottoming out under overload", "design"));
+    assert_non_null(find(&made, "bottoming out under overload", "overload"));
+    end(&made);
+    made = judge("  - {name: fast, speed_km_h: 40}\n");
+    assert_int_equal(find(&made, "bottoming out under overload", "design")->verdict,
+                     CZ_VERDICT_NOT_CHECKED);
+    end(&made);
+}
+
+/* The objective is of the design: a faster scenario beyond it does not count. */
+static void the_objective_leaves_it_out(void **state) {
+    (void)state;
+    static const char objective[] = "%s"
+                                    "optimise:\n"
+                                    "  minimise: elements.coupler *.energy_kJ\n"
+                                    "  variables: [{path: \"parts.tube.stages[0].force_kN\", min: "
+                                    "400, max: 1500}]\n";
+    char more[1024];
+    snprintf(more, sizeof more, objective, "");
+    Case without = judge(more);
+    snprintf(more, sizeof more, objective, fast);
+    Case with = judge(more);
+    assert_near(with.evaluation.objective, without.evaluation.objective, 0, 0);
+    end(&without);
+    end(&with);
+}
+
+/* Leaving a rule out everywhere is no way to pass it. */
+static void a_rule_that_judges_nowhere_is_not_checked(void **state) {
+    (void)state;
+    static const char text[] =
+        "schema: 1\n"
+        "title: one scenario, one judge\n"
+        "parts:\n"
+        "  end: {face_gap_mm: 0, unloading_stiffness_MN_m: 600, stages: [{stroke_mm: 500, "
+        "force_MN: 3}]}\n"
+        "trains:\n"
+        "  - {name: A, vehicles: [{name: A1, model: rigid, mass_t: 40, front: {use: end}}]}\n"
+        "  - {name: B, vehicles: [{name: B1, model: rigid, mass_t: 40, rear: {use: end}}]}\n"
+        "scenarios:\n"
+        "  - {name: crash, speed_km_h: 25, judged_by: [stroke used]}\n";
+    stand_in_reset();
+    Case made = {.problem = problem_of_text(text, "")};
+    CzError error = {0};
+    if (cz_evaluator_build(made.problem, NULL, &made.evaluator, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(cz_evaluate(made.evaluator, 1, NULL, false, &made.evaluation, &error), CZ_OK);
+    const CzCheckResult *left_out = find(&made, "energy in occupied space", "design");
+    assert_non_null(left_out);
+    assert_int_equal(left_out->verdict, CZ_VERDICT_NOT_CHECKED);
+    assert_string_equal(left_out->why, "no scenario names it among its judges");
+    assert_non_null(find(&made, "stroke used", "crash"));
+    assert_int_not_equal(made.evaluation.verdict, CZ_VERDICT_PASS);
+    end(&made);
+}
+
+static void a_misspelt_judge_is_refused_with_its_place(void **state) {
+    (void)state;
+    CzError error = {0};
+    CzEvaluator *evaluator = NULL;
+    CzProblem *problem =
+        small_problem("  - {name: fast, speed_km_h: 40, judged_by: [stroke usd]}\n");
+    assert_int_equal(cz_evaluator_build(problem, NULL, &evaluator, &error), CZ_STATUS_INPUT);
+    assert_string_equal(error.message, "judged_by: there is no check 'stroke usd'");
+    assert_string_equal(error.help, "did you mean 'stroke used'?");
+    assert_true(error.line > 0);
+    cz_problem_free(problem);
+}
+
+static void a_family_alone_can_be_run(void **state) {
+    (void)state;
+    CzProblem *problem = small_problem(
+        "  - {name: head, sweep: {speed_km_h: [10, 30]}, judged_by: [stroke used]}\n");
+    CzEvaluatorOptions options = cz_evaluator_options_default();
+    options.scenario = "head";
+    CzEvaluator *evaluator = NULL;
+    CzEvaluation evaluation;
+    CzError error = {0};
+    stand_in_reset();
+    assert_int_equal(cz_evaluator_build(problem, &options, &evaluator, &error), CZ_OK);
+    assert_int_equal(cz_evaluate(evaluator, 1, NULL, true, &evaluation, &error), CZ_OK);
+    assert_int_equal(evaluation.n_run, 2);
+    Case made = {.evaluation = evaluation};
+    assert_int_not_equal(find(&made, "stroke used", "head_10km_h")->verdict,
+                         CZ_VERDICT_NOT_CHECKED);
+    assert_string_equal(find(&made, "stroke used", "crash")->why, "this scenario was not run");
+    cz_evaluation_free(&evaluation);
+    cz_evaluator_free(evaluator);
+    cz_problem_free(problem);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(only_the_named_checks_and_limits_that_name_it_judge_a_scenario),
+        cmocka_unit_test(it_is_no_design_speed),
+        cmocka_unit_test(the_objective_leaves_it_out),
+        cmocka_unit_test(a_rule_that_judges_nowhere_is_not_checked),
+        cmocka_unit_test(a_misspelt_judge_is_refused_with_its_place),
+        cmocka_unit_test(a_family_alone_can_be_run),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -64,8 +64,14 @@ typedef struct CzOutcome {
     double *alternative_objective; /* (n_alternative) */
     CzVerification *verification;  /* of the best design; NULL when it does not pass or the search
                                       was interrupted */
+    double *sensitivity_step;  /* change of one variable that was tried at the best design, in its
+                                  unit: below 0 where there is no room upwards, 0 when none was
+                                  tried; NULL after an interruption (n_variable) */
+    double *objective_change;  /* of the objective by each; NaN when not known (n_variable) */
+    double *constraint_change; /* likewise of each constraint (n_variable x n_constraint) */
     long n_trial;
-    CzTrial *trial; /* history in order (n_trial) */
+    CzTrial *trial;  /* history in order (n_trial) */
+    double *trial_x; /* its designs, in the variables' units (n_trial x n_variable) */
     double wall_s;
 } CzOutcome;
 

@@ -5,6 +5,7 @@
 #include "optimise/alternatives.h"
 #include "optimise/hunt.h"
 #include "optimise/nlopt_adapter.h"
+#include "optimise/sensitivity.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -29,17 +30,23 @@ CzOptimiseOptions cz_optimise_options_default(void) {
 
 /* ---- the outcome ----------------------------------------------------------------------------- */
 
-static CzStatus copy_history(const CzHunt *hunt, CzOutcome *outcome, CzError *error) {
+static CzStatus copy_history(const CzHunt *hunt, int n_variable, CzOutcome *outcome,
+                             CzError *error) {
     for (int k = 0; k < hunt->n; k++)
         outcome->n_trial += hunt->search[k].n_record;
     outcome->n_evaluation = outcome->n_trial;
     outcome->trial = calloc((size_t)outcome->n_trial + 1, sizeof *outcome->trial);
-    if (outcome->trial == NULL)
+    outcome->trial_x =
+        calloc((size_t)outcome->n_trial * (size_t)n_variable + 1, sizeof *outcome->trial_x);
+    if (outcome->trial == NULL || outcome->trial_x == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the history");
     CzTrial *trial = outcome->trial;
+    double *x = outcome->trial_x;
     for (int k = 0; k < hunt->n; k++)
         for (long i = 0; i < hunt->search[k].n_record; i++) {
             const CzRecord *record = &hunt->search[k].record[i];
+            cz_subspace_expand(&hunt->subspace[k], cz_search_x(&hunt->search[k], i), x);
+            x += n_variable;
             *trial++ = (CzTrial){.objective = record->objective,
                                  .violation = record->violation,
                                  .feasible = record->violation <= 0,
@@ -234,7 +241,7 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
     CzStatus status = cz_hunt(evaluator, &options, &hunt, error);
     cz_evaluator_set_stop(evaluator, NULL); /* what was found is evaluated in any case */
     if (status == CZ_OK)
-        status = copy_history(&hunt, made, error);
+        status = copy_history(&hunt, cz_evaluator_n_variable(evaluator), made, error);
     if (status == CZ_OK)
         status = confirm(evaluator, &hunt, made, error);
     if (status == CZ_OK && cz_evaluator_is_fit(evaluator))
@@ -244,6 +251,8 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
         conclude(&hunt, made);
     if (status == CZ_OK)
         status = verify(evaluator, &options, made, error);
+    if (status == CZ_OK)
+        status = cz_sensitivity_take(evaluator, options.stop, made, error);
     made->wall_s = now_s() - began;
     cz_hunt_free(&hunt);
     if (status != CZ_OK) {
@@ -265,6 +274,10 @@ void cz_outcome_free(CzOutcome *outcome) {
     free(outcome->alternative);
     free(outcome->alternative_objective);
     cz_verification_free(outcome->verification);
+    free(outcome->sensitivity_step);
+    free(outcome->objective_change);
+    free(outcome->constraint_change);
+    free(outcome->trial_x);
     free(outcome->trial);
     free(outcome);
 }

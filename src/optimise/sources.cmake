@@ -7,6 +7,7 @@ set(CZ_SOURCES_optimise
     optimise.c
     sample.c
     search.c
+    sensitivity.c
     snap.c
     strategy.c
     subspace.c

@@ -1,5 +1,5 @@
 /* The report of a search: what changed, what it brought, how it was found, what holds it. */
-#include "report/page.h"
+#include "report/page_outcome.h"
 
 #include "base/error.h"
 #include "evaluate/evaluator.h"
@@ -235,8 +235,7 @@ static void write_constraint(CzMarkup *markup, const CzEvaluator *evaluator,
     cz_markup_line(markup);
 }
 
-/* The constraint with least left that has not been told of; -1 when there is none. */
-static int next_constraint(const CzEvaluation *evaluation, int n_told, const int *told) {
+int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const int *told) {
     int found = -1;
     for (int i = 0; i < evaluation->n_constraint; i++) {
         bool is_told = !isfinite(evaluation->constraint[i]);
@@ -264,7 +263,7 @@ static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const C
     cz_markup_line(markup);
     int told[MOST_CONSTRAINTS];
     for (int n = 0; n < MOST_CONSTRAINTS; n++) {
-        told[n] = next_constraint(best, n, told);
+        told[n] = cz_page_next_constraint(best, n, told);
         if (told[n] < 0)
             break;
         write_constraint(markup, evaluator, best, told[n]);
@@ -367,8 +366,10 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     cz_page_close_section(markup);
     write_variables(markup, evaluator, outcome);
     write_active(markup, evaluator, outcome);
+    cz_page_write_sensitivities(markup, evaluator, outcome);
     write_verification(markup, outcome->verification);
     CZ_TRY(write_search(markup, evaluator, outcome, error));
+    CZ_TRY(cz_page_write_designs(markup, evaluator, outcome, error));
     CZ_TRY(write_values(markup, evaluator, outcome, error));
     snprintf(title, sizeof title, "What follows is scenario %s of the best design%s",
              page->summary->scenario,

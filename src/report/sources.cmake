@@ -23,6 +23,7 @@ set(CZ_SOURCES_report
     page_checks.c
     page_compare.c
     page_data.c
+    page_designs.c
     page_figures.c
     page_inputs.c
     page_outcome.c

@@ -45,6 +45,52 @@ static void design_that_passes_is_found_on_the_catalogue_steps(void **state) {
     end(&made);
 }
 
+/* Each step of a variable is evaluated once more from scratch. */
+static void sensitivities_are_differences_of_designs(void **state) {
+    (void)state;
+    stand_in_reset();
+    Case made = begin(sizing, 2);
+    optimise(&made, NULL);
+    const CzOutcome *outcome = made.outcome;
+    CzError error = {0};
+    bool any = false;
+    for (int i = 0; i < outcome->n_variable; i++) {
+        const CzVariableInfo *info = cz_evaluator_variable(made.evaluator, i);
+        CzEvaluation changed;
+        double x[8];
+        memcpy(x, outcome->best, (size_t)outcome->n_variable * sizeof *x);
+        x[i] += outcome->sensitivity_step[i];
+        assert_true(outcome->sensitivity_step[i] != 0 && x[i] >= info->min && x[i] <= info->max);
+        assert_int_equal(cz_evaluate(made.evaluator, 1, x, false, &changed, &error), CZ_OK);
+        assert_near(outcome->objective_change[i],
+                    changed.objective - outcome->best_evaluation.objective, 0, 1e-9);
+        for (int k = 0; k < changed.n_constraint; k++)
+            assert_near(outcome->constraint_change[i * changed.n_constraint + k],
+                        changed.constraint[k] - outcome->best_evaluation.constraint[k], 0, 1e-9);
+        any |= outcome->objective_change[i] != 0;
+        cz_evaluation_free(&changed);
+    }
+    assert_true(any);
+    end(&made);
+}
+
+static void history_keeps_the_designs(void **state) {
+    (void)state;
+    stand_in_reset();
+    Case made = begin(sizing, 2);
+    optimise(&made, NULL);
+    const CzOutcome *outcome = made.outcome;
+    CzError error = {0};
+    for (long i = 0; i < outcome->n_trial; i += outcome->n_trial / 5) {
+        CzEvaluation again;
+        const double *x = &outcome->trial_x[i * outcome->n_variable];
+        assert_int_equal(cz_evaluate(made.evaluator, 1, x, false, &again, &error), CZ_OK);
+        assert_near(again.objective, outcome->trial[i].objective, 0, 1e-9);
+        cz_evaluation_free(&again);
+    }
+    end(&made);
+}
+
 static void outcome_does_not_depend_on_the_number_of_threads(void **state) {
     (void)state;
     stand_in_reset();
@@ -269,6 +315,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         CHEATS,
         cmocka_unit_test(design_that_passes_is_found_on_the_catalogue_steps),
+        cmocka_unit_test(sensitivities_are_differences_of_designs),
+        cmocka_unit_test(history_keeps_the_designs),
         cmocka_unit_test(outcome_does_not_depend_on_the_number_of_threads),
         cmocka_unit_test(nothing_feasible_is_said_and_the_least_violated_design_given),
         cmocka_unit_test(what_passes_only_between_the_steps_is_given_and_said),

@@ -1,0 +1,103 @@
+/* Sensitivities at the best design, as secants:
+ *
+ *   change_ij = c_i(x + h_j e_j) - c_i(x)
+ *
+ * where h_j is one catalogue step or more, at least 2 % of the range, and goes down where there is
+ * no room upwards.
+ * A step of this size sees what a person would change; a derivative would see the rattle of a long
+ * train. Both designs are run as in a search, so that their difference is that of the design alone.
+ */
+#include "optimise/sensitivity.h"
+
+#include "base/error.h"
+#include "evaluate/evaluator.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SMALLEST_SHARE 0.02 /* of a variable's range that a step is at least (ours) */
+
+/* The step of a variable at a value, negative towards the lower bound; 0 when there is none. */
+static double step_of(const CzVariableInfo *variable, double value) {
+    const double range = variable->max - variable->min;
+    if (variable->n_choice > 0 || !(range > 0))
+        return 0;
+    double step = SMALLEST_SHARE * range;
+    if (variable->step > 0)
+        step = variable->step * fmax(ceil(step / variable->step - 1e-9), 1);
+    if (value + step <= variable->max)
+        return step;
+    return value - step >= variable->min ? -step : 0;
+}
+
+static void keep_changes(CzOutcome *outcome, int variable, const CzEvaluation *base,
+                         const CzEvaluation *changed) {
+    const int n = base->n_constraint;
+    outcome->objective_change[variable] = changed->objective - base->objective;
+    for (int i = 0; i < n; i++)
+        outcome->constraint_change[variable * n + i] = changed->constraint[i] - base->constraint[i];
+}
+
+static CzStatus evaluate(CzEvaluator *evaluator, CzOutcome *outcome, CzError *error) {
+    const int n = outcome->n_variable;
+    const double *h = outcome->sensitivity_step;
+    double *x = malloc((size_t)(n + 1) * (size_t)n * sizeof *x);
+    CzEvaluation *evaluation = calloc((size_t)n + 1, sizeof *evaluation);
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    if (x == NULL || evaluation == NULL) {
+        cz_fail(error, status, "no memory for the sensitivities");
+    } else {
+        for (int point = 0; point <= n; point++) {
+            memcpy(&x[point * n], outcome->best, (size_t)n * sizeof *x);
+            if (point > 0)
+                x[point * n + point - 1] += h[point - 1];
+        }
+        status = cz_evaluator_search(evaluator, n + 1, x, evaluation, NULL, error);
+    }
+    for (int point = 1; point <= n && status == CZ_OK; point++)
+        if (h[point - 1] != 0 && evaluation[0].status == CZ_OK && evaluation[point].status == CZ_OK)
+            keep_changes(outcome, point - 1, &evaluation[0], &evaluation[point]);
+    for (int point = 0; evaluation != NULL && point <= n; point++)
+        cz_evaluation_free(&evaluation[point]);
+    free(evaluation);
+    free(x);
+    return status;
+}
+
+static void forget(CzOutcome *outcome) {
+    free(outcome->sensitivity_step);
+    free(outcome->objective_change);
+    free(outcome->constraint_change);
+    outcome->sensitivity_step = outcome->objective_change = outcome->constraint_change = NULL;
+}
+
+CzStatus cz_sensitivity_take(CzEvaluator *evaluator, const volatile sig_atomic_t *stop,
+                             CzOutcome *outcome, CzError *error) {
+    const size_t n = (size_t)outcome->n_variable;
+    const size_t n_constraint = (size_t)outcome->best_evaluation.n_constraint;
+    if (stop != NULL && *stop != 0)
+        return CZ_OK;
+    outcome->sensitivity_step = calloc(n + 1, sizeof(double));
+    outcome->objective_change = calloc(n + 1, sizeof(double));
+    outcome->constraint_change = calloc(n * n_constraint + 1, sizeof(double));
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    if (outcome->sensitivity_step == NULL || outcome->objective_change == NULL ||
+        outcome->constraint_change == NULL) {
+        cz_fail(error, status, "no memory for the sensitivities");
+    } else {
+        for (size_t i = 0; i < n; i++) {
+            const CzVariableInfo *variable = cz_evaluator_variable(evaluator, (int)i);
+            outcome->sensitivity_step[i] = step_of(variable, outcome->best[i]);
+            outcome->objective_change[i] = NAN;
+        }
+        for (size_t i = 0; i < n * n_constraint; i++)
+            outcome->constraint_change[i] = NAN;
+        cz_evaluator_set_stop(evaluator, stop);
+        status = evaluate(evaluator, outcome, error);
+        cz_evaluator_set_stop(evaluator, NULL);
+    }
+    if (status != CZ_OK)
+        forget(outcome);
+    return status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
+}

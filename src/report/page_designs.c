@@ -1,0 +1,278 @@
+/* Designs of a search as parallel coordinates, and what a step of each variable changes at the
+ * best.
+ */
+#include "report/page_outcome.h"
+
+#include "base/error.h"
+#include "evaluate/evaluator.h"
+#include "report/figure.h"
+#include "report/plot.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define TOP 22.0
+#define HEIGHT 190.0
+#define SIDE 44.0  /* beside the first and last axis */
+#define APART 84.0 /* of two axes */
+
+enum { MOST_LINES = 400, MOST_COLUMNS = 4 };
+
+/* ---- parallel coordinates ---- */
+
+/* The axes: the variables, then the objective. */
+typedef struct Axes {
+    const CzEvaluator *evaluator;
+    const CzOutcome *outcome;
+    int n;                   /* axes */
+    double worst, best;      /* of the objectives that are shown, at the bottom and top */
+    const double *objective; /* as shown (n_trial) */
+} Axes;
+
+static double axis_x(int axis) {
+    return SIDE + axis * APART;
+}
+
+/* Place on an axis, 0 at its lower end. */
+static double share_of(const Axes *axes, int axis, const double *x, double objective) {
+    if (axis == axes->n - 1)
+        return axes->best != axes->worst ? (objective - axes->worst) / (axes->best - axes->worst)
+                                         : 0.5;
+    const CzVariableInfo *variable = cz_evaluator_variable(axes->evaluator, axis);
+    const double range = variable->max - variable->min;
+    return range > 0 ? (x[axis] - variable->min) / range : 0.5;
+}
+
+static void write_design(CzMarkup *markup, const Axes *axes, const double *x, double objective) {
+    fputs("M", markup->stream);
+    for (int axis = 0; axis < axes->n; axis++) {
+        const double share = fmin(fmax(share_of(axes, axis, x, objective), 0), 1);
+        const double y = TOP + HEIGHT * (1 - share);
+        fprintf(markup->stream, "%s%ld ", axis > 0 ? "L" : "", lround(axis_x(axis)));
+        cz_markup_write_number(markup->stream, 1, y);
+    }
+}
+
+/* Lines of the designs of one kind in one path; of many, evenly chosen ones. */
+static void write_designs(CzMarkup *markup, const Axes *axes, bool feasible, const char *name) {
+    const CzOutcome *outcome = axes->outcome;
+    long n = 0, seen = 0, shown = 0;
+    for (long i = 0; i < outcome->n_trial; i++)
+        n += outcome->trial[i].feasible == feasible && isfinite(outcome->trial[i].objective);
+    if (n == 0)
+        return;
+    const long most = n < MOST_LINES / 2 ? n : MOST_LINES / 2;
+    cz_markup_open(markup, "path");
+    cz_markup_attribute(markup, "stroke", cz_plot_colour(feasible ? 0 : CZ_PLOT_QUIET));
+    cz_markup_attribute(markup, "stroke-opacity", feasible ? ".55" : ".4");
+    fputs(" d=\"", markup->stream);
+    for (long i = 0; i < outcome->n_trial; i++) {
+        const CzTrial *trial = &outcome->trial[i];
+        if (trial->feasible != feasible || !isfinite(trial->objective))
+            continue;
+        if (seen++ * most / n < shown) /* of n designs every n / most-th */
+            continue;
+        shown++;
+        write_design(markup, axes, &outcome->trial_x[i * outcome->n_variable], axes->objective[i]);
+    }
+    fputc('"', markup->stream);
+    cz_markup_element(markup, "title", name);
+    cz_markup_close(markup);
+}
+
+static void write_one(CzMarkup *markup, const Axes *axes, const double *x, double objective,
+                      bool is_best) {
+    cz_markup_open(markup, "path");
+    cz_markup_attribute(markup, "stroke", cz_plot_colour(is_best ? 2 : 1));
+    cz_markup_attribute(markup, "stroke-width", is_best ? "3" : "2");
+    if (!is_best)
+        cz_markup_attribute(markup, "stroke-dasharray", cz_plot_dash(1));
+    fputs(" d=\"", markup->stream);
+    write_design(markup, axes, x, objective);
+    fputc('"', markup->stream);
+    cz_markup_element(markup, "title", is_best ? "best" : "start");
+    cz_markup_close(markup);
+}
+
+static void write_axis(CzMarkup *markup, const Axes *axes, int axis) {
+    const bool is_objective = axis == axes->n - 1;
+    const CzVariableInfo *variable =
+        is_objective ? NULL : cz_evaluator_variable(axes->evaluator, axis);
+    const double x = axis_x(axis);
+    char text[CZ_FIGURE_ROOM + 8];
+    cz_markup_open(markup, "path");
+    cz_markup_format(markup, "d", "M%ld %ldV%ld", lround(x), lround(TOP), lround(TOP + HEIGHT));
+    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_close(markup);
+    cz_svg_text(markup, x, TOP - 7, "middle",
+                cz_figure_digits(text, 4, is_objective ? axes->best : variable->max));
+    cz_svg_text(markup, x, TOP + HEIGHT + 14, "middle",
+                cz_figure_digits(text, 4, is_objective ? axes->worst : variable->min));
+    if (is_objective)
+        snprintf(text, sizeof text, "objective");
+    else
+        snprintf(text, sizeof text, "%d", axis + 1);
+    cz_markup_open(markup, "text");
+    cz_markup_number(markup, "x", 1, x);
+    cz_markup_number(markup, "y", 1, TOP + HEIGHT + 32);
+    cz_markup_attribute(markup, "text-anchor", "middle");
+    cz_markup_attribute(markup, "font-weight", "bold");
+    cz_markup_attribute(markup, "fill", "currentColor");
+    cz_markup_text(markup, text);
+    cz_markup_close(markup);
+}
+
+static void write_figure(CzMarkup *markup, const Axes *axes, double start, double best) {
+    const double width = 2 * SIDE + (axes->n - 1) * APART;
+    cz_svg_open(markup, "Every design of the search as a line over the variables and the objective",
+                width, TOP + HEIGHT + 42);
+    cz_markup_attribute(markup, "class", "designs");
+    cz_markup_number(markup, "width", 0, width);
+    write_designs(markup, axes, false, "designs that break a constraint");
+    write_designs(markup, axes, true, "feasible designs");
+    for (int axis = 0; axis < axes->n; axis++)
+        write_axis(markup, axes, axis);
+    write_one(markup, axes, axes->outcome->start, start, false);
+    write_one(markup, axes, axes->outcome->best, best, true);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+/* The better end of the objective's axis is its upper one; what is far worse lies at its lower. */
+static void find_range(Axes *axes, double start, double best) {
+    axes->best = best;
+    axes->worst = best;
+    const double sign = start < best ? 1 : -1; /* which way is better */
+    const double least = best - sign * 2 * fabs(best - start);
+    axes->worst = start;
+    for (long i = 0; i < axes->outcome->n_trial; i++) {
+        const double value = axes->objective[i];
+        if (!isfinite(value))
+            continue;
+        if (sign * (value - axes->best) > 0 && axes->outcome->trial[i].feasible)
+            axes->best = value;
+        if (sign * (value - axes->worst) < 0 && sign * (value - least) > 0)
+            axes->worst = value;
+    }
+}
+
+static void write_names(CzMarkup *markup, const CzEvaluator *evaluator, int n) {
+    char text[256];
+    cz_markup_open(markup, "p");
+    cz_markup_attribute(markup, "class", "axes");
+    for (int i = 0; i < n; i++) {
+        const CzVariableInfo *variable = cz_evaluator_variable(evaluator, i);
+        snprintf(text, sizeof text, "%s%d %.200s", i > 0 ? " · " : "", i + 1, variable->name);
+        cz_markup_text(markup, text);
+    }
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
+                               const CzOutcome *outcome, CzError *error) {
+    if (outcome->n_variable < 2 || outcome->n_trial < 2 || outcome->trial_x == NULL)
+        return CZ_OK;
+    double *objective = malloc((size_t)outcome->n_trial * sizeof *objective);
+    if (objective == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
+    const double sign = cz_evaluator_maximises_margin(evaluator) ? -100 : 1; /* margins in % */
+    for (long i = 0; i < outcome->n_trial; i++)
+        objective[i] = sign * outcome->trial[i].objective;
+    const double start = sign * outcome->start_evaluation.objective;
+    const double best = sign * outcome->best_evaluation.objective;
+    Axes axes = {.evaluator = evaluator,
+                 .outcome = outcome,
+                 .n = outcome->n_variable + 1,
+                 .objective = objective};
+    find_range(&axes, start, best);
+    cz_page_open_section(markup, "designs", "All designs");
+    cz_markup_element(markup, "p",
+                      "A line is a design: where it crosses an axis is its value between the "
+                      "bounds. Grey breaks a constraint, blue is feasible, orange dashes are the "
+                      "start, green is the best. Objectives far below the start lie at the end of "
+                      "their axis.");
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    write_figure(markup, &axes, start, best);
+    cz_markup_close(markup);
+    write_names(markup, evaluator, outcome->n_variable);
+    cz_page_close_section(markup);
+    free(objective);
+    return CZ_OK;
+}
+
+/* ---- sensitivities ---- */
+
+static void put_change(CzMarkup *markup, double change) {
+    char text[CZ_FIGURE_ROOM];
+    if (!isfinite(change))
+        cz_markup_classed(markup, "td", "number", "-");
+    else
+        cz_markup_classed(markup, "td", "number",
+                          fabs(change) < 5e-5 ? "0" : cz_figure_margin(text, change));
+}
+
+static void write_sensitivity(CzMarkup *markup, const CzEvaluator *evaluator,
+                              const CzOutcome *outcome, int variable, int n_column,
+                              const int *column) {
+    const CzVariableInfo *info = cz_evaluator_variable(evaluator, variable);
+    const int n_constraint = outcome->best_evaluation.n_constraint;
+    char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 40];
+    cz_markup_open(markup, "tr");
+    cz_markup_element(markup, "td", info->name);
+    snprintf(text, sizeof text, "%s%s %.30s", outcome->sensitivity_step[variable] > 0 ? "+" : "",
+             cz_figure_digits(number, 4, outcome->sensitivity_step[variable]),
+             info->unit != NULL ? info->unit : "");
+    cz_markup_classed(markup, "td", "number", text);
+    const double change = outcome->objective_change[variable];
+    if (cz_evaluator_maximises_margin(evaluator))
+        put_change(markup, -change);
+    else
+        cz_markup_classed(markup, "td", "number",
+                          isfinite(change) ? cz_figure_digits(text, 3, change) : "-");
+    for (int i = 0; i < n_column; i++)
+        put_change(markup, -outcome->constraint_change[variable * n_constraint + column[i]]);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
+                                 const CzOutcome *outcome) {
+    if (outcome->sensitivity_step == NULL)
+        return;
+    int column[MOST_COLUMNS], n_column = 0;
+    while (n_column < MOST_COLUMNS) {
+        column[n_column] = cz_page_next_constraint(&outcome->best_evaluation, n_column, column);
+        if (column[n_column] < 0)
+            break;
+        n_column++;
+    }
+    cz_page_open_section(markup, "sensitivities", "What a step of each variable changes");
+    cz_markup_element(markup, "p",
+                      "One variable at a time, by the step that stands beside it, downwards where "
+                      "there is no room upwards; the others stay as in the best design. Margins "
+                      "are those of the constraints with least left: what grows eases, what falls "
+                      "binds. From runs as the search makes them.");
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open(markup, "table");
+    cz_markup_attribute(markup, "class", "sensitivities");
+    cz_markup_open(markup, "tr");
+    cz_markup_element(markup, "th", "variable");
+    cz_markup_element(markup, "th", "step");
+    cz_markup_element(markup, "th",
+                      cz_evaluator_maximises_margin(evaluator)
+                          ? "smallest margin"
+                          : cz_evaluator_objective_name(evaluator));
+    for (int i = 0; i < n_column; i++)
+        cz_markup_element(markup, "th", cz_evaluator_constraint_name(evaluator, column[i]));
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    for (int i = 0; i < outcome->n_variable; i++)
+        if (outcome->sensitivity_step[i] != 0)
+            write_sensitivity(markup, evaluator, outcome, i, n_column, column);
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_page_close_section(markup);
+}

@@ -51,13 +51,11 @@ typedef struct CzArguments {
     int n_metric;
     const char **check; /* names (n_check) */
     int n_check;
-    const char *share_folder; /* searched for profiles after the file's own; NULL: the installed
-                                 one. A result folder names the one that it was made with */
-    char time_step[64];       /* room for the setting that --time-step-ms stands for */
-    int n_job;                /* 0: as many as there are processors */
-    long evaluations;         /* 0: the file's */
-    long seed;                /* -1: the file's */
-    int n_stage;              /* -1: as many as the curve calls for */
+    char time_step[64]; /* room for the setting that --time-step-ms stands for */
+    int n_job;          /* 0: as many as there are processors */
+    long evaluations;   /* 0: the file's */
+    long seed;          /* -1: the file's */
+    int n_stage;        /* -1: as many as the curve calls for */
     CzIntegrator integrator;
     char csv_separator, csv_decimal;
     CzColour colour;

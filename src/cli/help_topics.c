@@ -194,6 +194,7 @@ static void write_files(void) {
         {"interfaces.csv", "what each element of each interface went through"},
         {"channels.csv", "time histories; see 'crushzone help channels'"},
         {"resolved.yaml", "the problem with every default and part filled in; runs by itself"},
+        {"profiles/", "the profile that was judged by, if any"},
         {"run.log", "versions, and how each scenario was computed"},
         {"outcome.json", "of a search: variables, objective, constraints (crushzone.outcome)"},
         {"optimised.yaml", "of a search: the best design, on top of your file"},

@@ -32,26 +32,6 @@ static void read_scenario(const char *folder, char scenario[128]) {
         fclose(stream);
 }
 
-/* The folder in which the profile was found when the results were made: the head of a resolved file
- * names every file that was read. */
-static void read_share(const char *resolved, char share[4096]) {
-    static const char before[] = "# read: ";
-    char line[4352];
-    FILE *stream = fopen(resolved, "r");
-    while (stream != NULL && fgets(line, sizeof line, stream) != NULL && line[0] == '#') {
-        char *end = NULL;
-        for (char *found = strstr(line, "/profiles/"); found != NULL;
-             found = strstr(found + 1, "/profiles/"))
-            end = found;
-        if (strncmp(line, before, strlen(before)) != 0 || end == NULL)
-            continue;
-        *end = '\0';
-        snprintf(share, 4096, "%.4095s", line + strlen(before));
-    }
-    if (stream != NULL)
-        fclose(stream);
-}
-
 /* Another version may compute something else than what the folder holds. */
 static void tell_version(const CzArguments *arguments, const char *folder) {
     char path[4096], line[512], ours[64];
@@ -85,9 +65,6 @@ static int find_file(CzResult *result, const char *operand) {
     }
     snprintf(result->file, sizeof result->file, "%s/resolved.yaml", operand);
     tell_version(&result->arguments, operand);
-    read_share(result->file, result->share);
-    if (result->share[0] != '\0')
-        result->arguments.share_folder = result->share;
     if (is_there(operand, "channels.csv") && result->arguments.text[CZ_OPTION_SCENARIO] == NULL) {
         read_scenario(operand, result->scenario);
         if (result->scenario[0] != '\0')

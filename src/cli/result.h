@@ -8,7 +8,6 @@
 typedef struct CzResult {
     CzArguments arguments; /* of this result: with the scenario that its folder holds */
     char scenario[128];    /* room for that name */
-    char share[4096];      /* room for the folder with the profile that it was made with */
     char file[4096];       /* what is run: resolved.yaml of a folder */
     CzSession session;
     CzEvaluation evaluation;

@@ -29,7 +29,6 @@ static CzStatus read_problem(CzSession *session, CzError *error) {
     CzProblemOptions options = cz_problem_options_default();
     options.set = session->arguments->set;
     options.n_set = session->arguments->n_set;
-    options.share_folder = session->arguments->share_folder;
     if (strcmp(session->file, "-") != 0)
         return cz_problem_read(session->file, &options, &session->problem, error);
     const CzStatus status = read_input(session, error);

@@ -224,6 +224,21 @@ const char *cz_problem_scenario_name(const CzProblem *problem, int scenario) {
     return problem->input.scenarios[scenario].name;
 }
 
+/* The rest of a path behind a folder; NULL when it is not in it. */
+static const char *path_in(const char *folder, const char *path) {
+    const size_t n = folder != NULL ? strlen(folder) : 0;
+    return n > 0 && strncmp(path, folder, n) == 0 && path[n] == '/' ? path + n + 1 : NULL;
+}
+
+const char *cz_problem_told_name(const CzProblem *problem, const char *name) {
+    const CzSource *first = problem->reader.sources.first;
+    if (name[0] != '/')
+        return name;
+    const char *beside = path_in(first != NULL ? first->folder : NULL, name);
+    const char *shared = path_in(problem->reader.share_folder, name);
+    return beside != NULL ? beside : shared != NULL ? shared : name;
+}
+
 const CzSource *cz_problem_first_source(const CzProblem *problem) {
     return problem->reader.sources.first;
 }

@@ -18,6 +18,11 @@ CzTrack cz_problem_track(const CzProblem *problem);
  * when nothing was. */
 const struct CzSource *cz_problem_first_source(const CzProblem *problem);
 
+/* Name of a file as results tell it: one that was given from the root of the file system by its
+ * place beside the problem file or in the share folder, so that results are the same wherever a
+ * tree stands. Borrowed. */
+const char *cz_problem_told_name(const CzProblem *problem, const char *name);
+
 /* Fills file, line, column of the place where a field of the input was written (the innermost
  * record when the field itself was not), and the status CZ_STATUS_INPUT. `field` is an address
  * inside the input. */

@@ -58,7 +58,8 @@ static void write_origin(const Writer *writer, const CzKey *key, const void *fie
         fputs(strstr(key->doc, "(ours") != NULL ? "default (ours)\n" : "default\n", writer->stream);
         return;
     }
-    fprintf(writer->stream, "%s:%d", place->node->source->name, place->node->line);
+    fprintf(writer->stream, "%s:%d",
+            cz_problem_told_name(writer->problem, place->node->source->name), place->node->line);
     if (place->unit != NULL && place->unit->si != 1)
         fprintf(writer->stream, ", %s: %s", place->node->text, place->value->text);
     for (const CzTrail *trail = place->trail; trail != NULL && trail->part != NULL;
@@ -335,9 +336,9 @@ void cz_problem_write_resolved(const CzProblem *problem, FILE *stream) {
     fprintf(stream,
             "# %s resolved: parts, copies and defaults filled in, values in SI.\n"
             "# Behind each value: where it was written, or that it is a default.\n",
-            problem->file);
+            cz_problem_told_name(problem, problem->file));
     for (const CzSource *source = problem->reader.sources.first; source != NULL;
          source = source->next)
-        fprintf(stream, "# read: %s\n", source->name);
+        fprintf(stream, "# read: %s\n", cz_problem_told_name(problem, source->name));
     write_record(&writer, &cz_records[CZ_RECORD_CzInput], (const char *)&problem->input, 0, "");
 }

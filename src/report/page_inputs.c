@@ -75,7 +75,10 @@ static void quote(char *text, size_t room, const char *word) {
 static void write_command(CzPage *page) {
     char text[4096] = "crushzone run";
     const CzReportOptions *options = page->options;
-    quote(text, sizeof text, options->text != NULL ? "-" : cz_problem_file(page->problem));
+    quote(text, sizeof text,
+          options->text != NULL
+              ? "-"
+              : cz_problem_told_name(page->problem, cz_problem_file(page->problem)));
     for (int i = 0; i < options->n_set && strlen(text) + 512 < sizeof text; i++) {
         snprintf(text + strlen(text), sizeof text - strlen(text), " --set");
         quote(text, sizeof text, options->set[i]);
@@ -93,7 +96,8 @@ static void write_versions(CzPage *page) {
     cz_sundials_version(sundials, sizeof sundials);
     snprintf(text, sizeof text,
              "crushzone %s, NLopt %s, SUNDIALS %s; problem file %.200s, content hash %s",
-             cz_version(), nlopt, sundials, cz_problem_file(page->problem),
+             cz_version(), nlopt, sundials,
+             cz_problem_told_name(page->problem, cz_problem_file(page->problem)),
              cz_problem_hash(page->problem));
     cz_markup_element(&page->markup, "p", text);
 }
@@ -137,7 +141,7 @@ static void write_sources(CzPage *page) {
          source = source->next) {
         char left_out[96];
         cz_markup_open(markup, "details");
-        cz_markup_element(markup, "summary", source->name);
+        cz_markup_element(markup, "summary", cz_problem_told_name(page->problem, source->name));
         cz_markup_open(markup, "pre");
         for (int i = 0; i < source->n_line && i < MOST_SOURCE_LINES; i++) {
             cz_markup_text(markup, source->line[i]);

@@ -1,6 +1,8 @@
 /* The files of a result folder: summary and checks on top, histories per scenario. */
 #include "crushzone/report.h"
 
+#include "problem/node.h"
+#include "problem/problem.h"
 #include "report/csv.h"
 #include "report/folder.h"
 #include "report/overlay.h"
@@ -23,6 +25,7 @@ typedef struct Results {
     bool is_top;               /* its files stand at the top of the folder */
     const CzRun *run;          /* of the scenario at hand */
     const char *folder;        /* final path */
+    const CzSource *profile;   /* at hand */
 } Results;
 
 typedef CzStatus (*Writer)(const Results *results, FILE *stream, CzError *error);
@@ -74,6 +77,14 @@ static CzStatus write_resolved(const Results *results, FILE *stream, CzError *er
     }
     return cz_overlay_write_resolved(results->problem, results->evaluator, results->outcome,
                                      results->options, stream, error);
+}
+
+/* The profile as it was read, so that the folder runs by itself wherever it is. */
+static CzStatus write_profile(const Results *results, FILE *stream, CzError *error) {
+    (void)error;
+    for (int i = 0; i < results->profile->n_line; i++)
+        fprintf(stream, "%s\n", results->profile->line[i]);
+    return CZ_OK;
 }
 
 static void write_notice(const CzError *notice, FILE *stream) {
@@ -154,6 +165,24 @@ static CzStatus write_run(CzFolder *folder, Results *results, int i, CzError *er
                : status;
 }
 
+/* Profiles stand in the folder as they are looked for beside a problem file. */
+static CzStatus write_profiles(CzFolder *folder, Results *results, CzError *error) {
+    CzStatus status = CZ_OK;
+    for (const CzSource *source = cz_problem_first_source(results->problem);
+         source != NULL && status == CZ_OK; source = source->next) {
+        const char *file = strrchr(source->name, '/');
+        char name[160];
+        static const char above[] = "profiles";
+        const size_t n = sizeof above - 1;
+        if (file == NULL || (size_t)(file - source->name) < n || strncmp(file - n, above, n) != 0)
+            continue;
+        snprintf(name, sizeof name, "%s%.140s", above, file);
+        results->profile = source;
+        status = write_file(folder, name, write_profile, results, error);
+    }
+    return status;
+}
+
 static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
     static const struct {
         const char *name;
@@ -169,6 +198,8 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
     for (size_t i = 0; i < sizeof files / sizeof *files && status == CZ_OK; i++)
         if (!files[i].of_search || results->outcome != NULL)
             status = write_file(folder, files[i].name, files[i].writer, results, error);
+    if (status == CZ_OK)
+        status = write_profiles(folder, results, error);
     for (int i = 0; i < results->evaluation->n_run && status == CZ_OK; i++)
         if (cz_kept_run(results->evaluation, i) != NULL)
             status = write_run(folder, results, i, error);

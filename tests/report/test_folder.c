@@ -68,9 +68,9 @@ static void one_scenario_lies_flat(void **state) {
     CzError error = {0};
     stand_in_fill(&s);
     assert_int_equal(write_run(&s, "results/deep/out", &error), CZ_OK);
-    static const char *const names[] = {"summary.json", "checks.csv",    "interfaces.csv",
-                                        "channels.csv", "resolved.yaml", "run.log",
-                                        "report.html"};
+    static const char *const names[] = {"summary.json",         "checks.csv",    "interfaces.csv",
+                                        "channels.csv",         "resolved.yaml", "run.log",
+                                        "profiles/limits.yaml", "report.html"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[128];
         snprintf(path, sizeof path, "results/deep/out/%s", names[i]);

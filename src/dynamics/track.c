@@ -309,23 +309,59 @@ void cz_track_set_state(CzTrackMotion *track, size_t index, const double *state)
     cz_track_read(track, &track->under[index]);
 }
 
+/* Rates of one group of modes under the load of its row of waves; what they move on the rail is
+ * added to the waves. */
+static void rate_of_group(const CzTrackGroup *group, const CzTrackRows *rows, bool aliased,
+                          const double *restrict re, const double *restrict im,
+                          double *restrict rate_re, double *restrict rate_im, CzTrackWaves *waves) {
+    CZ_WAVES(i) {
+        const CzComplex lambda = group->lambda[i];
+        rate_re[i] = lambda.re * re[i] - lambda.im * im[i] + rows->now_re[i] * waves->load[i];
+        rate_im[i] = lambda.re * im[i] + lambda.im * re[i] + rows->now_im[i] * waves->load[i];
+    }
+    if (aliased)
+        CZ_WAVES(i) {
+            rate_re[i] += rows->alias_now_re[i] * waves->alias_load[i];
+            rate_im[i] += rows->alias_now_im[i] * waves->alias_load[i];
+        }
+    cz_track_give(rows, rate_re, rate_im, aliased, waves);
+}
+
+/* What a row of waves moves at the wheels. */
+static void add_rail_rate(const CzTrackMotion *track, const CzTrackUnder *under, int copy, int v,
+                          bool aliased, const CzTrackWaves *waves, double rail_rate[4]) {
+    for (int wheel = 0; wheel < 4; ++wheel) {
+        const CzTrackRow *shape = under->shape + 4 * (wheel * track->modes->n_vector + v);
+        CzTrackRow moved;
+        CZ_WAVES(i) {
+            moved[i] = shape[copy][i] * waves->direct[i];
+        }
+        if (aliased)
+            CZ_WAVES(i) {
+                moved[i] += shape[2 + copy][i] * waves->alias[i];
+            }
+        rail_rate[wheel] += cz_track_sum(moved);
+    }
+}
+
 void cz_track_rate(CzTrackMotion *track, size_t index, const double force[4], double *rate,
                    double rail_rate[4]) {
     const CzTrackModes *modes = track->modes;
     CzTrackUnder *under = &track->under[index];
     memcpy(under->force, force, sizeof under->force);
-    for (int wheel = 0; wheel < 4; ++wheel)
-        rail_rate[wheel] = 0.0;
-    for (int k = 0; k < modes->n_group; ++k)
-        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
-            const CzTrackGroup *group = &modes->group[k];
-            const CzComplex y = {under->state[2 * k][i], under->state[2 * k + 1][i]};
-            const CzComplex moved = cz_complex_sum(cz_complex_product(group->lambda[i], y),
-                                                   load_under(modes, under, k, i));
-            rate[2 * k * CZ_TRACK_WIDTH + i] = moved.re;
-            rate[(2 * k + 1) * CZ_TRACK_WIDTH + i] = moved.im;
-            for (int wheel = 0; wheel < 4; ++wheel)
-                rail_rate[wheel] +=
-                    cz_complex_product(shape_under(modes, under, k, i, wheel), moved).re;
+    memset(rail_rate, 0, 4 * sizeof *rail_rate);
+    for (int copy = 0; copy < 2; ++copy)
+        for (int v = 0; v < modes->n_vector; ++v) {
+            const CzTrackSpan span = track->span[copy * modes->n_vector + v];
+            const bool aliased = v >= modes->first_alias;
+            CzTrackWaves waves;
+            cz_track_no_waves(&waves);
+            cz_track_load(track, under, copy, v, force, aliased, &waves);
+            for (int k = span.first; k < span.end; ++k) {
+                double *own = rate + 2 * k * CZ_TRACK_WIDTH;
+                rate_of_group(&modes->group[k], &track->rows[k], aliased, under->state[2 * k],
+                              under->state[2 * k + 1], own, own + CZ_TRACK_WIDTH, &waves);
+            }
+            add_rail_rate(track, under, copy, v, aliased, &waves, rail_rate);
         }
 }

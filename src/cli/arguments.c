@@ -243,8 +243,10 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     arguments->n_stage = (int)n_stage;
     arguments->colour = (CzColour)colour;
     arguments->integrator = (CzIntegrator)integrator;
-    arguments->csv_separator = ",;\t"[separator];
     arguments->csv_decimal = ".,"[decimal];
+    /* Who writes decimal commas parts the fields by semicolons. */
+    const bool implied = arguments->text[CZ_OPTION_CSV_SEP] == NULL && decimal == 1;
+    arguments->csv_separator = ",;\t"[implied ? 1 : separator];
     if (arguments->csv_separator == arguments->csv_decimal) {
         misuse(error, "CSV files cannot have a comma both between fields and in numbers");
         snprintf(error->help, sizeof error->help, "add --csv-sep ';'");

@@ -182,8 +182,7 @@ static void take_point(Reader *reader, int line) {
         cz_mistake_at(reader->mistakes, reader->source, line + 1, 1,
                       "this line has %d columns, the first one has %d", n_field, reader->n_field);
         cz_mistake_help(reader->mistakes,
-                        "with decimal commas: --csv-sep ';' --csv-decimal ',', and ';' between "
-                        "the columns");
+                        "with decimal commas: --csv-decimal ',', and ';' between the columns");
         return;
     }
     for (int i = 0; i < 2; i++) {
@@ -193,8 +192,7 @@ static void take_point(Reader *reader, int line) {
             cz_mistake_at(reader->mistakes, reader->source, line + 1, field.column,
                           "%s: '%.60s' %s", reader->column[i].stem, field.text, wrong);
             if (strchr(field.text, ',') != NULL)
-                cz_mistake_help(reader->mistakes,
-                                "--csv-sep ';' --csv-decimal ',' reads decimal commas");
+                cz_mistake_help(reader->mistakes, "--csv-decimal ',' reads decimal commas");
             return;
         }
         value[i] *= reader->column[i].unit->si;

@@ -76,6 +76,8 @@ check "a file without titles is read by number and unit" bare
 sed 's/;/X/; s/\./,/g; s/X/;/' zone.csv >german.csv
 german() { exits 0 "$C" fit german.csv --as end --basis static --csv-sep ';' --csv-decimal , && says out.txt '{stroke_mm: 20, force_kN: 1200}'; }
 check "decimal commas are read when they are announced" german
+german_alone() { exits 0 "$C" fit german.csv --as end --basis static --csv-decimal , && says out.txt '{stroke_mm: 20, force_kN: 1200}'; }
+check "--csv-decimal , alone takes ; between the columns" german_alone
 printf '\357\273\277' | cat - tube.csv | sed 's/$/\r/' >excel.csv
 check "byte order mark and line ends of other systems do no harm" exits 0 "$C" fit excel.csv --as anti-climber --basis static
 

@@ -85,6 +85,9 @@ static void values_are_read(void **state) {
     assert_string_equal(arguments.set[0], "simulation.time_step_ms=0.05");
     assert_int_equal(arguments.csv_separator, '\t');
     cz_arguments_free(&arguments);
+    assert_int_equal(read_line("run a.yaml --csv-decimal ,", &arguments, &error), CZ_OK);
+    assert_int_equal(arguments.csv_separator, ';');
+    cz_arguments_free(&arguments);
 }
 
 static void abbreviations_are_refused(void **state) {
@@ -121,7 +124,7 @@ static void values_that_make_no_sense_are_refused(void **state) {
     refuses("optimise a.yaml --evaluations 99999999999999999999", "is no whole number", "");
     refuses("run a.yaml --color blue", "'--color blue' is not known",
             "it takes auto or always or never");
-    refuses("run a.yaml --csv-decimal ,", "a comma both between fields and in numbers",
+    refuses("run a.yaml --csv-decimal , --csv-sep ,", "a comma both between fields and in numbers",
             "add --csv-sep ';'");
     refuses("run a.yaml --set x", "'--set x' is not of the form PATH=VALUE", "");
     refuses("run a.yaml --set =1", "'--set =1' is not of the form PATH=VALUE", "");

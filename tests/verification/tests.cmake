@@ -4,4 +4,7 @@ if(CZ_IS_WHOLE)
                tests/physics/rails.c
                tests/physics/scheme.c tests/physics/steps.c)
     cz_script(verification_page physics page.sh)
+    # What each model of the track costs and how far it differs, as another.
+    cz_program(tracks tracks.c)
+    cz_script(track_page physics track.sh)
 endif()

@@ -1,0 +1,193 @@
+/* Prints docs/track.md: what each model of the track costs, and how far its results are from those
+ * of the record. With the argument `costs` it measures, which takes a minute; without, the table of
+ * costs is left empty. */
+#include "physics/collision.h"
+
+#include <time.h>
+
+static const char *const tracks[] = {"modal", "rigid", "co-running", "fe"};
+enum { N_TRACK = sizeof tracks / sizeof tracks[0], MODAL = 0, RIGID = 1, FE = 3, N_ROUND = 10 };
+
+/* First scenarios of shipped problems; finite elements take too long for all. */
+typedef struct Shipped {
+    const char *file, *what;
+    bool has_fe;
+} Shipped;
+static const Shipped shipped[] = {
+    {"problems/two-cars-25kmh.yaml", "two cars at 25 km/h each", true},
+    {"problems/paper-25kmh.yaml", "the published example, 300 ms", true},
+    {"problems/override-bottoming-holds.yaml", "two cars of which one stands, near bottoming out",
+     false},
+    {"problems/metro-6-car.yaml", "six cars onto six, first scenario", false},
+};
+enum { N_SHIPPED = sizeof shipped / sizeof shipped[0] };
+
+static Collision run_on(const char *file, int track) {
+    char set[48];
+    snprintf(set, sizeof set, "simulation.track=%s", tracks[track]);
+    CzSimulateOptions options = cz_simulate_options_default();
+    options.record = false;
+    Collision collision = collide_so(file, WITH(set), 0, &options);
+    assert_completed(&collision);
+    return collision;
+}
+
+/* ---- costs ---- */
+
+/* Processor time [s]. */
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* Smallest over some rounds in turn, so that what else the machine does falls on all alike: time in
+ * the steps per simulated second. */
+typedef struct Cost {
+    double run, setup; /* of a run, and its part before the steps [s] */
+    double simulated;  /* [s] */
+} Cost;
+
+static void run_once(const char *file, int track, Cost *cost) {
+    char set[48];
+    snprintf(set, sizeof set, "simulation.track=%s", tracks[track]);
+    CzSimulateOptions options = cz_simulate_options_default();
+    options.record = false;
+    Collision collision = collision_model(file, WITH(set), 0);
+    CzError error = {0};
+    const double began = now();
+    assert_int_equal(cz_simulate(collision.model, &options, &collision.run, &error), CZ_OK);
+    cost->run = fmin(cost->run, now() - began);
+    collision.summary = cz_run_summary(collision.run);
+    cost->setup = fmin(cost->setup, collision.summary->setup_s);
+    cost->simulated = collision.summary->simulated;
+    collision_free(&collision);
+}
+
+static void measure(const Shipped *problem, double time[N_TRACK]) {
+    Cost cost[N_TRACK];
+    for (int track = 0; track < N_TRACK; track++)
+        cost[track] = (Cost){INFINITY, INFINITY, 1.0};
+    for (int round = 0; round < N_ROUND; round++)
+        for (int track = 0; track < N_TRACK; track++)
+            if (track != FE || (problem->has_fe && round < 3))
+                run_once(problem->file, track, &cost[track]);
+    for (int track = 0; track < N_TRACK; track++)
+        time[track] = (cost[track].run - cost[track].setup) / cost[track].simulated;
+}
+
+static void put_costs(bool measures) {
+    puts("\n## What it costs\n\n"
+         "Processor time of the steps over that on rigid rails, per simulated second; smallest of "
+         "ten runs in turn.\n\n"
+         "| problem | `rigid` | `co-running` | `modal` | `fe` |\n|---|---|---|---|---|");
+    for (int i = 0; i < N_SHIPPED; i++) {
+        double time[N_TRACK] = {1.0, 1.0, 1.0, 1.0};
+        if (measures)
+            measure(&shipped[i], time);
+        printf("| cost of %s | 1 | %.1f | %.1f | ", shipped[i].what, time[2] / time[RIGID],
+               time[MODAL] / time[RIGID]);
+        if (shipped[i].has_fe)
+            printf("%.0f |\n", time[FE] / time[RIGID]);
+        else
+            puts("- |");
+    }
+}
+
+/* ---- differences ---- */
+
+enum { N_VALUE = 8, FIRST_LIFT = 6 };
+static const char *const value_names[N_VALUE] = {
+    "peak force of the colliding interface, kN",
+    "its closure, mm",
+    "dissipated energy, kJ",
+    "largest mean deceleration over 120 ms, g",
+    "largest pitch, mrad",
+    "largest link force, kN",
+    "largest lift of a wheel, mm",
+    "largest lift of both wheels of a bogie, mm",
+};
+
+static void values_of(const Collision *collision, double value[N_VALUE]) {
+    const CzRunSummary *summary = collision->summary;
+    const int at = cz_model_colliding_interface(collision->model);
+    memset(value, 0, N_VALUE * sizeof *value);
+    value[0] = 1e-3 * summary->interface[at].peak_force;
+    value[1] = 1e3 * summary->interface[at].shortening;
+    value[2] = 1e-3 * summary->energy.dissipated;
+    for (int i = 0; i < summary->n_vehicle; i++) {
+        const CzVehicleResult *car = &summary->vehicle[i];
+        value[3] = fmax(value[3], car->mean_deceleration_120ms / 9.80665);
+        value[4] = fmax(value[4], 1e3 * car->max_pitch);
+        value[5] = fmax(value[5], 1e-3 * car->link_force);
+        for (int axle = 0; axle < 4; axle++)
+            value[6] = fmax(value[6], 1e3 * car->wheel_lift[axle]);
+        value[7] = fmax(value[7], 1e3 * car->bogie_lift);
+    }
+}
+
+/* A lift differs by millimetres, because its limit is a height; all else by its own size. */
+static void put_difference(int which, double value, double record) {
+    const bool is_lift = which >= FIRST_LIFT;
+    const double difference = is_lift ? value - record : 100.0 * (value / record - 1.0);
+    if (fabs(difference) < (is_lift ? 5e-3 : 5e-4))
+        printf(" 0 |");
+    else
+        printf(is_lift ? " %+.2f mm |" : " %+.3f %% |", difference);
+}
+
+static void put_differences(const Shipped *problem) {
+    double value[N_TRACK][N_VALUE];
+    const int n_track = problem->has_fe ? N_TRACK : N_TRACK - 1;
+    for (int track = 0; track < n_track; track++) {
+        Collision collision = run_on(problem->file, track);
+        values_of(&collision, value[track]);
+        collision_free(&collision);
+    }
+    printf("\n`%s`: %s.\n\n| | `modal` |", problem->file, problem->what);
+    for (int track = 1; track < n_track; track++)
+        printf(" `%s` |", tracks[track]);
+    printf("\n|---|---|%s---|---|\n", problem->has_fe ? "---|" : "");
+    for (int which = 0; which < N_VALUE; which++) {
+        printf("| %s | %.6g |", value_names[which], value[MODAL][which]);
+        for (int track = 1; track < n_track; track++)
+            put_difference(which, value[track][which], value[MODAL][which]);
+        putchar('\n');
+    }
+}
+
+int main(int n_argument, char **argument) {
+    puts("# The track: what each model costs, and how far it differs\n"
+         "\n"
+         "`scripts/write-track` writes this page from runs of shipped problems; a test computes "
+         "the differences again.\n"
+         "\n"
+         "| `simulation.track` | what it is | for |\n"
+         "|---|---|---|\n"
+         "| `modal` | rail, pads, sleepers and ballast in their exact modes up to 1500 Hz, and the "
+         "static flexibility of the rest | the record; the default |\n"
+         "| `co-running` | one mass, spring and damper under each wheelset, calibrated to `modal` "
+         "| what a search runs on, unless the record is rigid |\n"
+         "| `rigid` | rails that do not move | closed forms; absorbers alone |\n"
+         "| `fe` | Timoshenko elements with lumped masses | a check of `modal` by an independent "
+         "assembly |\n"
+         "\n"
+         "Their equations stand in [theory.md](theory.md), section 10, how `fe` and the modes "
+         "converge to each other in [verification.md](verification.md), C4.");
+    put_costs(n_argument > 1 && strcmp(argument[1], "costs") == 0);
+    puts(
+        "\n## How far results differ\n\n"
+        "The value on the record's track, and how far the others are from it.\n"
+        "`crushzone verify FILE` tells the same for every check of a problem: its column \"track\" "
+        "compares `co-running` with `modal`; `--set simulation.track=rigid` runs any problem on "
+        "rails that do not move.");
+    for (int i = 0; i < N_SHIPPED; i++)
+        put_differences(&shipped[i]);
+    puts("\nForces, closures and energies hardly feel the rails; pitch does by some percent.\n"
+         "The lift of a wheel is another matter: it is the small rest of the way of body and "
+         "bogie, the track's own way of about a millimetre is part of it, and on rigid rails "
+         "wheels bounce that elastic ones let settle.\n"
+         "So override is judged on `modal`, and a search on `co-running` ends with a run on "
+         "`modal`.");
+    return 0;
+}

@@ -83,6 +83,18 @@ check "a step of the file beyond the largest stable step is refused" too_coarse 
 by_reference() { exits 0 "$C" run two-trains.yaml --json --integrator "$1" && json out.txt scenarios.0.integrator "$1"; }
 check "--integrator erk runs with the Runge-Kutta reference" by_reference erk
 check "--integrator adams runs with the Adams reference" by_reference adams
+on_rails() { # on_rails INTEGRATOR: the modes of the track as differential equations
+    exits 0 "$C" run "$SOURCE/problems/paper-25kmh.yaml" --json --set simulation.duration_ms=60 --integrator "$1" && json out.txt scenarios.0.track modal && json out.txt scenarios.0.integrator "$1"
+}
+check "--integrator erk runs on the elastic track" on_rails erk
+check "--integrator adams runs on the elastic track" on_rails adams
+not_on() { # not_on TRACK
+    exits 2 "$C" run "$SOURCE/problems/paper-25kmh.yaml" --integrator erk --set "simulation.track=$1" && says err.txt 'the second solver knows the track models modal and rigid only'
+}
+check "--integrator erk on masses that run along is refused" not_on co-running
+check "--integrator erk on finite elements is refused" not_on fe
+verified_on_rails() { "$C" verify "$SOURCE/problems/paper-25kmh.yaml" --set simulation.duration_ms=60 --json >rails.json; [ $? -le 1 ] && json rails.json ways.full_track.done true && json rails.json ways.reference.done true; }
+check "verify of a problem on the elastic track looks at the searching track too" verified_on_rails
 no_integrator() { exits 2 "$C" run two-trains.yaml --integrator euler && says err.txt 'it takes zhai or erk or adams'; }
 check "an unknown integrator is refused" no_integrator
 from_stdin() { "$C" check - --json <two-trains.yaml >stdin.json; [ $? = 1 ] && json stdin.json problem.file '<standard input>'; }

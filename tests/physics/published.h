@@ -10,6 +10,9 @@ void rows_of_coaches(Rows *rows);
 /* A longitudinal force above or below the centre of gravity loads the bogies unequally. */
 void rows_of_pitch_by_force(Rows *rows);
 
+/* The same force switched on at once: twice the static pitch. */
+void rows_of_step_force(Rows *rows);
+
 /* Full-scale tests of which masses, speeds and crush are published, but no curve. */
 void rows_of_train_to_train(Rows *rows);
 void rows_of_crush_of_single_cars(Rows *rows);

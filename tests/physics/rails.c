@@ -3,6 +3,8 @@
 
 #include "dynamics/track_elements.h"
 #include "dynamics/track_motion.h"
+#include "model/co_running.h"
+#include "model/track_block.h"
 #include "physics/collision.h"
 #include "physics/roadbed.h"
 
@@ -103,6 +105,8 @@ void rows_of_rail_waves(Rows *rows) {
             sleepers[i].coefficient);
     }
     make_eulers(&seats);
+    ROW(rows, "Hz", frequency(&seats, 60.0 * CZ_PI / 72.0), 360.52, 0.0, 0.005,
+        "pinned rail of 72 m, mode 60, Euler's beam");
     ROW(rows, "Hz", frequency(&seats, CZ_PI / 0.6), 1442.09, 0.0, 0.02,
         "nodes at the sleepers, Euler's beam");
 }
@@ -164,6 +168,92 @@ void rows_of_mode_convergence(Rows *rows) {
                   cuts[c]);
         missing_before = missing;
     }
+}
+
+/* Force on the ground under the seat at the place 0 [N], two rails: what goes through a seat at
+ * rest goes through its ballast. */
+static double ground_force(const CzTrackMotion *track, const CzTrackUnder *under) {
+    double sum = 0.0;
+    for (int k = 0; k < track->modes->n_group; ++k)
+        for (int i = 0; i < CZ_TRACK_WIDTH && track->modes->group[k].copy == 0; ++i) {
+            const CzComplex ballast = track->amplitudes[k * CZ_TRACK_WIDTH + i].ballast;
+            sum += ballast.re * under->state[2 * k][i] - ballast.im * under->state[2 * k + 1][i];
+        }
+    return fabs(sum) * track->modes->seats.lower_k;
+}
+
+/* The known statics once more, by what runs: the record's modes and the flexibility beside them,
+ * and finite elements, to half a per cent. */
+void rows_of_running_tracks(Rows *rows) {
+    static const double known[] = {0.8980, 0.9194};
+    for (int i = 0; i < 2; ++i) {
+        const double at[4] = {0.3 * i, 0.0, 0.0, 0.0}, load[4] = {2.0 * LOAD, 0.0, 0.0, 0.0};
+        const char *where = i == 0 ? "over a sleeper" : "between two sleepers";
+        double deflection[4], flexibility[4];
+        CzArena arena = {0};
+        const CzTrackModes *modes = usual_modes(18.26, 0, 0.0, &arena);
+        CzTrackMotion *track = cz_track_motion_create(modes, 1e-4, 1, &arena);
+        assert_non_null(track);
+        assert_true(cz_track_lay(track, 0, at, load, &arena));
+        cz_track_look(track, 0, at, deflection, flexibility);
+        ROW(rows, "mm", 1e3 * (flexibility[0] * load[0] - deflection[0]), known[i], 5e-3, 0.0,
+            "track of the record, 70 kN a rail %s: deflection", where);
+        /* What lies beyond the cut presses on the nearest seat most, and no run looks at seats. */
+        if (i == 0)
+            ROW(rows, "kN", 0.5e-3 * ground_force(track, &track->under[0]), 25.26, 2e-2, 0.0,
+                "modes of the record alone, 70 kN a rail %s: force on its seat", where);
+        CzElements *elements = cz_elements_create(&modes->seats, 4, 18.26, 1e-4, 1, &arena);
+        assert_non_null(elements);
+        assert_true(cz_elements_lay(elements, 0, at, load, &arena));
+        CzElementsPoint point[4];
+        cz_elements_look(elements, 0, at, point);
+        ROW(rows, "mm", 1e3 * (point[0].flexibility * load[0] - point[0].z), known[i], 5e-3, 0.0,
+            "finite elements, 70 kN a rail %s: deflection", where);
+        const CzElementsUnder *under = &elements->under[0];
+        const size_t bay = (size_t)lround((0.0 - under->from) / modes->seats.spacing);
+        const double *rail = &under->u[bay * elements->per_bay];
+        if (i == 0)
+            ROW(rows, "kN", 0.5e-3 * modes->seats.pad_k * (rail[2] - rail[0]), 25.26, 5e-3, 0.0,
+                "finite elements, 70 kN a rail %s: force on its seat", where);
+        cz_arena_free(&arena);
+    }
+}
+
+/* A Timoshenko beam on the same layers smeared out: the point receptance is the sum over all waves
+ * of 1 / (kGA K^2 + k_d - m w^2 - (kGA K)^2 / (EI K^2 + kGA - rI w^2)). */
+static CzComplex smeared_receptance(const CzSeats *seats, double w) {
+    const CzComplex s = {0.0, w}, pad = {seats->pad_k, w * seats->pad_c};
+    CzTrackBlock below_of = {.seats = seats};
+    const CzComplex below = cz_track_below(&below_of, s).sleeper;
+    const CzComplex k = cz_complex_scaled(
+        1.0 / seats->spacing, cz_complex_inverse(cz_complex_sum(cz_complex_inverse(pad), below)));
+    const double step = 1e-3;
+    CzComplex sum = {0.0, 0.0};
+    for (double wave = 0.5 * step; wave < 400.0; wave += step) {
+        const double shear = seats->shear * wave, square = wave * wave;
+        const double turning = seats->bending * square + seats->shear - seats->rotation * w * w;
+        const CzComplex hardness = {
+            seats->shear * square + k.re - seats->mass * w * w - shear * shear / turning, k.im};
+        sum = cz_complex_sum(sum, cz_complex_scaled(step / CZ_PI, cz_complex_inverse(hardness)));
+    }
+    return sum;
+}
+
+/* Seats of 0.6 m are nearly smeared out: the statics of both, 6.49 and 6.48 mm/MN as the mean over
+ * a bay, differ by half a per cent, and that is the part of shear that a seat forces on the rail;
+ * up to 200 Hz its share grows to no more than two. */
+void rows_of_receptance(Rows *rows) {
+    static const double frequency_of[] = {2.0, 20.0, 60.0, 100.0, 200.0};
+    CzArena arena = {0};
+    const CzTrackModes *modes = usual_modes(18.26, 0, 0.0, &arena);
+    for (size_t i = 0; i < sizeof frequency_of / sizeof frequency_of[0]; ++i) {
+        const double w = 2.0 * CZ_PI * frequency_of[i];
+        const CzComplex smeared = smeared_receptance(&modes->seats, w);
+        ROW(rows, "mm/MN", 1e9 * cz_complex_size(cz_track_receptance(modes, w)),
+            1e9 * cz_complex_size(smeared), 0.02, 0.0,
+            "rail under a force of %g Hz, layers smeared out: receptance", frequency_of[i]);
+    }
+    cz_arena_free(&arena);
 }
 
 /* ---- finite elements ---- */
@@ -236,6 +326,87 @@ void rows_of_element_statics(Rows *rows) {
             cz_arena_free(&arena);
         }
         ROW_UP_TO(rows, "", largest, 1e-9, "elements, %d nodes a bay: error of the statics", nodes);
+    }
+}
+
+/* ---- an impact ---- */
+
+#define IMPACT 1e-3      /* duration of the push [s] */
+#define IMPACT_STEP 1e-5 /* [s] */
+enum { N_IMPACT = 300 }; /* steps that are looked at: the push, and 2 ms after it */
+#define OFF_THE_SEATS 0.2
+
+/* A wheel that hits the rail: half a sine of 100 kN. */
+static double impact(int step) {
+    const double phase = 0.5 * step * IMPACT_STEP / IMPACT;
+    return phase < 0.5 ? 100e3 * cz_turned(phase).im : 0.0;
+}
+
+/* How far the rail gives way under it [m], by the modes up to a cut and what they leave. */
+static void impact_on_modes(double cut, double way[N_IMPACT]) {
+    const double at[4] = {OFF_THE_SEATS, 0.0, 0.0, 0.0}, none[4] = {0.0};
+    CzArena arena = {0};
+    const CzTrackModes *modes = usual_modes(18.26, 0, cut, &arena);
+    CzTrackMotion *track = cz_track_motion_create(modes, IMPACT_STEP, 1, &arena);
+    assert_non_null(track);
+    assert_true(cz_track_lay(track, 0, at, none, &arena));
+    double deflection[4], flexibility[4];
+    cz_track_look(track, 0, at, deflection, flexibility);
+    for (int i = 0; i < N_IMPACT; ++i) {
+        const double force[4] = {-impact(i), 0.0, 0.0, 0.0};
+        way[i] = flexibility[0] * impact(i) - cz_track_at(track, &track->under[0], 0).z;
+        cz_track_step(track, &track->under[0], force);
+    }
+    cz_arena_free(&arena);
+}
+
+/* By finite elements, `nodes` to a bay. */
+static void impact_on_elements(int nodes, double way[N_IMPACT]) {
+    const CzRoadbed roadbed = usual_roadbed();
+    const CzSeats seats = cz_seats(&roadbed, 2);
+    const double at[4] = {OFF_THE_SEATS, 0.0, 0.0, 0.0}, none[4] = {0.0};
+    CzArena arena = {0};
+    CzElements *elements = cz_elements_create(&seats, nodes, 18.26, IMPACT_STEP, 1, &arena);
+    assert_non_null(elements);
+    assert_true(cz_elements_lay(elements, 0, at, none, &arena));
+    for (int i = 0; i < N_IMPACT; ++i) {
+        const double force[4] = {-impact(i), 0.0, 0.0, 0.0};
+        CzElementsPoint point[4];
+        cz_elements_look(elements, 0, at, point);
+        way[i] = point[0].flexibility * impact(i) - point[0].z;
+        cz_elements_step(elements, 0, force);
+    }
+    cz_arena_free(&arena);
+}
+
+/* Largest difference of two ways over the largest of the second. */
+static double difference_of_ways(const double *way, const double *other) {
+    double largest = 0.0, size = 0.0;
+    for (int i = 0; i < N_IMPACT; ++i) {
+        largest = fmax(largest, fabs(way[i] - other[i]));
+        size = fmax(size, fabs(other[i]));
+    }
+    return largest / size;
+}
+
+void rows_of_impact(Rows *rows) {
+    static const double cuts[] = {800.0, 1500.0, 3000.0};
+    static double finest[N_IMPACT], way[N_IMPACT];
+    double most = 0.1; /* modes to 800 Hz leave 5 % of the statics; a millisecond doubles it */
+    impact_on_elements(16, finest);
+    for (int nodes = 4; nodes <= 8; nodes *= 2) {
+        impact_on_elements(nodes, way);
+        /* At most what the wave with its nodes at the sleepers is off by. */
+        ROW_UP_TO(rows, "", difference_of_ways(way, finest), 0.0106 * 16.0 / (nodes * nodes),
+                  "impact, elements with %d nodes a bay: difference from 16", nodes);
+    }
+    for (size_t c = 0; c < sizeof cuts / sizeof cuts[0]; ++c) {
+        impact_on_modes(cuts[c], way);
+        const double difference = difference_of_ways(way, finest);
+        ROW_UP_TO(rows, "", difference, most,
+                  "impact, modes to %g Hz and what they leave: difference from 16 nodes a bay",
+                  cuts[c]);
+        most = 0.5 * difference; /* twice the cut: half of what is left, answering half as late */
     }
 }
 

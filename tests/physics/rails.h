@@ -30,6 +30,15 @@ void rows_of_rest(Rows *rows);
 void rows_of_element_frequencies(Rows *rows);
 void rows_of_element_statics(Rows *rows);
 
+/* The same statics by the models that run, the record's modes and finite elements. */
+void rows_of_running_tracks(Rows *rows);
+
+/* The rail under a force that swings, against layers that are smeared out. */
+void rows_of_receptance(Rows *rows);
+
+/* The rail under a short impact: modes up to a cut, and elements, against the finest elements. */
+void rows_of_impact(Rows *rows);
+
 /* Shipped problems on the elastic track: step, and the other elastic tracks. */
 void rows_of_runs_on_rails(Rows *rows);
 

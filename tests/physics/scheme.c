@@ -2,6 +2,7 @@
 #include "physics/scheme.h"
 
 #include "integrate/two_step.h"
+#include "laws/wheel_rail.h"
 
 void exact_answer(double t, double *u) {
     const double slow = cos(sqrt(2.0) * t), fast = cos(sqrt(5.0) * t);
@@ -55,6 +56,34 @@ void rows_of_order(Rows *rows) {
     for (int n = 10; n <= 160; n *= 2)
         ROW(rows, "", log2(largest_error(n) / largest_error(2 * n)), 2.0, 0.0, 0.1,
             "order, step %g to %g", 0.28 / n, 0.14 / n);
+}
+
+/* A wheelset that drops on a rail without springs: Hertz's impact (1882). The way in is (5 m v^2 /
+ * (4 H))^(2/5), the duration 2.943275 times the way over the speed, and it leaves as it came. */
+void rows_of_hertz_impact(Rows *rows) {
+    const double mass = 1000.0, speed = 0.2, step = 1e-6;
+    const double g = 4.22e-8, hertz = 2.0 / (g * sqrt(g)); /* a worn tread of 0.46 m */
+    const double energy = 1.25 * mass * speed * speed / hertz;
+    const double way = cbrt(energy) * pow(energy, 1.0 / 15.0); /* ^(2/5) */
+    double u = 0.0, v = speed, a = 0.0, last = 0.0, most = 0.0, deepest = 0.0, before = 0.0;
+    double duration = NAN;
+    for (int i = 1; isnan(duration) && i < 10000; i++) {
+        before = u;
+        cz_two_step_advance(1, step, i == 1, &u, &v, &a, &last);
+        const double force = cz_wheel_normal_force(hertz, u);
+        a = -force / mass;
+        most = fmax(most, force);
+        deepest = fmax(deepest, u);
+        if (u <= 0.0)
+            duration = step * (i - u / (u - before));
+    }
+    ROW(rows, "mm", 1e3 * deepest, 1e3 * way, 1e-5, 0.0,
+        "wheelset of 1 t at 0.2 m/s onto a rail: indentation");
+    ROW(rows, "kN", 1e-3 * most, 1e-3 * hertz * way * sqrt(way), 1e-5, 0.0,
+        "wheelset of 1 t at 0.2 m/s onto a rail: largest force");
+    ROW(rows, "ms", 1e3 * duration, 1e3 * 2.943275 * way / speed, 1e-5, 0.0,
+        "wheelset of 1 t at 0.2 m/s onto a rail: duration");
+    ROW(rows, "m/s", v, -speed, 1e-5, 0.0, "wheelset of 1 t at 0.2 m/s onto a rail: rebound");
 }
 
 bool is_stable(double step) {

@@ -14,6 +14,9 @@ double largest_error(int per_instant);
 void rows_of_known_errors(Rows *rows);
 void rows_of_order(Rows *rows);
 
+/* A wheelset onto a rail, both without springs, by the law of wheel and rail. */
+void rows_of_hertz_impact(Rows *rows);
+
 /* Whether an undamped oscillator of 1 rad/s stays bounded at this step. */
 bool is_stable(double step);
 void rows_of_stability(Rows *rows);

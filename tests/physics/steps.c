@@ -2,6 +2,8 @@
  */
 #include "physics/steps.h"
 
+#include "base/complex.h"
+
 Collision collide_with(const char *file, int scenario, double step) {
     CzSimulateOptions options = cz_simulate_options_default();
     options.time_step = step;
@@ -34,6 +36,13 @@ void rows_of_elastic_exchange(Rows *rows) {
                 WITH("simulation.duration_ms=200", "simulation.time_step_ms=0.01"), 0);
     assert_completed(&elastic);
     const CzRunSummary *summary = elastic.summary;
+    const double stiffness = 20e6, reduced = 20e3, speed = 10.0;
+    ROW(rows, "kN", 1e-3 * summary->interface[0].peak_force,
+        1e-3 * speed * sqrt(stiffness * reduced), 1e-5, 0.0, "elastic collision: largest force");
+    ROW(rows, "mm", 1e3 * summary->interface[0].shortening, 1e3 * speed * sqrt(reduced / stiffness),
+        1e-5, 0.0, "elastic collision: largest closure");
+    ROW(rows, "ms", 1e3 * time_of_opening(&elastic, channel(&elastic, "F_A1-B1_kN")),
+        1e3 * CZ_PI * sqrt(reduced / stiffness), 1e-4, 0.0, "elastic collision: duration");
     ROW(rows, "m/s", summary->vehicle[0].final_speed, 0.0, 0.0, 1e-4,
         "elastic collision: speed of the car behind");
     ROW(rows, "m/s", summary->vehicle[1].final_speed, 10.0, 1e-5, 0.0,
@@ -113,28 +122,54 @@ static Books books_of(const char *file, const char *const *set, int n_most) {
     return books;
 }
 
-static const char *const shipped[] = {
-    "problems/first-collision.yaml", "problems/two-cars-25kmh.yaml", "problems/wall.yaml",
-    "problems/wagon.yaml",           "problems/buffer-stop.yaml",    "problems/metro-6-car.yaml"};
+/* All that is shipped. The scenarios of the override problem are those of the metro with another
+ * head; two of them are looked at. */
+static const struct {
+    const char *file;
+    int n_most;
+    double rigid; /* bound on rigid rails, which the file asks for; 0 for others */
+} shipped[] = {
+    {"problems/first-collision.yaml", 1000, 0.0},
+    {"problems/two-cars-25kmh.yaml", 1000, 1e-4},
+    {"problems/wall.yaml", 1000, 0.0},
+    {"problems/wagon.yaml", 1000, 0.0},
+    {"problems/buffer-stop.yaml", 1000, 0.0},
+    {"problems/buffer-choice.yaml", 1000, 1e-4},
+    {"problems/paper-25kmh.yaml", 1000, 0.0},
+    {"problems/paper-trains-25kmh.yaml", 1000, 0.0},
+    {"problems/override-overlap-climbs.yaml", 1000, 1e-4},
+    {"problems/override-overlap-holds.yaml", 1000, 1e-4},
+    /* Bottoms out, climbs, and its wheels hit unyielding rails; 1e-3 is worth a warning. */
+    {"problems/override-bottoming-lifts.yaml", 1000, 1e-3},
+    {"problems/override-bottoming-holds.yaml", 1000, 1e-4},
+    {"problems/override-hinge-folds.yaml", 1000, 0.0},
+    {"problems/override-hinge-holds.yaml", 1000, 0.0},
+    {"problems/metro-6-car.yaml", 1000, 0.0},
+    {"problems/metro-override.yaml", 2, 0.0}};
 enum { N_SHIPPED = sizeof shipped / sizeof shipped[0] };
 
 void rows_of_books(Rows *rows) {
     for (int i = 0; i < N_SHIPPED; i++) {
-        const Books books = books_of(shipped[i], AS_WRITTEN, 1000);
-        ROW_UP_TO(rows, "", books.balance, 1e-4, "%s: energy balance, worst of %d scenarios",
-                  name_of(shipped[i]), books.n_scenario);
+        const Books books =
+            books_of(shipped[i].file, WITH("simulation.track=modal"), shipped[i].n_most);
+        const char *name = name_of(shipped[i].file);
+        ROW_UP_TO(rows, "", books.balance, 1e-4, "%s: energy balance, worst of %d scenario%s", name,
+                  books.n_scenario, books.n_scenario > 1 ? "s" : "");
         ROW_UP_TO(rows, "", books.sum, 1e-4,
-                  "%s: kinetic + dissipated + stored over initial energy", name_of(shipped[i]));
-        ROW_UP_TO(rows, "", books.momentum, 1e-9, "%s: momentum", name_of(shipped[i]));
+                  "%s: kinetic + dissipated + stored over initial energy", name);
+        ROW_UP_TO(rows, "", books.momentum, 1e-9, "%s: momentum", name);
     }
 }
 
-void rows_of_books_on_rails(Rows *rows) {
+void rows_of_books_on_rigid_rails(Rows *rows) {
     for (int i = 0; i < N_SHIPPED; i++) {
-        const Books books = books_of(shipped[i], WITH("simulation.track=modal"), 1);
-        ROW_UP_TO(rows, "", books.balance, 1e-4, "%s, modal track: energy balance, first scenario",
-                  name_of(shipped[i]));
-        ROW_UP_TO(rows, "", books.momentum, 1e-9, "%s, modal track: momentum", name_of(shipped[i]));
+        if (shipped[i].rigid == 0.0)
+            continue;
+        const Books books = books_of(shipped[i].file, AS_WRITTEN, 1000);
+        const char *name = name_of(shipped[i].file);
+        ROW_UP_TO(rows, "", books.balance, shipped[i].rigid, "%s, rigid rails: energy balance",
+                  name);
+        ROW_UP_TO(rows, "", books.momentum, 1e-9, "%s, rigid rails: momentum", name);
     }
 }
 

@@ -13,7 +13,7 @@ void rows_of_elastic_order(Rows *rows);
 void rows_of_elastic_exchange(Rows *rows);
 void rows_of_step_convergence(Rows *rows);
 void rows_of_books(Rows *rows);
-void rows_of_books_on_rails(Rows *rows); /* the first scenario of each */
+void rows_of_books_on_rigid_rails(Rows *rows); /* those that ask for them */
 
 /* Largest relative differences in what a collision is judged by, of one run from another. Small
  * values count against a floor (10 kN, 1 mm, 10 mm of an element's stroke, a `share` of all

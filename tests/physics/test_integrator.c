@@ -39,6 +39,11 @@ static void the_scheme_does_not_damp(void **state) {
     assert_near(largest[1], largest[0], 1e-6, 0.0);
 }
 
+static void a_wheelset_bounces_off_a_rail_as_hertz_says(void **state) {
+    (void)state;
+    assert_rows_of(rows_of_hertz_impact);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_exact_answer_is_the_published_one),
@@ -46,6 +51,7 @@ int main(void) {
         cmocka_unit_test(the_order_is_two),
         cmocka_unit_test(an_undamped_oscillator_is_stable_up_to_two),
         cmocka_unit_test(the_scheme_does_not_damp),
+        cmocka_unit_test(a_wheelset_bounces_off_a_rail_as_hertz_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

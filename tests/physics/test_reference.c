@@ -111,16 +111,14 @@ static void a_located_drop_does_not_hang_on_the_step(void **state) {
     }
 }
 
-/* ---- solver against solver ---- */
+/* ---- solver against solver ----
+ *
+ * Six cars onto six, half a minute, are held by the verification page alone (tests/verification).
+ */
 
 static void two_cars_agree_to_one_in_a_thousand(void **state) {
     (void)state;
     assert_rows_of(rows_of_solvers_for_short_trains);
-}
-
-static void six_and_six_cars_agree_to_the_scatter_of_their_rattling(void **state) {
-    (void)state;
-    assert_rows_of(rows_of_solvers_for_the_metro);
 }
 
 /* The track's modes are advanced exactly by the record, and as differential equations by the
@@ -252,7 +250,6 @@ int main(void) {
         cmocka_unit_test(two_cars_on_an_elastic_track_agree),
         cmocka_unit_test(what_faces_have_left_hangs_neither_on_the_step_nor_on_the_solver),
         cmocka_unit_test(a_track_that_a_reference_does_not_know_is_refused),
-        cmocka_unit_test(six_and_six_cars_agree_to_the_scatter_of_their_rattling),
         cmocka_unit_test(a_reference_converges_to_the_limit_of_the_fixed_step),
         cmocka_unit_test(the_error_of_a_reference_falls_with_its_tolerance),
     };

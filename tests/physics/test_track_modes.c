@@ -142,6 +142,22 @@ static void modes_converge_to_the_statics(void **state) {
     assert_rows_of(rows_of_mode_convergence);
 }
 
+static void what_runs_gives_way_as_published_numbers_do(void **state) {
+    (void)state;
+    assert_rows_of(rows_of_running_tracks);
+}
+
+/* Below 200 Hz, where no half wave is as short as a bay, seats act as if they were smeared out. */
+static void a_force_that_swings_finds_the_track_of_smeared_layers(void **state) {
+    (void)state;
+    assert_rows_of(rows_of_receptance);
+}
+
+static void an_impact_deflects_modes_and_elements_alike(void **state) {
+    (void)state;
+    assert_rows_of(rows_of_impact);
+}
+
 static void shipped_problems_keep_their_books_on_rails(void **state) {
     (void)state;
     assert_rows_of(rows_of_runs_on_rails);
@@ -177,6 +193,9 @@ int main(void) {
         cmocka_unit_test(roots_solve_the_equations_of_rail_pads_sleepers_and_ballast),
         cmocka_unit_test(cars_at_rest_stand_as_the_closed_form_says),
         cmocka_unit_test(modes_converge_to_the_statics),
+        cmocka_unit_test(what_runs_gives_way_as_published_numbers_do),
+        cmocka_unit_test(a_force_that_swings_finds_the_track_of_smeared_layers),
+        cmocka_unit_test(an_impact_deflects_modes_and_elements_alike),
         cmocka_unit_test(shipped_problems_keep_their_books_on_rails),
         cmocka_unit_test(a_track_with_overdamped_modes_is_built),
     };

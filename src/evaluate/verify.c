@@ -121,6 +121,26 @@ static Number bulk_of(const CzRunSummary *run, int which) {
     return number;
 }
 
+/* A value that a fit matches changes by the share of what was measured. */
+static Number number_of_match(const CzMatchResult *match, const CzCheckResult *result) {
+    return (Number){.name = match->name,
+                    .scenario = match->scenario,
+                    .where = match->where,
+                    .unit = match->unit,
+                    .value = match->value,
+                    .counted = match->value,
+                    .scale = fmax(fabs(match->target), match->tolerance),
+                    .check = result};
+}
+
+/* What the objective changes by: a margin by itself, a fit's sum of squares not at all, because it
+ * is next to nothing and its terms are looked at one by one, anything else by its own size. */
+static double scale_of_objective(const CzEvaluator *evaluator, const CzEvaluation *evaluation) {
+    if (cz_evaluator_maximises_margin(evaluator))
+        return 1.0;
+    return evaluation->n_match > 0 && evaluator->own_objective == NULL ? INFINITY : 0.0;
+}
+
 /* Lists the numbers; `number` may be NULL to count them. */
 static int list_numbers(const CzEvaluator *evaluator, const CzEvaluation *evaluation,
                         Number *number) {
@@ -133,7 +153,7 @@ static int list_numbers(const CzEvaluator *evaluator, const CzEvaluation *evalua
                                  .unit = evaluator->objective_unit,
                                  .value = evaluation->objective,
                                  .counted = evaluation->objective,
-                                 .scale = cz_evaluator_maximises_margin(evaluator) ? 1.0 : 0.0};
+                                 .scale = scale_of_objective(evaluator, evaluation)};
         n++;
     }
     for (int i = 0; i < evaluator->list.n_check; i++) {
@@ -143,6 +163,11 @@ static int list_numbers(const CzEvaluator *evaluator, const CzEvaluation *evalua
         n_constraint += check->is_constraint;
         if (number != NULL)
             number[n] = number_of_check(check, result);
+        n++;
+    }
+    for (int i = 0; i < evaluation->n_match; i++) {
+        if (number != NULL) /* its check is among the last ones */
+            number[n] = number_of_match(&evaluation->match[i], &evaluation->check[n_check + i]);
         n++;
     }
     for (int i = 0; i < evaluation->n_run; i++)

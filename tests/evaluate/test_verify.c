@@ -144,6 +144,30 @@ static void a_yes_or_no_counts_by_its_verdict_alone(void **state) {
     end(&made);
 }
 
+/* What is matched changes by the share of the measured value; the sum of squares, which may be
+ * anything near nothing, does not count. */
+static void a_fit_is_verified_by_what_it_matches(void **state) {
+    (void)state;
+    Case made = begin("optimise:\n"
+                      "  variables:\n"
+                      "    - {path: 'parts.tube.stages[0].force_kN', min: 700, max: 900}\n"
+                      "  match:\n"
+                      "    - {name: measured, scenario: crash, metric: interfaces.shortening_mm,\n"
+                      "       value: 800, tolerance: 5}\n");
+    CzVerifyOptions options = cz_verify_options_default();
+    options.ways = 1u << CZ_WAY_HALF_STEP;
+    verify(&made, &options);
+    const CzVerifiedValue *sum = &made.verification->value[0];
+    assert_true(sum->value[CZ_WAY_HALF_STEP] != sum->record);
+    assert_true(isnan(sum->change[CZ_WAY_HALF_STEP]));
+    const CzVerifiedValue *match = value_of(made.verification, "measured", "crash");
+    const double difference = fabs(match->value[CZ_WAY_HALF_STEP] - match->record);
+    assert_true(difference > 0.0);
+    assert_near(match->change[CZ_WAY_HALF_STEP], difference / 800.0, 1e-9, 0.0);
+    assert_int_equal(made.verification->verdict, CZ_VERDICT_PASS);
+    end(&made);
+}
+
 /* Only the ways that are asked for are gone, and only they count. */
 static void ways_are_chosen(void **state) {
     (void)state;
@@ -207,6 +231,7 @@ int main(void) {
         cmocka_unit_test(a_change_beyond_the_limit_does_not_pass),
         cmocka_unit_test(a_verdict_that_flips_does_not_pass),
         cmocka_unit_test(a_yes_or_no_counts_by_its_verdict_alone),
+        cmocka_unit_test(a_fit_is_verified_by_what_it_matches),
         cmocka_unit_test(ways_are_chosen),
         cmocka_unit_test(a_record_that_did_not_end_is_a_failure),
         cmocka_unit_test(a_flag_ends_it),

@@ -95,6 +95,17 @@ check "--integrator erk on masses that run along is refused" not_on co-running
 check "--integrator erk on finite elements is refused" not_on fe
 verified_on_rails() { exits 0 "$C" verify "$SOURCE/problems/paper-25kmh.yaml" --json && json out.txt ways.full_track.done true && json out.txt ways.adams.flips 0 && json out.txt verdict pass; }
 check "verify passes the published example, which runs on the elastic track, all four ways" verified_on_rails
+track_energy() { # track_energy FILE: nine digits of what the track took up
+    "$C" run "$1" --quiet --json --set simulation.duration_ms=60 >track.json && printf '%.9g' "$("$BUILD/tests/read_json" track.json scenarios.0.energy.track_kJ)"
+}
+on_track() { # on_track TRACK: the published example on a track of the catalogue
+    printf 'schema: 1\ntitle: t\nextends: %s\ncatalogue: [%s]\ntrack: %s\n' "$SOURCE/problems/paper-25kmh.yaml" "$SOURCE/problems/catalogue/track.yaml" "$1" >on-track.yaml
+    track_energy on-track.yaml
+}
+same_track() { [ "$(on_track '{use: zhai-2004}')" = "$(track_energy "$SOURCE/problems/paper-25kmh.yaml")" ]; }
+check "the track of the catalogue is the one that a problem has without any" same_track
+other_rail() { [ "$(on_track '{use: zhai-2004, rail: {use: 60e1}}')" != "$(on_track '{use: zhai-2004}')" ]; }
+check "another rail of the catalogue is another track" other_rail
 no_integrator() { exits 2 "$C" run two-trains.yaml --integrator euler && says err.txt 'it takes zhai or erk or adams'; }
 check "an unknown integrator is refused" no_integrator
 from_stdin() { "$C" check - --json <two-trains.yaml >stdin.json; [ $? = 1 ] && json stdin.json problem.file '<standard input>'; }

@@ -16,8 +16,10 @@ _crushzone() {
     --vary) return ;;
     --metric) return ;;
     --check) return ;;
-    --what) words='fd shares energy balance force velocity acceleration car-acceleration lift overlap pitch' ;;
+    --what) words='fd shares energy balance force velocity acceleration car-acceleration displacement shortening lift overlap pitch panels' ;;
     --at) return ;;
+    --measured) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    --column) return ;;
     --svg) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --algorithm) return ;;
     --evaluations) return ;;
@@ -48,7 +50,7 @@ _crushzone() {
     explain) options='--json --quiet --set --scenario --time-step-ms --jobs --color --help' ;;
     verify) options='--json --quiet --verbose --set --scenario --time-step-ms --jobs --color --help' ;;
     report) options='--output --quiet --scenario --jobs --help' ;;
-    plot) options='--quiet --set --scenario --what --at --svg --jobs --help' ;;
+    plot) options='--quiet --set --scenario --what --at --measured --column --svg --jobs --csv-sep --csv-decimal --help' ;;
     compare) options='--output --quiet --scenario --jobs --color --help' ;;
     validate) options='--json --quiet --set --color --help' ;;
     show) options='--quiet --set --scenario --time-step-ms --svg --color --help' ;;

@@ -93,6 +93,28 @@ CZ_API double cz_fit_value(const CzFit *fit, int index);
 CZ_API int cz_fit_n_note(const CzFit *fit);
 CZ_API const char *cz_fit_note(const CzFit *fit, int index);
 
+/* Which columns of a file make a curve. Texts are borrowed. */
+typedef struct CzCurveColumns {
+    const char *x_quantity, *y_quantity; /* such as "time", "length", "force", "speed",
+                                            "acceleration", "energy", "angle": what their units are
+                                            of */
+    const char *x, *y;                   /* a column's title, or its number from 1 */
+    char separator;                      /* between fields; 0: ';' where a line has one, else ',' */
+    char decimal;                        /* decimal sign, '.' or ',' */
+} CzCurveColumns;
+
+/* A measured curve as it stands in a file. Open, owns its memory. */
+typedef struct CzCurve {
+    int n;
+    double *x, *y; /* [SI] (n) */
+} CzCurve;
+
+/* Reads two columns of a CSV file. Their titles end in a unit, as "t_ms" or "force [kN]". Statuses:
+ * CZ_OK, CZ_STATUS_INPUT with file, line and column of the first mistake, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_curve_read(const char *path, const CzCurveColumns *columns,
+                                            CzCurve **curve, CzError *error);
+CZ_API void cz_curve_free(CzCurve *curve);
+
 /* Writes the law as a catalogue with one part, the summary in comments above it. */
 CZ_API void cz_fit_write_yaml(const CzFit *fit, FILE *stream);
 

@@ -115,11 +115,25 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_page(const CzReportRun *run,
 
 /* Figures of a run (charts.def), by name; NULL beyond the last. */
 CZ_API const char *cz_report_chart_name(int index);
-/* One figure as an SVG document: `what` is its name, `at` the interface or car that it is about
- * (NULL: the colliding interface, the car with the largest mean deceleration; no meaning for
- * figures of the whole run). Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_chart(const CzReportRun *run, const char *what,
-                                                    const char *at, FILE *stream, CzError *error);
+/* What is drawn. Texts are borrowed. */
+typedef struct CzChartOptions {
+    const char *what; /* name of the figure */
+    const char *at;   /* interface or car that it is about; NULL: the colliding interface, the car
+                         with the largest mean deceleration; no meaning for figures of the whole
+                         run */
+    const char *measured; /* CSV file with a curve that is laid over it, in any of the units of its
+                             axes; NULL for none */
+    const char *column;   /* of that curve's values: title or number from 1; NULL: the second. What
+                             they are over stands in the first */
+    char csv_separator;   /* 0: ';' where a line has one, else ',' */
+    char csv_decimal;
+} CzChartOptions;
+CZ_API CzChartOptions cz_chart_options_default(void);
+
+/* One figure as an SVG document. Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_chart(const CzReportRun *run,
+                                                    const CzChartOptions *options, FILE *stream,
+                                                    CzError *error);
 
 /* Runs side by side: n of them, the first is what the others are compared with. On a terminal:
  * checks, interfaces, cars that differ; as a page: the same with curves over each other. Statuses

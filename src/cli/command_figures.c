@@ -58,9 +58,16 @@ int cz_command_report(const CzArguments *arguments) {
 static CzStatus write_chart(const void *data, FILE *stream, CzError *error) {
     const CzResult *result = data;
     const char *const *text = result->arguments.text;
-    return cz_report_write_chart(&result->run,
-                                 text[CZ_OPTION_WHAT] != NULL ? text[CZ_OPTION_WHAT] : "fd",
-                                 text[CZ_OPTION_AT], stream, error);
+    CzChartOptions options = cz_chart_options_default();
+    if (text[CZ_OPTION_WHAT] != NULL)
+        options.what = text[CZ_OPTION_WHAT];
+    options.at = text[CZ_OPTION_AT];
+    options.measured = text[CZ_OPTION_MEASURED];
+    options.column = text[CZ_OPTION_COLUMN];
+    if (text[CZ_OPTION_CSV_SEP] != NULL)
+        options.csv_separator = result->arguments.csv_separator;
+    options.csv_decimal = result->arguments.csv_decimal;
+    return cz_report_write_chart(&result->run, &options, stream, error);
 }
 
 int cz_command_plot(const CzArguments *arguments) {

@@ -156,7 +156,7 @@ static void write_bash_values(void) {
             for (int k = 0; cz_report_chart_name(k) != NULL; k++)
                 printf("%s%s", k > 0 ? " " : "", cz_report_chart_name(k));
             puts("' ;;");
-        } else if (strcmp(option->value, "FILE") == 0 || strcmp(option->value, "DIR") == 0) {
+        } else if (strncmp(option->value, "FILE", 4) == 0 || strcmp(option->value, "DIR") == 0) {
             puts("COMPREPLY=($(compgen -f -- \"$word\")); return ;;");
         } else if (strchr(option->value, '|') != NULL) {
             fputs("words='", stdout);

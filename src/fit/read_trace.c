@@ -99,12 +99,17 @@ static const CzUnit *unit_in(const Column *column, const char *title) {
     char unit[16] = "";
     const size_t n = strlen(column->stem);
     const char *open = strpbrk(title, "[("), *close = open != NULL ? strpbrk(open, "])") : NULL;
+    const CzUnit *found = NULL; /* a unit may have a '_' of its own: the longest counts */
+    for (const char *at = strchr(title, '_'); at != NULL && found == NULL; at = strchr(at + 1, '_'))
+        found = cz_unit_find(column->dimension, at + 1);
     if (strncmp(title, column->stem, n) == 0 && title[n] == '_')
         snprintf(unit, sizeof unit, "%.15s", title + n + 1);
     else if (close != NULL)
         snprintf(unit, sizeof unit, "%.*s", (int)(close - open - 1), open + 1);
-    else if (strrchr(title, '_') != NULL)
-        snprintf(unit, sizeof unit, "%.15s", strrchr(title, '_') + 1);
+    else if (found != NULL)
+        return found;
+    for (char *c = unit; *c != '\0'; c++) /* km/h is km_h in keys */
+        *c = *c == '/' ? '_' : *c;
     return cz_unit_find(column->dimension, unit);
 }
 
@@ -137,8 +142,9 @@ static bool find_column(Reader *reader, Column *column, int line, bool has_title
                       column->wanted != NULL ? "there is no column '%.60s' among the %d of the file"
                                              : "no column is named %s (of %d)",
                       column->wanted != NULL ? column->wanted : spellings, reader->n_field);
-        cz_mistake_help(reader->mistakes, "--%s TITLE or --%s NUMBER says which column it is",
-                        column->stem, column->stem);
+        if (reader->trace->is_of_force)
+            cz_mistake_help(reader->mistakes, "--%s TITLE or --%s NUMBER says which column it is",
+                            column->stem, column->stem);
         return false;
     }
     const Field title = take_field(reader, text, column->index);
@@ -151,8 +157,11 @@ static bool find_column(Reader *reader, Column *column, int line, bool has_title
                   column->unit_text != NULL ? "'%.60s' is no unit of a %s"
                                             : "the unit of column '%.60s', the %s, is not known",
                   column->unit_text != NULL ? column->unit_text : title.text, column->stem);
-    cz_mistake_help(reader->mistakes, "columns are named %s, or --%s-unit says the unit", spellings,
-                    column->stem);
+    if (reader->trace->is_of_force)
+        cz_mistake_help(reader->mistakes, "columns are named %s, or --%s-unit says the unit",
+                        spellings, column->stem);
+    else
+        cz_mistake_help(reader->mistakes, "its title ends in a unit, such as %s", spellings);
     return false;
 }
 
@@ -242,25 +251,54 @@ static void read_source(Reader *reader, CzSources *sources, const char *path) {
         take_lines(reader);
 }
 
+static CzStatus read_trace(Reader *reader, const char *path, CzError *error) {
+    CzMistakes mistakes = {.arena = reader->arena};
+    CzSources sources = {.arena = reader->arena, .hash = CZ_HASH_START};
+    reader->mistakes = &mistakes;
+    read_source(reader, &sources, path);
+    if (reader->arena->out_of_memory)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the curve of '%s'", path);
+    cz_mistakes_finish(&mistakes);
+    if (mistakes.n_mistake == 0)
+        return CZ_OK;
+    if (error != NULL)
+        *error = mistakes.mistake[0]->error;
+    return CZ_STATUS_INPUT;
+}
+
 CzStatus cz_trace_read(CzArena *arena, const char *path, const CzFitOptions *options,
                        CzTrace *trace, CzError *error) {
-    CzMistakes mistakes = {.arena = arena};
-    CzSources sources = {.arena = arena, .hash = CZ_HASH_START};
     Reader reader = {
         .arena = arena,
         .options = options,
-        .mistakes = &mistakes,
         .column = {{"stroke", CZ_DIMENSION_LENGTH, options->stroke, options->stroke_unit, -1, NULL},
                    {"force", CZ_DIMENSION_FORCE, options->force, options->force_unit, -1, NULL}},
         .trace = trace,
     };
-    read_source(&reader, &sources, path);
-    if (arena->out_of_memory)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the curve of '%s'", path);
-    cz_mistakes_finish(&mistakes);
-    if (mistakes.n_mistake == 0)
-        return cz_trace_check(trace, reader.source->name, error);
-    if (error != NULL)
-        *error = mistakes.mistake[0]->error;
-    return CZ_STATUS_INPUT;
+    trace->is_of_force = true;
+    CZ_TRY(read_trace(&reader, path, error));
+    return cz_trace_check(trace, reader.source->name, error);
+}
+
+/* The dimension of a quantity's name; without one a curve has none. */
+static CzDimension dimension_named(const char *quantity) {
+    CzDimension dimension = 0;
+    while (dimension < CZ_N_DIMENSION && strcmp(cz_dimension_text[dimension], quantity) != 0)
+        dimension++;
+    return dimension < CZ_N_DIMENSION ? dimension : CZ_DIMENSION_NONE;
+}
+
+CzStatus cz_trace_read_columns(CzArena *arena, const char *path, const CzCurveColumns *columns,
+                               CzTrace *trace, CzError *error) {
+    const CzFitOptions options = {.separator = columns->separator, .decimal = columns->decimal};
+    Reader reader = {
+        .arena = arena,
+        .options = &options,
+        .column = {{columns->x_quantity, dimension_named(columns->x_quantity), columns->x, NULL, -1,
+                    NULL},
+                   {columns->y_quantity, dimension_named(columns->y_quantity), columns->y, NULL, -1,
+                    NULL}},
+        .trace = trace,
+    };
+    return read_trace(&reader, path, error);
 }

@@ -2,6 +2,7 @@
 set(CZ_SOURCES_fit
     branch.c
     coupler.c
+    curve.c
     end.c
     fit.c
     loading.c

@@ -54,8 +54,10 @@ static CzStatus find_chart(const char *what, CzChart *chart, CzError *error) {
 /* Which of several figures of a kind is meant. */
 static CzStatus find_place(const CzPage *page, CzChart chart, const char *at, int *index,
                            CzError *error) {
-    const bool of_interface = chart == CZ_CHART_FORCE_CLOSURE;
-    const int n = cz_chart_count(page, chart);
+    const bool of_interface =
+        chart == CZ_CHART_FORCE_CLOSURE || chart == CZ_CHART_SHORTENING || chart == CZ_CHART_PANELS;
+    const int n =
+        chart == CZ_CHART_PANELS ? page->summary->n_interface : cz_chart_count(page, chart);
     if (n == 0)
         return cz_fail(error, CZ_STATUS_INPUT, "this run has nothing to show as '%s'",
                        chart_names[chart]);
@@ -76,23 +78,56 @@ static CzStatus find_place(const CzPage *page, CzChart chart, const char *at, in
                    of_interface ? "interface" : "car", at);
 }
 
-CzStatus cz_report_write_chart(const CzReportRun *run, const char *what, const char *at,
-                               FILE *stream, CzError *error) {
+CzChartOptions cz_chart_options_default(void) {
+    return (CzChartOptions){.what = "fd", .csv_decimal = '.'};
+}
+
+/* Reads a measured curve and gives it the units of the figure. */
+static CzStatus read_measured(const CzChartOptions *options, CzChart chart, CzCurve **curve,
+                              CzError *error) {
+    const CzChartAxes *axes = cz_chart_axes(chart);
+    *curve = NULL;
+    if (options->measured == NULL)
+        return CZ_OK;
+    if (axes == NULL)
+        return cz_fail(error, CZ_STATUS_INPUT, "no measured curve fits over '%s'",
+                       chart_names[chart]);
+    const CzCurveColumns columns = {.x_quantity = axes->x_quantity,
+                                    .y_quantity = axes->y_quantity,
+                                    .x = "1",
+                                    .y = options->column != NULL ? options->column : "2",
+                                    .separator = options->csv_separator,
+                                    .decimal = options->csv_decimal};
+    CZ_TRY(cz_curve_read(options->measured, &columns, curve, error));
+    for (int i = 0; i < (*curve)->n; i++) {
+        (*curve)->x[i] /= axes->x_unit;
+        (*curve)->y[i] /= axes->y_unit;
+    }
+    return CZ_OK;
+}
+
+CzStatus cz_report_write_chart(const CzReportRun *run, const CzChartOptions *chosen, FILE *stream,
+                               CzError *error) {
     const CzReportOptions absent = cz_report_options_default();
     CzPage page = {0};
     CzChart chart;
+    CzCurve *measured;
     int scenario, index = 0;
-    CZ_TRY(find_chart(what, &chart, error));
+    CZ_TRY(find_chart(chosen->what, &chart, error));
     CZ_TRY(find_scenario(run, &scenario, error));
+    CZ_TRY(read_measured(chosen, chart, &measured, error));
     CzStatus status =
         cz_page_begin(&page, run->problem, run->evaluation, scenario, &absent, stream, error);
+    page.measured = measured;
+    page.measured_label = "measured";
     if (status == CZ_OK)
-        status = find_place(&page, chart, at, &index, error);
+        status = find_place(&page, chart, chosen->at, &index, error);
     if (status == CZ_OK) {
         fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", stream);
         status = cz_chart_write(&page, chart, index, &page.markup, error);
     }
     cz_page_free(&page);
+    cz_curve_free(measured);
     return status;
 }
 

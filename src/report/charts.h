@@ -19,6 +19,17 @@ void cz_chart_title(const CzPage *page, CzChart chart, int index, size_t room, c
 CZ_MUST_CHECK CzStatus cz_chart_write(const CzPage *page, CzChart chart, int index,
                                       CzMarkup *markup, CzError *error);
 
+/* What the axes of a figure show, and how much of it in SI is one of their units. */
+typedef struct CzChartAxes {
+    const char *x_quantity;
+    double x_unit;
+    const char *y_quantity;
+    double y_unit;
+} CzChartAxes;
+
+/* NULL for a figure that no curve can be laid over. */
+const CzChartAxes *cz_chart_axes(CzChart chart);
+
 /* Energies of the interfaces as stacked bars (shares.c). */
 void cz_chart_write_shares(const CzPage *page, CzMarkup *markup);
 

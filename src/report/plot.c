@@ -378,6 +378,7 @@ void cz_plot_write(const CzPlot *plot, CzMarkup *markup) {
     const double bottom = TOP + frame.height + BELOW_AXIS;
     char range[4][CZ_FIGURE_ROOM];
     cz_svg_open(markup, plot->title, CZ_PLOT_WIDTH, bottom + write_legend(plot, bottom, NULL));
+    cz_markup_attribute(markup, "preserveAspectRatio", "xMidYMin");
     cz_markup_attribute(markup, "class", plot->is_time ? "plot time" : "plot");
     cz_markup_format(markup, "data-box", "%d %d %d %d", (int)LEFT, (int)TOP, (int)frame.width,
                      (int)frame.height);

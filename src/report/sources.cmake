@@ -2,6 +2,8 @@
 set(CZ_SOURCES_report
     alone.c
     charts.c
+    charts_force.c
+    charts_motion.c
     checks_table.c
     compare.c
     csv.c
@@ -35,6 +37,7 @@ set(CZ_SOURCES_report
     scene.c
     sha256.c
     shares.c
+    sheet.c
     summary.c
     sweep.c
     table.c

@@ -56,11 +56,31 @@ search() { exits 1 "$C" optimise two-trains.yaml --evaluations 3 -o search -q ||
 check "the report of a search is not painted over" search
 
 each_figure() {
-    for what in fd shares energy balance force velocity acceleration car-acceleration; do
+    for what in fd shares energy balance force velocity acceleration car-acceleration displacement shortening panels; do
         exits 0 "$C" plot first --what $what --svg $what.svg && grep -q '<svg xmlns' $what.svg && ! grep -qi 'nan\|inf"' $what.svg || return 1
     done
 }
 check "plot writes each figure" each_figure
+panels() { # four figures, each with its letter; all curves of the single figures stand in it
+    [ "$(grep -o '>([abcd]) ' panels.svg | wc -l)" = 4 ] && n=0 && for what in force velocity displacement shortening; do n=$((n + $(grep -o '<path' $what.svg | wc -l))); done &&
+        [ "$(grep -o '<path' panels.svg | wc -l)" = $n ]
+}
+check "panels are the four figures in one" panels
+printf 't_ms,speed of test [km/h],F_test_kN\n0,0,0\n100,36,500\n200,18,250\n' >test.csv
+measured() {
+    exits 0 "$C" plot first --what velocity --measured test.csv --svg over.svg && grep -q 'measured' over.svg &&
+        [ "$(grep -o '<path' over.svg | wc -l)" = $(($(grep -o '<path' velocity.svg | wc -l) + 1)) ]
+}
+check "a measured curve is laid over a figure" measured
+same_measured() { # one's own channels, laid over the figure that they were recorded for, give the same path again
+    exits 0 "$C" plot first --what velocity --measured first/channels.csv --column v_A4_m_s --svg own.svg &&
+        [ "$(grep -o ' d="M[^"]*"' own.svg | sort | uniq -d | wc -l)" = 1 ]
+}
+check "a recorded channel over its own figure gives its own path" same_measured
+other_unit() { exits 2 "$C" plot first --measured test.csv && says err.txt "test.csv:1:1: error: the unit of column 't_ms', the length, is not known"; }
+check "a measured curve of another quantity is refused" other_unit
+no_overlay() { exits 2 "$C" plot first --what shares --measured test.csv && says err.txt "no measured curve fits over 'shares'"; }
+check "bars take no measured curve" no_overlay
 at() { exits 0 "$C" plot first --at A3-A4 --svg - && says out.txt 'aria-label="Force over closure, A3-A4"' && exits 0 "$C" plot two-trains.yaml --what car-acceleration --at B2 && says out.txt 'Acceleration, B2'; }
 check "plot takes an interface or a car, and a problem file" at
 unknown_figure() { exits 2 "$C" plot first --what enrgy && says err.txt "did you mean 'energy'" && exits 2 "$C" plot first --at A9 && says err.txt "no interface 'A9'"; }

@@ -1,0 +1,151 @@
+/* Figures of forces and energies. */
+#include "report/sheet.h"
+
+#include "base/error.h"
+#include "report/runs.h"
+#include "report/units.h"
+#include "simulate/input_curve.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { INPUT_POINTS = 600 };
+
+/* Limits of checks that judged the peak force of an interface. */
+void cz_draw_force_limits(CzSheet *sheet) {
+    const CzPage *page = sheet->page;
+    for (int i = 0; i < page->evaluation->n_check; i++) {
+        const CzCheckResult *check = &page->evaluation->check[i];
+        for (int k = 0; k < page->summary->n_interface; k++) {
+            const CzInterfaceResult *interface = &page->summary->interface[k];
+            const double peak = interface->peak_force / CZ_KILO;
+            if (!check->is_minimum && check->unit != NULL && strcmp(check->unit, "kN") == 0 &&
+                check->scenario != NULL && strcmp(check->scenario, page->summary->scenario) == 0 &&
+                strcmp(check->where, interface->name) == 0 &&
+                fabs(check->value - peak) <= 1e-9 * fabs(peak))
+                cz_sheet_add_limit(sheet, check->limit, check->name);
+        }
+    }
+}
+
+static double largest(const double *value, int n) {
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = value[i] > most ? value[i] : most;
+    return most;
+}
+
+/* The same interface in the runs beside this one. */
+static void add_other_loops(CzSheet *sheet, const char *interface) {
+    const CzPage *page = sheet->page;
+    for (int i = 0; i < page->n_other; i++) {
+        const CzRun *run = page->other[i].run;
+        const double *closure = cz_run_channel_named(run, "d_%s_mm", interface);
+        const double *force = cz_run_channel_named(run, "F_%s_kN", interface);
+        if (closure == NULL || force == NULL || sheet->plot.n_series == sheet->room)
+            continue;
+        sheet->series[sheet->plot.n_series++] = (CzSeries){.name = page->other[i].label,
+                                                           .n = cz_run_n_sample(run),
+                                                           .x = closure,
+                                                           .y = force,
+                                                           .colour = i + 1,
+                                                           .dash = i + 1};
+    }
+}
+
+CzStatus cz_draw_force_closure(CzSheet *sheet, int interface, CzError *error) {
+    const CzPage *page = sheet->page;
+    const char *name = page->summary->interface[interface].name;
+    const double *closure = cz_page_channel(page, "d_%s_mm", name);
+    const double *force = cz_page_channel(page, "F_%s_kN", name);
+    if (closure == NULL || force == NULL)
+        return CZ_OK;
+    const double longest = largest(closure, page->n_sample);
+    double *input = cz_arena_allocate(&sheet->arena, 2 * INPUT_POINTS, sizeof *input);
+    char *x_channel = cz_arena_allocate(&sheet->arena, 64, 1);
+    if (input == NULL || x_channel == NULL)
+        return CZ_OK; /* told by finish */
+    snprintf(x_channel, 64, "d_%s_mm", name);
+    if (longest > 0) {
+        CZ_TRY(cz_input_curve(page->model, interface, longest / CZ_MILLI_PER_UNIT, INPUT_POINTS,
+                              input, input + INPUT_POINTS, error));
+        const double highest = 1.5 * largest(force, page->n_sample);
+        for (int i = 0; i < INPUT_POINTS; i++) {
+            input[i] *= CZ_MILLI_PER_UNIT;
+            input[INPUT_POINTS + i] = input[INPUT_POINTS + i] / CZ_KILO < highest
+                                          ? input[INPUT_POINTS + i] / CZ_KILO
+                                          : NAN;
+        }
+        sheet->series[sheet->plot.n_series++] = (CzSeries){.name = "input, closed slowly",
+                                                           .n = INPUT_POINTS,
+                                                           .x = input,
+                                                           .y = input + INPUT_POINTS,
+                                                           .colour = CZ_PLOT_QUIET};
+    }
+    add_other_loops(sheet, name);
+    CzSeries *series = cz_sheet_add_channel(sheet, "F", name, "kN");
+    if (series != NULL) {
+        series->name = page->label != NULL ? page->label : "computed, with unloading";
+        series->x = closure;
+        series->x_channel = x_channel;
+    }
+    cz_draw_force_limits(sheet);
+    sheet->plot.from_zero = true;
+    return CZ_OK;
+}
+
+void cz_draw_interfaces(CzSheet *sheet, const char *stem, const char *unit) {
+    const CzPage *page = sheet->page;
+    for (int i = 0; i < page->summary->n_interface; i++) {
+        CzSeries *series =
+            cz_sheet_add_channel(sheet, stem, page->summary->interface[i].name, unit);
+        if (series != NULL)
+            cz_sheet_mark_interface(series, page->model, i);
+    }
+    sheet->plot.from_zero = true;
+}
+
+void cz_draw_energy(CzSheet *sheet) {
+    static const struct {
+        const char *stem, *name;
+    } parts[] = {{"E_kinetic", "kinetic"},
+                 {"E_stored", "stored"},
+                 {"E_wheel_rail", "wheel and rail"},
+                 {"E_running_gear", "running gear"},
+                 {"E_track", "track"}};
+    const CzPage *page = sheet->page;
+    double *sum = cz_arena_allocate(&sheet->arena, (size_t)page->n_sample, sizeof *sum);
+    for (int i = 0; sum != NULL && i < page->summary->n_interface; i++) {
+        const double *part = cz_page_channel(page, "E_%s_kJ", page->summary->interface[i].name);
+        for (int k = 0; part != NULL && k < page->n_sample; k++)
+            sum[k] += part[k];
+    }
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        CzSeries *series = cz_sheet_add_channel(sheet, parts[i].stem, "", "kJ");
+        if (series == NULL)
+            continue;
+        series->name = parts[i].name;
+        series->colour = (int)i;
+        series->dash = i == 0 ? 0 : (int)i;
+    }
+    if (sum != NULL)
+        sheet->series[sheet->plot.n_series++] = (CzSeries){.name = "interfaces, dissipated",
+                                                           .n = page->n_sample,
+                                                           .x = page->time,
+                                                           .y = sum,
+                                                           .colour = 6};
+    sheet->plot.from_zero = true;
+}
+
+void cz_draw_balance(CzSheet *sheet) {
+    const CzPage *page = sheet->page;
+    const double *off = cz_page_channel(page, "E_imbalance_kJ");
+    const double initial = page->summary->energy.initial / CZ_KILO;
+    double *share = cz_arena_allocate(&sheet->arena, (size_t)page->n_sample, sizeof *share);
+    if (off == NULL || share == NULL || !(initial > 0))
+        return;
+    for (int i = 0; i < page->n_sample; i++)
+        share[i] = 1e6 * off[i] / initial;
+    sheet->series[sheet->plot.n_series++] =
+        (CzSeries){.name = "energy too much", .n = page->n_sample, .x = page->time, .y = share};
+}

@@ -1,0 +1,73 @@
+/* A figure while its curves are gathered. */
+#include "report/sheet.h"
+
+#include "base/error.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool cz_sheet_begin(CzSheet *sheet, const CzPage *page, int room, const char *x_label,
+                    const char *y_label) {
+    *sheet = (CzSheet){.page = page, .room = room};
+    sheet->plot.x_label = x_label;
+    sheet->plot.y_label = y_label;
+    sheet->series = cz_arena_allocate(&sheet->arena, (size_t)room + 1, sizeof *sheet->series);
+    return sheet->series != NULL;
+}
+
+/* Adds a curve over time of the channel "<stem>_<name>_<unit>"; one that was not recorded is left
+ * out. */
+CzSeries *cz_sheet_add_channel(CzSheet *sheet, const char *stem, const char *name,
+                               const char *unit) {
+    char channel[64];
+    snprintf(channel, sizeof channel, "%s%s%s_%s", stem, name[0] != '\0' ? "_" : "", name, unit);
+    const double *y = cz_page_channel(sheet->page, "%s", channel);
+    char *kept = cz_arena_copy_text(&sheet->arena, channel, strlen(channel));
+    if (y == NULL || kept == NULL || sheet->plot.n_series == sheet->room)
+        return NULL;
+    CzSeries *series = &sheet->series[sheet->plot.n_series++];
+    *series = (CzSeries){.name = name,
+                         .y_channel = kept,
+                         .n = sheet->page->n_sample,
+                         .x = sheet->page->time,
+                         .y = y};
+    return series;
+}
+
+/* A car and its mirror image get one colour; the train ahead is dashed. */
+void cz_sheet_mark_car(CzSeries *series, const CzModel *model, int car) {
+    const bool ahead = car > model->colliding;
+    series->colour = ahead ? car - model->colliding - 1 : model->colliding - car;
+    series->dash = (ahead ? 1 : 0) + (series->colour >= CZ_PLOT_N_COLOUR ? 2 : 0);
+}
+
+void cz_sheet_mark_interface(CzSeries *series, const CzModel *model, int interface) {
+    const bool ahead = interface > model->colliding;
+    series->colour = abs(interface - model->colliding);
+    series->dash = (ahead ? 1 : 0) + (series->colour >= CZ_PLOT_N_COLOUR ? 2 : 0);
+}
+
+void cz_sheet_add_limit(CzSheet *sheet, double at, const char *name) {
+    for (int i = 0; i < sheet->plot.n_limit; i++)
+        if (sheet->limit[i].at == at)
+            return;
+    if (sheet->plot.n_limit < 4)
+        sheet->limit[sheet->plot.n_limit++] = (CzPlotLimit){name, at};
+}
+
+CzStatus cz_sheet_finish(CzSheet *sheet, CzChart chart, int index, CzMarkup *markup,
+                         CzError *error) {
+    char title[160];
+    const bool fits = !sheet->arena.out_of_memory && !sheet->failed;
+    cz_chart_title(sheet->page, chart, index, sizeof title, title);
+    sheet->plot.title = title;
+    sheet->plot.is_time = chart != CZ_CHART_FORCE_CLOSURE;
+    sheet->plot.series = sheet->series;
+    sheet->plot.limit = sheet->limit;
+    sheet->plot.band = sheet->band;
+    if (fits)
+        cz_plot_write(&sheet->plot, markup);
+    cz_arena_free(&sheet->arena);
+    return fits && !markup->failed ? CZ_OK
+                                   : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a figure");
+}

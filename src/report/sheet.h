@@ -1,0 +1,56 @@
+/* A figure while its curves are gathered, and what is drawn into it. */
+#ifndef CZ_REPORT_SHEET_H
+#define CZ_REPORT_SHEET_H
+
+#include "base/arena.h"
+#include "report/charts.h"
+#include "report/plot.h"
+
+/* A plot while its curves are gathered. */
+typedef struct CzSheet {
+    const CzPage *page;
+    CzArena arena; /* names and derived curves */
+    CzPlot plot;
+    CzSeries *series;
+    CzPlotLimit limit[4];
+    CzPlotBand band[4];
+    int room;    /* for series */
+    bool failed; /* no memory for a derived curve */
+} CzSheet;
+
+/* Starts a figure with room for that many curves; false without memory. */
+bool cz_sheet_begin(CzSheet *sheet, const CzPage *page, int room, const char *x_label,
+                    const char *y_label);
+
+/* Adds a curve over time of the channel "<stem>_<name>_<unit>"; NULL when it was not recorded. */
+CzSeries *cz_sheet_add_channel(CzSheet *sheet, const char *stem, const char *name,
+                               const char *unit);
+
+/* A car and its mirror image get one colour; the train ahead is dashed. */
+void cz_sheet_mark_car(CzSeries *series, const CzModel *model, int car);
+void cz_sheet_mark_interface(CzSeries *series, const CzModel *model, int interface);
+
+void cz_sheet_add_limit(CzSheet *sheet, double at, const char *name);
+
+/* Writes the figure and frees what it took. Status: CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_sheet_finish(CzSheet *sheet, CzChart chart, int index, CzMarkup *markup,
+                                       CzError *error);
+
+/* charts_force.c */
+void cz_draw_force_limits(CzSheet *sheet);
+CZ_MUST_CHECK CzStatus cz_draw_force_closure(CzSheet *sheet, int interface, CzError *error);
+void cz_draw_interfaces(CzSheet *sheet, const char *stem, const char *unit);
+void cz_draw_energy(CzSheet *sheet);
+void cz_draw_balance(CzSheet *sheet);
+
+/* charts_motion.c */
+void cz_draw_cars(CzSheet *sheet, const char *stem, const char *unit);
+void cz_draw_shortening(CzSheet *sheet, int interface);
+void cz_draw_accelerations(CzSheet *sheet);
+void cz_draw_car_acceleration(CzSheet *sheet, int car);
+void cz_draw_lifts(CzSheet *sheet);
+
+/* Wheelsets that lifts are drawn of at most. */
+enum { CZ_MOST_LIFTS = 14 };
+
+#endif

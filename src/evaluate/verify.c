@@ -5,7 +5,8 @@
  *
  * A check changes by what its margin changes by, so that a wheel lift of some micrometres does not
  * count by what it is but by what is allowed. A margin ends at 100 %: an upper limit leaves no
- * more, and of what a lower limit leaves beyond that no verdict depends.
+ * more, and of what a lower limit leaves beyond that no verdict depends. Where a limit is exceeded
+ * many times over, as one on "nothing" is, the change is one of what it is exceeded by.
  */
 #include "crushzone/verify.h"
 
@@ -94,7 +95,7 @@ static Number number_of_check(const CzCheck *check, const CzCheckResult *result)
                     .unit = result->unit,
                     .value = result->value,
                     .counted = result->margin > 1.0 ? 1.0 : result->margin,
-                    .scale = check->scale == CZ_FLAG_SCALE ? INFINITY : 1.0,
+                    .scale = check->scale == CZ_FLAG_SCALE ? INFINITY : fmax(1.0, -result->margin),
                     .check = result};
 }
 

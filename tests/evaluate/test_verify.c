@@ -92,6 +92,24 @@ static void changes_are_relative_to_what_is_allowed(void **state) {
     end(&made);
 }
 
+/* "Nothing", taken as 1 mm, is exceeded by a whole closure: what counts is the share of that. */
+static void a_limit_exceeded_many_times_changes_by_what_it_is_exceeded_by(void **state) {
+    (void)state;
+    Case made = begin("checks:\n"
+                      "  closing_rules: false\n"
+                      "  limits: [{name: closure, metric: interfaces.shortening_mm, max: 1}]\n");
+    CzVerifyOptions options = cz_verify_options_default();
+    options.ways = 1u << CZ_WAY_HALF_STEP;
+    verify(&made, &options);
+    const CzVerifiedValue *closure = value_of(made.verification, "closure", "crash");
+    const double difference = fabs(closure->value[CZ_WAY_HALF_STEP] - closure->record);
+    assert_true(difference > 0.0 && closure->record > 100.0);
+    assert_near(closure->change[CZ_WAY_HALF_STEP], difference / (closure->record - 1.0), 1e-9,
+                1e-15);
+    assert_int_equal(made.verification->verdict, CZ_VERDICT_PASS);
+    end(&made);
+}
+
 static void a_change_beyond_the_limit_does_not_pass(void **state) {
     (void)state;
     Case made = begin(limits);
@@ -228,6 +246,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_that_do_not_hang_on_steps_and_solvers_pass),
         cmocka_unit_test(changes_are_relative_to_what_is_allowed),
+        cmocka_unit_test(a_limit_exceeded_many_times_changes_by_what_it_is_exceeded_by),
         cmocka_unit_test(a_change_beyond_the_limit_does_not_pass),
         cmocka_unit_test(a_verdict_that_flips_does_not_pass),
         cmocka_unit_test(a_yes_or_no_counts_by_its_verdict_alone),

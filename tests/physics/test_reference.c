@@ -113,13 +113,9 @@ static void a_located_drop_does_not_hang_on_the_step(void **state) {
 
 /* ---- solver against solver ----
  *
- * Six cars onto six, half a minute, are held by the verification page alone (tests/verification).
+ * Short trains on their own tracks, and six cars onto six, are held by the verification page alone
+ * (tests/verification), which takes its time.
  */
-
-static void two_cars_agree_to_one_in_a_thousand(void **state) {
-    (void)state;
-    assert_rows_of(rows_of_solvers_for_short_trains);
-}
 
 /* The track's modes are advanced exactly by the record, and as differential equations by the
  * references. What the track takes up is some joules, most of it in the first milliseconds of each
@@ -246,7 +242,6 @@ int main(void) {
         cmocka_unit_test(every_integrator_exchanges_the_speeds_of_equal_masses),
         cmocka_unit_test(every_integrator_finds_the_time_at_which_a_coupler_shears_off),
         cmocka_unit_test(a_located_drop_does_not_hang_on_the_step),
-        cmocka_unit_test(two_cars_agree_to_one_in_a_thousand),
         cmocka_unit_test(two_cars_on_an_elastic_track_agree),
         cmocka_unit_test(what_faces_have_left_hangs_neither_on_the_step_nor_on_the_solver),
         cmocka_unit_test(a_track_that_a_reference_does_not_know_is_refused),

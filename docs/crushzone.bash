@@ -51,7 +51,7 @@ _crushzone() {
     verify) options='--json --quiet --verbose --set --scenario --time-step-ms --jobs --color --help' ;;
     report) options='--output --quiet --scenario --jobs --help' ;;
     plot) options='--quiet --set --scenario --what --at --measured --column --svg --jobs --csv-sep --csv-decimal --help' ;;
-    compare) options='--output --quiet --scenario --jobs --color --help' ;;
+    compare) options='--output --json --quiet --scenario --jobs --color --help' ;;
     validate) options='--json --quiet --set --color --help' ;;
     show) options='--quiet --set --scenario --time-step-ms --svg --color --help' ;;
     fit) options='--json --as --basis --stages --name --stroke --force --stroke-unit --force-unit --csv-sep --csv-decimal --help' ;;

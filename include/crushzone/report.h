@@ -139,6 +139,10 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_chart(const CzReportRun *run,
  * checks, interfaces, cars that differ; as a page: the same with curves over each other. Statuses
  * of the page: as above. */
 CZ_API void cz_report_write_comparison(int n, const CzReportRun *run, bool colour, FILE *stream);
+/* The same as the document `crushzone.comparison`. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY.
+ */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_comparison_json(int n, const CzReportRun *run,
+                                                              FILE *stream, CzError *error);
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_comparison_page(int n, const CzReportRun *run,
                                                               const CzReportOptions *options,
                                                               FILE *stream, CzError *error);

@@ -275,7 +275,8 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
     if (arguments->command == CZ_COMMAND_SWEEP &&
         (arguments->n_vary < 1 || arguments->n_vary > CZ_MOST_AXES))
         return misuse(error, "'crushzone sweep' needs --vary PATH=A:B:N once or twice");
-    if (arguments->text[CZ_OPTION_JSON] != NULL && arguments->n_operand > 1)
+    if (arguments->text[CZ_OPTION_JSON] != NULL && arguments->n_operand > 1 &&
+        arguments->command != CZ_COMMAND_COMPARE)
         return misuse(error, "with --json 'crushzone %s' takes one FILE: it prints one document",
                       info->name);
     return CZ_OK;

@@ -98,8 +98,12 @@ static int compare(const CzArguments *arguments, const CzResult *result) {
     Comparison comparison = {.n = arguments->n_operand};
     for (int i = 0; i < comparison.n; i++)
         comparison.run[i] = result[i].run;
-    cz_report_write_comparison(comparison.n, comparison.run,
-                               cz_wants_colour(arguments, STDOUT_FILENO), stdout);
+    CzError error = {0};
+    if (arguments->text[CZ_OPTION_JSON] == NULL)
+        cz_report_write_comparison(comparison.n, comparison.run,
+                                   cz_wants_colour(arguments, STDOUT_FILENO), stdout);
+    else if (cz_report_write_comparison_json(comparison.n, comparison.run, stdout, &error) != CZ_OK)
+        return cz_tell_error(arguments, &error);
     if (arguments->text[CZ_OPTION_OUTPUT] == NULL)
         return 0;
     return cz_result_write(arguments, arguments->text[CZ_OPTION_OUTPUT], write_comparison,

@@ -85,10 +85,13 @@ static double wheel_lift(const CzRunSummary *run, int i) {
 }
 
 const CzComparedNumber cz_compared_numbers[CZ_N_COMPARED_NUMBER] = {
-    {"peak force kN", true, peak_force},          {"closure mm", true, closure},
-    {"stroke used %", true, stroke_used},         {"energy kJ", true, energy},
-    {"mean g, 120 ms", false, mean_deceleration}, {"peak g", false, peak_deceleration},
-    {"wheel lift mm", false, wheel_lift}};
+    {"peak force kN", "peak_force_kN", 1, true, peak_force},
+    {"closure mm", "shortening_mm", 1, true, closure},
+    {"stroke used %", "stroke_used", 0.01, true, stroke_used},
+    {"energy kJ", "energy_kJ", 1, true, energy},
+    {"mean g, 120 ms", "mean_deceleration_120ms_g", 1, false, mean_deceleration},
+    {"peak g", "peak_deceleration_g", 1, false, peak_deceleration},
+    {"wheel lift mm", "max_wheel_lift_mm", 1, false, wheel_lift}};
 
 int cz_compared_count(const CzRunSummary *run, const CzComparedNumber *number) {
     return number->of_interface ? run->n_interface : run->n_vehicle;

@@ -23,6 +23,8 @@ bool cz_compared_differs(int n, const CzReportRun *run, const CzCheckResult *che
 /* A number of every interface, or of every car. */
 typedef struct CzComparedNumber {
     const char *name; /* with unit */
+    const char *key;  /* in JSON */
+    double in_key;    /* factor to the unit of the key */
     bool of_interface;
     double (*value)(const CzRunSummary *run, int index);
 } CzComparedNumber;

@@ -6,6 +6,7 @@ set(CZ_SOURCES_report
     charts_motion.c
     checks_table.c
     compare.c
+    compare_document.c
     csv.c
     elevation.c
     explanation.c

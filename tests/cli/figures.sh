@@ -109,6 +109,16 @@ compared() { exits 0 "$C" compare first second && says out.txt 'interface force,
 check "compare tells what differs" compared
 compared_same() { exits 0 "$C" compare first first && says out.txt '5 checks are the same'; }
 check "a run does not differ from itself" compared_same
+compared_json() { # the numbers of both summaries, side by side
+    exits 0 "$C" compare first second --json && mv out.txt both.json && json both.json format crushzone.comparison && json both.json runs.1.label second &&
+        json both.json checks.0.name 'interface force' && json both.json checks.0.runs.1.value "$(json_of second/summary.json checks.0.value)" || return 1
+    for i in 0 3; do
+        json both.json interfaces.$i.peak_force_kN.0 "$(json_of first/summary.json scenarios.0.interfaces.$i.peak_force_kN)" &&
+            json both.json interfaces.$i.energy_kJ.1 "$(json_of second/summary.json scenarios.0.interfaces.$i.energy_kJ)" || return 1
+    done
+    json both.json vehicles.2.mean_deceleration_120ms_g.1 "$(json_of second/summary.json scenarios.0.vehicles.2.mean_deceleration_120ms_g)"
+}
+check "compare --json has the numbers of both summaries" compared_json
 compared_page() { exits 0 "$C" compare first second -o cmp.html && grep -q 'Force over closure, A4-B1' cmp.html && grep -q '>second<' cmp.html; }
 check "compare writes a page" compared_page
 compared_one() { exits 2 "$C" compare first; }

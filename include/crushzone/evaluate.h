@@ -122,6 +122,9 @@ CZ_API CzVariablePlace cz_evaluator_place(const CzEvaluator *evaluator, int vari
 CZ_API int cz_evaluator_n_constraint(const CzEvaluator *evaluator);
 CZ_API const char *cz_evaluator_constraint_name(const CzEvaluator *evaluator, int constraint);
 CZ_API const char *cz_evaluator_objective_name(const CzEvaluator *evaluator);
+/* Whether it is the smallest margin, its sign turned so that it is minimised: then the largest
+ * constraint up to a constant. */
+CZ_API bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator);
 CZ_API const char *cz_evaluator_objective_unit(const CzEvaluator *evaluator);
 
 /* Evaluates n_point designs side by side; x is (n_point x n_variable) in the variables' units, NULL

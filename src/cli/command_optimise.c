@@ -25,7 +25,8 @@ static CzStatus search(CzSession *session, CzOutcome **outcome, CzError *error) 
     options.progress_data = &line;
 
     cz_interrupt_catch();
-    cz_progress_begin(&line, arguments, cz_evaluator_objective_unit(session->evaluator));
+    cz_progress_begin(&line, arguments, cz_evaluator_maximises_margin(session->evaluator),
+                      cz_evaluator_objective_unit(session->evaluator));
     const CzStatus status = cz_optimise(session->evaluator, &options, outcome, error);
     cz_progress_end(&line);
     return status;

@@ -16,12 +16,14 @@ double cz_clock(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void cz_progress_begin(CzProgressLine *line, const CzArguments *arguments, const char *unit) {
+void cz_progress_begin(CzProgressLine *line, const CzArguments *arguments, bool is_margin,
+                       const char *unit) {
     const char *term = getenv("TERM");
     const bool is_watched = isatty(STDERR_FILENO);
     line->is_silent = arguments->text[CZ_OPTION_QUIET] != NULL ||
                       (!is_watched && arguments->text[CZ_OPTION_VERBOSE] == NULL);
     line->is_terminal = is_watched && term != NULL && term[0] != '\0' && strcmp(term, "dumb") != 0;
+    line->is_margin = is_margin;
     line->unit = unit != NULL ? unit : "";
     line->started = line->shown = cz_clock();
 }
@@ -54,7 +56,10 @@ static void describe(const CzProgress *progress, const CzProgressLine *line, dou
         rate > 0 ? (double)(progress->most_evaluations - progress->n_evaluation) / rate : 0;
     const long eta = left > 0 ? lround(fmin(left, 359999)) : 0;
     group_thousands(progress->best_objective, number);
-    if (progress->feasible)
+    if (progress->feasible && line->is_margin)
+        snprintf(best, sizeof best, "best margin %+.3g %% feasible",
+                 -100 * progress->best_objective);
+    else if (progress->feasible)
         snprintf(best, sizeof best, "best %s%s%s feasible", number,
                  line->unit[0] != '\0' ? " " : "", line->unit);
     else if (isfinite(progress->best_violation))

@@ -8,11 +8,13 @@
 
 typedef struct CzProgressLine {
     bool is_silent, is_terminal;
+    bool is_margin;        /* the objective is the smallest margin, turned to be minimised */
     const char *unit;      /* of the objective */
     double started, shown; /* [s], of a steady clock */
 } CzProgressLine;
 
-void cz_progress_begin(CzProgressLine *line, const CzArguments *arguments, const char *unit);
+void cz_progress_begin(CzProgressLine *line, const CzArguments *arguments, bool is_margin,
+                       const char *unit);
 
 /* The callback of CzOptimiseOptions; `data` is the CzProgressLine. */
 void cz_progress_show(const CzProgress *progress, void *data);

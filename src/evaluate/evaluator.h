@@ -34,9 +34,6 @@ bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint);
 int cz_evaluator_n_combination(const CzEvaluator *evaluator);
 void cz_evaluator_set_combination(const CzEvaluator *evaluator, int combination, double *x);
 
-/* Whether the objective is the smallest margin, so the largest constraint up to a constant. */
-bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator);
-
 /* Lets an evaluation end early, with CZ_STATUS_INTERRUPTED, once the flag is up; NULL: never. The
  * flag is borrowed. */
 void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *stop);

@@ -32,6 +32,8 @@ if script -qec true /dev/null >/dev/null 2>&1; then
     check "a dumb terminal gets no escape codes" dumb
     progress() { script -qec "$C optimise two-trains.yaml --evaluations 200 -o progress" /dev/null >terminal.txt </dev/null; grep -q 'eval [0-9]* | ' terminal.txt; }
     check "a terminal shows progress" progress
+    best() { grep -q 'eval [0-9]* | best margin +[0-9.]* % feasible | [0-9.]*/s | ETA [0-9]*:[0-9][0-9]' terminal.txt; }
+    check "progress tells the best margin, its sign as in the table" best
 else
     skipped "a terminal gets colours and progress" "no script command here"
 fi

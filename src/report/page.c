@@ -151,35 +151,42 @@ void cz_page_write_foot(CzMarkup *markup) {
     cz_markup_line(markup);
 }
 
-void cz_page_write_contents(CzPage *page) {
+static void write_link(CzMarkup *markup, const char *id, const char *name) {
+    cz_markup_open(markup, "a");
+    cz_markup_format(markup, "href", "#%s", id);
+    cz_markup_text(markup, name);
+    cz_markup_close(markup);
+    cz_markup_text(markup, " ");
+}
+
+void cz_page_write_contents(CzPage *page, bool of_search) {
+    enum { ALWAYS = 0, OF_FIGURES = 1, OF_FULL_CARS = 2, OF_BUDGET = 4, OF_SEARCH = 8 };
     static const struct {
         const char *id, *name;
-    } parts[] = {{"checks", "checks"},
-                 {"trains", "trains"},
-                 {"loops", "force over closure"},
-                 {"energy", "energy"},
-                 {"motion", "speed and acceleration"},
-                 {"vertical", "wheels and pitch"},
-                 {"budget", "what turned the cars"},
-                 {"animation", "animation"},
-                 {"events", "events"},
-                 {"inputs", "inputs"}};
-    const bool has_figures = page->n_sample > 1;
-    bool has_full_cars = false;
+        int where; /* what has to be there */
+    } parts[] = {{"checks", "checks", ALWAYS},
+                 {"variables", "variables", OF_SEARCH},
+                 {"active", "what holds it", OF_SEARCH},
+                 {"verification", "computed again", OF_SEARCH},
+                 {"values", "new values", OF_SEARCH},
+                 {"trains", "trains", ALWAYS},
+                 {"loops", "force over closure", OF_FIGURES},
+                 {"energy", "energy", OF_FIGURES},
+                 {"motion", "speed and acceleration", OF_FIGURES},
+                 {"vertical", "wheels and pitch", OF_FIGURES | OF_FULL_CARS},
+                 {"budget", "what turned the cars", OF_FULL_CARS | OF_BUDGET},
+                 {"animation", "animation", OF_FIGURES},
+                 {"events", "events", ALWAYS},
+                 {"inputs", "inputs", ALWAYS}};
+    int there = (page->n_sample > 1 ? OF_FIGURES : 0) | (of_search ? OF_SEARCH : 0) |
+                (page->summary->budget != NULL ? OF_BUDGET : 0);
     for (int car = 0; car < page->model->n_car; car++)
-        has_full_cars |= page->model->car[car].model == CZ_MODEL_FULL;
+        there |= page->model->car[car].model == CZ_MODEL_FULL ? OF_FULL_CARS : 0;
     CzMarkup *markup = &page->markup;
     cz_markup_open(markup, "nav");
-    for (int i = 0; i < (int)(sizeof parts / sizeof *parts); i++) {
-        if ((i >= 2 && i <= 7 && !has_figures) || (i == 5 && !has_full_cars) ||
-            (i == 6 && (!has_full_cars || page->summary->budget == NULL)))
-            continue;
-        cz_markup_open(markup, "a");
-        cz_markup_format(markup, "href", "#%s", parts[i].id);
-        cz_markup_text(markup, parts[i].name);
-        cz_markup_close(markup);
-        cz_markup_text(markup, " ");
-    }
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if ((parts[i].where & ~there) == 0)
+            write_link(markup, parts[i].id, parts[i].name);
     cz_markup_close(markup);
     cz_markup_line(markup);
 }

@@ -79,8 +79,8 @@ CZ_MUST_CHECK CzStatus cz_page_finish(const CzPage *page, CzError *error);
 /* The first and last lines of a page. */
 void cz_page_write_head(CzMarkup *markup, const char *title);
 void cz_page_write_foot(CzMarkup *markup);
-/* Links to the sections of a page about a run. */
-void cz_page_write_contents(CzPage *page);
+/* Links to the sections of a page about a run; of a search to what stands before it, too. */
+void cz_page_write_contents(CzPage *page, bool of_search);
 /* Opens a section with its heading; closes it. */
 void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading);
 void cz_page_close_section(CzMarkup *markup);

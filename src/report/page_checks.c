@@ -253,7 +253,7 @@ void cz_page_write_verdict(CzPage *page, bool is_top) {
     cz_markup_element(markup, "p", text);
     cz_markup_close(markup);
     cz_markup_line(markup);
-    cz_page_write_contents(page);
+    cz_page_write_contents(page, false);
     cz_page_open_section(markup, "checks", "Checks");
     write_scenarios(page, is_top);
     write_caution(page);

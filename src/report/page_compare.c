@@ -54,9 +54,10 @@ static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
                 cz_checks_format_value(other, sizeof value, value);
             snprintf(text, sizeof text, "%s %s", other != NULL ? value : "-",
                      other != NULL ? cz_checks_word(other) : "");
-            cz_markup_classed(
-                markup, "td",
-                other != NULL && other->verdict == CZ_VERDICT_FAIL ? "fail" : "number", text);
+            cz_markup_classed(markup, "td",
+                              other != NULL && other->verdict == CZ_VERDICT_FAIL ? "number fail"
+                                                                                 : "number",
+                              text);
         }
         cz_markup_close(markup);
         cz_markup_line(markup);

@@ -229,7 +229,7 @@ static void write_constraint(CzMarkup *markup, const CzEvaluator *evaluator,
     if (check != NULL)
         cz_checks_format_value(check, sizeof text, text);
     cz_markup_classed(markup, "td", "number", text);
-    cz_markup_classed(markup, "td", best->constraint[i] > 0 ? "fail" : "number",
+    cz_markup_classed(markup, "td", best->constraint[i] > 0 ? "number fail" : "number",
                       cz_figure_margin(text, -best->constraint[i]));
     cz_markup_close(markup);
     cz_markup_line(markup);
@@ -307,10 +307,10 @@ static void write_way(CzMarkup *markup, const CzVerification *verification, CzVe
         cz_markup_element(markup, "td", "");
     } else {
         const double change = verification->largest_change[way];
-        cz_markup_classed(markup, "td", change > verification->limit ? "fail" : "number",
+        cz_markup_classed(markup, "td", change > verification->limit ? "number fail" : "number",
                           cz_figure_percent(text, change));
         cz_markup_element(markup, "td", worst >= 0 ? verification->value[worst].name : "");
-        cz_markup_classed(markup, "td", verification->n_flip[way] > 0 ? "fail" : "number",
+        cz_markup_classed(markup, "td", verification->n_flip[way] > 0 ? "number fail" : "number",
                           cz_figure_fixed(text, 0, verification->n_flip[way]));
     }
     cz_markup_close(markup);
@@ -360,7 +360,7 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     snprintf(title, sizeof title, "%s, optimised", cz_problem_title(page->problem));
     cz_page_write_head(markup, title);
     write_banner(markup, evaluator, page->problem, outcome);
-    cz_page_write_contents(page);
+    cz_page_write_contents(page, true);
     cz_page_open_section(markup, "checks", "Checks before and after");
     cz_page_write_checks(markup, &outcome->best_evaluation, &outcome->start_evaluation);
     cz_page_close_section(markup);

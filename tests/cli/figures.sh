@@ -54,6 +54,12 @@ no_folder() { mkdir -p empty && exits 2 "$C" report empty && says err.txt 'no re
 check "a folder without results is told" no_folder
 search() { exits 1 "$C" optimise two-trains.yaml --evaluations 3 -o search -q || exits 0 true; exits 2 "$C" report search && says err.txt 'holds a search' && exits 0 "$C" report search -o best.html; }
 check "the report of a search is not painted over" search
+links_lead() { # links_lead FILE N: at least N links, each to a section that is there
+    [ "$(grep -o 'href="#[a-z]*"' "$1" | wc -l)" -ge "$2" ] && for id in $(grep -o 'href="#[a-z]*"' "$1" | sed 's/.*#//; s/"//'); do
+        grep -q "id=\"$id\"" "$1" || { echo "no section $id"; return 1; }
+    done
+}
+contents() { links_lead first/report.html 8 && links_lead search/report.html 12 && links_lead turned/report.html 10; }
 
 each_figure() {
     for what in fd shares energy balance force velocity acceleration car-acceleration displacement shortening panels; do
@@ -105,6 +111,7 @@ turned() { # the report tells the budget of a full car by the same numbers as th
         grep -q 'front coupler\|wheel and rail' turned/report.html
 }
 check "the report of full cars tells what turned them, that of rigid ones does not" turned
+check "the links at the top of a report lead to its sections" contents
 compared() { exits 0 "$C" compare first second && says out.txt 'interface force, collision' && grep -q 'A4-B1 *peak force kN' out.txt && grep -q 'first *second' out.txt; }
 check "compare tells what differs" compared
 compared_same() { exits 0 "$C" compare first first && says out.txt '5 checks are the same'; }

@@ -150,11 +150,17 @@ void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FIL
     }
 }
 
-void cz_csv_write_history(const CzOutcome *outcome, const CzReportOptions *options, FILE *stream) {
+void cz_csv_write_history(const CzEvaluator *evaluator, const CzOutcome *outcome,
+                          const CzReportOptions *options, FILE *stream) {
+    const int n_variable = outcome->trial_x != NULL ? outcome->n_variable : 0;
     static const char *const names[] = {"evaluation", "phase", "objective", "violation",
                                         "feasible"};
     Table table = table_of(options, stream);
-    put_names(&table, (int)(sizeof names / sizeof *names), names);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        put_text(&table, names[i]);
+    for (int k = 0; k < n_variable; k++)
+        put_text(&table, cz_evaluator_variable(evaluator, k)->name);
+    end_row(&table);
     for (long i = 0; i < outcome->n_trial; i++) {
         const CzTrial *trial = &outcome->trial[i];
         put_number(&table, (double)(i + 1));
@@ -162,6 +168,8 @@ void cz_csv_write_history(const CzOutcome *outcome, const CzReportOptions *optio
         put_number(&table, trial->objective);
         put_number(&table, trial->violation);
         put_flag(&table, trial->feasible);
+        for (int k = 0; k < n_variable; k++)
+            put_number(&table, outcome->trial_x[i * n_variable + k]);
         end_row(&table);
     }
 }

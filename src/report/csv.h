@@ -17,6 +17,7 @@ void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FIL
 void cz_csv_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FILE *stream);
 
 /* The search, one line per evaluation. */
-void cz_csv_write_history(const CzOutcome *outcome, const CzReportOptions *options, FILE *stream);
+void cz_csv_write_history(const CzEvaluator *evaluator, const CzOutcome *outcome,
+                          const CzReportOptions *options, FILE *stream);
 
 #endif

@@ -53,7 +53,7 @@ static CzStatus write_checks(const Results *results, FILE *stream, CzError *erro
 
 static CzStatus write_history(const Results *results, FILE *stream, CzError *error) {
     (void)error;
-    cz_csv_write_history(results->outcome, results->options, stream);
+    cz_csv_write_history(results->evaluator, results->outcome, results->options, stream);
     return CZ_OK;
 }
 

@@ -10,6 +10,17 @@ verified() { json out/outcome.json verification.verdict pass && json out/outcome
 check "the optimum is verified by half the step and by another solver" verified
 files() { for file in summary.json checks.csv outcome.json optimised.yaml history.csv resolved.yaml run.log; do [ -s out/$file ] || return 1; done; }
 check "the result folder holds the outcome, the optimum and the history" files
+replayed() { # the last feasible design of the history gives its objective again
+    row=$(tr -d '\r' <out/history.csv | awk -F, '$5 == "yes"' | tail -1) && set -- && i=6
+    for path in $(head -1 out/history.csv | tr -d '\r' | cut -d, -f6- | tr ',' ' '); do
+        set -- "$@" --set "$path=$(echo "$row" | cut -d, -f$i)"
+        i=$((i + 1))
+    done
+    [ $# = 10 ] && "$C" run two-trains.yaml --json "$@" >replayed.json || return 1
+    for k in 0 1 2 3 4; do "$BUILD/tests/read_json" replayed.json checks.$k.margin; echo; done | sort -g | head -1 |
+        awk -v told="$(echo "$row" | cut -d, -f3)" '{ exit !($1 + told < 1e-4 && $1 + told > -1e-4) }'
+}
+check "a design of the history gives its objective again" replayed
 check "the optimum passes its check" exits 0 "$C" check out/optimised.yaml -o checked
 strip() { tr -d '\n' <"$1" | sed 's/"run_info": *{[^}]*}//g; s/"problem": *{[^}]*}//; s/"warnings": *\[[^]]*\]//'; }
 same() { strip out/summary.json >a; strip checked/summary.json >b; cmp a b; }

@@ -342,6 +342,10 @@ void stand_in_fill(StandIn *s) {
     s->at_bound[0] = true;
     s->trial[0] = (CzTrial){.objective = NAN, .violation = INFINITY, .phase = "screen"};
     s->trial[1] = (CzTrial){.objective = 1.5, .feasible = true, .phase = "polish"};
+    s->trial_x[0] = 700;
+    s->trial_x[1] = 250;
+    s->trial_x[2] = 900;
+    s->trial_x[3] = 123.5;
     s->outcome = (CzOutcome){.status = CZ_OUTCOME_FEASIBLE,
                              .why_stopped = "the evaluations are used up",
                              .n_evaluation = 214,
@@ -353,6 +357,7 @@ void stand_in_fill(StandIn *s) {
                              .best_evaluation = s->evaluation,
                              .n_trial = 2,
                              .trial = s->trial,
+                             .trial_x = s->trial_x,
                              .wall_s = 3};
     s->outcome.start_evaluation.check = s->outcome.start_evaluation.constraint_check =
         s->start_check;

@@ -26,6 +26,7 @@ typedef struct StandIn {
     double start[STAND_IN_VARIABLES], best[STAND_IN_VARIABLES];
     bool at_bound[STAND_IN_VARIABLES];
     CzTrial trial[2];
+    double trial_x[2 * STAND_IN_VARIABLES];
     CzOutcome outcome; /* feasible */
 } StandIn;
 

@@ -234,8 +234,9 @@ static void a_search_writes_its_outcome_and_the_optimum(void **state) {
                         "0.12345678901234568\n");
     free(text);
     text = content("results/best/history.csv");
-    assert_string_equal(text, "evaluation,phase,objective,violation,feasible\r\n"
-                              "1,screen,,,no\r\n2,polish,1.5,0,yes\r\n");
+    assert_string_equal(text,
+                        "evaluation,phase,objective,violation,feasible,tube force,tube stroke\r\n"
+                        "1,screen,,,no,700,250\r\n2,polish,1.5,0,yes,900,123.5\r\n");
     free(text);
     assert_true(is_there("results/best/outcome.json"));
     assert_true(is_there("results/best/summary.json"));

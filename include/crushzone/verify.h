@@ -27,8 +27,9 @@ typedef struct CzVerifyOptions {
     unsigned ways;                     /* which ones, bit 1 << CzVerifyWay each; all by default */
     double limit;                      /* largest change that passes [-]; 0.01 by default */
     const volatile sig_atomic_t *stop; /* a flag that ends it when not 0; NULL when none */
-    double solver_step; /* longest step of the solvers, in half steps of the record; 1 by default, 2
-                           halves their time and still sees every peak [-] */
+    double solver_step; /* longest step of the solvers, in half steps of the record; 1 by default,
+                           2, as a search takes, halves their time; from 3 on their own error passes
+                           the limit [-] */
 } CzVerifyOptions;
 CZ_API CzVerifyOptions cz_verify_options_default(void);
 

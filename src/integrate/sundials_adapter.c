@@ -96,6 +96,10 @@ static void scale(sunrealtype c, N_Vector x, N_Vector z) {
     const double *p = N_VGetArrayPointer(x);
     double *scaled = N_VGetArrayPointer(z);
     const size_t n = length_of(z);
+    if (c == 1.0) {
+        memmove(scaled, p, n * sizeof *p);
+        return;
+    }
     for (size_t i = 0; i < n; i++)
         scaled[i] = c * p[i];
 }

@@ -6,7 +6,8 @@ build() { # build FOLDER OPTION...
     shift
     cmake -S "$SOURCE" -B "$folder" -G Ninja -DCZ_BUILD_TESTS=OFF "$@" && cmake --build "$folder"
 }
-# What is compared: two full cars, rigid cars in a search, a wall, and one scenario of two trains of six full cars.
+# What is compared: two full cars, rigid cars in a search, a wall, two cars on masses that run along with their wheels, and
+# one scenario of two trains of six full cars; wall and trains run on the modes of the track.
 results() { # results FOLDER PROGRAM OPTION...: what the program writes, into FOLDER, run_info taken out
     folder=$1
     program=$2
@@ -15,6 +16,8 @@ results() { # results FOLDER PROGRAM OPTION...: what the program writes, into FO
     mkdir -p "$folder"
     "$program" run "$SOURCE/problems/two-cars-25kmh.yaml" --json -o "$folder/two-cars" "$@" >"$folder/two-cars.json" &&
         "$program" run "$SOURCE/problems/wall.yaml" --json -o "$folder/wall" "$@" >"$folder/wall.json" &&
+        "$program" run "$SOURCE/problems/paper-25kmh.yaml" --json -o "$folder/paper" --set simulation.track=co-running \
+            "$@" >"$folder/paper.json" &&
         "$program" run "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h-partner-high --json -o "$folder/metro" \
             "$@" >"$folder/metro.json" &&
         "$program" optimise search.yaml --evaluations 60 --json -o "$folder/search" "$@" >"$folder/search.json"

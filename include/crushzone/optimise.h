@@ -82,6 +82,21 @@ typedef struct CzOutcome {
 CZ_MUST_CHECK CZ_API CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                           CzOutcome **outcome, CzError *error);
 
+/* What a search wrote down. Arrays are borrowed. */
+typedef struct CzRecall {
+    CzOutcomeStatus status;
+    const char *why_stopped;
+    const double *start; /* in the variables' units (n_variable) */
+    long n_trial;
+    const CzTrial *trial;  /* (n_trial) */
+    const double *trial_x; /* (n_trial x n_variable) */
+} CzRecall;
+
+/* The outcome of a search that was done before: the evaluator's start is its best design. Both are
+ * evaluated, verified and varied anew. Statuses as above. */
+CZ_MUST_CHECK CZ_API CzStatus cz_outcome_recall(CzEvaluator *evaluator, const CzRecall *recall,
+                                                CzOutcome **outcome, CzError *error);
+
 /* What cz_optimise would refuse, without a search. Statuses: CZ_OK, CZ_STATUS_INPUT. */
 CZ_MUST_CHECK CZ_API CzStatus cz_optimise_check(const CzEvaluator *evaluator,
                                                 const CzOptimiseOptions *options, CzError *error);

@@ -113,6 +113,14 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_page(const CzReportRun *run,
                                                    const CzReportOptions *options, FILE *stream,
                                                    CzError *error);
 
+/* The report of a search. `best` is the problem that the best design was computed from. Statuses as
+ * above. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome_page(const CzProblem *best,
+                                                           const CzEvaluator *evaluator,
+                                                           const CzOutcome *outcome,
+                                                           const CzReportOptions *options,
+                                                           FILE *stream, CzError *error);
+
 /* Figures of a run (charts.def), by name; NULL beyond the last. */
 CZ_API const char *cz_report_chart_name(int index);
 /* What is drawn. Texts are borrowed. */

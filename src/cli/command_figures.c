@@ -1,6 +1,7 @@
 /* `report`, `plot` and `compare`: results looked at again. */
 #include "cli/command.h"
 #include "cli/messages.h"
+#include "cli/recall.h"
 #include "cli/result.h"
 
 #include <stdio.h>
@@ -17,38 +18,52 @@ static CzStatus write_page(const void *data, FILE *stream, CzError *error) {
     return cz_report_write_page(&result->run, &options, stream, error);
 }
 
-/* Where the report of a folder goes. That of a search cannot be made without the search. */
-static int find_report(const CzArguments *arguments, char path[4096]) {
-    const char *folder = arguments->operand[0];
-    struct stat found;
-    CzError error = {.status = CZ_STATUS_INPUT};
-    snprintf(path, 4096, "%s/outcome.json", folder);
-    if (arguments->text[CZ_OPTION_OUTPUT] != NULL) {
-        snprintf(path, 4096, "%s", arguments->text[CZ_OPTION_OUTPUT]);
-        return 0;
-    }
-    if (stat(path, &found) == 0) {
-        snprintf(error.message, sizeof error.message,
-                 "%.200s holds a search, whose report was written with it", folder);
-        snprintf(error.help, sizeof error.help,
-                 "for a report of its best design alone give a file: -o best.html");
-        return cz_tell_error(arguments, &error);
-    }
-    const bool is_folder = stat(folder, &found) == 0 && S_ISDIR(found.st_mode);
-    snprintf(path, 4096, "%s%s", is_folder ? folder : "",
-             is_folder ? "/report.html" : "report.html");
-    return 0;
+typedef struct Search {
+    const CzResult *result;
+    const CzOutcome *outcome;
+} Search;
+
+static CzStatus write_search(const void *data, FILE *stream, CzError *error) {
+    const Search *search = data;
+    const CzSession *session = &search->result->session;
+    const CzReportOptions options = cz_session_report_options(session, 0);
+    return cz_report_write_outcome_page(session->problem, session->evaluator, search->outcome,
+                                        &options, stream, error);
 }
 
+/* Where the report of a folder goes. */
+static void find_report(const CzArguments *arguments, char path[4096]) {
+    const char *folder = arguments->operand[0], *given = arguments->text[CZ_OPTION_OUTPUT];
+    struct stat found;
+    const bool is_folder = stat(folder, &found) == 0 && S_ISDIR(found.st_mode);
+    snprintf(path, 4096, "%.4000s%s",
+             given != NULL ? given
+             : is_folder   ? folder
+                           : "",
+             given != NULL ? ""
+             : is_folder   ? "/report.html"
+                           : "report.html");
+}
+
+/* That of a search's best design alone goes to a file of its own. */
 int cz_command_report(const CzArguments *arguments) {
     char path[4096];
-    int code = find_report(arguments, path);
-    if (code != 0)
-        return code;
     CzResult result;
-    code = cz_result_begin(&result, arguments, arguments->operand[0]);
+    CzOutcome *outcome = NULL;
+    const char *folder = arguments->operand[0];
+    const bool is_search = arguments->text[CZ_OPTION_OUTPUT] == NULL && cz_recall_is_search(folder);
+    char problem[4096];
+    find_report(arguments, path);
+    if (is_search)
+        cz_recall_problem(folder, problem);
+    int code = cz_result_begin(&result, arguments, is_search ? problem : folder);
+    if (code == 0 && is_search)
+        code = cz_recall_outcome(&result, folder, &outcome);
+    const Search search = {&result, outcome};
     if (code == 0)
-        code = cz_result_write(arguments, path, write_page, &result);
+        code = cz_result_write(arguments, path, is_search ? write_search : write_page,
+                               is_search ? (const void *)&search : &result);
+    cz_outcome_free(outcome);
     cz_result_end(&result);
     return code;
 }

@@ -17,6 +17,7 @@ set(CZ_SOURCES_cli
     interrupt.c
     main.c
     messages.c
+    recall.c
     result.c
     progress.c
     session.c

@@ -5,6 +5,7 @@
 #include "optimise/alternatives.h"
 #include "optimise/hunt.h"
 #include "optimise/nlopt_adapter.h"
+#include "optimise/outcome.h"
 #include "optimise/sensitivity.h"
 
 #include <math.h>
@@ -117,6 +118,15 @@ static CzStatus confirm_best(CzEvaluator *evaluator, const CzHunt *hunt, double 
     return CZ_OK;
 }
 
+void cz_outcome_mark_bounds(const CzEvaluator *evaluator, CzOutcome *outcome) {
+    for (int i = 0; i < outcome->n_variable; i++) {
+        const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
+        const double nearness = 1e-6 * (info->max - info->min);
+        outcome->at_bound[i] = info->n_choice == 0 && (outcome->best[i] <= info->min + nearness ||
+                                                       outcome->best[i] >= info->max - nearness);
+    }
+}
+
 /* Evaluates start and best once more, from the file's numbers, with everything recorded. */
 static CzStatus confirm(CzEvaluator *evaluator, const CzHunt *hunt, CzOutcome *outcome,
                         CzError *error) {
@@ -136,12 +146,8 @@ static CzStatus confirm(CzEvaluator *evaluator, const CzHunt *hunt, CzOutcome *o
         if (status == CZ_OK)
             status = confirm_best(evaluator, hunt, x, outcome, error);
     }
-    for (int i = 0; i < outcome->n_variable && status == CZ_OK; i++) {
-        const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
-        const double nearness = 1e-6 * (info->max - info->min);
-        outcome->at_bound[i] = info->n_choice == 0 && (outcome->best[i] <= info->min + nearness ||
-                                                       outcome->best[i] >= info->max - nearness);
-    }
+    if (status == CZ_OK)
+        cz_outcome_mark_bounds(evaluator, outcome);
     free(x);
     return status;
 }
@@ -174,9 +180,8 @@ static void conclude(const CzHunt *hunt, CzOutcome *outcome) {
              is_between_steps(hunt, outcome) ? "; the best lies between catalogue steps" : "");
 }
 
-/* Computes a design that passes once more by independent means. A signal leaves it unverified. */
-static CzStatus verify(CzEvaluator *evaluator, const CzOptimiseOptions *options, CzOutcome *outcome,
-                       CzError *error) {
+CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
+                           CzOutcome *outcome, CzError *error) {
     if (outcome->status != CZ_OUTCOME_FEASIBLE || options->verify_ways == 0)
         return CZ_OK;
     CzVerifyOptions chosen = cz_verify_options_default();
@@ -250,7 +255,7 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
     if (status == CZ_OK)
         conclude(&hunt, made);
     if (status == CZ_OK)
-        status = verify(evaluator, &options, made, error);
+        status = cz_outcome_verify(evaluator, &options, made, error);
     if (status == CZ_OK)
         status = cz_sensitivity_take(evaluator, options.stop, made, error);
     made->wall_s = now_s() - began;

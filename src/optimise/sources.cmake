@@ -5,6 +5,7 @@ set(CZ_SOURCES_optimise
     hunt.c
     nlopt_adapter.c
     optimise.c
+    recall.c
     sample.c
     search.c
     sensitivity.c

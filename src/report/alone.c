@@ -37,6 +37,16 @@ CzStatus cz_report_write_page(const CzReportRun *run, const CzReportOptions *opt
                              options != NULL ? options : &absent, stream, error);
 }
 
+CzStatus cz_report_write_outcome_page(const CzProblem *best, const CzEvaluator *evaluator,
+                                      const CzOutcome *outcome, const CzReportOptions *options,
+                                      FILE *stream, CzError *error) {
+    const CzReportOptions absent = cz_report_options_default();
+    if (cz_page_deciding(&outcome->best_evaluation) < 0)
+        return cz_fail(error, CZ_STATUS_INPUT, "no run was kept to draw");
+    return cz_page_write_outcome(best, evaluator, outcome, options != NULL ? options : &absent,
+                                 stream, error);
+}
+
 static CzStatus find_chart(const char *what, CzChart *chart, CzError *error) {
     CzSuggestion suggestion = {0};
     for (int i = 0; i < CZ_N_CHART; i++) {

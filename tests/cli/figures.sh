@@ -52,8 +52,22 @@ other_version() { sed -i '1s/crushzone [0-9.]*/crushzone 0.0.0/' again/run.log &
 check "results of another version are told" other_version
 no_folder() { mkdir -p empty && exits 2 "$C" report empty && says err.txt 'no resolved.yaml'; }
 check "a folder without results is told" no_folder
-search() { exits 1 "$C" optimise two-trains.yaml --evaluations 3 -o search -q || exits 0 true; exits 2 "$C" report search && says err.txt 'holds a search' && exits 0 "$C" report search -o best.html; }
-check "the report of a search is not painted over" search
+part_of() { sed -n "/<section id=\"$2\"/,/<\/section>/p" "$1"; }
+search() { # the report of a search is made anew from its folder, but for the digits of its history
+    exits 1 "$C" optimise two-trains.yaml --evaluations 3 -o search -q || exits 0 true
+    cp search/report.html search.html && rm search/report.html && exits 0 "$C" report search -q || return 1
+    for part in checks variables active sensitivities verification values trains loops energy motion animation events; do
+        part_of search.html $part >a && part_of search/report.html $part >b && [ -s a ] && cmp a b || { echo "$part differs"; return 1; }
+    done
+    part_of search/report.html search | grep -q 'evaluation' && part_of search/report.html designs | grep -q '<path'
+}
+check "the report of a search is made anew from its folder" search
+searched_elsewhere() { rm -rf gone && cp -r search gone && sed -i 's/^extends.*/extends: "nowhere.yaml"/' gone/optimised.yaml && exits 0 "$C" report gone -q && part_of gone/report.html values | grep -q 'trains.A.vehicles'; }
+check "so it is without the file that was searched for" searched_elsewhere
+best_alone() { exits 0 "$C" report search -o best.html && ! grep -q 'id="variables"' best.html; }
+check "the best design of a search has a report of its own with -o" best_alone
+spoilt() { rm -rf bad && cp -r search bad && echo x >bad/history.csv && exits 2 "$C" report bad && says err.txt 'history.csv cannot be read'; }
+check "a history that is none is told" spoilt
 links_lead() { # links_lead FILE N: at least N links, each to a section that is there
     [ "$(grep -o 'href="#[a-z]*"' "$1" | wc -l)" -ge "$2" ] && for id in $(grep -o 'href="#[a-z]*"' "$1" | sed 's/.*#//; s/"//'); do
         grep -q "id=\"$id\"" "$1" || { echo "no section $id"; return 1; }

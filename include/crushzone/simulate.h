@@ -147,6 +147,9 @@ typedef struct CzVehicleBudget {
     double rise;                /* its vertical momentum [N s] */
 } CzVehicleBudget;
 
+/* The sources that did something, by the size of their moment, largest first; returns how many. */
+CZ_API int cz_budget_order(const CzVehicleBudget *budget, int order[CZ_N_BUDGET]);
+
 /* Energy at the end of the run [J]. */
 typedef struct CzEnergy {
     double initial;

@@ -76,20 +76,6 @@ static void write_signs(const CzExplanation *explanation, bool colour, FILE *str
     cz_grid_write(&grid, colour, stream);
 }
 
-/* Sources by the size of their moment. */
-static int sort_sources(const CzVehicleBudget *budget, int order[CZ_N_BUDGET]) {
-    int n = 0;
-    for (int source = 0; source < CZ_N_BUDGET; source++) {
-        if (budget->moment[source] == 0 && budget->lift[source] == 0)
-            continue;
-        int k = n++;
-        for (; k > 0 && fabs(budget->moment[order[k - 1]]) < fabs(budget->moment[source]); k--)
-            order[k] = order[k - 1];
-        order[k] = source;
-    }
-    return n;
-}
-
 /* What turned the body of the car that is worst off. */
 static void write_budget(const CzExplanation *explanation, bool colour, FILE *stream) {
     const CzRunSummary *run = cz_run_summary(explanation->run);
@@ -97,7 +83,7 @@ static void write_budget(const CzExplanation *explanation, bool colour, FILE *st
         return;
     const CzVehicleBudget *budget = &run->budget[explanation->vehicle];
     int order[CZ_N_BUDGET];
-    const int n = sort_sources(budget, order);
+    const int n = cz_budget_order(budget, order);
     char text[CZ_FIGURE_ROOM];
     if (n == 0)
         return;
@@ -234,7 +220,7 @@ CzStatus cz_report_write_explanation(const CzProblem *problem, const CzExplanati
     if (run->budget != NULL) {
         const CzVehicleBudget *budget = &run->budget[explanation->vehicle];
         int order[CZ_N_BUDGET];
-        const int n = sort_sources(budget, order);
+        const int n = cz_budget_order(budget, order);
         cz_json_open_object(json, "budget");
         cz_json_text(json, "vehicle", run->vehicle[explanation->vehicle].name);
         cz_document_budget(json, budget, n, order);

@@ -204,6 +204,35 @@ void cz_page_close_section(CzMarkup *markup) {
     cz_markup_line(markup);
 }
 
+void cz_page_begin_heads(CzMarkup *markup, const char *class_name) {
+    cz_markup_open(markup, "div");
+    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open(markup, "table");
+    if (class_name != NULL)
+        cz_markup_attribute(markup, "class", class_name);
+    cz_markup_open(markup, "tr");
+}
+
+void cz_page_end_heads(CzMarkup *markup) {
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+void cz_page_open_table(CzMarkup *markup, const char *class_name, size_t n_column,
+                        const char *const *head) {
+    cz_page_begin_heads(markup, class_name);
+    for (size_t i = 0; i < n_column; i++)
+        if (head[i] != NULL)
+            cz_markup_element(markup, "th", head[i]);
+    cz_page_end_heads(markup);
+}
+
+void cz_page_close_table(CzMarkup *markup) {
+    cz_markup_close(markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
 CzStatus cz_page_write_parts(CzPage *page, CzError *error) {
     cz_page_write_trains(page);
     CZ_TRY(cz_page_write_figures(page, error));

@@ -84,6 +84,14 @@ void cz_page_write_contents(CzPage *page, bool of_search);
 /* Opens a section with its heading; closes it. */
 void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading);
 void cz_page_close_section(CzMarkup *markup);
+/* Opens a table that scrolls sideways where it is too wide, with the heads of its columns, NULL for
+ * one left out; class_name NULL for none. Where the heads are not at hand as a list they are
+ * written between begin and end. */
+void cz_page_open_table(CzMarkup *markup, const char *class_name, size_t n_column,
+                        const char *const *head);
+void cz_page_begin_heads(CzMarkup *markup, const char *class_name);
+void cz_page_end_heads(CzMarkup *markup);
+void cz_page_close_table(CzMarkup *markup);
 
 /* ---- parts, in the order of the page ---- */
 

@@ -8,20 +8,6 @@
 
 #define BAR_HALF 90.0 /* of a bar to either side of zero */
 
-/* Sources by the size of their moment; those that did nothing are left out. */
-static int sort_sources(const CzVehicleBudget *budget, int order[CZ_N_BUDGET]) {
-    int n = 0;
-    for (int source = 0; source < CZ_N_BUDGET; source++) {
-        if (budget->moment[source] == 0 && budget->lift[source] == 0)
-            continue;
-        int k = n++;
-        for (; k > 0 && fabs(budget->moment[order[k - 1]]) < fabs(budget->moment[source]); k--)
-            order[k] = order[k - 1];
-        order[k] = source;
-    }
-    return n;
-}
-
 /* An impulse in kilo-units; what rounds to nothing has no sign. */
 static const char *in_kilo(char text[CZ_FIGURE_ROOM], double impulse) {
     const double value = impulse / CZ_KILO;
@@ -69,20 +55,13 @@ static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *
                                         ""};
     int order[CZ_N_BUDGET];
     char text[160], time[CZ_FIGURE_ROOM];
-    const int n = sort_sources(budget, order);
+    const int n = cz_budget_order(budget, order);
     const double most = n > 0 ? fabs(budget->moment[order[0]]) : 0;
     snprintf(text, sizeof text, "%s, until its largest %s at %s ms", car,
              budget->of_lift ? "wheel lift" : "pitch",
              cz_figure_fixed(time, 0, budget->time * CZ_MILLI_PER_UNIT));
     cz_markup_element(markup, "h3", text);
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    cz_markup_open(markup, "tr");
-    for (int i = 0; i < 5; i++)
-        cz_markup_element(markup, "th", names[i]);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
     for (int i = 0; i < n; i++) {
         const CzBudgetSource source = (CzBudgetSource)order[i];
         write_row(markup, cz_budget_text(source), budget->moment[source], budget->lift[source],
@@ -90,9 +69,7 @@ static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *
     }
     write_row(markup, "the body then", budget->spin, budget->rise, most,
               "its momenta: the sum of all that acts on it directly");
-    cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_close_table(markup);
 }
 
 /* The car that lifted or pitched most; -1 when none is full. */

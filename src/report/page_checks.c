@@ -105,16 +105,7 @@ static void write_table(CzMarkup *markup, const CzEvaluation *evaluation,
                                  "margin",
                                  "",
                                  "remark and source"};
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    cz_markup_attribute(markup, "class", "checks");
-    cz_markup_open(markup, "tr");
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (names[i] != NULL)
-            cz_markup_element(markup, "th", names[i]);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_open_table(markup, "checks", sizeof names / sizeof *names, names);
     for (int pass = 0; pass < 2; pass++) /* failures first */
         for (int i = 0; i < evaluation->n_check; i++) {
             const bool fails = evaluation->check[i].verdict == CZ_VERDICT_FAIL;
@@ -122,9 +113,7 @@ static void write_table(CzMarkup *markup, const CzEvaluation *evaluation,
                 write_check(markup, &evaluation->check[i],
                             before != NULL ? &before->check[i] : NULL);
         }
-    cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_close_table(markup);
 }
 
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,

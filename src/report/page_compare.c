@@ -12,22 +12,12 @@
 
 static void open_table(CzMarkup *markup, int n, const CzReportRun *run, const char *first,
                        const char *second) {
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    cz_markup_open(markup, "tr");
+    cz_page_begin_heads(markup, NULL);
     cz_markup_element(markup, "th", first);
     cz_markup_element(markup, "th", second);
     for (int i = 0; i < n; i++)
         cz_markup_element(markup, "th", run[i].label);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-}
-
-static void close_table(CzMarkup *markup) {
-    cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_end_heads(markup);
 }
 
 static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
@@ -62,7 +52,7 @@ static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
         cz_markup_close(markup);
         cz_markup_line(markup);
     }
-    close_table(markup);
+    cz_page_close_table(markup);
     char text[64];
     snprintf(text, sizeof text, "%d checks are the same.", n_same);
     cz_markup_element(markup, "p", text);
@@ -88,7 +78,7 @@ static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool 
             cz_markup_line(markup);
         }
     }
-    close_table(markup);
+    cz_page_close_table(markup);
 }
 
 /* One channel of all runs over time. */

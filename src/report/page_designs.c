@@ -254,11 +254,7 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
                       "there is no room upwards; the others stay as in the best design. Margins "
                       "are those of the constraints with least left: what grows eases, what falls "
                       "binds. From runs as the search makes them.");
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    cz_markup_attribute(markup, "class", "sensitivities");
-    cz_markup_open(markup, "tr");
+    cz_page_begin_heads(markup, "sensitivities");
     cz_markup_element(markup, "th", "variable");
     cz_markup_element(markup, "th", "step");
     cz_markup_element(markup, "th",
@@ -267,12 +263,10 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
                           : cz_evaluator_objective_name(evaluator));
     for (int i = 0; i < n_column; i++)
         cz_markup_element(markup, "th", cz_evaluator_constraint_name(evaluator, column[i]));
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_end_heads(markup);
     for (int i = 0; i < outcome->n_variable; i++)
         if (outcome->sensitivity_step[i] != 0)
             write_sensitivity(markup, evaluator, outcome, i, n_column, column);
-    cz_markup_close(markup);
-    cz_markup_close(markup);
+    cz_page_close_table(markup);
     cz_page_close_section(markup);
 }

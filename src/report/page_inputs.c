@@ -25,14 +25,7 @@ void cz_page_write_events(CzPage *page) {
     CzMarkup *markup = &page->markup;
     const CzRunSummary *run = page->summary;
     cz_page_open_section(markup, "events", "Events");
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    cz_markup_open(markup, "tr");
-    for (int i = 0; i < 4; i++)
-        cz_markup_element(markup, "th", names[i]);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
     for (int i = 0; i < run->n_event; i++) {
         const CzEvent *event = &run->event[i];
         char time[CZ_FIGURE_ROOM], what[48];
@@ -51,8 +44,7 @@ void cz_page_write_events(CzPage *page) {
         cz_markup_close(markup);
         cz_markup_line(markup);
     }
-    cz_markup_close(markup);
-    cz_markup_close(markup);
+    cz_page_close_table(markup);
     cz_page_close_section(markup);
 }
 

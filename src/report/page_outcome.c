@@ -87,14 +87,7 @@ static void write_variables(CzMarkup *markup, const CzEvaluator *evaluator,
                                         "after",    "max",  "where", ""};
     cz_page_open_section(markup, "variables", "Variables");
     cz_markup_element(markup, "p", "Between the bounds: a ring is the start, a dot the best.");
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    cz_markup_open(markup, "tr");
-    for (int i = 0; i < 8; i++)
-        cz_markup_element(markup, "th", names[i]);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
     for (int i = 0; i < outcome->n_variable; i++) {
         const CzVariableInfo *variable = cz_evaluator_variable(evaluator, i);
         const double numbers[] = {variable->min, outcome->start[i], outcome->best[i],
@@ -112,8 +105,7 @@ static void write_variables(CzMarkup *markup, const CzEvaluator *evaluator,
         cz_markup_close(markup);
         cz_markup_line(markup);
     }
-    cz_markup_close(markup);
-    cz_markup_close(markup);
+    cz_page_close_table(markup);
     cz_page_close_section(markup);
 }
 
@@ -253,14 +245,7 @@ static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const C
     const CzEvaluation *best = &outcome->best_evaluation;
     cz_page_open_section(markup, "active", "What holds the best design");
     cz_markup_element(markup, "p", "The constraints with least left; below 0 is violated.");
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    cz_markup_open(markup, "tr");
-    for (int i = 0; i < 6; i++)
-        cz_markup_element(markup, "th", names[i]);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
     int told[MOST_CONSTRAINTS];
     for (int n = 0; n < MOST_CONSTRAINTS; n++) {
         told[n] = cz_page_next_constraint(best, n, told);
@@ -268,8 +253,7 @@ static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const C
             break;
         write_constraint(markup, evaluator, best, told[n]);
     }
-    cz_markup_close(markup);
-    cz_markup_close(markup);
+    cz_page_close_table(markup);
     cz_page_close_section(markup);
 }
 
@@ -335,19 +319,11 @@ static void write_verification(CzMarkup *markup, const CzVerification *verificat
              passes ? "Passed" : "NOT passed", cz_figure_percent(limit, verification->limit),
              verification->failure[0] != '\0' ? " " : "", verification->failure);
     cz_markup_classed(markup, "p", passes ? "pass" : "fail", text);
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    cz_markup_open(markup, "tr");
-    for (int i = 0; i < 4; i++)
-        cz_markup_element(markup, "th", names[i]);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
         if ((verification->ways & (1u << way)) != 0)
             write_way(markup, verification, (CzVerifyWay)way);
-    cz_markup_close(markup);
-    cz_markup_close(markup);
+    cz_page_close_table(markup);
     cz_page_close_section(markup);
 }
 

@@ -185,10 +185,7 @@ static void write_point(CzMarkup *markup, const CzSweep *sweep, const CzSweepPoi
 }
 
 static void write_table(CzMarkup *markup, const CzSweep *sweep) {
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    cz_markup_open(markup, "tr");
+    cz_page_begin_heads(markup, NULL);
     for (int k = 0; k < sweep->n_axis; k++)
         cz_markup_element(markup, "th", sweep->axis[k].path);
     cz_markup_element(markup, "th", "verdict");
@@ -198,13 +195,10 @@ static void write_table(CzMarkup *markup, const CzSweep *sweep) {
     cz_markup_element(markup, "th", "smallest margin");
     cz_markup_element(markup, "th", "where");
     cz_markup_element(markup, "th", "scenario");
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_end_heads(markup);
     for (int i = 0; i < sweep->n_point; i++)
         write_point(markup, sweep, &sweep->point[i]);
-    cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_close_table(markup);
 }
 
 CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error) {

@@ -96,14 +96,6 @@ static void write_diagram(const CzPage *page, CzMarkup *markup) {
 
 /* ---- tables ---- */
 
-static void write_heads(CzMarkup *markup, int n, const char *const *name) {
-    cz_markup_open(markup, "tr");
-    for (int i = 0; i < n; i++)
-        cz_markup_element(markup, "th", name[i]);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-}
-
 static void put_number(CzMarkup *markup, const char *text) {
     cz_markup_classed(markup, "td", "number", text);
 }
@@ -128,10 +120,7 @@ static void write_element(CzMarkup *markup, const char *interface, const CzEleme
 static void write_elements(const CzPage *page, CzMarkup *markup) {
     static const char *const names[] = {"interface",   "element", "peak kN", "stroke mm",
                                         "stroke used", "kJ",      ""};
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    write_heads(markup, 7, names);
+    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
     for (int i = 0; i < page->summary->n_interface; i++) {
         const CzInterfaceResult *interface = &page->summary->interface[i];
         bool is_first = true;
@@ -142,9 +131,7 @@ static void write_elements(const CzPage *page, CzMarkup *markup) {
             is_first = false;
         }
     }
-    cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_close_table(markup);
 }
 
 static void write_vehicle(CzMarkup *markup, const CzVehicleResult *vehicle) {
@@ -169,15 +156,10 @@ static void write_vehicles(const CzPage *page, CzMarkup *markup) {
     static const char *const names[] = {
         "car",           "final km/h", "peak g",          "mean g, contact", "mean g, 120 ms",
         "wheel lift mm", "pitch mrad", "traction link kN"};
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    write_heads(markup, 8, names);
+    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
     for (int i = 0; i < page->summary->n_vehicle; i++)
         write_vehicle(markup, &page->summary->vehicle[i]);
-    cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_page_close_table(markup);
 }
 
 void cz_page_write_trains(CzPage *page) {

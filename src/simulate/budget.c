@@ -35,6 +35,19 @@ bool cz_budget_counts(CzBudgetSource source) {
     return counts[source];
 }
 
+int cz_budget_order(const CzVehicleBudget *budget, int order[CZ_N_BUDGET]) {
+    int n = 0;
+    for (int source = 0; source < CZ_N_BUDGET; source++) {
+        if (budget->moment[source] == 0 && budget->lift[source] == 0)
+            continue;
+        int k = n++;
+        for (; k > 0 && fabs(budget->moment[order[k - 1]]) < fabs(budget->moment[source]); k--)
+            order[k] = order[k - 1];
+        order[k] = source;
+    }
+    return n;
+}
+
 CzBudgetBook *cz_budget_begin(CzBatch *batch, CzArena *arena) {
     const size_t n = (size_t)batch->model->n_car;
     CzBudgetBook *book = cz_arena_allocate(arena, 1, sizeof *book);

@@ -32,16 +32,16 @@ one_scenario() {
 }
 check "a folder of one scenario is run with that one" one_scenario
 moved() { # all that a folder needs is in it, wherever the files that it was made from are
-    mkdir -p there && cp -r "$SOURCE/problems" there/problems && (cd there && exits 0 "$C" run problems/metro-6-car.yaml --scenario 8-km-h -o made -q) &&
+    mkdir -p there && cp -r "$SOURCE/problems" there/problems && (cd there && exits 0 "$C" run problems/first-collision.yaml -o made -q) &&
         cp -r there/made elsewhere && rm -r there && exits 0 "$C" report elsewhere -o moved.html -q && says moved.html 'en15227-2020a1' &&
-        exits 0 "$C" run elsewhere/resolved.yaml --scenario 8-km-h -o once-more -q && cmp elsewhere/channels.csv once-more/channels.csv
+        exits 0 "$C" run elsewhere/resolved.yaml -o once-more -q && cmp elsewhere/channels.csv once-more/channels.csv
 }
 check "a result folder that was moved runs by itself" moved
 same_elsewhere() { # the same tree in two places gives the same bytes outside run_info
     for place in here yonder; do
         mkdir -p $place && cp -r "$SOURCE/problems" $place/problems
-        (cd $place && exits 0 "$C" run problems/metro-6-car.yaml --scenario 8-km-h -o made -q) || return 1
-        (cd $place && exits 0 "$C" run "$PWD/problems/metro-6-car.yaml" --scenario 8-km-h -o by-root -q) || return 1
+        (cd $place && exits 0 "$C" run problems/first-collision.yaml -o made -q) || return 1
+        (cd $place && exits 0 "$C" run "$PWD/problems/first-collision.yaml" -o by-root -q) || return 1
         for folder in made by-root; do sed -i '/"wall_s"\|"setup_s"\|"isa"\|"jobs"/d' $place/$folder/summary.json; done
         sed -i "s|$PWD/$place/||" $place/by-root/summary.json $place/by-root/run.log # as it was given
     done

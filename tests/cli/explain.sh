@@ -1,14 +1,10 @@
-# explain: what climbs and what holds, in text and JSON, how it is interrupted.
+# explain: what holds and what would break it, what is not known, how it is cut short and interrupted.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 cars=$SOURCE/problems/two-cars-25kmh.yaml
 
-climbs() { exits 0 "$C" explain "$cars" --set trains.A.speed_km_h=45 && says out.txt 'IT CLIMBED' && says out.txt 'restores the margin' && says out.txt 'First cause'; }
-check "a climb gets its causes" climbs
 holds() { exits 0 "$C" explain "$cars" && says out.txt 'it holds' && says out.txt 'breaks the margin' && says out.txt 'First to give way'; }
 check "what holds is told what would break it" holds
-document() { exits 0 "$C" explain "$cars" --set trains.A.speed_km_h=45 --json && json out.txt format crushzone.explanation && json out.txt climbed true && json out.txt levers.0.turns true && json out.txt signs.0.cause bottoming; }
-check "--json prints one document" document
 unchecked() {
     printf 'extends: %s\nparts: {paper-car: {bogie: {secondary: {lift_gap_mm: null}}}}\n' "$cars" >no-stops.yaml
     exits 0 "$C" explain no-stops.yaml && says out.txt 'NOT CHECKED'

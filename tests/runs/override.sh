@@ -1,10 +1,12 @@
-# Override on shipped problems: the optimised metro where it comes nearest to climbing, and verification of what climbs and holds.
+# Override on shipped problems: the optimised metro where it comes nearest to climbing, verification of what climbs and holds,
+# and the causes of a climb.
 #
 #   override.sh          some seconds
 #   override.sh all      every scenario of the metro, and the verification of its worst ones
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 published=$SOURCE/problems/metro-6-car-override.yaml
+cars=$SOURCE/problems/two-cars-25kmh.yaml
 sized=$SOURCE/problems/metro-6-car-override-optimised.yaml
 
 # keeps SCENARIO: all that is checked there passes, override among it.
@@ -48,6 +50,15 @@ for scenario in inner_40km_h_A5-A6_50mm 25-km-h-partner-low; do
     after() { keeps "$scenario"; }
     check "sized absorbers keep every check of $scenario" after
 done
+told() {
+    exits 0 "$C" explain "$cars" --set trains.A.speed_km_h=45 && says out.txt 'IT CLIMBED' && says out.txt 'restores the margin' && says out.txt 'First cause'
+}
+check "a climb gets its causes" told
+document() {
+    exits 0 "$C" explain "$cars" --set trains.A.speed_km_h=45 --json && json out.txt format crushzone.explanation && json out.txt climbed true &&
+        json out.txt levers.0.turns true && json out.txt signs.0.cause bottoming
+}
+check "explain --json prints one document" document
 overload() { exits 1 "$C" check "$sized" --scenario overload && grep -q '^bottoming out under overload .* pass' out.txt && ! grep -q FAIL out.txt; }
 check "sized absorbers suffice under overload" overload
 for pair in overlap-climbs bottoming-lifts; do

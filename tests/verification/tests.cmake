@@ -3,8 +3,8 @@ if(CZ_IS_WHOLE)
     cz_program(verification verification.c tests/physics/closed_forms.c tests/physics/published.c
                tests/physics/rails.c
                tests/physics/scheme.c tests/physics/steps.c)
-    cz_script(verification_page physics page.sh)
+    cz_script(verification_page runs page.sh)
     # What each model of the track costs and how far it differs, as another.
     cz_program(tracks tracks.c)
-    cz_script(track_page physics track.sh)
+    cz_script(track_page runs track.sh)
 endif()

@@ -36,13 +36,10 @@ static void find_report(const CzArguments *arguments, char path[4096]) {
     const char *folder = arguments->operand[0], *given = arguments->text[CZ_OPTION_OUTPUT];
     struct stat found;
     const bool is_folder = stat(folder, &found) == 0 && S_ISDIR(found.st_mode);
-    snprintf(path, 4096, "%.4000s%s",
-             given != NULL ? given
-             : is_folder   ? folder
-                           : "",
-             given != NULL ? ""
-             : is_folder   ? "/report.html"
-                           : "report.html");
+    if (given != NULL)
+        snprintf(path, 4096, "%s", given);
+    else
+        snprintf(path, 4096, "%.4000s%sreport.html", is_folder ? folder : "", is_folder ? "/" : "");
 }
 
 /* That of a search's best design alone goes to a file of its own. */

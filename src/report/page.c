@@ -7,6 +7,7 @@
 #include "report/runs.h"
 #include "report/sha256.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -202,6 +203,28 @@ void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading)
 void cz_page_close_section(CzMarkup *markup) {
     cz_markup_close(markup);
     cz_markup_line(markup);
+}
+
+void cz_page_write_bar(CzMarkup *markup, const CzBar *bar, double share) {
+    const double size = bar->half * fmin(fabs(share), 1);
+    cz_markup_open(markup, "svg");
+    cz_markup_attribute(markup, "class", bar->class_name);
+    cz_markup_format(markup, "viewBox", "0 0 %g 10", 2 * bar->middle);
+    cz_markup_attribute(markup, "aria-hidden", "true");
+    cz_markup_open(markup, "rect");
+    if (bar->fill_class != NULL)
+        cz_markup_attribute(markup, "class", bar->fill_class);
+    cz_markup_number(markup, "x", 1, share < 0 ? bar->middle - size : bar->middle);
+    cz_markup_attribute(markup, "y", "1");
+    cz_markup_number(markup, "width", 1, fmax(size, 0.6));
+    cz_markup_attribute(markup, "height", "8");
+    cz_markup_attribute(markup, "fill", share < 0 ? bar->below : bar->above);
+    cz_markup_close(markup);
+    cz_markup_open(markup, "path");
+    cz_markup_format(markup, "d", "M%g 0v10", bar->middle);
+    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_close(markup);
+    cz_markup_close(markup);
 }
 
 void cz_page_begin_heads(CzMarkup *markup, const char *class_name) {

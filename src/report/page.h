@@ -84,6 +84,13 @@ void cz_page_write_contents(CzPage *page, bool of_search);
 /* Opens a section with its heading; closes it. */
 void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading);
 void cz_page_close_section(CzMarkup *markup);
+/* How a share is drawn in a table: to the right of the middle above zero, to the left below. */
+typedef struct CzBar {
+    const char *class_name, *fill_class; /* fill_class NULL for none */
+    double half, middle;                 /* longest way to either side, place of zero */
+    const char *below, *above;           /* colours */
+} CzBar;
+void cz_page_write_bar(CzMarkup *markup, const CzBar *bar, double share);
 /* Opens a table that scrolls sideways where it is too wide, with the heads of its columns, NULL for
  * one left out; class_name NULL for none. Where the heads are not at hand as a list they are
  * written between begin and end. */

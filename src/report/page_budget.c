@@ -6,8 +6,6 @@
 
 #include <math.h>
 
-#define BAR_HALF 90.0 /* of a bar to either side of zero */
-
 /* An impulse in kilo-units; what rounds to nothing has no sign. */
 static const char *in_kilo(char text[CZ_FIGURE_ROOM], double impulse) {
     const double value = impulse / CZ_KILO;
@@ -15,24 +13,9 @@ static const char *in_kilo(char text[CZ_FIGURE_ROOM], double impulse) {
 }
 
 static void write_bar(CzMarkup *markup, double share) {
-    const double size = BAR_HALF * fmin(fabs(share), 1);
+    static const CzBar bar = {"budget", NULL, 90, 92, "#d55e00", "#0072b2"};
     cz_markup_open(markup, "td");
-    cz_markup_open(markup, "svg");
-    cz_markup_attribute(markup, "class", "budget");
-    cz_markup_attribute(markup, "viewBox", "0 0 184 10");
-    cz_markup_attribute(markup, "aria-hidden", "true");
-    cz_markup_open(markup, "rect");
-    cz_markup_number(markup, "x", 1, share < 0 ? 92 - size : 92);
-    cz_markup_attribute(markup, "y", "1");
-    cz_markup_number(markup, "width", 1, fmax(size, 0.6));
-    cz_markup_attribute(markup, "height", "8");
-    cz_markup_attribute(markup, "fill", share < 0 ? "#d55e00" : "#0072b2");
-    cz_markup_close(markup);
-    cz_markup_open(markup, "path");
-    cz_markup_attribute(markup, "d", "M92 0v10");
-    cz_markup_attribute(markup, "stroke", "currentColor");
-    cz_markup_close(markup);
-    cz_markup_close(markup);
+    cz_page_write_bar(markup, &bar, share);
     cz_markup_close(markup);
 }
 

@@ -22,27 +22,8 @@ static const char *or_empty(const char *text) {
     return text != NULL ? text : "";
 }
 
-/* A margin as a bar: to the right what is left, to the left what is missing. */
-static void write_margin_bar(CzMarkup *markup, double margin, const char *class_name) {
-    const double half = 30, size = half * fmin(fabs(margin), 1);
-    cz_markup_open(markup, "svg");
-    cz_markup_attribute(markup, "class", "bar");
-    cz_markup_attribute(markup, "viewBox", "0 0 62 10");
-    cz_markup_attribute(markup, "aria-hidden", "true");
-    cz_markup_open(markup, "rect");
-    cz_markup_attribute(markup, "class", class_name);
-    cz_markup_number(markup, "x", 1, margin < 0 ? 31 - size : 31);
-    cz_markup_attribute(markup, "y", "1");
-    cz_markup_number(markup, "width", 1, fmax(size, 0.6));
-    cz_markup_attribute(markup, "height", "8");
-    cz_markup_attribute(markup, "fill", margin < 0 ? "#d0021b" : "#009e73");
-    cz_markup_close(markup);
-    cz_markup_open(markup, "path");
-    cz_markup_attribute(markup, "d", "M31 0v10");
-    cz_markup_attribute(markup, "stroke", "currentColor");
-    cz_markup_close(markup);
-    cz_markup_close(markup);
-}
+/* To the right what is left, to the left what is missing. */
+static const CzBar margin_bar = {"bar", "margin", 30, 31, "#d0021b", "#009e73"};
 
 static void write_source(CzMarkup *markup, const CzCheckResult *check) {
     char text[512];
@@ -85,7 +66,7 @@ static void write_check(CzMarkup *markup, const CzCheckResult *check, const CzCh
     cz_markup_classed(markup, "td", "number", cz_figure_margin(text, check->margin));
     cz_markup_open(markup, "td");
     if (isfinite(check->margin))
-        write_margin_bar(markup, check->margin, "margin");
+        cz_page_write_bar(markup, &margin_bar, check->margin);
     cz_markup_close(markup);
     write_source(markup, check);
     cz_markup_close(markup);

@@ -141,7 +141,6 @@ static void write_figure(CzMarkup *markup, const Axes *axes, double start, doubl
 /* The better end of the objective's axis is its upper one; what is far worse lies at its lower. */
 static void find_range(Axes *axes, double start, double best) {
     axes->best = best;
-    axes->worst = best;
     const double sign = start < best ? 1 : -1; /* which way is better */
     const double least = best - sign * 2 * fabs(best - start);
     axes->worst = start;

@@ -15,8 +15,6 @@ bool cz_sheet_begin(CzSheet *sheet, const CzPage *page, int room, const char *x_
     return sheet->series != NULL;
 }
 
-/* Adds a curve over time of the channel "<stem>_<name>_<unit>"; one that was not recorded is left
- * out. */
 CzSeries *cz_sheet_add_channel(CzSheet *sheet, const char *stem, const char *name,
                                const char *unit) {
     char channel[64];
@@ -34,17 +32,19 @@ CzSeries *cz_sheet_add_channel(CzSheet *sheet, const char *stem, const char *nam
     return series;
 }
 
-/* A car and its mirror image get one colour; the train ahead is dashed. */
+/* `colour` counts from the collision outwards. */
+static void mark(CzSeries *series, int colour, bool ahead) {
+    series->colour = colour;
+    series->dash = (ahead ? 1 : 0) + (colour >= CZ_PLOT_N_COLOUR ? 2 : 0);
+}
+
 void cz_sheet_mark_car(CzSeries *series, const CzModel *model, int car) {
     const bool ahead = car > model->colliding;
-    series->colour = ahead ? car - model->colliding - 1 : model->colliding - car;
-    series->dash = (ahead ? 1 : 0) + (series->colour >= CZ_PLOT_N_COLOUR ? 2 : 0);
+    mark(series, ahead ? car - model->colliding - 1 : model->colliding - car, ahead);
 }
 
 void cz_sheet_mark_interface(CzSeries *series, const CzModel *model, int interface) {
-    const bool ahead = interface > model->colliding;
-    series->colour = abs(interface - model->colliding);
-    series->dash = (ahead ? 1 : 0) + (series->colour >= CZ_PLOT_N_COLOUR ? 2 : 0);
+    mark(series, abs(interface - model->colliding), interface > model->colliding);
 }
 
 void cz_sheet_add_limit(CzSheet *sheet, double at, const char *name) {

@@ -85,4 +85,14 @@ static inline double mass(const Motion *motion, int dof, int car) {
     return motion->lanes->mass[(size_t)dof * motion->lanes->stride + (size_t)car];
 }
 
+static inline double motion_kinetic_energy(const Motion *motion) {
+    double energy = 0.0;
+    for (int car = 0; car < motion->collision.model->n_car; car++)
+        for (int dof = 0; dof < CZ_N_DOF; dof++) {
+            const double v = *velocity(motion, dof, car);
+            energy += 0.5 * mass(motion, dof, car) * v * v;
+        }
+    return energy;
+}
+
 #endif

@@ -217,20 +217,10 @@ static void angular_momentum_is_kept_at_the_order_of_the_step(void **state) {
     assert_true(fine < 0.5 * coarse);
 }
 
-static double kinetic_energy(const Motion *motion) {
-    double energy = 0.0;
-    for (int car = 0; car < N_CAR; car++)
-        for (int dof = 0; dof < CZ_N_DOF; dof++) {
-            const double v = *velocity(motion, dof, car);
-            energy += 0.5 * mass(motion, dof, car) * v * v;
-        }
-    return energy;
-}
-
 /* What the elements take up is what the bodies lose; the share that is missing. */
 static double missing_energy(const char *step, int n_step) {
     Motion motion = collision_in_space(step);
-    const double before = kinetic_energy(&motion);
+    const double before = motion_kinetic_energy(&motion);
     for (int i = 0; i < n_step; i++) {
         motion_advance(&motion);
         motion_evaluate(&motion);
@@ -239,7 +229,7 @@ static double missing_energy(const char *step, int n_step) {
     for (int row = 0; row < CZ_N_LEDGER; row++)
         for (int car = 0; car < N_CAR; car++)
             taken += cz_block_of(motion.dynamics, (size_t)car)->work[row][car % CZ_LANE_BLOCK];
-    const double missing = fabs(kinetic_energy(&motion) + taken - before) / before;
+    const double missing = fabs(motion_kinetic_energy(&motion) + taken - before) / before;
     motion_close(&motion);
     return missing;
 }

@@ -76,16 +76,6 @@ static double work_of(const Motion *motion, int row) {
     return work;
 }
 
-static double kinetic_energy(const Motion *motion) {
-    double energy = 0.0;
-    for (int car = 0; car < N_CAR; car++)
-        for (int dof = 0; dof < CZ_N_DOF; dof++) {
-            const double v = *velocity(motion, dof, car);
-            energy += 0.5 * mass(motion, dof, car) * v * v;
-        }
-    return energy;
-}
-
 /* Wheels that roll over sleepers work on pads and ballast, and the model keeps them at their speed:
  * what the track turns into heat is what the moving load brings in, and no car slows down, but for
  * the creep under a load that swings by a part in a thousand. Without that term the books would be
@@ -96,7 +86,7 @@ static void rails_that_give_way_brake_nobody_and_the_moving_load_pays_for_them(v
     static const char *const tracks[] = {"simulation.track=modal", "simulation.track=fe"};
     for (int i = 0; i < 2; i++) {
         Motion motion = all_on(tracks[i], 30.0, "trains.A.brake.ratio=0", "trains.B.brake.ratio=0");
-        const double before = kinetic_energy(&motion);
+        const double before = motion_kinetic_energy(&motion);
         go(&motion, 1.0);
         for (int car = 0; car < N_CAR; car++)
             assert_near(*velocity(&motion, CZ_DOF_BODY_X, car), 30.0, 1e-8, 0.0);
@@ -108,7 +98,7 @@ static void rails_that_give_way_brake_nobody_and_the_moving_load_pays_for_them(v
         /* The flexibility under a wheel beside the modes counts with the contact. */
         const double taken = work_of(&motion, CZ_L_TRACK) + work_of(&motion, CZ_L_WHEEL_NORMAL);
         assert_near(taken, paid, 2e-3, 0.0);
-        assert_near(sum, before - kinetic_energy(&motion), 0.0, 1e-3 * paid);
+        assert_near(sum, before - motion_kinetic_energy(&motion), 0.0, 1e-3 * paid);
         motion_close(&motion);
     }
 }

@@ -133,9 +133,11 @@ CzStatus cz_report_write_chart(const CzReportRun *run, const CzChartOptions *cho
     if (status == CZ_OK)
         status = find_place(&page, chart, chosen->at, &index, error);
     if (status == CZ_OK) {
-        fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", stream);
+        fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", page.markup.stream);
         status = cz_chart_write(&page, chart, index, &page.markup, error);
     }
+    if (status == CZ_OK)
+        status = cz_page_finish(&page, error);
     cz_page_free(&page);
     cz_curve_free(measured);
     return status;

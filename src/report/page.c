@@ -70,13 +70,16 @@ static int scenario_named(const CzProblem *problem, const char *name) {
 
 CzStatus cz_page_begin(CzPage *page, const CzProblem *problem, const CzEvaluation *evaluation,
                        int scenario, const CzReportOptions *options, FILE *stream, CzError *error) {
-    *page = (CzPage){.markup = {.stream = stream},
+    *page = (CzPage){.stream = stream,
                      .problem = problem,
                      .evaluation = evaluation,
                      .options = options,
                      .scenario = scenario,
                      .run = evaluation->run[scenario],
                      .summary = cz_kept_run(evaluation, scenario)};
+    page->markup.stream = open_memstream(&page->text, &page->n_text);
+    if (page->markup.stream == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
     int n_vehicle;
     page->vehicles = cz_problem_vehicles(problem, &n_vehicle);
     page->n_sample = cz_run_n_sample(page->run);
@@ -92,6 +95,11 @@ CzStatus cz_page_begin(CzPage *page, const CzProblem *problem, const CzEvaluatio
 }
 
 void cz_page_free(CzPage *page) {
+    if (page->markup.stream != NULL)
+        fclose(page->markup.stream);
+    free(page->text);
+    page->markup.stream = NULL;
+    page->text = NULL;
     free(page->stand);
     cz_model_free(page->model);
     page->stand = NULL;
@@ -263,13 +271,14 @@ CzStatus cz_page_write_parts(CzPage *page, CzError *error) {
     cz_page_write_animation(page);
     cz_page_write_events(page);
     CZ_TRY(cz_page_write_inputs(page, error));
-    CZ_TRY(cz_page_write_data(page, error));
-    return cz_page_finish(page, error);
+    return cz_page_write_data(page, error);
 }
 
-CzStatus cz_page_finish(const CzPage *page, CzError *error) {
-    return page->markup.failed ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report")
-                               : CZ_OK;
+CzStatus cz_page_finish(CzPage *page, CzError *error) {
+    if (page->markup.failed || fflush(page->markup.stream) != 0)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
+    fwrite(page->text, 1, page->n_text, page->stream);
+    return CZ_OK;
 }
 
 CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation, int scenario,
@@ -284,8 +293,10 @@ CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluat
         cz_page_write_verdict(&page, is_top);
         status = cz_page_write_parts(&page, error);
     }
-    if (status == CZ_OK)
+    if (status == CZ_OK) {
         cz_page_write_foot(&page.markup);
+        status = cz_page_finish(&page, error);
+    }
     cz_page_free(&page);
     return status;
 }

@@ -18,7 +18,10 @@ typedef struct CzPageOther {
 } CzPageOther;
 
 typedef struct CzPage {
-    CzMarkup markup;
+    CzMarkup markup; /* writes into memory, for a page must know how long it is */
+    FILE *stream;    /* where the page goes when it is whole; borrowed */
+    char *text;      /* what was written, known once the markup's stream was flushed */
+    size_t n_text;   /* its length [bytes] */
     const CzProblem *problem;
     const CzEvaluation *evaluation;
     const CzReportOptions *options;
@@ -73,8 +76,9 @@ CZ_MUST_CHECK CzStatus cz_page_write_outcome(const CzProblem *best, const CzEval
 /* The parts about one run, from the trains to the inputs, and the data for the script. */
 CZ_MUST_CHECK CzStatus cz_page_write_parts(CzPage *page, CzError *error);
 
-/* Whether everything could be written. Status: CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_page_finish(const CzPage *page, CzError *error);
+/* Hands what was written on to the page's stream, all of it or nothing. Status:
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_page_finish(CzPage *page, CzError *error);
 
 /* The first and last lines of a page. */
 void cz_page_write_head(CzMarkup *markup, const char *title);

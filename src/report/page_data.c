@@ -1,17 +1,34 @@
-/* The numbers behind the cursor and the animation: samples of the recorded channels, as whole
- * numbers of a decimal unit, each the difference to the one before.
+/* The numbers behind the cursor and the animation: rows of the recorded channels, as whole numbers
+ * of a decimal unit. Each is told by its bend, how far it leaves the line through the two before
+ * it, which for most rows of most channels is one letter or none.
+ *
+ *   number   digits to base 44, the last one as it is, those before it 44 higher
+ *   letter   of a digit: printable, but for what HTML, XML or JSON would take for their own
+ *   bend b   the number 2 b for b >= 0, 2 |b| + 1 for b < 0
+ *   1, m     m / 2 bends of nothing when m is even, (m - 1) / 2 values that are no number when odd
  */
 #include "report/page.h"
 
 #include "base/error.h"
+#include "report/assets.h"
 #include "report/figure.h"
 #include "report/units.h"
 
+#include <fnmatch.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { EVEN_SAMPLES = 240, DIGITS = 5, MOST_DECIMALS = 4 };
+enum {
+    EVEN_SAMPLES = 240,
+    DIGITS = 5,
+    MOST_DECIMALS = 3,
+    FINEST_TIME = 6, /* decimals of a millisecond */
+    BASE = 44,
+    SHORTEST_RUN = 3,    /* of bends of nothing; fewer take less room one by one */
+    PAGE_ROOM = 1000000, /* bytes that a page may have where all rows do not fit; ours */
+    FOOT_ROOM = 1000     /* of what follows the numbers, but for the script */
+};
 
 static bool is_shown(const char *name) {
     static const char *const prefixes[] = {"x_", "v_", "a_", "z_",      "pitch_",
@@ -21,6 +38,8 @@ static bool is_shown(const char *name) {
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (strncmp(name, others[i], strlen(others[i])) == 0)
             return false;
+    if (strncmp(name, "E_", 2) == 0 && strchr(name, '-') != NULL)
+        return false; /* of one interface */
     for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; i++)
         if (strncmp(name, prefixes[i], strlen(prefixes[i])) == 0)
             return true;
@@ -37,8 +56,8 @@ static void take_extremes(const double *value, int n, bool *taken) {
     taken[high] = taken[low] = true;
 }
 
-/* Samples that the cursor can stand at: evenly spread, every extreme of a force or an acceleration,
- * every event. */
+/* Rows that the cursor can stand at in any case: evenly spread, every extreme of a force or an
+ * acceleration, every event. */
 static void choose(const CzPage *page, bool *taken) {
     const int n = page->n_sample;
     for (int i = 0; i < EVEN_SAMPLES; i++)
@@ -57,22 +76,40 @@ static void choose(const CzPage *page, bool *taken) {
     }
 }
 
-/* Decimals beyond which nobody asks, by the unit at the end of a channel's name. */
+/* Decimals beyond which nobody asks, by how a channel's name begins and ends. What only moves the
+ * animation needs no more than its drawing. */
 static int most_decimals(const char *name) {
     static const struct {
-        const char *unit;
+        const char *stem, *unit;
         int decimals;
-    } units[] = {{"_mm", 3}, {"_kN", 1}, {"_kJ", 2}, {"_mrad", 3}};
-    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
-        const size_t n = strlen(name), n_unit = strlen(units[i].unit);
-        if (n > n_unit && strcmp(name + n - n_unit, units[i].unit) == 0)
-            return units[i].decimals;
+    } kinds[] = {
+        {"z_", "_w?_mm", 2}, {"z_", "_mm", 1}, {"d_end_", "_mm", 1}, {"d_anti-climber_", "_mm", 1},
+        {"", "_mm", 2},      {"", "_kN", 1},   {"", "_kJ", 2},       {"", "_mrad", 2}};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        char pattern[64];
+        snprintf(pattern, sizeof pattern, "%s*%s", kinds[i].stem, kinds[i].unit);
+        if (fnmatch(pattern, name, 0) == 0)
+            return kinds[i].decimals;
     }
     return MOST_DECIMALS;
 }
 
+/* Fewest decimals that tell every row's time, as far as FINEST_TIME. */
+static int decimals_of_time(const double *time, int n) {
+    double unit = 1;
+    int decimals = 0;
+    for (int i = 0; i < n && decimals < FINEST_TIME; i++)
+        while (decimals < FINEST_TIME && fabs(time[i] - round(time[i] * unit) / unit) > 1e-7) {
+            unit *= 10;
+            decimals++;
+        }
+    return decimals;
+}
+
 /* Decimals that give the largest value DIGITS digits. */
 static int decimals_for(const char *name, const double *value, int n) {
+    if (strcmp(name, "t_ms") == 0)
+        return decimals_of_time(value, n);
     double most = 0;
     for (int i = 0; i < n; i++)
         most = isfinite(value[i]) && fabs(value[i]) > most ? fabs(value[i]) : most;
@@ -100,28 +137,138 @@ static void write_json_text(FILE *stream, const char *text) {
     fputc('"', stream);
 }
 
-/* "name":[decimals,first,difference,...]; null for a value that is no number. */
-static void write_channel(FILE *stream, const char *name, const double *value, int n,
-                          const bool *taken) {
-    const int decimals = decimals_for(name, value, n);
+/* Where letters go: a stream, or NULL to count them only. */
+typedef struct Letters {
+    FILE *stream;
+    long n;
+} Letters;
+
+static void put_letter(Letters *letters, int digit) {
+    int c = '#' + digit;
+    c += c >= '&';
+    c += c >= '<';
+    c += c >= '>';
+    c += c >= '\\';
+    if (letters->stream != NULL)
+        fputc(c, letters->stream);
+    letters->n++;
+}
+
+static void put_number(Letters *letters, unsigned long long number) {
+    int digit[16], n = 0;
+    do {
+        digit[n++] = (int)(number % BASE);
+        number /= BASE;
+    } while (number > 0);
+    while (n-- > 0)
+        put_letter(letters, digit[n] + (n > 0 ? BASE : 0));
+}
+
+static void put_bend(Letters *letters, long long bend) {
+    put_number(letters,
+               bend >= 0 ? 2 * (unsigned long long)bend : 2 * (unsigned long long)-bend + 1);
+}
+
+static void put_run(Letters *letters, int n, bool is_gap) {
+    if (!is_gap && n < SHORTEST_RUN) {
+        while (n-- > 0)
+            put_bend(letters, 0);
+        return;
+    }
+    put_number(letters, 1);
+    put_number(letters, 2 * (unsigned long long)n + is_gap);
+}
+
+/* Rows that are taken: the first ones, and some of those after them. */
+typedef struct Rows {
+    int n, n_first;
+    const bool *later; /* (n) */
+} Rows;
+
+/* "name":[decimals,"letters"] */
+static void put_channel(Letters *letters, const char *name, const double *value, const Rows *rows) {
+    const int decimals = decimals_for(name, value, rows->n);
     double unit = 1;
     for (int i = 0; i < decimals; i++)
         unit *= 10;
-    write_json_text(stream, name);
-    fprintf(stream, ":[%d", decimals);
-    long long last = 0;
-    for (int i = 0; i < n; i++) {
-        if (!taken[i])
-            continue;
-        if (!isfinite(value[i])) {
-            fputs(",null", stream);
-            continue;
-        }
-        const long long whole = llround(value[i] * unit);
-        fprintf(stream, ",%lld", whole - last);
-        last = whole;
+    if (letters->stream != NULL) {
+        write_json_text(letters->stream, name);
+        fprintf(letters->stream, ":[%d,\"", decimals);
     }
-    fputc(']', stream);
+    letters->n += (long)strlen(name) + 10;
+    long long last = 0, step = 0;
+    int n_run = 0;
+    bool is_gap = false; /* what the run is of */
+    for (int i = 0; i < rows->n; i++) {
+        if (i >= rows->n_first && !rows->later[i])
+            continue;
+        const bool is_number = isfinite(value[i]);
+        const long long whole = is_number ? llround(value[i] * unit) : 0;
+        const long long bend = is_number ? whole - last - step : 0;
+        if (n_run > 0 && (bend != 0 || is_gap == is_number)) {
+            put_run(letters, n_run, is_gap);
+            n_run = 0;
+        }
+        if (bend != 0)
+            put_bend(letters, bend);
+        else
+            n_run++;
+        is_gap = !is_number;
+        if (is_number) {
+            step = whole - last;
+            last = whole;
+        }
+    }
+    if (n_run > 0)
+        put_run(letters, n_run, is_gap);
+    if (letters->stream != NULL)
+        fputs("\"],\n", letters->stream);
+}
+
+static void put_channels(Letters *letters, const CzPage *page, const Rows *rows) {
+    put_channel(letters, "t_ms", page->time, rows);
+    for (int channel = 1; channel < cz_run_n_channel(page->run); channel++) {
+        const char *name = cz_run_channel_name(page->run, channel);
+        if (is_shown(name))
+            put_channel(letters, name, cz_run_channel(page->run, channel), rows);
+    }
+}
+
+/* All rows where they fit into the page, else as many of the first ones as do. */
+static void fill(const CzPage *page, Rows *rows) {
+    const long room = PAGE_ROOM - FOOT_ROOM - (long)strlen(cz_report_js) - (long)page->n_text;
+    const int fine = rows->n / 64 + 1;
+    int most = rows->n + 1, least = 0; /* fit, do not fit */
+    for (rows->n_first = rows->n; most - least > fine; rows->n_first = (least + most) / 2) {
+        Letters letters = {NULL, 0};
+        put_channels(&letters, page, rows);
+        if (letters.n <= room)
+            least = rows->n_first;
+        else
+            most = rows->n_first;
+    }
+    rows->n_first = least;
+}
+
+/* Which rows the cursor stands at; for people, at the end of the page. */
+static void write_rows(CzPage *page, const Rows *rows) {
+    CzMarkup *markup = &page->markup;
+    char until[CZ_FIGURE_ROOM], every[CZ_FIGURE_ROOM], text[400];
+    if (rows->n_first == rows->n)
+        snprintf(text, sizeof text,
+                 "Cursor and animation stand at every one of the %d rows of channels.csv.",
+                 rows->n);
+    else
+        snprintf(
+            text, sizeof text,
+            "Cursor and animation stand at every row of channels.csv until %s ms, later at "
+            "every event, every extreme of a force or an acceleration, and at least every %s ms: "
+            "with all %d rows this page would be larger than 1 MB.",
+            cz_figure_plain(until, page->time[rows->n_first > 0 ? rows->n_first - 1 : 0]),
+            cz_figure_plain(every, (page->time[rows->n - 1] - page->time[0]) / (EVEN_SAMPLES - 1)),
+            rows->n);
+    cz_markup_classed(markup, "p", "script", text);
+    cz_markup_line(markup);
 }
 
 static void write_events(const CzPage *page, FILE *stream) {
@@ -144,28 +291,25 @@ CzStatus cz_page_write_data(CzPage *page, CzError *error) {
     CzMarkup *markup = &page->markup;
     if (page->n_sample < 2)
         return CZ_OK;
-    bool *taken = calloc((size_t)page->n_sample, sizeof *taken);
-    if (taken == NULL)
+    bool *later = calloc((size_t)page->n_sample, sizeof *later);
+    if (later == NULL || fflush(markup->stream) != 0) { /* which tells how long the page is */
+        free(later);
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
-    choose(page, taken);
+    }
+    choose(page, later);
+    Rows rows = {.n = page->n_sample, .later = later};
+    fill(page, &rows);
+    write_rows(page, &rows);
     cz_markup_open(markup, "script");
     cz_markup_attribute(markup, "type", "application/json");
     cz_markup_attribute(markup, "id", "data");
     cz_markup_raw(markup, "{");
-    write_channel(markup->stream, "t_ms", page->time, page->n_sample, taken);
-    for (int channel = 1; channel < cz_run_n_channel(page->run); channel++) {
-        const char *name = cz_run_channel_name(page->run, channel);
-        if (!is_shown(name))
-            continue;
-        fputs(",\n", markup->stream);
-        write_channel(markup->stream, name, cz_run_channel(page->run, channel), page->n_sample,
-                      taken);
-    }
-    fputs(",\n", markup->stream);
+    Letters letters = {markup->stream, 0};
+    put_channels(&letters, page, &rows);
     write_events(page, markup->stream);
     cz_markup_raw(markup, "}");
     cz_markup_close(markup);
     cz_markup_line(markup);
-    free(taken);
+    free(later);
     return CZ_OK;
 }

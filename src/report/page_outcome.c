@@ -354,7 +354,7 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     cz_markup_element(markup, "p", title);
     CZ_TRY(cz_page_write_parts(page, error));
     cz_page_write_foot(markup);
-    return CZ_OK;
+    return cz_page_finish(page, error);
 }
 
 CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluator,

@@ -5,12 +5,28 @@
   if (!source) return;
   var raw = JSON.parse(source.textContent), data = {}, decimals = {};
 
-  /* Channels are whole numbers of a decimal unit, each the difference to the one before. */
+  /* Channels are whole numbers of a decimal unit, each told by how far it leaves the line through the two before it. */
+  function unpack(text, unit) {
+    var values = [], last = 0, step = 0, n = 0, run = false;
+    function bend(by) { step += by; last += step; values.push(last / unit); }
+    for (var i = 0; text.length > i; i++) {
+      var c = text.charCodeAt(i);
+      c -= 35 + (c > 38) + (c > 60) + (c > 62) + (c > 92);
+      n = n * 44 + c % 44;
+      if (c > 43) continue;
+      if (run) {
+        for (var k = n; k > 1; k -= 2) if (n % 2) values.push(NaN); else bend(0);
+        run = false;
+      } else if (n === 1) run = true;
+      else bend(n % 2 ? (1 - n) / 2 : n / 2);
+      n = 0;
+    }
+    return values;
+  }
   Object.keys(raw).forEach(function (name) {
     if (name === 'events') return;
-    var unit = Math.pow(10, raw[name][0]), sum = 0;
     decimals[name] = raw[name][0];
-    data[name] = raw[name].slice(1).map(function (step) { if (step === null) return NaN; sum += step; return sum / unit; });
+    data[name] = unpack(raw[name][1], Math.pow(10, raw[name][0]));
   });
   var time = data.t_ms, last = time.length - 1, now = 0;
 
@@ -149,12 +165,13 @@
 
   function show(index) {
     now = index;
-    scrub.value = index;
+    scrub.value = time[now];
     plots.forEach(drawPlot);
     drawStage();
   }
-  scrub.max = last;
-  scrub.addEventListener('input', function () { show(Number(scrub.value)); });
+  scrub.max = time[last];
+  scrub.step = time[1] - time[0];
+  scrub.addEventListener('input', function () { show(nearest(Number(scrub.value))); });
   focus.addEventListener('change', function () { show(now); });
 
   /* Play: simulated time runs at the chosen share of real time. */

@@ -31,11 +31,12 @@ long_metro() {
     "$PROGRAM" run long.yaml --scenario 25-km-h -o long
 }
 check "crushzone runs a metro" "$PROGRAM" run "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h -o metro
+check "crushzone runs two cars" "$PROGRAM" run "$SOURCE/problems/two-cars-25kmh.yaml" -o pair
 check "crushzone runs rigid cars" sh -c '"$PROGRAM" new two-trains && "$PROGRAM" run two-trains.yaml -o rigid'
 check "crushzone optimises" sh -c '"$PROGRAM" optimise two-trains.yaml --evaluations 60 -o search; [ $? -le 1 ]'
 check "crushzone runs trains of eight cars" long_metro
 
-NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" metro rigid search long >cases.txt 2>&1
+NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" metro pair rigid search long >cases.txt 2>&1
 code=$?
 cat cases.txt
 n_passed=$((n_passed + $(grep -c '^ok - ' cases.txt)))

@@ -107,6 +107,38 @@ async function cursorFollowsLoops(page, channels) {
   }
 }
 
+/* What stands below each figure at rows of channels.csv, as far as the page says that it has every one of them. */
+async function everyRowIsThere(page, channels) {
+  const told = await page.locator('p', {hasText: 'Cursor and animation stand'}).textContent();
+  const until = told.includes('every row') ? Number(told.match(/until ([\d.]+) ms/)[1]) * 0.995 : Infinity; // told with three digits
+  const times = channels.t_ms.filter((t, i) => t <= until && (i < 400 || i % 7 === 0));
+  const plots = await page.evaluate(all => {
+    const figures = Array.from(document.querySelectorAll('svg.plot:has(path[data-y])'));
+    const input = document.getElementById('scrub');
+    return figures.map(svg => Array.from(svg.querySelectorAll('path[data-y]')).map(p => [p.dataset.x, p.dataset.y])).concat([all.map(t => {
+      input.value = t;
+      input.dispatchEvent(new Event('input'));
+      return figures.map(svg => svg.parentNode.querySelector('output').textContent);
+    })]);
+  }, times);
+  const shown = plots.pop();
+  for (let i = 0; i < times.length; i++) {
+    const row = channels.t_ms.indexOf(times[i]);
+    for (let k = 0; k < plots.length; k++) {
+      const [time, ...values] = shown[i][k].split(' \u00b7 ');
+      if (parseFloat(time) !== times[i]) return `at ${times[i]} ms stands ${time}`;
+      const [x, y] = plots[k][0];
+      const pairs = x ? [[x, values[0].match(/closure ([-\d.]+) mm/)[1]], [y, values[0].match(/force ([-\d.]+) kN/)[1]]]
+                      : plots[k].map(([, name], n) => [name, values[n].slice(values[n].lastIndexOf(' ') + 1)]);
+      for (const [name, text] of pairs) {
+        const real = channels[name][row];
+        if (text === '\u2013' ? !isNaN(real) : !(Math.abs(Number(text) - real) <= halfDigit(text))) return `${name} at ${time} is ${real}, shown as ${text}`;
+      }
+    }
+  }
+  if (times.length < 300 || plots.length < 8) return `only ${times.length} rows of ${plots.length} figures`;
+}
+
 /* The dot of a curve lies where its value is. */
 async function dotsLieOnCurves(page) {
   return page.evaluate(() => {
@@ -170,6 +202,7 @@ async function playsAndStops(page) {
   if (!(then > 0)) return 'time stands still';
   await page.waitForTimeout(200);
   if (parseFloat(await page.locator('#now').textContent()) !== then) return 'it goes on after the pause';
+  if (await page.locator('#focus option').count() === 1) return; // of two cars
   const before = await page.locator('#now').textContent();
   await page.locator('#focus').selectOption({index: 0});
   if (await page.locator('#now').textContent() === before) return 'another interface shows nothing else';
@@ -235,6 +268,7 @@ async function look(browser, folder) {
   await check(`${folder}: forces under the cursor are those of channels.csv`, () => cursorShowsChannels(page, channels, 'F_', [0.02, 0.3, 0.9]));
   await check(`${folder}: energies under the cursor are those of channels.csv`, () => cursorShowsChannels(page, channels, 'E_kinetic', [0.05, 0.5]));
   await check(`${folder}: closure and force under the cursor belong together`, () => cursorFollowsLoops(page, channels));
+  await check(`${folder}: the cursor stands at every row that the page says`, () => everyRowIsThere(page, channels));
   await check(`${folder}: dots lie on their curves`, () => dotsLieOnCurves(page));
   await check(`${folder}: cars, ends and wheels move as the channels say`, () => animationFollowsChannels(page, channels));
   await check(`${folder}: the animation plays, stops and looks elsewhere`, () => playsAndStops(page));

@@ -5,6 +5,8 @@
 #include "report/well_formed.h"
 #include "simulate/input_curve.h"
 
+enum { BASE = 44 }; /* of the numbers behind the cursor */
+
 static int n_request;    /* so far */
 static int failing = -1; /* number of the request that fails; -1: none */
 
@@ -41,21 +43,27 @@ typedef struct Ran {
     CzReportRun run;
 } Ran;
 
-static Ran run_problem(const char *name) {
-    static const char *const set[] = {"simulation.duration_ms=150"};
+static Ran run_set(const char *name, const char *scenario, int n_set, const char *const *set) {
+    CzEvaluatorOptions choice = cz_evaluator_options_default();
     char path[300];
     Ran ran = {0};
     CzError error = {0};
     CzProblemOptions options = cz_problem_options_default();
     options.set = set;
-    options.n_set = 1;
+    options.n_set = n_set;
+    choice.scenario = scenario;
     options.share_folder = CZ_SOURCE_FOLDER "/problems";
     snprintf(path, sizeof path, CZ_SOURCE_FOLDER "/problems/%s", name);
     if (cz_problem_read(path, &options, &ran.problem, &error) != CZ_OK ||
-        cz_evaluator_build(ran.problem, NULL, &ran.evaluator, &error) != CZ_OK ||
+        cz_evaluator_build(ran.problem, &choice, &ran.evaluator, &error) != CZ_OK ||
         cz_evaluate(ran.evaluator, 1, NULL, true, &ran.evaluation, &error) != CZ_OK)
         fail_msg("%s: %s", name, error.message);
     return ran;
+}
+
+static Ran run_problem(const char *name) {
+    static const char *const set[] = {"simulation.duration_ms=150"};
+    return run_set(name, NULL, 1, set);
 }
 
 static CzReportRun run_of(const Ran *ran) {
@@ -170,11 +178,137 @@ static void the_input_curve_is_that_of_the_weakest_member(void **state) {
     free_ran(&ran);
 }
 
+/* ---- the numbers behind the cursor ---- */
+
+/* Value of a letter. */
+static int digit_of(char letter) {
+    static const char reserved[] = "&<>\\";
+    int digit = letter - '#';
+    assert_true(letter >= '#' && letter <= '~' && strchr(reserved, letter) == NULL);
+    for (size_t i = 0; reserved[i] != '\0'; i++)
+        digit -= letter > reserved[i];
+    return digit;
+}
+
+static long long read_number(const char **text) {
+    long long number = 0;
+    for (int digit = BASE; digit >= BASE;) {
+        digit = digit_of(*(*text)++);
+        number = number * BASE + digit % BASE;
+    }
+    return number;
+}
+
+/* Reads a channel from the page: how many values. Those of a NULL `value` are counted only. */
+static int read_channel(const char *page, const char *name, int *decimals, double *value) {
+    char head[96];
+    int n = 0;
+    double last = 0, step = 0;
+    snprintf(head, sizeof head, "\"%s\":[", name);
+    const char *at = strstr(page, head);
+    assert_non_null(at);
+    *decimals = atoi(at + strlen(head));
+    for (at = strchr(at + strlen(head), '"') + 1; *at != '"';) {
+        long long number = read_number(&at), n_more = 1;
+        bool is_gap = false;
+        if (number == 1) {
+            number = read_number(&at);
+            is_gap = number % 2 == 1;
+            n_more = number / 2;
+            number = 0;
+        }
+        for (; n_more > 0; n_more--, n++) {
+            if (!is_gap) {
+                step += number % 2 == 1 ? -(double)(number / 2) : (double)(number / 2);
+                last += step;
+            }
+            if (value != NULL)
+                value[n] = is_gap ? NAN : last / pow(10, *decimals);
+        }
+    }
+    return n;
+}
+
+/* Every channel has its recorded value at each row that the page has, to half of its last digit. */
+static void compare_rows(const char *page, const CzRun *run, int n_row) {
+    double *time = malloc((size_t)n_row * sizeof *time),
+           *value = malloc((size_t)n_row * sizeof *value);
+    int decimals, n_channel = 0;
+    assert_int_equal(read_channel(page, "t_ms", &decimals, time), n_row);
+    for (int channel = 1; channel < cz_run_n_channel(run); channel++) {
+        char head[96];
+        const double *real = cz_run_channel(run, channel), *at = cz_run_channel(run, 0);
+        snprintf(head, sizeof head, "\"%s\":[", cz_run_channel_name(run, channel));
+        if (strstr(page, head) == NULL)
+            continue;
+        assert_int_equal(read_channel(page, cz_run_channel_name(run, channel), &decimals, value),
+                         n_row);
+        for (int i = 0, row = 0; i < n_row; i++, row++) {
+            while (fabs(at[row] - time[i]) > 1e-9)
+                row++;
+            assert_true(isnan(value[i]) == isnan(real[row]));
+            if (isfinite(real[row]))
+                assert_near(value[i], real[row], 0, 0.5000001 * pow(10, -decimals));
+        }
+        n_channel++;
+    }
+    assert_true(n_channel > 25);
+    free(time);
+    free(value);
+}
+
+static void the_cursor_stands_at_every_row_that_was_recorded(void **state) {
+    (void)state;
+    static const char *const set[] = {"simulation.duration_ms=900"};
+    Ran ran = run_set("two-cars-25kmh.yaml", NULL, 1, set);
+    const CzReportRun run = run_of(&ran);
+    char *text = NULL;
+    assert_int_equal(write_page(&run, &text), CZ_OK);
+    assert_int_equal(cz_run_n_sample(ran.evaluation.run[0]), 901);
+    compare_rows(text, ran.evaluation.run[0], 901);
+    assert_non_null(strstr(text, "stand at every one of the 901 rows"));
+    free(text);
+    free_ran(&ran);
+}
+
+/* 15,001 rows of 163 channels do not fit: the page has the first ones, and later ones from end to
+ * end. */
+static void rows_for_which_there_is_no_room_are_left_out_at_the_end(void **state) {
+    (void)state;
+    static const char *const set[] = {"simulation.duration_ms=1500",
+                                      "simulation.output_step_ms=0.1"};
+    Ran ran = run_set("metro-6-car.yaml", "25-km-h", 2, set);
+    const CzReportRun run = run_of(&ran);
+    char *text = NULL;
+    int decimals;
+    assert_int_equal(write_page(&run, &text), CZ_OK);
+    assert_true(strlen(text) < 1000000 && strlen(text) > 900000);
+    const int n = read_channel(text, "t_ms", &decimals, NULL);
+    double *time = malloc((size_t)n * sizeof *time);
+    read_channel(text, "t_ms", &decimals, time);
+    const char *said = strstr(text, "at every row of channels.csv until ");
+    assert_non_null(said);
+    const double until = atof(said + strlen("at every row of channels.csv until "));
+    int i = 1;
+    while (time[i] - time[i - 1] < 0.1001)
+        i++;
+    assert_near(time[i - 1], until, 1e-2, 0); /* told with three digits */
+    for (; i < n; i++)
+        assert_true(time[i] - time[i - 1] < 1500.0 / 239 + 0.2);
+    assert_near(time[n - 1], 1500, 1e-9, 0);
+    compare_rows(text, ran.evaluation.run[0], n);
+    free(time);
+    free(text);
+    free_ran(&ran);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sections_come_in_the_order_of_questions),
         cmocka_unit_test(every_lack_of_memory_is_told),
         cmocka_unit_test(a_run_that_was_not_kept_has_no_page),
+        cmocka_unit_test(the_cursor_stands_at_every_row_that_was_recorded),
+        cmocka_unit_test(rows_for_which_there_is_no_room_are_left_out_at_the_end),
         cmocka_unit_test(the_input_curve_is_that_of_the_weakest_member),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -115,6 +115,12 @@ CZ_MUST_CHECK CZ_API CzStatus cz_curve_read(const char *path, const CzCurveColum
                                             CzCurve **curve, CzError *error);
 CZ_API void cz_curve_free(CzCurve *curve);
 
+/* Titles of the columns of such a file, as its first line that is neither empty nor a comment has
+ * them: *n texts in one block of memory, which the caller frees with free(). Statuses as above;
+ * *title is NULL unless CZ_OK is returned. */
+CZ_MUST_CHECK CZ_API CzStatus cz_curve_titles(const char *path, char separator, int *n,
+                                              char ***title, CzError *error);
+
 /* Writes the law as a catalogue with one part, the summary in comments above it. */
 CZ_API void cz_fit_write_yaml(const CzFit *fit, FILE *stream);
 

@@ -129,10 +129,11 @@ typedef struct CzChartOptions {
     const char *at;   /* interface or car that it is about; NULL: the colliding interface, the car
                          with the largest mean deceleration; no meaning for figures of the whole
                          run */
-    const char *measured; /* CSV file with a curve that is laid over it, in any of the units of its
-                             axes; NULL for none */
-    const char *column;   /* of that curve's values: title or number from 1; NULL: the second. What
-                             they are over stands in the first */
+    const char *measured; /* CSV file with curves that are laid over it, in any of the units of its
+                             axes; NULL for none. What they are over stands in its first column */
+    const char *column;   /* of the values: titles or numbers from 1, with commas between them;
+                             NULL: the second, of panels all. Over panels a title begins as a
+                             channel does: F_, v_, x_, d_ */
     char csv_separator;   /* 0: ';' where a line has one, else ',' */
     char csv_decimal;
 } CzChartOptions;

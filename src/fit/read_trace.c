@@ -95,8 +95,11 @@ static bool is_blank(const char *line) {
 /* ---- columns ---- */
 
 /* Unit in a title: behind the last '_' of stem_unit, or in brackets. */
-static const CzUnit *unit_in(const Column *column, const char *title) {
-    char unit[16] = "";
+static const CzUnit *unit_in(const Column *column, const char *text) {
+    char unit[16] = "", title[LONGEST_FIELD + 1];
+    snprintf(title, sizeof title, "%s", text);
+    for (char *c = title; *c != '\0'; c++) /* km/h is km_h in keys */
+        *c = *c == '/' ? '_' : *c;
     const size_t n = strlen(column->stem);
     const char *open = strpbrk(title, "[("), *close = open != NULL ? strpbrk(open, "])") : NULL;
     const CzUnit *found = NULL; /* a unit may have a '_' of its own: the longest counts */
@@ -108,8 +111,6 @@ static const CzUnit *unit_in(const Column *column, const char *title) {
         snprintf(unit, sizeof unit, "%.*s", (int)(close - open - 1), open + 1);
     else if (found != NULL)
         return found;
-    for (char *c = unit; *c != '\0'; c++) /* km/h is km_h in keys */
-        *c = *c == '/' ? '_' : *c;
     return cz_unit_find(column->dimension, unit);
 }
 
@@ -235,14 +236,19 @@ static bool make_room(CzArena *arena, int n, CzTrace *trace) {
     return trace->x != NULL && trace->f != NULL && trace->line != NULL;
 }
 
-static void read_source(Reader *reader, CzSources *sources, const char *path) {
+/* Reads the file into lines; nothing but mistakes when it is no text. */
+static bool read_lines(Reader *reader, CzSources *sources, const char *path) {
     char *text = NULL;
     size_t n_byte = 0;
     reader->source = cz_sources_read(sources, reader->mistakes, path, NULL, &text, &n_byte);
     const bool is_text =
         reader->source != NULL && cz_source_is_text(reader->mistakes, reader->source, text, n_byte);
     free(text);
-    if (!is_text)
+    return is_text;
+}
+
+static void read_source(Reader *reader, CzSources *sources, const char *path) {
+    if (!read_lines(reader, sources, path))
         return;
     if (reader->source->n_line > MOST_LINES)
         cz_mistake_at(reader->mistakes, reader->source, MOST_LINES, 1,
@@ -251,19 +257,24 @@ static void read_source(Reader *reader, CzSources *sources, const char *path) {
         take_lines(reader);
 }
 
+/* What the reading ends with. */
+static CzStatus finish(Reader *reader, const char *path, CzError *error) {
+    if (reader->arena->out_of_memory)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the curve of '%s'", path);
+    cz_mistakes_finish(reader->mistakes);
+    if (reader->mistakes->n_mistake == 0)
+        return CZ_OK;
+    if (error != NULL)
+        *error = reader->mistakes->mistake[0]->error;
+    return CZ_STATUS_INPUT;
+}
+
 static CzStatus read_trace(Reader *reader, const char *path, CzError *error) {
     CzMistakes mistakes = {.arena = reader->arena};
     CzSources sources = {.arena = reader->arena, .hash = CZ_HASH_START};
     reader->mistakes = &mistakes;
     read_source(reader, &sources, path);
-    if (reader->arena->out_of_memory)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the curve of '%s'", path);
-    cz_mistakes_finish(&mistakes);
-    if (mistakes.n_mistake == 0)
-        return CZ_OK;
-    if (error != NULL)
-        *error = mistakes.mistake[0]->error;
-    return CZ_STATUS_INPUT;
+    return finish(reader, path, error);
 }
 
 CzStatus cz_trace_read(CzArena *arena, const char *path, const CzFitOptions *options,
@@ -301,4 +312,48 @@ CzStatus cz_trace_read_columns(CzArena *arena, const char *path, const CzCurveCo
         .trace = trace,
     };
     return read_trace(&reader, path, error);
+}
+
+/* ---- titles ---- */
+
+/* The fields of a line as texts behind their pointers, in one block; NULL without memory. */
+static char **fields_of(const Reader *reader, const char *line, int n) {
+    size_t n_byte = 0;
+    for (int i = 0; i < n; i++)
+        n_byte += strlen(take_field(reader, line, i).text) + 1;
+    char **field = malloc((size_t)n * sizeof *field + n_byte);
+    char *text = field != NULL ? (char *)(field + n) : NULL;
+    for (int i = 0; field != NULL && i < n; i++) {
+        const Field taken = take_field(reader, line, i);
+        field[i] = strcpy(text, taken.text);
+        text += strlen(taken.text) + 1;
+    }
+    return field;
+}
+
+CzStatus cz_curve_titles(const char *path, char separator, int *n, char ***title, CzError *error) {
+    const CzFitOptions options = {.separator = separator, .decimal = '.'};
+    CzArena arena = {0};
+    CzMistakes mistakes = {.arena = &arena};
+    CzSources sources = {.arena = &arena, .hash = CZ_HASH_START};
+    Reader reader = {.arena = &arena, .options = &options, .mistakes = &mistakes};
+    *n = 0;
+    *title = NULL;
+    int first = 0;
+    if (read_lines(&reader, &sources, path)) {
+        while (first < reader.source->n_line && is_blank(reader.source->line[first]))
+            first++;
+        if (first == reader.source->n_line)
+            cz_mistake_at(&mistakes, reader.source, first, 1, "this file has no line of titles");
+    }
+    CzStatus status = finish(&reader, path, error);
+    if (status == CZ_OK) {
+        const char *line = reader.source->line[first];
+        *n = count_fields(line, separator_of(&reader, line));
+        *title = fields_of(&reader, line, *n);
+        if (*title == NULL)
+            status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the titles of '%s'", path);
+    }
+    cz_arena_free(&arena);
+    return status;
 }

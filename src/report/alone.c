@@ -5,6 +5,7 @@
 #include "base/suggest.h"
 #include "report/charts.h"
 #include "report/elevation.h"
+#include "report/chart_curves.h"
 #include "report/runs.h"
 
 #include <stdlib.h>
@@ -92,44 +93,21 @@ CzChartOptions cz_chart_options_default(void) {
     return (CzChartOptions){.what = "fd", .csv_decimal = '.'};
 }
 
-/* Reads a measured curve and gives it the units of the figure. */
-static CzStatus read_measured(const CzChartOptions *options, CzChart chart, CzCurve **curve,
-                              CzError *error) {
-    const CzChartAxes *axes = cz_chart_axes(chart);
-    *curve = NULL;
-    if (options->measured == NULL)
-        return CZ_OK;
-    if (axes == NULL)
-        return cz_fail(error, CZ_STATUS_INPUT, "no measured curve fits over '%s'",
-                       chart_names[chart]);
-    const CzCurveColumns columns = {.x_quantity = axes->x_quantity,
-                                    .y_quantity = axes->y_quantity,
-                                    .x = "1",
-                                    .y = options->column != NULL ? options->column : "2",
-                                    .separator = options->csv_separator,
-                                    .decimal = options->csv_decimal};
-    CZ_TRY(cz_curve_read(options->measured, &columns, curve, error));
-    for (int i = 0; i < (*curve)->n; i++) {
-        (*curve)->x[i] /= axes->x_unit;
-        (*curve)->y[i] /= axes->y_unit;
-    }
-    return CZ_OK;
-}
-
 CzStatus cz_report_write_chart(const CzReportRun *run, const CzChartOptions *chosen, FILE *stream,
                                CzError *error) {
     const CzReportOptions absent = cz_report_options_default();
     CzPage page = {0};
     CzChart chart;
-    CzCurve *measured;
-    int scenario, index = 0;
+    CzChartCurve measured[CZ_MOST_CHART_CURVES];
+    int scenario, index = 0, n_measured;
     CZ_TRY(find_chart(chosen->what, &chart, error));
     CZ_TRY(find_scenario(run, &scenario, error));
-    CZ_TRY(read_measured(chosen, chart, &measured, error));
-    CzStatus status =
-        cz_page_begin(&page, run->problem, run->evaluation, scenario, &absent, stream, error);
+    CzStatus status = cz_chart_curves_read(chosen, chart, &n_measured, measured, error);
+    if (status == CZ_OK)
+        status =
+            cz_page_begin(&page, run->problem, run->evaluation, scenario, &absent, stream, error);
+    page.n_measured = n_measured;
     page.measured = measured;
-    page.measured_label = "measured";
     if (status == CZ_OK)
         status = find_place(&page, chart, chosen->at, &index, error);
     if (status == CZ_OK) {
@@ -139,7 +117,7 @@ CzStatus cz_report_write_chart(const CzReportRun *run, const CzChartOptions *cho
     if (status == CZ_OK)
         status = cz_page_finish(&page, error);
     cz_page_free(&page);
-    cz_curve_free(measured);
+    cz_chart_curves_free(n_measured, measured);
     return status;
 }
 

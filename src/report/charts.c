@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "report/figure.h"
+#include "report/chart_curves.h"
 #include "report/sheet.h"
 
 #include <string.h>
@@ -60,9 +61,9 @@ void cz_chart_title(const CzPage *page, CzChart chart, int index, size_t room, c
         [CZ_CHART_VELOCITY] = "Speed of the cars",
         [CZ_CHART_ACCELERATION] = "Acceleration of the cars, CFC 60",
         [CZ_CHART_CAR_ACCELERATION] = "Acceleration",
-        [CZ_CHART_DISPLACEMENT] = "Way of the cars",
+        [CZ_CHART_DISPLACEMENT] = "Displacement of the cars",
         [CZ_CHART_SHORTENING] = "Shortening",
-        [CZ_CHART_PANELS] = "Force, speed, way and shortening",
+        [CZ_CHART_PANELS] = "Force, speed, displacement and shortening",
         [CZ_CHART_WHEEL_LIFT] = "Lift of the wheelsets that rise most",
         [CZ_CHART_OVERLAP] = "Overlap of the anti-climbers",
         [CZ_CHART_PITCH] = "Pitch of the cars, nose up"};
@@ -114,16 +115,22 @@ static CzStatus draw(CzSheet *sheet, CzChart chart, int index, CzError *error) {
     return CZ_OK;
 }
 
-/* A measured curve over the computed ones. */
-static void add_measured(CzSheet *sheet) {
+/* Measured curves over the computed ones. */
+static void add_measured(CzSheet *sheet, CzChart chart) {
     const CzPage *page = sheet->page;
-    if (page->measured != NULL && sheet->plot.n_series < sheet->room)
-        sheet->series[sheet->plot.n_series++] = (CzSeries){.name = page->measured_label,
-                                                           .n = page->measured->n,
-                                                           .x = page->measured->x,
-                                                           .y = page->measured->y,
-                                                           .colour = 6,
-                                                           .dash = 2};
+    int n = 0;
+    for (int i = 0; i < page->n_measured; i++) {
+        const CzChartCurve *measured = &page->measured[i];
+        if (measured->chart != chart || sheet->plot.n_series == sheet->room)
+            continue;
+        sheet->series[sheet->plot.n_series++] = (CzSeries){.name = measured->label,
+                                                           .n = measured->curve->n,
+                                                           .x = measured->curve->x,
+                                                           .y = measured->curve->y,
+                                                           .colour = n < 4 ? 6 : 4,
+                                                           .dash = 2 + n};
+        n++;
+    }
 }
 
 const CzChartAxes *cz_chart_axes(CzChart chart) {
@@ -182,7 +189,7 @@ CzStatus cz_chart_write(const CzPage *page, CzChart chart, int index, CzMarkup *
         [CZ_CHART_VELOCITY] = "speed [m/s]",
         [CZ_CHART_ACCELERATION] = "acceleration [g]",
         [CZ_CHART_CAR_ACCELERATION] = "acceleration [g]",
-        [CZ_CHART_DISPLACEMENT] = "way [m]",
+        [CZ_CHART_DISPLACEMENT] = "displacement [m]",
         [CZ_CHART_SHORTENING] = "shortening [mm]",
         [CZ_CHART_WHEEL_LIFT] = "lift [mm]",
         [CZ_CHART_OVERLAP] = "overlap [mm]",
@@ -195,7 +202,8 @@ CzStatus cz_chart_write(const CzPage *page, CzChart chart, int index, CzMarkup *
         return write_panels(page, index, markup, error);
     CzSheet sheet;
     const char *x_label = chart == CZ_CHART_FORCE_CLOSURE ? "closure [mm]" : "time [ms]";
-    if (!cz_sheet_begin(&sheet, page, page->summary->n_vehicle + CZ_MOST_LIFTS + page->n_other + 1,
+    if (!cz_sheet_begin(&sheet, page,
+                        page->summary->n_vehicle + CZ_MOST_LIFTS + page->n_other + page->n_measured,
                         x_label, y_labels[chart]))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a figure");
     const CzStatus status = draw(&sheet, chart, index, error);
@@ -203,6 +211,6 @@ CzStatus cz_chart_write(const CzPage *page, CzChart chart, int index, CzMarkup *
         cz_arena_free(&sheet.arena);
         return status;
     }
-    add_measured(&sheet);
+    add_measured(&sheet, chart);
     return cz_sheet_finish(&sheet, chart, index, markup, error);
 }

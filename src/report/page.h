@@ -32,9 +32,9 @@ typedef struct CzPage {
     CzStand *stand;     /* (n_vehicle) */
     const double *time; /* [ms] (n_sample) */
     int n_sample;
-    const char *label;          /* of the page's own run where there are others; NULL otherwise */
-    const CzCurve *measured;    /* laid over a figure, in its units; NULL for none */
-    const char *measured_label; /* in its legend */
+    const char *label; /* of the page's own run where there are others; NULL otherwise */
+    int n_measured;
+    const struct CzChartCurve *measured; /* curves laid over figures (n_measured) */
     int n_other;
     const CzPageOther *other;  /* (n_other) */
     const CzVehicle *vehicles; /* the problem's array; model->car[].vehicle is an index into it */

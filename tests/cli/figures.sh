@@ -101,6 +101,36 @@ other_unit() { exits 2 "$C" plot first --measured test.csv && says err.txt "test
 check "a measured curve of another quantity is refused" other_unit
 no_overlay() { exits 2 "$C" plot first --what shares --measured test.csv && says err.txt "no measured curve fits over 'shares'"; }
 check "bars take no measured curve" no_overlay
+printf '# of a test\nt_ms,F_test_kN,v_A4_test [km/h],v_B1_test_km/h,x_A4_m,d_test_mm\n0,0,25,0,0,0\n100,650,20,4,0.6,500\n200,500,16,8,1.1,900\n' >four.csv
+curves_of() { grep -o '<path' "$1" | wc -l; }
+measured_panels() { # each curve stands in its own panel: force, two speeds, displacement, shortening
+    exits 0 "$C" plot first --what panels --measured four.csv --svg all.svg && [ "$(curves_of all.svg)" = $(($(curves_of panels.svg) + 5)) ] &&
+        for panel in 1:measured 2:v_A4_test 2:v_B1_test 3:measured 4:measured; do
+            awk -v panel="${panel%%:*}" 'BEGIN { RS = "<svg " } NR == 2 * panel + 2' all.svg | grep -q "<title>${panel##*:}" || { echo "panel $panel"; return 1; }
+        done && exits 0 "$C" plot first --what panels --measured four.csv --column F_test_kN,6 --svg two.svg && [ "$(curves_of two.svg)" = $(($(curves_of panels.svg) + 2)) ]
+}
+check "measured curves stand in the panels that their titles say" measured_panels
+own_panels() { # recorded channels over their own panels give their own paths
+    exits 0 "$C" plot first --what panels --measured first/channels.csv --column F_A4-B1_kN,v_A1_m_s,x_B2_m --svg own.svg &&
+        [ "$(grep -o ' d="M[^"]*"' own.svg | sort | uniq -d | wc -l)" -ge $((3 + $(grep -o ' d="M[^"]*"' panels.svg | sort | uniq -d | wc -l))) ]
+}
+check "recorded channels over the panels give their own paths" own_panels
+several() { exits 0 "$C" plot first --what velocity --measured four.csv --column 3,v_B1_test_km/h --svg two.svg && [ "$(curves_of two.svg)" = $(($(curves_of velocity.svg) + 2)) ]; }
+check "several columns are laid over one figure" several
+wrong_columns() {
+    exits 2 "$C" plot first --what panels --measured test.csv && says err.txt "test.csv: column 'speed of test [km/h]' belongs to no panel" && says err.txt 'titles begin as those of channels.csv' &&
+        exits 2 "$C" plot first --what panels --measured four.csv --column F_test_kN,9 && says err.txt "there is no column '9' among the 6" &&
+        exits 2 "$C" plot first --what panels --measured four.csv --column F_best_kN && says err.txt "there is no column 'F_best_kN'" &&
+        printf 't_ms,F_test,v_m_s\n0,0,1\n1,2,3\n' >unit.csv && exits 2 "$C" plot first --what panels --measured unit.csv && says err.txt "unit.csv:1:6: error: the unit of column 'F_test', the force" &&
+        printf 's_mm,F_kN\n0,0\n1,2\n' >no-time.csv && exits 2 "$C" plot first --what panels --measured no-time.csv && says err.txt "no-time.csv:1:1: error: the unit of column 's_mm', the time" &&
+        printf 't_ms\n0\n1\n' >times.csv && exits 2 "$C" plot first --what panels --measured times.csv && says err.txt 'there is no second one' &&
+        printf '# nothing\n' >nothing.csv && exits 2 "$C" plot first --what panels --measured nothing.csv && says err.txt 'no line of titles' &&
+        exits 2 "$C" plot first --what panels --measured nowhere.csv && says err.txt 'there is no such file' &&
+        exits 2 "$C" plot first --what panels --measured first/channels.csv && says err.txt "column 'a_A1_g' belongs to no panel" &&
+        awk 'BEGIN { printf "t_ms"; for (i = 0; i < 14; i++) printf ",F_%d_kN", i; for (k = 0; k < 2; k++) { printf "\n%d", k; for (i = 0; i < 14; i++) printf ",1" } print "" }' >many.csv &&
+        exits 2 "$C" plot first --what panels --measured many.csv && says err.txt 'too many' && exits 2 "$C" plot first --what panels --measured - <four.csv && says err.txt 'not from standard input'
+}
+check "columns that do not fit the panels are told" wrong_columns
 at() { exits 0 "$C" plot first --at A3-A4 --svg - && says out.txt 'aria-label="Force over closure, A3-A4"' && exits 0 "$C" plot two-trains.yaml --what car-acceleration --at B2 && says out.txt 'Acceleration, B2'; }
 check "plot takes an interface or a car, and a problem file" at
 unknown_figure() { exits 2 "$C" plot first --what enrgy && says err.txt "did you mean 'energy'" && exits 2 "$C" plot first --at A9 && says err.txt "no interface 'A9'"; }

@@ -1,0 +1,166 @@
+/* Measured curves that are laid over a figure: which columns of a file go where. */
+#include "report/chart_curves.h"
+
+#include "base/error.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The panels by how the titles of their columns begin. */
+static const struct {
+    CzChart chart;
+    const char *stem, *what;
+} panels[] = {{CZ_CHART_FORCE, "F_", "force"},
+              {CZ_CHART_VELOCITY, "v_", "speed"},
+              {CZ_CHART_DISPLACEMENT, "x_", "displacement"},
+              {CZ_CHART_SHORTENING, "d_", "shortening"}};
+
+/* What is being read. */
+typedef struct Reading {
+    const CzChartOptions *options;
+    CzChart chart;
+    int n_title; /* 0 where nobody needs them */
+    char **title;
+    int n;
+    CzChartCurve *measured; /* (CZ_MOST_CHART_CURVES) */
+    CzError *error;
+} Reading;
+
+static CzStatus find_panel(const Reading *reading, const char *title, CzChart *chart) {
+    for (size_t i = 0; i < sizeof panels / sizeof *panels; i++) {
+        *chart = panels[i].chart;
+        if (strncmp(title, panels[i].stem, strlen(panels[i].stem)) == 0)
+            return CZ_OK;
+    }
+    const CzStatus status =
+        cz_fail(reading->error, CZ_STATUS_INPUT, "%.200s: column '%.60s' belongs to no panel",
+                reading->options->measured, title);
+    if (reading->error != NULL)
+        snprintf(reading->error->help, sizeof reading->error->help,
+                 "titles begin as those of channels.csv: F_ force, v_ speed, x_ displacement, d_ "
+                 "shortening; --column TITLE,TITLE takes only some of the columns");
+    return status;
+}
+
+/* Reads one column, a title or a number, and gives it the units of its figure. */
+static CzStatus read_column(Reading *reading, const char *column, const char *title) {
+    const CzChartOptions *options = reading->options;
+    CzChart chart = reading->chart;
+    if (reading->n == CZ_MOST_CHART_CURVES)
+        return cz_fail(reading->error, CZ_STATUS_INPUT,
+                       "%.200s: more than %d measured curves are too many for a figure",
+                       options->measured, (int)CZ_MOST_CHART_CURVES);
+    if (chart == CZ_CHART_PANELS)
+        CZ_TRY(find_panel(reading, title, &chart));
+    const CzChartAxes *axes = cz_chart_axes(chart);
+    const CzCurveColumns columns = {.x_quantity = axes->x_quantity,
+                                    .y_quantity = axes->y_quantity,
+                                    .x = "1",
+                                    .y = column,
+                                    .separator = options->csv_separator,
+                                    .decimal = options->csv_decimal};
+    CzChartCurve *measured = &reading->measured[reading->n];
+    CZ_TRY(cz_curve_read(options->measured, &columns, &measured->curve, reading->error));
+    measured->chart = chart;
+    snprintf(measured->label, sizeof measured->label, "%s", title);
+    for (int i = 0; i < measured->curve->n; i++) {
+        measured->curve->x[i] /= axes->x_unit;
+        measured->curve->y[i] /= axes->y_unit;
+    }
+    reading->n++;
+    return CZ_OK;
+}
+
+/* Reads the column that a text names: by its number or by its title. */
+static CzStatus read_named(Reading *reading, const char *name) {
+    char *end;
+    const long number = strtol(name, &end, 10);
+    const char *title = NULL;
+    if (reading->n_title == 0) /* there is but one */
+        return read_column(reading, name, name);
+    if (*end == '\0' && number >= 1 && number <= reading->n_title)
+        title = reading->title[number - 1];
+    for (int i = 0; i < reading->n_title && title == NULL; i++)
+        title = strcmp(reading->title[i], name) == 0 ? name : NULL;
+    if (title != NULL)
+        return read_column(reading, name, title);
+    return cz_fail(reading->error, CZ_STATUS_INPUT,
+                   "%.200s: there is no column '%.60s' among the %d of the file",
+                   reading->options->measured, name, reading->n_title);
+}
+
+/* Reads the columns of a list that has commas between them, unless it is a title of its own. */
+static CzStatus read_list(Reading *reading, const char *list) {
+    for (int i = 0; i < reading->n_title; i++)
+        if (strcmp(reading->title[i], list) == 0)
+            return read_named(reading, list);
+    for (const char *at = list; at != NULL;) {
+        char name[256];
+        const char *end = strchr(at, ',');
+        snprintf(name, sizeof name, "%.*s", end != NULL ? (int)(end - at) : 255, at);
+        CZ_TRY(read_named(reading, name));
+        at = end != NULL ? end + 1 : NULL;
+    }
+    return CZ_OK;
+}
+
+static CzStatus read_columns(Reading *reading) {
+    const char *list = reading->options->column;
+    if (list != NULL)
+        return read_list(reading, list);
+    if (reading->chart != CZ_CHART_PANELS)
+        return read_named(reading, "2");
+    if (reading->n_title < 2)
+        return cz_fail(reading->error, CZ_STATUS_INPUT,
+                       "%.200s: times stand in the first column, but there is no second one",
+                       reading->options->measured);
+    for (int i = 1; i < reading->n_title; i++) {
+        char number[16];
+        snprintf(number, sizeof number, "%d", i + 1);
+        CZ_TRY(read_column(reading, number, reading->title[i]));
+    }
+    return CZ_OK;
+}
+
+/* The only one of a figure needs no name of its own. */
+static void name_single_ones(int n, CzChartCurve *measured) {
+    for (int i = 0; i < n; i++) {
+        int n_same = 0;
+        for (int k = 0; k < n; k++)
+            n_same += measured[k].chart == measured[i].chart;
+        if (n_same == 1)
+            snprintf(measured[i].label, sizeof measured[i].label, "measured");
+    }
+}
+
+CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int *n,
+                              CzChartCurve measured[CZ_MOST_CHART_CURVES], CzError *error) {
+    *n = 0;
+    if (options->measured == NULL)
+        return CZ_OK;
+    if (chart != CZ_CHART_PANELS && cz_chart_axes(chart) == NULL)
+        return cz_fail(error, CZ_STATUS_INPUT, "no measured curve fits over '%s'",
+                       cz_report_chart_name((int)chart));
+    Reading reading = {.options = options, .chart = chart, .measured = measured, .error = error};
+    const bool has_list = options->column != NULL && strchr(options->column, ',') != NULL;
+    const bool reads_twice = chart == CZ_CHART_PANELS || has_list;
+    if (reads_twice && strcmp(options->measured, "-") == 0)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "several columns are read from a file, not from standard input");
+    CzStatus status = CZ_OK;
+    if (reads_twice)
+        status = cz_curve_titles(options->measured, options->csv_separator, &reading.n_title,
+                                 &reading.title, error);
+    if (status == CZ_OK)
+        status = read_columns(&reading);
+    free(reading.title);
+    *n = reading.n;
+    name_single_ones(reading.n, measured);
+    return status;
+}
+
+void cz_chart_curves_free(int n, CzChartCurve *measured) {
+    for (int i = 0; i < n; i++)
+        cz_curve_free(measured[i].curve);
+}

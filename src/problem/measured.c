@@ -178,7 +178,22 @@ static void read_measured(CzProblem *problem, const CzMatch *match, CzMeasured *
         cz_mistake_at(&reader->mistakes, file.source, MOST_POINTS, 1,
                       "a time history has at most %d lines", (int)MOST_POINTS);
     else if (is_text && read_lines(&file))
-        *measured = (CzMeasured){.n_point = file.n_point, .time = file.t, .value = file.y};
+        *measured = (CzMeasured){
+            .n_point = file.n_point, .time = file.t, .value = file.y, .source = file.source};
+}
+
+/* The first match of a file gives it its number. */
+static void number_files(CzProblem *problem) {
+    int n = 0;
+    for (int i = 0; i < problem->input.optimise.n_match; i++) {
+        CzMeasured *measured = &problem->measured[i];
+        for (int k = 0; k < i && measured->source != NULL; k++)
+            if (problem->measured[k].source != NULL &&
+                strcmp(problem->measured[k].source->name, measured->source->name) == 0)
+                measured->number = problem->measured[k].number;
+        if (measured->source != NULL && measured->number == 0)
+            measured->number = ++n;
+    }
 }
 
 void cz_measured_read(CzProblem *problem) {
@@ -190,8 +205,24 @@ void cz_measured_read(CzProblem *problem) {
     for (int i = 0; problem->measured != NULL && i < optimise->n_match; i++)
         if (optimise->match[i].file != NULL)
             read_measured(problem, &optimise->match[i], &problem->measured[i]);
+    if (problem->measured != NULL)
+        number_files(problem);
 }
 
 const CzMeasured *cz_problem_measured(const CzProblem *problem, int match) {
     return &problem->measured[match];
+}
+
+const CzSource *cz_problem_measured_file(const CzProblem *problem, int number, size_t room,
+                                         char *name) {
+    const int n_match = problem->measured != NULL ? problem->input.optimise.n_match : 0;
+    for (int i = 0; i < n_match; i++) {
+        const CzSource *source = problem->measured[i].source;
+        if (source == NULL || problem->measured[i].number != number)
+            continue;
+        const char *slash = strrchr(source->name, '/');
+        snprintf(name, room, "measured/%d-%s", number, slash != NULL ? slash + 1 : source->name);
+        return source;
+    }
+    return NULL;
 }

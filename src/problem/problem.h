@@ -68,13 +68,24 @@ CZ_MUST_CHECK CzStatus cz_problem_read_again(const CzProblem *problem, int n_mor
 /* A measured time history, borrowed from the problem. */
 typedef struct CzMeasured {
     int n_point;
-    const double *time;  /* rising [s] (n_point) */
-    const double *value; /* in the unit of its channel (n_point) */
+    const double *time;            /* rising [s] (n_point) */
+    const double *value;           /* in the unit of its channel (n_point) */
+    const struct CzSource *source; /* its file */
+    int number;                    /* of the file among those that matches name, from 1 */
 } CzMeasured;
 
 /* The time history that the i-th match of the problem names, cut to its window; without points when
  * it names none. */
 const CzMeasured *cz_problem_measured(const CzProblem *problem, int match);
+
+/* The file of time histories that has this number, from 1, and the name of its copy in a result
+ * folder, such as "measured/1-test.csv"; NULL beyond the last. */
+const struct CzSource *cz_problem_measured_file(const CzProblem *problem, int number, size_t room,
+                                                char *name);
+
+/* cz_problem_write_resolved for a result folder: it names the copies of the time histories there.
+ */
+void cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream);
 
 /* Reads a profile of limits: NAME.yaml in profiles/ beside the problem file, then in the share
  * folder. Borrowed from the problem, read with it when the problem names one; NULL when it names

@@ -14,6 +14,7 @@ typedef struct {
     const CzProblem *problem;
     FILE *stream;
     const char *lead; /* "# " while a record that the file has not is shown */
+    bool is_there;    /* for a result folder */
 } Writer;
 
 static void write_record(const Writer *writer, const CzRecord *record, const char *memory,
@@ -76,10 +77,23 @@ static int write_key(const Writer *writer, const char *key, const char *suffix, 
                    dash, key, suffix[0] != '\0' ? "_" : "", suffix);
 }
 
+/* A text of a record as it is written: of a file that a result folder holds, its name there. */
+static const char *text_of(const Writer *writer, const char *const *field, size_t room,
+                           char *name) {
+    const CzOptimise *optimise = &writer->problem->input.optimise;
+    for (int i = 0; writer->is_there && i < optimise->n_match; i++)
+        if (&optimise->match[i].file == field && *field != NULL &&
+            cz_problem_measured_file(writer->problem,
+                                     cz_problem_measured(writer->problem, i)->number, room,
+                                     name) != NULL)
+            return name;
+    return *field;
+}
+
 /* Writes "key: value # origin" for the keys of one value; false when the key is absent. */
 static bool write_value(const Writer *writer, const CzKey *key, const char *field, int indent,
                         const char *dash) {
-    char number[CZ_NUMBER_TEXT];
+    char number[CZ_NUMBER_TEXT], name[CZ_MAX_PLACE];
     const char *value = number;
     const char *suffix = "";
     if (key->kind == CZ_KEY_NUMBER) {
@@ -98,7 +112,7 @@ static bool write_value(const Writer *writer, const CzKey *key, const char *fiel
     } else if (key->kind == CZ_KEY_FLAG) {
         value = *(const bool *)field ? "true" : "false";
     } else {
-        value = *(const char *const *)(const void *)field;
+        value = text_of(writer, (const char *const *)(const void *)field, sizeof name, name);
         if (value == NULL)
             return false;
     }
@@ -331,8 +345,8 @@ static void write_record(const Writer *writer, const CzRecord *record, const cha
     }
 }
 
-void cz_problem_write_resolved(const CzProblem *problem, FILE *stream) {
-    const Writer writer = {problem, stream, ""};
+static void write_resolved(const CzProblem *problem, bool is_there, FILE *stream) {
+    const Writer writer = {problem, stream, "", is_there};
     fprintf(stream,
             "# %s resolved: parts, copies and defaults filled in, values in SI.\n"
             "# Behind each value: where it was written, or that it is a default.\n",
@@ -341,4 +355,12 @@ void cz_problem_write_resolved(const CzProblem *problem, FILE *stream) {
          source = source->next)
         fprintf(stream, "# read: %s\n", cz_problem_told_name(problem, source->name));
     write_record(&writer, &cz_records[CZ_RECORD_CzInput], (const char *)&problem->input, 0, "");
+}
+
+void cz_problem_write_resolved(const CzProblem *problem, FILE *stream) {
+    write_resolved(problem, false, stream);
+}
+
+void cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream) {
+    write_resolved(problem, true, stream);
 }

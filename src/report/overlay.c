@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/number.h"
+#include "problem/problem.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -136,7 +137,7 @@ CzStatus cz_overlay_write_resolved(const CzProblem *problem, const CzEvaluator *
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
     }
     if (read_best(problem, options, n_setting, setting, &best, &mistake) == CZ_OK) {
-        cz_problem_write_resolved(best, stream);
+        cz_problem_write_resolved_there(best, stream);
     } else { /* such as a file that has changed meanwhile: the values must not get lost */
         fprintf(stream, "# The problem cannot be read again (%s), so these are the values alone.\n",
                 mistake.message);

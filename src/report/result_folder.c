@@ -25,7 +25,7 @@ typedef struct Results {
     bool is_top;               /* its files stand at the top of the folder */
     const CzRun *run;          /* of the scenario at hand */
     const char *folder;        /* final path */
-    const CzSource *profile;   /* at hand */
+    const CzSource *input;     /* file to copy, at hand */
 } Results;
 
 typedef CzStatus (*Writer)(const Results *results, FILE *stream, CzError *error);
@@ -72,18 +72,18 @@ static CzStatus write_channels(const Results *results, FILE *stream, CzError *er
 /* The problem that gives these results when it is run alone: of a search, with the best values. */
 static CzStatus write_resolved(const Results *results, FILE *stream, CzError *error) {
     if (results->outcome == NULL) {
-        cz_problem_write_resolved(results->problem, stream);
+        cz_problem_write_resolved_there(results->problem, stream);
         return CZ_OK;
     }
     return cz_overlay_write_resolved(results->problem, results->evaluator, results->outcome,
                                      results->options, stream, error);
 }
 
-/* The profile as it was read, so that the folder runs by itself wherever it is. */
-static CzStatus write_profile(const Results *results, FILE *stream, CzError *error) {
+/* A file as it was read, so that the folder runs by itself wherever it is. */
+static CzStatus write_input(const Results *results, FILE *stream, CzError *error) {
     (void)error;
-    for (int i = 0; i < results->profile->n_line; i++)
-        fprintf(stream, "%s\n", results->profile->line[i]);
+    for (int i = 0; i < results->input->n_line; i++)
+        fprintf(stream, "%s\n", results->input->line[i]);
     return CZ_OK;
 }
 
@@ -177,8 +177,21 @@ static CzStatus write_profiles(CzFolder *folder, Results *results, CzError *erro
         if (file == NULL || (size_t)(file - source->name) < n || strncmp(file - n, above, n) != 0)
             continue;
         snprintf(name, sizeof name, "%s%.140s", above, file);
-        results->profile = source;
-        status = write_file(folder, name, write_profile, results, error);
+        results->input = source;
+        status = write_file(folder, name, write_input, results, error);
+    }
+    return status;
+}
+
+/* Time histories that a fit follows, as resolved.yaml names them. */
+static CzStatus write_measured(CzFolder *folder, Results *results, CzError *error) {
+    CzStatus status = CZ_OK;
+    char name[256];
+    for (int number = 1; status == CZ_OK; number++) {
+        results->input = cz_problem_measured_file(results->problem, number, sizeof name, name);
+        if (results->input == NULL)
+            break;
+        status = write_file(folder, name, write_input, results, error);
     }
     return status;
 }
@@ -200,6 +213,8 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
             status = write_file(folder, files[i].name, files[i].writer, results, error);
     if (status == CZ_OK)
         status = write_profiles(folder, results, error);
+    if (status == CZ_OK)
+        status = write_measured(folder, results, error);
     for (int i = 0; i < results->evaluation->n_run && status == CZ_OK; i++)
         if (cz_kept_run(results->evaluation, i) != NULL)
             status = write_run(folder, results, i, error);

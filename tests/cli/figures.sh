@@ -64,6 +64,23 @@ search() { # the report of a search is made anew from its folder, but for the di
 check "the report of a search is made anew from its folder" search
 searched_elsewhere() { rm -rf gone && cp -r search gone && sed -i 's/^extends.*/extends: "nowhere.yaml"/' gone/optimised.yaml && exits 0 "$C" report gone -q && part_of gone/report.html values | grep -q 'trains.A.vehicles'; }
 check "so it is without the file that was searched for" searched_elsewhere
+fit_elsewhere() { # a fit's time histories are in its folder, wherever they were
+    mkdir -p tests/a tests/b && for name in a b; do cp first/channels.csv "tests/$name/test 12.csv"; done
+    sed '/^optimise:/,$d' two-trains.yaml >tests/fit.yaml && cat >>tests/fit.yaml <<'END'
+optimise:
+  match:
+    - {name: force, channel: F_A4-B1_kN, file: a/test 12.csv, tolerance: 100}
+    - {name: speed, channel: v_A4_m_s, file: a/test 12.csv, tolerance: 0.1}
+    - {name: speed ahead, channel: v_B1_m_s, file: b/test 12.csv, tolerance: 0.1}
+  variables:
+    - {path: 'parts.cab-end.coupler.tube.stages[0].force_kN', min: 500, max: 900}
+  evaluations: 3
+END
+    exits 0 "$C" optimise tests/fit.yaml -o tests/found -q && exits 0 "$C" plot tests/found --what force --svg before.svg && rm -rf fit && mv tests/found fit && rm -r tests && [ "$(ls fit/measured | tr '\n' /)" = '1-test 12.csv/2-test 12.csv/' ] &&
+        exits 0 "$C" report fit -q && part_of fit/report.html variables | grep -q 'tube' && exits 0 "$C" plot fit --what force --svg after.svg && cmp before.svg after.svg &&
+        exits 1 "$C" check fit/resolved.yaml && says out.txt 'speed ahead'
+}
+check "a fit that was moved has its time histories with it" fit_elsewhere
 best_alone() { exits 0 "$C" report search -o best.html && ! grep -q 'id="variables"' best.html; }
 check "the best design of a search has a report of its own with -o" best_alone
 spoilt() { rm -rf bad && cp -r search bad && echo x >bad/history.csv && exits 2 "$C" report bad && says err.txt 'history.csv cannot be read'; }

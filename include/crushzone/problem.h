@@ -59,6 +59,11 @@ CZ_API const char *cz_problem_hash(const CzProblem *problem);
 CZ_API int cz_problem_n_scenario(const CzProblem *problem);
 CZ_API const char *cz_problem_scenario_name(const CzProblem *problem, int scenario);
 
+/* The scenario of a name, or the first of a family of that name. CZ_STATUS_INPUT when there is
+ * none; the error's help names the nearest word. */
+CZ_MUST_CHECK CZ_API CzStatus cz_problem_find_scenario(const CzProblem *problem, const char *name,
+                                                       int *scenario, CzError *error);
+
 /* Writes the resolved file as YAML: all parts, copies and defaults filled in, SI values and origin
  * in comments. The output is itself a problem file with the same meaning to the last bit. */
 CZ_API void cz_problem_write_resolved(const CzProblem *problem, FILE *stream);

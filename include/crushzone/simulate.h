@@ -198,9 +198,9 @@ typedef struct CzRunSummary {
 
 /* Which track an elastic one is run on; a rigid one stays rigid. */
 typedef enum CzTrackUse {
-    CZ_TRACK_USE_OWN,    /* the problem's; of a brief run: that of the search */
-    CZ_TRACK_USE_SEARCH, /* `co-running` */
-    CZ_TRACK_USE_RECORD  /* `modal` */
+    CZ_TRACK_USE_OWN,   /* the problem's; of a brief run: `co-running` */
+    CZ_TRACK_USE_MODAL, /* `modal` */
+    CZ_TRACK_USE_FE     /* `fe` */
 } CzTrackUse;
 
 typedef struct CzSimulateOptions {

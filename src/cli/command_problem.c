@@ -190,18 +190,6 @@ static void show_steps(const CzModel *model) {
     }
 }
 
-/* The scenario that the facts are shown for: the first unless one was asked for; -1 when there is
- * none of that name. */
-static int chosen_scenario(const CzSession *session) {
-    const char *name = session->arguments->text[CZ_OPTION_SCENARIO];
-    if (name == NULL)
-        return 0;
-    for (int i = 0; i < cz_problem_n_scenario(session->problem); i++)
-        if (strcmp(cz_problem_scenario_name(session->problem, i), name) == 0)
-            return i;
-    return -1;
-}
-
 typedef struct Elevation {
     const CzProblem *problem;
     int scenario;
@@ -215,13 +203,11 @@ static CzStatus write_elevation(const void *data, FILE *stream, CzError *error) 
 static int show_facts(const CzSession *session) {
     CzModel *model = NULL;
     CzError error = {0};
-    const int scenario = chosen_scenario(session);
-    if (scenario < 0) {
-        error.status = CZ_STATUS_INPUT;
-        snprintf(error.message, sizeof error.message, "there is no scenario '%.200s'",
-                 session->arguments->text[CZ_OPTION_SCENARIO]);
+    const char *asked_for = session->arguments->text[CZ_OPTION_SCENARIO];
+    int scenario = 0;
+    if (asked_for != NULL &&
+        cz_problem_find_scenario(session->problem, asked_for, &scenario, &error) != CZ_OK)
         return cz_session_fail(session, &error);
-    }
     if (session->arguments->text[CZ_OPTION_SVG] != NULL)
         return cz_result_write(session->arguments, session->arguments->text[CZ_OPTION_SVG],
                                write_elevation, &(Elevation){session->problem, scenario});

@@ -48,7 +48,7 @@ static void look_at_modes(const CzTrackMotion *track, CzBlock *d, int block) {
 static void look_at_elements(CzElements *elements, CzBlock *d, int block) {
     for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
         const size_t index = (size_t)(block * CZ_LANE_BLOCK + i);
-        if (elements->under[index].u == NULL)
+        if (!elements->under[index].is_laid)
             continue;
         double place[4];
         CzElementsPoint point[4];
@@ -111,17 +111,24 @@ static void advance_modes(const CzTrackMotion *track, CzBlock *d, int block) {
 }
 
 static void advance_elements(CzElements *elements, CzBlock *d, int block) {
+    const size_t first = (size_t)(block * CZ_LANE_BLOCK);
+    if (elements->block[block].u == NULL)
+        return;
     for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
-        const size_t index = (size_t)(block * CZ_LANE_BLOCK + i);
-        if (elements->under[index].u == NULL)
-            continue;
-        double force[4], work = 0.0;
+        double force[4];
         for (int axle = 0; axle < 4; ++axle)
             force[axle] = -S_AT(WHEEL_FORCE_0, axle)[i];
-        cz_elements_step(elements, index, force);
+        cz_elements_press(elements, first + (size_t)i, force);
+    }
+    cz_elements_step(elements, (size_t)block);
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+        const size_t lane = first + (size_t)i;
+        double work = 0.0;
+        if (!elements->under[lane].is_laid)
+            continue;
         for (int axle = 0; axle < 4; ++axle)
-            work += force[axle] *
-                    (cz_elements_past(elements, index, axle) - S_AT(RAIL_PAST_0, axle)[i]);
+            work += elements->under[lane].force[axle] *
+                    (cz_elements_past(elements, lane, axle) - S_AT(RAIL_PAST_0, axle)[i]);
         d->work[CZ_L_TRACK][i] += work;
         d->work[CZ_L_WHEEL_NORMAL][i] -= work;
     }

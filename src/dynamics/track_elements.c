@@ -6,8 +6,10 @@
 #include "dynamics/track_elements.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#define EACH_LANE(k) _Pragma("omp simd") for (size_t k = 0; k < CZ_LANE_BLOCK; ++k)
 #define MARGIN 20.0 /* of rail beyond the outer wheels [m]: waves die out over 14 m (ours) */
 
 /* ---- one element ----
@@ -66,21 +68,6 @@ static void couple(const CzElements *elements, double *matrix, size_t i, size_t 
     *entry(elements, matrix, i, j) -= value;
 }
 
-/* y = A x */
-static void multiply(const CzElements *elements, const double *matrix, const double *x, double *y) {
-    const size_t n = elements->n, band = elements->band;
-    memset(y, 0, n * sizeof *y);
-    for (size_t i = 0; i < n; ++i) {
-        const double *row = matrix + i * (band + 1);
-        for (size_t j = i > band ? i - band : 0; j < i; ++j) {
-            const double a = row[band - (i - j)];
-            y[i] += a * x[j];
-            y[j] += a * x[i];
-        }
-        y[i] += row[band] * x[i];
-    }
-}
-
 /* L D L^T in place. */
 static void factorise(const CzElements *elements, double *matrix) {
     const size_t n = elements->n, band = elements->band;
@@ -103,17 +90,48 @@ static void factorise(const CzElements *elements, double *matrix) {
     }
 }
 
-/* x = A^-1 x */
-static void solve(const CzElements *elements, const double *factor, double *x) {
+/* y = A x, lane by lane */
+static void multiply(const CzElements *elements, const double *matrix, const CzElementsRow *x,
+                     CzElementsRow *y) {
+    const size_t n = elements->n, band = elements->band;
+    for (size_t i = 0; i < n; ++i) {
+        const double *row = matrix + i * band + band; /* by column */
+        const double *restrict own = x[i];
+        double *restrict sum = y[i];
+        EACH_LANE(k) sum[k] = row[i] * own[k];
+        for (size_t j = elements->first[i]; j < i; ++j) {
+            const double a = row[j];
+            if (a == 0.0)
+                continue;
+            const double *restrict other = x[j];
+            double *restrict mirrored = y[j];
+            EACH_LANE(k) {
+                sum[k] += a * other[k];
+                mirrored[k] += a * own[k];
+            }
+        }
+    }
+}
+
+/* x -= l y */
+static inline void take(double *restrict x, double l, const double *restrict y) {
+    EACH_LANE(k) x[k] -= l * y[k];
+}
+
+/* x = A^-1 x, lane by lane */
+static void solve(const CzElements *elements, const double *factor, CzElementsRow *x) {
     const size_t n = elements->n, band = elements->band;
     for (size_t i = 0; i < n; ++i)
-        for (size_t j = i > band ? i - band : 0; j < i; ++j)
-            x[i] -= factor[i * (band + 1) + band - (i - j)] * x[j];
-    for (size_t i = 0; i < n; ++i)
-        x[i] /= factor[i * (band + 1) + band];
+        for (size_t j = elements->first[i]; j < i; ++j)
+            take(x[i], factor[i * band + band + j], x[j]);
+    for (size_t i = 0; i < n; ++i) {
+        const double inverse = 1.0 / factor[i * band + band + i];
+        double *own = x[i];
+        EACH_LANE(k) own[k] *= inverse;
+    }
     for (size_t i = n; i-- > 0;)
-        for (size_t j = i > band ? i - band : 0; j < i; ++j)
-            x[j] -= factor[i * (band + 1) + band - (i - j)] * x[i];
+        for (size_t j = elements->first[i]; j < i; ++j)
+            take(x[j], factor[i * band + band + j], x[i]);
 }
 
 /* ---- assembly ---- */
@@ -177,23 +195,37 @@ static void pin(CzElements *elements) {
     *entry(elements, elements->stiffness, last, last) += 1e3 * elements->seats.shear;
 }
 
+/* The first column of each row that is not zero; factors have no others either. */
+static void find_first(CzElements *elements) {
+    for (size_t i = 0; i < elements->n; ++i) {
+        size_t j = i > elements->band ? i - elements->band : 0;
+        while (j < i && *entry(elements, elements->stiffness, i, j) == 0.0 &&
+               *entry(elements, elements->damping, i, j) == 0.0)
+            ++j;
+        elements->first[i] = j;
+    }
+}
+
 static void assemble(CzElements *elements) {
     add_rail(elements);
     for (int bay = 0; bay <= elements->n_bay; ++bay)
         add_seat(elements, bay);
     pin(elements);
+    find_first(elements);
     const double h = elements->step;
     const size_t size = elements->n * (elements->band + 1);
     for (size_t k = 0; k < size; ++k)
-        elements->factor[k] =
+        elements->flight[k] =
             0.5 * h * elements->damping[k] + 0.25 * h * h * elements->stiffness[k];
     for (size_t i = 0; i < elements->n; ++i)
-        *entry(elements, elements->factor, i, i) += elements->mass[i];
-    factorise(elements, elements->factor);
+        *entry(elements, elements->flight, i, i) += elements->mass[i];
+    factorise(elements, elements->flight);
+    memcpy(elements->rest, elements->stiffness, size * sizeof *elements->rest);
+    factorise(elements, elements->rest);
 }
 
 CzElements *cz_elements_create(const CzSeats *seats, int nodes, double span, double step,
-                               size_t n_under, CzArena *arena) {
+                               size_t n_lane, CzArena *arena) {
     CzElements *elements = cz_arena_allocate(arena, 1, sizeof *elements);
     if (elements == NULL)
         return NULL;
@@ -205,21 +237,29 @@ CzElements *cz_elements_create(const CzSeats *seats, int nodes, double span, dou
     elements->n = (size_t)elements->n_bay * elements->per_bay + 4;
     elements->band = seats->across_k > 0.0 || nodes == 1 ? elements->per_bay + 1 : 5;
     const size_t size = elements->n * (elements->band + 1);
+    elements->first = cz_arena_allocate(arena, elements->n, sizeof *elements->first);
     elements->stiffness = cz_arena_allocate(arena, size, sizeof(double));
     elements->damping = cz_arena_allocate(arena, size, sizeof(double));
-    elements->factor = cz_arena_allocate(arena, size, sizeof(double));
+    elements->flight = cz_arena_allocate(arena, size, sizeof(double));
+    elements->rest = cz_arena_allocate(arena, size, sizeof(double));
     elements->mass = cz_arena_allocate(arena, elements->n, sizeof(double));
-    elements->work = cz_arena_allocate(arena, 2 * elements->n, sizeof(double));
-    elements->n_under = n_under;
-    elements->under = cz_arena_allocate(arena, n_under, sizeof *elements->under);
-    if (elements->stiffness == NULL || elements->damping == NULL || elements->factor == NULL ||
-        elements->mass == NULL || elements->work == NULL || elements->under == NULL)
+    elements->work = cz_arena_allocate(arena, 2 * elements->n, sizeof *elements->work);
+    elements->n_lane = n_lane;
+    elements->under = cz_arena_allocate(arena, n_lane, sizeof *elements->under);
+    elements->block = cz_arena_allocate(arena, n_lane / CZ_LANE_BLOCK + 1, sizeof *elements->block);
+    if (elements->first == NULL || elements->stiffness == NULL || elements->damping == NULL ||
+        elements->flight == NULL || elements->rest == NULL || elements->mass == NULL ||
+        elements->work == NULL || elements->under == NULL || elements->block == NULL)
         return NULL;
     assemble(elements);
     return elements;
 }
 
-/* ---- under one car ---- */
+/* ---- under the cars of a block ---- */
+
+static CzElementsBlock *block_of(const CzElements *elements, size_t lane) {
+    return &elements->block[lane / CZ_LANE_BLOCK];
+}
 
 /* Where a wheel is: its element's first unknowns, and a share of the element. */
 typedef struct Stand {
@@ -234,90 +274,110 @@ static Stand stand_of(const CzElements *elements, const CzElementsUnder *under, 
     return (Stand){node_at(elements, first), node_at(elements, first + 1), way - node};
 }
 
-static double between(const Stand *stand, const double *u, const double shape[4]) {
-    return shape[0] * u[stand->i] + shape[1] * u[stand->i + 1] + shape[2] * u[stand->j] +
-           shape[3] * u[stand->j + 1];
+static double between(const Stand *stand, const CzElementsRow *u, size_t k, const double shape[4]) {
+    return shape[0] * u[stand->i][k] + shape[1] * u[stand->i + 1][k] + shape[2] * u[stand->j][k] +
+           shape[3] * u[stand->j + 1][k];
 }
 
-/* Adds forces at the wheels to the nodes. */
-static void press(const CzElements *elements, const CzElementsUnder *under, const double force[4],
-                  double *load) {
+/* Adds the forces at the wheels of a lane to the nodes, each over `divisor`, NULL for none. */
+static void press(const CzElements *elements, size_t lane, double factor, const double *divisor,
+                  CzElementsRow *load) {
+    const CzElementsUnder *under = &elements->under[lane];
     const double l = elements->seats.spacing / elements->nodes;
+    const size_t k = lane % CZ_LANE_BLOCK;
     for (int wheel = 0; wheel < 4; ++wheel) {
         const Stand stand = stand_of(elements, under, under->place[wheel]);
+        const size_t at[4] = {stand.i, stand.i + 1, stand.j, stand.j + 1};
         double shape[4];
         shape_of(&elements->seats, l, stand.x, shape);
-        load[stand.i] += force[wheel] * shape[0];
-        load[stand.i + 1] += force[wheel] * shape[1];
-        load[stand.j] += force[wheel] * shape[2];
-        load[stand.j + 1] += force[wheel] * shape[3];
+        for (int i = 0; i < 4; ++i)
+            load[at[i]][k] +=
+                factor * under->force[wheel] * shape[i] / (divisor != NULL ? divisor[at[i]] : 1.0);
     }
 }
 
-bool cz_elements_lay(CzElements *elements, size_t index, const double place[4],
-                     const double load[4], CzArena *arena) {
-    CzElementsUnder *under = &elements->under[index];
-    const size_t n = elements->n, size = n * (elements->band + 1);
-    under->u = cz_arena_allocate(arena, n, sizeof(double));
-    under->before = cz_arena_allocate(arena, n, sizeof(double));
-    under->v = cz_arena_allocate(arena, n, sizeof(double));
-    double *factor = cz_arena_allocate(arena, size, sizeof(double));
-    if (under->u == NULL || under->before == NULL || under->v == NULL || factor == NULL)
+static bool make_block(const CzElements *elements, CzElementsBlock *block, CzArena *arena) {
+    if (block->u != NULL)
+        return true;
+    block->u = cz_arena_allocate(arena, elements->n, sizeof *block->u);
+    block->before = cz_arena_allocate(arena, elements->n, sizeof *block->before);
+    block->v = cz_arena_allocate(arena, elements->n, sizeof *block->v);
+    return block->u != NULL && block->before != NULL && block->v != NULL;
+}
+
+/* The piece of a lane under constant forces. */
+static void rest(const CzElements *elements, size_t lane) {
+    const CzElementsBlock *block = block_of(elements, lane);
+    const size_t k = lane % CZ_LANE_BLOCK;
+    CzElementsRow *u = elements->work;
+    memset(u, 0, elements->n * sizeof *u);
+    press(elements, lane, 1.0, NULL, u);
+    for (size_t i = 0; i < elements->n; ++i) /* at rest every kick turns the rate round */
+        block->v[i][k] = -0.5 * elements->step * u[i][k] / elements->mass[i];
+    solve(elements, elements->rest, u);
+    for (size_t i = 0; i < elements->n; ++i)
+        block->u[i][k] = block->before[i][k] = u[i][k];
+}
+
+bool cz_elements_lay(CzElements *elements, size_t lane, const double place[4], const double load[4],
+                     CzArena *arena) {
+    CzElementsUnder *under = &elements->under[lane];
+    if (!make_block(elements, block_of(elements, lane), arena))
         return false;
-    under->from = -0.5 * elements->n_bay * elements->seats.spacing;
-    under->middle = 0.25 * (place[0] + place[1] + place[2] + place[3]);
+    *under = (CzElementsUnder){.is_laid = true,
+                               .from = -0.5 * elements->n_bay * elements->seats.spacing,
+                               .middle = 0.25 * (place[0] + place[1] + place[2] + place[3]),
+                               .force = {-load[0], -load[1], -load[2], -load[3]}};
     memcpy(under->place, place, sizeof under->place);
-    const double force[4] = {-load[0], -load[1], -load[2], -load[3]};
-    memcpy(factor, elements->stiffness, size * sizeof *factor);
-    factorise(elements, factor);
-    press(elements, under, force, under->u);
-    for (size_t i = 0; i < n; ++i) /* at rest every kick turns the rate round */
-        under->v[i] = -0.5 * elements->step * under->u[i] / elements->mass[i];
-    solve(elements, factor, under->u);
-    memcpy(under->before, under->u, n * sizeof *under->u);
+    rest(elements, lane);
     return true;
 }
 
-/* Moves the piece by whole bays until the wheels are about its middle. */
-static void follow(const CzElements *elements, CzElementsUnder *under, const double place[4]) {
+/* Moves one lane of a part by whole bays: what is lost behind comes back unloaded in front. */
+static void shift(CzElementsRow *part, size_t n, size_t moved, bool forwards, size_t k) {
+    for (size_t i = 0; i < n; ++i) {
+        const size_t to = forwards ? i : n - 1 - i;
+        const bool is_kept = i + moved < n;
+        part[to][k] = is_kept ? part[forwards ? to + moved : to - moved][k] : 0.0;
+    }
+}
+
+/* Moves the piece of a lane by whole bays until the wheels are about its middle. */
+static void follow(const CzElements *elements, size_t lane, const double place[4]) {
+    const CzElementsBlock *block = block_of(elements, lane);
+    CzElementsUnder *under = &elements->under[lane];
     const double d = elements->seats.spacing;
     const double centre = under->from + 0.5 * elements->n_bay * d + under->middle;
     const double way = 0.25 * (place[0] + place[1] + place[2] + place[3]) - centre;
     const int n_bay = (int)(way / d);
     if (n_bay == 0)
         return;
-    const size_t moved = (size_t)(n_bay > 0 ? n_bay : -n_bay) * elements->per_bay;
-    const size_t kept = moved < elements->n ? elements->n - moved : 0, lost = elements->n - kept;
-    double *const part[] = {under->u, under->before, under->v};
-    for (size_t k = 0; k < 3; ++k) {
-        if (n_bay > 0) {
-            memmove(part[k], part[k] + lost, kept * sizeof(double));
-            memset(part[k] + kept, 0, lost * sizeof(double));
-        } else {
-            memmove(part[k] + lost, part[k], kept * sizeof(double));
-            memset(part[k], 0, lost * sizeof(double));
-        }
-    }
+    CzElementsRow *const part[] = {block->u, block->before, block->v};
+    const size_t moved = (size_t)abs(n_bay) * elements->per_bay;
+    for (size_t i = 0; i < sizeof part / sizeof *part; ++i)
+        shift(part[i], elements->n, moved, n_bay > 0, lane % CZ_LANE_BLOCK);
     under->from += n_bay * d;
 }
 
-void cz_elements_look(CzElements *elements, size_t index, const double place[4],
+void cz_elements_look(CzElements *elements, size_t lane, const double place[4],
                       CzElementsPoint point[4]) {
     const CzSeats *seats = &elements->seats;
-    CzElementsUnder *under = &elements->under[index];
+    const CzElementsBlock *block = block_of(elements, lane);
+    CzElementsUnder *under = &elements->under[lane];
     const double l = seats->spacing / elements->nodes, beside = 1e-3;
-    follow(elements, under, place);
+    const size_t k = lane % CZ_LANE_BLOCK;
+    follow(elements, lane, place);
     memcpy(under->place, place, sizeof under->place);
     for (int wheel = 0; wheel < 4; ++wheel) {
         const Stand stand = stand_of(elements, under, place[wheel]);
         double shape[4], slope[4];
         shape_of(seats, l, stand.x, shape);
         shape_slope_of(seats, l, stand.x, slope);
+        const double z = between(&stand, block->u, k, shape);
         point[wheel] = (CzElementsPoint){
-            .z = between(&stand, under->u, shape),
-            .past =
-                0.5 * (between(&stand, under->u, shape) + between(&stand, under->before, shape)),
-            .slope = between(&stand, under->u, slope),
+            .z = z,
+            .past = 0.5 * (z + between(&stand, block->before, k, shape)),
+            .slope = between(&stand, block->u, k, slope),
             .flexibility = held_flexibility(seats, l, stand.x),
             .flexibility_slope = (held_flexibility(seats, l, fmin(stand.x + beside, 1.0)) -
                                   held_flexibility(seats, l, fmax(stand.x - beside, 0.0))) /
@@ -325,44 +385,53 @@ void cz_elements_look(CzElements *elements, size_t index, const double place[4],
     }
 }
 
-double cz_elements_past(const CzElements *elements, size_t index, int wheel) {
-    const CzElementsUnder *under = &elements->under[index];
+double cz_elements_past(const CzElements *elements, size_t lane, int wheel) {
+    const CzElementsBlock *block = block_of(elements, lane);
+    const CzElementsUnder *under = &elements->under[lane];
     const Stand stand = stand_of(elements, under, under->place[wheel]);
+    const size_t k = lane % CZ_LANE_BLOCK;
     double shape[4];
     shape_of(&elements->seats, elements->seats.spacing / elements->nodes, stand.x, shape);
-    return 0.5 * (between(&stand, under->u, shape) + between(&stand, under->before, shape));
+    return 0.5 * (between(&stand, block->u, k, shape) + between(&stand, block->before, k, shape));
 }
 
-void cz_elements_step(CzElements *elements, size_t index, const double force[4]) {
-    CzElementsUnder *under = &elements->under[index];
-    const size_t n = elements->n;
+void cz_elements_press(CzElements *elements, size_t lane, const double force[4]) {
+    memcpy(elements->under[lane].force, force, sizeof elements->under[lane].force);
+}
+
+void cz_elements_step(CzElements *elements, size_t block_index) {
+    const CzElementsBlock *block = &elements->block[block_index];
+    const size_t n = elements->n, first = block_index * CZ_LANE_BLOCK;
     const double h = elements->step;
-    double *kick = elements->work, *sum = elements->work + n;
-    memset(kick, 0, n * sizeof *kick);
-    press(elements, under, force, kick);
-    multiply(elements, elements->stiffness, under->u, sum);
-    for (size_t i = 0; i < n; ++i) {
-        under->v[i] += h * kick[i] / elements->mass[i];
-        sum[i] = 2.0 * elements->mass[i] * under->v[i] - h * sum[i];
-    }
-    solve(elements, elements->factor, sum);
-    memcpy(under->before, under->u, n * sizeof *under->u);
-    for (size_t i = 0; i < n; ++i) {
-        under->u[i] += 0.5 * h * sum[i];
-        under->v[i] = sum[i] - under->v[i];
-    }
+    CzElementsRow *sum = elements->work;
+    for (size_t lane = first; lane < first + CZ_LANE_BLOCK && lane < elements->n_lane; ++lane)
+        if (elements->under[lane].is_laid)
+            press(elements, lane, h, elements->mass, block->v);
+    multiply(elements, elements->stiffness, block->u, sum);
+    for (size_t i = 0; i < n; ++i)
+        EACH_LANE(k) sum[i][k] = 2.0 * elements->mass[i] * block->v[i][k] - h * sum[i][k];
+    solve(elements, elements->flight, sum);
+    memcpy(block->before, block->u, n * sizeof *block->u);
+    for (size_t i = 0; i < n; ++i)
+        EACH_LANE(k) {
+            block->u[i][k] += 0.5 * h * sum[i][k];
+            block->v[i][k] = sum[i][k] - block->v[i][k];
+        }
 }
 
-double cz_elements_energy(const CzElements *elements, size_t index) {
-    const CzElementsUnder *under = &elements->under[index];
-    double *middle = elements->work, *force = elements->work + elements->n, energy = 0.0;
+double cz_elements_energy(const CzElements *elements, size_t lane) {
+    const CzElementsBlock *block = block_of(elements, lane);
+    const size_t k = lane % CZ_LANE_BLOCK;
+    CzElementsRow *middle = elements->work, *force = elements->work + elements->n;
+    double energy = 0.0;
     for (size_t i = 0; i < elements->n; ++i) {
-        const double rate = (under->u[i] - under->before[i]) / elements->step;
-        middle[i] = 0.5 * (under->u[i] + under->before[i]);
+        const double rate = (block->u[i][k] - block->before[i][k]) / elements->step;
+        EACH_LANE(other)
+        middle[i][other] = 0.5 * (block->u[i][other] + block->before[i][other]);
         energy += 0.5 * elements->mass[i] * rate * rate;
     }
     multiply(elements, elements->stiffness, middle, force);
     for (size_t i = 0; i < elements->n; ++i)
-        energy += 0.5 * middle[i] * force[i];
+        energy += 0.5 * middle[i][k] * force[i][k];
     return energy;
 }

@@ -21,59 +21,73 @@
 #include <stddef.h>
 
 #include "base/arena.h"
+#include "model/lanes.h"
 #include "model/rail.h"
+
+typedef double CzElementsRow[CZ_LANE_BLOCK]; /* the same unknown under neighbouring cars */
 
 /* Constant for a step size, shared by all cars. */
 typedef struct CzElements {
     CzSeats seats;
-    double step;       /* h [s] */
-    int nodes;         /* nodes per bay */
-    int n_bay;         /* bays of the piece */
-    size_t per_bay;    /* unknowns of a bay: sleeper, ballast, and two per node */
-    size_t n;          /* unknowns */
-    size_t band;       /* of the matrices: their rows hold [i - band ... i] */
-    double *stiffness; /* K (n x (band + 1)) */
-    double *damping;   /* C */
-    double *mass;      /* diagonal of M (n) */
-    double *factor;    /* L D L^T of M + h/2 C + h^2/4 K */
-    double *work;      /* (2 n) */
-    size_t n_under;
-    struct CzElementsUnder *under; /* (n_under) */
+    double step;         /* h [s] */
+    int nodes;           /* nodes per bay */
+    int n_bay;           /* bays of the piece */
+    size_t per_bay;      /* unknowns of a bay: sleeper, ballast, and two per node */
+    size_t n;            /* unknowns */
+    size_t band;         /* of the matrices: their rows hold [i - band ... i] */
+    size_t *first;       /* of a row's columns that are not zero (n) */
+    double *stiffness;   /* K (n x (band + 1)) */
+    double *damping;     /* C */
+    double *mass;        /* diagonal of M (n) */
+    double *flight;      /* L D L^T of M + h/2 C + h^2/4 K */
+    double *rest;        /* L D L^T of K */
+    CzElementsRow *work; /* (2 n) */
+    size_t n_lane;
+    struct CzElementsUnder *under; /* (n_lane) */
+    struct CzElementsBlock *block; /* CZ_LANE_BLOCK lanes each */
 } CzElements;
+
+/* Under the cars of a block; NULL where none has wheels. */
+typedef struct CzElementsBlock {
+    CzElementsRow *u, *before, *v; /* deflections now and a step ago, rates before the kick (n) */
+} CzElementsBlock;
 
 /* Under one car. */
 typedef struct CzElementsUnder {
-    double *u, *before, *v; /* deflections now and a step ago, rates before the kick (n); NULL
-                               without wheels */
-    double from;            /* place of the first node [m] */
-    double middle;          /* of the wheels at t = 0 [m] */
-    double place[4];        /* of the last look [m] */
+    bool is_laid;
+    double from;     /* place of the first node [m] */
+    double middle;   /* of the wheels at t = 0 [m] */
+    double place[4]; /* of the last look [m] */
+    double force[4]; /* on the rail, upwards [N] */
 } CzElementsUnder;
 
 /* Matrices for steps of h seconds under cars with `span` from first to last wheel; NULL when there
  * is no memory. */
 CzElements *cz_elements_create(const CzSeats *seats, int nodes, double span, double step,
-                               size_t n_under, CzArena *arena);
+                               size_t n_lane, CzArena *arena);
 
 /* Lays the piece of one car, at rest under its loads; false when there is no memory. */
-bool cz_elements_lay(CzElements *elements, size_t index, const double place[4],
-                     const double load[4], CzArena *arena);
+bool cz_elements_lay(CzElements *elements, size_t lane, const double place[4], const double load[4],
+                     CzArena *arena);
 
 /* The rail under each wheel: deflection now and half a step ago, slope, flexibility beside the
  * nodes and its change along the track. Moves the piece when the car has left its middle. */
 typedef struct CzElementsPoint {
     double z, past, slope, flexibility, flexibility_slope;
 } CzElementsPoint;
-void cz_elements_look(CzElements *elements, size_t index, const double place[4],
+void cz_elements_look(CzElements *elements, size_t lane, const double place[4],
                       CzElementsPoint point[4]);
 
 /* Deflection half a step ago at the places of the last look. */
-double cz_elements_past(const CzElements *elements, size_t index, int wheel);
+double cz_elements_past(const CzElements *elements, size_t lane, int wheel);
 
-/* One step under forces at the places of the last look, upwards on the rail [N]. */
-void cz_elements_step(CzElements *elements, size_t index, const double force[4]);
+/* Forces of the next steps at the places of the last look, upwards on the rail [N]. */
+void cz_elements_press(CzElements *elements, size_t lane, const double force[4]);
+
+/* One step of all cars of a block. */
+void cz_elements_step(CzElements *elements, size_t block);
 
 /* Kinetic and elastic energy half a step ago [J]. */
-double cz_elements_energy(const CzElements *elements, size_t index);
+double cz_elements_energy(const CzElements *elements, size_t lane);
 
 #endif

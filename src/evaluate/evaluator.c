@@ -63,17 +63,17 @@ static CzStatus build_variants(CzEvaluator *evaluator, CzError *error) {
 }
 
 static CzStatus build_models(CzEvaluator *evaluator, const char *only, CzError *error) {
-    bool any = only == NULL;
+    int first = 0;
+    if (only != NULL)
+        CZ_TRY(cz_problem_find_scenario(evaluator->problem, only, &first, error));
     for (int s = 0; s < evaluator->n_scene; s++) {
         evaluator->rate = fmax(evaluator->rate, evaluator->scene[s].closing_speed / 2);
         const CzScene *scene = &evaluator->scene[s];
         if (only == NULL || !cz_scene_is(scene, only))
             continue;
-        any = true;
         evaluator->only = strcmp(only, scene->name) == 0 ? scene->name : scene->family;
     }
-    return any ? build_variants(evaluator, error)
-               : cz_fail(error, CZ_STATUS_INPUT, "there is no scenario '%s'", only);
+    return build_variants(evaluator, error);
 }
 
 /* Names the constraints: check and scenario. */

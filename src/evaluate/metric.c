@@ -15,6 +15,13 @@ static double share_of(double part, double whole) {
     return whole > nothing ? part / whole : NAN;
 }
 
+/* What a run has left to collide with. The rule that ends a run waits until for a pitch period none
+ * closes in; what neighbours then still do is rattle, of another size at every step. */
+static double left_to_close(const CzRunSummary *run) {
+    const bool over = run->ended == CZ_ENDED_BY_RULE || run->ended == CZ_ENDED_SETTLED;
+    return over ? 0 : run->closing_speed;
+}
+
 /* Rib pitch of the coarser of the two faces at an interface; 0 without faces. */
 static double rib_pitch(const CzPlace *place) {
     double pitch = 0;

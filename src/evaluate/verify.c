@@ -52,8 +52,8 @@ static CzTrack track_of(const CzEvaluator *evaluator) {
     return cz_problem_track(evaluator->problem);
 }
 
-/* How a way makes its runs. The solvers know the modal track, which is the record; what runs along
- * with the wheels, and finite elements, are compared with it. */
+/* How a way makes its runs. The solvers know the modal track; what runs along with the wheels, and
+ * finite elements, are compared with it, and it is compared with finite elements. */
 static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyWay way, double solver_step) {
     CzManner manner = evaluator->manner;
     switch (way) {
@@ -64,18 +64,17 @@ static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyWay way, double 
         manner.step_factor *= NUDGE;
         break;
     case CZ_WAY_TRACK:
-        manner.track =
-            track_of(evaluator) == CZ_TRACK_CO_RUNNING ? CZ_TRACK_USE_RECORD : CZ_TRACK_USE_SEARCH;
+        manner.track = track_of(evaluator) == CZ_TRACK_MODAL ? CZ_TRACK_USE_FE : CZ_TRACK_USE_MODAL;
         break;
     case CZ_WAY_ERK:
         manner.step_factor *= solver_step;
         manner.integrator = CZ_INTEGRATOR_ERK;
-        manner.track = CZ_TRACK_USE_RECORD;
+        manner.track = CZ_TRACK_USE_MODAL;
         break;
     case CZ_WAY_ADAMS:
         manner.step_factor *= solver_step;
         manner.integrator = CZ_INTEGRATOR_ADAMS;
-        manner.track = CZ_TRACK_USE_RECORD;
+        manner.track = CZ_TRACK_USE_MODAL;
         break;
     case CZ_N_VERIFY_WAY:
         break;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "problem/reader.h"
 #include "problem/yaml_document.h"
 
@@ -222,6 +223,28 @@ int cz_problem_n_scenario(const CzProblem *problem) {
 
 const char *cz_problem_scenario_name(const CzProblem *problem, int scenario) {
     return problem->input.scenarios[scenario].name;
+}
+
+CzStatus cz_problem_find_scenario(const CzProblem *problem, const char *name, int *scenario,
+                                  CzError *error) {
+    CzSuggestion nearest = {0};
+    for (int i = 0; i < problem->input.n_scenarios; i++) {
+        const CzScenario *given = &problem->input.scenarios[i];
+        const char *const known[2] = {given->name, given->family};
+        for (int k = 0; k < 2; k++) {
+            if (known[k] == NULL)
+                continue;
+            if (strcmp(known[k], name) == 0) {
+                *scenario = i;
+                return CZ_OK;
+            }
+            cz_suggest(&nearest, name, known[k]);
+        }
+    }
+    const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no scenario '%s'", name);
+    if (error != NULL && nearest.best != NULL)
+        snprintf(error->help, sizeof error->help, "did you mean '%.200s'?", nearest.best);
+    return status;
 }
 
 /* The rest of a path behind a folder; NULL when it is not in it. */

@@ -4,6 +4,7 @@
 
 #include "crushzone/evaluate.h"
 #include "crushzone/problem.h"
+#include "crushzone/verify.h"
 #include "report/json.h"
 
 /* format, version, program and problem. */
@@ -18,6 +19,9 @@ void cz_document_warnings(CzJson *json, const CzProblem *problem, const CzEvalua
 /* Where the turning and lifting of a body came from, into an open record: the n sources in `order`,
  * or all of them with NULL. */
 void cz_document_budget(CzJson *json, const CzVehicleBudget *budget, int n, const int *order);
+
+/* What each way of a verification changes most, as an object "ways". */
+void cz_document_verified_ways(CzJson *json, const CzVerification *verification);
 
 /* One mistake or warning with its place; key is NULL inside a list. */
 void cz_document_mistake(CzJson *json, const char *key, const CzError *mistake);

@@ -129,6 +129,8 @@ static void put_verification(CzJson *json, const CzVerification *verification) {
                  cz_verdict_text(is_made ? verification->verdict : CZ_VERDICT_NOT_CHECKED));
     cz_json_text(json, "failure",
                  is_made && verification->failure[0] != '\0' ? verification->failure : NULL);
+    if (is_made)
+        cz_document_verified_ways(json, verification);
     cz_json_close(json);
 }
 

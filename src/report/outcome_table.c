@@ -180,6 +180,18 @@ static double tenths_above(double change) {
     return 0.1 * ceil(1e3 * change);
 }
 
+/* The number that changes more than is allowed. */
+static void write_worst(const CzVerification *verification, CzVerifyWay way, FILE *stream) {
+    char text[CZ_FIGURE_ROOM];
+    if (!verification->is_done[way] || verification->largest_change[way] <= verification->limit)
+        return;
+    const CzVerifiedValue *value = &verification->value[verification->worst[way]];
+    const char *scenario = value->scenario[0] != '\0' ? value->scenario : "design";
+    fprintf(stream, "%s changes most: %s%s%s, %s, by %s\n", cz_verify_way_text(way), value->name,
+            value->where[0] != '\0' ? " at " : "", value->where, scenario,
+            cz_figure_percent(text, value->change[way]));
+}
+
 /* What independent means say of the optimum. */
 static void write_verification(const CzVerification *verification, bool colour, FILE *stream) {
     char text[CZ_FIGURE_ROOM];
@@ -195,6 +207,8 @@ static void write_verification(const CzVerification *verification, bool colour, 
     cz_grid_write_text(passes ? "pass" : "FAIL", passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, colour,
                        stream);
     fprintf(stream, "%s%s\n", verification->failure[0] != '\0' ? ": " : "", verification->failure);
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
+        write_worst(verification, (CzVerifyWay)way, stream);
 }
 
 void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,

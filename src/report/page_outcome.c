@@ -287,13 +287,14 @@ static void write_way(CzMarkup *markup, const CzVerification *verification, CzVe
     cz_markup_element(markup, "td", cz_verify_way_text(way));
     if (!verification->is_done[way]) {
         cz_markup_classed(markup, "td", "careful", "not done");
-        cz_markup_element(markup, "td", "");
-        cz_markup_element(markup, "td", "");
+        for (int empty = 0; empty < 3; empty++)
+            cz_markup_element(markup, "td", "");
     } else {
         const double change = verification->largest_change[way];
         cz_markup_classed(markup, "td", change > verification->limit ? "number fail" : "number",
                           cz_figure_percent(text, change));
         cz_markup_element(markup, "td", worst >= 0 ? verification->value[worst].name : "");
+        cz_markup_element(markup, "td", worst >= 0 ? verification->value[worst].scenario : "");
         cz_markup_classed(markup, "td", verification->n_flip[way] > 0 ? "number fail" : "number",
                           cz_figure_fixed(text, 0, verification->n_flip[way]));
     }
@@ -302,7 +303,7 @@ static void write_way(CzMarkup *markup, const CzVerification *verification, CzVe
 }
 
 static void write_verification(CzMarkup *markup, const CzVerification *verification) {
-    static const char *const names[] = {"computed by", "largest change", "of",
+    static const char *const names[] = {"computed by", "largest change", "of", "in",
                                         "verdicts that flip"};
     char text[512], limit[CZ_FIGURE_ROOM];
     cz_page_open_section(markup, "verification", "The best design computed again");

@@ -149,9 +149,17 @@ static void put_way(CzJson *json, const CzVerification *verification, CzVerifyWa
     cz_json_flag(json, "done", verification->is_done[way]);
     cz_json_real(json, "largest_change", verification->largest_change[way]);
     cz_json_text(json, "of", value != NULL ? value->name : NULL);
+    cz_json_text(json, "where", value != NULL && value->where[0] != '\0' ? value->where : NULL);
     cz_json_text(json, "scenario",
                  value != NULL && value->scenario[0] != '\0' ? value->scenario : NULL);
     cz_json_whole(json, "flips", verification->n_flip[way]);
+    cz_json_close(json);
+}
+
+void cz_document_verified_ways(CzJson *json, const CzVerification *verification) {
+    cz_json_open_object(json, "ways");
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
+        put_way(json, verification, (CzVerifyWay)way);
     cz_json_close(json);
 }
 
@@ -176,10 +184,7 @@ CzStatus cz_report_write_verification(const CzProblem *problem, const CzVerifica
     cz_json_text(json, "verdict", cz_verdict_text(verification->verdict));
     cz_json_real(json, "limit", verification->limit);
     put_times(json, verification, options);
-    cz_json_open_object(json, "ways");
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        put_way(json, verification, (CzVerifyWay)way);
-    cz_json_close(json);
+    cz_document_verified_ways(json, verification);
     cz_json_open_list(json, "values");
     for (int i = 0; i < verification->n_value; i++)
         put_value(json, &verification->value[i]);

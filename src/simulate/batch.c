@@ -66,8 +66,9 @@ static CzTrack track_of(const CzBatch *batch, CzTrackUse use) {
     const CzTrack own = (CzTrack)batch->model->simulation->track;
     if (own == CZ_TRACK_RIGID)
         return own;
-    const bool searches = use == CZ_TRACK_USE_SEARCH || (use == CZ_TRACK_USE_OWN && batch->brief);
-    return searches ? CZ_TRACK_CO_RUNNING : use == CZ_TRACK_USE_RECORD ? CZ_TRACK_MODAL : own;
+    if (use == CZ_TRACK_USE_OWN)
+        return batch->brief ? CZ_TRACK_CO_RUNNING : own;
+    return use == CZ_TRACK_USE_MODAL ? CZ_TRACK_MODAL : CZ_TRACK_FE;
 }
 
 /* Memory, lanes and state at t = 0. */

@@ -122,6 +122,10 @@ omitted() { exits 0 "$C" run two.yaml --scenario slow --json && json out.txt ver
 check "an omitted scenario is no pass" omitted
 no_scenario() { exits 2 "$C" run two.yaml --scenario slwo && says err.txt "there is no scenario 'slwo'"; }
 check "an unknown scenario is refused" no_scenario
+near() { exits 2 "$C" show two.yaml --scenario solw && says err.txt "did you mean 'slow'?"; }
+check "and the nearest one named" near
+of_family() { exits 0 "$C" show "$SOURCE/problems/metro-6-car-override.yaml" --scenario inner && says out.txt 'Known before the run, scenario inner_5km_h_A5-A6_-50mm'; }
+check "show takes a family, and shows its first scenario" of_family
 
 rest() { exits 0 "$C" show "$SOURCE/problems/two-cars-25kmh.yaml" && says out.txt 'at rest by the laws' && says out.txt '< 1e-10'; }
 check "show tells the rest of the cars, solved from the laws" rest

@@ -205,6 +205,18 @@ static void failed_run_is_infeasible_and_not_checked(void **state) {
     end(&made);
 }
 
+/* What cars still rattle by after a pitch period without collision is no closing speed. */
+static void a_collision_that_ended_by_rule_is_over(void **state) {
+    (void)state;
+    Case made = begin(variables);
+    const double x[] = {800, 300};
+    evaluate(&made, x);
+    const CzCheckResult *check = find(&made.evaluation, "closing speed at the end", "crash");
+    assert_near(check->value, 0.0, 0.0, 0.0);
+    assert_near(check->margin, 1.0, 0.0, 1e-15);
+    end(&made);
+}
+
 static void incomplete_run_is_never_a_pass(void **state) {
     (void)state;
     Case made = begin(variables);
@@ -450,6 +462,7 @@ int main(void) {
         cmocka_unit_test(tube_in_front_of_a_shear_off_may_be_used_up),
         cmocka_unit_test(scenarios_that_a_rule_needs_and_nobody_wrote_are_not_checked),
         cmocka_unit_test(failed_run_is_infeasible_and_not_checked),
+        cmocka_unit_test(a_collision_that_ended_by_rule_is_over),
         cmocka_unit_test(incomplete_run_is_never_a_pass),
         cmocka_unit_test(default_objective_is_the_smallest_margin),
         cmocka_unit_test(required_margin_is_part_of_the_constraint),

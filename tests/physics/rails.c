@@ -199,10 +199,10 @@ void rows_of_running_tracks(Rows *rows) {
             "finite elements, 70 kN a rail %s: deflection", where);
         const CzElementsUnder *under = &elements->under[0];
         const size_t bay = (size_t)lround((0.0 - under->from) / modes->seats.spacing);
-        const double *rail = &under->u[bay * elements->per_bay];
+        const CzElementsRow *rail = &elements->block[0].u[bay * elements->per_bay];
         if (i == 0)
-            ROW(rows, "kN", 0.5e-3 * modes->seats.pad_k * (rail[2] - rail[0]), 25.26, 5e-3, 0.0,
-                "finite elements, 70 kN a rail %s: force on its seat", where);
+            ROW(rows, "kN", 0.5e-3 * modes->seats.pad_k * (rail[2][0] - rail[0][0]), 25.26, 5e-3,
+                0.0, "finite elements, 70 kN a rail %s: force on its seat", where);
         cz_arena_free(&arena);
     }
 }
@@ -256,20 +256,20 @@ static double pinned_pinned_frequency(int nodes) {
     CzElements *elements = cz_elements_create(&seats, nodes, 0.0, step, 1, &arena);
     assert_non_null(elements);
     assert_true(cz_elements_lay(elements, 0, none, none, &arena));
-    CzElementsUnder *under = &elements->under[0];
+    const CzElementsBlock *block = &elements->block[0];
     for (size_t bay = 0; bay < (size_t)elements->n_bay; ++bay)
         for (size_t node = 0; node < (size_t)nodes; ++node) {
             const double phase = 0.5 * ((double)bay + (double)node / nodes);
             const size_t at = bay * elements->per_bay + (node == 0 ? 0 : 2 + 2 * node);
-            under->v[at] = node == 0 ? 0.0 : cz_turned(phase).im;
-            under->v[at + 1] = 0.9 * CZ_PI / seats.spacing * cz_turned(phase).re;
+            block->v[at][0] = node == 0 ? 0.0 : cz_turned(phase).im;
+            block->v[at + 1][0] = 0.9 * CZ_PI / seats.spacing * cz_turned(phase).re;
         }
     const size_t seen = (size_t)elements->n_bay / 2 * elements->per_bay + 2 + (size_t)nodes;
     double first = NAN, latest = NAN, before = 0.0;
     int n = -1;
     for (int k = 0; k < 20000; ++k) {
-        cz_elements_step(elements, 0, none);
-        const double now = under->u[seen];
+        cz_elements_step(elements, 0);
+        const double now = block->u[seen][0];
         if (before < 0.0 && now >= 0.0) {
             latest = (k - now / (now - before)) * step;
             first = n < 0 ? latest : first;
@@ -362,7 +362,8 @@ static void impact_on_elements(int nodes, double way[N_IMPACT]) {
         CzElementsPoint point[4];
         cz_elements_look(elements, 0, at, point);
         way[i] = point[0].flexibility * impact(i) - point[0].z;
-        cz_elements_step(elements, 0, force);
+        cz_elements_press(elements, 0, force);
+        cz_elements_step(elements, 0);
     }
     cz_arena_free(&arena);
 }

@@ -193,6 +193,11 @@ static void margins_follow_a_design_variable_without_jumps(void **state) {
     scan("problems/override-overlap-holds.yaml", "trains.A.speed_km_h=36", face,
          "interfaces.min_overlap_mm.min", value);
     assert_smooth("overlap over face height", N, value);
+    /* Ribs seat by the offset modulo their pitch, so over a wider range the capacity swings. */
+    const CzSweepAxis force = {"parts.anti-climber.stages[0].force_kN", 700, 860, N};
+    scan("problems/override-overlap-holds.yaml", "trains.A.speed_km_h=36", force,
+         "interfaces.vertical_margin_kN", value);
+    assert_smooth("vertical capacity over force", N, value);
     const CzSweepAxis hinge = {"parts.coupler-hinge.stiffness_kNm_rad", 300, 900, N};
     scan("problems/override-hinge-holds.yaml", "trains.A.speed_km_h=42", hinge,
          "interfaces.A2-A3.swing_share", value);

@@ -317,14 +317,22 @@ static void outcome_tells_how_far_the_optimum_changes(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
+    CzVerifiedValue value = {.name = "wheel lift", .scenario = "crash", .where = "A4"};
     CzVerification verification = {.verdict = CZ_VERDICT_FAIL,
-                                   .largest_change = {0.004, NAN, 0.02, NAN}};
+                                   .largest_change = {0.004, NAN, 0.02, NAN},
+                                   .n_value = 1,
+                                   .value = &value,
+                                   .worst = {0, -1, 0, -1, -1}};
     s.outcome.verification = &verification;
     json_t *json = outcome_of(&s);
     assert_real_at(json, "verification.half_step_change", 0.004);
     assert_real_at(json, "verification.reference_change", 0.02);
     assert_null_at(json, "verification.full_track_change");
     assert_text_at(json, "verification.verdict", "fail");
+    assert_text_at(json, "verification.ways.reference.of", "wheel lift");
+    assert_text_at(json, "verification.ways.reference.where", "A4");
+    assert_text_at(json, "verification.ways.reference.scenario", "crash");
+    assert_null_at(json, "verification.ways.full_track.of");
     json_decref(json);
 }
 

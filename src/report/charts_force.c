@@ -112,40 +112,22 @@ void cz_draw_energy(CzSheet *sheet) {
                  {"E_stored", "stored"},
                  {"E_wheel_rail", "wheel and rail"},
                  {"E_running_gear", "running gear"},
-                 {"E_track", "track"}};
-    const CzPage *page = sheet->page;
-    double *sum = cz_arena_allocate(&sheet->arena, (size_t)page->n_sample, sizeof *sum);
-    for (int i = 0; sum != NULL && i < page->summary->n_interface; i++) {
-        const double *part = cz_page_channel(page, "E_%s_kJ", page->summary->interface[i].name);
-        for (int k = 0; part != NULL && k < page->n_sample; k++)
-            sum[k] += part[k];
-    }
+                 {"E_track", "track"},
+                 {"E_interfaces", "interfaces, dissipated"}};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         CzSeries *series = cz_sheet_add_channel(sheet, parts[i].stem, "", "kJ");
         if (series == NULL)
             continue;
         series->name = parts[i].name;
-        series->colour = (int)i;
-        series->dash = i == 0 ? 0 : (int)i;
+        const bool is_last = i + 1 == sizeof parts / sizeof *parts;
+        series->colour = is_last ? 6 : (int)i;
+        series->dash = i == 0 || is_last ? 0 : (int)i;
     }
-    if (sum != NULL)
-        sheet->series[sheet->plot.n_series++] = (CzSeries){.name = "interfaces, dissipated",
-                                                           .n = page->n_sample,
-                                                           .x = page->time,
-                                                           .y = sum,
-                                                           .colour = 6};
     sheet->plot.from_zero = true;
 }
 
 void cz_draw_balance(CzSheet *sheet) {
-    const CzPage *page = sheet->page;
-    const double *off = cz_page_channel(page, "E_imbalance_kJ");
-    const double initial = page->summary->energy.initial / CZ_KILO;
-    double *share = cz_arena_allocate(&sheet->arena, (size_t)page->n_sample, sizeof *share);
-    if (off == NULL || share == NULL || !(initial > 0))
-        return;
-    for (int i = 0; i < page->n_sample; i++)
-        share[i] = 1e6 * off[i] / initial;
-    sheet->series[sheet->plot.n_series++] =
-        (CzSeries){.name = "energy too much", .n = page->n_sample, .x = page->time, .y = share};
+    CzSeries *series = cz_sheet_add_channel(sheet, "imbalance", "", "ppm");
+    if (series != NULL)
+        series->name = "energy too much";
 }

@@ -2,12 +2,9 @@
 #include "report/sheet.h"
 
 #include "report/units.h"
-#include "simulate/filter.h"
 
 #include <math.h>
 #include <stdio.h>
-
-#define CFC 60.0
 
 void cz_draw_cars(CzSheet *sheet, const char *stem, const char *unit) {
     const CzPage *page = sheet->page;
@@ -43,27 +40,12 @@ void cz_draw_shortening(CzSheet *sheet, int interface) {
     sheet->plot.from_zero = true;
 }
 
-/* Samples of a channel through the filter; NULL when they are too far apart, or no memory. */
-static const double *filtered(CzSheet *sheet, const double *raw) {
-    const CzPage *page = sheet->page;
-    const double step = page->n_sample > 1 ? (page->time[1] - page->time[0]) * 1e-3 : 0;
-    double *smooth = cz_arena_allocate(&sheet->arena, (size_t)page->n_sample, sizeof *smooth);
-    if (smooth == NULL || !cz_filter_fits(CFC, step))
-        return NULL;
-    if (cz_filter_cfc(CFC, step, page->n_sample, raw, smooth) != CZ_OK)
-        sheet->failed = true;
-    return smooth;
-}
-
 void cz_draw_accelerations(CzSheet *sheet) {
+    cz_draw_cars(sheet, "c", "g");
+    if (sheet->plot.n_series > 0)
+        return;
     cz_draw_cars(sheet, "a", "g");
-    for (int i = 0; i < sheet->plot.n_series; i++) {
-        const double *smooth = filtered(sheet, sheet->series[i].y);
-        sheet->series[i].y = smooth != NULL ? smooth : sheet->series[i].y;
-        sheet->series[i].y_channel = smooth != NULL ? NULL : sheet->series[i].y_channel;
-    }
-    if (sheet->plot.n_series > 0 && sheet->series[0].y_channel != NULL)
-        sheet->plot.y_label = "acceleration, not filtered: samples too far apart [g]";
+    sheet->plot.y_label = "acceleration, not filtered: samples too far apart [g]";
 }
 
 void cz_draw_car_acceleration(CzSheet *sheet, int car) {
@@ -73,14 +55,10 @@ void cz_draw_car_acceleration(CzSheet *sheet, int car) {
         return;
     raw->name = "raw, as sampled";
     raw->colour = 5;
-    const double *smooth = filtered(sheet, raw->y);
+    CzSeries *smooth = cz_sheet_add_channel(sheet, "c", vehicle->name, "g");
     if (smooth != NULL) {
-        CzSeries *series = &sheet->series[sheet->plot.n_series++];
-        *series = *raw;
-        series->name = "CFC 60";
-        series->y_channel = NULL;
-        series->y = smooth;
-        series->colour = 6;
+        smooth->name = "CFC 60";
+        smooth->colour = 6;
     }
     const struct {
         const char *name;

@@ -33,8 +33,12 @@ void cz_checks_format_limit(const CzCheckResult *check, size_t room, char *text)
         snprintf(text, room, "-");
         return;
     }
-    snprintf(text, room, "%s%s%s", check->is_minimum ? "min " : "",
-             cz_figure_digits(number, 6, check->limit), spaced_unit(check, unit));
+    double shown; /* a limit that was typed is told as it was, one that was computed is rounded */
+    cz_figure_digits(number, 6, check->limit);
+    if (cz_number_parse(number, &shown) != NULL || shown != check->limit)
+        cz_figure_digits(number, 4, check->limit);
+    snprintf(text, room, "%s%s%s", check->is_minimum ? "min " : "", number,
+             spaced_unit(check, unit));
 }
 
 void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text) {

@@ -15,6 +15,7 @@
 #define FLOOR 0.75   /* of the drawn body above rail [m] */
 #define ROOF 2.6     /* where the drawing is cut [m] */
 #define LABEL_ROW 14.0
+#define UNSTATED 0.95 /* where faces are drawn whose height nobody stated [m] */
 #define CHAIN_TOP 240.0
 #define CHAIN_ROW 36.0
 enum { REAR, FRONT, MOST_LABELS = 6 };
@@ -84,7 +85,8 @@ static void write_parts(CzMarkup *markup, const Side *side) {
                   cz_plot_colour(3), "side buffers");
     if (end->anti_climber.given) {
         const CzAntiClimber *face = &end->anti_climber;
-        const double z = isnan(face->height) ? end->crush_height : face->height;
+        const double stated = isnan(face->height) ? end->crush_height : face->height;
+        const double z = isnan(stated) ? UNSTATED : stated;
         const double tall_face = isnan(face->face_height) ? 0.2 : face->face_height;
         write_bar(markup, place(side, bare), place(side, side->plane - face->gap), height(z),
                   SCALE * tall_face, cz_plot_colour(1), "anti-climber");
@@ -160,6 +162,9 @@ static void spread(Label *label, int n) {
 static void write_heights(CzMarkup *markup, const Side *side) {
     Label label[MOST_LABELS];
     const int n = gather_labels(side, label);
+    if (n == 0 && side->end->given)
+        cz_svg_text(markup, side->sign > 0 ? 4 : WIDTH - 4, height(UNSTATED),
+                    side->sign > 0 ? "start" : "end", "heights not stated");
     spread(label, n);
     for (int i = 0; i < n; i++) {
         char number[CZ_FIGURE_ROOM], text[96];

@@ -34,6 +34,12 @@ const double *cz_page_channel(const CzPage *page, const char *format, ...) {
     va_start(arguments, format);
     const double *channel = channel_named(page->run, format, arguments);
     va_end(arguments);
+    char name[128];
+    va_start(arguments, format);
+    vsnprintf(name, sizeof name, format, arguments);
+    va_end(arguments);
+    for (int i = 0; i < page->n_made && channel == NULL; i++)
+        channel = strcmp(page->made[i].name, name) == 0 ? page->made[i].value : NULL;
     return channel;
 }
 
@@ -86,6 +92,7 @@ CzStatus cz_page_begin(CzPage *page, const CzProblem *problem, const CzEvaluatio
     page->time = cz_page_channel(page, "t_ms");
     if (page->time == NULL)
         page->n_sample = 0;
+    CZ_TRY(cz_page_make_curves(page, error));
     CZ_TRY(cz_model_build(problem, scenario_named(problem, page->summary->scenario), &page->model,
                           error));
     page->stand = calloc((size_t)page->model->n_car, sizeof *page->stand);
@@ -95,6 +102,7 @@ CzStatus cz_page_begin(CzPage *page, const CzProblem *problem, const CzEvaluatio
 }
 
 void cz_page_free(CzPage *page) {
+    cz_page_free_curves(page);
     if (page->markup.stream != NULL)
         fclose(page->markup.stream);
     free(page->text);
@@ -244,6 +252,13 @@ void cz_page_begin_heads(CzMarkup *markup, const char *class_name) {
     cz_markup_open(markup, "tr");
 }
 
+void cz_page_write_head_cell(CzMarkup *markup, const char *head) {
+    if (head[0] == '>')
+        cz_markup_classed(markup, "th", "number", head + 1);
+    else
+        cz_markup_element(markup, "th", head);
+}
+
 void cz_page_end_heads(CzMarkup *markup) {
     cz_markup_close(markup);
     cz_markup_line(markup);
@@ -254,7 +269,7 @@ void cz_page_open_table(CzMarkup *markup, const char *class_name, size_t n_colum
     cz_page_begin_heads(markup, class_name);
     for (size_t i = 0; i < n_column; i++)
         if (head[i] != NULL)
-            cz_markup_element(markup, "th", head[i]);
+            cz_page_write_head_cell(markup, head[i]);
     cz_page_end_heads(markup);
 }
 

@@ -17,6 +17,12 @@ typedef struct CzPageOther {
     const CzRun *run;
 } CzPageOther;
 
+/* A curve made of recorded channels, such as a filtered acceleration, named as they are. */
+typedef struct CzPageCurve {
+    char name[64];
+    double *value; /* (n_sample) */
+} CzPageCurve;
+
 typedef struct CzPage {
     CzMarkup markup; /* writes into memory, for a page must know how long it is */
     FILE *stream;    /* where the page goes when it is whole; borrowed */
@@ -32,6 +38,8 @@ typedef struct CzPage {
     CzStand *stand;     /* (n_vehicle) */
     const double *time; /* [ms] (n_sample) */
     int n_sample;
+    int n_made; /* curves beside the channels of the run */
+    CzPageCurve *made;
     const char *label; /* of the page's own run where there are others; NULL otherwise */
     int n_measured;
     const struct CzChartCurve *measured; /* curves laid over figures (n_measured) */
@@ -52,11 +60,19 @@ void cz_page_free(CzPage *page);
  * ran; -1 when none did. */
 int cz_page_deciding(const CzEvaluation *evaluation);
 
-/* A recorded channel by its name as printf would write it; NULL when there is none. */
+/* A recorded channel by its name as printf would write it, on a page one of the made curves too;
+ * NULL when there is none. */
 const double *cz_run_channel_named(const CzRun *run, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 const double *cz_page_channel(const CzPage *page, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+
+/* Makes the curves that are drawn and are no channels of the run: E_interfaces_kJ, all that was
+ * dissipated there; imbalance_ppm of the initial energy; c_NAME_g, a car's acceleration through a
+ * filter CFC 60 where the samples are close enough. Status: CZ_STATUS_NO_MEMORY; free them in any
+ * case. */
+CZ_MUST_CHECK CzStatus cz_page_make_curves(CzPage *page, CzError *error);
+void cz_page_free_curves(CzPage *page);
 
 /* Writes the whole report of a run: the checks of all scenarios and the figures of one. At the top
  * of a result folder it names the reports of the other scenarios, which stand in their folders.
@@ -101,6 +117,8 @@ void cz_page_write_bar(CzMarkup *markup, const CzBar *bar, double share);
 void cz_page_open_table(CzMarkup *markup, const char *class_name, size_t n_column,
                         const char *const *head);
 void cz_page_begin_heads(CzMarkup *markup, const char *class_name);
+/* A head; one that begins with '>' stands over numbers. */
+void cz_page_write_head_cell(CzMarkup *markup, const char *head);
 void cz_page_end_heads(CzMarkup *markup);
 void cz_page_close_table(CzMarkup *markup);
 
@@ -115,6 +133,9 @@ void cz_page_write_animation(CzPage *page);
 void cz_page_write_events(CzPage *page);
 CZ_MUST_CHECK CzStatus cz_page_write_inputs(CzPage *page, CzError *error);
 CZ_MUST_CHECK CzStatus cz_page_write_data(CzPage *page, CzError *error);
+
+/* What happened, in words such as "anti-climber contact". */
+void cz_page_event_words(CzEventKind kind, char words[48]);
 
 /* The table of checks alone, with the values of a design before when there is one. */
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,

@@ -34,8 +34,8 @@ static void write_row(CzMarkup *markup, const char *name, double moment, double 
 }
 
 static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *budget) {
-    static const char *const names[] = {"source", "moment kNms", "nose-down | nose-up", "lift kNs",
-                                        ""};
+    static const char *const names[] = {"source", ">moment kNms", "nose-down | nose-up",
+                                        ">lift kNs", ""};
     int order[CZ_N_BUDGET];
     char text[160], time[CZ_FIGURE_ROOM];
     const int n = cz_budget_order(budget, order);

@@ -79,11 +79,11 @@ static void write_table(CzMarkup *markup, const CzEvaluation *evaluation,
                                  "verdict",
                                  "where",
                                  "scenario",
-                                 "when ms",
-                                 "limit",
-                                 before != NULL ? "before" : NULL,
-                                 before != NULL ? "after" : "value",
-                                 "margin",
+                                 ">when ms",
+                                 ">limit",
+                                 before != NULL ? ">before" : NULL,
+                                 before != NULL ? ">after" : ">value",
+                                 ">margin",
                                  "",
                                  "remark and source"};
     cz_page_open_table(markup, "checks", sizeof names / sizeof *names, names);
@@ -202,6 +202,27 @@ static void write_caution(CzPage *page) {
     cz_markup_line(markup);
 }
 
+/* "22 checks: 3 fail, 19 pass." */
+static void write_count(int n_check, const int n[4], size_t room, char *text) {
+    static const struct {
+        CzVerdict verdict;
+        const char *word;
+    } order[] = {{CZ_VERDICT_FAIL, "fail"},
+                 {CZ_VERDICT_NOT_CHECKED, "not checked"},
+                 {CZ_VERDICT_PROVISIONAL, "provisional"},
+                 {CZ_VERDICT_PASS, "pass"}};
+    size_t used = (size_t)snprintf(text, room, "%d check%s", n_check, n_check == 1 ? "" : "s");
+    const char *between = ": ";
+    for (int i = 0; i < 4; i++) {
+        if (n[order[i].verdict] == 0)
+            continue;
+        used += (size_t)snprintf(text + used, room - used, "%s%d %s", between, n[order[i].verdict],
+                                 order[i].word);
+        between = ", ";
+    }
+    snprintf(text + used, room - used, ".");
+}
+
 void cz_page_write_verdict(CzPage *page, bool is_top) {
     CzMarkup *markup = &page->markup;
     const CzEvaluation *evaluation = page->evaluation;
@@ -217,9 +238,7 @@ void cz_page_write_verdict(CzPage *page, bool is_top) {
                                                                : "banner careful",
                       verdict_title[evaluation->verdict]);
     char text[256];
-    snprintf(text, sizeof text, "%d checks: %d fail, %d not checked, %d provisional, %d pass.",
-             evaluation->n_check, n[CZ_VERDICT_FAIL], n[CZ_VERDICT_NOT_CHECKED],
-             n[CZ_VERDICT_PROVISIONAL], n[CZ_VERDICT_PASS]);
+    write_count(evaluation->n_check, n, sizeof text, text);
     cz_markup_element(markup, "p", text);
     cz_markup_close(markup);
     cz_markup_line(markup);

@@ -13,10 +13,10 @@
 static void open_table(CzMarkup *markup, int n, const CzReportRun *run, const char *first,
                        const char *second) {
     cz_page_begin_heads(markup, NULL);
-    cz_markup_element(markup, "th", first);
-    cz_markup_element(markup, "th", second);
+    cz_page_write_head_cell(markup, first);
+    cz_page_write_head_cell(markup, second);
     for (int i = 0; i < n; i++)
-        cz_markup_element(markup, "th", run[i].label);
+        cz_markup_classed(markup, "th", "number", run[i].label);
     cz_page_end_heads(markup);
 }
 
@@ -24,7 +24,7 @@ static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
     const CzEvaluation *first = run[0].evaluation;
     int n_same = 0;
     cz_page_open_section(markup, "checks", "Checks that differ");
-    open_table(markup, n, run, "check", "limit");
+    open_table(markup, n, run, "check", ">limit");
     for (int k = 0; k < first->n_check; k++) {
         const CzCheckResult *check = &first->check[k];
         char text[192], value[96];
@@ -55,8 +55,18 @@ static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
     cz_page_close_table(markup);
     char text[64];
     snprintf(text, sizeof text, "%d checks are the same.", n_same);
-    cz_markup_element(markup, "p", text);
+    if (n_same > 0)
+        cz_markup_element(markup, "p", text);
     cz_page_close_section(markup);
+}
+
+/* Whether any of the runs has the number: wheels of single masses have no lift. */
+static bool is_known(int n, const CzReportRun *run, const CzComparedNumber *number,
+                     const char *name) {
+    for (int i = 0; i < n; i++)
+        if (isfinite(cz_compared_value(run, i, number, name)))
+            return true;
+    return false;
 }
 
 static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool of_interface) {
@@ -68,6 +78,8 @@ static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool 
              number->of_interface == of_interface && i < cz_compared_count(first, number); i++) {
             const char *name = cz_compared_name(first, number, i);
             char text[CZ_FIGURE_ROOM];
+            if (!is_known(n, run, number, name))
+                continue;
             cz_markup_open(markup, "tr");
             cz_markup_element(markup, "td", name);
             cz_markup_element(markup, "td", number->name);

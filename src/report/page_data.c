@@ -84,7 +84,8 @@ static int most_decimals(const char *name) {
         int decimals;
     } kinds[] = {
         {"z_", "_w?_mm", 2}, {"z_", "_mm", 1}, {"d_end_", "_mm", 1}, {"d_anti-climber_", "_mm", 1},
-        {"", "_mm", 2},      {"", "_kN", 1},   {"", "_kJ", 2},       {"", "_mrad", 2}};
+        {"", "_mm", 2},      {"", "_kN", 1},   {"", "_kJ", 2},       {"", "_ppm", 6},
+        {"", "_mrad", 2}};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         char pattern[64];
         snprintf(pattern, sizeof pattern, "%s*%s", kinds[i].stem, kinds[i].unit);
@@ -232,6 +233,8 @@ static void put_channels(Letters *letters, const CzPage *page, const Rows *rows)
         if (is_shown(name))
             put_channel(letters, name, cz_run_channel(page->run, channel), rows);
     }
+    for (int i = 0; i < page->n_made; i++)
+        put_channel(letters, page->made[i].name, page->made[i].value, rows);
 }
 
 /* All rows where they fit into the page, else as many of the first ones as do. */
@@ -275,10 +278,9 @@ static void write_events(const CzPage *page, FILE *stream) {
     fputs("\"events\":[", stream);
     for (int i = 0; i < page->summary->n_event; i++) {
         const CzEvent *event = &page->summary->event[i];
-        char time[CZ_FIGURE_ROOM], text[128];
-        snprintf(text, sizeof text, "%s %s", cz_event_text(event->what), event->where);
-        for (char *c = text; c < text + strlen(cz_event_text(event->what)); c++)
-            *c = *c == '_' ? ' ' : *c;
+        char time[CZ_FIGURE_ROOM], words[48], text[128];
+        cz_page_event_words(event->what, words);
+        snprintf(text, sizeof text, "%s %s", words, event->where);
         fprintf(stream, "%s[%s,", i > 0 ? "," : "",
                 cz_figure_fixed(time, 1, event->time * CZ_MILLI_PER_UNIT));
         write_json_text(stream, text);

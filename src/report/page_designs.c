@@ -255,13 +255,14 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
                       "binds. From runs as the search makes them.");
     cz_page_begin_heads(markup, "sensitivities");
     cz_markup_element(markup, "th", "variable");
-    cz_markup_element(markup, "th", "step");
-    cz_markup_element(markup, "th",
+    cz_markup_classed(markup, "th", "number", "step");
+    cz_markup_classed(markup, "th", "number",
                       cz_evaluator_maximises_margin(evaluator)
                           ? "smallest margin"
                           : cz_evaluator_objective_name(evaluator));
     for (int i = 0; i < n_column; i++)
-        cz_markup_element(markup, "th", cz_evaluator_constraint_name(evaluator, column[i]));
+        cz_markup_classed(markup, "th", "number",
+                          cz_evaluator_constraint_name(evaluator, column[i]));
     cz_page_end_heads(markup);
     for (int i = 0; i < outcome->n_variable; i++)
         if (outcome->sensitivity_step[i] != 0)

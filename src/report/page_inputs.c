@@ -20,8 +20,18 @@ static bool is_bad(CzEventKind what) {
            what == CZ_EVENT_WHEEL_LIFT;
 }
 
+void cz_page_event_words(CzEventKind kind, char words[48]) {
+    static const char *const joined[] = {"anti climber", "shear off"};
+    snprintf(words, 48, "%s", cz_event_text(kind));
+    for (char *c = words; *c != '\0'; c++)
+        *c = *c == '_' ? ' ' : *c;
+    for (int i = 0; i < 2; i++)
+        if (strncmp(words, joined[i], strlen(joined[i])) == 0)
+            *strchr(words, ' ') = '-';
+}
+
 void cz_page_write_events(CzPage *page) {
-    static const char *const names[] = {"time ms", "what", "where", "interface"};
+    static const char *const names[] = {">time ms", "what", "where", "interface"};
     CzMarkup *markup = &page->markup;
     const CzRunSummary *run = page->summary;
     cz_page_open_section(markup, "events", "Events");
@@ -29,9 +39,7 @@ void cz_page_write_events(CzPage *page) {
     for (int i = 0; i < run->n_event; i++) {
         const CzEvent *event = &run->event[i];
         char time[CZ_FIGURE_ROOM], what[48];
-        snprintf(what, sizeof what, "%s", cz_event_text(event->what));
-        for (char *c = what; *c != '\0'; c++)
-            *c = *c == '_' ? ' ' : *c;
+        cz_page_event_words(event->what, what);
         cz_markup_open(markup, "tr");
         cz_markup_classed(markup, "td", "number",
                           cz_figure_fixed(time, 1, event->time * CZ_MILLI_PER_UNIT));

@@ -83,8 +83,8 @@ static void write_place(CzMarkup *markup, const CzVariableInfo *variable, double
 
 static void write_variables(CzMarkup *markup, const CzEvaluator *evaluator,
                             const CzOutcome *outcome) {
-    static const char *const names[] = {"variable", "unit", "min",   "before",
-                                        "after",    "max",  "where", ""};
+    static const char *const names[] = {"variable", "unit", ">min",  ">before",
+                                        ">after",   ">max", "where", ""};
     cz_page_open_section(markup, "variables", "Variables");
     cz_markup_element(markup, "p", "Between the bounds: a ring is the start, a dot the best.");
     cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
@@ -182,12 +182,12 @@ static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
                                 .y = course.violation,
                                 .colour = 1};
     const CzPlot plots[] = {
-        {.title = "Objective over the evaluations (margins below -100 % at -100 %)",
+        {.title = "Objective over the evaluations (margins below -100 % drawn at -100 %)",
          .x_label = "evaluation",
          .y_label = label,
          .n_series = 2,
          .series = objective},
-        {.title = "Violation over the evaluations, 0 is feasible (above 100 % at 100 %)",
+        {.title = "Violation over the evaluations, 0 is feasible (above 100 % drawn at 100 %)",
          .x_label = "evaluation",
          .y_label = "violation [%]",
          .n_series = 1,
@@ -240,8 +240,8 @@ int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const in
 }
 
 static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const CzOutcome *outcome) {
-    static const char *const names[] = {"constraint", "where", "scenario",
-                                        "limit",      "value", "left"};
+    static const char *const names[] = {"constraint", "where",  "scenario",
+                                        ">limit",     ">value", ">left"};
     const CzEvaluation *best = &outcome->best_evaluation;
     cz_page_open_section(markup, "active", "What holds the best design");
     cz_markup_element(markup, "p", "The constraints with least left; below 0 is violated.");
@@ -303,8 +303,8 @@ static void write_way(CzMarkup *markup, const CzVerification *verification, CzVe
 }
 
 static void write_verification(CzMarkup *markup, const CzVerification *verification) {
-    static const char *const names[] = {"computed by", "largest change", "of", "in",
-                                        "verdicts that flip"};
+    static const char *const names[] = {"computed by", ">largest change", "of", "in",
+                                        ">verdicts that flip"};
     char text[512], limit[CZ_FIGURE_ROOM];
     cz_page_open_section(markup, "verification", "The best design computed again");
     if (verification == NULL) {

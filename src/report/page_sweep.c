@@ -187,11 +187,11 @@ static void write_point(CzMarkup *markup, const CzSweep *sweep, const CzSweepPoi
 static void write_table(CzMarkup *markup, const CzSweep *sweep) {
     cz_page_begin_heads(markup, NULL);
     for (int k = 0; k < sweep->n_axis; k++)
-        cz_markup_element(markup, "th", sweep->axis[k].path);
+        cz_markup_classed(markup, "th", "number", sweep->axis[k].path);
     cz_markup_element(markup, "th", "verdict");
-    cz_markup_element(markup, "th", "margin");
+    cz_markup_classed(markup, "th", "number", "margin");
     for (int k = 0; k < sweep->n_metric; k++)
-        cz_markup_element(markup, "th", sweep->metric[k]);
+        cz_markup_classed(markup, "th", "number", sweep->metric[k]);
     cz_markup_element(markup, "th", "smallest margin");
     cz_markup_element(markup, "th", "where");
     cz_markup_element(markup, "th", "scenario");

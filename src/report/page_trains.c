@@ -14,6 +14,8 @@
 #define MARGIN 8.0
 #define CAR_TOP 20.0
 #define CAR_HEIGHT 30.0
+#define ROW_HEIGHT 146.0
+#define MOST_IN_ROW 9 /* cars that are as wide as a page */
 #define NOTHING 100.0 /* energy of an element that does not count as one that worked [J] */
 
 static double largest_use(const CzInterfaceResult *interface) {
@@ -23,12 +25,12 @@ static double largest_use(const CzInterfaceResult *interface) {
     return used;
 }
 
-static void write_car(const CzPage *page, int car, double x, CzMarkup *markup) {
+static void write_car(const CzPage *page, int car, double x, double y, CzMarkup *markup) {
     const CzCar *description = &page->model->car[car];
     char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 8];
     cz_markup_open(markup, "rect");
     cz_markup_number(markup, "x", 1, x);
-    cz_markup_number(markup, "y", 1, CAR_TOP);
+    cz_markup_number(markup, "y", 1, y + CAR_TOP);
     cz_markup_number(markup, "width", 1, CAR_WIDTH);
     cz_markup_number(markup, "height", 1, CAR_HEIGHT);
     cz_markup_attribute(markup, "rx", "4");
@@ -36,18 +38,18 @@ static void write_car(const CzPage *page, int car, double x, CzMarkup *markup) {
     cz_markup_attribute(markup, "fill-opacity", ".15");
     cz_markup_attribute(markup, "stroke", "currentColor");
     cz_markup_close(markup);
-    cz_svg_text(markup, x + CAR_WIDTH / 2, CAR_TOP + 13, "middle", description->name);
+    cz_svg_text(markup, x + CAR_WIDTH / 2, y + CAR_TOP + 13, "middle", description->name);
     const double mass = page->model->facts[car].mass;
     const double known = isfinite(mass) ? mass : page->vehicles[description->vehicle].mass;
     if (description->model == CZ_MODEL_FIXED)
         snprintf(text, sizeof text, "fixed");
     else
         snprintf(text, sizeof text, "%s t", cz_figure_plain(number, known / CZ_KILO));
-    cz_svg_text(markup, x + CAR_WIDTH / 2, CAR_TOP + 25, "middle", text);
+    cz_svg_text(markup, x + CAR_WIDTH / 2, y + CAR_TOP + 25, "middle", text);
 }
 
 /* A column of numbers below the gap between two cars. */
-static void write_interface(const CzPage *page, int index, double x, CzMarkup *markup) {
+static void write_interface(const CzPage *page, int index, double x, double y, CzMarkup *markup) {
     const CzInterfaceResult *interface = &page->summary->interface[index];
     char number[CZ_FIGURE_ROOM], text[5][CZ_FIGURE_ROOM + 16];
     snprintf(text[0], sizeof *text, "%s kN",
@@ -59,18 +61,18 @@ static void write_interface(const CzPage *page, int index, double x, CzMarkup *m
     snprintf(text[4], sizeof *text, "%s", cz_figure_percent(number, interface->energy_share));
     const bool collides = index == page->model->colliding;
     cz_markup_open(markup, "path");
-    cz_markup_format(markup, "d", "M%d %dH%d", (int)(x - BETWEEN / 2), (int)(CAR_TOP + 22),
+    cz_markup_format(markup, "d", "M%d %dH%d", (int)(x - BETWEEN / 2), (int)(y + CAR_TOP + 22),
                      (int)(x + BETWEEN / 2));
     cz_markup_attribute(markup, "stroke", interface->bottomed_out ? "#d0021b" : "currentColor");
     cz_markup_attribute(markup, "stroke-width", collides ? "5" : "2");
     cz_markup_close(markup);
-    cz_svg_text(markup, x, CAR_TOP + 14, "middle", interface->name);
+    cz_svg_text(markup, x, y + CAR_TOP + 14, "middle", interface->name);
     for (int i = 0; i < 5; i++)
-        cz_svg_text(markup, x, CAR_TOP + CAR_HEIGHT + 16 + 14 * i, "middle", text[i]);
+        cz_svg_text(markup, x, y + CAR_TOP + CAR_HEIGHT + 16 + 14 * i, "middle", text[i]);
     if (interface->bottomed_out) {
         cz_markup_open(markup, "text");
         cz_markup_number(markup, "x", 1, x);
-        cz_markup_number(markup, "y", 1, CAR_TOP + CAR_HEIGHT + 16 + 14 * 5);
+        cz_markup_number(markup, "y", 1, y + CAR_TOP + CAR_HEIGHT + 16 + 14 * 5);
         cz_markup_attribute(markup, "text-anchor", "middle");
         cz_markup_attribute(markup, "fill", "#d0021b");
         cz_markup_attribute(markup, "font-weight", "bold");
@@ -79,18 +81,24 @@ static void write_interface(const CzPage *page, int index, double x, CzMarkup *m
     }
 }
 
+/* Cars in as many rows as a page needs, of about the same length; what lies between two rows stands
+ * at the end of the first. */
 static void write_diagram(const CzPage *page, CzMarkup *markup) {
     const int n = page->model->n_car;
+    const int n_row = (n + MOST_IN_ROW - 1) / MOST_IN_ROW, n_in_row = (n + n_row - 1) / n_row;
     const double pitch = CAR_WIDTH + BETWEEN;
+    const double width = 2 * MARGIN + n_in_row * pitch - (n_row == 1 ? BETWEEN : 0);
     cz_svg_open(markup,
                 "The trains, with peak force, closure, stroke used and energy of each interface",
-                2 * MARGIN + n * pitch - BETWEEN, CAR_TOP + CAR_HEIGHT + 96);
+                width, n_row * ROW_HEIGHT);
     cz_markup_attribute(markup, "class", "row");
-    cz_markup_number(markup, "width", 0, 2 * MARGIN + n * pitch - BETWEEN);
-    for (int car = 0; car < n; car++)
-        write_car(page, car, MARGIN + car * pitch, markup);
-    for (int i = 0; i < page->summary->n_interface; i++)
-        write_interface(page, i, MARGIN + i * pitch + CAR_WIDTH + BETWEEN / 2, markup);
+    cz_markup_number(markup, "width", 0, width);
+    for (int car = 0; car < n; car++) {
+        const double x = MARGIN + car % n_in_row * pitch, y = car / n_in_row * ROW_HEIGHT;
+        write_car(page, car, x, y, markup);
+        if (car < page->summary->n_interface)
+            write_interface(page, car, x + CAR_WIDTH + BETWEEN / 2, y, markup);
+    }
     cz_markup_close(markup);
 }
 
@@ -118,8 +126,8 @@ static void write_element(CzMarkup *markup, const char *interface, const CzEleme
 }
 
 static void write_elements(const CzPage *page, CzMarkup *markup) {
-    static const char *const names[] = {"interface",   "element", "peak kN", "stroke mm",
-                                        "stroke used", "kJ",      ""};
+    static const char *const names[] = {"interface",    "element", ">peak kN", ">stroke mm",
+                                        ">stroke used", ">kJ",     ""};
     cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
     for (int i = 0; i < page->summary->n_interface; i++) {
         const CzInterfaceResult *interface = &page->summary->interface[i];
@@ -153,9 +161,14 @@ static void write_vehicle(CzMarkup *markup, const CzVehicleResult *vehicle) {
 }
 
 static void write_vehicles(const CzPage *page, CzMarkup *markup) {
-    static const char *const names[] = {
-        "car",           "final km/h", "peak g",          "mean g, contact", "mean g, 120 ms",
-        "wheel lift mm", "pitch mrad", "traction link kN"};
+    static const char *const names[] = {"car",
+                                        ">final km/h",
+                                        ">peak g",
+                                        ">mean g, contact",
+                                        ">mean g, 120 ms",
+                                        ">wheel lift mm",
+                                        ">pitch mrad",
+                                        ">traction link kN"};
     cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
     for (int i = 0; i < page->summary->n_vehicle; i++)
         write_vehicle(markup, &page->summary->vehicle[i]);

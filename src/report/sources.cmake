@@ -26,6 +26,7 @@ set(CZ_SOURCES_report
     page_budget.c
     page_checks.c
     page_compare.c
+    page_curves.c
     page_data.c
     page_designs.c
     page_figures.c

@@ -76,9 +76,10 @@ static Path coupler_path(const CzLanes *lanes, int interface) {
         if (cz_lane_value(lanes, interface, CZ_P_COUPLER_ON_END_A + side) > 0.5)
             add(&path, side == 0 ? CZ_CURVE_END_FRONT : CZ_CURVE_END_REAR, (size_t)car);
         const double force = cz_lane_value(lanes, interface, CZ_P_SHEAR_FORCE_A + side);
+        const double softening = cz_lane_value(lanes, interface, CZ_P_SHEAR_SOFTENING_A + side);
+        if (force < path.shear_off || (force == path.shear_off && softening > path.softening))
+            path.softening = softening; /* of the weaker one: a wall has none that counts */
         path.shear_off = fmin(path.shear_off, force);
-        path.softening =
-            fmax(path.softening, cz_lane_value(lanes, interface, CZ_P_SHEAR_SOFTENING_A + side));
     }
     return path;
 }

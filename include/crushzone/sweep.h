@@ -82,6 +82,7 @@ typedef struct CzSweep {
     int n_metric;
     char metric[CZ_MOST_SWEPT_METRICS][96];
     const char *metric_unit[CZ_MOST_SWEPT_METRICS]; /* static */
+    const char *metric_doc[CZ_MOST_SWEPT_METRICS];  /* what it is; static */
     int n_point;                                    /* product of the axes' lengths */
     CzSweepPoint *point;                            /* the last axis changes fastest (n_point) */
     int worst; /* a point whose run failed, else the one with the smallest margin; -1 when none is

@@ -56,6 +56,10 @@ static int answer(const CzSession *session, const CzSweep *sweep) {
     return judge(arguments, sweep);
 }
 
+/* What absorber suppliers show over the speed, for one path and nothing else asked for. */
+static const char *const usual_metrics[] = {"elements.stroke_used", "interfaces.peak_force_kN",
+                                            "energy.absorbers_kJ", "vehicles.max_wheel_lift_mm"};
+
 static int sweep_file(const CzSession *session, const CzSweepAxis *axis) {
     const CzArguments *arguments = session->arguments;
     CzProblemOptions problem_options = cz_problem_options_default();
@@ -66,6 +70,10 @@ static int sweep_file(const CzSession *session, const CzSweepAxis *axis) {
     options.axis = axis;
     options.n_metric = arguments->n_metric;
     options.metric = arguments->metric;
+    if (arguments->n_metric == 0 && arguments->n_vary == 1) {
+        options.n_metric = sizeof usual_metrics / sizeof *usual_metrics;
+        options.metric = usual_metrics;
+    }
     options.n_check = arguments->n_check;
     options.check = arguments->check;
     options.scenario = arguments->text[CZ_OPTION_SCENARIO];

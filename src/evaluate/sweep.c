@@ -222,6 +222,7 @@ static CzStatus prepare(Sweeping *sweeping, CzError *error) {
         CZ_TRY(cz_metric_parse(options->metric[k], &sweeping->metric[k], error));
         snprintf(sweep->metric[k], sizeof sweep->metric[k], "%.95s", options->metric[k]);
         sweep->metric_unit[k] = sweeping->metric[k].kind->unit;
+        sweep->metric_doc[k] = sweeping->metric[k].kind->doc;
     }
     const size_t n = (size_t)sweep->n_point;
     sweep->point = calloc(n, sizeof *sweep->point);

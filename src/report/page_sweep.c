@@ -6,6 +6,7 @@
 #include "report/page.h"
 #include "report/plot.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,16 +89,19 @@ static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *er
             const double percent = 100 * sweep->point[i].margin;
             y[i] = percent < -MOST_PERCENT ? -MOST_PERCENT : percent; /* NaN stays a gap */
         }
-        write_curve(markup, sweep, "Smallest margin of all checks (below -100 % at -100 %)",
+        write_curve(markup, sweep, "Smallest margin of all checks (below -100 % drawn at -100 %)",
                     "margin [%]", true, x, y, n_band, band);
         for (int k = 0; k < sweep->n_metric; k++) {
-            char label[128];
-            const char *unit = sweep->metric_unit[k];
-            snprintf(label, sizeof label, "%s%s%s%s", "value", unit[0] != '\0' ? " [" : "", unit,
-                     unit[0] != '\0' ? "]" : "");
-            for (size_t i = 0; i < n; i++)
+            bool is_known = false;
+            for (size_t i = 0; i < n; i++) {
                 y[i] = sweep->point[i].metric[k];
-            write_curve(markup, sweep, sweep->metric[k], label, false, x, y, n_band, band);
+                is_known |= isfinite(y[i]) != 0;
+            }
+            char title[160];
+            snprintf(title, sizeof title, "%c%.150s", toupper((unsigned char)*sweep->metric_doc[k]),
+                     sweep->metric_doc[k] + 1);
+            if (is_known) /* the table tells of those that are not */
+                write_curve(markup, sweep, title, sweep->metric[k], false, x, y, n_band, band);
         }
     }
     free(x);
@@ -185,7 +189,7 @@ static void write_point(CzMarkup *markup, const CzSweep *sweep, const CzSweepPoi
 }
 
 static void write_table(CzMarkup *markup, const CzSweep *sweep) {
-    cz_page_begin_heads(markup, NULL);
+    cz_page_begin_heads(markup, "points");
     for (int k = 0; k < sweep->n_axis; k++)
         cz_markup_classed(markup, "th", "number", sweep->axis[k].path);
     cz_markup_element(markup, "th", "verdict");
@@ -209,9 +213,6 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     cz_markup_element(&markup, "h1", title);
     if (sweep->is_interrupted)
         cz_markup_classed(&markup, "p", "fail", "The sweep was interrupted: points are missing.");
-    if (sweep->n_metric == 0)
-        cz_markup_element(&markup, "p",
-                          "No metrics were asked for; crushzone sweep --metric NAME adds them.");
     cz_page_open_section(&markup, "figures", sweep->n_axis == 1 ? "Over the value" : "Map");
     cz_markup_open(&markup, "div");
     cz_markup_attribute(&markup, "class", "figures");
@@ -222,7 +223,13 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     cz_markup_close(&markup);
     cz_page_close_section(&markup);
     cz_page_open_section(&markup, "points", "Points");
+    if (sweep->n_axis > 1) {
+        cz_markup_open(&markup, "details");
+        cz_markup_element(&markup, "summary", "Every point of the map");
+    }
     write_table(&markup, sweep);
+    if (sweep->n_axis > 1)
+        cz_markup_close(&markup);
     cz_page_close_section(&markup);
     cz_page_write_foot(&markup);
     return markup.failed ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report") : CZ_OK;

@@ -4,6 +4,13 @@
 cars=$SOURCE/problems/two-cars-25kmh.yaml
 
 one() { exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:3 --metric vehicles.bogie_lift_mm --check override && says out.txt 'Worst: trains.A.speed_km_h = 50, FAIL: override' && says out.txt vehicles.bogie_lift_mm; }
+usual() { # without a metric the four that suppliers show; of single masses wheel lift is unknown and has no figure
+    exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:3 -o usual && for metric in elements.stroke_used interfaces.peak_force_kN energy.absorbers_kJ vehicles.max_wheel_lift_mm; do
+        says out.txt $metric && [ "$(grep -o "<text[^>]*>$metric</text>" usual/report.html | wc -l)" = 1 ] || return 1
+    done
+    "$C" new -q -o two.yaml && exits 0 "$C" sweep two.yaml --vary trains.A.speed_km_h=10:30:3 -o masses && says masses/report.html '>interfaces.peak_force_kN</text>' && ! grep -q 'max_wheel_lift_mm</text>' masses/report.html
+}
+check "without a metric one path shows stroke, force, energy and wheel lift" usual
 check "one path gets a line per value and its worst is named" one
 two() { exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 --vary trains.B.height_offset_mm=-40:40:3 --check override && says out.txt '10  + + +' && says out.txt '50  X X X'; }
 check "two paths get a map" two

@@ -10,8 +10,8 @@
 /* Elements that never have content; in HTML no other may be closed in its start tag, and in SVG any
  * may. */
 static bool is_empty_element(const char *element) {
-    static const char *const names[] = {"meta", "br",     "path",    "line",
-                                        "rect", "circle", "polygon", "input"};
+    static const char *const names[] = {"meta",   "br",      "path",  "line", "rect",
+                                        "circle", "polygon", "input", "wbr"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i], element) == 0)
             return true;

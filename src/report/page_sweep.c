@@ -188,14 +188,32 @@ static void write_point(CzMarkup *markup, const CzSweep *sweep, const CzSweepPoi
     cz_markup_line(markup);
 }
 
+/* A path as a head, which may be broken behind its dots. */
+static void write_path_head(CzMarkup *markup, const char *path) {
+    cz_markup_open(markup, "th");
+    cz_markup_attribute(markup, "class", "number");
+    while (*path != '\0') {
+        char part[96];
+        const int n = (int)strcspn(path, ".") + (strchr(path, '.') != NULL);
+        snprintf(part, sizeof part, "%.*s", n, path);
+        cz_markup_text(markup, part);
+        path += n;
+        if (*path != '\0') {
+            cz_markup_open(markup, "wbr");
+            cz_markup_close(markup);
+        }
+    }
+    cz_markup_close(markup);
+}
+
 static void write_table(CzMarkup *markup, const CzSweep *sweep) {
     cz_page_begin_heads(markup, "points");
     for (int k = 0; k < sweep->n_axis; k++)
-        cz_markup_classed(markup, "th", "number", sweep->axis[k].path);
+        write_path_head(markup, sweep->axis[k].path);
     cz_markup_element(markup, "th", "verdict");
     cz_markup_classed(markup, "th", "number", "margin");
     for (int k = 0; k < sweep->n_metric; k++)
-        cz_markup_classed(markup, "th", "number", sweep->metric[k]);
+        write_path_head(markup, sweep->metric[k]);
     cz_markup_element(markup, "th", "smallest margin");
     cz_markup_element(markup, "th", "where");
     cz_markup_element(markup, "th", "scenario");

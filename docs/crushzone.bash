@@ -16,7 +16,7 @@ _crushzone() {
     --vary) return ;;
     --metric) return ;;
     --check) return ;;
-    --what) words='fd shares energy balance force velocity acceleration car-acceleration displacement shortening lift overlap pitch panels' ;;
+    --what) words='fd shares energy balance force velocity acceleration car-acceleration displacement shortening lift overlap pitch frames panels' ;;
     --at) return ;;
     --measured) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --column) return ;;

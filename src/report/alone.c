@@ -65,10 +65,11 @@ static CzStatus find_chart(const char *what, CzChart *chart, CzError *error) {
 /* Which of several figures of a kind is meant. */
 static CzStatus find_place(const CzPage *page, CzChart chart, const char *at, int *index,
                            CzError *error) {
+    const bool of_several = chart == CZ_CHART_PANELS || chart == CZ_CHART_FRAMES;
     const bool of_interface =
-        chart == CZ_CHART_FORCE_CLOSURE || chart == CZ_CHART_SHORTENING || chart == CZ_CHART_PANELS;
+        chart == CZ_CHART_FORCE_CLOSURE || chart == CZ_CHART_SHORTENING || of_several;
     const int n =
-        chart == CZ_CHART_PANELS ? page->summary->n_interface : cz_chart_count(page, chart);
+        of_several && page->n_sample > 1 ? page->summary->n_interface : cz_chart_count(page, chart);
     if (n == 0)
         return cz_fail(error, CZ_STATUS_INPUT, "this run has nothing to show as '%s'",
                        chart_names[chart]);

@@ -63,6 +63,7 @@ void cz_chart_title(const CzPage *page, CzChart chart, int index, size_t room, c
         [CZ_CHART_CAR_ACCELERATION] = "Acceleration",
         [CZ_CHART_DISPLACEMENT] = "Displacement of the cars",
         [CZ_CHART_SHORTENING] = "Shortening",
+        [CZ_CHART_FRAMES] = "The collision from the side",
         [CZ_CHART_PANELS] = "Force, speed, displacement and shortening",
         [CZ_CHART_WHEEL_LIFT] = "Lift of the wheelsets that rise most",
         [CZ_CHART_OVERLAP] = "Overlap of the anti-climbers",
@@ -196,6 +197,10 @@ CzStatus cz_chart_write(const CzPage *page, CzChart chart, int index, CzMarkup *
         [CZ_CHART_PITCH] = "pitch [mrad]"};
     if (chart == CZ_CHART_ENERGY_SHARES) {
         cz_chart_write_shares(page, markup);
+        return CZ_OK;
+    }
+    if (chart == CZ_CHART_FRAMES) {
+        cz_chart_write_frames(page, index, markup);
         return CZ_OK;
     }
     if (chart == CZ_CHART_PANELS)

@@ -30,6 +30,9 @@ typedef struct CzChartAxes {
 /* NULL for a figure that no curve can be laid over. */
 const CzChartAxes *cz_chart_axes(CzChart chart);
 
+/* Six frames of the collision from the side (page_scene.c). */
+void cz_chart_write_frames(const CzPage *page, int interface, CzMarkup *markup);
+
 /* Energies of the interfaces as stacked bars (shares.c). */
 void cz_chart_write_shares(const CzPage *page, CzMarkup *markup);
 

@@ -19,19 +19,59 @@ static int most_closed(const CzPage *page, int interface) {
     return found;
 }
 
-static void write_frame(CzPage *page, int interface, int sample) {
-    CzMarkup *markup = &page->markup;
+/* Sample of one of the frames, which are evenly spread. */
+static int sample_of(const CzPage *page, int interface, int frame) {
+    return (int)((long)most_closed(page, interface) * frame / (N_FRAME - 1));
+}
+
+/* Time and force, as the title of a frame. */
+static void name_frame(const CzPage *page, int interface, int sample, size_t room, char *title) {
     const double *force =
         cz_page_channel(page, "F_%s_kN", page->summary->interface[interface].name);
-    char time[CZ_FIGURE_ROOM], number[CZ_FIGURE_ROOM], title[128];
-    snprintf(title, sizeof title, "%s ms, %s kN", cz_figure_fixed(time, 0, page->time[sample]),
+    char time[CZ_FIGURE_ROOM], number[CZ_FIGURE_ROOM];
+    snprintf(title, room, "%s ms, %s kN", cz_figure_fixed(time, 0, page->time[sample]),
              cz_figure_fixed(number, 0, force != NULL ? force[sample] : NAN));
-    cz_markup_open(markup, "figure");
-    cz_markup_element(markup, "figcaption", title);
+}
+
+static void draw_frame(const CzPage *page, int interface, int sample, const char *title,
+                       CzMarkup *markup) {
     cz_svg_open(markup, title, CZ_PLOT_WIDTH, CZ_SCENE_HEIGHT);
     cz_markup_attribute(markup, "class", "frame");
     cz_scene_write(page, interface, sample, CZ_PLOT_WIDTH, false, markup);
     cz_markup_close(markup);
+}
+
+static void write_frame(CzPage *page, int interface, int sample) {
+    CzMarkup *markup = &page->markup;
+    char title[128];
+    name_frame(page, interface, sample, sizeof title, title);
+    cz_markup_open(markup, "figure");
+    cz_markup_element(markup, "figcaption", title);
+    draw_frame(page, interface, sample, title, markup);
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
+void cz_chart_write_frames(const CzPage *page, int interface, CzMarkup *markup) {
+    const double heading = 22, width = CZ_PLOT_WIDTH, height = CZ_SCENE_HEIGHT;
+    cz_svg_open(markup, "The collision from the side", 2 * width + 16,
+                (heading + height) * N_FRAME / 2);
+    cz_markup_line(markup);
+    for (int i = 0; i < N_FRAME; i++) {
+        const double x = i % 2 * (width + 16), y = i / 2 * (heading + height);
+        const int sample = sample_of(page, interface, i);
+        char title[128];
+        name_frame(page, interface, sample, sizeof title, title);
+        cz_svg_text(markup, x + 4, y + 15, "start", title);
+        cz_markup_open(markup, "svg");
+        cz_markup_number(markup, "x", 1, x);
+        cz_markup_number(markup, "y", 1, y + heading);
+        cz_markup_number(markup, "width", 1, width);
+        cz_markup_number(markup, "height", 1, height);
+        draw_frame(page, interface, sample, title, markup);
+        cz_markup_close(markup);
+        cz_markup_line(markup);
+    }
     cz_markup_close(markup);
     cz_markup_line(markup);
 }
@@ -117,9 +157,8 @@ void cz_page_write_animation(CzPage *page) {
     cz_markup_line(markup);
     cz_markup_open(markup, "div");
     cz_markup_attribute(markup, "class", "figures strip");
-    const int last = most_closed(page, interface);
     for (int i = 0; i < N_FRAME; i++)
-        write_frame(page, interface, (int)((long)last * i / (N_FRAME - 1)));
+        write_frame(page, interface, sample_of(page, interface, i));
     cz_markup_close(markup);
     cz_page_close_section(markup);
 }

@@ -47,6 +47,8 @@ void cz_svg_open(CzMarkup *markup, const char *title, double width, double heigh
     cz_markup_number(markup, "font-size", 1, FONT_SIZE);
     cz_markup_attribute(markup, "fill", "none");
     cz_markup_attribute(markup, "stroke-linejoin", "round");
+    if (markup->depth == 1) /* by itself: black on white, whatever it is shown on */
+        cz_markup_attribute(markup, "style", "background:#fff");
 }
 
 void cz_svg_text(CzMarkup *markup, double x, double y, const char *anchor, const char *text) {

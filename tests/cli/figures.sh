@@ -93,7 +93,7 @@ links_lead() { # links_lead FILE N: at least N links, each to a section that is 
 contents() { links_lead first/report.html 8 && links_lead search/report.html 12 && links_lead turned/report.html 10; }
 
 each_figure() {
-    for what in fd shares energy balance force velocity acceleration car-acceleration displacement shortening panels; do
+    for what in fd shares energy balance force velocity acceleration car-acceleration displacement shortening frames panels; do
         exits 0 "$C" plot first --what $what --svg $what.svg && grep -q '<svg xmlns' $what.svg && ! grep -qi 'nan\|inf"' $what.svg || return 1
     done
 }

@@ -66,6 +66,8 @@ _crushzone() {
         COMPREPLY=($(compgen -W 'keys units checks profiles paths algorithms channels events figures files exit-codes run check optimise sweep explain verify report plot compare validate show fit new schema help version' -- "$word"))
     elif [ "${COMP_WORDS[1]}" != new ]; then
         COMPREPLY=($(compgen -f -- "$word"))
+    else
+        COMPREPLY=($(compgen -W 'two-trains buffer-stop wagon override' -- "$word"))
     fi
 }
 complete -o filenames -F _crushzone crushzone

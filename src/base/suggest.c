@@ -3,6 +3,7 @@
 #include "base/suggest.h"
 
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { LONGEST = 96, EDIT = 2, CASE = 1 };
@@ -51,4 +52,9 @@ void cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known) 
         return;
     suggestion->best = known;
     suggestion->distance = distance;
+}
+
+void cz_suggest_help(const CzSuggestion *suggestion, CzError *error) {
+    if (error != NULL && suggestion->best != NULL)
+        snprintf(error->help, sizeof error->help, "did you mean '%.200s'?", suggestion->best);
 }

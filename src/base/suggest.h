@@ -2,6 +2,8 @@
 #ifndef CZ_BASE_SUGGEST_H
 #define CZ_BASE_SUGGEST_H
 
+#include "crushzone/status.h"
+
 /* The nearest word so far; zero-initialise it, offer every known word, read `best`. */
 typedef struct CzSuggestion {
     const char *best; /* NULL when nothing is near; borrowed */
@@ -11,5 +13,8 @@ typedef struct CzSuggestion {
 /* Offers a known word. It is taken when it is nearer than the best so far and near enough to be a
  * slip of the hand: at most a third of its letters, a change of case counting little. */
 void cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known);
+
+/* Puts "did you mean 'best'?" into the help of an error (NULL is allowed) when there is one. */
+void cz_suggest_help(const CzSuggestion *suggestion, CzError *error);
 
 #endif

@@ -26,8 +26,7 @@ static CzStatus take_kind(const CzArguments *arguments, CzFitOptions *options, C
     misuse(error, "'crushzone fit' needs '--as KIND'", "KIND is coupler, anti-climber or end");
     if (word != NULL)
         snprintf(error->message, sizeof error->message, "'--as %.40s' is not known", word);
-    if (suggestion.best != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean '%s'?", suggestion.best);
+    cz_suggest_help(&suggestion, error);
     return CZ_STATUS_INPUT;
 }
 

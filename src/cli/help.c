@@ -4,6 +4,7 @@
 #include "base/suggest.h"
 #include "cli/command.h"
 #include "cli/messages.h"
+#include "cli/templates.h"
 #include "crushzone/report.h"
 
 #include <stdio.h>
@@ -50,6 +51,12 @@ static void write_option(const CzOptionInfo *option) {
     cz_help_write_wrapped(option->doc, 31);
 }
 
+static void write_templates(void) {
+    puts("\nTemplates:");
+    for (int i = 0; i < CZ_N_TEMPLATE; i++)
+        printf("  %-12s %s\n", cz_templates[i].name, cz_templates[i].doc);
+}
+
 void cz_help_write_command(CzCommand command) {
     const CzCommandInfo *info = &cz_commands[command];
     printf("crushzone %s%s%s [OPTION...]\n%s\n\n", info->name, info->operands[0] != '\0' ? " " : "",
@@ -60,6 +67,8 @@ void cz_help_write_command(CzCommand command) {
     if (command == CZ_COMMAND_OPTIMISE)
         puts("\n'optimize' is the same command. The first Ctrl-C or SIGTERM ends the search and "
              "writes the best\ndesign so far, the second ends at once.");
+    if (command == CZ_COMMAND_NEW)
+        write_templates();
 }
 
 static void write_overview(void) {

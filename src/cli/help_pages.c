@@ -2,6 +2,7 @@
 #include "cli/help.h"
 
 #include "cli/arguments.h"
+#include "cli/templates.h"
 #include "crushzone/report.h"
 
 #include <stdio.h>
@@ -31,6 +32,11 @@ void cz_help_write_markdown(void) {
             if (option->letter != 0)
                 printf(", `-%c`", option->letter);
             printf(" | %s |\n", option->doc);
+        }
+        if (command == CZ_COMMAND_NEW) {
+            puts("\n| template | |\n|---|---|");
+            for (int i = 0; i < CZ_N_TEMPLATE; i++)
+                printf("| `%s` | %s |\n", cz_templates[i].name, cz_templates[i].doc);
         }
         putchar('\n');
     }
@@ -97,6 +103,8 @@ static void write_man_commands(void) {
                 snprintf(typed, sizeof typed, "--%s", option->name);
             write_entry(typed, option->value, option->doc);
         }
+        for (int i = 0; command == CZ_COMMAND_NEW && i < CZ_N_TEMPLATE; i++)
+            write_entry(cz_templates[i].name, NULL, cz_templates[i].doc);
     }
 }
 
@@ -208,6 +216,11 @@ void cz_help_write_bash(void) {
     puts("' -- \"$word\"))\n"
          "    elif [ \"${COMP_WORDS[1]}\" != new ]; then\n"
          "        COMPREPLY=($(compgen -f -- \"$word\"))\n"
+         "    else");
+    fputs("        COMPREPLY=($(compgen -W '", stdout);
+    for (int i = 0; i < CZ_N_TEMPLATE; i++)
+        printf("%s%s", i > 0 ? " " : "", cz_templates[i].name);
+    puts("' -- \"$word\"))\n"
          "    fi\n"
          "}\n"
          "complete -o filenames -F _crushzone crushzone");

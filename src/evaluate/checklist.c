@@ -373,9 +373,7 @@ static bool is_check(const CzChecklist *list, const char *name, CzSuggestion *ne
 static CzStatus fail_name(const Builder *builder, const void *field, const char *name,
                           const char *key, const CzSuggestion *nearest) {
     cz_fail(builder->error, CZ_STATUS_INPUT, "%s: there is no check '%s'", key, name);
-    if (builder->error != NULL && nearest->best != NULL)
-        snprintf(builder->error->help, sizeof builder->error->help, "did you mean '%s'?",
-                 nearest->best);
+    cz_suggest_help(nearest, builder->error);
     return place_failure(builder, field, CZ_STATUS_INPUT);
 }
 

@@ -28,8 +28,7 @@ static CzStatus find_event(const char *text, CzEventKind *event, CzError *error)
         cz_suggest(&nearest, text, words[i]);
     }
     const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no event '%.60s'", text);
-    if (error != NULL && nearest.best != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean '%s'?", nearest.best);
+    cz_suggest_help(&nearest, error);
     return status;
 }
 
@@ -112,8 +111,7 @@ static CzStatus find_channel(const CzMatchItem *item, const CzProblem *problem, 
         cz_suggest(&nearest, item->written->channel, cz_run_channel_name(run, i));
     }
     cz_fail(error, CZ_STATUS_INPUT, "there is no channel '%.60s'", item->written->channel);
-    if (error != NULL && nearest.best != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean '%s'?", nearest.best);
+    cz_suggest_help(&nearest, error);
     return place_failure(problem, &item->written->channel, CZ_STATUS_INPUT, error);
 }
 

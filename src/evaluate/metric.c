@@ -201,8 +201,7 @@ static CzStatus fail_unknown(const char *text, const char *name, CzError *error)
     for (int i = 0; i < N_KIND; i++)
         cz_suggest(&nearest, name, kinds[i].name);
     const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no metric '%s'", text);
-    if (error != NULL && nearest.best != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean '%s'?", nearest.best);
+    cz_suggest_help(&nearest, error);
     return status;
 }
 

@@ -242,8 +242,7 @@ CzStatus cz_problem_find_scenario(const CzProblem *problem, const char *name, in
         }
     }
     const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no scenario '%s'", name);
-    if (error != NULL && nearest.best != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean '%.200s'?", nearest.best);
+    cz_suggest_help(&nearest, error);
     return status;
 }
 

@@ -57,8 +57,7 @@ static CzStatus find_chart(const char *what, CzChart *chart, CzError *error) {
         cz_suggest(&suggestion, what, chart_names[i]);
     }
     const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no figure '%.100s'", what);
-    if (error != NULL && suggestion.best != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean '%s'?", suggestion.best);
+    cz_suggest_help(&suggestion, error);
     return status;
 }
 

@@ -55,6 +55,18 @@ to_stdout() { exits 0 "$C" new -o - && cmp out.txt two-trains.yaml; }
 check "new writes to standard output" to_stdout
 template_slip() { exits 2 "$C" new two-train && says err.txt "did you mean 'two-trains'?"; }
 check "a mistyped template gets a suggestion" template_slip
+listed() { exits 0 "$C" help new && for template in two-trains buffer-stop wagon override; do says out.txt "$template" || return 1; done; }
+check "help lists the templates" listed
+# Each is valid and comes to its end; what it says of its verdict is what there is to learn.
+for template in buffer-stop wagon override; do
+    usable() { exits 0 "$C" new $template && exits 0 "$C" validate $template.yaml && exits "$1" "$C" check $template.yaml && ! says out.txt INCOMPLETE; }
+    [ $template = buffer-stop ] && code=0 || code=1
+    check "template $template runs" usable $code
+done
+stroke() { exits 0 "$C" sweep override.yaml --scenario worst --vary 'parts.anti-climber.stages[0].stroke_mm=300:400:2' && grep -q '300   FAIL' out.txt && grep -q '400 .* +.* wheels below' out.txt; }
+check "a longer anti-climber keeps the cars of the template down, as it says" stroke
+sized() { exits 0 "$C" optimise wagon.yaml -o wagon && says out.txt 'FEASIBLE after' && says out.txt 'verification pass'; }
+check "the wagon's crash buffers can be sized" sized
 
 run() { exits 0 "$C" run two-trains.yaml && says out.txt 'A4-B1' && says out.txt 'Verdict: FAIL' && says err.txt 'results in out'; }
 check "run of a failing design ends with 0: it is a valid answer" run

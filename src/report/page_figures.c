@@ -34,6 +34,24 @@ static void close_figures(CzPage *page) {
     cz_markup_line(&page->markup);
 }
 
+/* Who absorbs what in the runs beside the page's own, such as the design before. */
+static CzStatus write_other_shares(CzPage *page, CzError *error) {
+    CzStatus status = CZ_OK;
+    for (int i = 0; i < page->n_other && status == CZ_OK; i++) {
+        char title[160];
+        CzPage beside = *page;
+        beside.summary = cz_run_summary(page->other[i].run);
+        snprintf(title, sizeof title, "The same, %.80s", page->other[i].label);
+        cz_markup_open(&page->markup, "figure");
+        cz_markup_element(&page->markup, "figcaption", title);
+        cz_markup_line(&page->markup);
+        status = cz_chart_write(&beside, CZ_CHART_ENERGY_SHARES, 0, &page->markup, error);
+        cz_markup_close(&page->markup);
+        cz_markup_line(&page->markup);
+    }
+    return status;
+}
+
 /* A section of one figure of each kind. */
 static CzStatus write_section(CzPage *page, const char *id, const char *heading, const char *remark,
                               int n, const CzChart *charts, CzError *error) {
@@ -42,8 +60,11 @@ static CzStatus write_section(CzPage *page, const char *id, const char *heading,
     if (remark != NULL)
         cz_markup_element(&page->markup, "p", remark);
     open_figures(page);
-    for (int i = 0; i < n && status == CZ_OK; i++)
+    for (int i = 0; i < n && status == CZ_OK; i++) {
         status = write_all(page, charts[i], error);
+        if (status == CZ_OK && charts[i] == CZ_CHART_ENERGY_SHARES)
+            status = write_other_shares(page, error);
+    }
     close_figures(page);
     cz_page_close_section(&page->markup);
     return status;

@@ -350,7 +350,8 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     CZ_TRY(write_values(markup, evaluator, outcome, error));
     snprintf(title, sizeof title, "What follows is scenario %s of the best design%s",
              page->summary->scenario,
-             page->n_other > 0 ? "; force over closure has the design before beside it." : ".");
+             page->n_other > 0 ? "; force over closure and energy have the design before beside it."
+                               : ".");
     cz_markup_element(markup, "h2", "The best design");
     cz_markup_element(markup, "p", title);
     CZ_TRY(cz_page_write_parts(page, error));

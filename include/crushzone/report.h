@@ -28,6 +28,11 @@ typedef struct CzReportOptions {
     const char *const *set; /* "path=value" texts that the problem was read with, so that an
                                optimum holds them too; (n_set) */
     int n_set;
+    const char *command;     /* of the program, that a report names to get it all again: such as
+                                "optimise"; NULL: "run" */
+    const char *const *word; /* further words of it that results depend on, such as "--scenario"
+                                and its name (n_word) */
+    int n_word;
     const char *text; /* what the problem was read from when that was no file; NULL otherwise */
     size_t n_text;    /* [byte] */
 } CzReportOptions;

@@ -38,11 +38,27 @@ static CzStatus read_problem(CzSession *session, CzError *error) {
                                 &session->problem, error);
 }
 
+/* Options of the command line that change results; --time-step-ms is among the settings. */
+static void take_words(CzSession *session) {
+    static const CzOption told[] = {CZ_OPTION_SCENARIO, CZ_OPTION_INTEGRATOR, CZ_OPTION_ALGORITHM,
+                                    CZ_OPTION_EVALUATIONS, CZ_OPTION_SEED};
+    static const char *const words[] = {"--scenario", "--integrator", "--algorithm",
+                                        "--evaluations", "--seed"};
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
+        const char *value = session->arguments->text[told[i]];
+        if (value == NULL)
+            continue;
+        session->word[session->n_word++] = words[i];
+        session->word[session->n_word++] = value;
+    }
+}
+
 int cz_session_read(CzSession *session, const CzArguments *arguments, const char *file) {
     const double started = cz_clock();
     memset(session, 0, sizeof *session);
     session->arguments = arguments;
     session->file = file;
+    take_words(session);
     CzError error = {0};
     if (read_problem(session, &error) != CZ_OK)
         return cz_session_fail(session, &error);
@@ -91,6 +107,9 @@ CzReportOptions cz_session_report_options(const CzSession *session, double wall_
     options.wall_s = wall_s;
     options.set = session->arguments->set;
     options.n_set = session->arguments->n_set;
+    options.command = session->arguments->command == CZ_COMMAND_OPTIMISE ? "optimise" : NULL;
+    options.word = session->word;
+    options.n_word = session->n_word;
     options.text = session->text;
     options.n_text = session->n_text;
     return options;

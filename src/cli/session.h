@@ -10,9 +10,11 @@ typedef struct CzSession {
     const char *file;
     CzProblem *problem;
     CzEvaluator *evaluator;
-    char *text;     /* what came from standard input; NULL when a file was read */
-    size_t n_text;  /* [byte] */
-    double setup_s; /* reading and building [s] */
+    char *text;           /* what came from standard input; NULL when a file was read */
+    size_t n_text;        /* [byte] */
+    double setup_s;       /* reading and building [s] */
+    const char *word[10]; /* options that results depend on, but for settings (n_word) */
+    int n_word;
 } CzSession;
 
 /* Reads a problem file with the settings of the command line and tells its mistakes and warnings.

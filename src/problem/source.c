@@ -123,6 +123,10 @@ static void refuse_file(CzMistakes *mistakes, const char *path, const CzNode *pl
         cz_mistake(mistakes, place, NULL, "cannot read '%s': %s", path, why);
     else
         cz_mistake_at(mistakes, &itself, 0, 0, "cannot read '%s': %s", path, why);
+    char resolved[4096];
+    snprintf(resolved, sizeof resolved, "%.4000s/resolved.yaml", path);
+    if (cz_path_exists(resolved))
+        cz_mistake_help(mistakes, "the problem of a result folder is its %s", resolved);
 }
 
 /* Folder of a path: what stands before its last slash, "." without one. */

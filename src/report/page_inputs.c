@@ -73,12 +73,16 @@ static void quote(char *text, size_t room, const char *word) {
 }
 
 static void write_command(CzPage *page) {
-    char text[4096] = "crushzone run";
+    char text[4096];
     const CzReportOptions *options = page->options;
+    snprintf(text, sizeof text, "crushzone %s",
+             options->command != NULL ? options->command : "run");
     quote(text, sizeof text,
           options->text != NULL
               ? "-"
               : cz_problem_told_name(page->problem, cz_problem_file(page->problem)));
+    for (int i = 0; i < options->n_word; i++)
+        quote(text, sizeof text, options->word[i]);
     for (int i = 0; i < options->n_set && strlen(text) + 512 < sizeof text; i++) {
         snprintf(text + strlen(text), sizeof text - strlen(text), " --set");
         quote(text, sizeof text, options->set[i]);
@@ -86,8 +90,11 @@ static void write_command(CzPage *page) {
     cz_markup_element(&page->markup, "h3", "The same again");
     cz_markup_element(&page->markup, "pre", text);
     cz_markup_element(&page->markup, "p",
-                      "or, from the result folder alone: crushzone run resolved.yaml. The same "
-                      "version gives the same bytes on every machine.");
+                      options->command != NULL
+                          ? "or the best design alone, from the result folder: crushzone run "
+                            "resolved.yaml. The same version gives the same bytes on every machine."
+                          : "or, from the result folder alone: crushzone run resolved.yaml. The "
+                            "same version gives the same bytes on every machine.");
 }
 
 static void write_versions(CzPage *page) {

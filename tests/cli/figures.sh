@@ -11,6 +11,12 @@ same_report() {
         LC_ALL=de_DE.UTF-8 "$C" run two-trains.yaml -o comma && cmp first/report.html comma/report.html
 }
 check "the report is the same from run to run, for any number of threads and in any locale" same_report
+the_same_again() { # the command that a report names gives its results again
+    exits 0 "$C" run "$SOURCE/problems/wall.yaml" --scenario 20-km-h --time-step-ms 0.05 -o told -q && says told/report.html "<pre>crushzone run wall.yaml --scenario 20-km-h --set simulation.time_step_ms=0.05</pre>" &&
+        exits 0 "$C" run "$SOURCE/problems/wall.yaml" --scenario 20-km-h --set simulation.time_step_ms=0.05 -o told-again -q && cmp told/channels.csv told-again/channels.csv &&
+        exits 0 "$C" optimise two-trains.yaml --evaluations 120 --seed 3 -o sought -q && says sought/report.html '<pre>crushzone optimise two-trains.yaml --evaluations 120 --seed 3</pre>'
+}
+check "a report names the command that gives it again" the_same_again
 no_times() { ! grep -qiE 'wall|computed in|[0-9]{4}-[0-9]{2}-[0-9]{2}T' first/report.html && ! grep -q "$(uname -n)" first/report.html; }
 check "no time and no host stands in the report" no_times
 small_script() { [ "$(wc -c <"$SOURCE/src/report/report.js")" -le 10240 ]; }

@@ -12,7 +12,7 @@
 #define RIGHT 12.0
 #define TOP 8.0
 #define USUAL_HEIGHT 210.0
-#define BELOW_AXIS 40.0 /* numbers and label of the x axis */
+#define BELOW_AXIS 42.0 /* numbers and label of the x axis */
 #define LEGEND_ROW 17.0
 #define SAMPLE_WIDTH 24.0 /* of a line in the legend, with its space */
 #define FONT_SIZE 11.0
@@ -161,9 +161,9 @@ static void write_x_axis(const CzPlot *plot, const Frame *frame, CzMarkup *marku
         cz_markup_attribute(markup, "stroke-opacity", ".13");
         cz_markup_close(markup);
         tick_text(text, i * step, step);
-        cz_svg_text(markup, x, bottom + 15, "middle", text);
+        cz_svg_text(markup, x, bottom + 17, "middle", text);
     }
-    cz_svg_text(markup, LEFT + frame->width / 2, bottom + 31, "middle", plot->x_label);
+    cz_svg_text(markup, LEFT + frame->width / 2, bottom + 33, "middle", plot->x_label);
 }
 
 static void write_y_axis(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {

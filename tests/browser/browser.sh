@@ -35,8 +35,14 @@ check "crushzone runs two cars" "$PROGRAM" run "$SOURCE/problems/two-cars-25kmh.
 check "crushzone runs rigid cars" sh -c '"$PROGRAM" new two-trains && "$PROGRAM" run two-trains.yaml -o rigid'
 check "crushzone optimises" sh -c '"$PROGRAM" optimise two-trains.yaml --evaluations 60 -o search; [ $? -le 1 ]'
 check "crushzone runs trains of eight cars" long_metro
+swept() { "$PROGRAM" sweep "$SOURCE/problems/two-cars-25kmh.yaml" --vary trains.A.speed_km_h=10:50:9 -o swept && mv swept/report.html swept.html; }
+map() { "$PROGRAM" sweep two-trains.yaml --vary trains.A.speed_km_h=10:40:13 --vary 'parts.inner-end.coupler.tube.stages[0].force_kN=500:1200:8' -o map && mv map/report.html map.html; }
+compared() { "$PROGRAM" compare rigid search/optimised.yaml -o compared.html; }
+check "crushzone sweeps the speed" swept
+check "crushzone maps two values" map
+check "crushzone compares two designs" compared
 
-NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" metro pair rigid search long >cases.txt 2>&1
+NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" metro pair rigid search long swept.html map.html compared.html >cases.txt 2>&1
 code=$?
 cat cases.txt
 n_passed=$((n_passed + $(grep -c '^ok - ' cases.txt)))

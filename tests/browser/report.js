@@ -1,4 +1,5 @@
-// The report as a browser shows it: report.js FOLDER... prints one line "ok - sentence" or "not ok - sentence" per case.
+// The report as a browser shows it: report.js FOLDER|PAGE.html... prints one line "ok - sentence" or "not ok - sentence" per
+// case. Of a folder it is the report of a run, with cursor and animation; a page by itself has figures only.
 'use strict';
 const fs = require('fs');
 const path = require('path');
@@ -57,6 +58,10 @@ async function movesQuietly(page) {
   await page.click('#play');
   await page.waitForTimeout(300);
   await page.click('#play');
+  return isQuiet(page);
+}
+
+function isQuiet(page) {
   if (page.seen.requests.length !== 1) return 'requests: ' + page.seen.requests.join(' ');
   if (page.seen.messages.length !== 0) return 'messages: ' + page.seen.messages.join(' | ');
 }
@@ -268,6 +273,24 @@ async function prints(page) {
   if (pdf.length < 50000) return `only ${pdf.length} bytes`;
 }
 
+/* A page without cursor: of a sweep, a map, a comparison. */
+async function lookAtPage(browser, file) {
+  const name = path.basename(file, '.html'), page = await open(browser, file);
+  const n = await page.locator('figure svg').count();
+  await check(`${name}: the page asks for nothing and says nothing on the console`, () => isQuiet(page));
+  await check(`${name}: it has figures, and as many without scripts`, async () => {
+    const plain = await open(browser, file, {javaScriptEnabled: false});
+    const others = await plain.locator('figure svg').count();
+    await plain.context().close();
+    return n > 0 && others === n ? '' : `${n} figures, ${others} without scripts`;
+  });
+  await check(`${name}: an XML parser takes it`, () => isWellFormed(page, file));
+  await check(`${name}: labels keep apart`, () => labelsKeepApart(page));
+  await check(`${name}: it fits 1280 pixels`, () => fits(browser, file, 1280, `${name}-1280.png`, 'light'));
+  await check(`${name}: it fits 400 pixels, in the dark`, () => fits(browser, file, 400, `${name}-400.png`, 'dark'));
+  await page.context().close();
+}
+
 async function look(browser, folder) {
   const file = path.join(folder, 'report.html'), channels = readChannels(folder);
   const page = await open(browser, file);
@@ -296,7 +319,7 @@ async function look(browser, folder) {
     executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
     args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
            '--disable-component-update', '--disable-sync']});
-  for (const folder of process.argv.slice(2)) await look(browser, folder);
+  for (const what of process.argv.slice(2)) await (what.endsWith('.html') ? lookAtPage : look)(browser, what);
   await browser.close();
   process.exit(failed > 0 ? 1 : 0);
 })().catch(error => {

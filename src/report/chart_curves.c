@@ -2,6 +2,8 @@
 #include "report/chart_curves.h"
 
 #include "base/error.h"
+#include "problem/problem.h"
+#include "report/units.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -158,6 +160,65 @@ CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int 
     *n = reading.n;
     name_single_ones(reading.n, measured);
     return status;
+}
+
+/* ---- of a fit ---- */
+
+/* The figure that shows channels over time whose names begin so; CZ_N_CHART for none. */
+static CzChart chart_of_channel(const char *channel) {
+    static const struct {
+        const char *stem;
+        CzChart chart;
+    } charts[] = {{"F_", CZ_CHART_FORCE},
+                  {"v_", CZ_CHART_VELOCITY},
+                  {"E_", CZ_CHART_ENERGY},
+                  {"overlap_", CZ_CHART_OVERLAP},
+                  {"pitch_", CZ_CHART_PITCH}};
+    for (size_t i = 0; i < sizeof charts / sizeof *charts; i++)
+        if (strncmp(channel, charts[i].stem, strlen(charts[i].stem)) == 0)
+            return charts[i].chart;
+    return CZ_N_CHART;
+}
+
+/* A copy of a history with times in ms; NULL without memory. */
+static CzCurve *copy_history(const CzMeasured *history) {
+    CzCurve *curve = calloc(1, sizeof *curve);
+    const size_t n = (size_t)history->n_point;
+    if (curve == NULL)
+        return NULL;
+    curve->n = history->n_point;
+    curve->x = malloc(n * sizeof *curve->x);
+    curve->y = malloc(n * sizeof *curve->y);
+    if (curve->x == NULL || curve->y == NULL) {
+        cz_curve_free(curve);
+        return NULL;
+    }
+    for (size_t i = 0; i < n; i++) {
+        curve->x[i] = history->time[i] * CZ_MILLI_PER_UNIT;
+        curve->y[i] = history->value[i];
+    }
+    return curve;
+}
+
+CzStatus cz_chart_curves_of_fit(const CzProblem *problem, const char *scenario, int *n,
+                                CzChartCurve curve[CZ_MOST_CHART_CURVES], CzError *error) {
+    const CzOptimise *optimise = &cz_problem_input(problem)->optimise;
+    *n = 0;
+    for (int i = 0; i < optimise->n_match && *n < CZ_MOST_CHART_CURVES; i++) {
+        const CzMatch *match = &optimise->match[i];
+        const bool is_here = match->scenario == NULL || strcmp(match->scenario, scenario) == 0;
+        if (match->file == NULL || match->channel == NULL || !is_here ||
+            chart_of_channel(match->channel) == CZ_N_CHART)
+            continue;
+        CzChartCurve *made = &curve[*n];
+        made->chart = chart_of_channel(match->channel);
+        made->curve = copy_history(cz_problem_measured(problem, i));
+        if (made->curve == NULL)
+            return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a measured curve");
+        snprintf(made->label, sizeof made->label, "measured, %.60s", match->name);
+        ++*n;
+    }
+    return CZ_OK;
 }
 
 void cz_chart_curves_free(int n, CzChartCurve *measured) {

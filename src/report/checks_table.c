@@ -24,6 +24,8 @@ static const char *spaced_unit(const CzCheckResult *check, char room[32]) {
     if (check->unit == NULL || check->unit[0] == '\0')
         return "";
     snprintf(room, 32, " %s", check->unit);
+    for (char *c = room; *c != '\0'; c++) /* m_s of a channel is m/s to people */
+        *c = *c == '_' ? '/' : *c;
     return room;
 }
 

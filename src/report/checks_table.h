@@ -24,4 +24,7 @@ const char *cz_checks_word(const CzCheckResult *check);
 /* Whether a table that is short of room shows check i: it fails, or it is the worst of its name. */
 bool cz_checks_is_shown(const CzEvaluation *evaluation, int i);
 
+/* How a search ended, in capital letters; of a fit, about its tolerances. */
+const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome);
+
 #endif

@@ -28,20 +28,23 @@ static void write_objective(const CzEvaluator *evaluator, const CzOutcome *outco
             unit != NULL ? unit : "");
 }
 
+const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome) {
+    static const char *const words[] = {[CZ_OUTCOME_FEASIBLE] = "FEASIBLE",
+                                        [CZ_OUTCOME_INFEASIBLE] = "NOTHING FEASIBLE FOUND",
+                                        [CZ_OUTCOME_INTERRUPTED] = "INTERRUPTED"};
+    static const char *const of_fit[] = {[CZ_OUTCOME_FEASIBLE] = "WITHIN EVERY TOLERANCE",
+                                         [CZ_OUTCOME_INFEASIBLE] = "NOT WITHIN EVERY TOLERANCE",
+                                         [CZ_OUTCOME_INTERRUPTED] = "INTERRUPTED"};
+    return (cz_evaluator_is_fit(evaluator) ? of_fit : words)[outcome->status];
+}
+
 static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
                        FILE *stream) {
     static const CzStyle styles[] = {[CZ_OUTCOME_FEASIBLE] = CZ_STYLE_GOOD,
                                      [CZ_OUTCOME_INFEASIBLE] = CZ_STYLE_BAD,
                                      [CZ_OUTCOME_INTERRUPTED] = CZ_STYLE_CAREFUL};
-    static const char *const words[] = {[CZ_OUTCOME_FEASIBLE] = "FEASIBLE",
-                                        [CZ_OUTCOME_INFEASIBLE] = "NOTHING FEASIBLE FOUND",
-                                        [CZ_OUTCOME_INTERRUPTED] = "INTERRUPTED"};
-    const bool is_fit = cz_evaluator_is_fit(evaluator);
-    const char *word = is_fit && outcome->status == CZ_OUTCOME_FEASIBLE ? "WITHIN EVERY TOLERANCE"
-                       : is_fit && outcome->status == CZ_OUTCOME_INFEASIBLE
-                           ? "NOT WITHIN EVERY TOLERANCE"
-                           : words[outcome->status];
-    cz_grid_write_text(word, styles[outcome->status], colour, stream);
+    cz_grid_write_text(cz_outcome_words(evaluator, outcome), styles[outcome->status], colour,
+                       stream);
     fprintf(stream, " after %ld evaluations: ", outcome->n_evaluation);
     cz_grid_write_text(outcome->why_stopped, CZ_STYLE_PLAIN, colour, stream);
     if (outcome->status == CZ_OUTCOME_INTERRUPTED)

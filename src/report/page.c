@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "problem/problem.h"
 #include "report/assets.h"
+#include "report/chart_curves.h"
 #include "report/runs.h"
 #include "report/sha256.h"
 
@@ -279,9 +280,23 @@ void cz_page_close_table(CzMarkup *markup) {
     cz_markup_line(markup);
 }
 
+/* The figures, with the histories of a fit over them. */
+static CzStatus write_figures(CzPage *page, CzError *error) {
+    CzChartCurve curve[CZ_MOST_CHART_CURVES];
+    CzStatus status = cz_chart_curves_of_fit(page->problem, page->summary->scenario,
+                                             &page->n_measured, curve, error);
+    page->measured = curve;
+    if (status == CZ_OK)
+        status = cz_page_write_figures(page, error);
+    cz_chart_curves_free(page->n_measured, curve);
+    page->n_measured = 0;
+    page->measured = NULL;
+    return status;
+}
+
 CzStatus cz_page_write_parts(CzPage *page, CzError *error) {
     cz_page_write_trains(page);
-    CZ_TRY(cz_page_write_figures(page, error));
+    CZ_TRY(write_figures(page, error));
     cz_page_write_budget(page);
     cz_page_write_animation(page);
     cz_page_write_events(page);

@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+enum { MOST_LINKS = 12 }; /* to other reports that stand in plain view */
+
 static const char *const verdict_class[] = {[CZ_VERDICT_PASS] = "pass",
                                             [CZ_VERDICT_PROVISIONAL] = "careful",
                                             [CZ_VERDICT_FAIL] = "fail",
@@ -27,10 +29,12 @@ static const CzBar margin_bar = {"bar", "margin", 30, 31, "#d0021b", "#009e73"};
 
 static void write_source(CzMarkup *markup, const CzCheckResult *check) {
     char text[512];
+    const bool has_source = check->source != NULL && check->source[0] != '\0';
+    const bool has_confidence = has_source && check->confidence != NULL;
     snprintf(text, sizeof text, "%s%s%s%s%s%s%s", or_empty(check->why),
-             check->why != NULL && check->source != NULL ? "; " : "", or_empty(check->clause),
-             check->clause != NULL && check->source != NULL ? ", " : "", or_empty(check->source),
-             check->confidence != NULL ? ", confidence " : "", or_empty(check->confidence));
+             check->why != NULL && has_source ? "; " : "", or_empty(check->clause),
+             check->clause != NULL && has_source ? ", " : "", or_empty(check->source),
+             has_confidence ? ", confidence " : "", has_confidence ? check->confidence : "");
     cz_markup_classed(markup, "td", "small", text);
 }
 
@@ -143,7 +147,26 @@ static void write_address(CzMarkup *markup, const char *folder) {
     cz_markup_format(markup, "href", "%s/report.html", text);
 }
 
-/* Which collision the figures show, and where the others are. */
+/* Links to the reports of the other scenarios, in their folders. */
+static void write_others(CzPage *page) {
+    CzMarkup *markup = &page->markup;
+    const char *between = "";
+    for (int i = 0; i < page->evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(page->evaluation, i);
+        char folder[128];
+        if (run == NULL || i == page->scenario)
+            continue;
+        cz_page_folder_name(run->scenario, folder);
+        cz_markup_text(markup, between);
+        cz_markup_open(markup, "a");
+        write_address(markup, folder);
+        cz_markup_text(markup, run->scenario);
+        cz_markup_close(markup);
+        between = ", ";
+    }
+}
+
+/* Which collision the figures show, and where the others are: many of them out of the way. */
 static void write_scenarios(CzPage *page, bool is_top) {
     CzMarkup *markup = &page->markup;
     if (cz_n_kept_run(page->evaluation) < 2)
@@ -151,24 +174,24 @@ static void write_scenarios(CzPage *page, bool is_top) {
     cz_markup_open(markup, "p");
     cz_markup_text(markup, "The checks are those of all scenarios, the figures those of ");
     cz_markup_element(markup, "strong", page->summary->scenario);
-    if (is_top) {
-        cz_markup_text(markup, ", which has the smallest margin. Reports of the others: ");
-        const char *between = "";
-        for (int i = 0; i < page->evaluation->n_run; i++) {
-            const CzRunSummary *run = cz_kept_run(page->evaluation, i);
-            char folder[128];
-            if (run == NULL || i == page->scenario)
-                continue;
-            cz_page_folder_name(run->scenario, folder);
-            cz_markup_text(markup, between);
-            cz_markup_open(markup, "a");
-            write_address(markup, folder);
-            cz_markup_text(markup, run->scenario);
-            cz_markup_close(markup);
-            between = ", ";
-        }
-    }
+    const int n_other = cz_n_kept_run(page->evaluation) - 1;
+    if (is_top)
+        cz_markup_text(markup, ", which has the smallest margin");
     cz_markup_text(markup, ".");
+    if (is_top && n_other <= MOST_LINKS) {
+        cz_markup_text(markup, " Reports of the others: ");
+        write_others(page);
+        cz_markup_text(markup, ".");
+    }
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+    if (!is_top || n_other <= MOST_LINKS)
+        return;
+    char text[64];
+    snprintf(text, sizeof text, "Reports of the other %d", n_other);
+    cz_markup_open(markup, "details");
+    cz_markup_element(markup, "summary", text);
+    write_others(page);
     cz_markup_close(markup);
     cz_markup_line(markup);
 }

@@ -186,17 +186,21 @@ typedef struct Rows {
     const bool *later; /* (n) */
 } Rows;
 
-/* "name":[decimals,"letters"] */
+/* What a channel takes beside its name and its letters. */
+enum { CHANNEL_ROOM = sizeof ",\n\"\":[0,\"\"]" - 1 };
+
+/* ,"name":[decimals,"letters"] */
 static void put_channel(Letters *letters, const char *name, const double *value, const Rows *rows) {
     const int decimals = decimals_for(name, value, rows->n);
     double unit = 1;
     for (int i = 0; i < decimals; i++)
         unit *= 10;
     if (letters->stream != NULL) {
+        fputs(",\n", letters->stream);
         write_json_text(letters->stream, name);
         fprintf(letters->stream, ":[%d,\"", decimals);
     }
-    letters->n += (long)strlen(name) + 10;
+    letters->n += (long)strlen(name) + CHANNEL_ROOM;
     long long last = 0, step = 0;
     int n_run = 0;
     bool is_gap = false; /* what the run is of */
@@ -223,7 +227,7 @@ static void put_channel(Letters *letters, const char *name, const double *value,
     if (n_run > 0)
         put_run(letters, n_run, is_gap);
     if (letters->stream != NULL)
-        fputs("\"],\n", letters->stream);
+        fputs("\"]", letters->stream);
 }
 
 static void put_channels(Letters *letters, const CzPage *page, const Rows *rows) {
@@ -293,6 +297,11 @@ CzStatus cz_page_write_data(CzPage *page, CzError *error) {
     CzMarkup *markup = &page->markup;
     if (page->n_sample < 2)
         return CZ_OK;
+    cz_markup_open(markup, "script");
+    cz_markup_attribute(markup, "type", "application/json");
+    cz_markup_attribute(markup, "id", "data");
+    cz_markup_raw(markup, "{");
+    write_events(page, markup->stream);
     bool *later = calloc((size_t)page->n_sample, sizeof *later);
     if (later == NULL || fflush(markup->stream) != 0) { /* which tells how long the page is */
         free(later);
@@ -301,17 +310,12 @@ CzStatus cz_page_write_data(CzPage *page, CzError *error) {
     choose(page, later);
     Rows rows = {.n = page->n_sample, .later = later};
     fill(page, &rows);
-    write_rows(page, &rows);
-    cz_markup_open(markup, "script");
-    cz_markup_attribute(markup, "type", "application/json");
-    cz_markup_attribute(markup, "id", "data");
-    cz_markup_raw(markup, "{");
     Letters letters = {markup->stream, 0};
     put_channels(&letters, page, &rows);
-    write_events(page, markup->stream);
     cz_markup_raw(markup, "}");
     cz_markup_close(markup);
     cz_markup_line(markup);
+    write_rows(page, &rows);
     free(later);
     return CZ_OK;
 }

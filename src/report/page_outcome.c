@@ -20,19 +20,17 @@ enum { MOST_CONSTRAINTS = 8 }; /* that are told of as those that hold the optimu
 
 static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const CzProblem *problem,
                          const CzOutcome *outcome) {
-    static const char *const words[] = {[CZ_OUTCOME_FEASIBLE] = "FEASIBLE",
-                                        [CZ_OUTCOME_INFEASIBLE] = "NOTHING FEASIBLE FOUND",
-                                        [CZ_OUTCOME_INTERRUPTED] = "INTERRUPTED"};
     char before[CZ_FIGURE_ROOM], after[CZ_FIGURE_ROOM], text[512];
     const double start = outcome->start_evaluation.objective;
     const double best = outcome->best_evaluation.objective;
+    const char *given = cz_evaluator_objective_unit(evaluator), *unit = given != NULL ? given : "";
     cz_markup_open(markup, "header");
     cz_markup_element(markup, "h1", cz_problem_title(problem));
     cz_markup_classed(markup, "p",
                       outcome->status == CZ_OUTCOME_FEASIBLE     ? "banner pass"
                       : outcome->status == CZ_OUTCOME_INFEASIBLE ? "banner fail"
                                                                  : "banner careful",
-                      words[outcome->status]);
+                      cz_outcome_words(evaluator, outcome));
     snprintf(text, sizeof text, "%ld evaluations: %s.", outcome->n_evaluation,
              outcome->why_stopped);
     cz_markup_element(markup, "p", text);
@@ -40,10 +38,10 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
         snprintf(text, sizeof text, "Smallest margin of all constraints: before %s, after %s.",
                  cz_figure_margin(before, -start), cz_figure_margin(after, -best));
     else
-        snprintf(text, sizeof text, "Objective %s: before %s %s, after %s %s.",
+        snprintf(text, sizeof text, "Objective %s: before %s%s%s, after %s%s%s.",
                  cz_evaluator_objective_name(evaluator), cz_figure_plain(before, start),
-                 cz_evaluator_objective_unit(evaluator), cz_figure_plain(after, best),
-                 cz_evaluator_objective_unit(evaluator));
+                 unit[0] != '\0' ? " " : "", unit, cz_figure_plain(after, best),
+                 unit[0] != '\0' ? " " : "", unit);
     cz_markup_element(markup, "p", text);
     cz_markup_close(markup);
     cz_markup_line(markup);
@@ -182,7 +180,9 @@ static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
                                 .y = course.violation,
                                 .colour = 1};
     const CzPlot plots[] = {
-        {.title = "Objective over the evaluations (margins below -100 % drawn at -100 %)",
+        {.title = cz_evaluator_maximises_margin(evaluator)
+                      ? "Objective over the evaluations (margins below -100 % drawn at -100 %)"
+                      : "Objective over the evaluations",
          .x_label = "evaluation",
          .y_label = label,
          .n_series = 2,

@@ -29,6 +29,7 @@ typedef struct Side {
     double sign;   /* of outwards in the drawing */
     double plane;  /* foremost plane from the centre [m] */
     double edge;   /* inner edge of its label column in the drawing */
+    double rise;   /* how much higher its end stands than it was written [m] */
 } Side;
 
 /* Place in the drawing of a distance from the body's centre, outwards. */
@@ -81,23 +82,24 @@ static void write_parts(CzMarkup *markup, const Side *side) {
                   "crush zone of the end");
     if (end->side_buffers.given)
         write_bar(markup, place(side, bare), place(side, side->plane - end->side_buffers.gap),
-                  height(isnan(end->side_buffers.height) ? 1.05 : end->side_buffers.height), 14,
-                  cz_plot_colour(3), "side buffers");
+                  height(side->rise +
+                         (isnan(end->side_buffers.height) ? 1.05 : end->side_buffers.height)),
+                  14, cz_plot_colour(3), "side buffers");
     if (end->anti_climber.given) {
         const CzAntiClimber *face = &end->anti_climber;
         const double stated = isnan(face->height) ? end->crush_height : face->height;
-        const double z = isnan(stated) ? UNSTATED : stated;
+        const double z = side->rise + (isnan(stated) ? UNSTATED : stated);
         const double tall_face = isnan(face->face_height) ? 0.2 : face->face_height;
         write_bar(markup, place(side, bare), place(side, side->plane - face->gap), height(z),
                   SCALE * tall_face, cz_plot_colour(1), "anti-climber");
     }
     if (end->coupler.given && isfinite(end->coupler.length) && isfinite(end->coupler.height)) {
         const double tip = side->plane - end->coupler.gap, pivot = tip - end->coupler.length;
-        write_bar(markup, place(side, pivot), place(side, tip), height(end->coupler.height), 9,
-                  cz_plot_colour(0), "coupler");
+        const double y = height(side->rise + end->coupler.height);
+        write_bar(markup, place(side, pivot), place(side, tip), y, 9, cz_plot_colour(0), "coupler");
         cz_markup_open(markup, "circle");
         cz_markup_number(markup, "cx", 1, place(side, pivot));
-        cz_markup_number(markup, "cy", 1, height(end->coupler.height));
+        cz_markup_number(markup, "cy", 1, y);
         cz_markup_attribute(markup, "r", "5");
         cz_markup_attribute(markup, "stroke", "currentColor");
         cz_markup_attribute(markup, "stroke-width", "2");
@@ -129,15 +131,15 @@ static int gather_labels(const Side *side, Label label[MOST_LABELS]) {
     if (!end->given)
         return n;
     const double bare = side->plane - (isfinite(end->face_gap) ? end->face_gap : 0);
-    add_label(label, &n, "crush zone", end->crush_height, bare - end_stroke(end) / 2);
+    add_label(label, &n, "crush zone", side->rise + end->crush_height, bare - end_stroke(end) / 2);
     if (end->anti_climber.given)
-        add_label(label, &n, "anti-climber", end->anti_climber.height,
+        add_label(label, &n, "anti-climber", side->rise + end->anti_climber.height,
                   side->plane - end->anti_climber.gap);
     if (end->coupler.given && isfinite(end->coupler.length))
-        add_label(label, &n, "coupler", end->coupler.height,
+        add_label(label, &n, "coupler", side->rise + end->coupler.height,
                   side->plane - end->coupler.gap - end->coupler.length);
     if (end->side_buffers.given)
-        add_label(label, &n, "side buffers", end->side_buffers.height,
+        add_label(label, &n, "side buffers", side->rise + end->side_buffers.height,
                   side->plane - end->side_buffers.gap);
     return n;
 }
@@ -257,6 +259,25 @@ static void write_chains(CzMarkup *markup, const Side *side) {
 
 /* ---- the drawing ---- */
 
+/* The car's name, and how its end stands at this interface. */
+static void write_name(CzMarkup *markup, const Side *side) {
+    char text[128], number[CZ_FIGURE_ROOM];
+    snprintf(text, sizeof text, "%s", side->name);
+    if (side->rise != 0)
+        snprintf(text, sizeof text, "%.60s, its end %s mm %s", side->name,
+                 cz_figure_fixed(number, 0, fabs(side->rise) * CZ_MILLI_PER_UNIT),
+                 side->rise > 0 ? "higher" : "lower");
+    cz_svg_text(markup, side->edge + side->sign * 10, height(ROOF) - 5,
+                side->sign > 0 ? "start" : "end", text);
+}
+
+/* How much higher the scenario puts an end: that of the train behind, or ahead. */
+static double offset_of(const CzModel *model, int which) {
+    const CzTrain *train = &cz_problem_input(model->problem)->trains[model->train[which]];
+    const double of_scenario = model->scenario->height_offset;
+    return which == 1 && isfinite(of_scenario) ? of_scenario : train->height_offset;
+}
+
 static Side make_side(const CzModel *model, const CzStand *stand, int which, double origin) {
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
@@ -268,7 +289,8 @@ static Side make_side(const CzModel *model, const CzStand *stand, int which, dou
                   .centre = WIDTH / 2 + SCALE * (stand[car].x - origin),
                   .sign = which == 0 ? 1 : -1,
                   .plane = stand[car].plane[which == 0 ? FRONT : REAR],
-                  .edge = which == 0 ? COLUMN : WIDTH - COLUMN};
+                  .edge = which == 0 ? COLUMN : WIDTH - COLUMN,
+                  .rise = offset_of(model, which)};
 }
 
 void cz_elevation_write(const CzModel *model, const CzStand *stand, CzMarkup *markup) {
@@ -281,8 +303,7 @@ void cz_elevation_write(const CzModel *model, const CzStand *stand, CzMarkup *ma
     for (int which = 0; which < 2; which++) {
         const Side side = make_side(model, stand, which, origin);
         write_parts(markup, &side);
-        cz_svg_text(markup, side.edge + side.sign * 10, height(ROOF) - 5,
-                    which == 0 ? "start" : "end", side.name);
+        write_name(markup, &side);
         write_heights(markup, &side);
         write_chains(markup, &side);
         cz_markup_line(markup);

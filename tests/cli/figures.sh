@@ -155,6 +155,11 @@ wrong_columns() {
         exits 2 "$C" plot first --what panels --measured many.csv && says err.txt 'too many' && exits 2 "$C" plot first --what panels --measured - <four.csv && says err.txt 'not from standard input'
 }
 check "columns that do not fit the panels are told" wrong_columns
+offset() { # the heights at which the ends meet, and by how much one was put higher
+    exits 0 "$C" show "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h-partner-low --svg low.svg -q && says low.svg 'B1, its end 40 mm lower' && says low.svg 'anti-climber 0.910 m' && says low.svg 'anti-climber 0.950 m' &&
+        exits 0 "$C" show "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h --svg level.svg -q && ! grep -q 'its end' level.svg && [ "$(grep -o 'anti-climber 0.950 m' level.svg | wc -l)" = 2 ]
+}
+check "the side elevation shows an offset in height" offset
 at() { exits 0 "$C" plot first --at A3-A4 --svg - && says out.txt 'aria-label="Force over closure, A3-A4"' && exits 0 "$C" plot two-trains.yaml --what car-acceleration --at B2 && says out.txt 'Acceleration, B2'; }
 check "plot takes an interface or a car, and a problem file" at
 unknown_figure() { exits 2 "$C" plot first --what enrgy && says err.txt "did you mean 'energy'" && exits 2 "$C" plot first --at A9 && says err.txt "no interface 'A9'"; }

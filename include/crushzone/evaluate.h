@@ -115,6 +115,8 @@ CZ_API const CzVariableInfo *cz_evaluator_variable(const CzEvaluator *evaluator,
 typedef struct CzVariablePlace {
     const char *path;
     double factor;
+    double drawn_stroke; /* of the anti-climber whose stroke it is, which a file with this stroke
+                            has to name beside it; NaN for other numbers [m] */
 } CzVariablePlace;
 CZ_API int cz_evaluator_n_place(const CzEvaluator *evaluator, int variable);
 CZ_API CzVariablePlace cz_evaluator_place(const CzEvaluator *evaluator, int variable, int place);

@@ -3,7 +3,9 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "evaluate/choices.h"
+#include "model/kinks.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -137,9 +139,32 @@ static CzStatus add_place(const Builder *builder, CzDesignVariable *variable,
     return CZ_OK;
 }
 
+/* The stroke that is drawn of the anti-climber whose stroke a target is: a search makes the car as
+ * much longer as the stroke, and a file with that stroke has to say from where. NaN for any other
+ * number, and where the file says it. */
+static double drawn_stroke(const Builder *builder, const CzTarget *target) {
+    if (target->vehicle < 0 || builder->design->is_fit)
+        return NAN;
+    const CzVehicle *vehicle = &builder->vehicles[target->vehicle];
+    const CzEnd *const ends[2] = {&vehicle->rear, &vehicle->front};
+    for (int end = 0; end < 2; end++) {
+        const CzAntiClimber *device = &ends[end]->anti_climber;
+        const size_t first = (size_t)((const char *)device->stages - (const char *)vehicle);
+        const size_t way = target->offset - first;
+        if (target->offset < first || way >= sizeof device->stages ||
+            way % sizeof(CzStage) != offsetof(CzStage, stroke))
+            continue;
+        return isnan(device->drawn_stroke)
+                   ? cz_total_stroke(device->stages, device->n_stages, &device->curve)
+                   : NAN;
+    }
+    return NAN;
+}
+
 /* Adds a path that sets some of the variable's places, once. */
-static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable, const char *path,
-                          double factor) {
+static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable,
+                          const CzTarget *target, double factor) {
+    const char *path = target->place;
     for (int i = 0; i < variable->n_shown; i++)
         if (strcmp(variable->shown[i].path, path) == 0)
             return CZ_OK;
@@ -148,7 +173,8 @@ static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable, co
     if (shown == NULL || copy == NULL)
         return fail_memory(builder);
     variable->shown = shown;
-    variable->shown[variable->n_shown++] = (CzVariablePlace){.path = copy, .factor = factor};
+    variable->shown[variable->n_shown++] = (CzVariablePlace){
+        .path = copy, .factor = factor, .drawn_stroke = drawn_stroke(builder, target)};
     return CZ_OK;
 }
 
@@ -194,7 +220,7 @@ static CzStatus add_target(const Builder *builder, const CzVariable *written,
     const double unit = variable->n_place == 0 ? target->unit : variable->place[0].scale;
     if (variable->info.unit == NULL)
         return fail_memory(builder);
-    CZ_TRY(add_shown(builder, variable, target->place, unit / target->unit));
+    CZ_TRY(add_shown(builder, variable, target, unit / target->unit));
     const size_t elsewhere = (size_t)(uintptr_t)target->field;
     const CzDesignPlace place = {.vehicle = target->vehicle,
                                  .offset = target->vehicle >= 0 ? target->offset : elsewhere,

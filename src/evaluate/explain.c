@@ -366,7 +366,7 @@ static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluatio
     explanation->climb_time = summary->beyond_validity_time;
     explanation->verdict = summary->beyond_validity ? CZ_VERDICT_FAIL : explanation->worst.verdict;
     search->is_broken = explanation->worst.margin < 0;
-    cz_signs_find(evaluator->model[chosen], summary, explanation);
+    cz_signs_find(summary, explanation);
     return CZ_OK;
 }
 

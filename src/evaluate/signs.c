@@ -42,16 +42,14 @@ static long kilonewton(double force) {
     return lround(force / 1e3);
 }
 
-static void add_of_interface(CzExplanation *explanation, const CzModel *model,
-                             const CzInterfaceResult *interface, int index) {
-    const CzInterfaceFacts facts = cz_model_interface_facts(model, index);
+static void add_of_interface(CzExplanation *explanation, const CzInterfaceResult *interface) {
     double coupler = 0;
     for (int i = 0; i < interface->n_element; i++)
         if (interface->element[i].kind == CZ_ELEMENT_COUPLER)
             coupler = fmax(coupler, interface->element[i].peak_force);
-    if (coupler > facts.critical_force)
+    if (coupler > interface->critical_force)
         add(explanation, CZ_CAUSE_STRUT, NAN, "%s: the coupler carried %ld kN, F_crit is %ld kN",
-            interface->name, kilonewton(coupler), kilonewton(facts.critical_force));
+            interface->name, kilonewton(coupler), kilonewton(interface->critical_force));
     if (interface->vertical_margin < 0)
         add(explanation, CZ_CAUSE_CAPACITY, NAN,
             "%s: the anti-climbers slipped, %ld kN across was asked of them", interface->name,
@@ -61,10 +59,10 @@ static void add_of_interface(CzExplanation *explanation, const CzModel *model,
             interface->name);
 }
 
-void cz_signs_find(const CzModel *model, const CzRunSummary *run, CzExplanation *explanation) {
+void cz_signs_find(const CzRunSummary *run, CzExplanation *explanation) {
     const double until = run->beyond_validity ? run->beyond_validity_time : INFINITY;
     for (int i = 0; i < run->n_interface; i++)
-        add_of_interface(explanation, model, &run->interface[i], i);
+        add_of_interface(explanation, &run->interface[i]);
     for (int i = 0; i < run->n_event; i++)
         if (run->event[i].time <= until)
             add_event(explanation, &run->event[i]);

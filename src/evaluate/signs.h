@@ -6,6 +6,6 @@
 #include "problem/input.h"
 
 /* Fills the signs of a run up to its climb, or over all of it when there is none. */
-void cz_signs_find(const CzModel *model, const CzRunSummary *run, CzExplanation *explanation);
+void cz_signs_find(const CzRunSummary *run, CzExplanation *explanation);
 
 #endif

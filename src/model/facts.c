@@ -46,22 +46,30 @@ static double smaller(double a, double b) {
 }
 
 /* F_crit of one side; NaN when its car does not move up and down. */
-static double critical_force(const CzModel *model, const CzLanes *lanes, int interface, int side) {
-    const int car = interface + side;
-    if (model->car[car].model != CZ_MODEL_FULL)
+static double critical_force(const CzModel *model, const CzLanes *lanes, int interface,
+                             const int lane[2], int side) {
+    const int own = lane[CZ_SIDE_A], car = lane[side];
+    if (model->car[interface + side].model != CZ_MODEL_FULL)
         return NAN;
     const double secondary = cz_lane_value(lanes, car, CZ_P_SECONDARY_STIFFNESS);
     const double primaries = 2.0 * cz_lane_value(lanes, car, CZ_P_PRIMARY_STIFFNESS);
     const double spring = secondary * primaries / (secondary + primaries);
     const double half_spacing = cz_lane_value(lanes, car, CZ_P_BOGIE_X);
-    const double length = cz_lane_value(lanes, interface, CZ_P_COUPLER_LENGTH);
-    const double hinge = cz_lane_value(lanes, interface, CZ_OF_SIDE(CZ_P_HINGE_STIFFNESS, side));
-    double arm =
-        cz_lane_value(lanes, interface, side == CZ_SIDE_A ? CZ_P_PIVOT_X_A : CZ_P_PIVOT_X_B);
-    if (cz_lane_value(lanes, interface, CZ_OF_SIDE(CZ_P_COUPLER_ON_END, side)) > 0.0)
+    const double length = cz_lane_value(lanes, own, CZ_P_COUPLER_LENGTH);
+    const double hinge = cz_lane_value(lanes, own, CZ_OF_SIDE(CZ_P_HINGE_STIFFNESS, side));
+    double arm = cz_lane_value(lanes, own, side == CZ_SIDE_A ? CZ_P_PIVOT_X_A : CZ_P_PIVOT_X_B);
+    if (cz_lane_value(lanes, own, CZ_OF_SIDE(CZ_P_COUPLER_ON_END, side)) > 0.0)
         arm += cz_lane_value(lanes, car, side == CZ_SIDE_A ? CZ_P_END_X_FRONT : CZ_P_END_X_REAR);
     const double lever = arm / half_spacing;
     return spring / (1.0 + lever * lever) * length + 2.0 * hinge / length;
+}
+
+double cz_critical_force(const CzModel *model, const CzLanes *lanes, int interface,
+                         const int lane[2]) {
+    if (!(cz_lane_value(lanes, lane[CZ_SIDE_A], CZ_P_COUPLER) > 0.0))
+        return NAN;
+    return smaller(critical_force(model, lanes, interface, lane, CZ_SIDE_A),
+                   critical_force(model, lanes, interface, lane, CZ_SIDE_B));
 }
 
 /* Largest strength of a tube before it bottoms out. */
@@ -101,8 +109,8 @@ static CzInterfaceFacts interface_facts(const CzModel *model, const CzLanes *lan
         .strut_length = NAN, .critical_force = NAN, .tube_force = NAN, .anti_climber_gap = NAN};
     if (cz_lane_value(lanes, interface, CZ_P_COUPLER) > 0.0) {
         facts.strut_length = cz_lane_value(lanes, interface, CZ_P_COUPLER_LENGTH);
-        facts.critical_force = smaller(critical_force(model, lanes, interface, CZ_SIDE_A),
-                                       critical_force(model, lanes, interface, CZ_SIDE_B));
+        facts.critical_force =
+            cz_critical_force(model, lanes, interface, (const int[]){interface, interface + 1});
         facts.tube_force = smaller(tube_force(lanes, interface, CZ_SIDE_A),
                                    tube_force(lanes, interface, CZ_SIDE_B));
     }

@@ -4,8 +4,8 @@
  *   F_front + F_rear = (body + ends) g         (F_front - F_rear) l_c = (m_ef d_f - m_er d_r) g
  *
  * The body's centre of gravity lies in the middle between the foremost planes of the car as its
- * file gives it. Absorbers longer than the file's own push their foremost plane outwards by the
- * stroke over the efficiency.
+ * file gives it. Absorbers longer than the drawn ones, which are the file's own unless it says
+ * otherwise, push their foremost plane outwards by the stroke over the efficiency.
  */
 #include "model/fill.h"
 
@@ -38,13 +38,14 @@ static double absorber_mass(const CzEnd *end) {
     return mass;
 }
 
-/* What a changed anti-climber adds to its end's length [m]. */
+/* What an anti-climber adds to its end's length, by another stroke than the drawn one [m]. */
 static double added_length(const CzEnd *end, const CzEnd *baseline) {
-    if (!end->given || !end->anti_climber.given)
+    const CzAntiClimber *device = &end->anti_climber;
+    if (!end->given || !device->given)
         return 0.0;
-    const double more =
-        anti_climber_stroke(&end->anti_climber) - anti_climber_stroke(&baseline->anti_climber);
-    return more / end->anti_climber.efficiency;
+    const double drawn = isnan(device->drawn_stroke) ? anti_climber_stroke(&baseline->anti_climber)
+                                                     : device->drawn_stroke;
+    return (anti_climber_stroke(device) - drawn) / device->efficiency;
 }
 
 static CzStatus check_positive(const CzFill *fill, int car, const double *value, const char *what) {

@@ -9,6 +9,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <limits.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -60,12 +61,38 @@ static void add_setting(const char **setting, int *n_setting, const char *added)
     setting[(*n_setting)++] = added;
 }
 
+/* What a variable sets at one of its places in the best design. */
+static const char *setting_at(const CzVariableInfo *variable, const CzVariablePlace *place,
+                              double value, CzArena *arena) {
+    char number[CZ_NUMBER_TEXT];
+    const char *typed = value_text(variable, value * place->factor, number);
+    const size_t n = strlen(place->path) + 1 + strlen(typed) + 1;
+    char *text = cz_arena_allocate(arena, n, 1);
+    if (text != NULL)
+        snprintf(text, n, "%s=%s", place->path, typed);
+    return text;
+}
+
+/* The stroke for which the car is drawn, beside a new one. */
+static const char *drawn_stroke_at(const CzVariablePlace *place, CzArena *arena) {
+    static const char key[] = ".drawn_stroke_m=";
+    char number[CZ_NUMBER_TEXT];
+    const char *stages = strstr(place->path, ".stages[");
+    const int n_record = stages != NULL ? (int)(stages - place->path) : 0;
+    const size_t n = (size_t)n_record + sizeof key + sizeof number;
+    char *text = cz_arena_allocate(arena, n, 1);
+    if (text != NULL)
+        snprintf(text, n, "%.*s%s%s", n_record, place->path, key,
+                 cz_number_print(number, place->drawn_stroke));
+    return text;
+}
+
 const char **cz_overlay_settings(const CzEvaluator *evaluator, const CzOutcome *outcome,
                                  const CzReportOptions *options, CzArena *arena, int *n_setting) {
     const int n_given = options != NULL ? options->n_set : 0;
     size_t room = (size_t)n_given + 1;
     for (int variable = 0; variable < outcome->n_variable; variable++)
-        room += (size_t)cz_evaluator_n_place(evaluator, variable);
+        room += 2 * (size_t)cz_evaluator_n_place(evaluator, variable);
     const char **setting = cz_arena_allocate(arena, room, sizeof *setting);
     *n_setting = 0;
     for (int i = 0; i < n_given && setting != NULL; i++)
@@ -74,15 +101,15 @@ const char **cz_overlay_settings(const CzEvaluator *evaluator, const CzOutcome *
     for (int variable = 0; variable < outcome->n_variable && setting != NULL; variable++)
         for (int i = 0; i < cz_evaluator_n_place(evaluator, variable); i++) {
             const CzVariablePlace place = cz_evaluator_place(evaluator, variable, i);
-            char number[CZ_NUMBER_TEXT];
-            const char *value = value_text(cz_evaluator_variable(evaluator, variable),
-                                           outcome->best[variable] * place.factor, number);
-            const size_t n = strlen(place.path) + 1 + strlen(value) + 1;
-            char *text = cz_arena_allocate(arena, n, 1);
-            if (text == NULL)
+            const char *own = setting_at(cz_evaluator_variable(evaluator, variable), &place,
+                                         outcome->best[variable], arena);
+            const bool is_drawn = !isnan(place.drawn_stroke);
+            const char *drawn = is_drawn ? drawn_stroke_at(&place, arena) : NULL;
+            if (own == NULL || (is_drawn && drawn == NULL))
                 return NULL;
-            snprintf(text, n, "%s=%s", place.path, value);
-            add_setting(setting, n_setting, text);
+            add_setting(setting, n_setting, own);
+            if (is_drawn)
+                add_setting(setting, n_setting, drawn);
         }
     return setting;
 }

@@ -27,6 +27,23 @@ same() { strip out/summary.json >a; strip checked/summary.json >b; cmp a b; }
 check "the optimum gives the same numbers to the last bit" same
 resolved() { exits 0 "$C" check out/resolved.yaml -o alone && strip alone/summary.json >c && cmp a c; }
 check "so does the resolved problem beside it" resolved
+# A longer anti-climber makes a longer car: the overlay says which stroke the car is drawn for.
+cat >longer.yaml <<END
+schema: 1
+extends: $SOURCE/problems/two-cars-25kmh.yaml
+optimise:
+  variables: [{path: "parts.anti-climber.stages[0].stroke_mm", min: 300, max: 450, step: 50}]
+  evaluations: 4
+END
+longer() {
+    "$C" optimise longer.yaml -o longer >/dev/null 2>&1 || true
+    says longer/optimised.yaml '"parts.anti-climber.drawn_stroke_m": 0.3' && ! grep -q 'stroke_mm": 300' longer/optimised.yaml || return 1
+    for file in optimised resolved; do
+        "$C" check longer/$file.yaml -o longer-$file >/dev/null 2>&1 || true
+        strip longer/summary.json >a; strip longer-$file/summary.json >b; cmp a b || return 1
+    done
+}
+check "an optimum with longer anti-climbers gives the same numbers to the last bit" longer
 again() {
     for jobs in 1 2; do
         exits 1 "$C" optimise two-trains.yaml --evaluations 40 --jobs $jobs -o jobs-$jobs || return 1

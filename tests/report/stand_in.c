@@ -25,8 +25,8 @@ static const CzVariableInfo variables[STAND_IN_VARIABLES] = {
     {.name = "tube force", .unit = "kN", .min = 500, .max = 900, .start = 700, .step = 50},
     {.name = "tube stroke", .unit = "mm", .min = 100, .max = 300, .start = 250}};
 static const CzVariablePlace places[STAND_IN_VARIABLES] = {
-    {"trains.A.vehicles.A1.front.coupler.tube.stages[0].force_kN", 1},
-    {"trains.A.vehicles.A1.front.coupler.tube.stages[0].stroke_m", 1e-3}};
+    {"trains.A.vehicles.A1.front.coupler.tube.stages[0].force_kN", 1, NAN},
+    {"trains.A.vehicles.A1.front.coupler.tube.stages[0].stroke_m", 1e-3, NAN}};
 
 const char *cz_problem_title(const CzProblem *problem) {
     (void)problem;

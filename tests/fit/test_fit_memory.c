@@ -65,9 +65,45 @@ static void every_lack_of_memory_is_reported(void **state) {
     }
 }
 
+/* Titles stand in the first line that is no comment, with or without quotes. What is read is not
+ * counted: only requests that the linker sends here are. */
+static void titles_are_read_or_the_lack_of_memory_is_told(void **state) {
+    (void)state;
+    static const char path[] = "titles.csv";
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fputs("# a test\n\nt_ms; \"F; both [kN]\" ;v_A1_m_s\n0;1;2\n", stream);
+    fclose(stream);
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    int n_failed = 0;
+    for (; status != CZ_OK; n_failed++) {
+        char **title = NULL;
+        int n = 0;
+        CzError error = {0};
+        n_request = n_live = 0;
+        failing = n_failed;
+        counting = true;
+        status = cz_curve_titles(path, 0, &n, &title, &error);
+        counting = false;
+        if (status == CZ_OK) {
+            assert_int_equal(n, 3);
+            assert_string_equal(title[0], "t_ms");
+            assert_string_equal(title[1], "F; both [kN]");
+            assert_string_equal(title[2], "v_A1_m_s");
+            free(title);
+            continue;
+        }
+        assert_int_equal(status, CZ_STATUS_NO_MEMORY);
+        assert_null(title);
+    }
+    assert_true(n_failed > 1);
+    remove(path);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_lack_of_memory_is_reported),
+        cmocka_unit_test(titles_are_read_or_the_lack_of_memory_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

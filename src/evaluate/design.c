@@ -141,7 +141,7 @@ static CzStatus add_place(const Builder *builder, CzDesignVariable *variable,
 
 /* The stroke that is drawn of the anti-climber whose stroke a target is: a search makes the car as
  * much longer as the stroke, and a file with that stroke has to say from where. NaN for any other
- * number, and where the file says it. */
+ * number. */
 static double drawn_stroke(const Builder *builder, const CzTarget *target) {
     if (target->vehicle < 0 || builder->design->is_fit)
         return NAN;
@@ -156,7 +156,7 @@ static double drawn_stroke(const Builder *builder, const CzTarget *target) {
             continue;
         return isnan(device->drawn_stroke)
                    ? cz_total_stroke(device->stages, device->n_stages, &device->curve)
-                   : NAN;
+                   : device->drawn_stroke;
     }
     return NAN;
 }

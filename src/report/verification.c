@@ -99,6 +99,28 @@ static void write_ways(const CzVerification *verification, bool colour, FILE *st
     cz_grid_write(&grid, colour, stream);
 }
 
+static bool changes_too_much(const CzVerification *verification, const CzVerifiedValue *value) {
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
+        if (value->change[way] > verification->limit)
+            return true;
+    return false;
+}
+
+/* How many of the numbers that change too much scatter as much by themselves, so that nothing would
+ * pin them down. */
+static void write_scatter(const CzVerification *verification, FILE *stream) {
+    int n = 0, n_scatter = 0;
+    for (int i = 0; i < verification->n_value; i++) {
+        const CzVerifiedValue *value = &verification->value[i];
+        n += changes_too_much(verification, value);
+        n_scatter += value->change[CZ_WAY_SCATTER] > verification->limit;
+    }
+    char text[CZ_FIGURE_ROOM];
+    if (n > 0 && verification->is_done[CZ_WAY_SCATTER])
+        fprintf(stream, "%d of %d numbers change by more than %s; %d of them scatter by more.\n", n,
+                verification->n_value, cz_figure_change(text, verification->limit), n_scatter);
+}
+
 void cz_report_write_verification_table(const CzProblem *problem,
                                         const CzVerification *verification, bool colour,
                                         FILE *stream) {
@@ -115,6 +137,7 @@ void cz_report_write_verification_table(const CzProblem *problem,
         cz_grid_write_text(verification->failure, CZ_STYLE_BAD, colour, stream);
         fputc('\n', stream);
     }
+    write_scatter(verification, stream);
     const bool passes = verification->verdict == CZ_VERDICT_PASS;
     fputs("Verification: ", stream);
     cz_grid_write_text(passes ? "pass" : "FAIL", passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, colour,

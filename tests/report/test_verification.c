@@ -79,10 +79,29 @@ static void a_verification_is_a_table_with_the_largest_change_first(void **state
     free(text);
 }
 
+/* Of two numbers that change too much one scatters by more than is allowed too. */
+static void what_scatters_is_counted(void **state) {
+    (void)state;
+    CzVerifiedValue value[2];
+    CzVerification verification = filled_verification(value);
+    verification.ways |= 1u << CZ_WAY_SCATTER;
+    verification.is_done[CZ_WAY_SCATTER] = true;
+    value[0].change[CZ_WAY_HALF_STEP] = value[1].change[CZ_WAY_HALF_STEP] = 0.02;
+    value[1].change[CZ_WAY_SCATTER] = 0.03;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    cz_report_write_verification_table(stand_in_problem, &verification, false, stream);
+    fclose(stream);
+    assert_non_null(strstr(text, "2 of 2 numbers change by more than 1 %; 1 of them scatter"));
+    free(text);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_verification_is_one_document),
         cmocka_unit_test(a_verification_is_a_table_with_the_largest_change_first),
+        cmocka_unit_test(what_scatters_is_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -61,6 +61,9 @@ static int find_file(CzResult *result, const char *operand) {
     if (!is_there(operand, "resolved.yaml")) {
         snprintf(error.message, sizeof error.message,
                  "%.200s is no result folder: it has no resolved.yaml", operand);
+        if (is_there(operand, "sweep.json"))
+            snprintf(error.help, sizeof error.help,
+                     "it is the folder of a sweep, whose report was written with it");
         return cz_tell_error(&result->arguments, &error);
     }
     snprintf(result->file, sizeof result->file, "%s/resolved.yaml", operand);

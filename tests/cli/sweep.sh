@@ -19,7 +19,9 @@ check "--json prints one document" document
 strict() { exits 1 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 --strict; }
 check "--strict judges by exit code" strict
 folder() { exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 -o swept && json swept/sweep.json format crushzone.sweep && [ "$(grep -c . swept/sweep.csv)" = 3 ] && grep -q 'Smallest margin' swept/report.html && exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 -o swept; }
+again() { exits 2 "$C" report swept && says err.txt 'the folder of a sweep'; }
 check "-o writes sweep.json, sweep.csv and report.html, and replaces its own" folder
+check "report says that a sweep has one already" again
 cut() { exits 3 "$C" sweep "$cars" --vary simulation.longest_s=0.05:6:2 && says out.txt 'RUN FAILED'; }
 check "a run that is cut short ends with 3" cut
 wrong() { exits 2 "$C" sweep "$cars" --vary trains.C.speed_km_h=1:2:2 && exits 2 "$C" sweep "$cars" && exits 2 "$C" sweep "$cars" --vary trains.A.speed_km_h=1 --json && json out.txt error.message; }

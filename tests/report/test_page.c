@@ -178,6 +178,26 @@ static void the_input_curve_is_that_of_the_weakest_member(void **state) {
     free_ran(&ran);
 }
 
+/* Against a wall one coupler gives way, over its own softening: then two anti-climbers push with
+ * 1 MN alone. */
+static void a_wall_does_not_hold_a_coupler_that_has_sheared_off(void **state) {
+    (void)state;
+    enum { N = 1201 };
+    static double closure[N], force[N];
+    Ran ran = run_set("wall.yaml", "16-km-h", 0, NULL);
+    CzModel *model = NULL;
+    assert_int_equal(cz_model_build(ran.problem, 0, &model, NULL), CZ_OK);
+    assert_int_equal(cz_input_curve(model, 0, 0.6, N, closure, force, NULL), CZ_OK);
+    int lowest = 620;
+    for (int i = 620; i < 700; i++) /* 0.31 to 0.35 m, the faces touch at 0.32 m */
+        lowest = force[i] < force[lowest] ? i : lowest;
+    assert_true(force[lowest] < 0.5 * 911e3);
+    for (int i = 720; i < 1200; i++)
+        assert_near(force[i], 1e6, 0.01, 0);
+    cz_model_free(model);
+    free_ran(&ran);
+}
+
 /* ---- the numbers behind the cursor ---- */
 
 /* Value of a letter. */
@@ -309,6 +329,7 @@ int main(void) {
         cmocka_unit_test(a_run_that_was_not_kept_has_no_page),
         cmocka_unit_test(the_cursor_stands_at_every_row_that_was_recorded),
         cmocka_unit_test(rows_for_which_there_is_no_room_are_left_out_at_the_end),
+        cmocka_unit_test(a_wall_does_not_hold_a_coupler_that_has_sheared_off),
         cmocka_unit_test(the_input_curve_is_that_of_the_weakest_member),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

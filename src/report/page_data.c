@@ -261,19 +261,24 @@ static void fill(const CzPage *page, Rows *rows) {
 static void write_rows(CzPage *page, const Rows *rows) {
     CzMarkup *markup = &page->markup;
     char until[CZ_FIGURE_ROOM], every[CZ_FIGURE_ROOM], text[400];
-    if (rows->n_first == rows->n)
+    if (rows->n_first == rows->n) {
         snprintf(text, sizeof text,
                  "Cursor and animation stand at every one of the %d rows of channels.csv.",
                  rows->n);
-    else
+    } else {
+        char first[96] = "";
+        if (rows->n_first > 1)
+            snprintf(first, sizeof first, "every row of channels.csv until %s ms, later at ",
+                     cz_figure_plain(until, page->time[rows->n_first - 1]));
         snprintf(
             text, sizeof text,
-            "Cursor and animation stand at every row of channels.csv until %s ms, later at "
-            "every event, every extreme of a force or an acceleration, and at least every %s ms: "
-            "with all %d rows this page would be larger than 1 MB.",
-            cz_figure_plain(until, page->time[rows->n_first > 0 ? rows->n_first - 1 : 0]),
+            "Cursor and animation stand at %severy event, every extreme of a force or an "
+            "acceleration, and at least every %s ms: with all %d rows this page would be "
+            "larger than 1 MB.",
+            first,
             cz_figure_plain(every, (page->time[rows->n - 1] - page->time[0]) / (EVEN_SAMPLES - 1)),
             rows->n);
+    }
     cz_markup_classed(markup, "p", "script", text);
     cz_markup_line(markup);
 }

@@ -2,6 +2,7 @@
 #include "report/chart_curves.h"
 
 #include "base/error.h"
+#include "problem/keys.h"
 #include "problem/problem.h"
 #include "report/units.h"
 
@@ -45,6 +46,29 @@ static CzStatus find_panel(const Reading *reading, const char *title, CzChart *c
     return status;
 }
 
+/* A title without the unit at its end, since the axis may have another: v_A4 of v_A4_km/h, or of
+ * "v_A4 [km/h]". */
+static void name_curve(char *name, size_t room, const char *title, const char *quantity) {
+    snprintf(name, room, "%s", title);
+    name[strcspn(name, "[(")] = '\0';
+    for (size_t n = strlen(name); n > 0 && name[n - 1] == ' '; n--)
+        name[n - 1] = '\0';
+    CzDimension dimension = 0;
+    while (dimension < CZ_N_DIMENSION && strcmp(cz_dimension_text[dimension], quantity) != 0)
+        dimension++;
+    for (char *at = strchr(name, '_'); at != NULL && dimension < CZ_N_DIMENSION;
+         at = strchr(at + 1, '_')) {
+        char unit[16];
+        snprintf(unit, sizeof unit, "%.15s", at + 1);
+        for (char *c = unit; *c != '\0'; c++)
+            *c = *c == '/' ? '_' : *c;
+        if (cz_unit_find(dimension, unit) == NULL)
+            continue;
+        *at = '\0';
+        return;
+    }
+}
+
 /* Reads one column, a title or a number, and gives it the units of its figure. */
 static CzStatus read_column(Reading *reading, const char *column, const char *title) {
     const CzChartOptions *options = reading->options;
@@ -65,7 +89,7 @@ static CzStatus read_column(Reading *reading, const char *column, const char *ti
     CzChartCurve *measured = &reading->measured[reading->n];
     CZ_TRY(cz_curve_read(options->measured, &columns, &measured->curve, reading->error));
     measured->chart = chart;
-    snprintf(measured->label, sizeof measured->label, "%s", title);
+    name_curve(measured->label, sizeof measured->label, title, axes->y_quantity);
     for (int i = 0; i < measured->curve->n; i++) {
         measured->curve->x[i] /= axes->x_unit;
         measured->curve->y[i] /= axes->y_unit;

@@ -129,7 +129,7 @@ printf '# of a test\nt_ms,F_test_kN,v_A4_test [km/h],v_B1_test_km/h,x_A4_m,d_tes
 curves_of() { grep -o '<path' "$1" | wc -l; }
 measured_panels() { # each curve stands in its own panel: force, two speeds, displacement, shortening
     exits 0 "$C" plot first --what panels --measured four.csv --svg all.svg && [ "$(curves_of all.svg)" = $(($(curves_of panels.svg) + 5)) ] &&
-        for panel in 1:measured 2:v_A4_test 2:v_B1_test 3:measured 4:measured; do
+        for panel in 1:measured '2:v_A4_test<' '2:v_B1_test<' 3:measured 4:measured; do
             awk -v panel="${panel%%:*}" 'BEGIN { RS = "<svg " } NR == 2 * panel + 2' all.svg | grep -q "<title>${panel##*:}" || { echo "panel $panel"; return 1; }
         done && exits 0 "$C" plot first --what panels --measured four.csv --column F_test_kN,6 --svg two.svg && [ "$(curves_of two.svg)" = $(($(curves_of panels.svg) + 2)) ]
 }

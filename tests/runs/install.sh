@@ -49,5 +49,12 @@ check "pkg-config tells the version" sh -c "grep -q '^## \[Unreleased\]\|^## \[$
 check "the installed program runs a shipped problem" installed_program_runs
 teaches() { [ -s "$prefix/share/man/man1/crushzone.1" ] && bash -n "$prefix/share/bash-completion/completions/crushzone"; }
 check "the manual page and the completion are installed" teaches
+leads_on() { # every page that the installed README names is there
+    pages=$(find "$prefix" -path '*doc*' -name README.md -not -path '*problems*' -exec dirname {} \;)
+    for page in $(grep -o '](\([^)#:]*\))' "$pages/README.md" | tr -d '()]'); do
+        [ -e "$pages/$page" ] || { echo "no $page"; return 1; }
+    done
+}
+check "the installed README leads to pages that are there" leads_on
 check "an installed tree can be moved" moved_tree_runs
 finish

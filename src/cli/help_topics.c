@@ -198,7 +198,8 @@ static void write_files(void) {
         {"run.log", "versions, and how each scenario was computed"},
         {"outcome.json", "of a search: variables, objective, constraints (crushzone.outcome)"},
         {"optimised.yaml", "of a search: the best design, on top of your file"},
-        {"history.csv", "of a search: every evaluation"},
+        {"history.csv", "of a search: every evaluation; a stroke of an anti-climber wants its "
+                        "drawn_stroke too"},
         {"sweep.json, sweep.csv", "of a sweep: every point"}};
     puts("A result folder (-o DIR) holds:\n");
     write_entries((int)(sizeof files / sizeof *files), files, 22);

@@ -36,9 +36,7 @@ for page in "$SOURCE/README.md" "$SOURCE"/docs/*.md; do
     n=$(commands_of "$page")
     [ "$n" -gt 0 ] || continue
     mkdir root
-    for entry in "$SOURCE"/* "$SOURCE"/.ci; do
-        case $(basename "$entry") in build | out) ;; *) ln -s "$entry" root/ ;; esac
-    done
+    "$SOURCE/scripts/link-project" root
     cd root
     for i in $(seq "$n"); do
         command=$(cat "../command.$i")

@@ -63,14 +63,12 @@ static CzStatus build_variants(CzEvaluator *evaluator, CzError *error) {
 }
 
 static CzStatus build_models(CzEvaluator *evaluator, const char *only, CzError *error) {
-    int first = 0;
-    if (only != NULL)
-        CZ_TRY(cz_problem_find_scenario(evaluator->problem, only, &first, error));
-    for (int s = 0; s < evaluator->n_scene; s++) {
+    for (int s = 0; s < evaluator->n_scene; s++)
         evaluator->rate = fmax(evaluator->rate, evaluator->scene[s].closing_speed / 2);
-        const CzScene *scene = &evaluator->scene[s];
-        if (only == NULL || !cz_scene_is(scene, only))
-            continue;
+    if (only != NULL) {
+        int first;
+        CZ_TRY(cz_problem_find_scenario(evaluator->problem, only, &first, error));
+        const CzScene *scene = &evaluator->scene[first];
         evaluator->only = strcmp(only, scene->name) == 0 ? scene->name : scene->family;
     }
     return build_variants(evaluator, error);

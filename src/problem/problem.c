@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "base/suggest.h"
 #include "problem/reader.h"
 #include "problem/yaml_document.h"
 
@@ -225,21 +224,26 @@ const char *cz_problem_scenario_name(const CzProblem *problem, int scenario) {
     return problem->input.scenarios[scenario].name;
 }
 
+int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest) {
+    for (int i = 0; i < input->n_scenarios; i++) {
+        const char *const known[2] = {input->scenarios[i].name, input->scenarios[i].family};
+        for (int k = 0; k < 2; k++) {
+            if (known[k] != NULL && strcmp(known[k], name) == 0)
+                return i;
+            if (known[k] != NULL)
+                cz_suggest(nearest, name, known[k]);
+        }
+    }
+    return -1;
+}
+
 CzStatus cz_problem_find_scenario(const CzProblem *problem, const char *name, int *scenario,
                                   CzError *error) {
     CzSuggestion nearest = {0};
-    for (int i = 0; i < problem->input.n_scenarios; i++) {
-        const CzScenario *given = &problem->input.scenarios[i];
-        const char *const known[2] = {given->name, given->family};
-        for (int k = 0; k < 2; k++) {
-            if (known[k] == NULL)
-                continue;
-            if (strcmp(known[k], name) == 0) {
-                *scenario = i;
-                return CZ_OK;
-            }
-            cz_suggest(&nearest, name, known[k]);
-        }
+    const int found = cz_input_find_scenario(&problem->input, name, &nearest);
+    if (found >= 0) {
+        *scenario = found;
+        return CZ_OK;
     }
     const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no scenario '%s'", name);
     cz_suggest_help(&nearest, error);

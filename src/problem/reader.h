@@ -13,6 +13,7 @@
 #ifndef CZ_PROBLEM_READER_H
 #define CZ_PROBLEM_READER_H
 
+#include "base/suggest.h"
 #include "problem/input.h"
 #include "problem/keys.h"
 #include "problem/mistakes.h"
@@ -116,6 +117,12 @@ int cz_setting_rank(const CzTree *tree, const char *path);
 /* The tree with all settings put in. */
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
                          int n_setting);
+
+/* ---- problem.c ---- */
+
+/* The scenario of a name, or the first of a family of that name; -1 when there is none, and the
+ * nearest word. */
+int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest);
 
 /* ---- path.c ---- */
 

@@ -5,23 +5,14 @@
 
 #include "base/error.h"
 #include "base/number.h"
-#include "base/suggest.h"
 #include "problem/rules.h"
 
 /* ---- limits ---- */
 
 static void check_scenario_named(const CzRules *rules, const char *const *name) {
     CzSuggestion suggestion = {0};
-    for (int i = 0; i < rules->input->n_scenarios; i++) {
-        const char *const known[2] = {rules->input->scenarios[i].name,
-                                      rules->input->scenarios[i].family};
-        for (int k = 0; k < 2; k++) {
-            if (known[k] != NULL && strcmp(known[k], *name) == 0)
-                return;
-            if (known[k] != NULL)
-                cz_suggest(&suggestion, *name, known[k]);
-        }
-    }
+    if (cz_input_find_scenario(rules->input, *name, &suggestion) >= 0)
+        return;
     cz_rule_broken(rules, name, "there is no scenario '%.48s'", *name);
     cz_mistake_suggest(rules->mistakes, suggestion.best);
 }

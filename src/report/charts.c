@@ -154,24 +154,18 @@ const CzChartAxes *cz_chart_axes(CzChart chart) {
 static CzStatus write_panels(const CzPage *page, int interface, CzMarkup *markup, CzError *error) {
     static const CzChart charts[] = {CZ_CHART_FORCE, CZ_CHART_VELOCITY, CZ_CHART_DISPLACEMENT,
                                      CZ_CHART_SHORTENING};
-    const double heading = 22, slot = 340, width = CZ_PLOT_WIDTH;
+    const double slot = 340;
     char title[160], text[200];
     CzStatus status = CZ_OK;
     cz_chart_title(page, CZ_CHART_PANELS, 0, sizeof title, title);
-    cz_svg_open(markup, title, 2 * width + 16, 2 * (heading + slot));
+    cz_svg_open_tiles(markup, title, 4, slot);
     cz_markup_attribute(markup, "class", "panels");
     cz_markup_line(markup);
     for (int i = 0; i < 4 && status == CZ_OK; i++) {
-        const double x = i % 2 * (width + 16), y = i / 2 * (heading + slot);
         const int index = charts[i] == CZ_CHART_SHORTENING ? interface : 0;
         cz_chart_title(page, charts[i], index, sizeof title, title);
         snprintf(text, sizeof text, "(%c) %s", "abcd"[i], title);
-        cz_svg_text(markup, x + 8, y + 15, "start", text);
-        cz_markup_open(markup, "svg");
-        cz_markup_number(markup, "x", 1, x);
-        cz_markup_number(markup, "y", 1, y + heading);
-        cz_markup_number(markup, "width", 1, width);
-        cz_markup_number(markup, "height", 1, slot);
+        cz_svg_open_tile(markup, i, slot, 8, text);
         status = cz_chart_write(page, charts[i], index, markup, error);
         cz_markup_close(markup);
     }

@@ -53,21 +53,13 @@ static void write_frame(CzPage *page, int interface, int sample) {
 }
 
 void cz_chart_write_frames(const CzPage *page, int interface, CzMarkup *markup) {
-    const double heading = 22, width = CZ_PLOT_WIDTH, height = CZ_SCENE_HEIGHT;
-    cz_svg_open(markup, "The collision from the side", 2 * width + 16,
-                (heading + height) * N_FRAME / 2);
+    cz_svg_open_tiles(markup, "The collision from the side", N_FRAME, CZ_SCENE_HEIGHT);
     cz_markup_line(markup);
     for (int i = 0; i < N_FRAME; i++) {
-        const double x = i % 2 * (width + 16), y = i / 2 * (heading + height);
         const int sample = sample_of(page, interface, i);
         char title[128];
         name_frame(page, interface, sample, sizeof title, title);
-        cz_svg_text(markup, x + 4, y + 15, "start", title);
-        cz_markup_open(markup, "svg");
-        cz_markup_number(markup, "x", 1, x);
-        cz_markup_number(markup, "y", 1, y + heading);
-        cz_markup_number(markup, "width", 1, width);
-        cz_markup_number(markup, "height", 1, height);
+        cz_svg_open_tile(markup, i, CZ_SCENE_HEIGHT, 4, title);
         draw_frame(page, interface, sample, title, markup);
         cz_markup_close(markup);
         cz_markup_line(markup);

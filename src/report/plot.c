@@ -51,6 +51,24 @@ void cz_svg_open(CzMarkup *markup, const char *title, double width, double heigh
         cz_markup_attribute(markup, "style", "background:#fff");
 }
 
+/* Between two tiles, and above each for its heading. */
+enum { TILE_GAP = 16, TILE_HEADING = 22 };
+
+void cz_svg_open_tiles(CzMarkup *markup, const char *title, int n, double height) {
+    const int n_row = (n + 1) / 2;
+    cz_svg_open(markup, title, 2 * CZ_PLOT_WIDTH + TILE_GAP, n_row * (TILE_HEADING + height));
+}
+
+void cz_svg_open_tile(CzMarkup *markup, int i, double height, double inset, const char *heading) {
+    const double x = i % 2 * (CZ_PLOT_WIDTH + TILE_GAP), y = i / 2 * (TILE_HEADING + height);
+    cz_svg_text(markup, x + inset, y + 15, "start", heading);
+    cz_markup_open(markup, "svg");
+    cz_markup_number(markup, "x", 1, x);
+    cz_markup_number(markup, "y", 1, y + TILE_HEADING);
+    cz_markup_number(markup, "width", 1, CZ_PLOT_WIDTH);
+    cz_markup_number(markup, "height", 1, height);
+}
+
 void cz_svg_text(CzMarkup *markup, double x, double y, const char *anchor, const char *text) {
     cz_markup_open(markup, "text");
     cz_markup_number(markup, "x", 1, x);

@@ -57,6 +57,10 @@ void cz_plot_write(const CzPlot *plot, CzMarkup *markup);
 
 /* Opens an `svg` of that size with what every figure has; the caller closes it. */
 void cz_svg_open(CzMarkup *markup, const char *title, double width, double height);
+/* The same for n tiles in rows of two, each as wide as a diagram and of that height under a
+ * heading; opens tile i of them with its heading, which stands `inset` from its left. */
+void cz_svg_open_tiles(CzMarkup *markup, const char *title, int n, double height);
+void cz_svg_open_tile(CzMarkup *markup, int i, double height, double inset, const char *heading);
 /* Text in a figure, `anchor` being "start", "middle" or "end". */
 void cz_svg_text(CzMarkup *markup, double x, double y, const char *anchor, const char *text);
 

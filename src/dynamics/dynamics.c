@@ -117,11 +117,9 @@ static void derive_constants(CzBlock *block) {
 
 /* Constants that follow from the car of a lane and the one ahead. */
 static void derive_pairs(const CzLanes *lanes, CzBlock *block, size_t base) {
-    const double *inverse = cz_row(lanes->parameter, lanes->stride, CZ_P_INVERSE_BODY_MASS);
     const double *slaved = cz_row(lanes->parameter, lanes->stride, CZ_P_SLAVED_ENDS);
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
-        const size_t lane = base + i, ahead = lane + (size_t)lanes->n_design;
-        block->constant[CZ_C_TILTS][i] = inverse[lane] > 0.0 && inverse[ahead] > 0.0 ? 1.0 : 0.0;
+        const size_t ahead = base + i + (size_t)lanes->n_design;
         block->constant[CZ_C_SLAVED_ENDS_AHEAD][i] = slaved[ahead];
     }
 }

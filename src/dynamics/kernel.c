@@ -263,7 +263,7 @@ static void coupler_extremes(CzBlock *d) {
     const double *restrict z = X(BODY_Z), *restrict s = S(BODY_SIN);
     const double *restrict z_ahead = S(BODY_AHEAD_Z), *restrict s_ahead = S(BODY_AHEAD_SIN);
     const double *restrict at = P(PIVOT_X_A), *restrict at_ahead = P(PIVOT_X_B);
-    const double *restrict tilts = C(TILTS);
+    const double *restrict tilts = P(TILTS);
     double *restrict rise = E(UNDERFRAME_RISE);
     CZ_LANES (i, n) {
         const double own = z[i] + at[i] * s[i];

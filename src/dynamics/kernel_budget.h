@@ -17,7 +17,7 @@
 static void note_couplers(CzBlock *d) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict nx = S(NORMAL_X), *restrict nz = S(NORMAL_Z);
-    const double *restrict inverse_length = S(INVERSE_LENGTH), *restrict tilts = C(TILTS);
+    const double *restrict inverse_length = S(INVERSE_LENGTH), *restrict tilts = P(TILTS);
     const double *restrict moment_a = S(SPRING_UP_A), *restrict moment_b = S(SPRING_UP_B);
     const double *restrict fx = S(CURVE_VALUE), *restrict fz = S(CURVE_SLOPE);
     for (int side = 0; side < 2; ++side) {

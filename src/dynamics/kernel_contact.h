@@ -24,7 +24,7 @@ static void contact_geometry(CzBlock *d, const Carrier *a, const Carrier *b,
     const double *restrict z_b = d->parameter[rows->z_b];
     const double *restrict gap = d->parameter[rows->gap];
     const double *restrict rise = d->parameter[rows->rise];
-    const double *restrict tilts = C(TILTS);
+    const double *restrict tilts = P(TILTS);
     const Carrier ca = *a, cb = *b;
     double *restrict closure = S(CLOSURE), *restrict rate = S(RATE);
     double *restrict slip = S(SLIP), *restrict slip_rate = S(SLIP_RATE);

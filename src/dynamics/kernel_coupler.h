@@ -1,7 +1,8 @@
 /* Couplers: a massless strut between two pivots, whose length is a series chain of buffers, tubes
  * and shear-offs, and whose ends turn against hinges. Part of kernel.c only.
  *
- *   closure = free length - |r_B - r_A|,   force along the current line,   theta its angle
+ *   closure = free length - |r_B - r_A|,   force along the current line,   theta its angle;
+ *   where neither car can tilt, or one is a wall, closure and force are those along the track
  *   hinge i:  M_i = engaged * (slider(theta - beta_i) + swing stop),  reacted by transverse forces
  * (M_A + M_B) / length
  */
@@ -42,14 +43,15 @@ static Carrier coupler_carrier(CzBlock *d, int side) {
     return eight_rows(row);
 }
 
-/* Line between the pivots: closure, rate, direction, angle's rate (in SLIP_RATE), length, arms. */
+/* Line between the pivots: closure, rate, direction, angle's rate (in SLIP_RATE), length, arms. It
+ * lies along the track, whatever the closure, where nothing tilts. */
 static void coupler_geometry(CzBlock *d, const Carrier *a, const Carrier *b) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict x_a = P(PIVOT_X_A), *restrict z_a = P(PIVOT_Z_A);
     const double *restrict x_b = P(PIVOT_X_B), *restrict z_b = P(PIVOT_Z_B);
     const double *restrict distance = P(PIVOT_DISTANCE), *restrict rise = P(PIVOT_RISE);
     const double *restrict free_length = P(COUPLER_LENGTH);
-    const double *restrict tilts = C(TILTS);
+    const double *restrict tilts = P(TILTS);
     const Carrier ca = *a, cb = *b;
     double *restrict closure = S(CLOSURE), *restrict rate = S(RATE), *restrict turn = S(SLIP_RATE);
     double *restrict direction_x = S(NORMAL_X), *restrict direction_z = S(NORMAL_Z),
@@ -66,8 +68,11 @@ static void coupler_geometry(CzBlock *d, const Carrier *a, const Carrier *b) {
             tilts[i] * (rise[i] + (cb.z[i] - ca.z[i]) + (bz - z_b[i]) - (az - z_a[i]));
         const double vx = (cb.vx[i] - bz * cb.turn[i]) - (ca.vx[i] - az * ca.turn[i]);
         const double vz = tilts[i] * ((cb.vz[i] + bx * cb.turn[i]) - (ca.vz[i] + ax * ca.turn[i]));
-        const double l = sqrt(dx * dx + dz * dz);
-        const double inverse = 1.0 / l, nx = dx * inverse, nz = dz * inverse;
+        const double apart = sqrt(dx * dx + dz * dz);
+        const double strut = dx < 0.0 ? -apart : apart; /* pivots that pass fail the run */
+        const double l = tilts[i] > 0.0 ? strut : dx;
+        const double inverse = 1.0 / (tilts[i] > 0.0 ? strut : 1.0);
+        const double nx = tilts[i] > 0.0 ? dx * inverse : 1.0, nz = dz * inverse;
         closure[i] = free_length[i] - l;
         rate[i] = -(nx * vx + nz * vz);
         turn[i] = (nx * vz - nz * vx) * inverse;
@@ -148,7 +153,7 @@ static void coupler_forces(CzBlock *d) {
     const double *restrict moment_a = S(SPRING_UP_A), *restrict moment_b = S(SPRING_UP_B);
     double *restrict fx = S(CURVE_VALUE), *restrict fz = S(CURVE_SLOPE),
                      *restrict total = S(INTERFACE_FORCE);
-    const double *restrict tilts = C(TILTS);
+    const double *restrict tilts = P(TILTS);
     const double *restrict top = S(COUPLER_TOP), *restrict more = S(RELEASE_MORE);
     double *restrict kept = S(COUPLER_FORCE), *restrict power = POWER(COUPLER);
     double *restrict push = S(COUPLER_PUSH), *restrict drop = S(STEP_DROP);

@@ -108,7 +108,8 @@ static CzInterfaceFacts interface_facts(const CzModel *model, const CzLanes *lan
     CzInterfaceFacts facts = {
         .strut_length = NAN, .critical_force = NAN, .tube_force = NAN, .anti_climber_gap = NAN};
     if (cz_lane_value(lanes, interface, CZ_P_COUPLER) > 0.0) {
-        facts.strut_length = cz_lane_value(lanes, interface, CZ_P_COUPLER_LENGTH);
+        if (cz_lane_value(lanes, interface, CZ_P_TILTS) > 0.0)
+            facts.strut_length = cz_lane_value(lanes, interface, CZ_P_COUPLER_LENGTH);
         facts.critical_force =
             cz_critical_force(model, lanes, interface, (const int[]){interface, interface + 1});
         facts.tube_force = smaller(tube_force(lanes, interface, CZ_SIDE_A),

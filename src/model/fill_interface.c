@@ -14,7 +14,6 @@
 #define SMALLEST_COMPLIANCE                                                                        \
     1e-14                      /* where a crush zone in series gives way instead [m/N] (ours)      \
                                 */
-#define PIVOT_BEHIND_PLANE 1.0 /* of a side without a coupler length [m] (ours) */
 #define OVERLAP_TOLERANCE 1e-9 /* of rounding [m] */
 
 /* One side of the interface. */
@@ -34,6 +33,7 @@ typedef struct Pair {
     int lane; /* car in whose lane the numbers stand */
     Side side[2];
     bool has_couplers, has_side_buffers;
+    bool tilts;      /* a car that moves up and down meets one that can move */
     double distance; /* of the foremost planes at t = 0 [m] */
 } Pair;
 
@@ -86,10 +86,11 @@ static double coupler_gap(const Side *side) {
     return has_coupler(side) ? side->end->coupler.gap : 0.0;
 }
 
-static double coupler_length(const Side *side) {
-    if (!has_coupler(side) || isnan(side->end->coupler.length))
-        return PIVOT_BEHIND_PLANE;
-    return side->end->coupler.length;
+/* Pivot to face, of a coupler that takes part in a strut; 0 of one that pushes along the track. */
+static double strut_length(const Pair *pair, int which) {
+    const Side *side = &pair->side[which];
+    const bool has_pivot = side->is_full || (pair->tilts && !side->is_fixed);
+    return has_coupler(side) && has_pivot ? side->end->coupler.length : 0.0;
 }
 
 static double face_gap(const Side *side) {
@@ -202,16 +203,18 @@ static CzStatus fill_tubes(const Pair *pair, int which, double *compliance) {
 
 static void fill_coupler_pivot(const Pair *pair, int which, double height) {
     const Side *side = &pair->side[which];
-    const double behind = coupler_gap(side) + coupler_length(side);
+    const double length = strut_length(pair, which), behind = coupler_gap(side) + length;
     const bool on_end =
         side->is_full && has_coupler(side) && side->end->coupler.anchor == CZ_ANCHOR_END;
     const double carrier = on_end ? side->end->cg_height : side->vehicle->cg_height;
     const double arm = side->plane - behind - (on_end ? side->end->distance : 0.0);
     put(pair, CZ_OF_SIDE(CZ_P_COUPLER_ON_END, which), on_end);
     put(pair, which == CZ_SIDE_A ? CZ_P_PIVOT_X_A : CZ_P_PIVOT_X_B,
-        side->sign * (side->is_full ? arm : PIVOT_BEHIND_PLANE));
+        side->sign * (side->is_full ? arm : 0.0));
     put(pair, which == CZ_SIDE_A ? CZ_P_PIVOT_Z_A : CZ_P_PIVOT_Z_B,
         side->is_full ? height - carrier : 0.0);
+    if (length > 0.0)
+        put(pair, CZ_OF_SIDE(CZ_P_STRUT_LENGTH, which), length);
 }
 
 static void fill_shear_off(const Pair *pair, int which, const CzShearOff *shear_off) {
@@ -255,7 +258,8 @@ static CzStatus fill_couplers(const Pair *pair) {
     if (!pair->has_couplers)
         return CZ_OK;
     const Heights heights = heights_of(pair, coupler_height);
-    const double length = coupler_length(a) + coupler_length(b);
+    const double rise = pair->tilts ? heights.rise : 0.0;
+    const double length = strut_length(pair, CZ_SIDE_A) + strut_length(pair, CZ_SIDE_B);
     double compliance = 0.0;
     for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
         fill_coupler_pivot(pair, which, heights.side[which]);
@@ -266,8 +270,8 @@ static CzStatus fill_couplers(const Pair *pair) {
     put(pair, CZ_P_COUPLER, 1.0);
     put(pair, CZ_P_COUPLED, is_inner && has_coupler(a) && has_coupler(b));
     put(pair, CZ_P_PIVOT_DISTANCE, pair->distance + coupler_gap(a) + coupler_gap(b) + length);
-    put(pair, CZ_P_PIVOT_RISE, heights.rise);
-    put(pair, CZ_P_COUPLER_LENGTH, sqrt(length * length + heights.rise * heights.rise));
+    put(pair, CZ_P_PIVOT_RISE, rise);
+    put(pair, CZ_P_COUPLER_LENGTH, sqrt(length * length + rise * rise));
     put(pair, CZ_P_COUPLER_COMPLIANCE, compliance);
     pair->fill->lanes->has_couplers = 1;
     return CZ_OK;
@@ -447,6 +451,9 @@ CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *b
                  .lane = interface,
                  .side = {make_side(fill, interface, CZ_FRONT, behind),
                           make_side(fill, interface + 1, CZ_REAR, ahead)}};
+    const Side *a = &pair.side[CZ_SIDE_A], *b = &pair.side[CZ_SIDE_B];
+    pair.tilts = (a->is_full || b->is_full) && !a->is_fixed && !b->is_fixed;
+    put(&pair, CZ_P_TILTS, pair.tilts);
     pair.has_couplers = pairs(pair.side, has_coupler);
     pair.has_side_buffers = pairs(pair.side, has_side_buffers);
     set_offsets(&pair);

@@ -249,8 +249,8 @@ static double buffer_damping(const Car *car, CzParameter linear_a, CzParameter q
     return strongest;
 }
 
-/* Rotation of the strut against its carriers: (z_B - z_A) / l - pitch. */
-static void note_swing(const Car *car, const char *name, const Carrier carrier[2]) {
+/* Length of the strut once all strokes are used [m]. */
+static double shortest_strut(const Car *car) {
     static const CzCurveId strokes[] = {CZ_CURVE_BUFFER_A,      CZ_CURVE_BUFFER_B,
                                         CZ_CURVE_TUBE_A,        CZ_CURVE_TUBE_B,
                                         CZ_CURVE_SECOND_TUBE_A, CZ_CURVE_SECOND_TUBE_B};
@@ -260,11 +260,18 @@ static void note_swing(const Car *car, const char *name, const Carrier carrier[2
         const double usable = car->lanes->curve[strokes[i]].usable[car->car];
         length -= usable < CZ_NEVER ? usable : 0.0;
     }
-    length = fmax(length, SHORTEST_STRUT * full);
-    const double a = value(car, CZ_P_PIVOT_X_A) / length + 1.0;
-    const double b = value(car, CZ_P_PIVOT_X_B) / length - 1.0;
-    const double across = (carrier[0].inverse_mass + carrier[1].inverse_mass) / (length * length) +
-                          a * a * carrier[0].inverse_inertia + b * b * carrier[1].inverse_inertia;
+    return fmax(length, SHORTEST_STRUT * full);
+}
+
+/* Rotation of the strut against its carriers: (z_B - z_A) / l - pitch; of a line along the track,
+ * -pitch. */
+static void note_swing(const Car *car, const char *name, const Carrier carrier[2]) {
+    const double per_length = value(car, CZ_P_TILTS) > 0.0 ? 1.0 / shortest_strut(car) : 0.0;
+    const double a = value(car, CZ_P_PIVOT_X_A) * per_length + 1.0;
+    const double b = value(car, CZ_P_PIVOT_X_B) * per_length - 1.0;
+    const double across =
+        (carrier[0].inverse_mass + carrier[1].inverse_mass) * per_length * per_length +
+        a * a * carrier[0].inverse_inertia + b * b * carrier[1].inverse_inertia;
     const double stop =
         fmax(value(car, CZ_P_SWING_STIFFNESS_A), value(car, CZ_P_SWING_STIFFNESS_B));
     const double hinge =

@@ -162,10 +162,28 @@ static void check_pairs(const CzRules *rules, const CzVehicle *behind, const CzV
     warn_of_lone_devices(rules, ahead, &ahead->rear, behind, &behind->front);
 }
 
+/* A coupler that meets that of a full vehicle is part of a strut between two pivots. */
+static void check_strut(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end,
+                        const CzVehicle *other, const CzEnd *opposite) {
+    const bool meets = end->given && end->coupler.given && opposite->given &&
+                       opposite->coupler.given && other->model == CZ_MODEL_FULL;
+    if (!meets || vehicle->model != CZ_MODEL_RIGID || end->coupler.length > 0)
+        return;
+    cz_rule_absent(rules, &end->coupler,
+                   "the coupler of rigid '%.48s' meets that of full '%.48s', and the line between "
+                   "their pivots needs the length of both: length_m or length_mm",
+                   vehicle->name != NULL ? vehicle->name : "",
+                   other->name != NULL ? other->name : "");
+}
+
 static void check_neighbours(const CzRules *rules, const CzVehicle *behind,
                              const CzVehicle *ahead) {
     check_facing(rules, behind, ahead);
     check_pairs(rules, behind, ahead);
+    if (!behind->given || !ahead->given)
+        return;
+    check_strut(rules, behind, &behind->front, ahead, &ahead->rear);
+    check_strut(rules, ahead, &ahead->rear, behind, &behind->front);
 }
 
 static void check_train(const CzRules *rules, const CzTrain *train) {

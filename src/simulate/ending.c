@@ -86,6 +86,30 @@ static bool fails_to_solve(CzBatch *batch, int design) {
     return false;
 }
 
+/* Fails the design when a coupler has shortened by all that lies between its pivot and its face:
+ * there is no line between two pivots that have met. */
+static bool fails_to_keep_apart(CzBatch *batch, int design) {
+    static const int rows[] = {CZ_M_BUFFER_A, CZ_M_TUBE_A, CZ_M_SECOND_TUBE_A, CZ_M_SHEAR_A};
+    char what[160];
+    for (int car = 0; car + 1 < batch->model->n_car; ++car)
+        for (int side = 0; side < 2; ++side) {
+            const size_t lane = cz_lane(batch, car, design);
+            const double length = cz_parameter(batch, CZ_P_STRUT_LENGTH_A + side, lane);
+            double shortened = 0.0;
+            for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k)
+                shortened += cz_memory(batch, rows[k] + side, lane);
+            if (shortened < length)
+                continue;
+            snprintf(what, sizeof what,
+                     "shortened by %.0f mm, and no more than the %.0f mm from its pivot to its "
+                     "face are there",
+                     1e3 * shortened, 1e3 * length);
+            fail(batch, design, batch->model->car[car + side].name, "coupler", what);
+            return true;
+        }
+    return false;
+}
+
 /* Sum of all plastic strokes: it grows while anything flows. */
 static double plastic_strokes(const CzBatch *batch, int design) {
     static const int rows[] = {CZ_M_TUBE_A,        CZ_M_TUBE_B,        CZ_M_SECOND_TUBE_A,
@@ -187,7 +211,7 @@ static void look_for_climbing(CzBatch *batch, int design) {
 static void look_at(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
     if (fails_to_be_finite(batch, design) || fails_to_balance(batch, design) ||
-        fails_to_solve(batch, design))
+        fails_to_solve(batch, design) || fails_to_keep_apart(batch, design))
         return;
     look_for_climbing(batch, design);
     if (isnan(progress->wheel_rail) &&

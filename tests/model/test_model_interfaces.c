@@ -99,8 +99,8 @@ static void check_wall_side(const Built *built, int side) {
     const CzCurveId face = side == 1 ? CZ_CURVE_FACE_B : CZ_CURVE_FACE_A;
     assert_near(parameter(built, 0, CZ_P_COUPLER), 1.0, 0.0, 0.0);
     assert_near(parameter(built, 0, CZ_P_COUPLED), 0.0, 0.0, 0.0);
-    assert_near(parameter(built, 0, CZ_P_PIVOT_DISTANCE), 2.4, 1e-14, 0.0);
-    assert_near(parameter(built, 0, CZ_P_COUPLER_LENGTH), 2.4, 1e-14, 0.0);
+    assert_near(parameter(built, 0, CZ_P_PIVOT_DISTANCE), 1.4, 1e-14, 0.0);
+    assert_near(parameter(built, 0, CZ_P_COUPLER_LENGTH), 1.4, 1e-14, 0.0);
     assert_near(parameter(built, 0, CZ_P_PIVOT_RISE), 0.0, 0.0, 0.0);
     assert_near(parameter(built, 0, CZ_P_FACE_GAP), 0.32, 1e-14, 0.0);
     assert_near(parameter(built, 0, CZ_P_FACE_RISE), 0.0, 0.0, 0.0);

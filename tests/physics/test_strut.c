@@ -1,0 +1,104 @@
+/* A coupler is a strut where a car can tilt, and a push along the track where none can. */
+#include "physics/collision.h"
+
+#define FORCE 1e6
+#define ENERGY 3e6    /* of 60 t at 10 m/s, and of two such masses at 10 sqrt(2) m/s */
+#define BUFFER 25e3   /* 50 mm up to the tube's force */
+#define ELASTIC 2.5e3 /* of the tube: F^2 / (2 * 200 MN/m) */
+static const char *const long_tube = "tests/physics/cases/long-tube.yaml";
+
+static const CzElementResult *coupler_of(const CzRunSummary *summary, const char *name) {
+    const CzInterfaceResult *interface = &summary->interface[0];
+    for (int i = 0; i < interface->n_element; i++)
+        if (strcmp(interface->element[i].name, name) == 0)
+            return &interface->element[i];
+    fail_msg("no element '%s'", name);
+    return NULL;
+}
+
+/* The plateau carries until the energy is spent, 3 m on: further than any coupler is long. In the
+ * scenario with a partner the hard buffer ahead takes some joules, which its own force allows. */
+static void a_plateau_between_single_masses_carries_whatever_the_closure(void **state) {
+    (void)state;
+    const double stroke = (ENERGY - BUFFER - ELASTIC) / FORCE;
+    for (int scenario = 0; scenario < 3; scenario++) {
+        Collision collision = collide(long_tube, AS_WRITTEN, scenario);
+        const CzElementResult *coupler = coupler_of(collision.summary, "coupler A1");
+        assert_int_equal(collision.summary->status, CZ_OK);
+        assert_near(coupler->stroke, stroke, 1e-3, 0.0);
+        assert_near(coupler->peak_force, FORCE, 1e-3, 0.0);
+        collision_free(&collision);
+    }
+}
+
+/* Where no car tilts the length is no part of the motion. */
+static void the_length_of_a_coupler_does_not_move_single_masses(void **state) {
+    (void)state;
+    static const char *const lengths[] = {"parts.head.coupler.length_m=4.9",
+                                          "parts.head.coupler.length_m=5"};
+    for (int scenario = 0; scenario < 3; scenario++) {
+        Collision without = collide(long_tube, AS_WRITTEN, scenario);
+        for (int i = 0; i < 2; i++) {
+            Collision with = collide(long_tube, WITH(lengths[i]), scenario);
+            assert_true(with.summary->interface[0].peak_force ==
+                        without.summary->interface[0].peak_force);
+            assert_true(with.summary->vehicle[0].final_speed ==
+                        without.summary->vehicle[0].final_speed);
+            assert_true(coupler_of(with.summary, "coupler A1")->stroke ==
+                        coupler_of(without.summary, "coupler A1")->stroke);
+            collision_free(&with);
+        }
+        collision_free(&without);
+    }
+}
+
+/* Couplers at different heights do not push masses up that have one co-ordinate. */
+static void a_height_does_not_move_single_masses(void **state) {
+    (void)state;
+    Collision level = collide(long_tube, AS_WRITTEN, 2);
+    Collision offset =
+        collide(long_tube,
+                WITH("parts.head.coupler.height_m=0.7", "parts.hard-head.coupler.height_m=1.0"), 2);
+    assert_true(level.summary->vehicle[0].final_speed == offset.summary->vehicle[0].final_speed);
+    assert_near(offset.summary->momentum_error, 0.0, 0.0, 1e-9);
+    collision_free(&level);
+    collision_free(&offset);
+}
+
+/* A released coupler of a full car retracts past its own pivot: there is no line left to push
+ * along, whichever of two equal cars is asked. */
+static void a_coupler_that_closes_by_its_whole_length_fails_the_run(void **state) {
+    (void)state;
+    Collision collision = collide("problems/two-cars-25kmh.yaml",
+                                  WITH("trains.A.speed_km_h=60", "parts.front-coupler.length_m=0.7",
+                                       "parts.front-coupler.shear_off.retraction_space_mm=3000"),
+                                  0);
+    const CzRunSummary *summary = collision.summary;
+    assert_int_equal(summary->status, CZ_STATUS_RUN_FAILED);
+    assert_non_null(strstr(summary->failure, ": coupler: shortened by "));
+    assert_non_null(strstr(summary->failure, " the 700 mm from its pivot to its face"));
+    collision_free(&collision);
+}
+
+/* The same against a wall, which has no coupler to share the closure. */
+static void a_coupler_that_a_wall_closes_by_its_whole_length_fails_the_run(void **state) {
+    (void)state;
+    Collision collision = collide("problems/wall.yaml",
+                                  WITH("trains.A.speed_km_h=40", "parts.front-coupler.length_m=0.7",
+                                       "parts.front-coupler.shear_off.retraction_space_mm=3000"),
+                                  0);
+    assert_int_equal(collision.summary->status, CZ_STATUS_RUN_FAILED);
+    assert_non_null(strstr(collision.summary->failure, "A1: coupler: shortened by "));
+    collision_free(&collision);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_plateau_between_single_masses_carries_whatever_the_closure),
+        cmocka_unit_test(the_length_of_a_coupler_does_not_move_single_masses),
+        cmocka_unit_test(a_height_does_not_move_single_masses),
+        cmocka_unit_test(a_coupler_that_closes_by_its_whole_length_fails_the_run),
+        cmocka_unit_test(a_coupler_that_a_wall_closes_by_its_whole_length_fails_the_run),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

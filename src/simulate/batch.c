@@ -89,8 +89,9 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     const CzVehicle *own = cz_problem_vehicles(model->problem, &n_vehicle);
     const CzVehicle **used = cz_arena_allocate(&batch->arena, (size_t)n_design, sizeof *used);
     batch->design = cz_arena_allocate(&batch->arena, (size_t)n_design, sizeof *batch->design);
+    batch->load = cz_interface_loads_begin(batch, &batch->arena);
     batch->lanes = cz_lanes_create(model, n_design, &batch->arena);
-    if (used == NULL || batch->design == NULL || batch->lanes == NULL)
+    if (used == NULL || batch->design == NULL || batch->load == NULL || batch->lanes == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_design);
     for (int design = 0; design < n_design; ++design) {
         used[design] = vehicles != NULL && vehicles[design] != NULL ? vehicles[design] : own;

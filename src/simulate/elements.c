@@ -226,6 +226,18 @@ double cz_interface_energy(const CzBatch *batch, int interface, int design) {
     return energy;
 }
 
+double cz_interface_stored(const CzBatch *batch, int interface, int design) {
+    CzElementResult element[CZ_MAX_ELEMENTS] = {0};
+    double stored = 0.0;
+    for (int side = 0; side < 2; ++side) {
+        const int n = fill_side(batch, cz_lane(batch, interface, design), side, interface + side,
+                                design, element);
+        for (int k = 0; k < n; ++k)
+            stored += element[k].stored;
+    }
+    return stored;
+}
+
 /* How near an interface came to climbing, and when. */
 static void fill_climbing(const CzBatch *batch, int interface, int design,
                           CzInterfaceResult *result) {

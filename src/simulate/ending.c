@@ -1,9 +1,10 @@
 /* When a run ends: by rule, after its duration, or because it failed.
  *
- * By rule: no neighbouring cars close in or can meet again faster than CLOSING_SPEED, no plastic
- * element has flowed, every wheel is on the rail, and all of that for one body pitch period. A
- * brief run also ends when nothing has flowed for that long and no cars can meet again at more than
- * MEETING_SHARE of the first closing speed.
+ * By rule: no neighbouring cars close in or can meet again faster than CLOSING_SPEED, no interface
+ * that can open carries a force, none stores more than CZ_STORED_SHARE of the initial energy, no
+ * plastic element has flowed, every wheel is on the rail, and all of that for one body pitch
+ * period. A brief run also ends when nothing has flowed for that long, no cars can meet again at
+ * more than MEETING_SHARE of the first closing speed, and no interface stores what could make them.
  */
 #include "simulate/run.h"
 
@@ -112,11 +113,11 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
 
 /* Sum of all plastic strokes: it grows while anything flows. */
 static double plastic_strokes(const CzBatch *batch, int design) {
-    static const int rows[] = {CZ_M_TUBE_A,        CZ_M_TUBE_B,        CZ_M_SECOND_TUBE_A,
-                               CZ_M_SECOND_TUBE_B, CZ_M_SHEAR_A,       CZ_M_SHEAR_B,
-                               CZ_M_FACE_A,        CZ_M_FACE_B,        CZ_M_LIMP_PEAK_A,
-                               CZ_M_LIMP_PEAK_B,   CZ_M_SIDE_TUBE_A,   CZ_M_SIDE_TUBE_B,
-                               CZ_M_END_PEAK_REAR, CZ_M_END_PEAK_FRONT};
+    static const int rows[] = {CZ_M_TUBE_A,        CZ_M_TUBE_B,         CZ_M_SECOND_TUBE_A,
+                               CZ_M_SECOND_TUBE_B, CZ_M_SHEAR_A,        CZ_M_SHEAR_B,
+                               CZ_M_FACE_A,        CZ_M_FACE_B,         CZ_M_LIMP_PEAK_A,
+                               CZ_M_LIMP_PEAK_B,   CZ_M_SIDE_TUBE_A,    CZ_M_SIDE_TUBE_B,
+                               CZ_M_END_PEAK_REAR, CZ_M_END_PEAK_FRONT, CZ_M_SUPERSTRUCTURE_SET};
     double sum = 0.0;
     for (int car = 0; car < batch->model->n_car; ++car)
         for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k)
@@ -221,9 +222,12 @@ static void look_at(CzBatch *batch, int design) {
     const bool flows = strokes - progress->plastic > FLOW;
     progress->plastic = strokes;
     const bool off = wheels_are_off(batch, design);
-    const bool quiet =
-        !off && !flows && !closes_in(batch, design) && !can_meet_again(batch, design);
+    const CzLoadLeft left = cz_interface_loads_look(batch, design);
+    const double initial = progress->initial_energy;
+    const bool quiet = !off && !flows && !left.force && left.energy <= CZ_STORED_SHARE * initial &&
+                       !closes_in(batch, design) && !can_meet_again(batch, design);
     const bool settled = batch->brief && !off && !flows &&
+                         left.energy <= MEETING_SHARE * MEETING_SHARE * initial &&
                          meeting_speed(batch, design) <= MEETING_SHARE * batch->closing_speed;
     progress->quiet_since = holds_since(quiet, progress->quiet_since, batch->time);
     progress->settled_since = holds_since(settled, progress->settled_since, batch->time);

@@ -41,6 +41,8 @@ typedef struct CzProgressOfDesign {
     double quiet_since;   /* when the end-of-run conditions began to hold; NaN when they do not */
     double settled_since; /* likewise for the conditions of a brief run */
     double plastic;       /* sum of the plastic strokes at the last look [m] */
+    double dissipated;    /* when it was last seen to change [J] */
+    double dissipated_at; /* when that was [s] */
     double wheel_rail;    /* work at wheels and brakes until the trains first had one speed [J]; NaN
                              before */
     double override_time; /* NaN until it happens */
@@ -62,7 +64,8 @@ typedef struct CzBatch {
     double step, time;             /* [s] */
     long n_step;
     CzHistory history;
-    CzProgressOfDesign *design; /* (n_design) */
+    CzProgressOfDesign *design;   /* (n_design) */
+    struct CzInterfaceLoad *load; /* by lane */
 } CzBatch;
 
 /* Lane of a car of a design. */
@@ -111,6 +114,16 @@ double cz_wheel_rail_work(const CzBatch *batch, int design);
 /* Mean speed of the vehicles of a train that can move, by mass. */
 double cz_train_speed(const CzBatch *batch, int train, int design);
 double cz_momentum_error(const CzBatch *batch, int design);
+/* interface_load.c: what the interfaces of a design still hold that can change the motion. */
+#define CZ_STORED_SHARE 1e-3 /* of the initial energy: what is less changes no speed (ours) */
+typedef struct CzInterfaceLoad CzInterfaceLoad;
+typedef struct CzLoadLeft {
+    bool force;    /* an interface that can open carries one */
+    double energy; /* largest elastic energy of an interface [J] */
+} CzLoadLeft;
+CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena);
+CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design);
+
 /* ending.c: looks at all designs; true when every one is over. */
 bool cz_ending_look(CzBatch *batch);
 
@@ -122,6 +135,8 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design);
 void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result);
 /* What the elements of an interface have dissipated so far [J], as cz_interface_fill tells it. */
 double cz_interface_energy(const CzBatch *batch, int interface, int design);
+/* Elastic energy in the elements of an interface [J]. */
+double cz_interface_stored(const CzBatch *batch, int interface, int design);
 CZ_MUST_CHECK CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design,
                                        CzVehicleResult *result);
 

@@ -9,6 +9,7 @@ set(CZ_SOURCES_simulate
     filter.c
     history.c
     input_curve.c
+    interface_load.c
     reference.c
     rest.c
     run.c

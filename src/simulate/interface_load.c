@@ -1,0 +1,109 @@
+/* What the interfaces still hold that can change the motion, so that a run is not over.
+ *
+ *   held      the closure has stayed within STILL_CLOSURE for STILL_TIME: brakes or a wall carry
+ *             the force, and nothing will come of it
+ *   force     of an interface that can open and is not held
+ *   energy    elastic, of an interface that can open and is not held; of couplers that are whole
+ *             with the kinetic energy mu v^2 / 2 of their oscillation
+ *
+ * Couplers that are whole cannot open. What they store goes to and fro until it is dissipated;
+ * where nothing dissipates it, only the first unloading shows anything new.
+ */
+#include "simulate/run.h"
+
+#include <math.h>
+
+#define SMALLEST_FORCE 1.0 /* [N]: rounding of a chain's balance and no more (ours) */
+#define STILL_CLOSURE 1e-4 /* [m] (ours) */
+#define STILL_TIME 0.2     /* a force of 100 N would open 20 t by more than that [s] (ours) */
+#define CLOSURE_GROWS 1e-6 /* [m] (ours) */
+#define CYCLE_TIME                                                                                 \
+    1.0 /* of heavy wagons on soft draw gear, which dissipate while they push [s]                  \
+           (ours) */
+
+struct CzInterfaceLoad {
+    double closure;      /* about which it has been still [m] */
+    double still_since;  /* [s] */
+    double largest;      /* closure [m] */
+    bool to_be_unloaded; /* has not given back its energy since it reached that */
+};
+
+CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena) {
+    const size_t n = (size_t)batch->model->n_car * (size_t)batch->n_design;
+    return cz_arena_allocate(arena, n, sizeof(CzInterfaceLoad));
+}
+
+/* Whether nothing keeps the two sides from parting. */
+static bool can_open(const CzBatch *batch, size_t lane) {
+    bool whole = cz_parameter(batch, CZ_P_COUPLED, lane) > 0.5;
+    for (int side = 0; side < 2; ++side)
+        whole &= cz_memory(batch, CZ_M_SHEAR_A + side, lane) <
+                 cz_parameter(batch, CZ_P_SHEAR_SOFTENING_A + side, lane);
+    return !whole;
+}
+
+/* Whether the closure has not moved for long enough. */
+static bool is_held(CzInterfaceLoad *load, double closure, double now) {
+    if (fabs(closure - load->closure) > STILL_CLOSURE) {
+        load->closure = closure;
+        load->still_since = now;
+    }
+    return now - load->still_since >= STILL_TIME;
+}
+
+/* Whether the energy is still to be given back for the first time. */
+static bool is_to_be_unloaded(CzInterfaceLoad *load, double largest, bool stores) {
+    if (largest > load->largest + CLOSURE_GROWS) {
+        load->largest = largest;
+        load->to_be_unloaded = true;
+    }
+    load->to_be_unloaded &= stores;
+    return load->to_be_unloaded;
+}
+
+/* Kinetic energy of two cars about their common motion. */
+static double relative_energy(const CzBatch *batch, size_t lane, size_t ahead) {
+    const double inverse = cz_parameter(batch, CZ_P_INVERSE_BODY_MASS, lane) +
+                           cz_parameter(batch, CZ_P_INVERSE_BODY_MASS, ahead);
+    const double rate =
+        cz_velocity(batch, CZ_DOF_BODY_X, lane) - cz_velocity(batch, CZ_DOF_BODY_X, ahead);
+    return inverse > 0.0 ? 0.5 * rate * rate / inverse : 0.0;
+}
+
+/* Whether energy has been dissipated within CYCLE_TIME, more than the share that counts. */
+static bool still_dissipates(const CzBatch *batch, int design) {
+    CzProgressOfDesign *progress = &batch->design[design];
+    const double lost = cz_energy_fill(batch, design).dissipated;
+    if (fabs(lost - progress->dissipated) > CZ_STORED_SHARE * progress->initial_energy) {
+        progress->dissipated = lost;
+        progress->dissipated_at = batch->time;
+    }
+    return batch->time - progress->dissipated_at < CYCLE_TIME;
+}
+
+CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design) {
+    const double least = CZ_STORED_SHARE * batch->design[design].initial_energy;
+    CzLoadLeft left = {false, 0.0};
+    double oscillating = 0.0;
+    for (int interface = 0; interface + 1 < batch->model->n_car; ++interface) {
+        const size_t lane = cz_lane(batch, interface, design);
+        const size_t ahead = cz_lane(batch, interface + 1, design);
+        CzInterfaceLoad *load = &batch->load[lane];
+        const double closure =
+            cz_position(batch, CZ_DOF_BODY_X, lane) - cz_position(batch, CZ_DOF_BODY_X, ahead);
+        const double largest = cz_extreme(batch, CZ_E_INTERFACE_SHORTENING, lane);
+        const double force = cz_scratch(batch, CZ_S_INTERFACE_FORCE, lane);
+        const double energy = cz_interface_stored(batch, interface, design);
+        const bool opens = can_open(batch, lane);
+        const bool unloads = is_to_be_unloaded(load, largest, energy > least);
+        if (is_held(load, closure, batch->time))
+            continue;
+        left.force |= opens && fabs(force) > SMALLEST_FORCE;
+        left.energy = fmax(left.energy, opens || unloads ? energy : 0.0);
+        if (!opens)
+            oscillating = fmax(oscillating, energy + relative_energy(batch, lane, ahead));
+    }
+    if (oscillating > fmax(least, left.energy) && still_dissipates(batch, design))
+        left.energy = oscillating;
+    return left;
+}

@@ -1,0 +1,95 @@
+/* A run without a duration ends when nothing can come of the forces between the cars any more. */
+#include "physics/collision.h"
+
+#define SPRINGS "tests/physics/cases/springs-that-part.yaml"
+
+/* The last recorded force of an interface [kN]. */
+static double last_force(const Collision *collision, const char *name) {
+    return channel(collision, name)[n_sample(collision) - 1];
+}
+
+static const char *const devices[] = {"parts.head.face_gap_m=0", "parts.head.coupler.gap_m=0",
+                                      "parts.head.side_buffers.gap_m=0"};
+enum { N_DEVICE = sizeof devices / sizeof devices[0] };
+
+/* Two equal masses with springs between them exchange their speeds, whatever carries the force and
+ * however long the oscillation takes. The scheme's error of a half period is (omega h)^2 / 24. */
+static void elastic_cars_exchange_their_speeds_without_a_duration(void **state) {
+    (void)state;
+    static const char *const masses[][2] = {
+        {"trains.A.vehicles.A1.mass_t=40", "trains.B.vehicles.B1.mass_t=40"},
+        {"trains.A.vehicles.A1.mass_t=160", "trains.B.vehicles.B1.mass_t=160"}};
+    for (int i = 0; i < N_DEVICE; i++) {
+        for (size_t k = 0; k < 2; k++) {
+            Collision collision = collide(SPRINGS, WITH(devices[i], masses[k][0], masses[k][1]), 0);
+            assert_completed(&collision);
+            assert_near(collision.summary->vehicle[0].final_speed, 0.0, 0.0, 1e-3);
+            assert_near(collision.summary->vehicle[1].final_speed, 10.0, 1e-4, 0.0);
+            assert_near(collision.summary->energy.stored, 0.0, 0.0, 1.0);
+            assert_true(last_force(&collision, "F_A1-B1_kN") == 0.0);
+            collision_free(&collision);
+        }
+    }
+}
+
+static void references_and_brief_runs_await_the_rebound_too(void **state) {
+    (void)state;
+    const CzIntegrator integrators[] = {CZ_INTEGRATOR_ZHAI, CZ_INTEGRATOR_ERK, CZ_INTEGRATOR_ADAMS};
+    for (int i = 0; i < N_DEVICE; i++) {
+        for (int k = 0; k < 3; k++) {
+            CzSimulateOptions options = cz_simulate_options_default();
+            options.integrator = integrators[k];
+            options.brief = k == 0;
+            Collision collision = collide_so(SPRINGS, WITH(devices[i]), 0, &options);
+            assert_completed(&collision);
+            /* A brief run may end with a sixth of the first energy still stored. */
+            const double left = options.brief ? 0.16 : 1e-3;
+            assert_true(collision.summary->energy.stored <=
+                        left * collision.summary->energy.initial);
+            collision_free(&collision);
+        }
+    }
+}
+
+/* Three coupled cars: only the first meets the wall, the others push it on. When the run ends
+ * a joint holds at most a thousandth of the first energy, half of it as motion at any time on the
+ * mean: the cars have all but one speed. */
+static void a_coupled_train_leaves_the_wall(void **state) {
+    (void)state;
+    Collision collision = collide("tests/physics/cases/train-and-wall.yaml", AS_WRITTEN, 0);
+    assert_completed(&collision);
+    assert_true(collision.summary->ended == CZ_ENDED_BY_RULE);
+    assert_true(last_force(&collision, "F_A1-wall_kN") == 0.0);
+    const double rest = 1e-3 * collision.summary->energy.initial; /* [J] */
+    for (int car = 0; car < 2; car++) {
+        const double apart = collision.summary->vehicle[car].final_speed -
+                             collision.summary->vehicle[car + 1].final_speed;
+        assert_true(collision.summary->vehicle[car].final_speed < 0.0);
+        assert_true(0.5 * 20e3 * apart * apart < 2.0 * rest);
+    }
+    collision_free(&collision);
+}
+
+/* Brakes that hold a compressed buffer hold it for ever: the force is there, and the run is over.
+ */
+static void a_train_held_by_its_brakes_is_at_its_end(void **state) {
+    (void)state;
+    Collision collision = collide("tests/physics/cases/held-by-brakes.yaml", AS_WRITTEN, 0);
+    assert_completed(&collision);
+    assert_true(collision.summary->ended == CZ_ENDED_BY_RULE);
+    const double left = last_force(&collision, "F_A1-wall_kN");
+    assert_true(left > 10.0);
+    /* A tenth of a millimetre at the 5 Hz at which the body rocks on its links. */
+    assert_near(collision.summary->vehicle[0].final_speed, 0.0, 0.0, 3e-3);
+    collision_free(&collision);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(elastic_cars_exchange_their_speeds_without_a_duration),
+        cmocka_unit_test(references_and_brief_runs_await_the_rebound_too),
+        cmocka_unit_test(a_coupled_train_leaves_the_wall),
+        cmocka_unit_test(a_train_held_by_its_brakes_is_at_its_end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

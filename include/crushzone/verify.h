@@ -44,9 +44,10 @@ typedef struct CzVerifiedValue {
     double value[CZ_N_VERIFY_WAY];  /* NaN when not computed */
     double change[CZ_N_VERIFY_WAY]; /* of a check or target: by how much its margin changes, a
                                        margin above 1 counting as 1, over the size of one below
-                                       -1; of the others: |value - record| over the record, over
-                                       1 for a smallest margin; NaN for a mere yes or no and when
-                                       not computed */
+                                       -1; of the others: |value - record| over the record, or
+                                       over the scale of its quantity where the record is next to
+                                       zero, over 1 for a smallest margin; NaN for a mere yes or no
+                                       and when not computed */
     bool flips[CZ_N_VERIFY_WAY];    /* another verdict than that of the record */
 } CzVerifiedValue;
 

@@ -7,6 +7,11 @@
  * count by what it is but by what is allowed. A margin ends at 100 %: an upper limit leaves no
  * more, and of what a lower limit leaves beyond that no verdict depends. Where a limit is exceeded
  * many times over, as one on "nothing" is, the change is one of what it is exceeded by.
+ *
+ * Any other number changes by a share of itself. Where it is next to zero, there is nothing to take
+ * a share of: an energy is then measured by a hundredth of the kinetic energy before the collision,
+ * so that what passes is at most 1e-4 of it, as much as a balanced run may lose (ours); a force, a
+ * length and whatever a metric is by the smallest scale of that metric's margins.
  */
 #include "crushzone/verify.h"
 
@@ -89,7 +94,7 @@ typedef struct Number {
     const char *name, *scenario, *where, *unit;
     double value;
     double counted;             /* a change is the difference of this over `scale` */
-    double scale;               /* 0: the record's own size; infinite: no change counts */
+    double scale;               /* infinite: no change counts */
     const CzCheckResult *check; /* NULL for the objective and the bulk of a scenario */
 } Number;
 
@@ -106,10 +111,17 @@ static Number number_of_check(const CzCheck *check, const CzCheckResult *result)
 
 enum { N_BULK = 3 };
 
+/* What an energy next to zero is measured by, in its unit. */
+static double energy_scale(const CzRunSummary *run, double per_unit) {
+    const double share = 0.01; /* ours */
+    return share * run->energy.initial / per_unit;
+}
+
 static Number bulk_of(const CzRunSummary *run, int which) {
     static const char *const name[N_BULK] = {"largest interface force", "largest closure",
                                              "dissipated energy"};
     static const char *const unit[N_BULK] = {"kN", "mm", "kJ"};
+    const double least[N_BULK] = {1, 1, energy_scale(run, 1e3)}; /* those of the metrics */
     Number number = {
         .name = name[which], .scenario = run->scenario, .unit = unit[which], .where = ""};
     if (which == 2)
@@ -124,6 +136,7 @@ static Number bulk_of(const CzRunSummary *run, int which) {
         }
     }
     number.counted = number.value;
+    number.scale = fmax(fabs(number.value), least[which]);
     return number;
 }
 
@@ -139,12 +152,26 @@ static Number number_of_match(const CzMatchResult *match, const CzCheckResult *r
                     .check = result};
 }
 
+/* What an objective that is a metric is measured by when it is next to zero. */
+static double least_scale_of(const CzMetricKind *kind, const CzEvaluation *evaluation) {
+    double scale = fabs(kind->scale); /* 1 of a yes or no */
+    for (int i = 0; strcmp(kind->unit, "kJ") == 0 && i < evaluation->n_run; i++)
+        if (evaluation->run != NULL && evaluation->run[i] != NULL)
+            scale = fmax(scale, energy_scale(cz_run_summary(evaluation->run[i]), kind->per_unit));
+    return scale;
+}
+
 /* What the objective changes by: a margin by itself, a fit's sum of squares not at all, because it
  * is next to nothing and its terms are looked at one by one, anything else by its own size. */
 static double scale_of_objective(const CzEvaluator *evaluator, const CzEvaluation *evaluation) {
     if (cz_evaluator_maximises_margin(evaluator))
         return 1.0;
-    return evaluation->n_match > 0 && evaluator->own_objective == NULL ? INFINITY : 0.0;
+    const double own = fabs(evaluation->objective);
+    if (evaluator->own_objective != NULL)
+        return own;
+    return evaluation->n_match > 0
+               ? INFINITY
+               : fmax(own, least_scale_of(evaluator->objective.kind, evaluation));
 }
 
 /* Lists the numbers; `number` may be NULL to count them. */
@@ -187,13 +214,10 @@ static int list_numbers(const CzEvaluator *evaluator, const CzEvaluation *evalua
 
 /* ---- comparison ------------------------------------------------------------------------------ */
 
-static bool passes(CzVerdict verdict) {
-    return verdict == CZ_VERDICT_PASS || verdict == CZ_VERDICT_PROVISIONAL;
-}
-
 /* Whether a check is judged otherwise; provisional or not is no matter of numbers. */
 static bool differs(CzVerdict a, CzVerdict b) {
-    return passes(a) != passes(b) || (a == CZ_VERDICT_FAIL) != (b == CZ_VERDICT_FAIL);
+    return cz_verdict_passes(a) != cz_verdict_passes(b) ||
+           (a == CZ_VERDICT_FAIL) != (b == CZ_VERDICT_FAIL);
 }
 
 static void begin_value(CzVerifiedValue *value, const Number *number) {
@@ -208,11 +232,10 @@ static void begin_value(CzVerifiedValue *value, const Number *number) {
 static void compare(CzVerification *verification, CzVerifyWay way, int index, const Number *record,
                     const Number *again) {
     CzVerifiedValue *value = &verification->value[index];
-    const double scale = record->scale > 0.0 ? record->scale : fabs(record->counted);
     const double difference = fabs(again->counted - record->counted);
     value->value[way] = again->value;
-    if (isfinite(scale))
-        value->change[way] = difference == 0.0 ? 0.0 : difference / scale;
+    if (isfinite(record->scale))
+        value->change[way] = difference == 0.0 ? 0.0 : difference / record->scale;
     value->flips[way] =
         record->check != NULL && differs(record->check->verdict, again->check->verdict);
     verification->n_flip[way] += value->flips[way];

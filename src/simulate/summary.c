@@ -102,6 +102,12 @@ static double plastic_energy(const CzBatch *batch, int design) {
     return 0.5 * reduced * dv * dv;
 }
 
+/* Share of an energy in what is dissipated; NaN where that is nothing. */
+static double share_of(double part, double dissipated) {
+    const double nothing = 100; /* [J] */
+    return dissipated > nothing ? part / dissipated : NAN;
+}
+
 /* Numbers that a failed run must not show. */
 static void blank_energy(CzEnergy *energy) {
     *energy = (CzEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
@@ -164,7 +170,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     summary->beyond_validity_time = progress->override_time;
     for (int i = 0; i < n_interface; ++i) {
         cz_interface_fill(batch, i, design, &interface[i]);
-        interface[i].energy_share = interface[i].energy / summary->energy.dissipated;
+        interface[i].energy_share = share_of(interface[i].energy, summary->energy.dissipated);
         for (int k = 0; k < interface[i].n_element; ++k)
             summary->energy.occupied += interface[i].element[k].zone_energy[CZ_ZONE_OCCUPIED];
         if (failed)

@@ -29,6 +29,7 @@ typedef enum CzVerdict {
     CZ_VERDICT_NOT_CHECKED
 } CzVerdict;
 CZ_API const char *cz_verdict_text(CzVerdict verdict);
+CZ_API bool cz_verdict_passes(CzVerdict verdict); /* a pass, provisional or not */
 
 /* One check of one scenario. Texts are borrowed from the evaluator. */
 typedef struct CzCheckResult {
@@ -41,8 +42,10 @@ typedef struct CzCheckResult {
     double limit;         /* in `unit` */
     double value;         /* in `unit`; NaN when not checked or when it does not apply */
     const char *unit;
-    double margin;   /* (limit - value) / max(|limit|, scale), sign turned for lower limits */
+    double margin;   /* (limit - value) / max(|limit|, scale), sign turned for lower limits; NaN
+                        for a yes or no, and when not checked or when it does not apply */
     bool is_minimum; /* the limit is a lower one */
+    bool is_flag;    /* a yes or no */
     CzVerdict verdict;
     const char *why; /* why it was not checked, or does not apply, or that its run went beyond the
                         model's validity; NULL otherwise */
@@ -79,13 +82,28 @@ typedef struct CzEvaluation {
     double violation; /* largest positive constraint, 0 when feasible, infinite when failed */
     int n_check;
     CzCheckResult *check; /* the matches of a fit last (n_check) */
-    CzVerdict verdict;    /* over all checks */
-    int n_match;          /* the last constraints belong to them */
-    CzMatchResult *match; /* of a fit (n_match) */
+    CzVerdict verdict;    /* over all checks: cz_verdict_over */
+    bool beyond_validity; /* something climbed in a run */
+    int n_not_covered;    /* what the profile asks for and this program cannot compute, which is no
+                             check and counts in no verdict */
+    const char *const *not_covered; /* borrowed from the evaluator (n_not_covered) */
+    int n_match;                    /* the last constraints belong to them */
+    CzMatchResult *match;           /* of a fit (n_match) */
     int n_run;
     CzRun **run; /* one per scenario when asked for, else NULL */
 } CzEvaluation;
 CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
+
+/* The verdict over the checks with these names, over all of them when n_name is 0: FAIL when one
+ * fails or something climbed; else NOT CHECKED when a run failed or is incomplete, a check could
+ * not be made, or there is none; else PROVISIONAL when one satisfies a limit that nobody has
+ * confirmed; else a pass. */
+CZ_API CzVerdict cz_verdict_over(const CzEvaluation *evaluation, int n_name,
+                                 const char *const *name);
+
+/* Whether a check comes before another when the worst is looked for: fails by margin, broken
+ * yes-or-no checks, what was not checked, passes by margin, what does not apply. */
+CZ_API bool cz_check_is_worse(const CzCheckResult *check, const CzCheckResult *other);
 
 typedef struct CzEvaluatorOptions {
     int n_job;               /* threads; 0 takes the number of processors */

@@ -66,8 +66,9 @@ typedef struct CzSweepPoint {
     double value[CZ_MOST_AXES]; /* in the units of the paths */
     CzSweepState state;
     CzVerdict verdict; /* over the checks asked for; CZ_VERDICT_NOT_CHECKED unless done */
-    double margin;     /* smallest of them; NaN when none has one */
-    char check[96];    /* the check with that margin, its scenario and place; empty when none */
+    double margin;     /* smallest of them; NaN when none has one, or a yes or no alone fails */
+    char check[96];    /* the check with that margin, or the yes or no that fails, its scenario and
+                          place; empty when none */
     char scenario[64];
     char where[48];
     double metric[CZ_MOST_SWEPT_METRICS]; /* in the metrics' units; NaN when unknown (n_metric) */
@@ -85,8 +86,8 @@ typedef struct CzSweep {
     const char *metric_doc[CZ_MOST_SWEPT_METRICS];  /* what it is; static */
     int n_point;                                    /* product of the axes' lengths */
     CzSweepPoint *point;                            /* the last axis changes fastest (n_point) */
-    int worst; /* a point whose run failed, else the one with the smallest margin; -1 when none is
-                  done */
+    int worst; /* a point whose run failed, else one that fails, else the one with the smallest
+                  margin; -1 when none is done */
     bool is_interrupted;
     CzProblem *problem; /* as written, for titles and warnings */
     double wall_s;

@@ -46,9 +46,7 @@ static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
     }
     const bool judges =
         arguments->command == CZ_COMMAND_CHECK || arguments->text[CZ_OPTION_STRICT] != NULL;
-    const bool passes =
-        evaluation->verdict == CZ_VERDICT_PASS || evaluation->verdict == CZ_VERDICT_PROVISIONAL;
-    if (!judges || passes)
+    if (!judges || cz_verdict_passes(evaluation->verdict))
         return 0;
     if (evaluation->verdict == CZ_VERDICT_NOT_CHECKED)
         cz_tell(arguments, "not everything could be checked, so this is no pass");

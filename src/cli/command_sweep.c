@@ -28,8 +28,7 @@ static int judge(const CzArguments *arguments, const CzSweep *sweep) {
             cz_tell(arguments, "a run failed or is incomplete: its point is no basis for a design");
             return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
         }
-        passes &= point->state == CZ_SWEEP_DONE &&
-                  (point->verdict == CZ_VERDICT_PASS || point->verdict == CZ_VERDICT_PROVISIONAL);
+        passes &= point->state == CZ_SWEEP_DONE && cz_verdict_passes(point->verdict);
     }
     const bool judges = arguments->text[CZ_OPTION_STRICT] != NULL;
     return judges && !passes ? cz_status_exit_code(CZ_STATUS_VIOLATED) : 0;

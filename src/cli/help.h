@@ -19,6 +19,13 @@ extern const CzTopicInfo cz_topics[CZ_N_TOPIC];
 CzTopic cz_topic_named(const char *name);
 void cz_help_write_topic(CzTopic topic);
 
+/* How checks add up to a verdict: in which order the words are tried, and what is to be said
+ * beside. */
+int cz_n_verdict_rule(void);
+const char *cz_verdict_rule_word(int index);
+const char *cz_verdict_rule_text(int index);
+extern const char cz_verdict_remark[];
+
 /* Codes that commands end with, a line each, with what stands before it. */
 int cz_n_exit_code(void);
 const char *cz_exit_code_number(int index);

@@ -43,6 +43,10 @@ void cz_help_write_markdown(void) {
     puts("## Topics\n\n| `crushzone help` | |\n|---|---|");
     for (int i = 0; i < CZ_N_TOPIC; i++)
         printf("| `%s` | %s |\n", cz_topics[i].name, cz_topics[i].doc);
+    puts("\n## Verdicts\n\n| verdict | when |\n|---|---|");
+    for (int i = 0; i < cz_n_verdict_rule(); i++)
+        printf("| %s | %s |\n", cz_verdict_rule_word(i), cz_verdict_rule_text(i));
+    printf("\n%s\n", cz_verdict_remark);
     puts("\n## Exit codes\n\n```");
     for (int i = 0; i < cz_n_exit_code(); i++)
         printf("%-4s %s\n", cz_exit_code_number(i), cz_exit_code_text(i));

@@ -42,6 +42,47 @@ const char *cz_exit_code_text(int index) {
     return codes[index][1];
 }
 
+/* ---- verdicts ---- */
+
+/* The rule of cz_verdict_over. */
+static const char *const verdicts[][2] = {
+    {"FAIL", "a check fails, or something climbed: what comes after is beyond the model"},
+    {"NOT CHECKED",
+     "else: a run failed or is incomplete, a check could not be made, or there is no "
+     "check at all"},
+    {"PROVISIONAL", "else: a check satisfies a limit that nobody has confirmed, so with a "
+                    "confidence other than S1 (read in the primary text) and user (set by you)"},
+    {"pass", "else: every check is satisfied"}};
+
+int cz_n_verdict_rule(void) {
+    return (int)(sizeof verdicts / sizeof *verdicts);
+}
+const char *cz_verdict_rule_word(int index) {
+    return verdicts[index][0];
+}
+const char *cz_verdict_rule_text(int index) {
+    return verdicts[index][1];
+}
+
+const char cz_verdict_remark[] =
+    "The same rule holds for a scenario, a problem, a point of a sweep, an optimum and compared "
+    "runs, in tables, JSON, reports and exit codes: check, run --strict and sweep --strict end "
+    "with 0 for pass and PROVISIONAL only. JSON has PROVISIONAL as \"verdict\": \"pass\" with "
+    "\"provisional\": true. What a profile asks for and this program cannot compute is listed as "
+    "not covered; it is no check and counts in no verdict. Rules of the design itself are limits "
+    "of this program and not provisional. The constraints of a search are those checks that can "
+    "be made, with its margin and its targets: FEASIBLE says that they are satisfied, the verdict "
+    "whether all checks are.";
+
+static void write_verdicts(void) {
+    for (int i = 0; i < cz_n_verdict_rule(); i++) {
+        printf("  %-12s ", verdicts[i][0]);
+        cz_help_write_wrapped(verdicts[i][1], 15);
+    }
+    putchar('\n');
+    cz_help_write_wrapped(cz_verdict_remark, 0);
+}
+
 static void write_exit_codes(void) {
     for (int i = 0; i < cz_n_exit_code(); i++)
         printf("  %-4s %s\n", codes[i][0], codes[i][1]);
@@ -137,8 +178,8 @@ static void write_profiles(void) {
         "problem file, then where crushzone is installed. No text of a standard is in them, and a\n"
         "pass is no certificate. Those that come with crushzone:\n");
     write_entries((int)(sizeof profiles / sizeof *profiles), profiles, 16);
-    puts("\nA limit that nobody has confirmed passes as PROVISIONAL; `confidence: user` in a limit "
-         "of your own\nmakes it yours.");
+    puts("\nA limit is confirmed by `confidence: S1`, read in the primary text, or `user`, set by "
+         "you; what\nsatisfies any other is PROVISIONAL ('crushzone help verdicts').");
 }
 
 static void write_channels(void) {
@@ -209,16 +250,12 @@ static void write_files(void) {
 }
 
 void cz_help_write_topic(CzTopic topic) {
-    static void (*const writers[CZ_N_TOPIC])(void) = {[CZ_TOPIC_KEYS] = write_keys,
-                                                      [CZ_TOPIC_UNITS] = write_units,
-                                                      [CZ_TOPIC_CHECKS] = write_checks,
-                                                      [CZ_TOPIC_PROFILES] = write_profiles,
-                                                      [CZ_TOPIC_PATHS] = write_paths,
-                                                      [CZ_TOPIC_ALGORITHMS] = write_algorithms,
-                                                      [CZ_TOPIC_CHANNELS] = write_channels,
-                                                      [CZ_TOPIC_EVENTS] = write_events,
-                                                      [CZ_TOPIC_FIGURES] = write_figures,
-                                                      [CZ_TOPIC_FILES] = write_files,
-                                                      [CZ_TOPIC_EXIT_CODES] = write_exit_codes};
+    static void (*const writers[CZ_N_TOPIC])(void) = {
+        [CZ_TOPIC_KEYS] = write_keys,         [CZ_TOPIC_UNITS] = write_units,
+        [CZ_TOPIC_CHECKS] = write_checks,     [CZ_TOPIC_PROFILES] = write_profiles,
+        [CZ_TOPIC_PATHS] = write_paths,       [CZ_TOPIC_ALGORITHMS] = write_algorithms,
+        [CZ_TOPIC_CHANNELS] = write_channels, [CZ_TOPIC_EVENTS] = write_events,
+        [CZ_TOPIC_FIGURES] = write_figures,   [CZ_TOPIC_FILES] = write_files,
+        [CZ_TOPIC_VERDICTS] = write_verdicts, [CZ_TOPIC_EXIT_CODES] = write_exit_codes};
     writers[topic]();
 }

@@ -101,10 +101,10 @@ static CzStatus append_in_scenarios(Builder *builder, CzCheck check, const CzLim
     return CZ_OK;
 }
 
-/* Whether nobody has confirmed a number yet. */
+/* Whether nobody has confirmed a limit yet: what was read in the primary text and what the user
+ * sets is confirmed, what is remembered or comes from elsewhere is not. */
 static bool is_unconfirmed(const char *confidence) {
-    return confidence == NULL || (strcmp(confidence, "S1") != 0 && strcmp(confidence, "M1") != 0 &&
-                                  strcmp(confidence, "user") != 0);
+    return confidence == NULL || (strcmp(confidence, "S1") != 0 && strcmp(confidence, "user") != 0);
 }
 
 static CzStatus check_scenarios_exist(const Builder *builder, const CzLimit *limit) {
@@ -176,15 +176,8 @@ static CzStatus append_profile(Builder *builder) {
     for (int i = 0; i < profile->n_limits; i++)
         if (!user_sets(checks, profile->limits[i].name))
             CZ_TRY(append_limit(builder, &profile->limits[i], profile->name, false));
-    for (int i = 0; i < profile->not_checked.n_text; i++) {
-        const CzCheck remark = {.name = profile->not_checked.text[i],
-                                .scenario = CZ_NO_SCENARIO,
-                                .limit = NAN,
-                                .profile = profile->name,
-                                .missing = "this program cannot check it",
-                                .is_remark = true};
-        CZ_TRY(append(builder, &remark));
-    }
+    builder->list->n_not_covered = profile->not_checked.n_text;
+    builder->list->not_covered = profile->not_checked.text;
     return CZ_OK;
 }
 

@@ -5,25 +5,22 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *cz_verdict_text(CzVerdict verdict) {
-    static const char *const texts[] = {[CZ_VERDICT_PASS] = "pass",
-                                        [CZ_VERDICT_PROVISIONAL] = "provisional",
-                                        [CZ_VERDICT_FAIL] = "fail",
-                                        [CZ_VERDICT_NOT_CHECKED] = "not checked"};
-    return texts[verdict];
-}
+/* What stands for the margin of a yes or no in a search. It is a step, which no search can follow;
+ * the continuous checks beside it show the direction. */
+static const double satisfied_flag = 1, broken_flag = -0.01;
 
-/* Margin of a broken yes or no. It is a step, which no search can follow; the continuous checks
- * beside it show the way, so it says that it is broken and no more. */
-static const double broken_flag_margin = -0.01;
+/* A margin below this is rounding: a value that equals its limit but for the last bits satisfies
+ * it. */
+static const double rounding = 1e-12;
 
 double cz_margin(double value, double limit, bool is_minimum, double scale) {
     if (isnan(value))
         return NAN;
     const double room = is_minimum ? value - limit : limit - value;
     if (scale == CZ_FLAG_SCALE)
-        return room >= 0 ? 1 : broken_flag_margin;
-    return room / fmax(fabs(limit), scale);
+        return room >= 0 ? satisfied_flag : broken_flag;
+    const double margin = room / fmax(fabs(limit), scale);
+    return fabs(margin) < rounding ? 0 : margin;
 }
 
 /* The result with everything that does not depend on a run. */
@@ -37,6 +34,7 @@ static CzCheckResult blank_result(const CzCheck *check, const CzScene *scene) {
                            .unit = check->missing != NULL ? "" : check->metric.kind->unit,
                            .margin = NAN,
                            .is_minimum = check->is_minimum,
+                           .is_flag = check->missing == NULL && check->scale == CZ_FLAG_SCALE,
                            .verdict = CZ_VERDICT_NOT_CHECKED,
                            .profile = check->profile,
                            .clause = check->clause,
@@ -71,7 +69,7 @@ CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, con
                      : NULL;
     result.value = value.value;
     memcpy(result.when, value.when, sizeof result.when);
-    result.margin = margin;
+    result.margin = result.is_flag ? NAN : margin;
     result.verdict = fails ? CZ_VERDICT_FAIL : passing_verdict(check);
     return result;
 }
@@ -79,8 +77,11 @@ CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, con
 double cz_check_constraint(const CzCheckResult *result, double required_margin) {
     if (result->verdict == CZ_VERDICT_NOT_CHECKED)
         return NAN;
-    const double margin = isnan(result->margin) ? 1 : result->margin; /* it does not apply */
-    return required_margin - margin;
+    if (!isnan(result->margin))
+        return required_margin - result->margin;
+    const bool fails =
+        result->verdict == CZ_VERDICT_FAIL; /* else satisfied, or without a subject */
+    return required_margin - (fails ? broken_flag : satisfied_flag);
 }
 
 /* Whether each place stands for itself. */
@@ -136,20 +137,4 @@ int cz_check_details(const CzCheck *check, const CzSubject *subject, double requ
     while (details.n < n)
         detail[details.n++] = -1;
     return n;
-}
-
-CzVerdict cz_verdict_over(int n_check, const CzCheck *check, const CzCheckResult *result) {
-    bool any[4] = {false};
-    int n_counted = 0;
-    for (int i = 0; i < n_check; i++) {
-        if (check[i].is_remark || check[i].is_target)
-            continue;
-        any[result[i].verdict] = true;
-        n_counted++;
-    }
-    if (any[CZ_VERDICT_FAIL])
-        return CZ_VERDICT_FAIL;
-    if (any[CZ_VERDICT_NOT_CHECKED] || n_counted == 0)
-        return CZ_VERDICT_NOT_CHECKED;
-    return any[CZ_VERDICT_PROVISIONAL] ? CZ_VERDICT_PROVISIONAL : CZ_VERDICT_PASS;
 }

@@ -23,7 +23,6 @@ typedef struct CzCheck {
     double scale; /* smallest scale of the margin */
     const char *profile, *clause, *source, *confidence;
     const char *missing; /* why it can never be checked; NULL otherwise */
-    bool is_remark;      /* listed, but does not count in the verdict */
     bool is_target;      /* kept by the optimiser only, not listed */
     bool is_provisional; /* nobody has confirmed the limit */
     bool is_constraint;
@@ -34,6 +33,8 @@ typedef struct CzChecklist {
     CzCheck *check; /* (n_check), of the arena; scenarios in order within each limit */
     int n_constraint;
     double required_margin;
+    int n_not_covered;
+    const char *const *not_covered; /* of the profile (n_not_covered) */
 } CzChecklist;
 
 /* Lists all checks and targets of a problem. Memory comes from the arena. Statuses: CZ_OK,
@@ -42,7 +43,8 @@ CZ_MUST_CHECK CzStatus cz_checklist_build(const CzProblem *problem, int n_scene,
                                           const CzScene *scene, CzArena *arena,
                                           CzChecklist *checklist, CzError *error);
 
-/* Margin of a value; `scale` may be CZ_FLAG_SCALE. NaN for NaN. */
+/* Margin of a value; `scale` may be CZ_FLAG_SCALE, whose margin is for a search only. NaN for NaN.
+ */
 double cz_margin(double value, double limit, bool is_minimum, double scale);
 
 /* Judges one check. `subject` has the run of the check's scenario, NULL run when there is none;
@@ -58,9 +60,5 @@ double cz_check_constraint(const CzCheckResult *result, double required_margin);
 int cz_check_n_detail(const CzCheck *check, const CzScene *scene);
 int cz_check_details(const CzCheck *check, const CzSubject *subject, double required_margin,
                      double *detail);
-
-/* Verdict over all checks: the worst of fail, not checked, provisional, pass; remarks do not count.
- */
-CzVerdict cz_verdict_over(int n_check, const CzCheck *check, const CzCheckResult *result);
 
 #endif

@@ -37,8 +37,8 @@ CzClimbing cz_climbing_of(const CzEvaluator *evaluator, int scenario) {
     bool has[N_GROUP] = {false};
     for (int i = 0; i < evaluator->list.n_check; i++) {
         const CzCheck *check = &evaluator->list.check[i];
-        const bool counts = check->scenario == scenario && check->missing == NULL &&
-                            !check->is_remark && check->metric.kind != NULL;
+        const bool counts =
+            check->scenario == scenario && check->missing == NULL && check->metric.kind != NULL;
         const int group = counts ? group_of(check->metric.kind->name) : -1;
         if (group < 0 || climbing.n_check == CZ_MOST_CLIMBING_CHECKS)
             continue;

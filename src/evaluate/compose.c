@@ -142,14 +142,6 @@ static CzCheckResult check_of(const CzMatchResult *match) {
     return check;
 }
 
-/* A match counts in the verdict over all checks like any of them. */
-static void add_verdict(const CzEvaluator *evaluator, CzVerdict verdict, CzEvaluation *evaluation) {
-    const bool is_first = evaluator->list.n_check == 0 && evaluation->n_check == 1;
-    const CzVerdict before = is_first ? CZ_VERDICT_PASS : evaluation->verdict;
-    evaluation->verdict =
-        before == CZ_VERDICT_FAIL || verdict == CZ_VERDICT_PASS ? before : verdict;
-}
-
 /* Judges the matches of a fit; each is one more check and constraint. */
 static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                               const CzRunSummary *const *run, CzRun *const *whole,
@@ -173,7 +165,6 @@ static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *veh
         const int j = evaluation->n_constraint++;
         evaluation->constraint_check[j] = check_of(match);
         evaluation->check[evaluation->n_check++] = evaluation->constraint_check[j];
-        add_verdict(evaluator, evaluation->constraint_check[j].verdict, evaluation);
         evaluation->constraint[j] = fabs(match->residual) - 1;
         evaluation->violation = fmax(evaluation->violation, evaluation->constraint[j]);
     }
@@ -194,7 +185,6 @@ static CzStatus allocate(const CzEvaluator *evaluator, CzEvaluation *evaluation,
     return CZ_OK;
 }
 
-/* A climb fails whatever checks were asked for: what they say of later is beyond the model. */
 static bool any_climbed(const CzEvaluator *evaluator, const CzRunSummary *const *run) {
     for (int s = 0; s < evaluator->n_scene; s++)
         if (run[s] != NULL && run[s]->beyond_validity)
@@ -211,9 +201,9 @@ static CzStatus compose_checks(const CzEvaluator *evaluator, const CzVehicle *ve
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the checks of a design");
     judge_all(evaluator, vehicles, run, all);
     sort_results(evaluator, all, evaluation);
-    evaluation->verdict = cz_verdict_over(evaluator->list.n_check, evaluator->list.check, all);
-    if (any_climbed(evaluator, run))
-        evaluation->verdict = CZ_VERDICT_FAIL;
+    evaluation->beyond_validity = any_climbed(evaluator, run);
+    evaluation->n_not_covered = evaluator->list.n_not_covered;
+    evaluation->not_covered = evaluator->list.not_covered;
     free(all);
     return CZ_OK;
 }
@@ -238,6 +228,7 @@ CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
         else
             set_failed(evaluation);
     }
+    evaluation->verdict = cz_verdict_over(evaluation, 0, NULL);
     return CZ_OK;
 }
 
@@ -253,9 +244,11 @@ CzStatus cz_compose_refused(const CzEvaluator *evaluator, const CzVehicle *vehic
         cz_fail(error, status, "no memory for the scenarios");
     free(none);
     free(no_run);
-    if (status == CZ_OK)
-        set_failed(evaluation);
-    return status;
+    if (status != CZ_OK)
+        return status;
+    set_failed(evaluation);
+    evaluation->verdict = cz_verdict_over(evaluation, 0, NULL);
+    return CZ_OK;
 }
 
 /* The residuals of a fit. */

@@ -11,6 +11,10 @@
 /* Energies below this count as nothing, so that no share is taken of them [J]. */
 static const double nothing = 100;
 
+/* What is smaller than this share of the smallest scale of a margin is what rounding left of zero.
+ */
+static const double rounding = 1e-9;
+
 static double share_of(double part, double whole) {
     return whole > nothing ? part / whole : NAN;
 }
@@ -288,6 +292,8 @@ CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, 
                             (aggregate != CZ_AGGREGATE_MIN && worst_is_max)};
     cz_places_visit(subject, metric->kind->level, metric->selector, add_place, &sum);
     CzMetricValue value = {.known = CZ_KNOWN, .value = aggregate_value(&sum, aggregate)};
+    if (fabs(value.value) < rounding * metric->kind->scale) /* not of a yes or no */
+        value.value = 0;
     const bool is_one = aggregate != CZ_AGGREGATE_SUM && aggregate != CZ_AGGREGATE_MEAN;
     value.when[0] = is_one ? sum.when[0] : NAN;
     value.when[1] = is_one ? sum.when[1] : NAN;

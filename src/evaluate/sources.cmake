@@ -20,6 +20,7 @@ set(CZ_SOURCES_evaluate
     sweep_axis.c
     tasks.c
     variant.c
+    verdict.c
     verify.c
     when.c
 )

@@ -98,33 +98,41 @@ static bool is_asked_for(const CzSweepOptions *options, const CzCheckResult *che
     return options->n_check == 0;
 }
 
-/* Verdict and smallest margin over the checks that were asked for. */
+/* Whether a check is to be named in place of another: where one fails the worst of those that do,
+ * else the one with the smallest margin. */
+static bool is_nearer(const CzCheckResult *check, const CzCheckResult *other) {
+    return !isnan(check->value) && (other == NULL || cz_check_is_worse(check, other));
+}
+
+/* Verdict over the checks that were asked for, and which of them decides. */
 static CzStatus judge(const CzSweepOptions *options, const CzEvaluation *evaluation,
                       CzSweepPoint *point, CzError *error) {
-    static const int badness[] = {[CZ_VERDICT_PASS] = 0,
-                                  [CZ_VERDICT_PROVISIONAL] = 1,
-                                  [CZ_VERDICT_NOT_CHECKED] = 2,
-                                  [CZ_VERDICT_FAIL] = 3};
-    CzVerdict verdict = CZ_VERDICT_PASS;
+    const CzCheckResult *deciding = NULL;
     bool any = false;
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
         if (!is_asked_for(options, check))
             continue;
         any = true;
-        if (badness[check->verdict] > badness[verdict])
-            verdict = check->verdict;
-        if (!isfinite(check->margin) || check->margin >= point->margin)
-            continue;
-        point->margin = check->margin;
-        snprintf(point->check, sizeof point->check, "%.95s", check->name);
-        snprintf(point->scenario, sizeof point->scenario, "%.63s", check->scenario);
-        snprintf(point->where, sizeof point->where, "%.47s", check->where);
+        if (is_nearer(check, deciding))
+            deciding = check;
     }
     if (!any && options->n_check > 0)
         return cz_fail(error, CZ_STATUS_INPUT, "the problem has no check '%.200s'",
                        options->check[0]);
-    point->verdict = options->n_check > 0 ? verdict : evaluation->verdict;
+    point->verdict = cz_verdict_over(evaluation, options->n_check, options->check);
+    const bool by_check = deciding != NULL && deciding->verdict == CZ_VERDICT_FAIL;
+    if (point->verdict == CZ_VERDICT_FAIL && !by_check) {
+        snprintf(point->message, sizeof point->message,
+                 "something climbed: what comes after is beyond the model");
+        return CZ_OK;
+    }
+    if (deciding == NULL)
+        return CZ_OK;
+    point->margin = deciding->margin;
+    snprintf(point->check, sizeof point->check, "%.95s", deciding->name);
+    snprintf(point->scenario, sizeof point->scenario, "%.63s", deciding->scenario);
+    snprintf(point->where, sizeof point->where, "%.47s", deciding->where);
     return CZ_OK;
 }
 
@@ -158,10 +166,7 @@ static CzStatus evaluate(const Sweeping *sweeping, CzProblem *problem, CzSweepPo
         note_failure(&evaluation, point);
     } else if (status == CZ_OK) {
         point->state = CZ_SWEEP_DONE;
-        point->margin = INFINITY;
         status = judge(sweeping->options, &evaluation, point, error);
-        if (!isfinite(point->margin))
-            point->margin = NAN;
     }
     cz_evaluation_free(&evaluation);
     cz_evaluator_free(evaluator);
@@ -252,6 +257,20 @@ static void run_all(Sweeping *sweeping) {
     sweeping->sweep->is_interrupted = is_stopped(options);
 }
 
+/* What a point is ordered by when the worst is looked for: run failures first, then points that
+ * fail by their margins, those that fail by a yes or no behind them, then the rest by margin; NaN
+ * for a point without a margin. */
+static double order_of(const CzSweepPoint *point) {
+    const double most = 1e9, margin = fmin(fmax(point->margin, -most), most);
+    if (point->state == CZ_SWEEP_RUN_FAILED)
+        return -4 * most;
+    if (point->state != CZ_SWEEP_DONE)
+        return NAN;
+    if (point->verdict == CZ_VERDICT_FAIL)
+        return -2 * most + (isnan(point->margin) ? 0 : margin);
+    return isnan(point->margin) ? NAN : margin;
+}
+
 /* A failure that no other point could have escaped ends the sweep. */
 static CzStatus conclude(const Sweeping *sweeping, CzError *error) {
     CzSweep *sweep = sweeping->sweep;
@@ -272,14 +291,8 @@ static CzStatus conclude(const Sweeping *sweeping, CzError *error) {
     }
     sweep->worst = -1;
     for (int i = 0; i < sweep->n_point; i++) {
-        const CzSweepPoint *point = &sweep->point[i];
-        const CzSweepPoint *worst = sweep->worst >= 0 ? &sweep->point[sweep->worst] : NULL;
-        const bool failed = point->state == CZ_SWEEP_RUN_FAILED;
-        if (failed && (worst == NULL || worst->state != CZ_SWEEP_RUN_FAILED))
-            sweep->worst = i;
-        else if (point->state == CZ_SWEEP_DONE && !isnan(point->margin) &&
-                 (worst == NULL ||
-                  (worst->state == CZ_SWEEP_DONE && point->margin < worst->margin)))
+        const double order = order_of(&sweep->point[i]);
+        if (!isnan(order) && (sweep->worst < 0 || order < order_of(&sweep->point[sweep->worst])))
             sweep->worst = i;
     }
     return CZ_OK;

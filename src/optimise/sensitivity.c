@@ -35,8 +35,9 @@ static void keep_changes(CzOutcome *outcome, int variable, const CzEvaluation *b
                          const CzEvaluation *changed) {
     const int n = base->n_constraint;
     outcome->objective_change[variable] = changed->objective - base->objective;
-    for (int i = 0; i < n; i++)
-        outcome->constraint_change[variable * n + i] = changed->constraint[i] - base->constraint[i];
+    for (int i = 0; i < n; i++) /* a yes or no has no margin that could change */
+        outcome->constraint_change[variable * n + i] =
+            base->constraint_check[i].is_flag ? NAN : changed->constraint[i] - base->constraint[i];
 }
 
 static CzStatus evaluate(CzEvaluator *evaluator, CzOutcome *outcome, CzError *error) {

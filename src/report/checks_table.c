@@ -64,18 +64,7 @@ void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text)
 
 /* A check may pass because there is nothing that it could be about. */
 static bool does_not_apply(const CzCheckResult *check) {
-    return isnan(check->value) &&
-           (check->verdict == CZ_VERDICT_PASS || check->verdict == CZ_VERDICT_PROVISIONAL);
-}
-
-/* Order of badness: fails by margin, then what was not checked, then passes by margin. */
-static double rank(const CzCheckResult *check) {
-    if (check->verdict == CZ_VERDICT_NOT_CHECKED)
-        return 0;
-    if (does_not_apply(check))
-        return 4e9;
-    const double margin = fmin(fmax(check->margin, -1e9), 1e9);
-    return check->verdict == CZ_VERDICT_FAIL ? -2e9 + margin : 2e9 + margin;
+    return isnan(check->value) && cz_verdict_passes(check->verdict);
 }
 
 /* Whether check i is the worst of its name, of its family only when it is to be among those; the
@@ -89,7 +78,8 @@ static bool is_worst_of_name(const CzEvaluation *evaluation, int i, bool of_fami
                                strcmp(check[i].family, check[k].family) == 0;
         if (of_family && !is_sister)
             continue;
-        if (rank(&check[k]) < rank(&check[i]) || (rank(&check[k]) == rank(&check[i]) && k < i))
+        if (cz_check_is_worse(&check[k], &check[i]) ||
+            (k < i && !cz_check_is_worse(&check[i], &check[k])))
             return false;
     }
     return true;
@@ -150,10 +140,23 @@ static void write_count(const CzEvaluation *evaluation, bool colour, FILE *strea
     fputs(".\n", stream);
 }
 
+/* What the profile asks for and no check is made of. */
+static void write_not_covered(const CzEvaluation *evaluation, bool colour, FILE *stream) {
+    if (evaluation->n_not_covered == 0)
+        return;
+    fputs("Not covered by this program, to be shown by other means: ", stream);
+    for (int i = 0; i < evaluation->n_not_covered; i++) {
+        fputs(i > 0 ? "; " : "", stream);
+        cz_grid_write_text(evaluation->not_covered[i], CZ_STYLE_PLAIN, colour, stream);
+    }
+    fputs(".\n", stream);
+}
+
 void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
                            FILE *stream) {
     if (evaluation->n_check == 0) {
         fputs("No checks: NOTHING WAS JUDGED. Add `checks:` to the problem file.\n", stream);
+        write_not_covered(evaluation, colour, stream);
         return;
     }
     const bool several = cz_n_kept_run(evaluation) > 1;
@@ -179,4 +182,5 @@ void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *b
     }
     cz_grid_write(&grid, colour, stream);
     write_count(evaluation, colour, stream);
+    write_not_covered(evaluation, colour, stream);
 }

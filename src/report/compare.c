@@ -42,13 +42,21 @@ const CzCheckResult *cz_compared_check(const CzReportRun *run, const CzCheckResu
     return NULL;
 }
 
+/* By more than a thousandth of what is allowed, or of what it is exceeded by. A margin knows the
+ * scale of its quantity, so that values next to zero do not differ by shares of nothing. */
+static bool differs_in_value(const CzCheckResult *check, const CzCheckResult *other) {
+    const double share = 1e-3;
+    if (check->limit != other->limit || isnan(check->margin) || isnan(other->margin))
+        return fabs(other->value - check->value) >
+               share * fmax(fabs(check->value), fabs(check->limit));
+    return fabs(other->margin - check->margin) > share * fmax(fabs(check->margin), 1);
+}
+
 bool cz_compared_differs(int n, const CzReportRun *run, const CzCheckResult *check) {
     for (int i = 1; i < n; i++) {
         const CzCheckResult *other = cz_compared_check(&run[i], check);
-        const double size = fmax(fabs(check->value), fabs(check->limit));
         if (other == NULL || other->verdict != check->verdict ||
-            isnan(other->value) != isnan(check->value) ||
-            fabs(other->value - check->value) > 1e-3 * size)
+            isnan(other->value) != isnan(check->value) || differs_in_value(check, other))
             return true;
     }
     return false;

@@ -17,7 +17,7 @@ const CzRunSummary *cz_compared_run(const CzReportRun *run, int i);
 /* The check of the same name and scenario in another run; NULL when it has none. */
 const CzCheckResult *cz_compared_check(const CzReportRun *run, const CzCheckResult *check);
 /* Whether a check of the first run comes out otherwise in any other: by its verdict, or by more
- * than a thousandth of its size. */
+ * than a thousandth of what is allowed or of what it is exceeded by. */
 bool cz_compared_differs(int n, const CzReportRun *run, const CzCheckResult *check);
 
 /* A number of every interface, or of every car. */

@@ -12,7 +12,7 @@ static void put_run(CzJson *json, const CzReportRun *run, const CzRunSummary *su
     cz_json_text(json, "title", cz_problem_title(run->problem));
     cz_json_text(json, "hash", cz_problem_hash(run->problem));
     cz_json_text(json, "scenario", summary != NULL ? summary->scenario : NULL);
-    cz_json_text(json, "verdict", cz_verdict_text(run->evaluation->verdict));
+    cz_document_verdict(json, run->evaluation->verdict);
     cz_json_close(json);
 }
 
@@ -22,17 +22,20 @@ static void put_check(CzJson *json, int n, const CzReportRun *run, const CzCheck
     cz_json_text(json, "name", check->name);
     cz_json_text(json, "scenario", check->scenario);
     cz_json_text(json, "kind", check->is_minimum ? "min" : "max");
-    cz_json_real(json, "limit", check->limit);
+    cz_json_exact(json, "limit", check->limit);
     cz_json_text(json, "unit", check->unit);
     cz_json_flag(json, "differs", cz_compared_differs(n, run, check));
     cz_json_open_list(json, "runs");
     for (int i = 0; i < n; i++) {
         const CzCheckResult *other = cz_compared_check(&run[i], check);
         cz_json_open_object(json, NULL);
-        cz_json_real(json, "value", other != NULL ? other->value : NAN);
-        cz_json_real(json, "margin", other != NULL ? other->margin : NAN);
+        cz_json_exact(json, "value", other != NULL ? other->value : NAN);
+        cz_json_exact(json, "margin", other != NULL ? other->margin : NAN);
         cz_json_text(json, "where", other != NULL ? other->where : NULL);
-        cz_json_text(json, "verdict", other != NULL ? cz_verdict_text(other->verdict) : NULL);
+        if (other != NULL)
+            cz_document_verdict(json, other->verdict);
+        else
+            cz_json_text(json, "verdict", NULL);
         cz_json_close(json);
     }
     cz_json_close(json);

@@ -43,16 +43,21 @@ static void put_text(Table *table, const char *text) {
     fputc('"', table->stream);
 }
 
-static void put_number(Table *table, double value) {
+/* A number that was typed, or measures an error. */
+static void put_exact(Table *table, double value) {
     char text[CZ_FIGURE_ROOM];
     begin_field(table);
     if (!isfinite(value))
         return;
-    cz_figure_digits(text, 9, value == 0 ? 0 : value); /* no minus before a zero */
+    cz_figure_digits(text, 9, cz_figure_exact(value));
     char *point = strchr(text, '.');
     if (point != NULL)
         *point = table->decimal;
     fputs(text, table->stream);
+}
+
+static void put_number(Table *table, double value) {
+    put_exact(table, cz_figure_quantity(value));
 }
 
 static void put_flag(Table *table, bool value) {
@@ -75,24 +80,35 @@ void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *
     static const char *const names[] = {"name",    "scenario", "where",  "kind",      "limit",
                                         "value",   "unit",     "margin", "verdict",   "why",
                                         "profile", "clause",   "source", "confidence"};
+    enum { verdict = 8, n_column = sizeof names / sizeof *names };
     Table table = table_of(options, stream);
-    put_names(&table, (int)(sizeof names / sizeof *names), names);
+    put_names(&table, n_column, names);
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
         put_text(&table, check->name);
         put_text(&table, check->scenario);
         put_text(&table, check->where);
         put_text(&table, check->is_minimum ? "min" : "max");
-        put_number(&table, check->limit);
-        put_number(&table, check->value);
+        put_exact(&table, check->limit);
+        put_exact(&table, check->value);
         put_text(&table, check->unit);
-        put_number(&table, check->margin);
+        put_exact(&table, check->margin);
         put_text(&table, cz_verdict_text(check->verdict));
         put_text(&table, check->why);
         put_text(&table, check->profile);
         put_text(&table, check->clause);
         put_text(&table, check->source);
         put_text(&table, check->confidence);
+        end_row(&table);
+    }
+    for (int i = 0; i < evaluation->n_not_covered; i++) {
+        put_text(&table, evaluation->not_covered[i]);
+        for (int column = 1; column < verdict; column++)
+            put_text(&table, NULL);
+        put_text(&table, "not covered");
+        put_text(&table, "to be shown by other means");
+        for (int column = verdict + 2; column < n_column; column++)
+            put_text(&table, NULL);
         end_row(&table);
     }
 }
@@ -165,11 +181,11 @@ void cz_csv_write_history(const CzEvaluator *evaluator, const CzOutcome *outcome
         const CzTrial *trial = &outcome->trial[i];
         put_number(&table, (double)(i + 1));
         put_text(&table, trial->phase);
-        put_number(&table, trial->objective);
-        put_number(&table, trial->violation);
+        put_exact(&table, trial->objective);
+        put_exact(&table, trial->violation);
         put_flag(&table, trial->feasible);
         for (int k = 0; k < n_variable; k++)
-            put_number(&table, outcome->trial_x[i * n_variable + k]);
+            put_exact(&table, outcome->trial_x[i * n_variable + k]);
         end_row(&table);
     }
 }
@@ -185,12 +201,12 @@ void cz_csv_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FI
     for (int i = 0; i < sweep->n_point; i++) {
         const CzSweepPoint *point = &sweep->point[i];
         for (int k = 0; k < sweep->n_axis; k++)
-            put_number(&table, point->value[k]);
+            put_exact(&table, point->value[k]);
         for (int k = 0; k < sweep->n_metric; k++)
-            put_number(&table, point->metric[k]);
+            put_exact(&table, point->metric[k]);
         put_text(&table, cz_sweep_state_text(point->state));
         put_text(&table, point->state == CZ_SWEEP_DONE ? cz_verdict_text(point->verdict) : NULL);
-        put_number(&table, point->margin);
+        put_exact(&table, point->margin);
         put_text(&table, point->check);
         put_text(&table, point->where);
         put_text(&table, point->scenario);

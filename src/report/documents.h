@@ -10,6 +10,10 @@
 /* format, version, program and problem. */
 void cz_document_head(CzJson *json, const char *format, const CzProblem *problem);
 
+/* A verdict whose words are closed: a pass against a limit that nobody has confirmed is "pass" with
+ * "provisional" beside it. */
+void cz_document_verdict(CzJson *json, CzVerdict verdict);
+
 /* The one place for timing, host and instruction set; n_job is 0 when unknown. */
 void cz_document_run_info(CzJson *json, double wall_s, double setup_s, int n_job);
 

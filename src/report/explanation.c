@@ -169,12 +169,12 @@ static void put_json_lever(CzJson *json, const CzLever *lever) {
     cz_json_text(json, "cause", cz_cause_text(lever->cause));
     cz_json_text(json, "name", lever->name);
     cz_json_text(json, "key", lever->key);
-    cz_json_real(json, "value", lever->value);
+    cz_json_exact(json, "value", lever->value);
     cz_json_flag(json, "turns", lever->turns);
     cz_json_real(json, "needed", lever->needed);
     cz_json_real(json, "change", lever->change);
     cz_json_real(json, "not_yet", lever->not_yet);
-    cz_json_real(json, "margin", lever->margin);
+    cz_json_exact(json, "margin", lever->margin);
     cz_json_close(json);
 }
 
@@ -183,10 +183,10 @@ static void put_worst(CzJson *json, const CzCheckResult *worst) {
     cz_json_text(json, "name", worst->name);
     cz_json_text(json, "where", worst->where);
     cz_json_text(json, "kind", worst->is_minimum ? "min" : "max");
-    cz_json_real(json, "limit", worst->limit);
-    cz_json_real(json, "value", worst->value);
+    cz_json_exact(json, "limit", worst->limit);
+    cz_json_exact(json, "value", worst->value);
     cz_json_text(json, "unit", worst->unit);
-    cz_json_real(json, "margin", worst->margin);
+    cz_json_exact(json, "margin", worst->margin);
     cz_json_text(json, "why", worst->why);
     cz_json_close(json);
 }
@@ -200,7 +200,7 @@ CzStatus cz_report_write_explanation(const CzProblem *problem, const CzExplanati
     cz_document_head(json, "crushzone.explanation", problem);
     cz_document_run_info(json, explanation->wall_s, options->setup_s, options->n_job);
     cz_json_text(json, "scenario", explanation->scenario);
-    cz_json_text(json, "verdict", cz_verdict_text(explanation->verdict));
+    cz_document_verdict(json, explanation->verdict);
     cz_json_flag(json, "climbed", explanation->climbed);
     cz_json_real(json, "climb_time_ms", cz_milliseconds(explanation->climb_time));
     put_worst(json, &explanation->worst);

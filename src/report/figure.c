@@ -13,6 +13,21 @@ static bool is_decimal_sign(char c) {
     return !isdigit((unsigned char)c) && c != '+' && c != '-' && (c < 'a' || c > 'z');
 }
 
+double cz_figure_quantity(double value) {
+    const double leftover = 1e-9;
+    return fabs(value) < leftover ? 0 : value;
+}
+
+double cz_figure_exact(double value) {
+    return value == 0 ? 0 : value;
+}
+
+/* Takes the sign off a number whose digits are all zero. */
+static void unsign_zero(char *text) {
+    if (text[0] == '-' && text[strspn(text, "-0.")] == '\0')
+        memmove(text, text + 1, strlen(text));
+}
+
 static const char *with_point(char text[CZ_FIGURE_ROOM]) {
     char *sign = text;
     while (*sign != '\0' && !is_decimal_sign(*sign))
@@ -29,14 +44,18 @@ static const char *with_point(char text[CZ_FIGURE_ROOM]) {
 
 const char *cz_figure_digits(char text[CZ_FIGURE_ROOM], int digits, double value) {
     snprintf(text, CZ_FIGURE_ROOM, "%.*g", digits, value);
-    return with_point(text);
+    with_point(text);
+    unsign_zero(text);
+    return text;
 }
 
 const char *cz_figure_fixed(char text[CZ_FIGURE_ROOM], int decimals, double value) {
     if (!(fabs(value) < 1e15))
         return cz_figure_digits(text, 15, value);
     snprintf(text, CZ_FIGURE_ROOM, "%.*f", decimals, value);
-    return with_point(text);
+    with_point(text);
+    unsign_zero(text);
+    return text;
 }
 
 const char *cz_figure_plain(char text[CZ_FIGURE_ROOM], double value) {
@@ -44,6 +63,7 @@ const char *cz_figure_plain(char text[CZ_FIGURE_ROOM], double value) {
         snprintf(text, CZ_FIGURE_ROOM, "-");
         return text;
     }
+    value = cz_figure_quantity(value);
     const double size = fabs(value);
     if (value == 0)
         return cz_figure_fixed(text, 0, 0);
@@ -52,40 +72,36 @@ const char *cz_figure_plain(char text[CZ_FIGURE_ROOM], double value) {
     return cz_figure_fixed(text, size < 10 ? 2 : size < 100 ? 1 : 0, value);
 }
 
-/* A size in per cent: whole from ten on, else two digits. */
-static void percent_digits(char text[CZ_FIGURE_ROOM], double percent) {
-    if (percent >= 9.95)
-        cz_figure_fixed(text, 0, percent);
+/* A percentage with `plus` before it when it is not below 0: whole from ten on where `is_whole`,
+ * else two digits. */
+static const char *write_percent(char text[CZ_FIGURE_ROOM], const char *plus, bool is_whole,
+                                 double percent) {
+    const double most = 999, size = fabs(cz_figure_quantity(percent));
+    char number[CZ_FIGURE_ROOM];
+    if (isnan(percent)) {
+        snprintf(text, CZ_FIGURE_ROOM, "-");
+        return text;
+    }
+    if (size >= most + 0.5) {
+        snprintf(text, CZ_FIGURE_ROOM, percent < 0 ? "<-999 %%" : ">999 %%");
+        return text;
+    }
+    if (is_whole && size >= 9.95)
+        cz_figure_fixed(number, 0, size);
     else
-        cz_figure_digits(text, 2, percent);
+        cz_figure_digits(number, 2, size);
+    snprintf(text, CZ_FIGURE_ROOM, "%s%.40s %%", size > 0 && percent < 0 ? "-" : plus, number);
+    return text;
 }
 
 const char *cz_figure_percent(char text[CZ_FIGURE_ROOM], double share) {
-    if (!isfinite(share)) {
-        snprintf(text, CZ_FIGURE_ROOM, "-");
-        return text;
-    }
-    char number[CZ_FIGURE_ROOM];
-    percent_digits(number, 100 * fabs(share));
-    snprintf(text, CZ_FIGURE_ROOM, "%s%.40s %%", share < 0 ? "-" : "", number);
-    return text;
+    return write_percent(text, "", true, 100 * share);
 }
 
 const char *cz_figure_margin(char text[CZ_FIGURE_ROOM], double share) {
-    if (!isfinite(share)) {
-        snprintf(text, CZ_FIGURE_ROOM, "-");
-        return text;
-    }
-    char number[CZ_FIGURE_ROOM];
-    percent_digits(number, 100 * fabs(share));
-    snprintf(text, CZ_FIGURE_ROOM, "%c%.40s %%", share < 0 ? '-' : '+', number);
-    return text;
+    return write_percent(text, "+", true, 100 * share);
 }
 
 const char *cz_figure_change(char text[CZ_FIGURE_ROOM], double change) {
-    char number[CZ_FIGURE_ROOM];
-    if (!isfinite(change))
-        return strcpy(text, "-");
-    snprintf(text, CZ_FIGURE_ROOM, "%.40s %%", cz_figure_digits(number, 2, 100.0 * change));
-    return text;
+    return write_percent(text, "", false, 100 * change);
 }

@@ -1,8 +1,19 @@
-/* Numbers as people read them, with a decimal point whatever the locale of the host program. */
+/* Numbers as people read them, with a decimal point whatever the locale of the host program.
+ *
+ * One rule holds in tables, JSON, CSV and pages: a quantity below 1e-9 in the unit that it is
+ * printed in is what rounding left of zero, and prints as 0; zero has no sign. Numbers that were
+ * typed, or that measure an error, keep their size whatever it is.
+ */
 #ifndef CZ_REPORT_FIGURE_H
 #define CZ_REPORT_FIGURE_H
 
 enum { CZ_FIGURE_ROOM = 48 }; /* bytes that hold any number written here */
+
+/* A quantity by this rule: the value itself, or 0. */
+double cz_figure_quantity(double value);
+
+/* Any other number: the value itself, 0 for minus zero. */
+double cz_figure_exact(double value);
 
 /* `digits` significant digits, as %.*g. Returns text, as the others do. */
 const char *cz_figure_digits(char text[CZ_FIGURE_ROOM], int digits, double value);
@@ -13,14 +24,14 @@ const char *cz_figure_fixed(char text[CZ_FIGURE_ROOM], int decimals, double valu
 /* Three to four digits for a person: 3483, 21.5, 2.31; "-" when it is not finite. */
 const char *cz_figure_plain(char text[CZ_FIGURE_ROOM], double value);
 
-/* Share as a percentage: "56 %", "0.5 %"; "-" when it is not finite. */
+/* Share as a percentage: "56 %", "0.5 %"; ">999 %" and "<-999 %" beyond; "-" for NaN. */
 const char *cz_figure_percent(char text[CZ_FIGURE_ROOM], double share);
 
 /* The same with its sign: "+54 %", "-0.03 %"; a negative share never reads as zero. */
 const char *cz_figure_margin(char text[CZ_FIGURE_ROOM], double share);
 
-/* A change as a percentage of two digits: what is a part in a million off is not "0 %"; "-" when it
- * is not finite. */
+/* A change as a percentage of two digits: what is a part in a million off is not "0 %"; ">999 %"
+ * beyond; "-" for NaN. */
 const char *cz_figure_change(char text[CZ_FIGURE_ROOM], double change);
 
 #endif

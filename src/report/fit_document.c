@@ -46,7 +46,7 @@ CzStatus cz_report_write_fit(const CzFit *fit, FILE *stream, CzError *error) {
     put_summary(json, cz_fit_summary(fit));
     cz_json_open_object(json, "values");
     for (int i = 0; i < cz_fit_n_value(fit); i++)
-        cz_json_real(json, cz_fit_value_path(fit, i), cz_fit_value(fit, i));
+        cz_json_exact(json, cz_fit_value_path(fit, i), cz_fit_value(fit, i));
     cz_json_close(json);
     cz_json_open_list(json, "notes");
     for (int i = 0; i < cz_fit_n_note(fit); i++)

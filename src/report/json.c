@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/number.h"
+#include "report/figure.h"
 
 #include <errno.h>
 #include <math.h>
@@ -81,8 +82,12 @@ void cz_json_text(CzJson *json, const char *key, const char *text) {
 }
 
 void cz_json_real(CzJson *json, const char *key, double value) {
+    cz_json_exact(json, key, cz_figure_quantity(value));
+}
+
+void cz_json_exact(CzJson *json, const char *key, double value) {
     if (json != NULL && !json->failed)
-        put(json, key, isfinite(value) ? json_real(value) : json_null());
+        put(json, key, isfinite(value) ? json_real(cz_figure_exact(value)) : json_null());
 }
 
 void cz_json_whole(CzJson *json, const char *key, long value) {

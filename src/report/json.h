@@ -25,7 +25,8 @@ void cz_json_close(CzJson *json);
 /* Values; key is NULL inside a list. A NULL text and a number that is not finite become null; bytes
  * that are no UTF-8 become question marks. */
 void cz_json_text(CzJson *json, const char *key, const char *text);
-void cz_json_real(CzJson *json, const char *key, double value);
+void cz_json_real(CzJson *json, const char *key, double value);  /* a quantity: figure.h */
+void cz_json_exact(CzJson *json, const char *key, double value); /* typed, or measures an error */
 void cz_json_whole(CzJson *json, const char *key, long value);
 void cz_json_flag(CzJson *json, const char *key, bool value);
 

@@ -13,10 +13,10 @@ static void put_variables(CzJson *json, const CzEvaluator *evaluator, const CzOu
         cz_json_open_object(json, NULL);
         cz_json_text(json, "name", variable->name);
         cz_json_text(json, "unit", variable->unit);
-        cz_json_real(json, "min", variable->min);
-        cz_json_real(json, "max", variable->max);
-        cz_json_real(json, "start", outcome->start[i]);
-        cz_json_real(json, "value", outcome->best[i]);
+        cz_json_exact(json, "min", variable->min);
+        cz_json_exact(json, "max", variable->max);
+        cz_json_exact(json, "start", outcome->start[i]);
+        cz_json_exact(json, "value", outcome->best[i]);
         cz_json_flag(json, "at_bound", outcome->at_bound[i]);
         if (variable->n_choice > 0) {
             cz_json_text(json, "start_choice", variable->choice[(int)outcome->start[i]]);
@@ -39,23 +39,23 @@ static void put_fit(CzJson *json, const CzEvaluator *evaluator, const CzOutcome 
         cz_json_text(json, "where", match->where);
         cz_json_text(json, "kind", match->is_history ? "time history" : "value");
         cz_json_text(json, "unit", match->unit);
-        cz_json_real(json, "target", match->target);
-        cz_json_real(json, "start", i < start->n_match ? start->match[i].value : NAN);
-        cz_json_real(json, "value", match->value);
-        cz_json_real(json, "tolerance", match->tolerance);
-        cz_json_real(json, "weight", match->weight);
-        cz_json_real(json, "residual", match->residual);
+        cz_json_exact(json, "target", match->target);
+        cz_json_exact(json, "start", i < start->n_match ? start->match[i].value : NAN);
+        cz_json_exact(json, "value", match->value);
+        cz_json_exact(json, "tolerance", match->tolerance);
+        cz_json_exact(json, "weight", match->weight);
+        cz_json_exact(json, "residual", match->residual);
         cz_json_close(json);
     }
     cz_json_close(json);
     cz_json_open_list(json, "alternatives");
     for (int i = 0; i < outcome->n_alternative; i++) {
         cz_json_open_object(json, NULL);
-        cz_json_real(json, "objective", outcome->alternative_objective[i]);
+        cz_json_exact(json, "objective", outcome->alternative_objective[i]);
         cz_json_open_object(json, "values");
         for (int k = 0; k < outcome->n_variable; k++)
-            cz_json_real(json, cz_evaluator_variable(evaluator, k)->name,
-                         outcome->alternative[i * outcome->n_variable + k]);
+            cz_json_exact(json, cz_evaluator_variable(evaluator, k)->name,
+                          outcome->alternative[i * outcome->n_variable + k]);
         cz_json_close(json);
         cz_json_close(json);
     }
@@ -66,8 +66,8 @@ static void put_objective(CzJson *json, const CzEvaluator *evaluator, const CzOu
     cz_json_open_object(json, "objective");
     cz_json_text(json, "name", cz_evaluator_objective_name(evaluator));
     cz_json_text(json, "unit", cz_evaluator_objective_unit(evaluator));
-    cz_json_real(json, "start", outcome->start_evaluation.objective);
-    cz_json_real(json, "value", outcome->best_evaluation.objective);
+    cz_json_exact(json, "start", outcome->start_evaluation.objective);
+    cz_json_exact(json, "value", outcome->best_evaluation.objective);
     cz_json_close(json);
 }
 
@@ -81,14 +81,15 @@ static void put_constraint(CzJson *json, const CzEvaluator *evaluator, const CzO
     cz_json_text(json, "scenario", check != NULL ? check->scenario : NULL);
     cz_json_text(json, "where", check != NULL ? check->where : NULL);
     cz_json_text(json, "kind", check != NULL && check->is_minimum ? "min" : "max");
-    cz_json_real(json, "limit", check != NULL ? check->limit : NAN);
-    cz_json_real(json, "start",
-                 start->constraint_check != NULL && i < start->n_constraint
-                     ? start->constraint_check[i].value
-                     : NAN);
-    cz_json_real(json, "value", check != NULL ? check->value : NAN);
+    cz_json_exact(json, "limit", check != NULL ? check->limit : NAN);
+    cz_json_exact(json, "start",
+                  start->constraint_check != NULL && i < start->n_constraint
+                      ? start->constraint_check[i].value
+                      : NAN);
+    cz_json_exact(json, "value", check != NULL ? check->value : NAN);
     cz_json_text(json, "unit", check != NULL ? check->unit : NULL);
-    cz_json_real(json, "margin", check != NULL ? check->margin : NAN);
+    cz_json_exact(json, "margin", check != NULL ? check->margin : NAN);
+    cz_json_flag(json, "checked", check == NULL || check->verdict != CZ_VERDICT_NOT_CHECKED);
     cz_json_flag(json, "violated", !(best->constraint[i] <= 0));
     cz_json_close(json);
 }
@@ -103,7 +104,7 @@ static void put_sensitivities(CzJson *json, const CzEvaluator *evaluator,
             continue;
         cz_json_open_object(json, NULL);
         cz_json_text(json, "variable", cz_evaluator_variable(evaluator, i)->name);
-        cz_json_real(json, "step", outcome->sensitivity_step[i]);
+        cz_json_exact(json, "step", outcome->sensitivity_step[i]);
         cz_json_real(json, "objective_change", outcome->objective_change[i]);
         cz_json_open_object(json, "margin_changes");
         for (int k = 0; k < n_constraint; k++)
@@ -119,12 +120,12 @@ static void put_sensitivities(CzJson *json, const CzEvaluator *evaluator,
 static void put_verification(CzJson *json, const CzVerification *verification) {
     const bool is_made = verification != NULL;
     cz_json_open_object(json, "verification");
-    cz_json_real(json, "half_step_change",
-                 is_made ? verification->largest_change[CZ_WAY_HALF_STEP] : NAN);
-    cz_json_real(json, "reference_change",
-                 is_made ? verification->largest_change[CZ_WAY_ERK] : NAN);
-    cz_json_real(json, "full_track_change",
-                 is_made ? verification->largest_change[CZ_WAY_TRACK] : NAN);
+    cz_json_exact(json, "half_step_change",
+                  is_made ? verification->largest_change[CZ_WAY_HALF_STEP] : NAN);
+    cz_json_exact(json, "reference_change",
+                  is_made ? verification->largest_change[CZ_WAY_ERK] : NAN);
+    cz_json_exact(json, "full_track_change",
+                  is_made ? verification->largest_change[CZ_WAY_TRACK] : NAN);
     cz_json_text(json, "verdict",
                  cz_verdict_text(is_made ? verification->verdict : CZ_VERDICT_NOT_CHECKED));
     cz_json_text(json, "failure",
@@ -148,10 +149,11 @@ CzStatus cz_report_write_outcome(const CzProblem *problem, const CzEvaluator *ev
     cz_json_whole(json, "evaluations", outcome->n_evaluation);
     cz_document_run_info(json, outcome->wall_s, options->setup_s, options->n_job);
     cz_document_warnings(json, problem, &outcome->best_evaluation);
+    cz_document_verdict(json, outcome->best_evaluation.verdict);
     cz_json_flag(json, "best_is_feasible",
                  outcome->best_evaluation.status == CZ_OK &&
                      outcome->best_evaluation.violation <= 0);
-    cz_json_real(json, "violation", outcome->best_evaluation.violation);
+    cz_json_exact(json, "violation", outcome->best_evaluation.violation);
     put_variables(json, evaluator, outcome);
     put_objective(json, evaluator, outcome);
     if (cz_evaluator_is_fit(evaluator))

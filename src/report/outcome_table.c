@@ -38,6 +38,20 @@ const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outc
     return (cz_evaluator_is_fit(evaluator) ? of_fit : words)[outcome->status];
 }
 
+/* Constraints that could not be judged did not guide the search. */
+static void write_unchecked(const CzEvaluation *best, bool colour, FILE *stream) {
+    int n = 0;
+    for (int i = 0; best->constraint_check != NULL && i < best->n_constraint; i++)
+        n += best->constraint_check[i].verdict == CZ_VERDICT_NOT_CHECKED;
+    if (n == 0)
+        return;
+    char text[96];
+    snprintf(text, sizeof text, "%d constraint%s NOT CHECKED and did not guide the search.", n,
+             n == 1 ? " was" : "s were");
+    cz_grid_write_text(text, CZ_STYLE_CAREFUL, colour, stream);
+    fputc('\n', stream);
+}
+
 static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
                        FILE *stream) {
     static const CzStyle styles[] = {[CZ_OUTCOME_FEASIBLE] = CZ_STYLE_GOOD,
@@ -51,6 +65,7 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome, b
         fprintf(stream, "; the best so far is %sfeasible",
                 outcome->best_evaluation.violation <= 0 ? "" : "NOT ");
     fputc('\n', stream);
+    write_unchecked(&outcome->best_evaluation, colour, stream);
     write_objective(evaluator, outcome, colour, stream);
 }
 
@@ -93,7 +108,7 @@ static void write_matches(const CzOutcome *outcome, bool colour, FILE *stream) {
         const CzMatchResult *match = &best->match[i];
         const double numbers[] = {match->is_history ? NAN : match->target, match->tolerance,
                                   i < start->n_match ? start->match[i].value : NAN, match->value};
-        char text[CZ_FIGURE_ROOM + 16];
+        char text[CZ_FIGURE_ROOM + 16], number[CZ_FIGURE_ROOM];
         cz_grid_put(&grid, match->name, CZ_STYLE_PLAIN);
         cz_grid_put(&grid, match->where, CZ_STYLE_PLAIN);
         cz_grid_put(&grid, match->unit, CZ_STYLE_PLAIN);
@@ -102,7 +117,8 @@ static void write_matches(const CzOutcome *outcome, bool colour, FILE *stream) {
                         k == 0 && match->is_history ? "history"
                                                     : cz_figure_digits(text, 5, numbers[k]),
                         CZ_STYLE_PLAIN);
-        snprintf(text, sizeof text, "%+.2f tol", match->residual);
+        cz_figure_fixed(number, 2, match->residual);
+        snprintf(text, sizeof text, "%s%.40s tol", number[0] == '-' ? "" : "+", number);
         cz_grid_put(&grid, text, fabs(match->residual) <= 1 ? CZ_STYLE_GOOD : CZ_STYLE_BAD);
     }
     cz_grid_write(&grid, colour, stream);

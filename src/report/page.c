@@ -45,21 +45,20 @@ const double *cz_page_channel(const CzPage *page, const char *format, ...) {
 }
 
 int cz_page_deciding(const CzEvaluation *evaluation) {
+    const CzCheckResult *worst = NULL;
     int found = -1;
-    double smallest = 1e300;
     for (int i = 0; i < evaluation->n_run; i++) {
         const CzRunSummary *run = cz_kept_run(evaluation, i);
         if (run == NULL)
             continue;
-        if (found < 0 || (run->status != CZ_OK && smallest > -1e300)) {
-            found = i;
-            smallest = run->status != CZ_OK ? -1e300 : smallest;
-        }
+        if (run->status != CZ_OK)
+            return i;
+        found = found < 0 ? i : found;
         for (int k = 0; k < evaluation->n_check; k++) {
             const CzCheckResult *check = &evaluation->check[k];
             if (check->scenario != NULL && strcmp(check->scenario, run->scenario) == 0 &&
-                check->margin < smallest) {
-                smallest = check->margin;
+                !isnan(check->value) && (worst == NULL || cz_check_is_worse(check, worst))) {
+                worst = check;
                 found = i;
             }
         }

@@ -101,18 +101,35 @@ static void write_table(CzMarkup *markup, const CzEvaluation *evaluation,
     cz_page_close_table(markup);
 }
 
+/* What the profile asks for and no check is made of. */
+static void write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation) {
+    if (evaluation->n_not_covered == 0)
+        return;
+    cz_markup_open(markup, "p");
+    cz_markup_text(markup, "Not covered by this program, to be shown by other means: ");
+    for (int i = 0; i < evaluation->n_not_covered; i++) {
+        cz_markup_text(markup, i > 0 ? "; " : "");
+        cz_markup_text(markup, evaluation->not_covered[i]);
+    }
+    cz_markup_text(markup, ".");
+    cz_markup_close(markup);
+    cz_markup_line(markup);
+}
+
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before) {
     if (before != NULL && before->n_check != evaluation->n_check)
         before = NULL;
     if (evaluation->n_check == 0) {
         cz_markup_element(markup, "p", "No checks: nothing was judged.");
+        write_not_covered(markup, evaluation);
         return;
     }
     int n_more = 0;
     for (int i = 0; i < evaluation->n_check; i++)
         n_more += !cz_checks_is_shown(evaluation, i);
     write_table(markup, evaluation, before, false);
+    write_not_covered(markup, evaluation);
     if (n_more == 0)
         return;
     char text[128];

@@ -209,6 +209,7 @@ static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
 static void write_constraint(CzMarkup *markup, const CzEvaluator *evaluator,
                              const CzEvaluation *best, int i) {
     const CzCheckResult *check = best->constraint_check != NULL ? &best->constraint_check[i] : NULL;
+    const bool is_flag = check != NULL && check->is_flag;
     char text[96] = "";
     cz_markup_open(markup, "tr");
     cz_markup_element(markup, "td", cz_evaluator_constraint_name(evaluator, i));
@@ -222,7 +223,7 @@ static void write_constraint(CzMarkup *markup, const CzEvaluator *evaluator,
         cz_checks_format_value(check, sizeof text, text);
     cz_markup_classed(markup, "td", "number", text);
     cz_markup_classed(markup, "td", best->constraint[i] > 0 ? "number fail" : "number",
-                      cz_figure_margin(text, -best->constraint[i]));
+                      cz_figure_margin(text, is_flag ? NAN : -best->constraint[i]));
     cz_markup_close(markup);
     cz_markup_line(markup);
 }
@@ -230,7 +231,10 @@ static void write_constraint(CzMarkup *markup, const CzEvaluator *evaluator,
 int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const int *told) {
     int found = -1;
     for (int i = 0; i < evaluation->n_constraint; i++) {
-        bool is_told = !isfinite(evaluation->constraint[i]);
+        const bool is_flag =
+            evaluation->constraint_check != NULL && evaluation->constraint_check[i].is_flag;
+        bool is_told =
+            !isfinite(evaluation->constraint[i]) || (is_flag && evaluation->constraint[i] <= 0);
         for (int k = 0; k < n_told; k++)
             is_told |= told[k] == i;
         if (!is_told && (found < 0 || evaluation->constraint[i] > evaluation->constraint[found]))

@@ -31,8 +31,8 @@ void cz_document_head(CzJson *json, const char *format, const CzProblem *problem
 
 void cz_document_run_info(CzJson *json, double wall_s, double setup_s, int n_job) {
     cz_json_open_object(json, "run_info");
-    cz_json_real(json, "wall_s", wall_s);
-    cz_json_real(json, "setup_s", setup_s);
+    cz_json_exact(json, "wall_s", wall_s);
+    cz_json_exact(json, "setup_s", setup_s);
     cz_json_text(json, "isa", cz_isa_name());
     if (n_job > 0)
         cz_json_whole(json, "jobs", n_job);
@@ -74,9 +74,7 @@ void cz_document_mistake(CzJson *json, const char *key, const CzError *mistake) 
     cz_json_close(json);
 }
 
-/* The words of a verdict are closed; a pass against a limit that nobody has confirmed says so
- * beside it. */
-static void put_verdict(CzJson *json, CzVerdict verdict) {
+void cz_document_verdict(CzJson *json, CzVerdict verdict) {
     const bool provisional = verdict == CZ_VERDICT_PROVISIONAL;
     cz_json_text(json, "verdict", cz_verdict_text(provisional ? CZ_VERDICT_PASS : verdict));
     cz_json_flag(json, "provisional", provisional);
@@ -108,7 +106,7 @@ static void put_energy(CzJson *json, const CzEnergy *energy) {
     cz_json_real(json, "moving_load_kJ", energy->moving_load / CZ_KILO);
     cz_json_real(json, "absorbers_kJ", energy->absorbers / CZ_KILO);
     cz_json_real(json, "occupied_kJ", energy->occupied / CZ_KILO);
-    cz_json_real(json, "balance_error", energy->balance_error);
+    cz_json_exact(json, "balance_error", energy->balance_error);
     cz_json_close(json);
 }
 
@@ -240,13 +238,13 @@ static void put_scenario(CzJson *json, const CzProblem *problem, const CzRunSumm
     cz_json_text(json, "failure", run->failure[0] != '\0' ? run->failure : NULL);
     cz_json_real(json, "simulated_s", cz_seconds(run->simulated));
     cz_json_text(json, "integrator", cz_integrator_text(run->integrator));
-    cz_json_real(json, "time_step_s", run->time_step);
+    cz_json_exact(json, "time_step_s", run->time_step);
     cz_json_whole(json, "steps", run->n_step);
     cz_json_text(json, "track", track_word(problem));
     cz_json_text(json, "ended", cz_ended_text(run->ended));
     put_energy(json, &run->energy);
-    cz_json_real(json, "momentum_error", run->momentum_error);
-    cz_json_real(json, "rest_residual", run->rest_residual);
+    cz_json_exact(json, "momentum_error", run->momentum_error);
+    cz_json_exact(json, "rest_residual", run->rest_residual);
     cz_json_real(json, "closing_speed_km_h", run->closing_speed * CZ_KM_H_PER_M_S);
     cz_json_real(json, "plastic_energy_kJ", run->plastic_energy / CZ_KILO);
     cz_json_flag(json, "beyond_validity", run->beyond_validity);
@@ -279,11 +277,11 @@ static void put_check(CzJson *json, const CzCheckResult *check) {
         cz_json_real(json, "to_ms", cz_milliseconds(check->when[1]));
     }
     cz_json_text(json, "kind", check->is_minimum ? "min" : "max");
-    cz_json_real(json, "limit", check->limit);
-    cz_json_real(json, "value", check->value);
+    cz_json_exact(json, "limit", check->limit);
+    cz_json_exact(json, "value", check->value);
     cz_json_text(json, "unit", check->unit);
-    cz_json_real(json, "margin", check->margin);
-    put_verdict(json, check->verdict);
+    cz_json_exact(json, "margin", check->margin);
+    cz_document_verdict(json, check->verdict);
     cz_json_text(json, "why", check->why);
     cz_json_text(json, "profile", check->profile);
     cz_json_text(json, "clause", check->clause);
@@ -301,7 +299,7 @@ CzStatus cz_report_write_summary(const CzProblem *problem, const CzEvaluation *e
     CzJson *json = cz_json_create();
     cz_document_head(json, "crushzone.summary", problem);
     cz_json_text(json, "status", evaluation->status == CZ_OK ? "completed" : "failed");
-    put_verdict(json, evaluation->verdict);
+    cz_document_verdict(json, evaluation->verdict);
     cz_document_run_info(json, options->wall_s, options->setup_s, options->n_job);
     cz_document_warnings(json, problem, evaluation);
 
@@ -313,6 +311,10 @@ CzStatus cz_report_write_summary(const CzProblem *problem, const CzEvaluation *e
     cz_json_open_list(json, "checks");
     for (int i = 0; i < evaluation->n_check; i++)
         put_check(json, &evaluation->check[i]);
+    cz_json_close(json);
+    cz_json_open_list(json, "not_covered");
+    for (int i = 0; i < evaluation->n_not_covered; i++)
+        cz_json_text(json, NULL, evaluation->not_covered[i]);
     cz_json_close(json);
     return cz_json_finish(json, stream, error);
 }

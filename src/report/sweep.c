@@ -116,11 +116,13 @@ static void write_worst(const CzSweep *sweep, bool colour, FILE *stream) {
     }
     const Telling telling = telling_of(worst);
     cz_grid_write_text(telling.word, telling.style, colour, stream);
-    if (worst->state == CZ_SWEEP_DONE) {
+    if (worst->state == CZ_SWEEP_DONE && worst->check[0] != '\0') {
         fputs(": ", stream);
         cz_grid_write_text(worst->check, CZ_STYLE_PLAIN, colour, stream);
-        fprintf(stream, "%s%s in %s, margin %s", worst->where[0] != '\0' ? " at " : "",
-                worst->where, worst->scenario, cz_figure_margin(text, worst->margin));
+        fprintf(stream, "%s%s in %s", worst->where[0] != '\0' ? " at " : "", worst->where,
+                worst->scenario);
+        if (!isnan(worst->margin))
+            fprintf(stream, ", margin %s", cz_figure_margin(text, worst->margin));
     } else {
         fputs(": ", stream);
         cz_grid_write_text(worst->message, CZ_STYLE_PLAIN, colour, stream);
@@ -148,24 +150,21 @@ static void put_json_point(CzJson *json, const CzSweep *sweep, const CzSweepPoin
     cz_json_open_object(json, NULL);
     cz_json_open_list(json, "value");
     for (int k = 0; k < sweep->n_axis; k++)
-        cz_json_real(json, NULL, point->value[k]);
+        cz_json_exact(json, NULL, point->value[k]);
     cz_json_close(json);
     cz_json_text(json, "state", cz_sweep_state_text(point->state));
-    const bool is_done = point->state == CZ_SWEEP_DONE;
-    const bool is_provisional = is_done && point->verdict == CZ_VERDICT_PROVISIONAL;
-    cz_json_text(json, "verdict",
-                 is_done ? cz_verdict_text(is_provisional ? CZ_VERDICT_PASS : point->verdict)
-                         : NULL);
-    if (is_provisional)
-        cz_json_flag(json, "provisional", true);
-    cz_json_real(json, "margin", point->margin);
+    if (point->state == CZ_SWEEP_DONE)
+        cz_document_verdict(json, point->verdict);
+    else
+        cz_json_text(json, "verdict", NULL);
+    cz_json_exact(json, "margin", point->margin);
     cz_json_text(json, "check", point->check[0] != '\0' ? point->check : NULL);
     cz_json_text(json, "scenario", point->scenario[0] != '\0' ? point->scenario : NULL);
     cz_json_text(json, "where", point->where[0] != '\0' ? point->where : NULL);
     cz_json_open_list(json, "metrics");
     for (int k = 0; k < sweep->n_metric; k++) {
         cz_json_open_object(json, NULL);
-        cz_json_real(json, "value", point->metric[k]);
+        cz_json_exact(json, "value", point->metric[k]);
         cz_json_text(json, "where", point->metric_where[k]);
         cz_json_close(json);
     }
@@ -187,8 +186,8 @@ CzStatus cz_report_write_sweep(const CzSweep *sweep, const CzReportOptions *opti
     for (int k = 0; k < sweep->n_axis; k++) {
         cz_json_open_object(json, NULL);
         cz_json_text(json, "path", sweep->axis[k].path);
-        cz_json_real(json, "from", sweep->axis[k].from);
-        cz_json_real(json, "to", sweep->axis[k].to);
+        cz_json_exact(json, "from", sweep->axis[k].from);
+        cz_json_exact(json, "to", sweep->axis[k].to);
         cz_json_whole(json, "n", sweep->axis[k].n);
         cz_json_close(json);
     }

@@ -169,14 +169,14 @@ static bool is_of_family(const CzProblem *problem, const char *scenario, const c
     return own != NULL && strcmp(own, family) == 0;
 }
 
-/* The check of a family with the smallest margin; NULL when none has one. */
+/* The check of a family that is nearest to failing, or fails; NULL when none was made. */
 static const CzCheckResult *worst_check(const CzProblem *problem, const CzEvaluation *evaluation,
                                         const char *family) {
     const CzCheckResult *worst = NULL;
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
-        if (isfinite(check->margin) && is_of_family(problem, check->scenario, family) &&
-            (worst == NULL || check->margin < worst->margin))
+        if (!isnan(check->value) && is_of_family(problem, check->scenario, family) &&
+            (worst == NULL || cz_check_is_worse(check, worst)))
             worst = check;
     }
     return worst;
@@ -214,7 +214,8 @@ static void write_family(const CzProblem *problem, const CzEvaluation *evaluatio
     if (worst != NULL) {
         fputs(" by ", stream);
         cz_grid_write_text(worst->name, CZ_STYLE_PLAIN, colour, stream);
-        fprintf(stream, ", margin %s", cz_figure_margin(margin, worst->margin));
+        if (!worst->is_flag)
+            fprintf(stream, ", margin %s", cz_figure_margin(margin, worst->margin));
     }
     fputc('\n', stream);
 }

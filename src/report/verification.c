@@ -154,11 +154,11 @@ static void put_value(CzJson *json, const CzVerifiedValue *value) {
     cz_json_text(json, "scenario", value->scenario[0] != '\0' ? value->scenario : NULL);
     cz_json_text(json, "where", value->where[0] != '\0' ? value->where : NULL);
     cz_json_text(json, "unit", value->unit);
-    cz_json_real(json, "record", value->record);
+    cz_json_exact(json, "record", value->record);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
         cz_json_open_object(json, cz_verify_way_key((CzVerifyWay)way));
-        cz_json_real(json, "value", value->value[way]);
-        cz_json_real(json, "change", value->change[way]);
+        cz_json_exact(json, "value", value->value[way]);
+        cz_json_exact(json, "change", value->change[way]);
         cz_json_flag(json, "flips", value->flips[way]);
         cz_json_close(json);
     }
@@ -170,7 +170,7 @@ static void put_way(CzJson *json, const CzVerification *verification, CzVerifyWa
     const CzVerifiedValue *value = worst >= 0 ? &verification->value[worst] : NULL;
     cz_json_open_object(json, cz_verify_way_key(way));
     cz_json_flag(json, "done", verification->is_done[way]);
-    cz_json_real(json, "largest_change", verification->largest_change[way]);
+    cz_json_exact(json, "largest_change", verification->largest_change[way]);
     cz_json_text(json, "of", value != NULL ? value->name : NULL);
     cz_json_text(json, "where", value != NULL && value->where[0] != '\0' ? value->where : NULL);
     cz_json_text(json, "scenario",
@@ -205,7 +205,7 @@ CzStatus cz_report_write_verification(const CzProblem *problem, const CzVerifica
     cz_json_text(json, "status", verification->status == CZ_OK ? "completed" : "failed");
     cz_json_text(json, "failure", verification->failure[0] != '\0' ? verification->failure : NULL);
     cz_json_text(json, "verdict", cz_verdict_text(verification->verdict));
-    cz_json_real(json, "limit", verification->limit);
+    cz_json_exact(json, "limit", verification->limit);
     put_times(json, verification, options);
     cz_document_verified_ways(json, verification);
     cz_json_open_list(json, "values");

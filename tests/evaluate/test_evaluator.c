@@ -109,9 +109,9 @@ static void unconfirmed_limit_passes_provisionally_until_the_user_sets_it(void *
     const struct {
         const char *confidence;
         CzVerdict verdict;
-    } cases[] = {{"S1", CZ_VERDICT_PASS},       {"M1", CZ_VERDICT_PASS},
-                 {"user", CZ_VERDICT_PASS},     {"S2", CZ_VERDICT_PROVISIONAL},
-                 {"X", CZ_VERDICT_PROVISIONAL}, {"M2", CZ_VERDICT_PROVISIONAL},
+    } cases[] = {{"S1", CZ_VERDICT_PASS},        {"user", CZ_VERDICT_PASS},
+                 {"M1", CZ_VERDICT_PROVISIONAL}, {"S2", CZ_VERDICT_PROVISIONAL},
+                 {"X", CZ_VERDICT_PROVISIONAL},  {"M2", CZ_VERDICT_PROVISIONAL},
                  {"M3", CZ_VERDICT_PROVISIONAL}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char more[512];

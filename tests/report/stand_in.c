@@ -411,7 +411,3 @@ const char *cz_outcome_text(CzOutcomeStatus status) {
     static const char *const texts[] = {"feasible", "infeasible", "interrupted"};
     return texts[status];
 }
-const char *cz_verdict_text(CzVerdict verdict) {
-    static const char *const texts[] = {"pass", "provisional", "fail", "not checked"};
-    return texts[verdict];
-}

@@ -202,13 +202,16 @@ static void figures_are_short_and_honest(void **state) {
         double value;
         const char *plain, *percent, *margin;
     } rows[] = {{0, "0", "0 %", "+0 %"},
-                {3483.4, "3483", "348340 %", "+348340 %"},
-                {21.04, "21.0", "2104 %", "+2104 %"},
+                {3483.4, "3483", ">999 %", ">999 %"},
+                {-21.04, "-21.0", "<-999 %", "<-999 %"},
+                {9.994, "9.99", "999 %", "+999 %"},
                 {2.314, "2.31", "231 %", "+231 %"},
                 {-0.132, "-0.13", "-13 %", "-13 %"},
                 {0.0567, "0.06", "5.7 %", "+5.7 %"},
                 {-0.0003, "-0.0003", "-0.03 %", "-0.03 %"},
-                {-1e-9, "-1e-09", "-1e-07 %", "-1e-07 %"}};
+                {-2e-9, "-2e-09", "-2e-07 %", "-2e-07 %"},
+                {-4.4e-14, "0", "0 %", "+0 %"},
+                {-0.0, "0", "0 %", "+0 %"}};
     char text[CZ_FIGURE_ROOM];
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         assert_string_equal(cz_figure_plain(text, rows[i].value), rows[i].plain);
@@ -220,6 +223,9 @@ static void figures_are_short_and_honest(void **state) {
     assert_string_equal(cz_figure_plain(text, NAN), "-");
     assert_string_equal(cz_figure_margin(text, NAN), "-");
     assert_string_equal(cz_figure_plain(text, 1e300), "1e+300");
+    assert_string_equal(cz_figure_change(text, 1e4), ">999 %");
+    assert_string_equal(cz_figure_fixed(text, 1, -0.04), "0.0");
+    assert_string_equal(cz_figure_digits(text, 3, -0.0), "0");
 }
 
 int main(void) {

@@ -1,0 +1,92 @@
+# How checks add up to a verdict, and how numbers are printed: the same in table, JSON, page and exit code.
+. "$SOURCE/tests/support/cases.sh"
+. "$SOURCE/tests/cli/cli.sh"
+mkdir -p profiles
+cat >profiles/own.yaml <<'END'
+schema: 1
+name: own
+edition: ours
+limits:
+  - {name: peak force, metric: interfaces.peak_force_kN, max: 3000, source: from memory, confidence: M1}
+not_checked: [vestibules, obstacle deflector]
+END
+# Two rigid cars with perfectly elastic buffers: nothing is dissipated.
+cat >elastic.yaml <<'END'
+schema: 1
+title: two cars with elastic buffers
+parts:
+  end: {face_gap_mm: 600, unloading_stiffness_MN_m: 300, coupler: {buffer: {stages: [{stroke_mm: 90, force_kN: 900}], unloading_share: 1, damping_kN_s_m: 0}}}
+  car: {model: rigid, mass_t: 36, length_m: 15, front: {use: end}, rear: {use: end}}
+checks: {profile: own, closing_rules: false}
+trains:
+  - {name: A, speed_km_h: 5, vehicles: [{use: car}]}
+  - {name: B, vehicles: [{use: car}]}
+END
+# agree FILE CODE WORD JSON PROVISIONAL BADGE: all say the same of a problem.
+agree() {
+    exits "$2" "$C" check "$1" -o out && says out.txt "Verdict: $3." &&
+        json out/summary.json verdict "$4" && json out/summary.json provisional "$5" &&
+        grep -qE "<p class=\"banner [a-z]*\">$6</p>" out/report.html && exits "$2" "$C" run --strict "$1" -o out
+}
+from_memory() {
+    agree elastic.yaml 0 PROVISIONAL pass true 'PROVISIONAL PASS' && says out.txt '1 check: 1 PROVISIONAL.' &&
+        says out.txt 'Not covered by this program, to be shown by other means: vestibules; obstacle deflector.' &&
+        json out/summary.json not_covered.1 'obstacle deflector' && says out/report.html 'vestibules; obstacle deflector' &&
+        says out/checks.csv 'vestibules,' && ! grep -q 'NOT CHECKED' out.txt
+}
+check "a pass against a limit from memory is provisional, and what is not covered is listed apart" from_memory
+confirmed() {
+    sed 's/M1/S1/' profiles/own.yaml >profiles/read.yaml && sed -i 's/name: own/name: read/' profiles/read.yaml &&
+        sed 's/profile: own/profile: read/' elastic.yaml >read.yaml && agree read.yaml 0 pass pass false PASS
+}
+check "a pass against a limit that was read is a pass" confirmed
+unchecked() {
+    sed 's/closing_rules: false/closing_rules: true/' elastic.yaml >rules.yaml &&
+        agree rules.yaml 1 'NOT CHECKED' 'not checked' false 'NOT CHECKED'
+}
+check "a check that could not be made makes no pass" unchecked
+failing() {
+    sed 's/max: 3000/max: 300/' profiles/own.yaml >profiles/low.yaml && sed -i 's/name: own/name: low/' profiles/low.yaml &&
+        sed 's/profile: own/profile: low/; s/closing_rules: false/closing_rules: true/' elastic.yaml >low.yaml &&
+        agree low.yaml 1 FAIL fail false FAIL
+}
+check "a check that fails outweighs those that could not be made" failing
+cut_short() {
+    printf 'extends: elastic.yaml\nchecks: {profile: null, limits: [{name: parts, metric: design.part_count, max: 9}]}\nparts: {end: {coupler: {tube: {stages: [{stroke_mm: 50, force_kN: 950}]}}}}\n' >cut.yaml
+    exits 0 "$C" check cut.yaml && says out.txt 'Verdict: pass.' &&
+        exits 3 "$C" check cut.yaml --set simulation.longest_s=0.02 && says out.txt 'Verdict: NOT CHECKED.' &&
+        exits 3 "$C" check cut.yaml --set simulation.longest_s=0.02 --json && json out.txt verdict 'not checked'
+}
+check "a run that is cut short makes no pass, whatever the checks are about" cut_short
+sweep_agrees() {
+    exits 0 "$C" sweep elastic.yaml --vary trains.A.speed_km_h=4:5:2 --json && json out.txt points.0.verdict pass &&
+        json out.txt points.0.provisional true && exits 0 "$C" sweep rules.yaml --vary trains.A.speed_km_h=4:5:2 --json &&
+        json out.txt points.1.verdict 'not checked' && exits 1 "$C" sweep low.yaml --vary trains.A.speed_km_h=4:5:2 --strict --json &&
+        json out.txt points.1.verdict fail && "$C" run elastic.yaml -o one --quiet && "$C" run low.yaml -o two --quiet &&
+        exits 0 "$C" compare one two --json && json out.txt runs.0.verdict pass && json out.txt runs.0.provisional true && json out.txt runs.1.verdict fail
+}
+check "sweeps and comparisons add checks up alike" sweep_agrees
+yes_or_no() {
+    "$C" run low.yaml -o out >out.txt 2>err.txt && grep '^bottoming out  ' out.txt >row.txt && ! grep '%' row.txt &&
+        json out/summary.json checks.2.name 'bottoming out' && json out/summary.json checks.2.margin null &&
+        "$C" run "$SOURCE/problems/two-cars-25kmh.yaml" -o out >out.txt 2>err.txt &&
+        grep -E '^(bottoming out|override)  ' out.txt >row.txt && ! grep '%' row.txt && grep FAIL row.txt
+}
+check "a yes or no has no percentage" yes_or_no
+many_times() {
+    "$C" run low.yaml -o out --set trains.A.speed_km_h=60 >out.txt 2>err.txt
+    grep '<-999 %' out.txt >row.txt && says out/report.html '&lt;-999 %' && ! grep -E ' [0-9]{4,} %' out.txt
+}
+check "what exceeds its limit many times over says so without a number" many_times
+leftovers() {
+    "$C" run rules.yaml -o out >out.txt 2>err.txt || return 1
+    ! grep -nE '(^|[^0-9.])-0(\.0*)?([^0-9.]|$)|[0-9]e-1[0-9]' out.txt out/checks.csv out/interfaces.csv out/channels.csv &&
+        ! grep -nE '"[a-z_]*_(kJ|kN|mm|km_h|g|mrad)": (-0\.0|-?[0-9.]+e-1[0-9])' out/summary.json &&
+        ! sed 's/<script.*//' out/report.html | grep -nE '>-0(\.0*)?( |<)' && says out/summary.json '"energy_share": null'
+}
+check "no output has a negative zero or what rounding left of zero" leftovers
+verified() {
+    exits 0 "$C" verify elastic.yaml && says out.txt 'Verification: pass' && ! grep -E '[0-9]e\+' out.txt
+}
+check "a run that dissipates nothing is verified against its kinetic energy" verified
+finish

@@ -82,7 +82,7 @@ static void note_bogie(CzBlock *d, int bogie, const double *restrict lift_before
                        const double *restrict moment_before) {
     const size_t n = CZ_LANE_BLOCK;
     const double sign = bogie == 0 ? -1.0 : 1.0;
-    const double *restrict half = P(BOGIE_X), *restrict s = S(BODY_SIN);
+    const double *restrict half = P(BOGIE_X), *restrict compression = S_AT(SECONDARY_REAR, bogie);
     const double *restrict xb = X(BODY_X), *restrict zb = X(BODY_Z);
     const double *restrict xt = X_AT(BOGIE_X_REAR, 3 * bogie), *restrict zt =
                                                                    X_AT(BOGIE_Z_REAR, 3 * bogie);
@@ -102,9 +102,8 @@ static void note_bogie(CzBlock *d, int bogie, const double *restrict lift_before
                                      .bump_stiffness = bump_k[i],
                                      .lift_gap = lift[i],
                                      .lift_stiffness = lift_k[i]};
-        const double compression = zt[i] - (zb[i] + sign * half[i] * s[i]);
         const double arm = sign * half[i] + (xt[i] - xb[i]);
-        const double stop = cz_suspension_stops(&law, compression);
+        const double stop = cz_suspension_stops(&law, compression[i]);
         const double of_link = (link_body[i] + (zt[i] - zb[i])) * pull[i];
         link_moment[i] += of_link;
         stop_lift[i] += stop;

@@ -186,6 +186,7 @@ static void bogie_to_body(CzBlock *d, int bogie) {
                                                               G_AT(BOGIE_Z_REAR, 3 * bogie);
     double *restrict gmt = G_AT(BOGIE_PITCH_REAR, 3 * bogie);
     double *restrict kept = S_AT(LINK_REAR, bogie), *restrict way = S_AT(LINK_TRAVEL_REAR, bogie);
+    double *restrict compressed = S_AT(SECONDARY_REAR, bogie);
     double *restrict spring_power = POWER(SECONDARY), *restrict damper_power =
                                                           POWER(SECONDARY_DAMPING);
     double *restrict link_power = POWER(LINK), *restrict link_lost = POWER(LINK_DAMPING);
@@ -216,6 +217,7 @@ static void bogie_to_body(CzBlock *d, int bogie) {
         gxt[i] += pull;
         gmb[i] += arm * lifted + height * pull;
         gmt[i] -= link_bogie[i] * pull;
+        compressed[i] = compression;
         kept[i] = pull;
         way[i] = stretch;
         spring_power[i] += spring * rate;

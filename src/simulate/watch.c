@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 /* Where a watched value comes from. */
-typedef enum { FROM_MEMORY, FROM_EXTREME, FROM_LIFT_STOP, FROM_BUMP_STOP, FROM_SWING } Source;
+typedef enum { FROM_MEMORY, FROM_EXTREME, FROM_LIFT_STOP, FROM_BUMP_STOP } Source;
 
 typedef struct {
     Source source;
@@ -102,7 +102,8 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
               curve[end].usable[own], "end", name);
     }
     if (cz_parameter(batch, CZ_P_COUPLER, lane) > 0.5)
-        watch(list, batch, CZ_EVENT_SWING_STOP, FROM_SWING, side, lane, 0.0, "coupler", name);
+        watch(list, batch, CZ_EVENT_SWING_STOP, FROM_EXTREME, CZ_E_SWING_A + side, lane,
+              cz_parameter(batch, CZ_P_SWING_STOP_A + side, lane), "coupler", name);
 }
 
 static void watch_interface(CzWatch *list, const CzBatch *batch, int interface) {
@@ -152,7 +153,6 @@ static double *limit_row(Limits *limits, const Watched *watched) {
     case FROM_BUMP_STOP:
         return limits->pressed[watched->row];
     case FROM_MEMORY:
-    case FROM_SWING:
         break;
     }
     return limits->end[watched->row - CZ_M_END_PEAK_REAR];
@@ -197,33 +197,7 @@ CzWatch *cz_watch_begin(CzBatch *batch, CzArena *arena) {
     return list;
 }
 
-/* Angle of the coupler line against the car, less the free swing; negative while free. The pivots
- * follow the bodies. */
-static double swing(const CzBatch *batch, size_t lane, int side) {
-    const size_t ahead = lane + (size_t)batch->n_design, own = side == 0 ? lane : ahead;
-    const double sin_a = cz_scratch(batch, CZ_S_BODY_SIN, lane),
-                 sin_b = cz_scratch(batch, CZ_S_BODY_SIN, ahead);
-    const double rise = cz_parameter(batch, CZ_P_PIVOT_RISE, lane) +
-                        cz_position(batch, CZ_DOF_BODY_Z, ahead) -
-                        cz_position(batch, CZ_DOF_BODY_Z, lane) +
-                        cz_parameter(batch, CZ_P_PIVOT_X_B, lane) * sin_b -
-                        cz_parameter(batch, CZ_P_PIVOT_X_A, lane) * sin_a;
-    const double length = cz_parameter(batch, CZ_P_PIVOT_DISTANCE, lane) +
-                          cz_position(batch, CZ_DOF_BODY_X, ahead) -
-                          cz_position(batch, CZ_DOF_BODY_X, lane);
-    const bool mated = cz_memory(batch, CZ_M_COUPLER_FORCE, lane) != 0.0;
-    const double angle = rise / fmax(length, 0.1) - cz_position(batch, CZ_DOF_BODY_PITCH, own);
-    return mated ? fabs(angle) - cz_parameter(batch, CZ_P_SWING_STOP_A + side, lane) : -1.0;
-}
-
-/* Compression of the secondary suspension of a bogie [m]. */
-static double compression(const CzBlock *block, int bogie, size_t i) {
-    const double sign = bogie == 0 ? -1.0 : 1.0;
-    return block->position[CZ_DOF_BOGIE_Z_REAR + 3 * bogie][i] - block->position[CZ_DOF_BODY_Z][i] -
-           sign * block->parameter[CZ_P_BOGIE_X][i] * block->scratch[CZ_S_BODY_SIN][i];
-}
-
-static double value_of(const Watched *watched, const CzBatch *batch) {
+static double value_of(const Watched *watched) {
     const size_t i = watched->lane % CZ_LANE_BLOCK;
     switch (watched->source) {
     case FROM_MEMORY:
@@ -231,11 +205,9 @@ static double value_of(const Watched *watched, const CzBatch *batch) {
     case FROM_EXTREME:
         return watched->block->extreme[watched->row][i];
     case FROM_LIFT_STOP:
-        return -compression(watched->block, watched->row, i);
+        return -watched->block->scratch[CZ_S_SECONDARY_REAR + watched->row][i];
     case FROM_BUMP_STOP:
-        return compression(watched->block, watched->row, i);
-    case FROM_SWING:
-        return swing(batch, watched->lane, watched->row);
+        return watched->block->scratch[CZ_S_SECONDARY_REAR + watched->row][i];
     }
     return 0.0;
 }
@@ -246,7 +218,7 @@ static void look_at_list(CzWatch *list, const CzBatch *batch, When when) {
     int n_left = 0;
     for (int i = 0; i < list->n_watched[when]; ++i) {
         const Watched *watched = &first[i];
-        if (value_of(watched, batch) > watched->threshold) {
+        if (value_of(watched) > watched->threshold) {
             CzEvent *event = &list->event[list->n_event++];
             *event = list->named[watched->named];
             event->time = batch->time;
@@ -274,10 +246,11 @@ static bool nothing_pushes(const CzBatch *batch) {
 static bool is_beyond(const CzBlock *block, const Limits *limits, size_t n) {
     const CzRow *lift = &block->extreme[CZ_E_LIFT_0];
     const CzRow *end = (const CzRow *)&block->memory[CZ_M_END_PEAK_REAR];
+    const double *restrict rear = block->scratch[CZ_S_SECONDARY_REAR],
+                           *restrict front = block->scratch[CZ_S_SECONDARY_FRONT];
     double n_beyond = 0.0;
 #pragma omp simd reduction(+ : n_beyond)
     for (size_t i = 0; i < n; ++i) {
-        const double rear = compression(block, 0, i), front = compression(block, 1, i);
         double beyond = 0.0;
         beyond += lift[0][i] > limits->lift[0][i] ? 1.0 : 0.0;
         beyond += lift[1][i] > limits->lift[1][i] ? 1.0 : 0.0;
@@ -285,10 +258,10 @@ static bool is_beyond(const CzBlock *block, const Limits *limits, size_t n) {
         beyond += lift[3][i] > limits->lift[3][i] ? 1.0 : 0.0;
         beyond += end[0][i] > limits->end[0][i] ? 1.0 : 0.0;
         beyond += end[1][i] > limits->end[1][i] ? 1.0 : 0.0;
-        beyond += -rear > limits->raised[0][i] ? 1.0 : 0.0;
-        beyond += -front > limits->raised[1][i] ? 1.0 : 0.0;
-        beyond += rear > limits->pressed[0][i] ? 1.0 : 0.0;
-        beyond += front > limits->pressed[1][i] ? 1.0 : 0.0;
+        beyond += -rear[i] > limits->raised[0][i] ? 1.0 : 0.0;
+        beyond += -front[i] > limits->raised[1][i] ? 1.0 : 0.0;
+        beyond += rear[i] > limits->pressed[0][i] ? 1.0 : 0.0;
+        beyond += front[i] > limits->pressed[1][i] ? 1.0 : 0.0;
         n_beyond += beyond;
     }
     return n_beyond > 0.0;

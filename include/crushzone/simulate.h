@@ -59,14 +59,17 @@ typedef struct CzElementResult {
     int vehicle;   /* vehicle that owns it */
     double energy; /* net dissipated [J] */
     double stored; /* still stored at the end [J] */
-    double stroke; /* plastic stroke used: tubes, anti-climber stages or crush zone together [m] */
-    double stroke_used; /* largest share of any one device's usable stroke [-]; 0 when it has none;
-                           of a coupler that has let go, the share of its room to retract */
+    double stroke; /* plastic stroke: tubes, anti-climber stages or crush zone together; of a buffer
+                      without a tube its largest stroke [m] */
+    double stroke_used; /* largest share of any one device's usable stroke over the run [-]; 0 when
+                           it has none; of a coupler that has sheared off, the share of its
+                           retraction space. A buffer counts only where no tube or shear-off takes
+                           over at the end of its stroke */
     double peak_force;  /* unfiltered largest force over all steps [N] */
     double tube_energy; /* part of a coupler's energy that its tubes and shear-off took [J]; all of
                            it for the others */
     bool sheared;       /* coupler: shear-off has let go */
-    bool bottomed_out;  /* ran beyond its last point */
+    bool bottomed_out;  /* a device used its whole stroke, and no other of the element took over */
     double zone_energy[3]; /* plastic energy by zone: crush, temporary, occupied [J] */
 } CzElementResult;
 

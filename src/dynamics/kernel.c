@@ -270,8 +270,10 @@ static void coupler_extremes(CzBlock *d) {
         const double ahead = z_ahead[i] + at_ahead[i] * s_ahead[i];
         rise[i] = cz_larger(rise[i], tilts[i] * fabs(ahead - own));
     }
-    for (int side = 0; side < 2; ++side)
+    for (int side = 0; side < 2; ++side) {
         keep_larger_size(d, CZ_E_SWING_A + side, S_AT(SWING_A, side));
+        keep_larger(d, CZ_E_BUFFER_A + side, M_AT(BUFFER_A, side));
+    }
     keep_larger_size(d, CZ_E_COUPLER_FORCE, S(COUPLER_FORCE));
 }
 
@@ -335,6 +337,8 @@ static void commit_block(const CzLanes *lanes, CzBlock *d, double step, double t
     keep_larger(d, CZ_E_FACE_FORCE, S(FACE_TOP));
     keep_larger_size(d, CZ_E_FACE_DEMAND, S(FACE_DEMAND));
     if (lanes->has_side_buffers) {
+        keep_larger(d, CZ_E_SIDE_BUFFER_A, M(SIDE_BUFFER_A));
+        keep_larger(d, CZ_E_SIDE_BUFFER_B, M(SIDE_BUFFER_B));
         keep_larger(d, CZ_E_SIDE_FORCE, S(SIDE_FORCE));
         keep_larger(d, CZ_E_SIDE_FORCE, S(SIDE_TOP));
     }

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "model/own_design.h"
+#include "simulate/devices.h"
 
 #define MISSING 1e29 /* strengths and strokes from here on stand for a member that is not there */
 
@@ -13,10 +14,6 @@
 static double usable(const CzBatch *batch, int curve, size_t lane) {
     const double stroke = batch->lanes->curve[curve].usable[lane];
     return stroke < MISSING ? stroke : INFINITY;
-}
-
-static double used(double stroke, double whole) {
-    return isfinite(whole) && whole > 0.0 ? stroke / whole : 0.0;
 }
 
 static void name_element(CzElementResult *result, const CzBatch *batch) {
@@ -35,9 +32,6 @@ static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
     const double tube = cz_memory(batch, CZ_M_TUBE_A + side, lane);
     const double second = cz_memory(batch, CZ_M_SECOND_TUBE_A + side, lane);
     const double travel = cz_memory(batch, CZ_M_SHEAR_A + side, lane);
-    const double space = cz_parameter(batch, CZ_P_SHEAR_SPACE_A + side, lane);
-    const double tube_usable = usable(batch, CZ_CURVE_TUBE_A + side, lane);
-    const double second_usable = usable(batch, CZ_CURVE_SECOND_TUBE_A + side, lane);
     result->stored = cz_coupler_stored(batch->dynamics, lane, side);
     /* The row holds the work on the members, without what the chain's compliance stores. */
     const double of_members = result->stored - cz_coupler_elastic(batch->dynamics, lane);
@@ -47,12 +41,6 @@ static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
     result->stroke = tube + second;
     result->peak_force = cz_extreme(batch, CZ_E_COUPLER_FORCE, lane);
     result->sheared = travel >= cz_parameter(batch, CZ_P_SHEAR_SOFTENING_A + side, lane);
-    /* A tube that is used up is how a coupler with a shear-off comes to let go; from then on the
-     * room to retract counts. */
-    const double of_tubes = fmax(used(tube, tube_usable), used(second, second_usable));
-    const bool lets_go = cz_parameter(batch, CZ_P_SHEAR_FORCE_A + side, lane) < MISSING;
-    result->stroke_used = result->sheared ? used(travel, space) : of_tubes;
-    result->bottomed_out = lets_go ? travel > space : of_tubes > 1.0;
     return true;
 }
 
@@ -66,8 +54,6 @@ static bool fill_anti_climber(const CzBatch *batch, size_t lane, int side, int c
         return false;
     result->kind = CZ_ELEMENT_ANTI_CLIMBER;
     result->vehicle = car;
-    const double stroke = cz_memory(batch, CZ_M_FACE_A + side, lane);
-    const double whole = usable(batch, CZ_CURVE_FACE_A + side, lane);
     const double shared =
         cz_work(batch, CZ_L_FACE_DAMPING, lane) + cz_work(batch, CZ_L_FACE_SLIDING, lane);
     const double share = has_anti_climber(batch, lane, 1 - side) ? 0.5 : 1.0;
@@ -75,10 +61,8 @@ static bool fill_anti_climber(const CzBatch *batch, size_t lane, int side, int c
     result->energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane) + share * shared;
     result->tube_energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
-    result->stroke = stroke;
-    result->stroke_used = used(stroke, whole);
+    result->stroke = cz_memory(batch, CZ_M_FACE_A + side, lane);
     result->peak_force = cz_extreme(batch, CZ_E_FACE_FORCE, lane);
-    result->bottomed_out = stroke > whole;
     return true;
 }
 
@@ -89,21 +73,14 @@ static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int c
         return false;
     result->kind = CZ_ELEMENT_SIDE_BUFFERS;
     result->vehicle = car;
-    const double stroke = cz_memory(batch, CZ_M_SIDE_TUBE_A + side, lane);
-    const double whole = usable(batch, CZ_CURVE_SIDE_TUBE_A + side, lane);
-    const double reversible = usable(batch, CZ_CURVE_SIDE_BUFFER_A + side, lane);
-    const bool alone = batch->lanes->curve[CZ_CURVE_SIDE_TUBE_A + side].start[lane] > MISSING;
     result->stored = cz_side_stored(batch->dynamics, lane, side);
     const double of_members = result->stored - cz_side_elastic(batch->dynamics, lane);
     result->energy = cz_memory(batch, CZ_M_SIDE_ENERGY_A + side, lane) - of_members +
                      0.5 * cz_work(batch, CZ_L_SIDE_SLIDING, lane);
     result->tube_energy = cz_memory(batch, CZ_M_SIDE_TUBE_ENERGY_A + side, lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
-    result->stroke = stroke;
-    result->stroke_used = used(stroke, whole);
+    result->stroke = cz_memory(batch, CZ_M_SIDE_TUBE_A + side, lane);
     result->peak_force = cz_extreme(batch, CZ_E_SIDE_FORCE, lane);
-    result->bottomed_out =
-        stroke > whole || (alone && cz_memory(batch, CZ_M_SIDE_BUFFER_A + side, lane) > reversible);
     return true;
 }
 
@@ -168,11 +145,8 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
     const bool slaved = batch->model->car[car].model != CZ_MODEL_FULL;
     const size_t own = cz_lane(batch, car, design);
     const int which = side == 0 ? 1 : 0; /* front or rear end of the car */
-    const int curve = slaved ? CZ_CURVE_LIMP_END_A + side : CZ_CURVE_END_REAR + which;
-    const size_t curve_lane = slaved ? lane : own;
     const double largest = slaved ? cz_memory(batch, CZ_M_LIMP_PEAK_A + side, lane)
                                   : cz_memory(batch, CZ_M_END_PEAK_REAR + which, own);
-    const double whole = usable(batch, curve, curve_lane);
     result->stored = slaved ? cz_limp_stored(batch->dynamics, lane, side)
                             : cz_end_stored(batch->dynamics, own, which);
     /* The series pair's row holds the anti-climber's energy too. */
@@ -183,10 +157,8 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
     result->tube_energy = work - result->stored;
     result->energy = result->tube_energy + 0.5 * shared;
     result->stroke = largest;
-    result->stroke_used = used(largest, whole);
     result->peak_force = slaved ? cz_extreme(batch, CZ_E_FACE_FORCE, lane)
                                 : cz_extreme(batch, CZ_E_END_FORCE_REAR + which, own);
-    result->bottomed_out = largest > whole;
     return true;
 }
 
@@ -285,6 +257,7 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
     for (int side = 0; side < 2; ++side) {
         CzElementResult *first = &result->element[result->n_element];
         const int n = fill_side(batch, lane, side, interface + side, design, first);
+        cz_devices_judge(batch, interface, design, side, n, first);
         for (int k = 0; k < n; ++k) {
             name_element(&first[k], batch);
             if (first[k].kind == CZ_ELEMENT_END)
@@ -309,6 +282,7 @@ static double survival_shortening(const CzBatch *batch, int car, int design) {
         if (interface < 0 || interface >= batch->model->n_car - 1 ||
             !fill_end(batch, cz_lane(batch, interface, design), side, car, design, &result))
             continue;
+        cz_devices_judge(batch, interface, design, side, 1, &result);
         double from = 0.0, taken = 0.0;
         bool declares = result.bottomed_out;
         for (int k = 0; k < end->n_stages; ++k) {

@@ -4,6 +4,7 @@ set(CZ_SOURCES_simulate
     batch.c
     budget.c
     channels.c
+    devices.c
     elements.c
     ending.c
     filter.c

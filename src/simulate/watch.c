@@ -1,8 +1,10 @@
 /* Events of a single design: the first time that something passes its threshold. */
-#include "simulate/run.h"
+#include "simulate/devices.h"
 
 #include <math.h>
 #include <stdio.h>
+
+#define FLOWED 1e-4 /* plastic stroke that counts [m] (ours) */
 
 /* Where a watched value comes from. */
 typedef enum { FROM_MEMORY, FROM_EXTREME, FROM_LIFT_STOP, FROM_BUMP_STOP } Source;
@@ -61,45 +63,40 @@ static double first_stage(const CzBatch *batch, int curve, size_t lane) {
     return lanes->n_kink > 1 ? cz_row(lanes->at, batch->lanes->stride, 1)[lane] : INFINITY;
 }
 
+/* When devices come to their ends: a reversible one in front of another does so in service. */
+static void watch_devices(CzWatch *list, const CzBatch *batch, int interface, int side) {
+    CzDevice device[CZ_N_DEVICE];
+    const int n = cz_devices_list(batch, interface, 0, side, device);
+    for (int i = 0; i < n; ++i)
+        if (!device[i].is_reversible || !device[i].is_followed)
+            watch(
+                list, batch, device[i].is_followed ? CZ_EVENT_TUBE_USED_UP : CZ_EVENT_BOTTOMED_OUT,
+                device[i].from_extremes ? FROM_EXTREME : FROM_MEMORY, device[i].row, device[i].lane,
+                device[i].usable, device[i].text, batch->model->car[interface + side].name);
+}
+
 static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int side) {
     const size_t lane = cz_lane(batch, interface, 0), own = cz_lane(batch, interface + side, 0);
     const char *name = batch->model->car[interface + side].name;
-    const CzCurveLanes *curve = batch->lanes->curve;
     const int which = side == 0 ? 1 : 0;
-    const double flowed = 1e-4;
-    watch(list, batch, CZ_EVENT_TUBE_FLOW, FROM_MEMORY, CZ_M_TUBE_A + side, lane, flowed, "coupler",
+    watch(list, batch, CZ_EVENT_TUBE_FLOW, FROM_MEMORY, CZ_M_TUBE_A + side, lane, FLOWED, "coupler",
           name);
-    watch(list, batch, CZ_EVENT_SHEAR_OFF, FROM_MEMORY, CZ_M_SHEAR_A + side, lane, flowed,
+    watch(list, batch, CZ_EVENT_SHEAR_OFF, FROM_MEMORY, CZ_M_SHEAR_A + side, lane, FLOWED,
           "coupler", name);
-    watch(list, batch, CZ_EVENT_ANTI_CLIMBER_FLOW, FROM_MEMORY, CZ_M_FACE_A + side, lane, flowed,
+    watch(list, batch, CZ_EVENT_ANTI_CLIMBER_FLOW, FROM_MEMORY, CZ_M_FACE_A + side, lane, FLOWED,
           "anti-climber", name);
-    watch(list, batch, CZ_EVENT_TUBE_FLOW, FROM_MEMORY, CZ_M_SIDE_TUBE_A + side, lane, flowed,
+    watch(list, batch, CZ_EVENT_TUBE_FLOW, FROM_MEMORY, CZ_M_SIDE_TUBE_A + side, lane, FLOWED,
           "side buffers", name);
-    const bool shears = cz_parameter(batch, CZ_P_SHEAR_FORCE_A + side, lane) < 1e29;
-    const CzEventKind used_up = shears ? CZ_EVENT_TUBE_USED_UP : CZ_EVENT_BOTTOMED_OUT;
-    watch(list, batch, used_up, FROM_MEMORY, CZ_M_TUBE_A + side, lane,
-          curve[CZ_CURVE_TUBE_A + side].usable[lane], "coupler tube", name);
-    watch(list, batch, used_up, FROM_MEMORY, CZ_M_SECOND_TUBE_A + side, lane,
-          curve[CZ_CURVE_SECOND_TUBE_A + side].usable[lane], "second coupler tube", name);
-    watch(list, batch, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_SHEAR_A + side, lane,
-          cz_parameter(batch, CZ_P_SHEAR_SPACE_A + side, lane), "retraction space", name);
-    watch(list, batch, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_FACE_A + side, lane,
-          curve[CZ_CURVE_FACE_A + side].usable[lane], "anti-climber", name);
-    watch(list, batch, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_SIDE_TUBE_A + side, lane,
-          curve[CZ_CURVE_SIDE_TUBE_A + side].usable[lane], "side buffers", name);
+    watch_devices(list, batch, interface, side);
     if (cz_parameter(batch, CZ_P_LIMP_END_A + side, lane) > 0.5) {
         const int limp = CZ_CURVE_LIMP_END_A + side;
         watch(list, batch, CZ_EVENT_END_FLOW, FROM_MEMORY, CZ_M_LIMP_PEAK_A + side, lane,
               first_stage(batch, limp, lane), "end", name);
-        watch(list, batch, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_LIMP_PEAK_A + side, lane,
-              curve[limp].usable[lane], "end", name);
     }
     if (batch->model->car[interface + side].model == CZ_MODEL_FULL) {
         const int end = CZ_CURVE_END_REAR + which;
         watch(list, batch, CZ_EVENT_END_FLOW, FROM_MEMORY, CZ_M_END_PEAK_REAR + which, own,
               first_stage(batch, end, own), "end", name);
-        watch(list, batch, CZ_EVENT_BOTTOMED_OUT, FROM_MEMORY, CZ_M_END_PEAK_REAR + which, own,
-              curve[end].usable[own], "end", name);
     }
     if (cz_parameter(batch, CZ_P_COUPLER, lane) > 0.5)
         watch(list, batch, CZ_EVENT_SWING_STOP, FROM_EXTREME, CZ_E_SWING_A + side, lane,
@@ -113,6 +110,8 @@ static void watch_interface(CzWatch *list, const CzBatch *batch, int interface) 
     watch(list, batch, CZ_EVENT_ANTI_CLIMBER_CONTACT, FROM_MEMORY, CZ_M_FACE_SPEED, lane, 0.0, "",
           name);
     watch(list, batch, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_E_FACE_CLIMBED, lane, 0.0, "", name);
+    watch(list, batch, CZ_EVENT_SUPERSTRUCTURE_FLOW, FROM_MEMORY, CZ_M_SUPERSTRUCTURE_SET, lane,
+          FLOWED, "superstructures", name);
     for (int side = 0; side < 2; ++side)
         watch_side(list, batch, interface, side);
 }
@@ -231,13 +230,23 @@ static void look_at_list(CzWatch *list, const CzBatch *batch, When when) {
     list->n_watched[when] = n_left;
 }
 
+/* Whether superstructures push in some lane. */
+static bool superstructures_push(const CzBlock *block) {
+    double force = 0.0;
+    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
+        force += block->scratch[CZ_S_SUPERSTRUCTURE_FORCE][i];
+    return force != 0.0;
+}
+
 /* Whether the last step left everything between the cars as it was. */
 static bool nothing_pushes(const CzBatch *batch) {
     const CzDynamics *dynamics = batch->dynamics;
     bool all_rest = !batch->lanes->has_side_buffers;
     for (int i = 0; i < dynamics->n_block && all_rest; ++i)
-        all_rest = (!batch->lanes->has_couplers || dynamics->block[i].couplers_rest) &&
-                   dynamics->block[i].faces_rest;
+        all_rest =
+            (!batch->lanes->has_couplers || dynamics->block[i].couplers_rest) &&
+            dynamics->block[i].faces_rest &&
+            (!batch->lanes->has_superstructures || !superstructures_push(&dynamics->block[i]));
     return all_rest;
 }
 

@@ -1,0 +1,109 @@
+/* Strokes of devices: one list for the results, the events and the checks that read them. */
+#include "simulate/devices.h"
+
+#include <math.h>
+
+#define MISSING 1e29 /* strokes from here on stand for a device that is not there */
+
+typedef enum { MEMORY, EXTREME, OF_CAR } Source;
+typedef enum { CURVE, PARAMETER } Limit;
+typedef enum { REVERSIBLE, COLLAPSES } Kind;
+
+typedef struct {
+    CzElementKind element;
+    const char *text;
+    Source source;
+    int row;
+    Limit limit;
+    int of; /* CzCurveId or CzParameter */
+    CzDeviceClass follower;
+    Kind kind;
+} Class;
+
+static const Class classes[CZ_N_DEVICE] = {
+#define CZ_DEVICE(name, element, text, source, row, limit, of, follower, kind)                     \
+    {element, text, source, row, limit, of, CZ_DEVICE_##follower, kind},
+#include "simulate/devices.def"
+#undef CZ_DEVICE
+};
+
+/* Whether the interface has the connection that the element belongs to; a bare wall has no own. */
+static bool has_element(const CzBatch *batch, size_t lane, int car, CzDeviceClass class) {
+    const bool full = batch->model->car[car].model == CZ_MODEL_FULL;
+    if (class == CZ_DEVICE_END || class == CZ_DEVICE_LIMP_END)
+        return full == (class == CZ_DEVICE_END);
+    if (classes[class].element == CZ_ELEMENT_COUPLER)
+        return cz_parameter(batch, CZ_P_COUPLER, lane) > 0.5;
+    if (classes[class].element == CZ_ELEMENT_SIDE_BUFFERS)
+        return cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) > 0.5;
+    return true;
+}
+
+/* A device of a side; its usable stroke is infinite when it is not there. */
+static CzDevice device_of(const CzBatch *batch, int interface, int design, int side,
+                          CzDeviceClass class) {
+    const Class *kind = &classes[class];
+    const int car = interface + side;
+    const bool of_car = kind->source == OF_CAR;
+    const int which = of_car ? 1 - side : side; /* side A is a front end */
+    const size_t own = cz_lane(batch, of_car ? car : interface, design);
+    const double usable = kind->limit == CURVE ? batch->lanes->curve[kind->of + which].usable[own]
+                                               : cz_parameter(batch, kind->of + which, own);
+    const bool is_there =
+        usable < MISSING && has_element(batch, cz_lane(batch, interface, design), car, class);
+    return (CzDevice){.class = class,
+                      .element = kind->element,
+                      .text = kind->text,
+                      .from_extremes = kind->source == EXTREME,
+                      .row = kind->row + which,
+                      .lane = own,
+                      .usable = is_there ? usable : INFINITY,
+                      .is_reversible = kind->kind == REVERSIBLE};
+}
+
+int cz_devices_list(const CzBatch *batch, int interface, int design, int side,
+                    CzDevice device[CZ_N_DEVICE]) {
+    int n = 0;
+    for (int class = 0; class < CZ_N_DEVICE; ++class) {
+        const CzDevice next = device_of(batch, interface, design, side, (CzDeviceClass) class);
+        if (isfinite(next.usable))
+            device[n++] = next;
+    }
+    for (int i = 0; i < n; ++i)
+        for (int k = i + 1; k < n; ++k)
+            device[i].is_followed |= device[k].element == device[i].element &&
+                                     device[k].class >= classes[device[i].class].follower;
+    return n;
+}
+
+static double stroke_of(const CzBatch *batch, const CzDevice *device) {
+    return device->from_extremes ? cz_extreme(batch, device->row, device->lane)
+                                 : cz_memory(batch, device->row, device->lane);
+}
+
+double cz_device_used(const CzBatch *batch, const CzDevice *device) {
+    return stroke_of(batch, device) / device->usable;
+}
+
+/* Adds one device to the element that it belongs to. Of a coupler that has sheared off the space to
+ * retract counts, and nothing else. */
+static void judge(const CzBatch *batch, const CzDevice *device, CzElementResult *element) {
+    const double used = cz_device_used(batch, device);
+    element->bottomed_out |= !device->is_followed && used > 1.0;
+    if (device->is_reversible && !device->is_followed)
+        element->stroke = stroke_of(batch, device);
+    if (device->class == CZ_DEVICE_RETRACTION)
+        element->stroke_used = element->sheared ? used : element->stroke_used;
+    else if (!device->is_reversible || !device->is_followed)
+        element->stroke_used = fmax(element->stroke_used, used);
+}
+
+void cz_devices_judge(const CzBatch *batch, int interface, int design, int side, int n_element,
+                      CzElementResult *element) {
+    CzDevice device[CZ_N_DEVICE];
+    const int n = cz_devices_list(batch, interface, design, side, device);
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < n_element; ++k)
+            if (element[k].kind == device[i].element)
+                judge(batch, &device[i], &element[k]);
+}

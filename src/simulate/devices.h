@@ -1,0 +1,39 @@
+/* The devices of an interface whose stroke can come to its end: what they have used of it, and what
+ * it means when they have used it all. */
+#ifndef CZ_SIMULATE_DEVICES_H
+#define CZ_SIMULATE_DEVICES_H
+
+#include "simulate/run.h"
+
+typedef enum CzDeviceClass {
+#define CZ_DEVICE(name, element, text, source, row, limit, of, follower, kind) CZ_DEVICE_##name,
+#include "simulate/devices.def"
+#undef CZ_DEVICE
+    CZ_N_DEVICE,
+    CZ_DEVICE_NONE = CZ_N_DEVICE
+} CzDeviceClass;
+
+typedef struct CzDevice {
+    CzDeviceClass class;
+    CzElementKind element;
+    const char *text;   /* such as "coupler tube" */
+    bool from_extremes; /* the row of the largest stroke: an extreme, or a memory that only grows */
+    int row;
+    size_t lane;
+    double usable;      /* stroke at which it comes to its end [m] */
+    bool is_reversible; /* gives its stroke back */
+    bool is_followed;   /* another device of the element takes over then */
+} CzDevice;
+
+/* Devices of side A (0) or B (1) of an interface, in the order of the list; returns how many. */
+int cz_devices_list(const CzBatch *batch, int interface, int design, int side,
+                    CzDevice device[CZ_N_DEVICE]);
+
+/* Largest stroke over the usable one. */
+double cz_device_used(const CzBatch *batch, const CzDevice *device);
+
+/* Puts stroke used and bottoming out into the elements of a side. */
+void cz_devices_judge(const CzBatch *batch, int interface, int design, int side, int n_element,
+                      CzElementResult *element);
+
+#endif

@@ -2,6 +2,7 @@
 #
 # Cases are those of cmocka ("[       OK ] name") and of scripts ("ok - sentence"). A program that failed without a
 # failed case (it crashed, or ran out of time) counts as one failed case, and so does one that ran no case at all.
+# A skipped case of cmocka has the line that it printed last as its reason.
 # What failed programs printed goes to standard error.
 
 /^ *[0-9]+\/[0-9]+ Test +#[0-9]+:/ {
@@ -33,10 +34,14 @@
     output[id] = output[id] "    " line "\n"
     if (line ~ /^\[=+\] [0-9]+ test\(s\) run/)
         summed_up[id] = 1
+    if (line ~ /^\[ RUN +\] /)
+        reason[id] = ""
+    else if (line !~ /^\[/)
+        reason[id] = line
     if (line ~ /^\[ +OK \] /)
         add(id, "passed", substr(line, 14))
     else if (line ~ /^\[  SKIPPED \] / && !summed_up[id])
-        add(id, "skipped", substr(line, 14))
+        add(id, "skipped", substr(line, 14) (reason[id] != "" ? " (" reason[id] ")" : ""))
     else if (line ~ /^\[  FAILED  \] / && !summed_up[id])
         add(id, "failed", substr(line, 14))
     else if (line ~ /^\[=+\] Running /)

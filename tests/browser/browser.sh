@@ -1,26 +1,38 @@
 # The report in a real browser: Debian's chromium, driven by playwright-core from npm. What is missing is told.
 . "$SOURCE/tests/support/cases.sh"
 
+folders="metro pair rigid search long"
+pages="swept map compared"
+
+# Counts every case of report.js as skipped.
+skip_all() { # skip_all REASON
+    sed -n 's/.*await check(`${\([a-z]*\)}: \([^`]*\)`.*/\1 \2/p' "$SOURCE/tests/browser/report.js" >sentences
+    for what in $folders $pages; do
+        kind=folder
+        case " $pages " in *" $what "*) kind=name ;; esac
+        sed -n "s/^$kind //p" sentences | while IFS= read -r sentence; do skipped "$what: $sentence" "$1"; done
+    done
+    finish
+}
+
 for command in chromium node npm; do
-    command -v $command >/dev/null 2>&1 && continue
-    skipped "the report in a browser" "no $command here; packages.txt names what is needed under [browser]"
-    finish
+    command -v $command >/dev/null 2>&1 ||
+        skip_all "there is no command $command; packages.txt names the package under [browser]"
 done
+[ "$(node -p 'process.versions.node.split(".")[0]')" -ge 18 ] ||
+    skip_all "playwright-core needs Node.js 18, but this is $(node --version)"
 
-if [ "$(node -p 'process.versions.node.split(".")[0]')" -lt 20 ]; then
-    skipped "the report in a browser" "playwright-core needs Node.js 20, here is $(node --version)"
-    finish
-fi
-
-# playwright-core is fetched once per build folder.
+# playwright-core is fetched once per build folder and version.
 modules=$BUILD/tests/browser-modules
 mkdir -p "$modules"
-cp "$SOURCE/tests/browser/package.json" "$SOURCE/tests/browser/package-lock.json" "$modules/"
-if ! [ -d "$modules/node_modules/playwright-core" ] &&
-    ! (cd "$modules" && npm ci --no-audit --no-fund) >npm.log 2>&1; then
-    cat npm.log
-    skipped "the report in a browser" "npm cannot fetch playwright-core here"
-    finish
+if ! cmp -s "$SOURCE/tests/browser/package-lock.json" "$modules/package-lock.json" ||
+    ! [ -d "$modules/node_modules/playwright-core" ]; then
+    cp "$SOURCE/tests/browser/package.json" "$SOURCE/tests/browser/package-lock.json" "$modules/"
+    if ! (cd "$modules" && npm ci --no-audit --no-fund) >npm.log 2>&1; then
+        rm -rf "$modules"
+        cat npm.log
+        skip_all "npm cannot fetch playwright-core; see build/release-tests.log"
+    fi
 fi
 
 # A collision of full cars, one of rigid ones, a search, and trains of eight full cars, whose report is the largest.
@@ -42,7 +54,7 @@ check "crushzone sweeps the speed" swept
 check "crushzone maps two values" map
 check "crushzone compares two designs" compared
 
-NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" metro pair rigid search long swept.html map.html compared.html >cases.txt 2>&1
+CHROMIUM=$(command -v chromium) NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" $folders $(printf '%s.html ' $pages) >cases.txt 2>&1
 code=$?
 cat cases.txt
 n_passed=$((n_passed + $(grep -c '^ok - ' cases.txt)))

@@ -35,7 +35,13 @@ if script -qec true /dev/null >/dev/null 2>&1; then
     best() { grep -q 'eval [0-9]* | best margin +[0-9.]* % feasible | [0-9.]*/s | ETA [0-9]*:[0-9][0-9]' terminal.txt; }
     check "progress tells the best margin, its sign as in the table" best
 else
-    skipped "a terminal gets colours and progress" "no script command here"
+    reason="there is no command script; package bsdutils has it"
+    ! command -v script >/dev/null 2>&1 || reason="script cannot open a terminal here; is /dev/pts mounted?"
+    for sentence in "a terminal gets colours" "NO_COLOR is respected" "an empty NO_COLOR means nothing" \
+        "a dumb terminal gets no escape codes" "a terminal shows progress" \
+        "progress tells the best margin, its sign as in the table"; do
+        skipped "$sentence" "$reason"
+    done
 fi
 
 columns() { exits 0 "$C" run two-trains.yaml && head -1 out/channels.csv | grep -q '^t_ms,' && for file in summary.json checks.csv interfaces.csv channels.csv resolved.yaml run.log report.html; do [ -s out/$file ] || return 1; done; }

@@ -48,7 +48,19 @@ failure_is_told() {
     ! installs build && grep -q 'no such archive' said && grep -q 'Installing cmake failed' said
 }
 list_is_known_to_debian() { # every package of the list has a section and a plausible name
-    ! grep -vE '^(#.*|\[(run-time|build|test|browser)\]|[a-z0-9][a-z0-9.+-]+( +# .*)?)?$' "$SOURCE/packages.txt"
+    ! grep -vE '^(#.*|\[(run-time|build|test|browser)\]|[a-z0-9][a-z0-9.+-]+( \([a-z]+\))?( +# .*)?)?$' "$SOURCE/packages.txt"
+}
+a_foreign_node_is_left_alone() { # of the browser's packages only the browser comes, whatever dpkg knows of node and npm
+    stand_in dpkg-query 'exit 1'
+    stand_in id 'echo 0'
+    stand_in apt-get "echo apt-get \"\$@\" >>$PWD/apt.log"
+    stand_in node 'echo v20.0.0'
+    stand_in npm 'echo 10'
+    installs browser && [ "$(tail -n 1 apt.log)" = "apt-get install -y --no-install-recommends chromium" ]
+}
+nothing_but_a_foreign_node() {
+    stand_in chromium ''
+    installs browser && ! [ -s apt.log ]
 }
 check "nothing is installed when nothing is missing" nothing_is_missing
 check "root installs what is missing of the wanted sections" root_installs
@@ -56,6 +68,8 @@ check "the test section comes only when asked for" sections_are_kept_apart
 check "a user without rights is told what to ask for" nobody_can_install
 check "sudo is used when it is there" sudo_is_used
 check "a failed installation is told" failure_is_told
+check "a Node.js from elsewhere is not replaced" a_foreign_node_is_left_alone
+check "a browser from elsewhere is not replaced" nothing_but_a_foreign_node
 check "the list of packages is well-formed" list_is_known_to_debian
 
 # Counting: each log is one that ctest -V prints.
@@ -86,6 +100,23 @@ failed_case() {
 1/1 Test #1: t .......***Failed    0.00 sec
 $end
 END
+}
+skips_with_reasons() {
+    counts "1 passed, 0 failed, 2 skipped" <<END && [ "$code" = 0 ] && grep -q '^skipped: p t: two (no such device)$' counted &&
+1: [ RUN      ] one
+1: a line of its own
+1: [       OK ] one
+1: [ RUN      ] two
+1: no such device
+1: [  SKIPPED ] two
+1: [==========] 2 test(s) run.
+1: [  SKIPPED ] 1 test(s), listed below:
+1: [  SKIPPED ] two
+1: skipped - three (no terminal)
+1/1 Test #1: t .......   Passed    0.00 sec
+$end
+END
+        grep -q '^skipped: p t: three (no terminal)$' counted
 }
 crash() {
     counts "1 passed, 1 failed" <<END && [ "$code" = 1 ]
@@ -118,6 +149,7 @@ nothing_ran() {
 }
 check "a good run is counted by cases" good_run
 check "a failed case is counted once and its reason told" failed_case
+check "skipped cases are counted, each with its reason" skips_with_reasons
 check "a crash counts as a failure" crash
 check "a program without cases counts as a failure" program_without_cases
 check "a run cut short counts as a failure" cut_short

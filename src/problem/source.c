@@ -15,26 +15,40 @@ void cz_sources_hash(CzSources *sources, const char *bytes, size_t n_byte) {
     sources->hash = (hash ^ 0xff) * prime; /* no text holds a byte 0xff */
 }
 
+/* Bytes of the end of a line at the start of a text; 0 when there is none. Those of YAML, so that
+ * lines are counted as its parser counts them: CR LF, CR, LF, NEL, LS, PS. */
+static size_t line_end_length(const char *text) {
+    if (text[0] == '\r' || text[0] == '\n')
+        return text[0] == '\r' && text[1] == '\n' ? 2 : 1;
+    if (strncmp(text, "\xc2\x85", 2) == 0)
+        return 2;
+    const bool separates =
+        strncmp(text, "\xe2\x80\xa8", 3) == 0 || strncmp(text, "\xe2\x80\xa9", 3) == 0;
+    return separates ? 3 : 0;
+}
+
 /* Cuts a copy of the text into lines. */
 static bool cut_lines(CzArena *arena, CzSource *source, const char *text, size_t n_byte) {
     char *copy = cz_arena_copy_text(arena, text, n_byte);
     if (copy == NULL)
         return false;
     int n_line = 1;
-    for (size_t i = 0; i < n_byte; i++)
-        n_line += copy[i] == '\n';
+    size_t n_end;
+    for (size_t i = 0; i<n_byte; i += n_end> 0 ? n_end : 1) {
+        n_end = line_end_length(copy + i);
+        n_line += n_end > 0;
+    }
     const char **line = cz_arena_allocate(arena, (size_t)n_line, sizeof *line);
     if (line == NULL)
         return false;
     line[0] = copy;
     source->n_line = 1;
-    for (size_t i = 0; i < n_byte; i++) {
-        if (copy[i] == '\r' && copy[i + 1] == '\n')
-            copy[i] = '\0';
-        if (copy[i] != '\n')
+    for (size_t i = 0; i<n_byte; i += n_end> 0 ? n_end : 1) {
+        n_end = line_end_length(copy + i);
+        if (n_end == 0)
             continue;
         copy[i] = '\0';
-        line[source->n_line++] = &copy[i + 1];
+        line[source->n_line++] = &copy[i + n_end];
     }
     source->line = line;
     return true;
@@ -232,9 +246,10 @@ bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char 
                           "the file is not text: it holds the control character 0x%02x", at[n - 1]);
             return false;
         }
-        column = *at == '\n' ? 1 : column + 1;
-        line += *at == '\n';
-        at += n;
+        const size_t n_end = line_end_length((const char *)at);
+        column = n_end > 0 ? 1 : column + 1;
+        line += n_end > 0;
+        at += n_end > 0 ? n_end : n;
     }
     return true;
 }

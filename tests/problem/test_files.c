@@ -121,6 +121,25 @@ static void lines_may_end_as_on_windows(void **state) {
     cz_problem_free(problem);
 }
 
+/* All that YAML ends a line with ends one in messages, or their picture shows another line. */
+static void lines_are_counted_as_yaml_counts_them(void **state) {
+    static const char *const ends[] = {"\n",       "\r\n",         "\r",
+                                       "\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"};
+    (void)state;
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
+        char text[80];
+        CzProblem *problem = NULL;
+        CzError error = {0};
+        snprintf(text, sizeof text, "extends: rigid.yaml%stitel: x%s", ends[i], ends[i]);
+        assert_int_equal(cz_problem_read_text(text, strlen(text), "lines.yaml", GOOD_FOLDER, NULL,
+                                              &problem, &error),
+                         CZ_STATUS_INPUT);
+        assert_int_equal(error.line, 2);
+        assert_string_equal(cz_problem_source_line(problem, &error), "titel: x");
+        cz_problem_free(problem);
+    }
+}
+
 static void very_many_mistakes_are_counted(void **state) {
     char text[8000] = "extends: rigid.yaml\n";
     CzProblem *problem = NULL;
@@ -258,6 +277,7 @@ int main(void) {
         cmocka_unit_test(bytes_that_are_no_text_are_told_with_their_place),
         cmocka_unit_test(a_byte_order_mark_is_passed_over),
         cmocka_unit_test(lines_may_end_as_on_windows),
+        cmocka_unit_test(lines_are_counted_as_yaml_counts_them),
         cmocka_unit_test(very_many_mistakes_are_counted),
         cmocka_unit_test(files_that_would_take_very_long_are_told),
         cmocka_unit_test(a_curve_of_very_many_lines_is_told),

@@ -1,0 +1,95 @@
+/* Any bytes as a measured curve: for a fit, as a table of a problem, as a time history of a match,
+ * and as columns to draw. The first byte chooses how the curve is read. */
+#include "fuzz/fuzz.h"
+
+#include "crushzone/fit.h"
+
+#include <math.h>
+#include <string.h>
+
+#define RIGID_CARS                                                                                 \
+    "schema: 1\n"                                                                                  \
+    "title: two rigid cars\n"                                                                      \
+    "trains:\n"                                                                                    \
+    "  - {name: A, speed_km_h: 25, vehicles: [{model: rigid, mass_t: 20, front: {face_gap_mm: 0, " \
+    "unloading_stiffness_MN_m: 100, %s}}]}\n"                                                      \
+    "  - {name: B, vehicles: [{model: rigid, mass_t: 20}]}\n"                                      \
+    "%s"
+
+#define STAGES "stages: [{stroke_mm: 500, force_kN: 800}]"
+#define MATCH                                                                                      \
+    "optimise: {variables: [{path: 'trains.A.vehicles.A1.front.stages[0].force_kN', min: 100, "    \
+    "max: 900}], match: [{name: force, channel: F_A1-B1_kN, file: curve.csv, tolerance: 1}]}\n"
+
+static void check_refusal(CzStatus status, const CzError *error) {
+    FUZZ_DEMAND(status == CZ_OK || status == CZ_STATUS_INPUT);
+    FUZZ_DEMAND(status == CZ_OK || error->message[0] != '\0');
+}
+
+/* The law of a fit is finite and takes the energy that the curve took. */
+static void check_fit(const CzFit *fit) {
+    const CzFitSummary *summary = cz_fit_summary(fit);
+    FUZZ_DEMAND(isfinite(summary->stroke) && isfinite(summary->peak_force));
+    FUZZ_DEMAND(isfinite(summary->energy) && isfinite(summary->law_energy));
+    FUZZ_DEMAND(isfinite(summary->mean_square) && isfinite(summary->largest_difference));
+    for (int i = 0; i < cz_fit_n_value(fit); i++)
+        FUZZ_DEMAND(isfinite(cz_fit_value(fit, i)));
+    for (int i = 0; i < cz_fit_n_note(fit); i++)
+        FUZZ_DEMAND(cz_fit_note(fit, i)[0] != '\0');
+}
+
+static void fit_curve(const char *path, unsigned choice) {
+    CzFitOptions options = cz_fit_options_default();
+    CzFit *fit = NULL;
+    CzError error = {0};
+    options.kind = (CzFitKind)(choice % CZ_N_FIT);
+    options.is_dynamic = (choice / 8) % 2;
+    options.n_stage = (int)(choice / 16) % 4 - 1;
+    if (choice & 64)
+        options.decimal = ',';
+    if (choice & 128) {
+        options.stroke = "1";
+        options.force = "2";
+        options.stroke_unit = "mm";
+        options.force_unit = "kN";
+    }
+    const CzStatus status = cz_fit_read(path, &options, &fit, &error);
+    check_refusal(status, &error);
+    FUZZ_DEMAND((status == CZ_OK) == (fit != NULL));
+    if (fit != NULL)
+        check_fit(fit);
+    cz_fit_free(fit);
+}
+
+static void draw_curve(const char *path, unsigned choice) {
+    const CzCurveColumns columns = {"time", "force", "1", "2", 0, choice & 64 ? ',' : '.'};
+    CzCurve *curve = NULL;
+    CzError error = {0};
+    const CzStatus status = cz_curve_read(path, &columns, &curve, &error);
+    check_refusal(status, &error);
+    for (int i = 0; status == CZ_OK && i < curve->n; i++)
+        FUZZ_DEMAND(isfinite(curve->x[i]) && isfinite(curve->y[i]));
+    cz_curve_free(curve);
+}
+
+static void read_problem(const char *end, const char *optimise) {
+    char text[1200];
+    CzProblem *problem = NULL;
+    CzError error = {0};
+    snprintf(text, sizeof text, RIGID_CARS, end, optimise);
+    const CzStatus status =
+        cz_problem_read_text(text, strlen(text), "input.yaml", ".", NULL, &problem, &error);
+    fuzz_check_told(problem, status, &error);
+    cz_problem_free(problem);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_byte) {
+    const unsigned choice = n_byte > 0 ? data[0] : 0;
+    const size_t n_head = n_byte > 0 ? 1 : 0;
+    const char *path = fuzz_write_file("curve.csv", data + n_head, n_byte - n_head);
+    fit_curve(path, choice);
+    draw_curve(path, choice);
+    read_problem("curve: {file: curve.csv, basis: dynamic}", "");
+    read_problem(STAGES, MATCH);
+    return 0;
+}

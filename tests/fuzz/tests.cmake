@@ -1,0 +1,17 @@
+# Fuzz targets, one per reader. The preset `fuzz` links them with libFuzzer and lets each search for a minute; every other
+# build tries what they begin with and what they once found.
+function(cz_fuzz_target target source)
+    if(CZ_FUZZ)
+        cz_program(fuzz_${target} ${source} fuzz.c)
+        target_link_options(fuzz_${target} PRIVATE -fsanitize=fuzzer)
+        cz_script(fuzz_${target} fuzz fuzz.sh ${target})
+    else()
+        cz_program(replay_${target} ${source} fuzz.c replay.c)
+        cz_script(replay_${target} errors replay.sh ${target})
+    endif()
+endfunction()
+cz_program(fuzz_words words.c)
+cz_fuzz_target(problem fuzz_problem.c)
+cz_fuzz_target(resolved fuzz_resolved.c)
+cz_fuzz_target(profile fuzz_profile.c)
+cz_fuzz_target(curve fuzz_curve.c)

@@ -4,4 +4,5 @@ set(CZ_SOURCES_base
     error.c
     number.c
     suggest.c
+    symmetric.c
 )

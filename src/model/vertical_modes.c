@@ -3,43 +3,13 @@
  *   K v = w^2 M v   with M diagonal, as   (M^-1/2 K M^-1/2) u = w^2 u,   u = M^1/2 v
  *
  * Body and end masses move as one, about their common centre of gravity. The symmetric eigenproblem
- * is solved by Jacobi's rotations.
+ * is solved whole.
  */
 #include "model/vertical_modes.h"
 
+#include "base/symmetric.h"
+
 enum { N = CZ_N_VERTICAL_MODE, Z = 0, PITCH = 1, BOGIE_Z = 2, BOGIE_PITCH = 3 };
-
-/* Rotates rows and columns p and q so that a[p][q] vanishes; the vectors turn along. */
-static void rotate(double a[N][N], double vectors[N][N], int p, int q) {
-    const double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-    const double t = (theta >= 0.0 ? 1.0 : -1.0) / (fabs(theta) + sqrt(theta * theta + 1.0));
-    const double c = 1.0 / sqrt(t * t + 1.0), s = t * c;
-    for (int k = 0; k < N; k++) {
-        const double kp = a[k][p], kq = a[k][q];
-        a[k][p] = c * kp - s * kq;
-        a[k][q] = s * kp + c * kq;
-    }
-    for (int k = 0; k < N; k++) {
-        const double pk = a[p][k], qk = a[q][k];
-        a[p][k] = c * pk - s * qk;
-        a[q][k] = s * pk + c * qk;
-        const double vp = vectors[k][p], vq = vectors[k][q];
-        vectors[k][p] = c * vp - s * vq;
-        vectors[k][q] = s * vp + c * vq;
-    }
-}
-
-/* Eigenvalues end up on the diagonal of a, eigenvectors in the columns of vectors. */
-static void diagonalise(double a[N][N], double vectors[N][N]) {
-    for (int i = 0; i < N; i++)
-        for (int j = 0; j < N; j++)
-            vectors[i][j] = i == j;
-    for (int sweep = 0; sweep < 30; sweep++)
-        for (int p = 0; p < N; p++)
-            for (int q = p + 1; q < N; q++)
-                if (fabs(a[p][q]) > 1e-18 * (fabs(a[p][p]) + fabs(a[q][q])))
-                    rotate(a, vectors, p, q);
-}
 
 static void assemble(const CzVehicle *vehicle, const CzStatics *statics, double stiffness[N][N],
                      double mass[N]) {
@@ -93,7 +63,7 @@ CzVerticalModes cz_vertical_modes(const CzVehicle *vehicle, const CzStatics *sta
             stiffness[i][j] /= sqrt(mass[i] * mass[j]);
             stiffness[j][i] = stiffness[i][j];
         }
-    diagonalise(stiffness, vectors);
+    cz_symmetric_diagonalise(N, &stiffness[0][0], &vectors[0][0]);
 
     CzVerticalModes modes;
     const int bounce = mode_of(vectors, Z), pitch = mode_of(vectors, PITCH);

@@ -39,8 +39,9 @@ CZ_API CzVehicleFacts cz_model_vehicle_facts(const CzModel *model, int vehicle);
 /* What is known of an interface before it runs. */
 typedef struct CzInterfaceFacts {
     double strut_length;   /* pivot to pivot at rest [m]; NaN without couplers */
-    double critical_force; /* F_crit = k_end l / 2 + 2 K_theta / l of the weaker side [N]; NaN
-                              without couplers or full vehicles */
+    double critical_force; /* F_crit, the axial force at which both trains, a chain of coupler
+                              struts, fold in the lowest shape that goes through this interface
+                              [N]; NaN without couplers or full vehicles */
     double tube_force;     /* largest plastic force of the weaker coupler before shear-off [N]; NaN
                               without tubes */
     double anti_climber_gap; /* closure at which the anti-climbers touch [m]; NaN without */

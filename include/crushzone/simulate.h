@@ -100,7 +100,8 @@ typedef struct CzInterfaceResult {
     double swing[2];        /* largest angle of the engaged coupler against its car, rear vehicle's
                                and front vehicle's [rad]; NaN without couplers */
     double swing_stop[2];   /* angle of their stops [rad]; NaN without */
-    double critical_force;  /* F_crit of the couplers before the collision [N]; NaN without */
+    double critical_force;  /* F_crit, at which the undamaged trains fold here as a chain of
+                               coupler struts [N]; NaN without couplers */
     int n_element;
     CzElementResult element[CZ_MAX_ELEMENTS];
 } CzInterfaceResult;

@@ -25,8 +25,8 @@ static bool is_told(Told *told, const char *name) {
     return false;
 }
 
-/* Prints the force at which each coupler strut folds. A coupler that pushes harder folds before its
- * tube has done its work. */
+/* Prints the force at which the train folds at each interface. Tubes that carry more may fold the
+ * train before they have done their work. */
 static void tell_folding(const CzArguments *arguments, const CzModel *model, Told *told) {
     for (int i = 0; i < cz_model_n_interface(model); i++) {
         const CzInterfaceFacts facts = cz_model_interface_facts(model, i);
@@ -34,15 +34,16 @@ static void tell_folding(const CzArguments *arguments, const CzModel *model, Tol
         if (isnan(facts.critical_force) || is_told(told, name))
             continue;
         if (arguments->text[CZ_OPTION_JSON] == NULL) {
-            printf("  interface %s: F_crit %.0f kN", name, 1e-3 * facts.critical_force);
+            printf("  interface %s: F_crit %.1f kN", name, 1e-3 * facts.critical_force);
             if (!isnan(facts.tube_force))
-                printf(", tubes up to %.0f kN", 1e-3 * facts.tube_force);
+                printf(", tubes up to %.1f kN", 1e-3 * facts.tube_force);
             putchar('\n');
         }
         if (facts.tube_force > facts.critical_force)
             cz_tell(arguments,
-                    "warning: interface %s: the tubes push with up to %.0f kN, more than the "
-                    "F_crit of %.0f kN at which the coupler strut folds",
+                    "warning: interface %s: the collapse tubes carry up to %.1f kN, more than "
+                    "F_crit, %.1f kN, at which the train folds there; weaker tubes or stiffer "
+                    "coupler hinges avoid it",
                     name, 1e-3 * facts.tube_force, 1e-3 * facts.critical_force);
     }
 }
@@ -172,12 +173,13 @@ static void show_interfaces(const CzModel *model) {
         const CzInterfaceFacts facts = cz_model_interface_facts(model, i);
         printf("# %-11s", cz_model_interface_name(model, i));
         put_number(facts.strut_length, 1e-3, 0);
-        put_number(facts.critical_force, 1e3, 0);
-        put_number(facts.tube_force, 1e3, 0);
+        put_number(facts.critical_force, 1e3, 1);
+        put_number(facts.tube_force, 1e3, 1);
         put_number(facts.anti_climber_gap, 1e-3, 0);
         printf("%s\n", i == cz_model_colliding_interface(model) ? "   colliding" : "");
         if (facts.tube_force > facts.critical_force)
-            printf("#   warning: the tubes push harder than F_crit, at which the strut folds\n");
+            printf("#   warning: the collapse tubes carry more than F_crit, at which the train "
+                   "folds there\n");
     }
 }
 

@@ -1,11 +1,4 @@
-/* Facts of vehicles and interfaces: loads at rest, frequencies, the coupler as a strut.
- *
- *   F_crit = k_end l / 2 + 2 K_theta / l,   k_end = 2 k / (1 + (a / l_c)^2)
- *
- * l is the strut's length between its pivots, K_theta the stiffness of a hinge, k a bogie's
- * secondary suspension in series with its two primaries, a the pivot's distance from the body's
- * centre of gravity and l_c half the bogie spacing. Above F_crit the strut swings out.
- */
+/* Facts of vehicles and interfaces before a run: loads at rest, frequencies, couplers. */
 #include "base/error.h"
 #include "model/fill.h"
 #include "model/own_design.h"
@@ -37,39 +30,12 @@ static CzVehicleFacts vehicle_facts(const CzVehicle *vehicle, const CzStatics *s
     return facts;
 }
 
-/* ---- the coupler as a strut ---- */
+/* ---- couplers ---- */
 
 static double smaller(double a, double b) {
     if (isnan(a))
         return b;
     return isnan(b) || a < b ? a : b;
-}
-
-/* F_crit of one side; NaN when its car does not move up and down. */
-static double critical_force(const CzModel *model, const CzLanes *lanes, int interface,
-                             const int lane[2], int side) {
-    const int own = lane[CZ_SIDE_A], car = lane[side];
-    if (model->car[interface + side].model != CZ_MODEL_FULL)
-        return NAN;
-    const double secondary = cz_lane_value(lanes, car, CZ_P_SECONDARY_STIFFNESS);
-    const double primaries = 2.0 * cz_lane_value(lanes, car, CZ_P_PRIMARY_STIFFNESS);
-    const double spring = secondary * primaries / (secondary + primaries);
-    const double half_spacing = cz_lane_value(lanes, car, CZ_P_BOGIE_X);
-    const double length = cz_lane_value(lanes, own, CZ_P_COUPLER_LENGTH);
-    const double hinge = cz_lane_value(lanes, own, CZ_OF_SIDE(CZ_P_HINGE_STIFFNESS, side));
-    double arm = cz_lane_value(lanes, own, side == CZ_SIDE_A ? CZ_P_PIVOT_X_A : CZ_P_PIVOT_X_B);
-    if (cz_lane_value(lanes, own, CZ_OF_SIDE(CZ_P_COUPLER_ON_END, side)) > 0.0)
-        arm += cz_lane_value(lanes, car, side == CZ_SIDE_A ? CZ_P_END_X_FRONT : CZ_P_END_X_REAR);
-    const double lever = arm / half_spacing;
-    return spring / (1.0 + lever * lever) * length + 2.0 * hinge / length;
-}
-
-double cz_critical_force(const CzModel *model, const CzLanes *lanes, int interface,
-                         const int lane[2]) {
-    if (!(cz_lane_value(lanes, lane[CZ_SIDE_A], CZ_P_COUPLER) > 0.0))
-        return NAN;
-    return smaller(critical_force(model, lanes, interface, lane, CZ_SIDE_A),
-                   critical_force(model, lanes, interface, lane, CZ_SIDE_B));
 }
 
 /* Largest strength of a tube before it bottoms out. */
@@ -104,14 +70,15 @@ static double tube_force(const CzLanes *lanes, int interface, int side) {
 }
 
 static CzInterfaceFacts interface_facts(const CzModel *model, const CzLanes *lanes,
-                                        const CzVehicle *vehicles, int interface) {
-    CzInterfaceFacts facts = {
-        .strut_length = NAN, .critical_force = NAN, .tube_force = NAN, .anti_climber_gap = NAN};
+                                        const CzVehicle *vehicles, int interface,
+                                        double critical_force) {
+    CzInterfaceFacts facts = {.strut_length = NAN,
+                              .critical_force = critical_force,
+                              .tube_force = NAN,
+                              .anti_climber_gap = NAN};
     if (cz_lane_value(lanes, interface, CZ_P_COUPLER) > 0.0) {
         if (cz_lane_value(lanes, interface, CZ_P_TILTS) > 0.0)
             facts.strut_length = cz_lane_value(lanes, interface, CZ_P_COUPLER_LENGTH);
-        facts.critical_force =
-            cz_critical_force(model, lanes, interface, (const int[]){interface, interface + 1});
         facts.tube_force = smaller(tube_force(lanes, interface, CZ_SIDE_A),
                                    tube_force(lanes, interface, CZ_SIDE_B));
     }
@@ -120,6 +87,17 @@ static CzInterfaceFacts interface_facts(const CzModel *model, const CzLanes *lan
     if ((a->given && a->anti_climber.given) || (b->given && b->anti_climber.given))
         facts.anti_climber_gap = cz_lane_value(lanes, interface, CZ_P_FACE_GAP);
     return facts;
+}
+
+static CzStatus find_interface_facts(CzModel *model, const CzLanes *lanes,
+                                     const CzVehicle *vehicles, CzError *error) {
+    double *force = cz_arena_allocate(&model->arena, (size_t)model->n_car, sizeof *force);
+    if (force == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d cars", model->n_car);
+    CZ_TRY(cz_critical_forces(model, lanes, 0, force, error));
+    for (int i = 0; i < model->n_car - 1; i++)
+        model->interface_facts[i] = interface_facts(model, lanes, vehicles, i, force[i]);
+    return CZ_OK;
 }
 
 CzStatus cz_model_find_facts(CzModel *model, CzLanes *lanes, CzError *error) {
@@ -139,7 +117,5 @@ CzStatus cz_model_find_facts(CzModel *model, CzLanes *lanes, CzError *error) {
                                 ? vehicle_facts(cz_fill_vehicle(&fill, car), &statics)
                                 : no_vehicle_facts();
     }
-    for (int interface = 0; interface < model->n_car - 1; interface++)
-        model->interface_facts[interface] = interface_facts(model, lanes, vehicles, interface);
-    return CZ_OK;
+    return find_interface_facts(model, lanes, vehicles, error);
 }

@@ -10,10 +10,11 @@ static inline double cz_lane_value(const CzLanes *lanes, int lane, CzParameter p
     return lanes->parameter[(size_t)parameter * lanes->stride + (size_t)lane];
 }
 
-/* F_crit of the weaker side of an interface in a design, whose lanes of the cars behind and ahead
- * are given; NaN without couplers [N]. */
-double cz_critical_force(const CzModel *model, const CzLanes *lanes, int interface,
-                         const int lane[2]);
+/* Writes F_crit of the interfaces of one design of filled lanes (n_car - 1), as
+ * cz_strut_chain_fold; NaN without couplers or full cars [N]. Statuses: CZ_OK,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_critical_forces(const CzModel *model, const CzLanes *lanes, int design,
+                                          double *force, CzError *error);
 
 /* Sets model->facts and model->interface_facts. Statuses: CZ_OK, CZ_STATUS_INPUT,
  * CZ_STATUS_NO_MEMORY. */

@@ -2,6 +2,7 @@
 set(CZ_SOURCES_model
     build.c
     co_running.c
+    critical_force.c
     curve_sizes.c
     facts.c
     fill.c
@@ -13,6 +14,7 @@ set(CZ_SOURCES_model
     stand.c
     statics.c
     step_bounds.c
+    strut_chain.c
     track.c
     track_block.c
     track_bound.c

@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "base/error.h"
-#include "model/own_design.h"
 #include "simulate/devices.h"
 
 #define MISSING 1e29 /* strengths and strokes from here on stand for a member that is not there */
@@ -231,9 +230,6 @@ static void fill_climbing(const CzBatch *batch, int interface, int design,
         result->swing[side] = has_couplers ? cz_extreme(batch, CZ_E_SWING_A + side, lane) : NAN;
         result->swing_stop[side] = has_couplers && stop < MISSING ? stop : NAN;
     }
-    result->critical_force =
-        cz_critical_force(batch->model, batch->lanes, interface,
-                          (const int[]){(int)lane, (int)cz_lane(batch, interface + 1, design)});
 }
 
 void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "model/own_design.h"
 #include "simulate/reference.h"
 
 /* Sum of the rows of a ledger class or list over all cars. */
@@ -138,6 +139,18 @@ static void blank_vehicle(CzVehicleResult *result) {
     result->link_travel = NAN;
 }
 
+static CzStatus fill_critical_forces(const CzBatch *batch, int design, CzRun *run,
+                                     CzInterfaceResult *interface) {
+    const int n_interface = batch->model->n_car - 1;
+    double *force = cz_arena_allocate(&run->arena, (size_t)n_interface, sizeof *force);
+    if (force == NULL)
+        return CZ_STATUS_NO_MEMORY;
+    CZ_TRY(cz_critical_forces(batch->model, batch->lanes, design, force, NULL));
+    for (int i = 0; i < n_interface; ++i)
+        interface[i].critical_force = force[i];
+    return CZ_OK;
+}
+
 CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     const CzModel *model = batch->model;
     const CzProgressOfDesign *progress = &batch->design[design];
@@ -168,6 +181,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     summary->plastic_energy = plastic_energy(batch, design) - wheel_rail;
     summary->beyond_validity = !isnan(progress->override_time);
     summary->beyond_validity_time = progress->override_time;
+    CZ_TRY(fill_critical_forces(batch, design, run, interface));
     for (int i = 0; i < n_interface; ++i) {
         cz_interface_fill(batch, i, design, &interface[i]);
         interface[i].energy_share = share_of(interface[i].energy, summary->energy.dissipated);

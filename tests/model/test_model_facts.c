@@ -1,6 +1,7 @@
 /* Facts before a run: frequencies, and the coupler as a strut. */
 #include "model/built_model.h"
 
+#include "model/strut_chain.h"
 #include "model/vertical_modes.h"
 
 static CzVerticalModes modes_of(const CzVehicle *vehicle) {
@@ -31,34 +32,59 @@ static void unequal_ends_keep_the_sum_of_the_squares(void **state) {
     assert_near(sum, trace, 1e-12, 0.0);
 }
 
-/* Stiffness of the pivot against a vertical force: unit force on a body on two springs, solved as
- * two equations for heave and pitch. */
-static double pivot_stiffness(double spring, double half_spacing, double arm) {
-    const double heave = 1.0 / (2.0 * spring);
-    const double pitch = arm / (2.0 * spring * half_spacing * half_spacing);
-    return 1.0 / (heave + arm * pitch);
+/* A bogie's springs in series: the secondary suspension, and two primaries. */
+static double bogie_spring(double secondary, double primary) {
+    return 1.0 / (1.0 / secondary + 1.0 / (2.0 * primary));
 }
 
-static void the_critical_force_of_the_strut_is_that_of_the_weaker_side(void **state) {
+static void assert_folds_as(const Built *built, int n_car, const CzChainCar *car,
+                            const CzChainStrut *strut) {
+    double force[3];
+    CzArena scratch = {0};
+    assert_int_equal(cz_strut_chain_fold(n_car, car, strut, &scratch, force), CZ_OK);
+    cz_arena_free(&scratch);
+    for (int i = 0; i < n_car - 1; i++)
+        assert_near(cz_model_interface_facts(built->model, i).critical_force, force[i], 1e-12, 0.0);
+}
+
+static void the_critical_forces_are_those_of_the_chain_of_both_trains(void **state) {
     (void)state;
-    CzVehicle car = typed_full(), soft = typed_full();
+    CzVehicle car[2] = {typed_full(), typed_full()}, soft = typed_full();
     soft.bogie.secondary.stiffness = 4e5;
+    soft.bogie_spacing = 18.0;
     soft.rear.coupler.hinge.stiffness = 2e5;
     struct CzProblem problem;
-    typed_problem_init(&problem, 1, &car, 1, &soft, 10.0);
+    typed_problem_init(&problem, 2, car, 1, &soft, 10.0);
     Built built = build_model(&problem);
-    const double spring = 1.0 / (1.0 / 4e5 + 1.0 / 4.8e6);
-    const double length = 2.8, arm = 11.4 - 1.4;
-    const double expected = pivot_stiffness(spring, 9.5, arm) * length / 2.0 + 2.0 * 2e5 / length;
-    const CzInterfaceFacts facts = cz_model_interface_facts(built.model, 0);
-    assert_near(facts.critical_force, expected, 1e-13, 0.0);
-    assert_near(facts.strut_length, length, 1e-15, 0.0);
+    const double hinge = car[0].front.coupler.hinge.stiffness, arm = 11.4 - 1.4;
+    CzChainCar chain_car[] = {{bogie_spring(8.6e5, 2.4e6), 9.5},
+                              {bogie_spring(8.6e5, 2.4e6), 9.5},
+                              {bogie_spring(4e5, 2.4e6), 9.0}};
+    CzChainStrut strut[] = {
+        {2.8, true, {{.hinge = hinge, .body_arm = arm}, {.hinge = hinge, .body_arm = arm}}},
+        {2.8, true, {{.hinge = hinge, .body_arm = arm}, {.hinge = 2e5, .body_arm = arm}}}};
+    assert_folds_as(&built, 3, chain_car, strut);
+    assert_near(cz_model_interface_facts(built.model, 1).strut_length, 2.8, 1e-15, 0.0);
     free_model(&built);
 
-    /* A pivot on the end mass is as far from the body's centre of gravity. */
-    problem.vehicle[1].rear.coupler.anchor = CZ_ANCHOR_END;
+    /* A pivot on an end mass, which its guidance and its folding hold. */
+    problem.vehicle[2].rear.coupler.anchor = CZ_ANCHOR_END;
     built = build_model(&problem);
-    assert_near(cz_model_interface_facts(built.model, 0).critical_force, expected, 1e-13, 0.0);
+    strut[1].pivot[1] = (CzChainPivot){.hinge = 2e5,
+                                       .body_arm = 10.6,
+                                       .end_arm = arm - 10.6,
+                                       .end_guide = parameter(&built, 2, CZ_P_GUIDE_STIFFNESS_REAR),
+                                       .end_fold = parameter(&built, 2, CZ_P_FOLD_STIFFNESS_REAR)};
+    assert_folds_as(&built, 3, chain_car, strut);
+    free_model(&built);
+
+    /* A wall is smooth and held. */
+    problem.vehicle[2] = typed_wall();
+    built = build_model(&problem);
+    chain_car[2].spring = 0.0;
+    strut[1] = (CzChainStrut){.length = 2.4,
+                              .pivot = {{.hinge = hinge, .body_arm = arm}, {.body_arm = 1.0}}};
+    assert_folds_as(&built, 3, chain_car, strut);
     free_model(&built);
 }
 
@@ -108,7 +134,7 @@ static void rigid_and_fixed_vehicles_have_no_facts(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unequal_ends_keep_the_sum_of_the_squares),
-        cmocka_unit_test(the_critical_force_of_the_strut_is_that_of_the_weaker_side),
+        cmocka_unit_test(the_critical_forces_are_those_of_the_chain_of_both_trains),
         cmocka_unit_test(the_tube_force_is_that_of_the_weaker_coupler_before_it_shears),
         cmocka_unit_test(rigid_and_fixed_vehicles_have_no_facts),
     };

@@ -182,6 +182,9 @@ typedef struct CzRunSummary {
     long n_step;
     CzEnergy energy;
     double momentum_error;
+    double law_error;      /* largest distance of a member of a series chain from its law, over the
+                              largest force of the interface [-] */
+    long n_searched;       /* solutions of series chains that needed a search */
     double rest_residual;  /* largest force left unbalanced at rest over the weight of its vehicle
                               [-]; NaN without full vehicles, and of runs that are not recorded */
     double closing_speed;  /* largest closing speed of neighbours at the end [m/s] */

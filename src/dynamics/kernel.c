@@ -202,6 +202,14 @@ static void keep_larger(CzBlock *d, int extreme, const double *restrict value) {
     }
 }
 
+static void add_to(CzBlock *d, int extreme, const double *restrict value) {
+    const size_t n = CZ_LANE_BLOCK;
+    double *restrict kept = d->extreme[extreme];
+    CZ_LANES (i, n) {
+        kept[i] += value[i];
+    }
+}
+
 static void keep_larger_size(CzBlock *d, int extreme, const double *restrict value) {
     const size_t n = CZ_LANE_BLOCK;
     double *restrict kept = d->extreme[extreme];
@@ -332,15 +340,18 @@ static void commit_block(const CzLanes *lanes, CzBlock *d, double step, double t
     if (lanes->has_couplers) {
         coupler_extremes(d);
         keep_larger(d, CZ_E_COUPLER_FORCE, S(COUPLER_TOP));
+        keep_larger(d, CZ_E_COUPLER_CLOSURE, S(COUPLER_CLOSURE));
     }
     keep_larger(d, CZ_E_FACE_FORCE, S(FACE_FORCE));
     keep_larger(d, CZ_E_FACE_FORCE, S(FACE_TOP));
+    keep_larger(d, CZ_E_FACE_CLOSURE, S(FACE_CLOSURE));
     keep_larger_size(d, CZ_E_FACE_DEMAND, S(FACE_DEMAND));
     if (lanes->has_side_buffers) {
         keep_larger(d, CZ_E_SIDE_BUFFER_A, M(SIDE_BUFFER_A));
         keep_larger(d, CZ_E_SIDE_BUFFER_B, M(SIDE_BUFFER_B));
         keep_larger(d, CZ_E_SIDE_FORCE, S(SIDE_FORCE));
         keep_larger(d, CZ_E_SIDE_FORCE, S(SIDE_TOP));
+        keep_larger(d, CZ_E_SIDE_CLOSURE, S(SIDE_CLOSURE));
     }
     if (lanes->has_superstructures)
         keep_larger(d, CZ_E_SUPERSTRUCTURE_FORCE, S(SUPERSTRUCTURE_FORCE));
@@ -348,6 +359,8 @@ static void commit_block(const CzLanes *lanes, CzBlock *d, double step, double t
     keep_larger(d, CZ_E_SECTION_FRONT, S(SECTION_FRONT));
     keep_larger_size(d, CZ_E_BODY_ACCELERATION, d->acceleration[CZ_DOF_BODY_X]);
     keep_larger(d, CZ_E_CHAIN_RESIDUAL, S(RESIDUAL));
+    keep_larger(d, CZ_E_CHAIN_DISTANCE, S(CHAIN_DISTANCE));
+    add_to(d, CZ_E_SEARCHED, S(SEARCHED));
     if (lanes->has_full_cars)
         car_extremes(d, time);
 }

@@ -1,14 +1,15 @@
 /* Series chains: one force passes through all members, their shortenings add up to the closure.
- * Part of kernel.c only.
+ * Part of kernel.c only. This part: the members linearised, and the force that balances them;
+ * kernel_chain_search.h finds the force from the laws themselves in one lane, kernel_chain_solve.h
+ * is the solution of a step.
  *
  *   sum over springs of (x + (F - F_x) c(F))
  *       + sum over plastic members of (s + flow(F)) + C F = closure
  *
  * The left side grows with F and is piecewise linear, so Newton's method with a bracket finds F in
  * as many steps as kinks are passed. F never falls below what the chain can pull (0 where nothing
- * couples). Where that leads a spring past a kink of its law, or a plastic member to a strength
- * that is not the force, it is linearised again about where it went. Lanes that have arrived are
- * left alone, so that a lane's answer does not depend on its neighbours.
+ * couples). Lanes that have arrived are left alone, so that a lane's answer does not depend on its
+ * neighbours.
  */
 #ifndef CZ_DYNAMICS_KERNEL_CHAIN_H
 #define CZ_DYNAMICS_KERNEL_CHAIN_H
@@ -21,10 +22,7 @@
 #include "laws/plastic_member.h"
 #include "laws/vehicle_end.h"
 
-enum {
-    CHAIN_ITERATIONS = 60,
-    CHAIN_PASSES = 12 /* linearisations of one step: more kinks than a step passes (ours) */
-};
+enum { CHAIN_ITERATIONS = 60 };
 #define CHAIN_TOLERANCE 1e-13 /* closure left unbalanced [m] */
 #define REACH_MARGIN 1e-6     /* more than the rounding of a chain's sum by far [m] (ours) */
 #define LAW_TOLERANCE 1.0     /* force by which a member may miss its law [N] (ours) */
@@ -41,6 +39,20 @@ typedef struct {
 /* Linearises a member of one side: the first time about its committed stroke, later about where
  * the chain's force takes it, in the lanes where it misses its law. Returns how many those are. */
 typedef double Linearise(CzBlock *d, int side, double step, int again);
+
+/* Force of the spring of one side at a stroke, in one lane: the law that Linearise linearises. */
+typedef double ForceAt(const CzBlock *d, int side, size_t lane, double stroke, double step);
+
+/* Stroke at which the law of that spring begins to fall, from the committed state on; infinite
+ * where it never does. */
+typedef double FallsAt(const CzBlock *d, int side, size_t lane);
+
+/* The springs of a chain. */
+typedef struct {
+    Linearise *linearise;
+    ForceAt *force_at;
+    FallsAt *falls_at; /* NULL: none ever falls */
+} Springs;
 
 /* Buffers as the springs of a chain. */
 typedef struct {
@@ -173,10 +185,12 @@ static double accept(CzBlock *d, int side, int again, const double *restrict str
     double *restrict at = S_AT(SPRING_AT_A, side), *restrict rest = S_AT(SPRING_FORCE_A, side);
     double *restrict up = S_AT(SPRING_UP_A, side), *restrict down = S_AT(SPRING_DOWN_A, side);
     const double first = again ? 0.0 : 1.0;
+    double *restrict distance = S(LAW_DISTANCE);
     double n_changed = 0.0;
     _Pragma("omp simd reduction(+ : n_changed)") for (size_t i = 0; i < n; ++i) {
-        const double missed = fabs(law_force[i] - force[i]) > LAW_TOLERANCE ? active[i] : 0.0;
-        const double changed = first + missed;
+        const double off = active[i] * fabs(law_force[i] - force[i]);
+        const double changed = first + (off > LAW_TOLERANCE ? 1.0 : 0.0);
+        distance[i] = cz_larger(distance[i], off);
         at[i] = changed > 0.0 ? stroke[i] : at[i];
         rest[i] = changed > 0.0 ? law_force[i] : rest[i];
         up[i] = changed > 0.0 ? loading[i] : up[i];
@@ -193,6 +207,33 @@ static double leave_out_spring(CzBlock *d, int side) {
     memset(S_AT(SPRING_UP_A, side), 0, sizeof(CzRow));
     memset(S_AT(SPRING_DOWN_A, side), 0, sizeof(CzRow));
     return 0.0;
+}
+
+/* One side of the chain in one lane. */
+typedef struct {
+    int side;
+    size_t lane;
+} Place;
+
+/* The law of a buffer in a lane at a stroke, where the first linearisation has taken its offset. */
+static double buffer_force_at(const CzBlock *d, const Chain *chain, const BufferRows *rows,
+                              Place place, double stroke, double step) {
+    const int side = place.side, pulls = rows->draw >= 0;
+    const size_t i = place.lane;
+    const CzBufferLaw law = {cz_larger(d->parameter[rows->transition + side][i], 1.0),
+                             d->parameter[rows->share + side][i],
+                             d->parameter[rows->damping + side][i],
+                             d->parameter[rows->quadratic + side][i],
+                             pulls ? d->parameter[rows->draw + side][i] : 0.0,
+                             pulls ? d->parameter[rows->slack + side][i] : 0.0,
+                             d->curve[rows->curve + side].usable[i]};
+    double value, slope;
+    curve_at(d, rows->curve + side, i, stroke, &value, &slope);
+    const CzBufferResponse response =
+        cz_buffer_of(&law, d->constant[rows->compliance + side][i], value, slope, stroke,
+                     stroke - d->memory[chain->spring + side][i], d->memory[rows->rate + side][i],
+                     d->next_memory[rows->offset + side][i], step);
+    return response.force;
 }
 
 /* Linearises a buffer as spring member `side` of the chain. The hysteresis starts from where the
@@ -287,15 +328,17 @@ static double accept_plastic(CzBlock *d, const Chain *chain, int member,
     const double *restrict force = S(CHAIN_FORCE), *restrict active = S(CHAIN_ACTIVE);
     const double *restrict committed = d->memory[chain->plastic + member];
     double *restrict strength = S_AT(STRENGTH_0, member), *restrict flow = S_AT(FLOW_0, member);
+    double *restrict distance = S(LAW_DISTANCE);
     double n_changed = 0.0;
     _Pragma("omp simd reduction(+ : n_changed)") for (size_t i = 0; i < n; ++i) {
         const double way = stroke[i] - committed[i];
         const double tangent = cz_positive_part(slope[i]);
         const double compliance = cz_plastic_compliance(curve[i], tangent, rate[i], step);
         const double start = curve[i] - tangent * way;
-        const double missed = fabs(start + way / compliance - force[i]);
         const double flows = way > 0.0 ? active[i] : 0.0;
-        const double changed = missed > LAW_TOLERANCE ? flows : 0.0;
+        const double off = flows * fabs(start + way / compliance - force[i]);
+        const double changed = off > LAW_TOLERANCE ? 1.0 : 0.0;
+        distance[i] = cz_larger(distance[i], off);
         strength[i] = changed > 0.0 ? start : strength[i];
         flow[i] = changed > 0.0 ? compliance : flow[i];
         n_changed += changed;
@@ -320,161 +363,6 @@ static double relinearise_plastic(CzBlock *d, const Chain *chain, int member, do
                                             d->parameter[chain->rate + member], step);
     d->falls |= n_changed > 0.0; /* may: a kink upwards is taken too */
     return n_changed;
-}
-
-/* Linearises all members about their committed strokes, `springs` the springs, and finds the force
- * that balances them: S(CHAIN_FORCE). CHAIN_LOWEST, CHAIN_ACTIVE and the plastic members that have
- * no curve are set before. Returns whether it did. */
-static int start_chain(CzBlock *d, const Chain *chain, Linearise *springs, double step) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict last = d->memory[chain->force], *restrict lowest = S(CHAIN_LOWEST);
-    double *restrict force = S(CHAIN_FORCE);
-    CZ_LANES (i, n) {
-        force[i] = cz_larger(last[i], lowest[i]);
-    }
-    d->falls = 0;
-    for (int side = 0; side < 2; ++side)
-        springs(d, side, step, 0);
-    for (int member = 0; member < chain->n_curve; ++member)
-        if (!is_missing(d, chain, member))
-            prepare_plastic(d, chain, member, step);
-    return solve_linear(d, chain, S(CLOSURE));
-}
-
-/* Linearises again what misses its law, `others` being the plastic members without a curve (NULL:
- * they stay as they are), until every member keeps it in the active lanes. Returns how often the
- * force was found anew; UNSOLVED when it was not. */
-enum { UNSOLVED = -1 };
-static int settle_chain(CzBlock *d, const Chain *chain, Linearise *springs, Linearise *others,
-                        double step) {
-    int n_anew = 0;
-    for (int pass = 1; pass < CHAIN_PASSES; ++pass) {
-        double n_changed = springs(d, 0, step, 1) + springs(d, 1, step, 1);
-        for (int member = 0; member < chain->n_curve; ++member)
-            if (!is_missing(d, chain, member))
-                n_changed += relinearise_plastic(d, chain, member, step);
-        if (others != NULL)
-            n_changed += others(d, 0, step, 1) + others(d, 1, step, 1);
-        if (n_changed == 0.0)
-            break;
-        if (!solve_linear(d, chain, S(CLOSURE)))
-            return UNSOLVED;
-        ++n_anew;
-    }
-    return n_anew;
-}
-
-/* Keeps the chain's force, and what is left unbalanced for the run to judge. */
-static void finish_chain(CzBlock *d, const Chain *chain, int n_anew) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict active = S(CHAIN_ACTIVE);
-    const double *restrict left = S(CURVE_VALUE);
-    double *restrict residual = S(RESIDUAL), *restrict force = S(CHAIN_FORCE);
-    double *restrict kept = d->next_memory[chain->force];
-    const double unsolved = n_anew == UNSOLVED ? 1.0 : 0.0;
-    CZ_LANES (i, n) {
-        residual[i] = cz_larger(residual[i], unsolved * active[i] * fabs(left[i]));
-        force[i] *= active[i];
-        kept[i] = force[i];
-    }
-}
-
-/* All three for a chain whose plastic members have curves. Returns whether the first linearisation
- * held in all lanes. */
-static int solve_chain(CzBlock *d, const Chain *chain, Linearise *springs, double step) {
-    const int starts = start_chain(d, chain, springs, step);
-    const int n_anew = starts ? settle_chain(d, chain, springs, NULL, step) : UNSOLVED;
-    finish_chain(d, chain, n_anew);
-    return n_anew == 0;
-}
-
-/* Takes the members to the end of the step and adds the mean force times their way to the energies;
- * `first` is the energy row of side A that gets the way of the springs and plastic
- * members, `second` the one that gets the way of the plastic members alone (-1: none). */
-static void move_members(CzBlock *d, const Chain *chain, int first, int second) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict force = S(CHAIN_FORCE);
-    const double *restrict last = d->memory[chain->force];
-    for (int side = 0; side < 2; ++side) {
-        const double *restrict energy = d->memory[first + side];
-        double *restrict next_energy = d->next_memory[first + side];
-        const double *restrict stroke = d->memory[chain->spring + side];
-        const double *restrict at = S_AT(SPRING_AT_A, side);
-        double *restrict next = d->next_memory[chain->spring + side];
-        const double *restrict rest = S_AT(SPRING_FORCE_A, side);
-        const double *restrict up = S_AT(SPRING_UP_A, side);
-        const double *restrict down = S_AT(SPRING_DOWN_A, side);
-        const double *restrict active = S(CHAIN_ACTIVE);
-        CZ_LANES (i, n) {
-            const double excess = active[i] * (force[i] - rest[i]);
-            const double c = excess > 0.0 ? up[i] : down[i];
-            const double way = active[i] * (at[i] - stroke[i]) + excess * c;
-            next[i] = stroke[i] + way;
-            next_energy[i] = energy[i] + 0.5 * (last[i] + force[i]) * way;
-        }
-    }
-    for (int member = 0; member < chain->n_plastic; ++member) {
-        const int side = member % 2;
-        if (is_missing(d, chain, member)) {
-            if (second >= 0 && member < 2)
-                memcpy(d->next_memory[second + side], d->memory[second + side], sizeof(CzRow));
-            continue;
-        }
-        const double *restrict stroke = d->memory[chain->plastic + member];
-        double *restrict next = d->next_memory[chain->plastic + member];
-        double *restrict next_energy = d->next_memory[first + side];
-        const double *restrict strength = S_AT(STRENGTH_0, member);
-        const double *restrict flow = S_AT(FLOW_0, member);
-        CZ_LANES (i, n) {
-            const double way = cz_plastic_flow(force[i], strength[i], flow[i]);
-            next[i] = stroke[i] + way;
-            next_energy[i] += 0.5 * (last[i] + force[i]) * way;
-        }
-        if (second >= 0) {
-            const double *restrict before = member < 2
-                                                ? d->memory[second + side]
-                                                : (const double *)d->next_memory[second + side];
-            double *restrict after = d->next_memory[second + side];
-            CZ_LANES (i, n) {
-                after[i] = before[i] + 0.5 * (last[i] + force[i]) * (next[i] - stroke[i]);
-            }
-        }
-    }
-}
-
-/* Strengths that members had where they began to flow in this step, into S(CHAIN_TOP): where a
- * strength falls, such as behind a trigger peak, that is the largest force of the step. */
-static void chain_top(CzBlock *d, const Chain *chain) {
-    const size_t n = CZ_LANE_BLOCK;
-    double *restrict top = S(CHAIN_TOP);
-    double *restrict curve = S(CURVE_VALUE);
-    memset(top, 0, sizeof(CzRow));
-    for (int member = 0; member < chain->n_curve; ++member) {
-        if (is_missing(d, chain, member))
-            continue;
-        const double *restrict stroke = d->memory[chain->plastic + member];
-        const double *restrict next = d->next_memory[chain->plastic + member];
-        const double *restrict rise = rise_of(d, chain, member);
-        evaluate_curve(d, chain->curve + member, stroke, curve, S(CURVE_SLOPE));
-        CZ_LANES (i, n) {
-            const double strength = curve[i] * (1.0 + rise[i]);
-            top[i] = cz_larger(top[i], next[i] > stroke[i] ? strength : 0.0);
-        }
-    }
-}
-
-/* Rates of the springs over the step, for the next one. */
-static void keep_rates(CzBlock *d, const Chain *chain, int rate_row, double step) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double per_step = 1.0 / step;
-    for (int side = 0; side < 2; ++side) {
-        const double *restrict before = d->memory[chain->spring + side];
-        const double *restrict after = d->next_memory[chain->spring + side];
-        double *restrict rate = d->next_memory[rate_row + side];
-        CZ_LANES (i, n) {
-            rate[i] = (after[i] - before[i]) * per_step;
-        }
-    }
 }
 
 #endif

@@ -229,6 +229,7 @@ static int couplers(CzBlock *d, double step) {
     const Carrier a = coupler_carrier(d, 0);
     const Carrier b = coupler_carrier(d, 1);
     coupler_geometry(d, &a, &b);
+    memcpy(S(COUPLER_CLOSURE), S(CLOSURE), sizeof(CzRow));
     const int slack = coupler_chain_force(d, step);
     coupler_engagement(d);
     hinge_moment(d, 0, &a);

@@ -15,7 +15,7 @@
 #ifndef CZ_DYNAMICS_KERNEL_COUPLER_CHAIN_H
 #define CZ_DYNAMICS_KERNEL_COUPLER_CHAIN_H
 
-#include "dynamics/kernel_chain.h"
+#include "dynamics/kernel_chain_solve.h"
 #include "laws/shear_off.h"
 #include "model/kinks.h"
 
@@ -73,6 +73,13 @@ static double linearise_shear_off(CzBlock *d, int side, double step, int again) 
 static double linearise_coupler_buffer(CzBlock *d, int side, double step, int again) {
     return linearise_buffer(d, &coupler_chain, &coupler_buffer, side, step, again);
 }
+
+static double coupler_buffer_force(const CzBlock *d, int side, size_t lane, double stroke,
+                                   double step) {
+    return buffer_force_at(d, &coupler_chain, &coupler_buffer, (Place){side, lane}, stroke, step);
+}
+
+static const Springs coupler_springs = {linearise_coupler_buffer, coupler_buffer_force, NULL};
 
 /* Marks the lanes in which a shear-off flows as the active ones, and what begins there: the force
  * at which a whole one lets go, and the closure left after that, with what the springs took of it
@@ -181,11 +188,9 @@ static int release(CzBlock *d, double step) {
     d->releases = 1;
     int n_anew = 0;
     if (linearise_shear_off(d, 0, step, 1) + linearise_shear_off(d, 1, step, 1) > 0.0) {
-        n_anew = solve_linear(d, &coupler_chain, S(CLOSURE))
-                     ? settle_chain(d, &coupler_chain, linearise_coupler_buffer,
-                                    linearise_shear_off, step)
-                     : UNSOLVED;
-        n_anew = n_anew == UNSOLVED ? UNSOLVED : n_anew + 1;
+        const int found = solve_linear(d, &coupler_chain, S(CLOSURE));
+        n_anew =
+            1 + settle_chain(d, &coupler_chain, &coupler_springs, linearise_shear_off, step, found);
     }
     release_impulse(d, step);
     return n_anew;
@@ -257,15 +262,11 @@ static void prepare_couplers(CzBlock *d, double step) {
  * closure up to the couplers' reach. */
 static int coupler_chain_force(CzBlock *d, double step) {
     prepare_couplers(d, step);
-    const int starts = start_chain(d, &coupler_chain, linearise_coupler_buffer, step);
-    int n_anew =
-        starts ? settle_chain(d, &coupler_chain, linearise_coupler_buffer, NULL, step) : UNSOLVED;
-    if (n_anew != UNSOLVED) {
-        const int n_more = release(d, step);
-        n_anew = n_more == UNSOLVED ? UNSOLVED : n_anew + n_more;
-        memcpy(S(CHAIN_ACTIVE), P(COUPLER), sizeof(CzRow));
-    }
-    finish_chain(d, &coupler_chain, n_anew);
+    const int found = start_chain(d, &coupler_chain, &coupler_springs, step);
+    int n_anew = settle_chain(d, &coupler_chain, &coupler_springs, NULL, step, found);
+    n_anew += release(d, step);
+    memcpy(S(CHAIN_ACTIVE), P(COUPLER), sizeof(CzRow));
+    finish_chain(d, &coupler_chain);
     move_members(d, &coupler_chain, CZ_M_COUPLER_ENERGY_A, CZ_M_TUBE_ENERGY_A);
     if (d->releases)
         release_work(d, step);

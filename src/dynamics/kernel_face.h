@@ -3,7 +3,7 @@
 #ifndef CZ_DYNAMICS_KERNEL_FACE_H
 #define CZ_DYNAMICS_KERNEL_FACE_H
 
-#include "dynamics/kernel_chain.h"
+#include "dynamics/kernel_chain_solve.h"
 #include "dynamics/kernel_contact.h"
 #include <string.h>
 
@@ -11,6 +11,7 @@
 #include "laws/slider.h"
 
 #define PLATE_STIFFNESS 2e7 /* vertical stiffness of buffer plates that stick [N/m] (ours) */
+#define LARGE_DROP 0.01     /* share of its force that a spring loses in a step (ours) */
 
 static const Chain face_chain = {2,
                                  2,
@@ -57,7 +58,8 @@ static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
     double *restrict curve = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
     double *restrict peak = S(CURVE_PEAK), *restrict largest = S(LARGEST);
     largest_of_stages(d, CZ_CURVE_LIMP_END_A + side, M_AT(LIMP_PEAK_A, side), largest);
-    evaluate_curve(d, CZ_CURVE_LIMP_END_A + side, largest, peak, slope);
+    double *restrict peak_slope = S(PEAK_SLOPE), *restrict falls = S(LAW_FALLS);
+    evaluate_curve(d, CZ_CURVE_LIMP_END_A + side, largest, peak, peak_slope);
     evaluate_curve(d, CZ_CURVE_LIMP_END_A + side, shortening, curve, slope);
     const double *restrict unloading = P_AT(LIMP_UNLOADING_A, side), *restrict share =
                                                                          P_AT(LIMP_SHARE_A, side);
@@ -65,6 +67,7 @@ static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
     const double *restrict exists = P_AT(LIMP_END_A, side), *restrict wanted = S(CHAIN_FORCE);
     double *restrict force = S(TRIAL_FORCE);
     double *restrict up = S(TRIAL_UP), *restrict down = S(TRIAL_DOWN);
+    const double is_again = again ? 1.0 : 0.0;
     CZ_LANES (i, n) {
         const CzVehicleEndLaw law = {cz_larger(unloading[i], 1.0), share[i],
                                      cz_larger(second[i], 1.0), 0.0};
@@ -74,13 +77,39 @@ static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
         const double path =
             response.force < curve[i] ? response.slope : cz_larger(slope[i], response.slope);
         const double stop = shortening[i] > largest[i] ? slope[i] : path;
+        const double off = fabs(response.force - wanted[i]);
+        const double begins = peak_slope[i] < 0.0 ? 0.0 : is_again;
+        const double drops = off > LARGE_DROP * fabs(wanted[i]) ? is_again : begins;
+        const double falling = slope[i] < 0.0 ? exists[i] * drops : 0.0;
         const double back = cz_larger(shortening[i] > 0.0 ? stop : slope[i], CZ_SMALLEST_STIFFNESS);
+        falls[i] += shortening[i] > largest[i] ? falling : 0.0;
         force[i] = exists[i] > 0.5 ? response.force : wanted[i];
         up[i] = exists[i] / (shortening[i] >= largest[i] ? loading : back);
         down[i] = exists[i] / back;
     }
     return accept(d, side, again, shortening, force, up, down);
 }
+
+/* The law of that in one lane. */
+static double limp_end_force(const CzBlock *d, int side, size_t i, double shortening, double step) {
+    (void)step;
+    const int id = CZ_CURVE_LIMP_END_A + side;
+    const CzVehicleEndLaw law = {cz_larger(P_AT(LIMP_UNLOADING_A, side)[i], 1.0),
+                                 P_AT(LIMP_SHARE_A, side)[i],
+                                 cz_larger(P_AT(LIMP_SECOND_UNLOADING_A, side)[i], 1.0), 0.0};
+    const double largest = cz_smaller(M_AT(LIMP_PEAK_A, side)[i], d->curve[id].usable[i]);
+    double backbone, peak, slope;
+    curve_at(d, id, i, largest, &peak, &slope);
+    curve_at(d, id, i, shortening, &backbone, &slope);
+    return cz_vehicle_end(&law, backbone, peak, shortening, largest).force;
+}
+
+static double limp_end_falls(const CzBlock *d, int side, size_t i) {
+    return curve_falls_at(d, CZ_CURVE_LIMP_END_A + side, i,
+                          cz_larger(M_AT(LIMP_A, side)[i], M_AT(LIMP_PEAK_A, side)[i]));
+}
+
+static const Springs face_springs = {linearise_limp_end, limp_end_force, limp_end_falls};
 
 /* The closing speed at first contact is frozen; the rise of one side's strength follows from it. */
 static void speed_factor(CzBlock *d, int side) {
@@ -255,6 +284,7 @@ static int faces(CzBlock *d, double step) {
         leave_faces(d);
         return 0;
     }
+    memcpy(S(FACE_CLOSURE), S(CLOSURE), sizeof(CzRow));
     for (int side = 0; side < 2; ++side)
         speed_factor(d, side);
     double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
@@ -262,7 +292,7 @@ static int faces(CzBlock *d, double step) {
         lowest[i] = 0.0;
         active[i] = 1.0;
     }
-    const int settled = solve_chain(d, &face_chain, linearise_limp_end, step);
+    const int settled = solve_chain(d, &face_chain, &face_springs, step);
     move_members(d, &face_chain, CZ_M_LIMP_ENERGY_A, CZ_M_FACE_ENERGY_A);
     for (int side = 0; side < 2; ++side) {
         const double *restrict before = M_AT(LIMP_PEAK_A, side), *restrict now =
@@ -292,18 +322,26 @@ static double linearise_side_buffer(CzBlock *d, int side, double step, int again
     return linearise_buffer(d, &side_chain, &side_buffer, side, step, again);
 }
 
+static double side_buffer_force(const CzBlock *d, int side, size_t lane, double stroke,
+                                double step) {
+    return buffer_force_at(d, &side_chain, &side_buffer, (Place){side, lane}, stroke, step);
+}
+
+static const Springs side_springs = {linearise_side_buffer, side_buffer_force, NULL};
+
 /* All side buffers: on the end masses, so that the crush zones lie behind them. */
 static void side_buffers(CzBlock *d, double step) {
     const size_t n = CZ_LANE_BLOCK;
     const Carrier a = end_carrier(d, 0), b = end_carrier(d, 1);
     contact_geometry(d, &a, &b, &side_contact);
+    memcpy(S(SIDE_CLOSURE), S(CLOSURE), sizeof(CzRow));
     double *restrict lowest = S(CHAIN_LOWEST), *restrict active = S(CHAIN_ACTIVE);
     const double *restrict exists = P(SIDE_BUFFERS);
     CZ_LANES (i, n) {
         lowest[i] = 0.0;
         active[i] = exists[i];
     }
-    solve_chain(d, &side_chain, linearise_side_buffer, step);
+    solve_chain(d, &side_chain, &side_springs, step);
     move_members(d, &side_chain, CZ_M_SIDE_ENERGY_A, CZ_M_SIDE_TUBE_ENERGY_A);
     keep_rates(d, &side_chain, CZ_M_SIDE_RATE_A, step);
 

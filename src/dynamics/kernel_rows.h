@@ -94,6 +94,20 @@ static void evaluate_curve(const CzBlock *d, int id, const double *restrict x,
     }
 }
 
+/* The same in one lane. */
+static void curve_at(const CzBlock *d, int id, size_t lane, double x, double *value,
+                     double *slope) {
+    const CzBlockCurve *curve = &d->curve[id];
+    *value = curve->start[lane];
+    *slope = 0.0;
+    for (int kink = 0; kink < curve->n_kink; ++kink) {
+        const double beyond = x - curve->kink[2 * kink][lane];
+        const double counted = beyond >= 0.0 ? curve->kink[2 * kink + 1][lane] : 0.0;
+        *value += counted * beyond;
+        *slope += counted;
+    }
+}
+
 /* Largest shortening within the stages of a crush zone: beyond the last one it stands on its stop.
  */
 static void largest_of_stages(const CzBlock *d, int curve, const double *restrict largest,

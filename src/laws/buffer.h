@@ -64,9 +64,13 @@ static inline CzBufferResponse cz_buffer_of(const CzBufferLaw *law, double compl
     const double drawn = cz_positive_part(-stroke - law->draw_slack);
     const double draw_slope = -stroke >= law->draw_slack ? law->draw_stiffness : 0.0;
 
-    /* Tangents: up and down from here. */
-    const double push_up = stop_slope + (inside >= upper ? upper_slope : law->transition);
-    const double push_down = stop_slope + (inside <= lower ? lower_slope : law->transition);
+    /* Tangents: up and down from here. Within the step the offset is what it was, so what has
+     * moved along a curve goes back along it: only where nothing moved do the two differ. */
+    const double line_here = law->transition * (stroke - offset);
+    const double up_lower = moved < 0.0 && line_here < lower ? lower_slope : law->transition;
+    const double down_upper = moved > 0.0 && line_here > upper ? upper_slope : law->transition;
+    const double push_up = stop_slope + (inside >= upper ? upper_slope : up_lower);
+    const double push_down = stop_slope + (inside <= lower ? lower_slope : down_upper);
     const double up = stroke >= 0.0 ? push_up : draw_slope;
     const double down = stroke > 0.0 ? push_down : draw_slope;
     const double fade = cz_fade_in(stroke, CZ_FADE_LENGTH);
@@ -76,11 +80,17 @@ static inline CzBufferResponse cz_buffer_of(const CzBufferLaw *law, double compl
     const double damped = moved > 0.0 ? linear + hydraulic : linear;
     const double per_step = 1.0 / step;
 
+    /* Damping per way moved, up and down, and what it grows by as it fades in. */
+    const double undamped = law->damping + law->quadratic * cz_positive_part(rate);
+    const double still_fades = stroke < CZ_FADE_LENGTH ? undamped : 0.0;
+    const double fading = still_fades * cz_positive_part(moved) * (1.0 / CZ_FADE_LENGTH);
+    const double damping_up = linear + hydraulic + (stroke > 0.0 ? fading : 0.0);
+    const double damping_down = moved > 0.0 ? damping_up : linear;
+
     CzBufferResponse response;
     response.force = inside + stop - law->draw_stiffness * drawn + damped * moved * per_step;
-    response.loading =
-        1.0 / (cz_larger(up, CZ_SMALLEST_STIFFNESS) + (linear + hydraulic) * per_step);
-    response.unloading = 1.0 / (cz_larger(down, CZ_SMALLEST_STIFFNESS) + linear * per_step);
+    response.loading = 1.0 / (cz_larger(up, CZ_SMALLEST_STIFFNESS) + damping_up * per_step);
+    response.unloading = 1.0 / (cz_larger(down, CZ_SMALLEST_STIFFNESS) + damping_down * per_step);
     response.offset = stroke - inside * compliance;
     return response;
 }

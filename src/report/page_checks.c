@@ -237,8 +237,16 @@ static void write_caution(CzPage *page) {
              cz_figure_digits(number, 4, run->simulated), cz_ended_text(run->ended),
              cz_figure_digits((char[CZ_FIGURE_ROOM]){0}, 4, run->time_step * CZ_MILLI_PER_UNIT),
              cz_figure_percent(balance, run->energy.balance_error),
-             cz_run_is_inaccurate(run) ? ", WHICH IS POOR: take a smaller time step" : "");
+             cz_run_is_unbalanced(run) ? ", WHICH IS POOR: take a smaller time step" : "");
     cz_markup_element(markup, "p", text);
+    if (cz_run_misses_laws(run)) {
+        snprintf(
+            text, sizeof text,
+            "Forces in series are off the laws of their elements by %s of the largest force of "
+            "the interface, WHICH IS POOR: take a smaller time step.",
+            cz_figure_percent(balance, run->law_error));
+        cz_markup_element(markup, "p", text);
+    }
     cz_markup_line(markup);
 }
 

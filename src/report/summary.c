@@ -41,19 +41,25 @@ void cz_document_run_info(CzJson *json, double wall_s, double setup_s, int n_job
     cz_json_close(json);
 }
 
+static void put_warning(CzJson *json, const char *scenario, const char *what) {
+    CzError warning = {0};
+    snprintf(warning.message, sizeof warning.message, "scenario '%s': %s", scenario, what);
+    snprintf(warning.help, sizeof warning.help, "take a smaller time step");
+    cz_document_mistake(json, NULL, &warning);
+}
+
 void cz_document_warnings(CzJson *json, const CzProblem *problem, const CzEvaluation *evaluation) {
     cz_json_open_list(json, "warnings");
     for (int i = 0; i < cz_problem_n_warning(problem); i++)
         cz_document_mistake(json, NULL, cz_problem_warning(problem, i));
     for (int i = 0; i < evaluation->n_run; i++) {
         const CzRunSummary *run = cz_kept_run(evaluation, i);
-        CzError warning = {0};
-        if (run == NULL || !cz_run_is_inaccurate(run))
-            continue;
-        snprintf(warning.message, sizeof warning.message,
-                 "scenario '%s': the energy balance is off by more than 0.1 %%", run->scenario);
-        snprintf(warning.help, sizeof warning.help, "take a smaller time step");
-        cz_document_mistake(json, NULL, &warning);
+        if (run != NULL && cz_run_is_unbalanced(run))
+            put_warning(json, run->scenario, "the energy balance is off by more than 0.1 %");
+        if (run != NULL && cz_run_misses_laws(run))
+            put_warning(json, run->scenario,
+                        "the force of a series chain is more than 0.1 % of the largest force of "
+                        "its interface from the law of a member");
     }
     cz_json_close(json);
 }
@@ -244,6 +250,8 @@ static void put_scenario(CzJson *json, const CzProblem *problem, const CzRunSumm
     cz_json_text(json, "ended", cz_ended_text(run->ended));
     put_energy(json, &run->energy);
     cz_json_exact(json, "momentum_error", run->momentum_error);
+    cz_json_exact(json, "law_error", run->law_error);
+    cz_json_whole(json, "chains_searched", run->n_searched);
     cz_json_exact(json, "rest_residual", run->rest_residual);
     cz_json_real(json, "closing_speed_km_h", run->closing_speed * CZ_KM_H_PER_M_S);
     cz_json_real(json, "plastic_energy_kJ", run->plastic_energy / CZ_KILO);

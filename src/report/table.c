@@ -66,8 +66,13 @@ static void write_run_head(const CzProblem *problem, const CzRunSummary *run, bo
     cz_grid_write_text(cut ? "INCOMPLETE: not at an end yet" : cz_ended_text(run->ended),
                        cut ? CZ_STYLE_BAD : CZ_STYLE_PLAIN, colour, stream);
     fprintf(stream, "   energy balance %s", cz_figure_percent(balance, run->energy.balance_error));
-    if (cz_run_is_inaccurate(run)) {
+    if (cz_run_is_unbalanced(run)) {
         fputs("   ", stream);
+        cz_grid_write_text("POOR: take a smaller time step", CZ_STYLE_BAD, colour, stream);
+    }
+    if (cz_run_misses_laws(run)) {
+        char off[CZ_FIGURE_ROOM];
+        fprintf(stream, "   forces off their laws by %s ", cz_figure_percent(off, run->law_error));
         cz_grid_write_text("POOR: take a smaller time step", CZ_STYLE_BAD, colour, stream);
     }
     fputc('\n', stream);

@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#define SMALLEST_FORCE 1e4 /* of an interface that its chains are measured against [N] (ours) */
+
 /* Velocity that belongs to the accelerations at both ends of the step. The two-step scheme carries
  * v = (trapezoidal v) - h/2 (a - a_last): a step in which a force jumps, such as a shear-off that
  * snaps, is paid for in the next one. Work is summed by the trapezoidal rule and must be compared
@@ -77,4 +79,9 @@ double cz_train_speed(const CzBatch *batch, int train, int design) {
         momentum += m * cz_velocity(batch, CZ_DOF_BODY_X, lane);
     }
     return mass > 0.0 ? momentum / mass : 0.0;
+}
+
+double cz_law_error(const CzBatch *batch, size_t lane) {
+    return cz_extreme(batch, CZ_E_CHAIN_DISTANCE, lane) /
+           fmax(cz_extreme(batch, CZ_E_INTERFACE_FORCE, lane), SMALLEST_FORCE);
 }

@@ -16,6 +16,9 @@
 #define FLOW 1e-6              /* growth of the plastic strokes that counts as flow [m] (ours) */
 #define LARGEST_IMBALANCE 1e-2 /* of the initial energy */
 #define LARGEST_RESIDUAL 1e-6  /* closure that a chain may leave unbalanced [m] (ours) */
+#define LARGEST_LAW_ERROR                                                                          \
+    1e-2 /* distance of a member from its law, of the largest force: as for the balance, since a   \
+            force that is off by a share does work that is off by no more */
 
 static const char *const dof_text[CZ_N_DOF] = {
 #define CZ_DOF(name, what) what,
@@ -76,12 +79,46 @@ static bool fails_to_balance(CzBatch *batch, int design) {
     return true;
 }
 
+/* Fails the design when a series chain was left open or one of its members off its law. */
 static bool fails_to_solve(CzBatch *batch, int design) {
+    for (int car = 0; car + 1 < batch->model->n_car; ++car) {
+        const size_t lane = cz_lane(batch, car, design);
+        const double open = cz_extreme(batch, CZ_E_CHAIN_RESIDUAL, lane);
+        const double off = cz_law_error(batch, lane);
+        char what[96];
+        if (!(open <= LARGEST_RESIDUAL))
+            snprintf(what, sizeof what, "strokes that miss the closure by %.3g mm", 1e3 * open);
+        else if (!(off <= LARGEST_LAW_ERROR))
+            snprintf(what, sizeof what, "a member %.3g %% of the largest force off its law",
+                     100.0 * off);
+        else
+            continue;
+        fail(batch, design, batch->model->interface_name[car], "series chain", what);
+        return true;
+    }
+    return false;
+}
+
+/* Fails the design when a device has crushed further than its interface ever closed. */
+static bool fails_to_fit(CzBatch *batch, int design) {
+    static const struct {
+        const char *chain;
+        int first, n; /* plastic strokes, CzMemory */
+        int closure;  /* CzExtreme */
+    } chains[] = {{"coupler", CZ_M_TUBE_A, 6, CZ_E_COUPLER_CLOSURE},
+                  {"anti-climbers", CZ_M_FACE_A, 2, CZ_E_FACE_CLOSURE},
+                  {"ends", CZ_M_LIMP_PEAK_A, 2, CZ_E_FACE_CLOSURE},
+                  {"side buffers", CZ_M_SIDE_TUBE_A, 2, CZ_E_SIDE_CLOSURE}};
     for (int car = 0; car + 1 < batch->model->n_car; ++car)
-        if (cz_extreme(batch, CZ_E_CHAIN_RESIDUAL, cz_lane(batch, car, design)) >
-            LARGEST_RESIDUAL) {
-            fail(batch, design, batch->model->interface_name[car], "series chain",
-                 "no balance of forces found");
+        for (size_t k = 0; k < sizeof chains / sizeof chains[0]; ++k) {
+            const size_t lane = cz_lane(batch, car, design);
+            double largest = 0.0;
+            for (int member = 0; member < chains[k].n; ++member)
+                largest = fmax(largest, cz_memory(batch, chains[k].first + member, lane));
+            if (largest <= fmax(cz_extreme(batch, chains[k].closure, lane), 0.0) + LARGEST_RESIDUAL)
+                continue;
+            fail(batch, design, batch->model->interface_name[car], chains[k].chain,
+                 "a stroke beyond the closure");
             return true;
         }
     return false;
@@ -212,7 +249,8 @@ static void look_for_climbing(CzBatch *batch, int design) {
 static void look_at(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
     if (fails_to_be_finite(batch, design) || fails_to_balance(batch, design) ||
-        fails_to_solve(batch, design) || fails_to_keep_apart(batch, design))
+        fails_to_solve(batch, design) || fails_to_fit(batch, design) ||
+        fails_to_keep_apart(batch, design))
         return;
     look_for_climbing(batch, design);
     if (isnan(progress->wheel_rail) &&

@@ -114,6 +114,9 @@ double cz_wheel_rail_work(const CzBatch *batch, int design);
 /* Mean speed of the vehicles of a train that can move, by mass. */
 double cz_train_speed(const CzBatch *batch, int train, int design);
 double cz_momentum_error(const CzBatch *batch, int design);
+/* Largest distance of a member of the interface's series chains from its law, over the largest
+ * force of the interface. */
+double cz_law_error(const CzBatch *batch, size_t lane);
 /* interface_load.c: what the interfaces of a design still hold that can change the motion. */
 #define CZ_STORED_SHARE 1e-3 /* of the initial energy: what is less changes no speed (ours) */
 typedef struct CzInterfaceLoad CzInterfaceLoad;

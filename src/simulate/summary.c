@@ -109,6 +109,18 @@ static double share_of(double part, double dissipated) {
     return dissipated > nothing ? part / dissipated : NAN;
 }
 
+/* Series chains: how far a member came from its law, and how often a force had to be searched for.
+ */
+static void fill_chains(const CzBatch *batch, int design, CzRunSummary *summary) {
+    double searched = 0.0;
+    for (int car = 0; car + 1 < batch->model->n_car; ++car) {
+        const size_t lane = cz_lane(batch, car, design);
+        summary->law_error = fmax(summary->law_error, cz_law_error(batch, lane));
+        searched += cz_extreme(batch, CZ_E_SEARCHED, lane);
+    }
+    summary->n_searched = lround(searched);
+}
+
 /* Numbers that a failed run must not show. */
 static void blank_energy(CzEnergy *energy) {
     *energy = (CzEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
@@ -174,6 +186,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
         batch->reference != NULL ? cz_reference_n_step(batch->reference) : batch->n_step;
     summary->energy = cz_energy_fill(batch, design);
     summary->momentum_error = cz_momentum_error(batch, design);
+    fill_chains(batch, design, summary);
     summary->rest_residual = NAN; /* known of recorded runs */
     summary->closing_speed = closing_speed(batch, design);
     const double wheel_rail =
@@ -198,6 +211,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     if (failed) {
         blank_energy(&summary->energy);
         summary->momentum_error = summary->closing_speed = summary->plastic_energy = NAN;
+        summary->law_error = NAN;
     }
     summary->n_interface = n_interface;
     summary->interface = interface;

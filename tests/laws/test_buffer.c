@@ -131,6 +131,24 @@ static void damping_adds_its_force_to_the_step(void **state) {
                 0.0);
 }
 
+/* Where a stroke has moved within the step, the force is one smooth function of it on both sides:
+ * damping, and its fading in over the first 10 mm, included. */
+static void a_stroke_that_moved_has_one_tangent(void **state) {
+    (void)state;
+    const CzBufferLaw law = {5e7, 0.35, 5e3, 3e4, 2e7, 0.002, 0.05};
+    const double strokes[] = {0.004, 0.02}, v = 2.0, small = 1e-8;
+    for (size_t i = 0; i < sizeof strokes / sizeof strokes[0]; i++) {
+        const double x = strokes[i], curve = 2e4 + 7.6e6 * x, offset = x - curve / 5e7;
+        CzBufferResponse r[3];
+        for (int k = 0; k < 3; k++) {
+            const double moved = 2e-4 + (k - 1) * small, to = x + moved;
+            r[k] = cz_buffer(&law, 2e4 + 7.6e6 * to, 7.6e6, to, moved, v, offset, step);
+        }
+        assert_near(r[1].loading * (r[2].force - r[1].force), small, 1e-4, 0.0);
+        assert_near(r[1].unloading * (r[1].force - r[0].force), small, 1e-4, 0.0);
+    }
+}
+
 /* Inside the slack a chain must still have one answer. */
 static void within_the_slack_the_smallest_stiffness_is_left(void **state) {
     (void)state;
@@ -150,6 +168,7 @@ int main(void) {
         cmocka_unit_test(bottoming_out_is_stiff_and_without_hysteresis),
         cmocka_unit_test(the_compliances_are_the_tangents_of_the_force),
         cmocka_unit_test(damping_adds_its_force_to_the_step),
+        cmocka_unit_test(a_stroke_that_moved_has_one_tangent),
         cmocka_unit_test(within_the_slack_the_smallest_stiffness_is_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

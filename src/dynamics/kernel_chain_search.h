@@ -1,0 +1,401 @@
+/* The force of one series chain in one lane, from the laws themselves. Part of kernel.c only.
+ *
+ * The stroke x_j(F) that each member takes at a force grows with it up to the force at which its
+ * law begins to fall, so up to the smallest of these forces there is one answer to
+ *
+ *   sum over members of x_j(F) + C F = closure
+ *
+ * found within a bracket that only shrinks. Where the closure asks for more, the member that begins
+ * to fall first goes on: F is its law at its own stroke y, the others follow back along their
+ * rising parts, and the first y > 0 that makes up the closure is the answer. That is the branch on
+ * which the chain would move if it were closed slowly. Members that are alike go on together.
+ *
+ * A lane's answer depends on nothing but the lane. Few steps come here, so it need not be fast.
+ */
+#ifndef CZ_DYNAMICS_KERNEL_CHAIN_SEARCH_H
+#define CZ_DYNAMICS_KERNEL_CHAIN_SEARCH_H
+
+#include "dynamics/kernel_chain.h"
+
+#include "laws/shear_off.h"
+
+enum {
+    SEARCH_MEMBERS = 8,     /* two springs and up to six plastic members */
+    SEARCH_ITERATIONS = 200 /* of a bracket that is halved at least every other time */
+};
+#define SEARCH_STIFFNESS 1.0 /* so that level parts have one answer [N/m] (ours) */
+#define SEARCH_CLOSURE 1e-14 /* closure that may be left open [m] */
+#define SEARCH_FORCE 1e-7    /* force by which a stroke may miss its law [N] */
+#define RIGID 1e25           /* a stiffness or strength from here on never gives way */
+#define ALIKE 1e-9           /* relative difference of members that are alike */
+#define BEYOND_FALL 1e-4     /* stroke beyond the fall at which they are compared [m] (ours) */
+
+typedef struct Search {
+    const CzBlock *d;
+    const Chain *chain;
+    const Springs *springs;
+    size_t lane;
+    double step;
+    int holds; /* shear-offs keep the strength that they have */
+    int n_member;
+    double start[SEARCH_MEMBERS];     /* committed stroke [m] */
+    double force[SEARCH_MEMBERS];     /* of the law there, if it moved no further [N] */
+    double fall[SEARCH_MEMBERS];      /* stroke at which the law begins to fall [m] */
+    double strongest[SEARCH_MEMBERS]; /* its force there [N] */
+    int is_there[SEARCH_MEMBERS];     /* neither missing nor rigid */
+    double reach;                     /* no member moves further than this [m] */
+    double compliance, closure, lowest;
+    double last; /* force at the beginning of the step [N] */
+} Search;
+
+/* Where a curve begins to fall, from a stroke on; infinite where it never does. */
+static double curve_falls_at(const CzBlock *d, int id, size_t lane, double from) {
+    const CzBlockCurve *curve = &d->curve[id];
+    double slope = 0.0, falls = INFINITY;
+    for (int kink = 0; kink < curve->n_kink; ++kink) {
+        const double at = curve->kink[2 * kink][lane];
+        if (slope < -SEARCH_STIFFNESS && at > from)
+            break;
+        slope += curve->kink[2 * kink + 1][lane];
+        falls = slope < -SEARCH_STIFFNESS ? cz_larger(at, from) : INFINITY;
+    }
+    return falls;
+}
+
+/* Force of a plastic member that has flowed by `way` in the step. */
+static double plastic_force(const Search *s, int member, double stroke) {
+    const CzBlock *d = s->d;
+    const size_t i = s->lane;
+    const double way = stroke - s->start[2 + member];
+    if (member < s->chain->n_curve) {
+        const double rise = s->chain->rise < 0 ? 0.0 : d->scratch[s->chain->rise + member % 2][i];
+        double value, slope;
+        curve_at(d, s->chain->curve + member, i, stroke, &value, &slope);
+        const double strength = value * (1.0 + rise);
+        const double rate = d->parameter[s->chain->rate + member][i];
+        return strength + way / cz_plastic_compliance(strength, 0.0, rate, s->step);
+    }
+    const int side = member % 2;
+    if (s->holds)
+        return S_AT(STRENGTH_0, member)[i] + way / S_AT(FLOW_0, member)[i];
+    const CzShearOffResponse response = cz_shear_off(
+        P_AT(SHEAR_FORCE_A, side)[i], cz_larger(P_AT(SHEAR_SOFTENING_A, side)[i], 1e-6),
+        P_AT(SHEAR_SPACE_A, side)[i], P_AT(SHEAR_BOTTOM_A, side)[i], stroke);
+    return response.strength + CZ_SMALLEST_RESISTANCE * way;
+}
+
+static double law_at(const Search *s, int member, double stroke) {
+    const double moved = stroke - s->start[member];
+    const double force = member < 2 ? s->springs->force_at(s->d, member, s->lane, stroke, s->step)
+                                    : plastic_force(s, member - 2, stroke);
+    return force + SEARCH_STIFFNESS * moved;
+}
+
+/* Where the law of a plastic member begins to fall. */
+static double plastic_falls_at(const Search *s, int member) {
+    const CzBlock *d = s->d;
+    const double stroke = s->start[2 + member];
+    if (member < s->chain->n_curve)
+        return curve_falls_at(d, s->chain->curve + member, s->lane, stroke);
+    const double softening = P_AT(SHEAR_SOFTENING_A, member % 2)[s->lane];
+    return s->holds || stroke >= softening ? INFINITY : stroke;
+}
+
+/* ---- one unknown in a bracket ---------------------------------------------------------------- */
+
+/* A bracket whose value at `low` is not positive and at `high` not negative: regula falsi, halved
+ * where one end has stayed (Illinois), and bisected where that does not shrink it. */
+typedef struct Bracket {
+    double low, high, at_low, at_high;
+    int stayed; /* which end stayed in the last step: -1 low, 1 high, 0 neither */
+    double width;
+} Bracket;
+
+static Bracket bracket_of(double low, double high, double at_low, double at_high) {
+    return (Bracket){low, high, at_low, at_high, 0, high - low};
+}
+
+static double guess_in(Bracket *b, int iteration) {
+    const double middle = 0.5 * (b->low + b->high);
+    const int is_slow = iteration % 4 == 3 && b->high - b->low > 0.25 * b->width;
+    if (iteration % 4 == 3)
+        b->width = b->high - b->low;
+    const double change = b->at_high - b->at_low;
+    const double secant = change > 0.0 ? b->low - b->at_low * (b->high - b->low) / change : middle;
+    return !is_slow && secant > b->low && secant < b->high ? secant : middle;
+}
+
+static void shrink(Bracket *b, double x, double value) {
+    if (value <= 0.0) {
+        b->low = x;
+        b->at_low = value;
+        b->at_high *= b->stayed == 1 ? 0.5 : 1.0;
+        b->stayed = 1;
+    } else {
+        b->high = x;
+        b->at_high = value;
+        b->at_low *= b->stayed == -1 ? 0.5 : 1.0;
+        b->stayed = -1;
+    }
+}
+
+static int is_shut(const Bracket *b) {
+    const double middle = 0.5 * (b->low + b->high);
+    return !(middle > b->low && middle < b->high);
+}
+
+/* ---- strokes at a force ---------------------------------------------------------------------- */
+
+/* Stroke of a member at a force, on the part of its law that rises from where it was. */
+static double stroke_at(const Search *s, int member, double force) {
+    const double start = s->start[member];
+    const int goes_on = force > s->force[member];
+    if (!s->is_there[member] || force == s->force[member] || (member >= 2 && !goes_on))
+        return start;
+    if (force >= s->strongest[member])
+        return s->fall[member];
+    const double far = goes_on ? cz_smaller(s->fall[member], start + s->reach) : start - s->reach;
+    const double at_start = s->force[member] - force, at_far = law_at(s, member, far) - force;
+    if (goes_on ? at_far < 0.0 : at_far > 0.0)
+        return far;
+    Bracket b = goes_on ? bracket_of(start, far, at_start, at_far)
+                        : bracket_of(far, start, at_far, at_start);
+    double stroke = start;
+    for (int k = 0; k < SEARCH_ITERATIONS && !is_shut(&b); ++k) {
+        stroke = guess_in(&b, k);
+        const double missed = law_at(s, member, stroke) - force;
+        if (fabs(missed) <= SEARCH_FORCE)
+            return stroke;
+        shrink(&b, stroke, missed);
+    }
+    return stroke;
+}
+
+/* Sum of the strokes and of the compliance less the closure. */
+static double open_at(const Search *s, double force, double *stroke) {
+    double sum = s->compliance * force - s->closure;
+    for (int member = 0; member < s->n_member; ++member) {
+        stroke[member] = stroke_at(s, member, force);
+        sum += stroke[member];
+    }
+    return sum;
+}
+
+/* The same with the members that fall first, `goes_on`, at `beyond` from where they begin to. */
+static double open_beyond(const Search *s, const int *goes_on, int first, double beyond,
+                          double *force, double *stroke) {
+    *force = cz_larger(law_at(s, first, s->fall[first] + beyond), s->lowest);
+    double sum = s->compliance * *force - s->closure;
+    for (int member = 0; member < s->n_member; ++member) {
+        stroke[member] = goes_on[member] ? s->fall[member] + beyond : stroke_at(s, member, *force);
+        sum += stroke[member];
+    }
+    return sum;
+}
+
+/* The member that falls first, and those that are like it; -1 where none falls. */
+static int find_falling(const Search *s, int *goes_on) {
+    int first = -1;
+    double of_first = 0.0, beyond_first = 0.0;
+    for (int member = 0; member < s->n_member; ++member) {
+        goes_on[member] = 0;
+        if (!s->is_there[member] || !isfinite(s->fall[member]))
+            continue;
+        const double most = s->strongest[member];
+        const double beyond = law_at(s, member, s->fall[member] + BEYOND_FALL);
+        const double allowed = ALIKE * fabs(of_first);
+        const int is_less = first < 0 || most < of_first - allowed;
+        const int is_as_much = first >= 0 && fabs(most - of_first) <= allowed;
+        if (is_less || (is_as_much && beyond < beyond_first - allowed)) {
+            memset(goes_on, 0, sizeof(int) * (size_t)s->n_member);
+            first = member;
+            of_first = most;
+            beyond_first = beyond;
+            goes_on[member] = 1;
+        } else if (is_as_much && fabs(beyond - beyond_first) <= allowed)
+            goes_on[member] = 1;
+    }
+    return first;
+}
+
+/* ---- the search ------------------------------------------------------------------------------ */
+
+static void list_member(Search *s, int member, double stroke, int is_there, double falls_at) {
+    s->start[member] = stroke;
+    s->is_there[member] = is_there;
+    s->force[member] = is_there ? law_at(s, member, stroke) : 0.0;
+    s->fall[member] = falls_at;
+    s->strongest[member] = is_there && isfinite(falls_at) ? law_at(s, member, falls_at) : INFINITY;
+}
+
+/* The chain of a lane at its committed state. */
+static Search search_of(const CzBlock *d, const Chain *chain, const Springs *springs, int holds,
+                        size_t lane, double step) {
+    Search s = {.d = d,
+                .chain = chain,
+                .springs = springs,
+                .lane = lane,
+                .step = step,
+                .holds = holds,
+                .n_member = 2 + chain->n_plastic};
+    s.compliance = d->parameter[chain->compliance][lane];
+    s.closure = S(CLOSURE)[lane];
+    s.lowest = S(CHAIN_LOWEST)[lane];
+    s.last = d->memory[chain->force][lane];
+    double sum = s.compliance * s.last, size = fabs(sum);
+    for (int side = 0; side < 2; ++side) {
+        const double stroke = d->memory[chain->spring + side][lane];
+        const int gives = S_AT(SPRING_UP_A, side)[lane] > 1.0 / RIGID;
+        const int falls = gives && springs->falls_at != NULL;
+        list_member(&s, side, stroke, gives, falls ? springs->falls_at(d, side, lane) : INFINITY);
+        sum += stroke;
+        size += fabs(stroke);
+    }
+    for (int member = 0; member < chain->n_plastic; ++member) {
+        const double stroke = d->memory[chain->plastic + member][lane];
+        const int is_there =
+            !is_missing(d, chain, member) && S_AT(STRENGTH_0, member)[lane] < RIGID;
+        s.start[2 + member] = stroke;
+        list_member(&s, 2 + member, stroke, is_there,
+                    is_there ? plastic_falls_at(&s, member) : INFINITY);
+        sum += stroke;
+    }
+    s.reach = fabs(s.closure - sum) + size + 1e-3;
+    return s;
+}
+
+/* The answer up to the force at which the first member falls; false where the closure asks for
+ * more. */
+static int search_rising(const Search *s, double most, double *force, double *stroke) {
+    *force = s->lowest;
+    const double at_lowest = open_at(s, s->lowest, stroke);
+    if (at_lowest >= 0.0)
+        return 1; /* slack */
+    double high = cz_smaller(most, cz_larger(2.0 * fabs(s->last), 1e6));
+    double at_high = open_at(s, high, stroke);
+    while (at_high < 0.0 && high < most && high < RIGID) {
+        high = cz_smaller(most, 4.0 * high);
+        at_high = open_at(s, high, stroke);
+    }
+    *force = high;
+    if (at_high < 0.0)
+        return 0;
+    Bracket b = bracket_of(s->lowest, high, at_lowest, at_high);
+    for (int k = 0; k < SEARCH_ITERATIONS && !is_shut(&b); ++k) {
+        *force = guess_in(&b, k);
+        const double left = open_at(s, *force, stroke);
+        if (fabs(left) <= SEARCH_CLOSURE)
+            break;
+        shrink(&b, *force, left);
+    }
+    return 1;
+}
+
+/* The answer beyond it. Doubling strokes find the first one that closes the chain. */
+static void search_falling(const Search *s, const int *goes_on, int first, double *force,
+                           double *stroke) {
+    double low = 0.0, high = 1e-6 * s->reach;
+    double at_low = open_beyond(s, goes_on, first, low, force, stroke);
+    double at_high = open_beyond(s, goes_on, first, high, force, stroke);
+    while (at_high < 0.0 && high < s->reach) {
+        low = high;
+        at_low = at_high;
+        high *= 2.0;
+        at_high = open_beyond(s, goes_on, first, high, force, stroke);
+    }
+    Bracket b = bracket_of(low, high, at_low, at_high);
+    for (int k = 0; k < SEARCH_ITERATIONS && !is_shut(&b); ++k) {
+        const double beyond = guess_in(&b, k);
+        const double left = open_beyond(s, goes_on, first, beyond, force, stroke);
+        if (fabs(left) <= SEARCH_CLOSURE)
+            break;
+        shrink(&b, beyond, left);
+    }
+}
+
+/* How far the members of a lane are from their laws at the strokes and the force that stand in the
+ * block [N]. */
+static double distance_of(const Search *s, const double *stroke, double force) {
+    double distance = 0.0;
+    for (int member = 0; member < s->n_member; ++member) {
+        if (!s->is_there[member])
+            continue;
+        const double moved = stroke[member] - s->start[member];
+        const double law = law_at(s, member, stroke[member]) - SEARCH_STIFFNESS * moved;
+        const int rests = member >= 2 && moved == 0.0;
+        distance = cz_larger(distance, rests ? cz_positive_part(force - law) : fabs(force - law));
+    }
+    return distance;
+}
+
+/* Strokes to which the linearised members of a lane go at the chain's force. */
+static void strokes_of(const Search *s, double *stroke) {
+    const CzBlock *d = s->d;
+    const size_t i = s->lane;
+    const double force = S(CHAIN_FORCE)[i];
+    for (int side = 0; side < 2; ++side) {
+        const double excess = force - S_AT(SPRING_FORCE_A, side)[i];
+        stroke[side] =
+            S_AT(SPRING_AT_A, side)[i] +
+            excess * (excess > 0.0 ? S_AT(SPRING_UP_A, side) : S_AT(SPRING_DOWN_A, side))[i];
+    }
+    for (int member = 0; member < s->chain->n_plastic; ++member)
+        stroke[2 + member] =
+            s->start[2 + member] +
+            (s->is_there[2 + member]
+                 ? cz_plastic_flow(force, S_AT(STRENGTH_0, member)[i], S_AT(FLOW_0, member)[i])
+                 : 0.0);
+}
+
+/* Leaves the answer as a linearisation that gives it exactly. */
+static void keep_answer(CzBlock *d, const Search *s, const double *stroke, double force) {
+    const size_t i = s->lane;
+    S(CHAIN_FORCE)[i] = force;
+    for (int side = 0; side < 2; ++side) {
+        S_AT(SPRING_AT_A, side)[i] = stroke[side];
+        S_AT(SPRING_FORCE_A, side)[i] = force;
+    }
+    for (int member = 0; member < s->chain->n_plastic; ++member) {
+        const double way = stroke[2 + member] - s->start[2 + member];
+        if (!s->is_there[2 + member])
+            continue;
+        if (way > 0.0) {
+            S_AT(STRENGTH_0, member)[i] = force - CZ_SMALLEST_RESISTANCE * way;
+            S_AT(FLOW_0, member)[i] = 1.0 / CZ_SMALLEST_RESISTANCE;
+        } else
+            S_AT(STRENGTH_0, member)[i] = cz_larger(S_AT(STRENGTH_0, member)[i], force);
+    }
+}
+
+/* Finds the force of the chain in one lane anew where a member misses its law or `always`; notes
+ * what is left open, for the run to judge. */
+static void search_lane(CzBlock *d, const Chain *chain, const Springs *springs, int holds,
+                        size_t lane, double step, int always) {
+    const Search s = search_of(d, chain, springs, holds, lane, step);
+    double stroke[SEARCH_MEMBERS], force = S(CHAIN_FORCE)[lane];
+    strokes_of(&s, stroke);
+    double sum = s.compliance * force - s.closure;
+    for (int member = 0; member < s.n_member; ++member)
+        sum += stroke[member];
+    const double tolerance = CHAIN_TOLERANCE;
+    const int is_open = force <= s.lowest ? sum < -tolerance : fabs(sum) > tolerance;
+    double distance = distance_of(&s, stroke, force);
+    if (always || is_open || !(distance <= LAW_TOLERANCE)) {
+        int goes_on[SEARCH_MEMBERS];
+        const int first = find_falling(&s, goes_on);
+        const double most = first < 0 ? INFINITY : cz_larger(s.strongest[first], s.lowest);
+        if (!search_rising(&s, most, &force, stroke) && first >= 0)
+            search_falling(&s, goes_on, first, &force, stroke);
+        keep_answer(d, &s, stroke, force);
+        distance = distance_of(&s, stroke, force);
+        S(SEARCHED)[lane] += 1.0;
+        sum = s.compliance * force - s.closure;
+        for (int member = 0; member < s.n_member; ++member)
+            sum += stroke[member];
+    }
+    const double left = force <= s.lowest ? cz_positive_part(-sum) : fabs(sum);
+    S(LAW_DISTANCE)[lane] = distance;
+    S(RESIDUAL)[lane] = cz_larger(S(RESIDUAL)[lane], left);
+}
+
+#endif

@@ -1,0 +1,139 @@
+/* Series chains: of all equilibria the one that a slow closing leads to, and members that keep
+ * their laws. */
+#include "support/check.h"
+
+#include <math.h>
+
+#include "physics/collision.h"
+
+/* Two rigid cars whose ends meet: a first stage that one step may cross, and one behind it along
+ * which the force falls. Forces in kN, strokes in mm. */
+typedef struct Ends {
+    double speed;   /* of A [m/s]; B stands */
+    double first;   /* force of the first stage of both */
+    double stroke;  /* of it */
+    double last[2]; /* force at the end of the second stage, front of A and rear of B */
+    double step;    /* [s]; 0: the model's own */
+} Ends;
+
+enum { SECOND_STROKE = 1000, MASS_T = 30 };
+
+static Collision meet(const Ends *ends) {
+    char text[2048];
+    const int n = snprintf(
+        text, sizeof text,
+        "schema: 1\n"
+        "title: ends in series\n"
+        "simulation: {track: rigid}\n"
+        "parts:\n"
+        "  car: {model: rigid, mass_t: %d}\n"
+        "trains:\n"
+        "  - {name: A, speed_m_s: %.17g, vehicles: [{use: car, front: {face_gap_mm: 0, "
+        "unloading_stiffness_MN_m: 1e4, stages: [{stroke_mm: %.17g, force_kN: %.17g}, "
+        "{stroke_mm: %d, force_kN: %.17g}]}}]}\n"
+        "  - {name: B, vehicles: [{use: car, rear: {face_gap_mm: 0, unloading_stiffness_MN_m: 1e4, "
+        "stages: [{stroke_mm: %.17g, force_kN: %.17g}, {stroke_mm: %d, force_kN: %.17g}]}}]}\n",
+        MASS_T, ends->speed, ends->stroke, ends->first, SECOND_STROKE, ends->last[0], ends->stroke,
+        ends->first, SECOND_STROKE, ends->last[1]);
+    assert_true(n > 0 && (size_t)n < sizeof text);
+    const CzProblemOptions options = cz_problem_options_default();
+    CzSimulateOptions how = cz_simulate_options_default();
+    how.time_step = ends->step;
+    Collision collision = {0};
+    CzError error = {0};
+    if (cz_problem_read_text(text, (size_t)n, "ends", ".", &options, &collision.problem, &error) !=
+            CZ_OK ||
+        cz_model_build(collision.problem, 0, &collision.model, &error) != CZ_OK ||
+        cz_simulate(collision.model, &how, &collision.run, &error) != CZ_OK)
+        fail_msg("%s:%d: %s", error.file, error.line, error.message);
+    collision.summary = cz_run_summary(collision.run);
+    return collision;
+}
+
+/* Stroke at which the weaker end has taken up an energy: F s + F x - k x^2 / 2 with the slope k of
+ * the second stage. */
+static double stroke_for(const Ends *ends, double weaker_last, double energy) {
+    const double first = 1e3 * ends->first, stroke = 1e-3 * ends->stroke;
+    const double slope = (first - 1e3 * weaker_last) / (1e-3 * SECOND_STROKE);
+    const double left = energy - first * stroke;
+    return stroke + (first - sqrt(first * first - 2.0 * slope * left)) / slope;
+}
+
+/* The stronger end takes up its first stage at most, F s; what that leaves open in the closed form
+ * is its share, and some 0.1 mm of elastic rise. */
+static void check_weaker_is_crushed(const Ends *ends) {
+    Collision collision = meet(ends);
+    const CzInterfaceResult *interface = &collision.summary->interface[0];
+    const int weaker = ends->last[0] < ends->last[1] ? 0 : 1;
+    const double energy = 0.25 * 1e3 * MASS_T * ends->speed * ends->speed;
+    const double of_stage = ends->first * ends->stroke; /* [J] */
+    assert_string_equal(collision.summary->failure, "");
+    assert_int_equal(interface->n_element, 2);
+    const CzElementResult *crushed = &interface->element[weaker],
+                          *kept = &interface->element[1 - weaker];
+    /* Both ends give back F^2 / 2 k, and part with it. */
+    const double elastic = 1e6 * ends->first * ends->first / 1e10;
+    assert_near(interface->energy, energy, 1e-3, elastic);
+    assert_near(crushed->energy, energy - 0.5 * of_stage, 0.0,
+                0.5 * of_stage + 1e-3 * energy + elastic);
+    assert_true(kept->energy >= -1e-6 * energy && kept->energy <= of_stage);
+    assert_true(kept->stroke <= 1.1e-3 * ends->stroke);
+    const double most = stroke_for(ends, ends->last[weaker], energy);
+    const double least = stroke_for(ends, ends->last[weaker], energy - of_stage - elastic);
+    assert_true(crushed->stroke <= most + 3e-4 && crushed->stroke >= least - 3e-4);
+    assert_true(interface->shortening >= crushed->stroke);
+    assert_true(interface->shortening <= crushed->stroke + kept->stroke + 3e-4);
+    collision_free(&collision);
+}
+
+static void of_two_ends_in_series_the_one_that_falls_deeper_is_crushed(void **state) {
+    (void)state;
+    const double speeds[] = {3.0, 5.5, 8.0, 10.0};
+    const double strokes[] = {0.3, 1.0, 4.0, 30.0};
+    for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++)
+        for (size_t k = 0; k < sizeof strokes / sizeof *strokes; k++)
+            check_weaker_is_crushed(&(Ends){speeds[i], 1600.0, strokes[k], {1100.0, 1250.0}, 0.0});
+}
+
+static void the_same_end_is_crushed_on_the_other_side(void **state) {
+    (void)state;
+    check_weaker_is_crushed(&(Ends){9.0, 1600.0, 1.0, {1250.0, 1100.0}, 0.0});
+    check_weaker_is_crushed(&(Ends){9.0, 1600.0, 0.4, {1250.0, 1100.0}, 0.0});
+}
+
+static void the_end_that_is_crushed_does_not_depend_on_the_step(void **state) {
+    (void)state;
+    const double steps[] = {1e-4, 3e-5, 1e-5};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+        check_weaker_is_crushed(&(Ends){9.0, 1600.0, 1.0, {1100.0, 1250.0}, steps[i]});
+}
+
+/* A chain is solved until each member is within 1 N of its law. */
+static void members_of_chains_keep_their_laws_within_a_newton(void **state) {
+    (void)state;
+    static const struct {
+        const char *file;
+        int scenario;
+    } cases[] = {{"problems/two-cars-25kmh.yaml", 0}, {"problems/wall.yaml", 0},
+                 {"problems/wagon.yaml", 0},          {"problems/buffer-stop.yaml", 0},
+                 {"problems/paper-25kmh.yaml", 0},    {"problems/metro-6-car.yaml", 3}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Collision collision = collide(cases[i].file, AS_WRITTEN, cases[i].scenario);
+        double weakest = INFINITY;
+        for (int k = 0; k < collision.summary->n_interface; k++)
+            weakest = fmin(weakest, fmax(1e4, collision.summary->interface[k].peak_force));
+        assert_string_equal(collision.summary->failure, "");
+        assert_true(collision.summary->law_error <= 1.0 / weakest);
+        collision_free(&collision);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_two_ends_in_series_the_one_that_falls_deeper_is_crushed),
+        cmocka_unit_test(the_same_end_is_crushed_on_the_other_side),
+        cmocka_unit_test(the_end_that_is_crushed_does_not_depend_on_the_step),
+        cmocka_unit_test(members_of_chains_keep_their_laws_within_a_newton),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

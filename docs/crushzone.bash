@@ -33,6 +33,11 @@ _crushzone() {
     --force) return ;;
     --stroke-unit) return ;;
     --force-unit) return ;;
+    --zero) words='start contact STROKE' ;;
+    --flip) words='stroke force both' ;;
+    --scale) return ;;
+    --from) return ;;
+    --to) return ;;
     --csv-sep) return ;;
     --csv-decimal) return ;;
     --color) words='auto always never' ;;
@@ -54,7 +59,7 @@ _crushzone() {
     compare) options='--output --json --quiet --scenario --jobs --color --help' ;;
     validate) options='--json --quiet --set --color --help' ;;
     show) options='--quiet --set --scenario --time-step-ms --svg --color --help' ;;
-    fit) options='--json --as --basis --stages --name --stroke --force --stroke-unit --force-unit --csv-sep --csv-decimal --help' ;;
+    fit) options='--json --as --basis --stages --name --stroke --force --stroke-unit --force-unit --zero --flip --scale --from --to --csv-sep --csv-decimal --help' ;;
     new) options='--output --quiet --help' ;;
     schema) options='--help' ;;
     help) options='--markdown --man --completion --help' ;;

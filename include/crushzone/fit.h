@@ -29,6 +29,14 @@ typedef enum CzFitKind {
 CZ_API const char *cz_fit_kind_word(CzFitKind kind);
 CZ_API const char *cz_fit_kind_doc(CzFitKind kind);
 
+/* Where stroke 0 of a curve is. */
+typedef enum CzFitZero {
+    CZ_FIT_ZERO_AUTO,    /* where the file has it, or at the first point when that has no force */
+    CZ_FIT_ZERO_START,   /* at the first point */
+    CZ_FIT_ZERO_CONTACT, /* where the force begins */
+    CZ_FIT_ZERO_STROKE   /* at a stroke of the file */
+} CzFitZero;
+
 /* How a curve is read and fitted; texts are borrowed. */
 typedef struct CzFitOptions {
     CzFitKind kind;
@@ -39,10 +47,15 @@ typedef struct CzFitOptions {
     const char *stroke; /* column of the stroke by its title or its number from 1; NULL: the one
                            named stroke_mm or in another unit of length */
     const char *force;  /* column of the force; NULL: the one named force_kN or the like */
-    const char *stroke_unit; /* such as "mm"; NULL: from the column's title */
-    const char *force_unit;  /* such as "kN"; NULL: from the column's title */
-    char separator;          /* between fields; 0: ';' where a line has one, else ',' */
-    char decimal;            /* decimal sign, '.' or ',' */
+    const char *stroke_unit; /* such as "mm"; NULL: from the column's title or a row of units */
+    const char *force_unit;  /* such as "kN"; NULL: the same */
+    char separator;          /* between fields, ' ' for blanks; 0: what the lines show */
+    char decimal;            /* decimal sign, '.' or ','; 0: what the numbers show */
+    int flips_stroke, flips_force; /* 1: the sign of the column is changed */
+    double scale;                  /* of the forces, such as 0.5 for one of two devices */
+    CzFitZero zero;
+    double zero_stroke; /* with CZ_FIT_ZERO_STROKE; in the file's unit of strokes (SI of points) */
+    double from, to;    /* strokes of the file that count, in the same unit; NaN: all */
 } CzFitOptions;
 CZ_API CzFitOptions cz_fit_options_default(void);
 
@@ -67,10 +80,11 @@ typedef struct CzFitSummary {
 /* A law that was found. Opaque, owns its memory. */
 typedef struct CzFit CzFit;
 
-/* Fits the curve of a CSV file ("-" is standard input): two columns or more under one line of
- * titles, which may be missing when the options give columns and units; '#' begins a comment.
- * Strokes rise to their largest and may then go back once, while the force falls: that is the
- * unloading. Statuses: CZ_OK, CZ_STATUS_INPUT with file, line and column of the first mistake,
+/* Fits the curve of a file ("-" is standard input): two columns or more under a line of titles,
+ * perhaps with a line of units below it and other lines above, as testing machines write them.
+ * Titles may be missing when the options give columns and units; '#' begins a comment. Strokes grow
+ * to their largest and may then go back once, while the force falls: that is the unloading.
+ * Statuses: CZ_OK, CZ_STATUS_INPUT with file, line and column of the first mistake,
  * CZ_STATUS_NO_MEMORY. *fit is NULL unless CZ_OK is returned; NULL options are the default ones. */
 CZ_MUST_CHECK CZ_API CzStatus cz_fit_read(const char *path, const CzFitOptions *options,
                                           CzFit **fit, CzError *error);
@@ -99,8 +113,8 @@ typedef struct CzCurveColumns {
                                             "acceleration", "energy", "angle": what their units are
                                             of */
     const char *x, *y;                   /* a column's title, or its number from 1 */
-    char separator;                      /* between fields; 0: ';' where a line has one, else ',' */
-    char decimal;                        /* decimal sign, '.' or ',' */
+    char separator;                      /* between fields; 0: what the lines show */
+    char decimal;                        /* decimal sign, '.' or ','; 0: what the numbers show */
 } CzCurveColumns;
 
 /* A measured curve as it stands in a file. Open, owns its memory. */
@@ -109,15 +123,16 @@ typedef struct CzCurve {
     double *x, *y; /* [SI] (n) */
 } CzCurve;
 
-/* Reads two columns of a CSV file. Their titles end in a unit, as "t_ms" or "force [kN]". Statuses:
- * CZ_OK, CZ_STATUS_INPUT with file, line and column of the first mistake, CZ_STATUS_NO_MEMORY. */
+/* Reads two columns of a file. Their titles end in a unit, as "t_ms" or "force [kN]", or a line of
+ * units is below them. Statuses: CZ_OK, CZ_STATUS_INPUT with file, line and column of the first
+ * mistake, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_curve_read(const char *path, const CzCurveColumns *columns,
                                             CzCurve **curve, CzError *error);
 CZ_API void cz_curve_free(CzCurve *curve);
 
-/* Titles of the columns of such a file, as its first line that is neither empty nor a comment has
- * them: *n texts in one block of memory, which the caller frees with free(). Statuses as above;
- * *title is NULL unless CZ_OK is returned. */
+/* Titles of the columns of such a file, out of the line above its points: *n texts in one block of
+ * memory, which the caller frees with free(). Statuses as above; *title is NULL unless CZ_OK is
+ * returned. */
 CZ_MUST_CHECK CZ_API CzStatus cz_curve_titles(const char *path, char separator, int *n,
                                               char ***title, CzError *error);
 

@@ -139,8 +139,8 @@ typedef struct CzChartOptions {
     const char *column;   /* of the values: titles or numbers from 1, with commas between them;
                              NULL: the second, of panels all. Over panels a title begins as a
                              channel does: F_, v_, x_, d_ */
-    char csv_separator;   /* 0: ';' where a line has one, else ',' */
-    char csv_decimal;
+    char csv_separator;   /* 0: what the lines show */
+    char csv_decimal;     /* 0: what the numbers show */
 } CzChartOptions;
 CZ_API CzChartOptions cz_chart_options_default(void);
 

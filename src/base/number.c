@@ -97,6 +97,16 @@ const char *cz_number_parse(const char *text, double *value) {
     return isfinite(*value) ? NULL : "is too large for a number";
 }
 
+bool cz_number_scan(const char *text, double *value) {
+    const char *end = decimal_end(text);
+    if (end == NULL || *end != '\0')
+        return false;
+    const LocaleGuard guard = locale_enter();
+    *value = strtod(text, NULL);
+    locale_leave(guard);
+    return isfinite(*value);
+}
+
 /* Writes `digits` significant digits, without an exponent where people would not write one. */
 static void print_digits(char text[CZ_NUMBER_TEXT], int digits, double value) {
     snprintf(text, CZ_NUMBER_TEXT, "%.*e", digits - 1, value);

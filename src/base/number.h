@@ -11,6 +11,10 @@ enum { CZ_NUMBER_TEXT = 32 }; /* room for any number that cz_number_print writes
  * "is not finite". */
 const char *cz_number_parse(const char *text, double *value);
 
+/* Reads a decimal number as machines write it: needless zeros are allowed. False when the text is
+ * none, or too large for a number. */
+bool cz_number_scan(const char *text, double *value);
+
 /* Writes the shortest text that reads back to the same bits; NaN and infinities are written as
  * "nan", "inf", "-inf". Returns `text`. */
 const char *cz_number_print(char text[CZ_NUMBER_TEXT], double value);

@@ -78,7 +78,8 @@ static CzStatus write_chart(const void *data, FILE *stream, CzError *error) {
     options.column = text[CZ_OPTION_COLUMN];
     if (text[CZ_OPTION_CSV_SEP] != NULL)
         options.csv_separator = result->arguments.csv_separator;
-    options.csv_decimal = result->arguments.csv_decimal;
+    if (text[CZ_OPTION_CSV_DECIMAL] != NULL)
+        options.csv_decimal = result->arguments.csv_decimal;
     return cz_report_write_chart(&result->run, &options, stream, error);
 }
 

@@ -1,4 +1,5 @@
 /* `fit`: a measured curve as a staged law. */
+#include "base/number.h"
 #include "base/suggest.h"
 #include "cli/command.h"
 #include "cli/messages.h"
@@ -30,6 +31,58 @@ static CzStatus take_kind(const CzArguments *arguments, CzFitOptions *options, C
     return CZ_STATUS_INPUT;
 }
 
+/* Reads the number of an option that is there. */
+static CzStatus take_number(const CzArguments *arguments, CzOption option, double *number,
+                            CzError *error) {
+    const char *text = arguments->text[option];
+    if (text == NULL || cz_number_parse(text, number) == NULL)
+        return CZ_OK;
+    misuse(error, "", "");
+    snprintf(error->message, sizeof error->message, "'--%s %.40s' is not a number",
+             cz_options[option].name, text);
+    return CZ_STATUS_INPUT;
+}
+
+static CzStatus take_zero(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
+    const char *zero = arguments->text[CZ_OPTION_ZERO];
+    if (zero == NULL)
+        return CZ_OK;
+    const bool at_start = strcmp(zero, "start") == 0, at_contact = strcmp(zero, "contact") == 0;
+    options->zero = at_start     ? CZ_FIT_ZERO_START
+                    : at_contact ? CZ_FIT_ZERO_CONTACT
+                                 : CZ_FIT_ZERO_STROKE;
+    if (at_start || at_contact)
+        return CZ_OK;
+    const CzStatus status = take_number(arguments, CZ_OPTION_ZERO, &options->zero_stroke, error);
+    if (status != CZ_OK)
+        snprintf(error->help, sizeof error->help,
+                 "--zero takes start, contact or a stroke in the unit of the file");
+    return status;
+}
+
+/* Which part of the curve counts, with which signs and from which zero. */
+static CzStatus take_shape(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
+    const char *flip = arguments->text[CZ_OPTION_FLIP];
+    CzStatus status = take_zero(arguments, options, error);
+    if (status == CZ_OK)
+        status = take_number(arguments, CZ_OPTION_SCALE, &options->scale, error);
+    if (status == CZ_OK)
+        status = take_number(arguments, CZ_OPTION_FROM, &options->from, error);
+    if (status == CZ_OK)
+        status = take_number(arguments, CZ_OPTION_TO, &options->to, error);
+    if (status != CZ_OK)
+        return status;
+    if (!(options->scale > 0.0))
+        return misuse(error, "'--scale' must be greater than 0", "--flip force changes the sign");
+    options->flips_stroke =
+        flip != NULL && (strcmp(flip, "stroke") == 0 || strcmp(flip, "both") == 0);
+    options->flips_force =
+        flip != NULL && (strcmp(flip, "force") == 0 || strcmp(flip, "both") == 0);
+    if (flip != NULL && !options->flips_stroke && !options->flips_force)
+        return misuse(error, "'--flip' takes stroke, force or both", "");
+    return CZ_OK;
+}
+
 static CzStatus take_options(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
     const char *basis = arguments->text[CZ_OPTION_BASIS];
     const CzStatus status = take_kind(arguments, options, error);
@@ -46,10 +99,11 @@ static CzStatus take_options(const CzArguments *arguments, CzFitOptions *options
     options->force = arguments->text[CZ_OPTION_FORCE];
     options->stroke_unit = arguments->text[CZ_OPTION_STROKE_UNIT];
     options->force_unit = arguments->text[CZ_OPTION_FORCE_UNIT];
-    options->separator =
-        arguments->text[CZ_OPTION_CSV_SEP] != NULL ? arguments->csv_separator : '\0';
-    options->decimal = arguments->csv_decimal;
-    return CZ_OK;
+    if (arguments->text[CZ_OPTION_CSV_SEP] != NULL)
+        options->separator = arguments->csv_separator;
+    if (arguments->text[CZ_OPTION_CSV_DECIMAL] != NULL)
+        options->decimal = arguments->csv_decimal;
+    return take_shape(arguments, options, error);
 }
 
 int cz_command_fit(const CzArguments *arguments) {

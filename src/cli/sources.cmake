@@ -1,5 +1,6 @@
 # Sources of src/cli, one per line.
 set(CZ_SOURCES_cli
+    ../base/number.c
     ../base/suggest.c
     arguments.c
     command_explain.c

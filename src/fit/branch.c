@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "problem/trace.h"
+
 static bool make_room(CzArena *arena, int n, CzBranch *branch) {
     double **const rows[] = {&branch->x, &branch->f, &branch->area, &branch->moment,
                              &branch->squares};
@@ -35,31 +37,8 @@ static void sum_up(CzBranch *branch) {
     }
 }
 
-/* Isotonic regression: neighbours that are out of order are pooled at their mean until none is. */
-static bool raise_strokes(CzArena *arena, const double *x, int n, double *raised) {
-    double *mean = cz_arena_allocate(arena, (size_t)n, sizeof *mean);
-    int *size = cz_arena_allocate(arena, (size_t)n, sizeof *size);
-    if (mean == NULL || size == NULL)
-        return false;
-    int n_pool = 0;
-    for (int i = 0; i < n; i++) {
-        mean[n_pool] = x[i];
-        size[n_pool++] = 1;
-        while (n_pool > 1 && mean[n_pool - 1] < mean[n_pool - 2]) {
-            const int a = size[n_pool - 2], b = size[n_pool - 1];
-            mean[n_pool - 2] = (a * mean[n_pool - 2] + b * mean[n_pool - 1]) / (a + b);
-            size[n_pool - 2] = a + b;
-            n_pool--;
-        }
-    }
-    for (int pool = 0, i = 0; pool < n_pool; pool++)
-        for (int k = 0; k < size[pool]; k++)
-            raised[i++] = mean[pool];
-    return true;
-}
-
 bool cz_branch_build(CzArena *arena, int n, const double *x, const double *f, CzBranch *branch) {
-    if (!make_room(arena, n, branch) || !raise_strokes(arena, x, n, branch->x))
+    if (!make_room(arena, n, branch) || !cz_trace_raise(arena, x, n, branch->x))
         return false;
     memcpy(branch->f, f, (size_t)n * sizeof *f);
     sum_up(branch);

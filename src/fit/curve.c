@@ -1,37 +1,65 @@
 /* A measured curve of any two quantities, for figures. */
+#include "crushzone/fit.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
-#include "fit/trace.h"
+#include "problem/curve_file.h"
+
+/* A copy that owns its memory; NULL without. */
+static CzCurve *copy_points(const CzCurvePoints *points) {
+    CzCurve *made = calloc(1, sizeof *made);
+    const size_t size = (size_t)points->n * sizeof *points->x;
+    if (made == NULL)
+        return NULL;
+    made->n = points->n;
+    made->x = malloc(size);
+    made->y = malloc(size);
+    if (made->x == NULL || made->y == NULL) {
+        cz_curve_free(made);
+        return NULL;
+    }
+    memcpy(made->x, points->x, size);
+    memcpy(made->y, points->y, size);
+    return made;
+}
+
+/* A column of a quantity; one that has no dimension has no unit either. */
+static CzCurveColumn column_of(const char *quantity, const char *title) {
+    CzDimension dimension = 0;
+    while (dimension < CZ_N_DIMENSION && strcmp(cz_dimension_text[dimension], quantity) != 0)
+        dimension++;
+    const bool has_none = dimension == CZ_N_DIMENSION || dimension == CZ_DIMENSION_NONE;
+    return (CzCurveColumn){.name = quantity,
+                           .dimension = has_none ? CZ_DIMENSION_NONE : dimension,
+                           .title = title,
+                           .without = has_none ? 1.0 : 0.0};
+}
 
 CzStatus cz_curve_read(const char *path, const CzCurveColumns *columns, CzCurve **curve,
                        CzError *error) {
-    *curve = NULL;
+    const CzCurveRequest request = {
+        .column = {column_of(columns->x_quantity, columns->x),
+                   column_of(columns->y_quantity, columns->y)},
+        .separator = columns->separator,
+        .decimal = columns->decimal,
+        .column_help = "--column takes the titles of columns or their numbers from 1",
+        .unit_help = "a title ends in its unit, as t_ms or \"force [kN]\", or a row of units is "
+                     "below the titles",
+        .decimal_help = "--csv-decimal . or --csv-decimal , says which",
+    };
     CzArena arena = {0};
-    CzTrace trace = {0};
-    CzCurve *made = calloc(1, sizeof *made);
-    CzStatus status = made != NULL ? cz_trace_read_columns(&arena, path, columns, &trace, error)
-                                   : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a curve");
+    CzCurvePoints points;
+    *curve = NULL;
+    CzStatus status = cz_curve_points_read_file(&arena, path, &request, &points, error);
     if (status == CZ_OK) {
-        const size_t size = (size_t)trace.n * sizeof *made->x;
-        made->n = trace.n;
-        made->x = malloc(size);
-        made->y = malloc(size);
-        if (made->x == NULL || made->y == NULL) {
+        *curve = copy_points(&points);
+        if (*curve == NULL)
             status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a curve");
-        } else {
-            memcpy(made->x, trace.x, size);
-            memcpy(made->y, trace.f, size);
-        }
     }
     cz_arena_free(&arena);
-    if (status != CZ_OK) {
-        cz_curve_free(made);
-        return status;
-    }
-    *curve = made;
-    return CZ_OK;
+    return status;
 }
 
 void cz_curve_free(CzCurve *curve) {
@@ -40,4 +68,41 @@ void cz_curve_free(CzCurve *curve) {
     free(curve->x);
     free(curve->y);
     free(curve);
+}
+
+/* ---- titles ---- */
+
+/* The fields of a line as texts behind their pointers, in one block; NULL without memory. */
+static char **fields_of(const char *line, char separator, int n) {
+    size_t n_byte = 0;
+    CzField field;
+    for (CzFieldWalk walk = cz_fields_begin(line, separator); cz_fields_next(&walk, &field);)
+        n_byte += field.n + 1;
+    char **title = malloc((size_t)n * sizeof *title + n_byte);
+    if (title == NULL)
+        return NULL;
+    char *text = (char *)(title + n);
+    CzFieldWalk walk = cz_fields_begin(line, separator);
+    for (int i = 0; i < n && cz_fields_next(&walk, &field); i++) {
+        title[i] = memcpy(text, field.text, field.n);
+        text[field.n] = '\0';
+        text += field.n + 1;
+    }
+    return title;
+}
+
+CzStatus cz_curve_titles(const char *path, char separator, int *n, char ***title, CzError *error) {
+    CzArena arena = {0};
+    const char *line = NULL;
+    CzStatus status = cz_curve_titles_read(&arena, path, &separator, &line, error);
+    *n = 0;
+    *title = NULL;
+    if (status == CZ_OK) {
+        *n = cz_fields_count(line, separator).all;
+        *title = fields_of(line, separator, *n);
+        if (*title == NULL)
+            status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the titles of '%s'", path);
+    }
+    cz_arena_free(&arena);
+    return status;
 }

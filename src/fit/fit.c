@@ -29,7 +29,8 @@ const char *cz_fit_kind_doc(CzFitKind kind) {
 }
 
 CzFitOptions cz_fit_options_default(void) {
-    return (CzFitOptions){.kind = CZ_FIT_ANTI_CLIMBER, .n_stage = -1, .decimal = '.'};
+    return (CzFitOptions){
+        .kind = CZ_FIT_ANTI_CLIMBER, .n_stage = -1, .scale = 1.0, .from = NAN, .to = NAN};
 }
 
 const CzKey *cz_fit_key(CzRecordId record, const char *stem) {
@@ -395,30 +396,10 @@ CzStatus cz_fit_read(const char *path, const CzFitOptions *options, CzFit **fit,
     CzFit *begun = begin(path, chosen);
     if (begun == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
-    CzStatus status = cz_trace_read(&begun->arena, path, chosen, &begun->trace, error);
+    CzStatus status = cz_fit_read_trace(begun, path, chosen, error);
     if (status == CZ_OK)
         status = fit_law(begun, chosen->n_stage, error);
     return finish(begun, status, fit);
-}
-
-static CzStatus copy_points(CzFit *fit, int n_point, const double *stroke, const double *force,
-                            CzError *error) {
-    CzTrace *trace = &fit->trace;
-    if (n_point < 2)
-        return cz_fail(error, CZ_STATUS_INPUT, "a curve has two points or more, but this has %d",
-                       n_point);
-    const size_t n = (size_t)n_point;
-    trace->x = cz_arena_allocate(&fit->arena, n, sizeof *trace->x);
-    trace->f = cz_arena_allocate(&fit->arena, n, sizeof *trace->f);
-    trace->line = cz_arena_allocate(&fit->arena, n, sizeof *trace->line);
-    if (trace->x == NULL || trace->f == NULL || trace->line == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
-    for (trace->n = 0; trace->n < n_point; trace->n++) {
-        trace->x[trace->n] = stroke[trace->n];
-        trace->f[trace->n] = force[trace->n];
-        trace->line[trace->n] = trace->n + 1;
-    }
-    return cz_trace_check(trace, "", error);
 }
 
 CzStatus cz_fit_points(int n_point, const double *stroke, const double *force,
@@ -430,7 +411,7 @@ CzStatus cz_fit_points(int n_point, const double *stroke, const double *force,
     CzFit *begun = begin(NULL, chosen);
     if (begun == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
-    CzStatus status = copy_points(begun, n_point, stroke, force, error);
+    CzStatus status = cz_fit_take_points(begun, n_point, stroke, force, chosen, error);
     if (status == CZ_OK)
         status = fit_law(begun, chosen->n_stage, error);
     return finish(begun, status, fit);

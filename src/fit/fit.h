@@ -2,9 +2,9 @@
 #ifndef CZ_FIT_FIT_H
 #define CZ_FIT_FIT_H
 
+#include "crushzone/fit.h"
 #include "fit/staged.h"
-#include "fit/trace.h"
-#include "problem/keys.h"
+#include "problem/trace.h"
 
 enum {
     CZ_FIT_MOST_VALUES = 4 * CZ_MAX_STAGES + 16,
@@ -43,6 +43,13 @@ struct CzFit {
     char note[CZ_FIT_MOST_NOTES][200];
     int n_note;
 };
+
+/* From a file, or from points, to a trace (read.c). */
+CZ_MUST_CHECK CzStatus cz_fit_read_trace(CzFit *fit, const char *path, const CzFitOptions *options,
+                                         CzError *error);
+CZ_MUST_CHECK CzStatus cz_fit_take_points(CzFit *fit, int n_point, const double *stroke,
+                                          const double *force, const CzFitOptions *options,
+                                          CzError *error);
 
 /* The kinds: from trace to law. */
 CZ_MUST_CHECK CzStatus cz_fit_plastic(CzFit *fit, int n_stage, CzError *error);

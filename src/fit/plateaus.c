@@ -223,15 +223,16 @@ static int likely_strokes(CzArena *arena, const CzBranch *branch, double shortes
     const double last = cz_branch_last(branch);
     double *x = cz_arena_allocate(arena, SAMPLES, sizeof *x);
     double *f = cz_arena_allocate(arena, SAMPLES, sizeof *f);
-    int *kept = cz_arena_allocate(arena, SAMPLES, sizeof *kept);
+    CzCurveChange change;
     int n_corner = SAMPLES, n = 0;
-    if (x == NULL || f == NULL || kept == NULL)
+    if (x == NULL || f == NULL)
         return -1;
     for (int i = 0; i < SAMPLES; i++) {
         x[i] = last * i / (SAMPLES - 1);
         f[i] = cz_branch_force(branch, x[i]);
     }
-    cz_reduce_curve(x, f, &n_corner, LIKELY / 2 + 2, kept);
+    if (!cz_reduce_curve(arena, x, f, &n_corner, LIKELY / 2 + 2, &change))
+        return -1;
     for (int even = 1, corner = 1; even <= LIKELY / 2 || corner < n_corner - 1;) {
         const double next_even = even <= LIKELY / 2 ? last * even / (LIKELY / 2 + 1) : INFINITY;
         const double next_corner = corner < n_corner - 1 ? x[corner] : INFINITY;

@@ -8,8 +8,7 @@ set(CZ_SOURCES_fit
     loading.c
     plastic.c
     plateaus.c
-    read_trace.c
+    read.c
     staged.c
-    trace.c
     write_yaml.c
 )

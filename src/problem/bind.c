@@ -427,6 +427,7 @@ static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const 
         if (is_needed && record.seen[i] == NULL && !record.meant[i] && !binder.is_partial)
             report_missing(binder, &record, key);
     }
+    cz_bind_strokes(binder.reader, id, record.node, trail, memory);
 }
 
 void cz_bind_record(CzReader *reader, const CzTree *tree, CzRecordId record, const CzNode *node,

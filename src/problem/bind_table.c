@@ -1,17 +1,15 @@
-/* Curves by points: {columns, points, basis} in the file, or {file, basis} in a CSV file.
+/* Curves by points: {columns, points, basis} in the file, or {file, basis, ...} in a file of its
+ * own (bind_curve_file.c).
  *
  * A curve of more points than a table holds loses the points that matter least (reduce_curve.h).
  */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
 #include "problem/reader.h"
 #include "problem/reduce_curve.h"
-
-enum { MOST_POINTS = 20000 };
 
 /* A curve while it is read. */
 typedef struct {
@@ -20,15 +18,13 @@ typedef struct {
     const CzTrail *trail;
     const CzUnit *x_unit, *y_unit;
     int n_point;
-    double *x, *y;        /* [SI] (n_point) */
-    const CzNode **place; /* of each point (n_point) */
+    double *x, *y; /* [SI] (n_point) */
 } Curve;
 
 static bool make_room(Curve *curve, int n_point) {
     curve->x = cz_reader_allocate(curve->reader, (size_t)n_point, sizeof *curve->x);
     curve->y = cz_reader_allocate(curve->reader, (size_t)n_point, sizeof *curve->y);
-    curve->place = cz_reader_allocate(curve->reader, (size_t)n_point, sizeof *curve->place);
-    return curve->x != NULL && curve->y != NULL && curve->place != NULL;
+    return curve->x != NULL && curve->y != NULL;
 }
 
 /* Unit of a column whose name must be stem_unit; a mistake when it is another. */
@@ -79,7 +75,6 @@ static bool take_point(Curve *curve, const CzNode *x, const CzNode *y) {
             curve->key->x, x->text);
         return false;
     }
-    curve->place[at] = x;
     curve->n_point++;
     return true;
 }
@@ -126,95 +121,6 @@ static bool read_points(Curve *curve, const CzNode *node) {
     return all_good;
 }
 
-/* ---- points in a CSV file ---- */
-
-/* Cuts a line of two fields at the first ';' or ','; a mistake when it has not two. */
-static bool cut_fields(Curve *curve, const CzSource *source, int line, const CzNode *fields[2]) {
-    const char *text = source->line[line];
-    const char separator = strchr(text, ';') != NULL ? ';' : ',';
-    const char *cut = strchr(text, separator);
-    const char *start[2] = {text, cut != NULL ? cut + 1 : text};
-    const char *end[2] = {cut, text + strlen(text)};
-    if (cut == NULL || strchr(cut + 1, separator) != NULL) {
-        cz_mistake_at(&curve->reader->mistakes, source, line + 1, 1,
-                      "a line has two columns, but this one has not");
-        return false;
-    }
-    for (int i = 0; i < 2; i++) {
-        while (*start[i] == ' ' || *start[i] == '\t' || *start[i] == '"')
-            start[i]++;
-        while (end[i] > start[i] && strchr(" \t\r\"", end[i][-1]) != NULL)
-            end[i]--;
-        CzNode *node = cz_reader_allocate(curve->reader, 1, sizeof *node);
-        if (node == NULL)
-            return false;
-        node->source = source;
-        node->line = line + 1;
-        node->column = (int)(start[i] - text) + 1;
-        node->text =
-            cz_arena_copy_text(&curve->reader->arena, start[i], (size_t)(end[i] - start[i]));
-        if (node->text == NULL)
-            return false;
-        fields[i] = node;
-    }
-    return true;
-}
-
-static bool is_blank(const char *line) {
-    return line[strspn(line, " \t\r")] == '\0' || line[0] == '#';
-}
-
-static bool read_csv_lines(Curve *curve, const CzSource *source) {
-    const CzNode *field[2];
-    bool all_good = true, has_header = false;
-    if (!make_room(curve, source->n_line))
-        return false;
-    for (int line = 0; line < source->n_line; line++) {
-        if (is_blank(source->line[line]))
-            continue;
-        if (!cut_fields(curve, source, line, field)) {
-            all_good = false;
-            if (!has_header)
-                return false;
-        } else if (has_header) {
-            all_good &= take_point(curve, field[0], field[1]);
-        } else {
-            has_header = true;
-            curve->x_unit =
-                column_unit(curve, field[0]->text, field[0], curve->key->x, curve->key->dimension);
-            curve->y_unit = column_unit(curve, field[1]->text, field[1], curve->key->y,
-                                        curve->key->y_dimension);
-            if (curve->x_unit == NULL || curve->y_unit == NULL)
-                return false;
-        }
-    }
-    if (all_good && curve->n_point < 2) {
-        cz_mistake_at(&curve->reader->mistakes, source, 1, 1, "the curve needs two points or more");
-        return false;
-    }
-    return all_good;
-}
-
-static bool read_csv(Curve *curve, const CzNode *named) {
-    CzReader *reader = curve->reader;
-    const char *name = cz_bind_text(reader, "file", named, curve->trail);
-    const char *path = name != NULL ? cz_load_locate(reader, name, named, "catalogue") : NULL;
-    char *text = NULL;
-    size_t n_byte = 0;
-    if (path == NULL)
-        return false;
-    const CzSource *source =
-        cz_sources_read(&reader->sources, &reader->mistakes, path, named, &text, &n_byte);
-    bool is_read = source != NULL && cz_source_is_text(&reader->mistakes, source, text, n_byte);
-    free(text);
-    if (is_read && source->n_line > MOST_POINTS) {
-        cz_mistake_at(&reader->mistakes, source, MOST_POINTS, 1, "a curve has at most %d lines",
-                      (int)MOST_POINTS);
-        is_read = false;
-    }
-    return is_read && read_csv_lines(curve, source);
-}
-
 /* ---- the table ---- */
 
 static bool read_basis(Curve *curve, const CzNode *node, CzTable *table) {
@@ -233,27 +139,47 @@ static bool read_basis(Curve *curve, const CzNode *node, CzTable *table) {
     return false;
 }
 
-static void check_keys(Curve *curve, const CzNode *node) {
-    static const char *const known[] = {"columns", "points", "file", "basis"};
+/* What the strokes of the curve are. */
+static bool read_strokes(Curve *curve, const CzNode *node, CzTable *table) {
+    const CzEntry *strokes = cz_node_find(node, "strokes");
+    table->strokes = CZ_STROKES_UNSAID;
+    if (strokes == NULL)
+        return true;
+    const char *text = strokes->value->kind == CZ_NODE_TEXT ? strokes->value->text : "";
+    if (strcmp(text, "plastic") == 0)
+        table->strokes = CZ_STROKES_PLASTIC;
+    else if (strcmp(text, "total") == 0)
+        table->strokes = CZ_STROKES_TOTAL;
+    else
+        cz_mistake(&curve->reader->mistakes, strokes->value, curve->trail,
+                   "'strokes' of '%s' must be plastic or total", curve->key->stem);
+    return table->strokes != CZ_STROKES_UNSAID;
+}
+
+/* Keys of a curve by points here, and of one in a file. */
+static void check_keys(Curve *curve, const CzNode *node, bool has_file) {
+    static const char *const here[] = {"columns", "points", "file", "basis", "strokes", NULL};
     for (int i = 0; i < node->n_entry; i++) {
-        bool is_known = false;
-        for (int k = 0; k < 4; k++)
-            is_known |= strcmp(node->entry[i].key->text, known[k]) == 0;
-        if (!is_known)
-            cz_mistake(&curve->reader->mistakes, node->entry[i].key, curve->trail,
-                       "unknown key '%s' in '%s'; it takes columns, points, file, basis",
-                       node->entry[i].key->text, curve->key->stem);
+        const char *key = node->entry[i].key->text;
+        bool is_known = has_file && cz_curve_file_takes(key);
+        for (int k = 0; here[k] != NULL; k++)
+            is_known |= strcmp(key, here[k]) == 0;
+        if (is_known)
+            continue;
+        cz_mistake(&curve->reader->mistakes, node->entry[i].key, curve->trail,
+                   "unknown key '%s' in '%s'; it takes columns, points, file, basis, strokes%s",
+                   key, curve->key->stem,
+                   has_file ? ", decimal, zero, zero_mm, flip, scale, from_mm, to_mm" : "");
     }
 }
 
 static void reduce(Curve *curve, const CzNode *node, CzTable *table) {
     char energy[CZ_NUMBER_TEXT], force[CZ_NUMBER_TEXT];
     const int n_before = curve->n_point;
-    int *scratch = cz_reader_allocate(curve->reader, (size_t)n_before, sizeof *scratch);
-    if (scratch == NULL)
+    CzCurveChange change;
+    if (!cz_reduce_curve(&curve->reader->arena, curve->x, curve->y, &curve->n_point,
+                         CZ_MAX_CURVE_POINTS, &change))
         return;
-    const CzCurveChange change =
-        cz_reduce_curve(curve->x, curve->y, &curve->n_point, CZ_MAX_CURVE_POINTS, scratch);
     if (curve->n_point < n_before)
         cz_mistake(
             &curve->reader->warnings, node, curve->trail,
@@ -276,15 +202,16 @@ void cz_bind_table(CzReader *reader, const CzKey *key, const CzNode *node, const
                    "'%s' needs {columns, points, basis} or {file, basis}", key->stem);
         return;
     }
-    check_keys(&curve, node);
     const CzEntry *file = cz_node_find(node, "file");
-    const bool has_basis = read_basis(&curve, node, table);
+    check_keys(&curve, node, file != NULL);
+    const bool has_basis = read_basis(&curve, node, table) && read_strokes(&curve, node, table);
     bool is_read = false;
     if (file != NULL && cz_node_find(node, "points") != NULL)
         cz_mistake(&reader->mistakes, file->key, trail,
                    "'%s' has points here or in a file, not both", key->stem);
     else if (file != NULL)
-        is_read = read_csv(&curve, file->value);
+        is_read = cz_bind_curve_file(reader, key, node, trail,
+                                     &(CzCurveInFile){&curve.n_point, &curve.x, &curve.y});
     else
         is_read = read_columns(&curve, node) && read_points(&curve, node);
     if (is_read && has_basis)

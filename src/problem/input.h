@@ -29,11 +29,15 @@ enum {
 /* Basis of a measured curve: a dynamic one already holds the rise with the rate. */
 typedef enum CzBasis { CZ_BASIS_STATIC, CZ_BASIS_DYNAMIC } CzBasis;
 
+/* What the strokes of a curve are: the permanent shortening alone, or with the elastic one. */
+typedef enum CzStrokes { CZ_STROKES_UNSAID, CZ_STROKES_PLASTIC, CZ_STROKES_TOTAL } CzStrokes;
+
 /* Curve given by points; x increases. */
 typedef struct CzTable {
     bool given;
     int n_point;
     CzBasis basis;
+    CzStrokes strokes;
     double x[CZ_MAX_CURVE_POINTS]; /* [SI] */
     double y[CZ_MAX_CURVE_POINTS]; /* [SI] */
 } CzTable;

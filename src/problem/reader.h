@@ -191,6 +191,29 @@ const char *cz_bind_text(CzReader *reader, const char *key, const CzNode *value,
 void cz_bind_table(CzReader *reader, const CzKey *key, const CzNode *node, const CzTrail *trail,
                    CzTable *table);
 
+/* ---- bind_curve_file.c ---- */
+
+/* Whether a curve in a file takes a key. */
+bool cz_curve_file_takes(const char *key);
+
+/* Where the points of a curve go. */
+typedef struct CzCurveInFile {
+    int *n_point;
+    double **x, **y; /* [SI] (n_point) */
+} CzCurveInFile;
+
+/* Reads the file that a curve names: its loading, with strokes that rise from 0. False with a
+ * mistake, or without memory. */
+bool cz_bind_curve_file(CzReader *reader, const CzKey *key, const CzNode *node,
+                        const CzTrail *trail, const CzCurveInFile *points);
+
+/* ---- strokes.c ---- */
+
+/* Makes the strokes of a device's curve those that its law is over: plastic ones of a tube or
+ * anti-climber, total ones of an end. Other records are left alone. */
+void cz_bind_strokes(CzReader *reader, CzRecordId record, const CzNode *node, const CzTrail *trail,
+                     void *memory);
+
 /* ---- rules ---- */
 
 /* Checks what must hold between the values. Values that could not be read are NaN and break no

@@ -230,6 +230,16 @@ bool cz_source_is_printable(const char *text) {
     return true;
 }
 
+bool cz_source_is_utf8(const char *text, size_t n_byte) {
+    const unsigned char *at = (const unsigned char *)text, *end = at + n_byte;
+    size_t n = 1;
+    while (at < end && n > 0) {
+        n = character_length(at, (size_t)(end - at));
+        at += n;
+    }
+    return n > 0;
+}
+
 bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char *text,
                        size_t n_byte) {
     const unsigned char *at = (const unsigned char *)text, *end = at + n_byte;

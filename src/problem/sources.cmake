@@ -2,8 +2,14 @@
 set(CZ_SOURCES_problem
     again.c
     bind.c
+    bind_curve_file.c
     bind_table.c
     bind_value.c
+    curve_columns.c
+    curve_fields.c
+    curve_file.c
+    curve_number.c
+    curve_title.c
     families.c
     find.c
     keys.c
@@ -24,6 +30,8 @@ set(CZ_SOURCES_problem
     rules_train.c
     settings.c
     source.c
+    strokes.c
+    trace.c
     trains.c
     write_keys.c
     write_resolved.c

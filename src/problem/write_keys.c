@@ -49,7 +49,9 @@ static void write_kind(FILE *stream, const CzKey *key) {
         fprintf(stream, "list of %s", cz_records[key->child].name);
         break;
     case CZ_KEY_TABLE:
-        fputs("points: {columns, points, basis} or {file, basis}", stream);
+        fputs("points: {columns, points, basis, strokes}, or {file, basis, strokes} with columns, "
+              "decimal, flip, zero, scale, from_mm, to_mm where the file needs them",
+              stream);
         break;
     case CZ_KEY_TEXTS:
         fputs("list of texts", stream);

@@ -144,6 +144,8 @@ static void write_table(const Writer *writer, const CzKey *key, const CzTable *t
     write_origin(writer, key, table, column);
     fprintf(writer->stream, "%*sbasis: %s\n", indent + 2, "",
             table->basis == CZ_BASIS_DYNAMIC ? "dynamic" : "static");
+    fprintf(writer->stream, "%*sstrokes: %s\n", indent + 2, "",
+            table->strokes == CZ_STROKES_TOTAL ? "total" : "plastic");
     fprintf(writer->stream, "%*scolumns: [%s_%s, %s_%s]\n", indent + 2, "", key->x,
             cz_unit_si(key->dimension)->suffix, key->y, cz_unit_si(key->y_dimension)->suffix);
     fprintf(writer->stream, "%*spoints:\n", indent + 2, "");

@@ -55,7 +55,15 @@ static void write_table(FILE *stream) {
         "\"points\": {\"type\": \"array\", \"items\": {\"type\": \"array\", \"items\": {\"type\": "
         "\"number\"}, \"minItems\": 2, \"maxItems\": 2}, \"minItems\": 2}, "
         "\"file\": {\"type\": \"string\"}, "
-        "\"basis\": {\"enum\": [\"static\", \"dynamic\"]}}, "
+        "\"basis\": {\"enum\": [\"static\", \"dynamic\"]}, "
+        "\"strokes\": {\"enum\": [\"plastic\", \"total\"]}, "
+        "\"decimal\": {\"enum\": [\".\", \",\"]}, "
+        "\"zero\": {\"enum\": [\"start\", \"contact\"]}, "
+        "\"flip\": {\"enum\": [\"stroke\", \"force\", \"both\"]}, "
+        "\"scale\": {\"type\": \"number\"}, "
+        "\"zero_m\": {\"type\": \"number\"}, \"zero_mm\": {\"type\": \"number\"}, "
+        "\"from_m\": {\"type\": \"number\"}, \"from_mm\": {\"type\": \"number\"}, "
+        "\"to_m\": {\"type\": \"number\"}, \"to_mm\": {\"type\": \"number\"}}, "
         "\"required\": [\"basis\"], "
         "\"oneOf\": [{\"required\": [\"columns\", \"points\"]}, {\"required\": [\"file\"]}]}",
         stream);

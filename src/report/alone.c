@@ -90,7 +90,7 @@ static CzStatus find_place(const CzPage *page, CzChart chart, const char *at, in
 }
 
 CzChartOptions cz_chart_options_default(void) {
-    return (CzChartOptions){.what = "fd", .csv_decimal = '.'};
+    return (CzChartOptions){.what = "fd", .csv_decimal = 0};
 }
 
 CzStatus cz_report_write_chart(const CzReportRun *run, const CzChartOptions *chosen, FILE *stream,

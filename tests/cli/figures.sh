@@ -121,7 +121,7 @@ same_measured() { # one's own channels, laid over the figure that they were reco
         [ "$(grep -o ' d="M[^"]*"' own.svg | sort | uniq -d | wc -l)" = 1 ]
 }
 check "a recorded channel over its own figure gives its own path" same_measured
-other_unit() { exits 2 "$C" plot first --measured test.csv && says err.txt "test.csv:1:1: error: the unit of column 't_ms', the length, is not known"; }
+other_unit() { exits 2 "$C" plot first --measured test.csv && says err.txt "test.csv:1:1: error: the unit of column 't_ms', ms, is no unit of the length"; }
 check "a measured curve of another quantity is refused" other_unit
 no_overlay() { exits 2 "$C" plot first --what shares --measured test.csv && says err.txt "no measured curve fits over 'shares'"; }
 check "bars take no measured curve" no_overlay
@@ -146,8 +146,8 @@ wrong_columns() {
         exits 2 "$C" plot first --what panels --measured four.csv --column F_test_kN,9 && says err.txt "there is no column '9' among the 6" &&
         exits 2 "$C" plot first --what panels --measured four.csv --column F_best_kN && says err.txt "there is no column 'F_best_kN'" &&
         printf 't_ms,F_test,v_m_s\n0,0,1\n1,2,3\n' >unit.csv && exits 2 "$C" plot first --what panels --measured unit.csv && says err.txt "unit.csv:1:6: error: the unit of column 'F_test', the force" &&
-        printf 's_mm,F_kN\n0,0\n1,2\n' >no-time.csv && exits 2 "$C" plot first --what panels --measured no-time.csv && says err.txt "no-time.csv:1:1: error: the unit of column 's_mm', the time" &&
-        printf 't_ms\n0\n1\n' >times.csv && exits 2 "$C" plot first --what panels --measured times.csv && says err.txt 'there is no second one' &&
+        printf 's_mm,F_kN\n0,0\n1,2\n' >no-time.csv && exits 2 "$C" plot first --what panels --measured no-time.csv && says err.txt "no-time.csv:1:1: error: the unit of column 's_mm', mm, is no unit of the time" &&
+        printf 't_ms\n0\n1\n' >times.csv && exits 2 "$C" plot first --what panels --measured times.csv && says err.txt 'no line of titles with two columns of numbers' &&
         printf '# nothing\n' >nothing.csv && exits 2 "$C" plot first --what panels --measured nothing.csv && says err.txt 'no line of titles' &&
         exits 2 "$C" plot first --what panels --measured nowhere.csv && says err.txt 'there is no such file' &&
         exits 2 "$C" plot first --what panels --measured first/channels.csv && says err.txt "column 'a_A1_g' belongs to no panel" &&

@@ -81,6 +81,57 @@ check "--csv-decimal , alone takes ; between the columns" german_alone
 printf '\357\273\277' | cat - tube.csv | sed 's/$/\r/' >excel.csv
 check "byte order mark and line ends of other systems do no harm" exits 0 "$C" fit excel.csv --as anti-climber --basis static
 
+# What testing machines write: the same tube, out of their files, gives the same law.
+"$C" fit tube.csv --as anti-climber --basis static --json >plain.json
+number() { grep -F "\"$2\":" "$1" | sed 's/.*: //; s/,$//'; }
+like_plain() { # like_plain FILE [OPTION...]
+    file=$1
+    shift
+    exits 0 "$C" fit "$file" --as anti-climber --basis static --json "$@" || return 1
+    for key in energy_kJ peak_force_kN stages[0].force_kN stages[1].stroke_mm; do
+        a=$(number plain.json "$key")
+        b=$(number out.txt "$key")
+        awk -v a="$a" -v b="$b" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a != "" && b != "" && d <= 1e-4 * a) }' || {
+            echo "$key: $a and $b"
+            return 1
+        }
+    done
+}
+points() { sed 1d tube.csv; }
+{ printf 'Test : Rate 1,"10.0",mm/min\nOperator,"Smith, J."\nWidth,10,20\nTime,Extension,Load\n(s),(mm),(N)\n'; points | awk -F, '{ printf "%g,%s,%.1f\n", NR / 10, $1, 1000 * $2 }'; } >machine.csv
+check "a preamble and a row of units are read" like_plain machine.csv
+{ printf 'sep=;\r\nWeg [mm];Kraft [kN];\r\n'; points | sed 's/,/X/; s/\./,/g; s/X/;/; s/$/;\r/'; } >sheet.csv
+check "a sheet with 'sep=;', decimal commas and trailing separators is read" like_plain sheet.csv
+{ printf 'Nr\tDisplacement (in)\tForce (lbf)\n'; points | awk -F, '{ printf "%d\t%.7f\t%.4f\n", NR, $1 / 25.4, 1000 * $2 / 4.4482216152605 }'; } >inches.csv
+check "tabs, inches and pounds are read" like_plain inches.csv
+{ printf '  Stroke    Force\n     (m)     (MN)\n'; points | awk -F, '{ printf "%9.6f %9.6f\n", $1 / 1000, $2 / 1000 }'; } >fixed.csv
+check "columns between blanks are read" like_plain fixed.csv
+{ printf 'stroke_cm;force_N\n'; points | awk -F, '{ f = sprintf("%06d", 1000 * $2 + 0.5); if ($2 < 100) printf "%.4f;%d\n", $1 / 10, f; else printf "%.4f;%s\302\240%s\n", $1 / 10, substr(f, 1, 3), substr(f, 4) }'; } >groups.csv
+check "thousands between no-break blanks are read" like_plain groups.csv
+{ printf '"stroke (mm)","force (N)"\n'; points | awk -F, '{ f = sprintf("%06d", 1000 * $2 + 0.5); if ($2 < 100) printf "%.2f,%d\n", $1, f; else printf "%.2f,\"%s,%s\"\n", $1, substr(f, 1, 3), substr(f, 4) }'; } >quoted.csv
+check "quoted thousands are read where a decimal point shows what the comma is" like_plain quoted.csv
+{ printf 'Position (mm);Force (kN)\n'; points | awk -F, '{ printf "%.3f;%.3f\n", 700.25 - $1, -$2 }'; } >pressed.csv
+check "a position that falls under negative forces is a compression" like_plain pressed.csv
+{ printf 'stroke_mm,force_kN\n'; points | awk -F, '{ printf "%.3f,%.3f\n", $1 - 0.4, $2 }'; } >early.csv
+check "strokes that begin a little below zero begin at zero" like_plain early.csv
+{ printf 'stroke_mm,force_kN\n'; points | awk -F, '{ printf "%.3f,%.3f\n", $1 + 120.5, $2 }'; } >late.csv
+check "strokes that begin far from zero without force begin at zero" like_plain late.csv
+{ printf 'stroke_mm,force_kN\n0,0\n30,0\n'; points | awk -F, '{ printf "%.3f,%.3f\n", $1 + 35, $2 }'; } >free.csv
+check "--zero contact leaves out a travel without force" like_plain free.csv --zero contact
+check "--from leaves out what is before a stroke" like_plain free.csv --from 35
+{ printf 'stroke_mm,force_kN\n'; points | awk -F, '{ printf "%s,%.3f\n", $1, -2 * $2 }'; } >two.csv
+check "--flip and --scale change forces" like_plain two.csv --flip force --scale 0.5
+{ cat tube.csv; printf '465,3000\n470,9000\n'; } >beyond.csv
+check "--to leaves out what is behind a stroke" like_plain beyond.csv --to 463.5
+{ printf '# stroke_mm force_kN\n'; points | tr , ' '; } >table.txt
+check "titles in a comment are read" like_plain table.txt
+iconv -f utf-8 -t utf-16 tube.csv >wide.csv
+check "UTF-16 is read" like_plain wide.csv
+{ printf 'Pr\374fger\344t,M\374ller\n'; cat tube.csv; } | tr '\n' '\r' >old.csv
+check "the code page and the line ends of older machines are read" like_plain old.csv
+refused_shape() { exits 2 "$C" fit tube.csv --as end --basis static --zero now && says err.txt 'start, contact or a stroke' && exits 2 "$C" fit tube.csv --as end --basis static --flip up && exits 2 "$C" fit tube.csv --as end --basis static --scale 0 && exits 2 "$C" fit tube.csv --as end --basis static --from 600 && says err.txt 'no stroke is left: those of the file go from 0 to 463.5 mm'; }
+check "options about the curve are checked" refused_shape
+
 # What is no curve.
 refused() { # refused FILE TEXT [OPTION...]
     file=$1
@@ -100,9 +151,9 @@ check "a file of 20 MB is refused" refused large.csv 'it is larger than 16 MiB'
 head -c 5000 /dev/urandom >noise.csv
 check "noise is refused" refused noise.csv 'noise.csv:'
 put 'stroke_mm\n0\n1\n'
-check "one column is refused" refused bad.csv 'bad.csv:1:1: error: a curve has two columns'
+check "one column is refused" refused bad.csv 'bad.csv:1:1: error: no line of this file has two numbers'
 put 'stroke_mm,force_kN\n'
-check "titles without points are refused" refused bad.csv 'this file has 0'
+check "titles without points are refused" refused bad.csv 'no line of this file has two numbers'
 put 'stroke_mm,force_kN\n0,0\n'
 check "one point is refused" refused bad.csv 'this file has 1'
 put 'stroke_mm,force_kN\n0,0\n1,nan\n'
@@ -120,18 +171,34 @@ check "strokes out of order are refused" refused bad.csv 'bad.csv:4:1: error: th
 put 'stroke_mm,force_kN\n0,0\n1,0\n'
 check "a curve without force is refused" refused bad.csv 'no point of the curve has a force'
 put 'stroke_mm,force_kN\n0,0\n10.5,50,5\n'
-check "a line with more columns is refused" refused bad.csv 'bad.csv:3:1: error: this line has 3 columns, the first one has 2'
-put 'stroke_mm;force_kN\n0;0\n0,5;20\n'
-german_unsaid() { refused bad.csv "bad.csv:3:1: error: stroke: '0,5' is not a number: the decimal sign is a point" && "$C" fit bad.csv --as end --basis static 2>&1 | grep -q -- "--csv-decimal ','"; }
-check "decimal commas that were not announced are refused, with the option that reads them" german_unsaid
-put 'way_mm,load_kN\n0,0\n1,2\n'
-check "titles that say nothing are refused" refused bad.csv 'no column is named stroke_m or stroke_mm'
+check "a line with more columns is refused" refused bad.csv 'bad.csv:3:1: error: this line has 3 columns, the titles have 2'
+put 'stroke_mm;force_kN\n0;0\n0.5;20,5\n1;30\n'
+check "two decimal signs in one file are refused" refused bad.csv "numbers have two decimal signs: '0.5' in line 3 and '20,5' in line 3"
+put 'stroke_mm;force_kN\n0;0\n5;"1,050"\n100;"1,100"\n'
+thousands() {
+    refused bad.csv "bad.csv:3:4: error: '1,050' may be 1050 or 1.05" && refused bad.csv "'.' reads 1050, ',' reads 1.05" || return 1
+    exits 0 "$C" fit bad.csv --as anti-climber --basis static --csv-decimal . --json && json out.txt peak_force_kN 1100.0 || return 1
+    exits 0 "$C" fit bad.csv --as anti-climber --basis static --csv-decimal , --json && json out.txt peak_force_kN 1.1
+}
+check "grouped thousands that may be decimals are refused with both readings" thousands
+put 'way_mm;load_kN;load_kN\n0;0;0\n1;2;2\n'
+check "two columns that may both be the force are refused" refused bad.csv "more than one column may be the force; the titles are 'way_mm', 'load_kN', 'load_kN'"
+put 'way,temperature\n0,0\n1,2\n'
+check "titles that say nothing are refused" refused bad.csv "no column is the stroke; the titles are 'way', 'temperature'"
+put 'stroke_mm,force_kN\nmm,N\n0,0\n1,2\n'
+check "a title and a row of units that differ are refused" refused bad.csv "the force has two units: kN in its title 'force_kN' and N in the row below"
+put 'stroke_mm,force_kN\n0,0\n10,-60\n300,-65\n'
+check "forces that alone are negative are refused with the option" refused bad.csv '--flip force'
+put 'stroke_mm,force_kN\n120,500\n300,650\n'
+check "a curve that begins elsewhere with force is refused with both readings" refused bad.csv 'either stroke 0 is there, or the points before are missing'
+put 'stroke_mm,force_kN\n0,0\n10,60\nEnd of test\n'
+check "a line of text behind the points is refused" refused bad.csv 'bad.csv:4:1: error: this line has 1 column'
 put 'stroke,force_kN\n0,0\n1,2\n'
 check "a column without unit is refused" refused bad.csv "the unit of column 'stroke', the stroke, is not known"
-check "a unit that is none is refused" refused tube.csv "'inch' is no unit" --stroke-unit inch
-check "a column that is not there is refused" refused tube.csv "there is no column '7'" --force 7
+check "a unit that is none is refused" refused tube.csv "'furlong' is no unit of the stroke" --stroke-unit furlong
+check "a column that is not there is refused" refused tube.csv "no column is '7'; the titles are" --force 7
 put '0,0\n1,2\n'
-check "a file without titles needs its columns" refused bad.csv 'no column is named'
+check "a file without titles needs its columns" refused bad.csv 'no line of titles above says which column is the stroke'
 put 'stroke_mm,force_kN\n0,0\n1000000,2\n'
 check "a stroke of a kilometre is refused" refused bad.csv 'is the unit right?'
 check "too many stages are refused" refused tube.csv '9 stages; a law as anti-climber has 1 to 8' --stages 9

@@ -324,7 +324,7 @@ static void a_curve_that_is_none_is_refused_with_its_point(void **state) {
     (void)state;
     REFUSED(2, "not finite", {{0, 0}, {0.1, NAN}});
     REFUSED(2, "not finite", {{0, 0}, {INFINITY, 1}});
-    REFUSED(1, "a stroke of -1 mm is below zero", {{-0.001, 0}, {0.1, 1}});
+    REFUSED(2, "a stroke of -5 mm is below zero", {{0, 0}, {-0.005, 0}, {0.1, 1}});
     REFUSED(2, "is the unit right?", {{0, 0}, {100, 1e5}});
     REFUSED(2, "is the unit right?", {{0, 0}, {0.1, 1e9}});
     REFUSED(2, "a force of -90 kN is below zero", {{0, 0}, {0.1, -9e4}, {0.2, 1e5}});
@@ -333,8 +333,9 @@ static void a_curve_that_is_none_is_refused_with_its_point(void **state) {
             {{0, 0}, {0.2, 1e5}, {0.1, 1e5}, {0.3, 1e5}});
     REFUSED(4, "goes on from 100 to 200 mm again behind the largest",
             {{0, 0}, {0.3, 1e5}, {0.1, 1e4}, {0.2, 1e5}});
-    REFUSED(1, "begins at a stroke of 100 mm", {{0.1, 0}, {0.3, 1e5}});
-    REFUSED(1, "begins at a stroke of 300 mm", {{0.3, 1e5}, {0.1, 5e4}, {0, 0}});
+    REFUSED(1, "begins at a stroke of 100 mm with a force of 50 kN", {{0.1, 5e4}, {0.3, 1e5}});
+    REFUSED(1, "the points are in the reverse order", {{0.3, 1e5}, {0.1, 5e4}, {0, 0}});
+    REFUSED(1, "the forces are negative, to -100 kN", {{0, 0}, {0.1, -5e4}, {0.3, -1e5}});
     REFUSED(2, "gives back more energy", {{0, 0}, {0.2, 1e5}, {0, 7e4}});
     CzFit *fit = NULL;
     CzError error = {0};

@@ -46,14 +46,16 @@ static void reducing_keeps_the_area(void **state) {
     (void)state;
     enum { N = 1000 };
     static double x[N], y[N];
-    static int scratch[N];
     int n_point = N;
     for (int i = 0; i < N; i++) {
         x[i] = i * 1e-3 + (i % 3) * 1e-4;
         y[i] = 1e6 + 1e5 * ((i * 7919) % 101) / 101.0 + (i == 40 ? 5e5 : 0);
     }
     const double before = area(x, y, N);
-    const CzCurveChange change = cz_reduce_curve(x, y, &n_point, 64, scratch);
+    CzArena arena = {0};
+    CzCurveChange change;
+    assert_true(cz_reduce_curve(&arena, x, y, &n_point, 64, &change));
+    cz_arena_free(&arena);
     assert_int_equal(n_point, 64);
     assert_near(change.area, before, 1e-14, 0);
     assert_near(area(x, y, n_point), before, 1e-6, 0);
@@ -63,12 +65,15 @@ static void reducing_keeps_the_area(void **state) {
 static void a_straight_line_loses_nothing(void **state) {
     (void)state;
     double x[100], y[100];
-    int scratch[100], n_point = 100;
+    int n_point = 100;
     for (int i = 0; i < 100; i++) {
         x[i] = i;
         y[i] = 2 * i + 1;
     }
-    const CzCurveChange change = cz_reduce_curve(x, y, &n_point, 3, scratch);
+    CzArena arena = {0};
+    CzCurveChange change;
+    assert_true(cz_reduce_curve(&arena, x, y, &n_point, 3, &change));
+    cz_arena_free(&arena);
     assert_int_equal(n_point, 3);
     assert_near(change.largest_difference, 0, 0, 1e-12);
     assert_near(y[2], 199, 0, 0);
@@ -77,16 +82,68 @@ static void a_straight_line_loses_nothing(void **state) {
 static void a_short_curve_stays_as_it_is(void **state) {
     (void)state;
     double x[] = {0, 1, 2}, y[] = {0, 5, 1};
-    int scratch[3], n_point = 3;
-    cz_reduce_curve(x, y, &n_point, 64, scratch);
+    int n_point = 3;
+    CzArena arena = {0};
+    CzCurveChange change;
+    assert_true(cz_reduce_curve(&arena, x, y, &n_point, 64, &change));
+    cz_arena_free(&arena);
     assert_int_equal(n_point, 3);
     assert_near(y[1], 5, 0, 0);
+}
+
+/* A tube's elastic part F / k is taken off total strokes and comes back as plastic ones do: the
+ * same law, whichever way it is written. */
+static void total_strokes_lose_their_elastic_part(void **state) {
+    static const char *const text[] = {
+        "extends: rigid.yaml\n"
+        "parts: {bumper: {anti_climber: {stages: null, stiffness_MN_m: 100, curve: {columns: "
+        "[stroke_mm, force_kN], points: [[0, 0], [4, 400], [5, 500], [106, 600]], basis: static, "
+        "strokes: total}}}}\noptimise: null\n",
+        "extends: rigid.yaml\n"
+        "parts: {bumper: {anti_climber: {stages: null, stiffness_MN_m: 100, curve: {columns: "
+        "[stroke_mm, force_kN], points: [[0, 500], [100, 600]], basis: static, strokes: "
+        "plastic}}}}\noptimise: null\n"};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        CzProblem *problem = NULL;
+        assert_int_equal(read_text(text[i], &problem), CZ_OK);
+        const CzTable *curve = &find_vehicle(problem, "A1")->front.anti_climber.curve;
+        assert_int_equal(curve->strokes, CZ_STROKES_PLASTIC);
+        assert_int_equal(curve->n_point, 2);
+        assert_near(curve->x[0], 0, 0, 0);
+        assert_near(curve->y[0], 5e5, 1e-12, 0);
+        assert_near(curve->x[1], 0.1, 1e-12, 0);
+        assert_near(curve->y[1], 6e5, 1e-12, 0);
+        assert_int_equal(cz_problem_n_warning(problem), 0);
+        cz_problem_free(problem);
+    }
+}
+
+/* An end's law is over the total shortening: c F with c = (1 - r) / Ku1 + r / Ku2 is added. */
+static void plastic_strokes_of_an_end_get_their_elastic_part(void **state) {
+    (void)state;
+    CzProblem *problem = NULL;
+    assert_int_equal(
+        read_text("extends: rigid.yaml\n"
+                  "parts: {bumper: {stages: null, unloading_stiffness_MN_m: 200, "
+                  "unloading_share: 0.25, second_unloading_stiffness_MN_m: 100, "
+                  "curve: {columns: [stroke_mm, force_kN], points: [[0, 0], [50, 1000], "
+                  "[450, 2000]], basis: static, strokes: plastic}}}\noptimise: null\n",
+                  &problem),
+        CZ_OK);
+    const CzTable *curve = &find_vehicle(problem, "A1")->front.curve;
+    const double compliance = 0.75 / 200e6 + 0.25 / 100e6;
+    assert_near(curve->x[1], 0.05 + 1e6 * compliance, 1e-12, 0);
+    assert_near(curve->x[2], 0.45 + 2e6 * compliance, 1e-12, 0);
+    cz_problem_free(problem);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_in_the_file_are_read_in_their_units),
         cmocka_unit_test(a_long_csv_curve_keeps_energy_ends_and_peak),
+        cmocka_unit_test(total_strokes_lose_their_elastic_part),
+        cmocka_unit_test(plastic_strokes_of_an_end_get_their_elastic_part),
         cmocka_unit_test(reducing_keeps_the_area),
         cmocka_unit_test(a_straight_line_loses_nothing),
         cmocka_unit_test(a_short_curve_stays_as_it_is),

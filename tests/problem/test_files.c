@@ -198,15 +198,16 @@ static void a_curve_of_very_many_lines_is_told(void **state) {
     FILE *file = fdopen(descriptor, "w");
     assert_non_null(file);
     fputs("stroke_mm,force_kN\n", file);
-    for (int i = 0; i < 20000; i++)
-        fprintf(file, "%g,100\n", i * 1e-2);
+    for (int i = 0; i < 1000000; i++)
+        fputs("0,1\n", file);
     fclose(file);
     snprintf(text, sizeof text,
              "extends: rigid.yaml\n"
              "parts: {bumper: {stages: null, curve: {file: %s, basis: static}}}\n",
              path);
     assert_int_equal(read_text(text, &problem), CZ_STATUS_INPUT);
-    assert_string_equal(cz_problem_mistake(problem, 0)->message, "a curve has at most 20000 lines");
+    assert_string_equal(cz_problem_mistake(problem, 0)->message,
+                        "a curve has at most 1000000 lines");
     cz_problem_free(problem);
     unlink(path);
 }

@@ -1,0 +1,288 @@
+/* Titles, rows of units and columns of curve files. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/suggest.h"
+#include "problem/curve_number.h"
+#include "problem/curve_reading.h"
+
+enum { MOST_BELOW_TITLES = 3 };
+
+static bool is_passed_over(const char *line) {
+    return cz_line_is_empty(line) || cz_line_comment(line) != NULL;
+}
+
+bool cz_reading_list_lines(CzArena *arena, CzCurveReading *reading) {
+    const int n_line = reading->source.n_line;
+    reading->next = cz_arena_allocate(arena, (size_t)n_line + 1, sizeof *reading->next);
+    if (reading->next == NULL)
+        return false;
+    reading->next[n_line] = n_line;
+    for (int line = n_line - 1; line >= 0; line--)
+        reading->next[line] =
+            is_passed_over(reading->source.line[line]) ? reading->next[line + 1] : line;
+    return true;
+}
+
+int cz_reading_next(const CzCurveReading *reading, int line) {
+    return line < reading->source.n_line ? reading->next[line] : reading->source.n_line;
+}
+
+/* Whether both columns are asked for by their numbers, so that titles need not name them. */
+static bool is_by_number(const CzCurveReading *reading) {
+    return cz_curve_column_number(&reading->request->column[0]) >= 0 &&
+           cz_curve_column_number(&reading->request->column[1]) >= 0;
+}
+
+static int numbers_in(const CzCurveReading *reading, const char *line) {
+    CzFieldWalk walk = cz_fields_begin(line, reading->separator);
+    CzField field;
+    int n = 0;
+    while (cz_fields_next(&walk, &field))
+        n += cz_curve_number_sign(field.text, field.n) != CZ_SIGN_NO_NUMBER;
+    return n;
+}
+
+/* ---- titles ---- */
+
+/* Whether every field of a line that is not empty is a unit, in brackets, or a dash. */
+static bool is_of_units(const CzCurveReading *reading, const char *line) {
+    CzFieldWalk walk = cz_fields_begin(line, reading->separator);
+    CzField field;
+    int n_unit = 0;
+    while (cz_fields_next(&walk, &field)) {
+        const bool is_unit = cz_curve_unit_alone(&field) != NULL;
+        const bool is_bracketed = field.n > 1 && strchr("[(", field.text[0]) != NULL;
+        if (field.n > 0 && !is_unit && !is_bracketed && field.text[0] != '-' &&
+            field.text[0] != '%')
+            return false;
+        n_unit += is_unit;
+    }
+    return n_unit > 0;
+}
+
+/* Lines behind a line of titles: perhaps units, then points. False when no points follow. */
+static bool look_below(CzCurveReading *reading, int line) {
+    reading->units = NULL;
+    reading->data = line;
+    for (int i = 0; i < MOST_BELOW_TITLES; i++) {
+        reading->data = cz_reading_next(reading, reading->data + 1);
+        if (reading->data == reading->source.n_line)
+            return false;
+        const char *text = reading->source.line[reading->data];
+        if (numbers_in(reading, text) >= 2)
+            return true;
+        if (reading->units == NULL && is_of_units(reading, text))
+            reading->units = text;
+        else if (is_by_number(reading))
+            return false; /* nothing but units is between titles and points */
+    }
+    return false;
+}
+
+/* Takes a text as titles when it has both columns and points follow; `found` gets what
+ * cz_curve_column_find says. */
+static bool try_titles(CzCurveReading *reading, int line, const char *text, int found[2]) {
+    if (cz_line_is_empty(text) || numbers_in(reading, text) > 0 || !look_below(reading, line))
+        return false;
+    int place[2];
+    for (int i = 0; i < 2; i++)
+        place[i] = cz_curve_column_find(&reading->request->column[i], text, reading->units,
+                                        reading->separator);
+    const bool has_both = place[0] >= 0 && place[1] >= 0 && place[0] != place[1];
+    if (!has_both && is_of_units(reading, text))
+        return false;
+    memcpy(found, place, sizeof place);
+    reading->titles = text;
+    reading->title_line = line;
+    return has_both;
+}
+
+/* Looks for titles among the lines, then among the comments. The last line that might have been
+ * titles stays in `file` when none is. */
+static bool find_titles(CzCurveReading *reading, bool in_comments, int found[2]) {
+    for (int line = reading->first; line < reading->source.n_line; line++) {
+        const char *text = reading->source.line[line], *comment = cz_line_comment(text);
+        if (cz_line_is_empty(text) || (comment != NULL) != in_comments)
+            continue;
+        if (try_titles(reading, line, in_comments ? comment : text, found))
+            return true;
+        if (is_by_number(reading) && !in_comments && numbers_in(reading, text) >= 2)
+            return false; /* points without titles */
+    }
+    return false;
+}
+
+/* Writes "'Time', 'Extension', 'Load'". */
+static void list_titles(const CzCurveReading *reading, char *text, size_t size) {
+    CzFieldWalk walk = cz_fields_begin(reading->titles, reading->separator);
+    CzField field;
+    size_t n = 0;
+    text[0] = '\0';
+    while (cz_fields_next(&walk, &field) && n + 40 < size)
+        n += (size_t)snprintf(text + n, size - n, "%s'%.*s'", n > 0 ? ", " : "",
+                              (int)(field.n < 30 ? field.n : 30), field.text);
+}
+
+void cz_reading_help(const CzCurveReading *reading, const char *text) {
+    if (text != NULL)
+        cz_mistake_help(reading->mistakes, "%s", text);
+}
+
+/* Hints at the title that is nearest to a mistyped one; false when none is near. */
+static bool suggest(const CzCurveReading *reading, const char *typed) {
+    char title[CZ_MOST_FIELD_TEXT], best[CZ_MOST_FIELD_TEXT];
+    CzSuggestion nearest = {0};
+    CzFieldWalk walk = cz_fields_begin(reading->titles, reading->separator);
+    CzField field;
+    while (cz_fields_next(&walk, &field)) {
+        cz_suggest(&nearest, typed, cz_field_text(&field, title));
+        if (nearest.best == title)
+            nearest.best = memcpy(best, title, sizeof best);
+    }
+    if (nearest.best != NULL)
+        cz_mistake_suggest(reading->mistakes, best);
+    return nearest.best != NULL;
+}
+
+/* Says which of the columns is not there, or there more than once. */
+static bool refuse_titles(const CzCurveReading *reading, const int found[2]) {
+    const CzCurveColumn *column = reading->request->column;
+    const int i = found[0] < 0 ? 0 : 1;
+    char titles[240], wanted[96];
+    list_titles(reading, titles, sizeof titles);
+    snprintf(wanted, sizeof wanted, "%s%.60s%s", column[i].title != NULL ? "'" : "the ",
+             column[i].title != NULL ? column[i].title : column[i].name,
+             column[i].title != NULL ? "'" : "");
+    if (found[0] == found[1] && found[0] >= 0)
+        cz_mistake_at(reading->mistakes, &reading->source, reading->title_line + 1, 1,
+                      "one column is taken for both %s and %s; the titles are %s", column[0].name,
+                      column[1].name, titles);
+    else
+        cz_mistake_at(reading->mistakes, &reading->source, reading->title_line + 1, 1,
+                      found[i] == -2 ? "more than one column may be %s; the titles are %s"
+                                     : "no column is %s; the titles are %s",
+                      wanted, titles);
+    if (column[i].title == NULL || found[i] != -1 || !suggest(reading, column[i].title))
+        cz_reading_help(reading, reading->request->column_help);
+    return false;
+}
+
+/* A file without titles: both columns are given by their numbers, with their units. */
+static bool begin_without_titles(CzCurveReading *reading) {
+    const CzCurveColumn *column = reading->request->column;
+    const int n_line = reading->source.n_line;
+    reading->titles = reading->units = NULL;
+    reading->data = cz_reading_next(reading, reading->first);
+    while (reading->data < n_line && numbers_in(reading, reading->source.line[reading->data]) < 2)
+        reading->data = cz_reading_next(reading, reading->data + 1);
+    for (int i = 0; i < 2; i++)
+        reading->index[i] = cz_curve_column_number(&column[i]);
+    if (reading->data == n_line)
+        cz_mistake_at(reading->mistakes, &reading->source, 1, 1,
+                      "no line of this file has two numbers; a curve is two columns of them");
+    else if (!is_by_number(reading))
+        cz_mistake_at(reading->mistakes, &reading->source, reading->data + 1, 1,
+                      "no line of titles above says which column is the %s",
+                      column[reading->index[0] < 0 ? 0 : 1].name);
+    else
+        return true;
+    cz_reading_help(reading, reading->data < n_line ? reading->request->column_help : NULL);
+    return false;
+}
+
+/* ---- units ---- */
+
+/* What the file says about the unit of a column. */
+typedef struct Units {
+    CzField field; /* the title */
+    char title[CZ_MOST_FIELD_TEXT];
+    const CzCurveUnit *in_title, *in_row;
+} Units;
+
+static Units units_of(const CzCurveReading *reading, int i) {
+    Units units = {.field = {.text = "", .column = 1}};
+    CzField below;
+    const int index = reading->index[i];
+    if (reading->titles != NULL &&
+        cz_field_take(reading->titles, reading->separator, index, &units.field))
+        units.in_title = cz_curve_unit_of_title(cz_field_text(&units.field, units.title), NULL);
+    if (reading->units != NULL && cz_field_take(reading->units, reading->separator, index, &below))
+        units.in_row = cz_curve_unit_alone(&below);
+    if (units.in_title == NULL && units.in_row == NULL && units.field.n > 1)
+        units.in_title = cz_curve_unit_alone(&units.field);
+    return units;
+}
+
+static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *column,
+                        const Units *units) {
+    char list[120], sentence[CZ_MOST_FIELD_TEXT + 200];
+    const CzCurveUnit *unit = units->in_title != NULL ? units->in_title : units->in_row;
+    cz_curve_unit_list(column->dimension, list, sizeof list);
+    if (column->unit != NULL)
+        snprintf(sentence, sizeof sentence, "'%.60s' is no unit of the %s, which takes %s",
+                 column->unit, column->name, list);
+    else if (units->in_title != NULL && units->in_row != NULL &&
+             unit->dimension == column->dimension)
+        snprintf(sentence, sizeof sentence,
+                 "the %s has two units: %s in its title '%.60s' and %s in the row below",
+                 column->name, unit->spelling, units->title, units->in_row->spelling);
+    else if (unit != NULL)
+        snprintf(sentence, sizeof sentence,
+                 "the unit of column '%.60s', %s, is no unit of the %s, which takes %s",
+                 units->title, unit->spelling, column->name, list);
+    else
+        snprintf(sentence, sizeof sentence, "the unit of %s%.60s%sthe %s%s is not known",
+                 units->title[0] != '\0' ? "column '" : "", units->title,
+                 units->title[0] != '\0' ? "', " : "", column->name,
+                 units->title[0] != '\0' ? "," : "");
+    const bool has_titles = reading->titles != NULL;
+    cz_mistake_at(reading->mistakes, &reading->source,
+                  (has_titles ? reading->title_line : reading->data) + 1,
+                  has_titles ? units->field.column : 1, "%s", sentence);
+    cz_reading_help(reading, reading->request->unit_help);
+    return false;
+}
+
+bool cz_reading_find_unit(CzCurveReading *reading, int i) {
+    const CzCurveColumn *column = &reading->request->column[i];
+    const Units units = units_of(reading, i);
+    const CzCurveUnit *unit = units.in_title != NULL ? units.in_title : units.in_row;
+    const bool differs =
+        units.in_title != NULL && units.in_row != NULL && units.in_title->si != units.in_row->si;
+    double si = column->without;
+    if (column->dimension == CZ_DIMENSION_NONE) {
+        reading->points->unit[i] = 1.0;
+        return true;
+    }
+    snprintf(reading->points->title[i], sizeof reading->points->title[i], "%s", units.title);
+    if (column->unit != NULL)
+        unit = cz_curve_unit_find(column->dimension, column->unit);
+    else if (differs)
+        return refuse_unit(reading, column, &units);
+    if (unit != NULL && unit->dimension == column->dimension)
+        si = unit->si;
+    else if (unit != NULL || !(si > 0.0))
+        return refuse_unit(reading, column, &units);
+    reading->points->unit[i] = column->in > 0.0 ? si / column->in : si;
+    return true;
+}
+
+bool cz_reading_find_columns(CzCurveReading *reading) {
+    int found[2], in_comment[2];
+    if (find_titles(reading, false, found) || reading->titles != NULL) {
+        memcpy(reading->index, found, sizeof found);
+        return (found[0] >= 0 && found[1] >= 0 && found[0] != found[1]) ||
+               refuse_titles(reading, found);
+    }
+    if (find_titles(reading, true, in_comment)) {
+        memcpy(reading->index, in_comment, sizeof in_comment);
+        return true;
+    }
+    return begin_without_titles(reading);
+}
+
+bool cz_reading_find_titles(CzCurveReading *reading) {
+    int found[2];
+    return find_titles(reading, false, found) || find_titles(reading, true, found);
+}

@@ -1,0 +1,342 @@
+/* Curve files: the decimal sign, and the points. */
+#include "problem/curve_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/error.h"
+#include "problem/curve_number.h"
+#include "problem/curve_reading.h"
+
+enum { MOST_LINES = 1000000 };
+
+/* ---- the decimal sign ---- */
+
+/* Numbers that decide, or leave open, what the decimal sign is: the first of each. */
+typedef struct Evidence {
+    int line[CZ_SIGN_OPEN_COMMA + 1]; /* counted from 1; 0: none */
+    CzField field[CZ_SIGN_OPEN_COMMA + 1];
+} Evidence;
+
+static void look_at(Evidence *evidence, const CzField *field, int line) {
+    const CzDecimalSign sign = cz_curve_number_sign(field->text, field->n);
+    if (evidence->line[sign] != 0)
+        return;
+    evidence->line[sign] = line + 1;
+    evidence->field[sign] = *field;
+}
+
+/* Evidence of the wanted columns, or of all others. */
+static Evidence collect(const CzCurveReading *reading, bool of_wanted) {
+    Evidence evidence = {0};
+    for (int line = cz_reading_next(reading, reading->data); line < reading->source.n_line;
+         line = cz_reading_next(reading, line + 1)) {
+        CzFieldWalk walk = cz_fields_begin(reading->source.line[line], reading->separator);
+        CzField field;
+        for (int i = 0; cz_fields_next(&walk, &field); i++)
+            if ((i == reading->index[0] || i == reading->index[1]) == of_wanted)
+                look_at(&evidence, &field, line);
+    }
+    return evidence;
+}
+
+/* Writes a number with a given decimal sign as a plain one, for a message. */
+static void print_reading(const CzField *field, char decimal, char text[CZ_MOST_FIELD_TEXT]) {
+    double value = 0.0;
+    cz_curve_number_read(field->text, field->n, decimal, &value);
+    snprintf(text, CZ_MOST_FIELD_TEXT, "%.10g", value);
+    for (char *c = text; *c != '\0'; c++)
+        *c = *c == ',' ? '.' : *c;
+}
+
+static bool refuse_open(const CzCurveReading *reading, const Evidence *evidence,
+                        CzDecimalSign sign) {
+    char text[CZ_MOST_FIELD_TEXT], point[CZ_MOST_FIELD_TEXT], comma[CZ_MOST_FIELD_TEXT];
+    const CzField *field = &evidence->field[sign];
+    print_reading(field, '.', point);
+    print_reading(field, ',', comma);
+    cz_mistake_at(reading->mistakes, &reading->source, evidence->line[sign], field->column,
+                  "'%s' may be %s or %s: no number of the file shows which sign parts decimals",
+                  cz_field_text(field, text), point, comma);
+    cz_mistake_help(reading->mistakes, "%s%s'.' reads %s, ',' reads %s",
+                    reading->request->decimal_help != NULL ? reading->request->decimal_help : "",
+                    reading->request->decimal_help != NULL ? ": " : "", point, comma);
+    return false;
+}
+
+static bool refuse_both(const CzCurveReading *reading, const Evidence *evidence) {
+    char point[CZ_MOST_FIELD_TEXT], comma[CZ_MOST_FIELD_TEXT];
+    const bool comma_is_later = evidence->line[CZ_SIGN_COMMA] > evidence->line[CZ_SIGN_POINT];
+    const CzDecimalSign later = comma_is_later ? CZ_SIGN_COMMA : CZ_SIGN_POINT;
+    cz_mistake_at(
+        reading->mistakes, &reading->source, evidence->line[later], evidence->field[later].column,
+        "numbers have two decimal signs: '%s' in line %d and '%s' in line %d",
+        cz_field_text(&evidence->field[CZ_SIGN_POINT], point), evidence->line[CZ_SIGN_POINT],
+        cz_field_text(&evidence->field[CZ_SIGN_COMMA], comma), evidence->line[CZ_SIGN_COMMA]);
+    return false;
+}
+
+/* Whether a decimal sign makes no number larger than one can be meant. */
+static bool is_possible(const CzCurveReading *reading, char decimal) {
+    for (int line = cz_reading_next(reading, reading->data); line < reading->source.n_line;
+         line = cz_reading_next(reading, line + 1)) {
+        CzFieldWalk walk = cz_fields_begin(reading->source.line[line], reading->separator);
+        CzField field;
+        for (int i = 0; cz_fields_next(&walk, &field); i++) {
+            double value;
+            const int which = i == reading->index[1];
+            const double largest = reading->request->column[which].largest;
+            if (i == reading->index[which] && largest > 0.0 &&
+                cz_curve_number_read(field.text, field.n, decimal, &value) &&
+                fabs(value) * reading->points->unit[which] > largest)
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool find_decimal(CzCurveReading *reading) {
+    reading->decimal = reading->request->decimal;
+    if (reading->decimal != '\0')
+        return true;
+    const Evidence own = collect(reading, true);
+    const bool point = own.line[CZ_SIGN_POINT] != 0, comma = own.line[CZ_SIGN_COMMA] != 0;
+    const bool is_open = own.line[CZ_SIGN_OPEN_POINT] != 0 || own.line[CZ_SIGN_OPEN_COMMA] != 0;
+    reading->decimal = comma ? ',' : '.';
+    if (point && comma)
+        return refuse_both(reading, &own);
+    if (point || comma || !is_open)
+        return true;
+
+    /* The other columns may show it; where commas part the fields, a point parts decimals. */
+    const Evidence others = collect(reading, false);
+    const bool point_there = others.line[CZ_SIGN_POINT] != 0;
+    const bool comma_there = others.line[CZ_SIGN_COMMA] != 0;
+    reading->decimal = comma_there ? ',' : '.';
+    if (point_there != comma_there)
+        return true;
+    const bool as_point = is_possible(reading, '.'), as_comma = is_possible(reading, ',');
+    reading->decimal = as_comma ? ',' : '.';
+    if (as_point != as_comma)
+        return true;
+    if (own.line[CZ_SIGN_OPEN_COMMA] != 0)
+        return refuse_open(reading, &own, CZ_SIGN_OPEN_COMMA);
+    reading->decimal = '.';
+    return reading->separator == ',' || refuse_open(reading, &own, CZ_SIGN_OPEN_POINT);
+}
+
+/* ---- points ---- */
+
+static bool is_not_finite(const char *text) {
+    static const char *const words[] = {"nan",    "inf",  "infinity", "1.#qnan",
+                                        "1.#inf", "#n/a", "#num!"};
+    text += *text == '-' || *text == '+';
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcasecmp(text, words[i]) == 0)
+            return true;
+    return false;
+}
+
+static void refuse_number(const CzCurveReading *reading, int line, int i, const CzField *field) {
+    char text[CZ_MOST_FIELD_TEXT];
+    double value;
+    const char *name = reading->request->column[i].title != NULL ? reading->request->column[i].title
+                                                                 : reading->request->column[i].name;
+    const char other = reading->decimal == '.' ? ',' : '.';
+    const bool is_other = cz_curve_number_read(field->text, field->n, other, &value);
+    const bool is_one = cz_curve_number_sign(field->text, field->n) != CZ_SIGN_NO_NUMBER;
+    cz_field_text(field, text);
+    if (field->n == 0)
+        cz_mistake_at(reading->mistakes, &reading->source, line + 1, field->column,
+                      "this line has no value of the %.60s", name);
+    else
+        cz_mistake_at(reading->mistakes, &reading->source, line + 1, field->column,
+                      "%.60s: '%.60s' %s", name, text,
+                      is_not_finite(text)                   ? "is not a finite number"
+                      : is_other && reading->decimal == '.' ? "is no number with a decimal point"
+                      : is_other                            ? "is no number with a decimal comma"
+                      : is_one                              ? "is too large for a number"
+                                                            : "is not a number");
+    if (is_other)
+        cz_reading_help(reading, reading->request->decimal_help);
+}
+
+/* A line with too many or too few fields: with decimal commas between commas both readings are
+ * told. */
+static void refuse_count(const CzCurveReading *reading, int line, int n) {
+    cz_mistake_at(reading->mistakes, &reading->source, line + 1, 1,
+                  "this line has %d %s, the %s %d", n, n == 1 ? "column" : "columns",
+                  reading->titles != NULL ? "titles have" : "first point has", reading->n_field[0]);
+    if (reading->separator == ',' && n > reading->n_field[0])
+        cz_mistake_help(reading->mistakes,
+                        "commas part columns here: numbers with decimal commas or grouped "
+                        "thousands need quotes around them, or ';' between the columns");
+}
+
+/* Takes one line; an empty one of a table is passed over. */
+static void take_point(CzCurveReading *reading, int line) {
+    CzFieldWalk walk = cz_fields_begin(reading->source.line[line], reading->separator);
+    CzField field, wanted[2] = {{.text = "", .column = 1}, {.text = "", .column = 1}};
+    int all = 0, filled = 0;
+    while (cz_fields_next(&walk, &field)) {
+        for (int i = 0; i < 2; i++)
+            if (all == reading->index[i])
+                wanted[i] = field;
+        all++;
+        filled = field.n > 0 ? all : filled;
+    }
+    if (reading->n_field[0] == 0) {
+        reading->n_field[0] = all;
+        reading->n_field[1] = filled;
+    }
+    if (filled > reading->n_field[0] || all < reading->n_field[1]) {
+        refuse_count(reading, line, all);
+        return;
+    }
+    if (wanted[0].n == 0 && wanted[1].n == 0 && filled > 0)
+        return; /* a row of other columns alone */
+    double value[2];
+    for (int i = 0; i < 2; i++)
+        if (!cz_curve_number_read(wanted[i].text, wanted[i].n, reading->decimal, &value[i])) {
+            refuse_number(reading, line, i, &wanted[i]);
+            return;
+        }
+    CzCurvePoints *points = reading->points;
+    points->x[points->n] = value[0] * points->unit[0];
+    points->y[points->n] = value[1] * points->unit[1];
+    points->line[points->n++] = line + 1;
+}
+
+static bool take_points(CzCurveReading *reading) {
+    const int before = reading->mistakes->n_mistake, n_line = reading->source.n_line;
+    if (reading->titles != NULL) {
+        const CzFieldCount count = cz_fields_count(reading->titles, reading->separator);
+        reading->n_field[0] = count.all;
+        reading->n_field[1] = count.filled;
+    }
+    for (int line = cz_reading_next(reading, reading->data); line < n_line;
+         line = cz_reading_next(reading, line + 1))
+        take_point(reading, line);
+    if (reading->mistakes->n_mistake > before)
+        return false;
+    if (reading->points->n >= 2)
+        return true;
+    cz_mistake_at(reading->mistakes, &reading->source, n_line, 1,
+                  "a curve has two points or more, but this file has %d", reading->points->n);
+    return false;
+}
+
+/* ---- all of it ---- */
+
+static bool make_room(CzArena *arena, int n, CzCurvePoints *points) {
+    points->x = cz_arena_allocate(arena, (size_t)n, sizeof *points->x);
+    points->y = cz_arena_allocate(arena, (size_t)n, sizeof *points->y);
+    points->line = cz_arena_allocate(arena, (size_t)n, sizeof *points->line);
+    return points->x != NULL && points->y != NULL && points->line != NULL;
+}
+
+/* Lines and separator. */
+static bool begin(CzArena *arena, const char *text, size_t n_byte, CzCurveReading *reading) {
+    if (!cz_curve_lines(arena, reading->mistakes, text, n_byte, &reading->source))
+        return false;
+    if (reading->source.n_line > MOST_LINES) {
+        cz_mistake_at(reading->mistakes, &reading->source, MOST_LINES, 1,
+                      "a curve has at most %d lines", (int)MOST_LINES);
+        return false;
+    }
+    if (!cz_reading_list_lines(arena, reading))
+        return false;
+    const char announced = cz_line_announced_separator(reading->source.line[0]);
+    reading->first = announced != '\0';
+    if (reading->separator == '\0')
+        reading->separator = announced;
+    if (reading->separator == '\0')
+        reading->separator = cz_fields_separator(&reading->source);
+    return true;
+}
+
+bool cz_curve_points_read(CzArena *arena, CzMistakes *mistakes, const CzSource *source,
+                          const char *text, size_t n_byte, const CzCurveRequest *request,
+                          CzCurvePoints *points) {
+    CzCurveReading reading = {.mistakes = mistakes,
+                              .source = *source,
+                              .request = request,
+                              .points = points,
+                              .separator = request->separator};
+    *points = (CzCurvePoints){.source = source};
+    return begin(arena, text, n_byte, &reading) && cz_reading_find_columns(&reading) &&
+           cz_reading_find_unit(&reading, 0) && cz_reading_find_unit(&reading, 1) &&
+           find_decimal(&reading) && make_room(arena, reading.source.n_line, points) &&
+           take_points(&reading);
+}
+
+static CzStatus finish(CzMistakes *mistakes, const char *name, CzError *error) {
+    if (mistakes->arena->out_of_memory)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the curve of '%s'", name);
+    cz_mistakes_finish(mistakes);
+    if (mistakes->n_mistake == 0)
+        return CZ_OK;
+    if (error != NULL)
+        *error = mistakes->mistake[0]->error;
+    return CZ_STATUS_INPUT;
+}
+
+CzStatus cz_curve_points_read_memory(CzArena *arena, const char *name, const char *text,
+                                     size_t n_byte, const CzCurveRequest *request,
+                                     CzCurvePoints *points, CzError *error) {
+    CzMistakes mistakes = {.arena = arena};
+    CzSource *source = cz_arena_allocate(arena, 1, sizeof *source);
+    if (source != NULL) {
+        source->name = cz_arena_copy_text(arena, name, strlen(name));
+        source->folder = ".";
+    }
+    if (source != NULL && source->name != NULL)
+        cz_curve_points_read(arena, &mistakes, source, text, n_byte, request, points);
+    return finish(&mistakes, name, error);
+}
+
+CzStatus cz_curve_points_read_file(CzArena *arena, const char *path, const CzCurveRequest *request,
+                                   CzCurvePoints *points, CzError *error) {
+    CzMistakes mistakes = {.arena = arena};
+    CzSources sources = {.arena = arena, .hash = CZ_HASH_START};
+    char *text = NULL;
+    size_t n_byte = 0;
+    const CzSource *source = cz_sources_read(&sources, &mistakes, path, NULL, &text, &n_byte);
+    if (source != NULL)
+        cz_curve_points_read(arena, &mistakes, source, text, n_byte, request, points);
+    free(text);
+    return finish(&mistakes, path, error);
+}
+
+/* Finds the titles in a text; NULL with a mistake or without memory. */
+static const char *titles_in(CzArena *arena, CzMistakes *mistakes, const CzSource *source,
+                             const char *text, size_t n_byte, char *separator) {
+    static const CzCurveRequest any = {.column = {{.title = "1"}, {.title = "2"}}};
+    CzCurveReading reading = {
+        .mistakes = mistakes, .source = *source, .request = &any, .separator = *separator};
+    if (!begin(arena, text, n_byte, &reading))
+        return NULL;
+    *separator = reading.separator;
+    if (cz_reading_find_titles(&reading))
+        return reading.titles;
+    cz_mistake_at(mistakes, &reading.source, 1, 1,
+                  "this file has no line of titles with two columns of numbers below it");
+    return NULL;
+}
+
+CzStatus cz_curve_titles_read(CzArena *arena, const char *path, char *separator,
+                              const char **titles, CzError *error) {
+    CzMistakes mistakes = {.arena = arena};
+    CzSources sources = {.arena = arena, .hash = CZ_HASH_START};
+    char *text = NULL;
+    size_t n_byte = 0;
+    const CzSource *source = cz_sources_read(&sources, &mistakes, path, NULL, &text, &n_byte);
+    *titles = NULL;
+    if (source != NULL)
+        *titles = titles_in(arena, &mistakes, source, text, n_byte, separator);
+    free(text);
+    return finish(&mistakes, path, error);
+}

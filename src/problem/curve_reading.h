@@ -1,0 +1,45 @@
+/* A curve file while it is read: what its titles and units are, shared by the sources that read it.
+ */
+#ifndef CZ_PROBLEM_CURVE_READING_H
+#define CZ_PROBLEM_CURVE_READING_H
+
+#include "problem/curve_file.h"
+
+/* Lines are counted from 0. */
+typedef struct CzCurveReading {
+    CzMistakes *mistakes;
+    CzSource source;
+    const CzCurveRequest *request;
+    CzCurvePoints *points;
+    char separator, decimal;
+    int *next;          /* of each line, itself or the first behind it that is neither empty nor a
+                           comment; n_line at the end (n_line + 1) */
+    int first;          /* line behind the one that announces the separator */
+    const char *titles; /* NULL without */
+    const char *units;  /* line of units; NULL without */
+    int title_line;
+    int data; /* first line of points */
+    int index[2];
+    int n_field[2]; /* of the titles, or of the first point: all, and up to the last filled one */
+} CzCurveReading;
+
+/* Lists which lines are neither empty nor comments. False without memory. */
+bool cz_reading_list_lines(CzArena *arena, CzCurveReading *reading);
+
+/* The next line from one on that is neither empty nor a comment; n_line without. */
+int cz_reading_next(const CzCurveReading *reading, int line);
+
+/* Finds titles, row of units and the first line of points in the lines, else in the comments, and
+ * the numbers of both columns, or says what is missing. */
+bool cz_reading_find_columns(CzCurveReading *reading);
+
+/* Finds titles alone, of whatever columns. */
+bool cz_reading_find_titles(CzCurveReading *reading);
+
+/* Finds the unit of one of the columns: from the request, the title, or the row of units. */
+bool cz_reading_find_unit(CzCurveReading *reading, int column);
+
+/* Adds a hint of the request to the last mistake; NULL adds none. */
+void cz_reading_help(const CzCurveReading *reading, const char *text);
+
+#endif

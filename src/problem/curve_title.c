@@ -1,0 +1,162 @@
+/* Finding columns and their units. */
+#include "problem/curve_title.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* ---- units ---- */
+
+static const CzCurveUnit units[] = {
+#define CZ_CURVE_UNIT(dimension, spelling, si) {CZ_DIMENSION_##dimension, spelling, si},
+#include "problem/curve_units.def"
+#undef CZ_CURVE_UNIT
+};
+
+enum { N_UNIT = sizeof units / sizeof units[0] };
+
+const CzCurveUnit *cz_curve_unit_find(CzDimension dimension, const char *spelling) {
+    for (int i = 0; i < N_UNIT; i++)
+        if ((dimension == CZ_N_DIMENSION || units[i].dimension == dimension) &&
+            strcmp(units[i].spelling, spelling) == 0)
+            return &units[i];
+    return NULL;
+}
+
+/* Copies a part of a title without the blanks and brackets around it. */
+static void copy_bare(const char *start, size_t n, char text[CZ_MOST_FIELD_TEXT]) {
+    while (n > 0 && strchr(" \t[(\"", start[0]) != NULL) {
+        start++;
+        n--;
+    }
+    while (n > 0 && strchr(" \t])\"", start[n - 1]) != NULL)
+        n--;
+    snprintf(text, CZ_MOST_FIELD_TEXT, "%.*s", (int)(n < CZ_MOST_FIELD_TEXT ? n : 0), start);
+}
+
+const CzCurveUnit *cz_curve_unit_of_title(const char *title, size_t *n_title) {
+    char rest[CZ_MOST_FIELD_TEXT];
+    for (const char *at = strpbrk(title, "_[( /,:"); at != NULL; at = strpbrk(at + 1, "_[( /,:")) {
+        copy_bare(at + 1, strlen(at + 1), rest);
+        const CzCurveUnit *unit = cz_curve_unit_find(CZ_N_DIMENSION, rest);
+        if (unit == NULL)
+            continue; /* the first cut leaves the longest end */
+        size_t n = (size_t)(at - title);
+        while (n > 0 && strchr(" _/,:", title[n - 1]) != NULL)
+            n--;
+        if (n_title != NULL)
+            *n_title = n;
+        return unit;
+    }
+    if (n_title != NULL)
+        *n_title = strlen(title);
+    return NULL;
+}
+
+const CzCurveUnit *cz_curve_unit_alone(const CzField *field) {
+    char text[CZ_MOST_FIELD_TEXT];
+    copy_bare(field->text, field->n, text);
+    return cz_curve_unit_find(CZ_N_DIMENSION, text);
+}
+
+void cz_curve_unit_list(CzDimension dimension, char *text, size_t size) {
+    size_t n = 0;
+    text[0] = '\0';
+    for (int i = 0; i < N_UNIT; i++) {
+        if (units[i].dimension != dimension || n + 1 >= size)
+            continue;
+        n += (size_t)snprintf(text + n, size - n, "%s%s", n > 0 ? ", " : "", units[i].spelling);
+    }
+}
+
+/* ---- columns ---- */
+
+int cz_curve_column_number(const CzCurveColumn *column) {
+    char *end = NULL;
+    const long number = column->title != NULL ? strtol(column->title, &end, 10) : 0;
+    return end != NULL && *end == '\0' && number >= 1 && number < 10000 ? (int)number - 1 : -1;
+}
+
+/* Other words for a quantity, without case. */
+static const struct {
+    const char *name, *word;
+} words[] = {
+    {"stroke", "travel"},       {"stroke", "displacement"}, {"stroke", "extension"},
+    {"stroke", "compression"},  {"stroke", "crosshead"},    {"stroke", "position"},
+    {"stroke", "deflection"},   {"stroke", "shortening"},   {"stroke", "deformation"},
+    {"stroke", "closure"},      {"stroke", "hub"},          {"stroke", "weg"},
+    {"stroke", "standardweg"},  {"stroke", "verformung"},   {"stroke", "course"},
+    {"stroke", "deplacement"},  {"force", "load"},          {"force", "kraft"},
+    {"force", "standardkraft"}, {"force", "effort"},        {"time", "t"},
+    {"time", "zeit"},           {"time", "temps"},          {"speed", "velocity"},
+};
+
+/* How a title answers to what is wanted; the least one wins. */
+typedef enum Answer { EXACT, ALMOST, NAMED, CALLED, IN_UNIT, NOT } Answer;
+
+static bool begins_with(const char *title, const char *word) {
+    const size_t n = strlen(word);
+    return strncasecmp(title, word, n) == 0 &&
+           (title[n] == '\0' || strchr("_ [(/,:", title[n]) != NULL);
+}
+
+static Answer answer_by_name(const CzCurveColumn *column, const char *title) {
+    if (begins_with(title, column->name))
+        return NAMED;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(words[i].name, column->name) == 0 && begins_with(title, words[i].word))
+            return CALLED;
+    return NOT;
+}
+
+/* A title that was asked for: as it is, in another case, or without its unit. */
+static Answer answer_to_title(const char *wanted, const char *title) {
+    size_t n = 0;
+    cz_curve_unit_of_title(title, &n);
+    if (strcmp(title, wanted) == 0)
+        return EXACT;
+    const bool is_bare = strlen(wanted) == n && strncasecmp(title, wanted, n) == 0;
+    return strcasecmp(title, wanted) == 0 || is_bare ? ALMOST : NOT;
+}
+
+static Answer answer_of(const CzCurveColumn *column, const CzField *title, const CzField *below) {
+    char text[CZ_MOST_FIELD_TEXT];
+    cz_field_text(title, text);
+    if (column->title != NULL)
+        return answer_to_title(column->title, text);
+    const CzCurveUnit *unit = cz_curve_unit_of_title(text, NULL);
+    if (unit == NULL && below != NULL)
+        unit = cz_curve_unit_alone(below);
+    if (unit == NULL && title->n > 1) /* "N" may be a number of cycles, "s" a stroke */
+        unit = cz_curve_unit_alone(title);
+    if (unit != NULL && unit->dimension != column->dimension)
+        return NOT; /* "Extension rate (mm/s)" is no stroke */
+    const Answer by_name = answer_by_name(column, text);
+    return by_name == NOT && unit != NULL ? IN_UNIT : by_name;
+}
+
+int cz_curve_column_find(const CzCurveColumn *column, const char *titles, const char *units_line,
+                         char separator) {
+    CzFieldWalk walk = cz_fields_begin(titles, separator), below = {0};
+    CzField title, unit;
+    Answer best = NOT;
+    int found = -1;
+    if (cz_curve_column_number(column) >= 0)
+        return cz_curve_column_number(column) < cz_fields_count(titles, separator).all
+                   ? cz_curve_column_number(column)
+                   : -1;
+    if (units_line != NULL)
+        below = cz_fields_begin(units_line, separator);
+    for (int i = 0; cz_fields_next(&walk, &title); i++) {
+        const bool has_unit = cz_fields_next(&below, &unit);
+        const Answer answer = answer_of(column, &title, has_unit ? &unit : NULL);
+        if (answer == best && best != NOT)
+            found = -2;
+        if (answer < best) {
+            best = answer;
+            found = i;
+        }
+    }
+    return found;
+}

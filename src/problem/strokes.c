@@ -1,0 +1,86 @@
+/* Strokes of curves: total ones hold the elastic shortening, plastic ones do not.
+ *
+ *   tube, anti-climber   d = s + F / k            the law is over s, k its stiffness
+ *   end                  d = s + c F,  c = (1 - r) / Ku1 + r / Ku2   the law is over d
+ *
+ * with the unloading stiffnesses Ku1 and Ku2 of the end and the share r between them.
+ */
+#include <math.h>
+
+#include "base/number.h"
+#include "problem/reader.h"
+
+#define APART 1e-6        /* of the stroke: points that are no closer (ours) */
+#define WITHOUT_FORCE 0.2 /* of the mean force: a curve that begins below begins without (ours) */
+
+static double mean_force(const CzTable *curve) {
+    double area = 0;
+    for (int i = 1; i < curve->n_point; i++)
+        area += 0.5 * (curve->y[i] + curve->y[i - 1]) * (curve->x[i] - curve->x[i - 1]);
+    return area / curve->x[curve->n_point - 1];
+}
+
+/* Adds compliance times force to the strokes. Points that would not lie behind the one before are
+ * dropped: on the elastic rise all plastic strokes are 0, and the last of them counts. */
+static bool add_elastic(CzTable *curve, double compliance) {
+    const double apart = APART * curve->x[curve->n_point - 1];
+    int n = 0;
+    for (int i = 0; i < curve->n_point; i++) {
+        const double x = fmax(curve->x[i] + compliance * curve->y[i], 0);
+        const bool is_new = n == 0 || x > curve->x[n - 1] + apart;
+        if (!is_new && (n > 1 || curve->y[i] < curve->y[0]))
+            continue;
+        n -= !is_new;
+        curve->x[n] = n == 0 ? 0 : x;
+        curve->y[n++] = curve->y[i];
+    }
+    curve->n_point = n;
+    return n >= 2;
+}
+
+static void convert(CzReader *reader, const CzNode *node, const CzTrail *trail, CzTable *curve,
+                    double compliance) {
+    if (isfinite(compliance) && !add_elastic(curve, compliance))
+        cz_mistake(&reader->mistakes, node, trail,
+                   "the whole shortening of 'curve' would be elastic: the stiffness is too small "
+                   "for it");
+}
+
+/* A curve over plastic strokes begins with the force that starts the flow. */
+static void bind_plastic(CzReader *reader, const CzNode *node, const CzTrail *trail, CzTable *curve,
+                         double stiffness) {
+    if (curve->strokes == CZ_STROKES_TOTAL)
+        convert(reader, node, trail, curve, -1 / stiffness);
+    else if (curve->strokes == CZ_STROKES_UNSAID && curve->y[0] < WITHOUT_FORCE * mean_force(curve))
+        cz_mistake(&reader->warnings, node, trail,
+                   "'curve' begins without force, as a total shortening does, but its strokes are "
+                   "taken as plastic; 'strokes: total' takes off the elastic part, 'strokes: "
+                   "plastic' keeps it");
+    curve->strokes = CZ_STROKES_PLASTIC;
+}
+
+void cz_bind_strokes(CzReader *reader, CzRecordId record, const CzNode *node, const CzTrail *trail,
+                     void *memory) {
+    const CzEntry *entry = cz_node_find(node, "curve");
+    if (entry != NULL) { /* what is told is told there */
+        node = entry->value;
+        trail = cz_entry_trail(entry, trail);
+    }
+    if (record == CZ_RECORD_CzTube) {
+        CzTube *tube = memory;
+        if (tube->curve.given)
+            bind_plastic(reader, node, trail, &tube->curve, tube->stiffness);
+    } else if (record == CZ_RECORD_CzAntiClimber) {
+        CzAntiClimber *device = memory;
+        if (device->curve.given)
+            bind_plastic(reader, node, trail, &device->curve, device->stiffness);
+    } else if (record == CZ_RECORD_CzEnd) {
+        CzEnd *end = memory;
+        const double first = end->unloading_stiffness, share = end->unloading_share;
+        const double second =
+            isnan(end->second_unloading_stiffness) ? first : end->second_unloading_stiffness;
+        if (end->curve.given && end->curve.strokes == CZ_STROKES_PLASTIC)
+            convert(reader, node, trail, &end->curve, (1 - share) / first + share / second);
+        end->curve.strokes = CZ_STROKES_TOTAL;
+    }
+}

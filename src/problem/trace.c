@@ -1,0 +1,359 @@
+/* From measured points to a force-stroke curve. */
+#include "problem/trace.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/number.h"
+
+#define STROKE_NOISE 0.01 /* of the largest stroke that it may go back while loading (ours) */
+#define FORCE_NOISE 0.02  /* of the largest force: less is none (ours) */
+#define CONTACT 0.01      /* of the largest force: where it begins (ours) */
+#define FREE_TRAVEL 0.05  /* of the stroke: more without force is told (ours) */
+#define UNLOADED 0.8      /* an unloading ends below this share of the force (ours) */
+#define UNLOADING 1e-3    /* of the stroke: one that goes back less is none (ours) */
+
+CzTraceShape cz_trace_shape_default(void) {
+    return (CzTraceShape){.scale = 1.0, .from = NAN, .to = NAN};
+}
+
+/* What is being made. */
+typedef struct Making {
+    CzMistakes *mistakes;
+    const CzSource *source;
+    const CzTraceShape *shape;
+    double unit;
+    CzTrace *trace;
+} Making;
+
+__attribute__((format(printf, 2, 3))) static void note(CzTrace *trace, const char *format, ...) {
+    va_list arguments;
+    if (trace->n_note == CZ_TRACE_MOST_NOTES)
+        return;
+    va_start(arguments, format);
+    vsnprintf(trace->note[trace->n_note++], sizeof trace->note[0], format, arguments);
+    va_end(arguments);
+}
+
+__attribute__((format(printf, 3, 4))) static bool refuse(const Making *making, int point,
+                                                         const char *format, ...) {
+    char sentence[300];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    cz_mistake_at(making->mistakes, making->source, making->trace->line[point], 1, "%s", sentence);
+    return false;
+}
+
+static const char *mm(char text[CZ_NUMBER_TEXT], double stroke) {
+    return cz_number_print_short(text, 1e3 * stroke);
+}
+
+static const char *kN(char text[CZ_NUMBER_TEXT], double force) {
+    return cz_number_print_short(text, 1e-3 * force);
+}
+
+/* Least and largest value. */
+typedef struct Range {
+    double least, largest;
+} Range;
+
+static Range range_of(const double *value, int n) {
+    Range range = {value[0], value[0]};
+    for (int i = 1; i < n; i++) {
+        range.least = fmin(range.least, value[i]);
+        range.largest = fmax(range.largest, value[i]);
+    }
+    return range;
+}
+
+/* ---- signs ---- */
+
+static void flip(double *value, int n) {
+    for (int i = 0; i < n; i++)
+        value[i] = 0.0 - value[i];
+}
+
+static bool set_signs(Making *making) {
+    char from[CZ_NUMBER_TEXT], to[CZ_NUMBER_TEXT];
+    CzTrace *trace = making->trace;
+    const CzTraceShape *shape = making->shape;
+    for (int i = 0; i < trace->n; i++)
+        if (!isfinite(trace->x[i]) || !isfinite(trace->f[i]))
+            return refuse(making, i, "a point is not finite");
+    for (int i = 0; i < trace->n; i++)
+        trace->f[i] *= shape->scale;
+    if (shape->flips[0])
+        flip(trace->x, trace->n);
+    if (shape->flips[1])
+        flip(trace->f, trace->n);
+    const Range x = range_of(trace->x, trace->n), f = range_of(trace->f, trace->n);
+    const double down = trace->x[0] - x.least, up = x.largest - trace->x[0];
+    const bool stroke_falls = down > 0.0 && up <= STROKE_NOISE * down;
+    const bool force_is_below = f.least < 0.0 && f.largest <= FORCE_NOISE * -f.least;
+    if (shape->flips[0] || shape->flips[1] || stroke_falls == force_is_below) {
+        if (stroke_falls && force_is_below && !shape->flips[0] && !shape->flips[1]) {
+            flip(trace->x, trace->n);
+            flip(trace->f, trace->n);
+            note(trace, "compression is negative in the file: the signs of strokes and forces were "
+                        "changed");
+        }
+        return true;
+    }
+    if (stroke_falls)
+        refuse(making, 0,
+               "the stroke falls from %s to %s mm while the force is positive: either its sign is "
+               "that of an opening, or the points are in the reverse order",
+               mm(from, trace->x[0]), mm(to, x.least));
+    else
+        refuse(making, 0,
+               "the forces are negative, to %s kN, while the stroke grows: either they count "
+               "tension positive, or this is a test in tension",
+               kN(to, f.least));
+    if (shape->flip_help != NULL)
+        cz_mistake_help(making->mistakes, "%s", shape->flip_help);
+    return false;
+}
+
+/* ---- the part that counts, and its zero ---- */
+
+/* Drops the points before one. */
+static void drop_before(CzTrace *trace, int first) {
+    if (first == 0)
+        return;
+    trace->n -= first;
+    memmove(trace->x, trace->x + first, (size_t)trace->n * sizeof *trace->x);
+    memmove(trace->f, trace->f + first, (size_t)trace->n * sizeof *trace->f);
+    memmove(trace->line, trace->line + first, (size_t)trace->n * sizeof *trace->line);
+}
+
+/* Lets a curve begin where the stroke first comes to a value, on the line there. */
+static void begin_at(CzTrace *trace, double at) {
+    int first = 0;
+    while (first < trace->n && trace->x[first] < at)
+        first++;
+    if (first == 0 || first == trace->n)
+        return;
+    if (trace->x[first] > at) {
+        first--;
+        const double share = (at - trace->x[first]) / (trace->x[first + 1] - trace->x[first]);
+        trace->f[first] += share * (trace->f[first + 1] - trace->f[first]);
+        trace->x[first] = at;
+    }
+    drop_before(trace, first);
+}
+
+/* Lets a curve end where the stroke first comes to a value, on the line there. */
+static void end_at(CzTrace *trace, double at) {
+    int end = 0;
+    while (end < trace->n && trace->x[end] < at)
+        end++;
+    if (end == trace->n)
+        return;
+    if (end > 0) {
+        const double share = (at - trace->x[end - 1]) / (trace->x[end] - trace->x[end - 1]);
+        trace->f[end] = trace->f[end - 1] + share * (trace->f[end] - trace->f[end - 1]);
+        trace->x[end] = at;
+    }
+    trace->n = end + 1;
+}
+
+static bool take_part(Making *making) {
+    char from[CZ_NUMBER_TEXT], to[CZ_NUMBER_TEXT];
+    CzTrace *trace = making->trace;
+    const double low = making->shape->from * making->unit, high = making->shape->to * making->unit;
+    const Range x = range_of(trace->x, trace->n);
+    if (low >= x.largest || high <= x.least || low >= high)
+        return refuse(making, 0, "no stroke is left: those of the file go from %s to %s mm",
+                      mm(from, x.least), mm(to, x.largest));
+    if (!isnan(high))
+        end_at(trace, high);
+    if (!isnan(low))
+        begin_at(trace, low);
+    return true;
+}
+
+/* Point at which the force begins: the last one before it rises above the noise. */
+static int find_contact(const CzTrace *trace, double peak) {
+    int first = 0;
+    while (first + 1 < trace->n && trace->f[first + 1] <= CONTACT * peak)
+        first++;
+    return first;
+}
+
+/* The zero of a curve about which nothing was said. */
+static bool find_zero(Making *making, double peak, double *zero) {
+    char at[CZ_NUMBER_TEXT], force[CZ_NUMBER_TEXT];
+    CzTrace *trace = making->trace;
+    const Range x = range_of(trace->x, trace->n);
+    const double first = trace->x[0];
+    *zero = 0.0;
+    if (first >= 0.0 && first <= STROKE_NOISE * x.largest)
+        return true;
+    *zero = first;
+    if (trace->f[0] <= FORCE_NOISE * peak || !isnan(making->shape->from)) {
+        note(trace, "strokes count from %s mm of the file, where it begins", mm(at, first));
+        return true;
+    }
+    refuse(making, 0,
+           "the curve begins at a stroke of %s mm with a force of %s kN: either stroke 0 is there, "
+           "or the points before are missing",
+           mm(at, first), kN(force, trace->f[0]));
+    if (making->shape->zero_help != NULL)
+        cz_mistake_help(making->mistakes, "%s", making->shape->zero_help);
+    return false;
+}
+
+static bool set_zero(Making *making) {
+    char at[CZ_NUMBER_TEXT];
+    CzTrace *trace = making->trace;
+    const double peak = range_of(trace->f, trace->n).largest;
+    double zero = trace->x[0];
+    switch (making->shape->zero) {
+    case CZ_ZERO_AT_STROKE:
+        zero = making->shape->zero_at * making->unit;
+        break;
+    case CZ_ZERO_AT_CONTACT:
+        drop_before(trace, find_contact(trace, peak));
+        zero = trace->x[0];
+        note(trace, "strokes count from %s mm of the file, where the force begins", mm(at, zero));
+        break;
+    case CZ_ZERO_AT_START:
+        break;
+    default:
+        if (!find_zero(making, peak, &zero))
+            return false;
+    }
+    if (zero == 0.0)
+        return true;
+    begin_at(trace, zero);
+    for (int i = 0; i < trace->n; i++)
+        trace->x[i] -= zero;
+    return true;
+}
+
+/* ---- checks ---- */
+
+/* Strokes and forces a little below zero are the noise of a sensor and become zero. */
+static bool check_sizes(Making *making) {
+    char number[CZ_NUMBER_TEXT];
+    CzTrace *trace = making->trace;
+    const double far = range_of(trace->x, trace->n).largest;
+    const double peak = range_of(trace->f, trace->n).largest;
+    for (int i = 0; i < trace->n; i++) {
+        const double x = trace->x[i], f = trace->f[i];
+        if (x < -STROKE_NOISE * fmax(far, 0.0) || (far <= 0.0 && x < 0.0))
+            return refuse(making, i,
+                          "a stroke of %s mm is below zero; a curve begins at 0 and compression "
+                          "counts positive",
+                          mm(number, x));
+        if (x > CZ_LARGEST_STROKE)
+            return refuse(making, i,
+                          "a stroke of %s mm is more than any stage may have; is the unit right?",
+                          mm(number, x));
+        if (f > CZ_LARGEST_FORCE)
+            return refuse(making, i,
+                          "a force of %s kN is more than any stage may have; is the unit right?",
+                          kN(number, f));
+        if (f < -FORCE_NOISE * fmax(peak, 0.0) || (peak <= 0.0 && f < 0.0))
+            return refuse(making, i, "a force of %s kN is below zero; compression counts positive",
+                          kN(number, f));
+        trace->x[i] = fmax(x, 0.0);
+        trace->f[i] = fmax(f, 0.0);
+    }
+    return peak > 0.0 || refuse(making, 0, "no point of the curve has a force");
+}
+
+/* Strokes may go back by noise, else only once, behind the largest. */
+static bool check_order(const Making *making) {
+    char from[CZ_NUMBER_TEXT], to[CZ_NUMBER_TEXT];
+    const CzTrace *trace = making->trace;
+    const double noise = STROKE_NOISE * trace->x[trace->n_loading - 1];
+    double furthest = trace->x[0];
+    for (int i = 1; i < trace->n; i++) {
+        const bool is_loading = i < trace->n_loading;
+        const double back = is_loading ? furthest - trace->x[i] : trace->x[i] - furthest;
+        if (back > noise) {
+            refuse(making, i, "the stroke goes %s from %s to %s mm %s the largest",
+                   is_loading ? "back" : "on", mm(from, furthest), mm(to, trace->x[i]),
+                   is_loading ? "before" : "again behind");
+            cz_mistake_help(making->mistakes,
+                            "a curve loads once, in the order of the strokes, and unloads at most "
+                            "once; leave out cycles between");
+            return false;
+        }
+        furthest = is_loading ? fmax(furthest, trace->x[i]) : fmin(furthest, trace->x[i]);
+    }
+    return true;
+}
+
+double cz_trace_work(const CzTrace *trace, int from, int to) {
+    double work = 0.0;
+    for (int i = from + 1; i <= to; i++)
+        work += 0.5 * (trace->f[i] + trace->f[i - 1]) * (trace->x[i] - trace->x[i - 1]);
+    return work;
+}
+
+static bool check_energy(Making *making) {
+    CzTrace *trace = making->trace;
+    const int top = trace->n_loading - 1, last = trace->n - 1;
+    if (top == 0 || !(cz_trace_work(trace, 0, top) > 0.0))
+        return refuse(making, top, "the curve takes no energy while its stroke grows");
+    trace->unloads = trace->x[top] - trace->x[last] > UNLOADING * trace->x[top] &&
+                     trace->f[last] < UNLOADED * trace->f[top];
+    return !trace->unloads || -cz_trace_work(trace, top, last) <= cz_trace_work(trace, 0, top) ||
+           refuse(making, top, "the unloading gives back more energy than the loading took");
+}
+
+static void note_free_travel(CzTrace *trace) {
+    char at[CZ_NUMBER_TEXT];
+    const int first = find_contact(trace, range_of(trace->f, trace->n).largest);
+    if (first < trace->n_loading && trace->x[first] > FREE_TRAVEL * trace->x[trace->n_loading - 1])
+        note(trace, "there is no force up to a stroke of %s mm; a gap is no part of the law",
+             mm(at, trace->x[first]));
+}
+
+bool cz_trace_make(CzMistakes *mistakes, const CzSource *source, const CzTraceShape *shape,
+                   double unit, CzTrace *trace) {
+    Making making = {mistakes, source, shape, unit, trace};
+    if (!set_signs(&making) || !take_part(&making) || !set_zero(&making) || !check_sizes(&making))
+        return false;
+
+    /* Of points at the largest stroke the one with the largest force ends the loading. */
+    int top = 0;
+    for (int i = 1; i < trace->n; i++)
+        if (trace->x[i] > trace->x[top] ||
+            (trace->x[i] == trace->x[top] && trace->f[i] > trace->f[top]))
+            top = i;
+    trace->n_loading = top + 1;
+    if (!check_order(&making) || !check_energy(&making))
+        return false;
+    note_free_travel(trace);
+    return true;
+}
+
+/* Isotonic regression: neighbours that are out of order are pooled at their mean until none is. */
+bool cz_trace_raise(CzArena *arena, const double *x, int n, double *raised) {
+    double *mean = cz_arena_allocate(arena, (size_t)n, sizeof *mean);
+    int *size = cz_arena_allocate(arena, (size_t)n, sizeof *size);
+    if (mean == NULL || size == NULL)
+        return false;
+    int n_pool = 0;
+    for (int i = 0; i < n; i++) {
+        mean[n_pool] = x[i];
+        size[n_pool++] = 1;
+        while (n_pool > 1 && mean[n_pool - 1] < mean[n_pool - 2]) {
+            const int a = size[n_pool - 2], b = size[n_pool - 1];
+            mean[n_pool - 2] = (a * mean[n_pool - 2] + b * mean[n_pool - 1]) / (a + b);
+            size[n_pool - 2] = a + b;
+            n_pool--;
+        }
+    }
+    for (int pool = 0, i = 0; pool < n_pool; pool++)
+        for (int k = 0; k < size[pool]; k++)
+            raised[i++] = mean[pool];
+    return true;
+}

@@ -1,0 +1,62 @@
+/* A force-stroke curve out of measured points: signs, zero, the part that counts, loading and
+ * unloading.
+ *
+ * Compression counts positive and a curve begins at stroke 0. A file in which both columns are
+ * negative has counted it the other way, and one that begins without force somewhere else has
+ * another zero: both are corrected and told. What could be meant in two ways is refused.
+ */
+#ifndef CZ_PROBLEM_TRACE_H
+#define CZ_PROBLEM_TRACE_H
+
+#include "problem/curve_file.h"
+
+#define CZ_LARGEST_STROKE 10.0 /* that a curve may have, as a stage of the problem file [m] */
+#define CZ_LARGEST_FORCE 1e8   /* [N] */
+
+/* Where stroke 0 is. */
+typedef enum {
+    CZ_ZERO_BY_CURVE,   /* where the strokes of the file have it, or at the first point when that
+                           has no force */
+    CZ_ZERO_AT_START,   /* at the first point */
+    CZ_ZERO_AT_CONTACT, /* where the force begins */
+    CZ_ZERO_AT_STROKE   /* at a stroke of the file */
+} CzTraceZero;
+
+/* What is made of the points. Begin with cz_trace_shape_default. */
+typedef struct CzTraceShape {
+    bool flips[2]; /* the sign of strokes, of forces */
+    double scale;  /* of forces */
+    CzTraceZero zero;
+    double zero_at;  /* with CZ_ZERO_AT_STROKE; in the unit of the file, as the next two */
+    double from, to; /* strokes that count; NaN: all */
+    /* How a user says so, for messages; NULL for a caller without options. */
+    const char *flip_help, *zero_help;
+} CzTraceShape;
+
+CzTraceShape cz_trace_shape_default(void);
+
+enum { CZ_TRACE_MOST_NOTES = 6 };
+
+typedef struct CzTrace {
+    int n;
+    double *x, *f; /* stroke [m] and force [N] in the order of the test (n) */
+    int *line;     /* where each is in the file; counted from 1 (n) */
+    int n_loading; /* points up to the largest stroke, that one included */
+    bool unloads;  /* the points from there on are an unloading */
+    int n_note;    /* what was corrected: sentences without a stop */
+    char note[CZ_TRACE_MOST_NOTES][200];
+} CzTrace;
+
+/* Makes a curve of the trace's points in place; `unit` is the SI value of the file's unit of
+ * strokes. False with a mistake at a line of the source. */
+bool cz_trace_make(CzMistakes *mistakes, const CzSource *source, const CzTraceShape *shape,
+                   double unit, CzTrace *trace);
+
+/* Moves strokes that fall, by noise, as little as possible in the sense of least squares until they
+ * do not. False without memory. */
+bool cz_trace_raise(CzArena *arena, const double *x, int n, double *raised);
+
+/* Work on the device from one point to another, in the order of the points [J]. */
+double cz_trace_work(const CzTrace *trace, int from, int to);
+
+#endif

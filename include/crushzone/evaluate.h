@@ -34,13 +34,13 @@ CZ_API bool cz_verdict_passes(CzVerdict verdict); /* a pass, provisional or not 
 /* One check of one scenario. Texts are borrowed from the evaluator. */
 typedef struct CzCheckResult {
     const char *name;
-    const char *scenario; /* "design" for a check of the design itself */
-    const char *family;   /* family of scenarios that it belongs to; NULL for none */
-    char where[48];       /* place of the worst value */
-    double when[2];       /* begin and end of the time that it was reached in [s]; NaN when that is
-                             not known, or it was nothing */
-    double limit;         /* in `unit` */
-    double value;         /* in `unit`; NaN when not checked or when it does not apply */
+    const char *scenario;      /* "design" for a check of the design itself */
+    const char *family;        /* family of scenarios that it belongs to; NULL for none */
+    char where[CZ_WHERE_ROOM]; /* place of the worst value */
+    double when[2]; /* begin and end of the time that it was reached in [s]; NaN when that is
+                       not known, or it was nothing */
+    double limit;   /* in `unit` */
+    double value;   /* in `unit`; NaN when not checked or when it does not apply */
     const char *unit;
     double margin;   /* (limit - value) / max(|limit|, scale), sign turned for lower limits; NaN
                         for a yes or no, and when not checked or when it does not apply */
@@ -58,9 +58,9 @@ typedef struct CzCheckResult {
 typedef struct CzMatchResult {
     const char *name;
     const char *scenario;
-    char where[48];   /* place of the metric or event, or the channel */
-    const char *unit; /* of target, value and tolerance */
-    double target;    /* measured value; 0 for a time history */
+    char where[CZ_WHERE_ROOM]; /* place of the metric or event, or the channel */
+    const char *unit;          /* of target, value and tolerance */
+    double target;             /* measured value; 0 for a time history */
     double value; /* of the run, or its root mean square difference from a time history; NaN when
                      the run does not show it */
     double tolerance; /* difference that is just acceptable */

@@ -38,8 +38,8 @@ typedef struct CzLever {
 /* What is known of an interface or element at the time of the climb: a sign of a cause. */
 typedef struct CzSign {
     CzCause cause;
-    char what[96]; /* a sentence without its time */
-    double time;   /* [s]; NaN when it is about the whole run */
+    char what[CZ_WHERE_ROOM + 96]; /* a sentence without its time */
+    double time;                   /* [s]; NaN when it is about the whole run */
 } CzSign;
 
 /* The signs of one run that a cause is at work. */

@@ -2,6 +2,7 @@
 #ifndef CRUSHZONE_MODEL_H
 #define CRUSHZONE_MODEL_H
 
+#include "crushzone/names.h"
 #include "crushzone/problem.h"
 
 #ifdef __cplusplus
@@ -50,8 +51,8 @@ CZ_API CzInterfaceFacts cz_model_interface_facts(const CzModel *model, int inter
 
 /* Time step: the one in force and the bounds it was chosen from, smallest first. */
 typedef struct CzStepBound {
-    char element[64]; /* such as "wheel-rail contact B1" */
-    double bound;     /* largest stable step [s] */
+    char element[CZ_WHERE_ROOM]; /* such as "wheel-rail contact B1" */
+    double bound;                /* largest stable step [s] */
 } CzStepBound;
 CZ_API double cz_model_time_step(const CzModel *model);
 CZ_API int cz_model_n_step_bound(const CzModel *model);

@@ -39,9 +39,9 @@ CZ_API const char *cz_event_text(CzEventKind kind);
 typedef struct CzEvent {
     double time; /* [s] */
     CzEventKind what;
-    char where[48]; /* such as "coupler A4" or "A4 wheelset 2" */
-    int interface;  /* interface that it belongs to: a vehicle has two couplers of one name; -1 when
-                       it happened to a vehicle */
+    char where[CZ_WHERE_ROOM]; /* such as "coupler A4" or "A4 wheelset 2" */
+    int interface; /* interface that it belongs to: a vehicle has two couplers of one name; -1 when
+                      it happened to a vehicle */
 } CzEvent;
 
 /* One energy absorber or connection of an interface. */
@@ -54,7 +54,7 @@ typedef enum CzElementKind {
 CZ_API const char *cz_element_text(CzElementKind kind);
 
 typedef struct CzElementResult {
-    char name[48]; /* "coupler A4" */
+    char name[CZ_WHERE_ROOM]; /* "coupler A4" */
     CzElementKind kind;
     int vehicle;   /* vehicle that owns it */
     double energy; /* net dissipated [J] */
@@ -76,12 +76,12 @@ typedef struct CzElementResult {
 enum { CZ_MAX_ELEMENTS = 10 };
 
 typedef struct CzInterfaceResult {
-    char name[48];       /* "A4-B1" */
-    double peak_force;   /* largest total longitudinal force over all steps [N] */
-    double peak_time;    /* [s] */
-    double shortening;   /* largest closure between the bodies at this interface [m] */
-    double energy;       /* dissipated [J] */
-    double energy_share; /* of all that is dissipated [-] */
+    char name[CZ_INTERFACE_ROOM]; /* "A4-B1" */
+    double peak_force;            /* largest total longitudinal force over all steps [N] */
+    double peak_time;             /* [s] */
+    double shortening;            /* largest closure between the bodies at this interface [m] */
+    double energy;                /* dissipated [J] */
+    double energy_share;          /* of all that is dissipated [-] */
     bool bottomed_out;
     double section_force[2]; /* largest force through the section behind the end, rear vehicle's and
                                 front vehicle's [N] */
@@ -107,7 +107,7 @@ typedef struct CzInterfaceResult {
 } CzInterfaceResult;
 
 typedef struct CzVehicleResult {
-    char name[24];
+    char name[CZ_NAME_ROOM];
     double final_speed;               /* of the body [m/s] */
     double peak_deceleration;         /* largest |acceleration| of the body, unfiltered [m/s2] */
     double mean_deceleration_contact; /* largest mean over a window of net contact force [m/s2] */

@@ -21,7 +21,7 @@ enum { CZ_MOST_AXES = 2, CZ_MOST_SWEPT_METRICS = 8 };
 /* A path with its values: n evenly spaced ones from `from` to `to`, in the unit of the path's key.
  */
 typedef struct CzSweepAxis {
-    char path[160];
+    char path[CZ_PATH_ROOM];
     double from, to;
     int n; /* at least 2 */
 } CzSweepAxis;
@@ -67,13 +67,13 @@ typedef struct CzSweepPoint {
     CzSweepState state;
     CzVerdict verdict; /* over the checks asked for; CZ_VERDICT_NOT_CHECKED unless done */
     double margin;     /* smallest of them; NaN when none has one, or a yes or no alone fails */
-    char check[96];    /* the check with that margin, or the yes or no that fails, its scenario and
-                          place; empty when none */
-    char scenario[64];
-    char where[48];
+    char check[CZ_LABEL_ROOM]; /* the check with that margin, or the yes or no that fails, its
+                                  scenario and place; empty when none */
+    char scenario[CZ_NAME_ROOM];
+    char where[CZ_WHERE_ROOM];
     double metric[CZ_MOST_SWEPT_METRICS]; /* in the metrics' units; NaN when unknown (n_metric) */
-    char metric_where[CZ_MOST_SWEPT_METRICS][112]; /* place and scenario (n_metric) */
-    char message[256];                             /* why it is invalid or failed */
+    char metric_where[CZ_MOST_SWEPT_METRICS][CZ_PLACE_ROOM]; /* place and scenario (n_metric) */
+    char message[256];                                       /* why it is invalid or failed */
 } CzSweepPoint;
 
 /* Open result, owns its memory. */

@@ -37,8 +37,8 @@ CZ_API CzVerifyOptions cz_verify_options_default(void);
  * largest closure, dissipated energy). Texts are borrowed from the evaluator. */
 typedef struct CzVerifiedValue {
     const char *name;
-    char scenario[64]; /* empty for the objective and for the design itself */
-    char where[48];    /* of the record; empty when it has no place */
+    char scenario[CZ_NAME_ROOM]; /* empty for the objective and for the design itself */
+    char where[CZ_WHERE_ROOM];   /* of the record; empty when it has no place */
     const char *unit;
     double record;
     double value[CZ_N_VERIFY_WAY];  /* NaN when not computed */

@@ -2,7 +2,9 @@
 set(CZ_SOURCES_base
     arena.c
     error.c
+    index.c
     number.c
     suggest.c
     symmetric.c
+    text.c
 )

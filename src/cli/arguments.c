@@ -2,6 +2,7 @@
 #include "cli/arguments.h"
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "crushzone/sweep.h"
 
 #include <errno.h>
@@ -260,6 +261,28 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     return CZ_OK;
 }
 
+/* Names of files and folders are texts like any other (base/text.h): what is no text cannot be told
+ * in a message, a log or a document. */
+static CzStatus check_file_name(const char *name, CzError *error) {
+    char what[CZ_FAULT_ROOM];
+    size_t at;
+    if (name == NULL || !cz_text_fault(name, strlen(name), false, &at, what))
+        return CZ_OK;
+    misuse(error, "the name of a file or folder on the command line holds %s", what);
+    snprintf(error->help, sizeof error->help, "rename it");
+    return CZ_STATUS_INPUT;
+}
+
+static CzStatus check_file_names(const CzArguments *arguments, CzError *error) {
+    static const CzOption files[] = {CZ_OPTION_OUTPUT, CZ_OPTION_SVG, CZ_OPTION_MEASURED};
+    CzStatus status = CZ_OK;
+    for (int i = 0; i < arguments->n_operand && status == CZ_OK; i++)
+        status = check_file_name(arguments->operand[i], error);
+    for (size_t i = 0; i < sizeof files / sizeof *files && status == CZ_OK; i++)
+        status = check_file_name(arguments->text[files[i]], error);
+    return status;
+}
+
 static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
     const CzCommandInfo *info = &cz_commands[arguments->command];
     if (arguments->text[CZ_OPTION_HELP] != NULL)
@@ -309,6 +332,8 @@ CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzErro
         status = read_word(&reader);
     if (status == CZ_OK)
         status = read_values(arguments, error);
+    if (status == CZ_OK)
+        status = check_file_names(arguments, error);
     return status != CZ_OK ? status : check_operands(arguments, error);
 }
 

@@ -16,7 +16,7 @@ typedef struct Told {
 } Told;
 
 static bool is_told(Told *told, const char *name) {
-    char line[64];
+    char line[CZ_INTERFACE_ROOM + 2];
     snprintf(line, sizeof line, "\n%s\n", name);
     if (strstr(told->names, line) != NULL)
         return true;

@@ -229,19 +229,10 @@ static void write_figures(void) {
 
 static void write_files(void) {
     static const Entry files[] = {
-        {"report.html", "all of it to look at, in any browser"},
-        {"summary.json", "all of it for scripts (crushzone.summary)"},
-        {"checks.csv", "every check with limit, value, margin, source"},
-        {"interfaces.csv", "what each element of each interface went through"},
-        {"channels.csv", "time histories; see 'crushzone help channels'"},
-        {"resolved.yaml", "the problem with every default and part filled in; runs by itself"},
-        {"profiles/", "the profile that was judged by, if any"},
-        {"run.log", "versions, and how each scenario was computed"},
-        {"outcome.json", "of a search: variables, objective, constraints (crushzone.outcome)"},
-        {"optimised.yaml", "of a search: the best design, on top of your file"},
-        {"history.csv", "of a search: every evaluation; a stroke of an anti-climber wants its "
-                        "drawn_stroke too"},
-        {"sweep.json, sweep.csv", "of a sweep: every point"}};
+#define CZ_RESULT_FILE(constant, name, doc) {name, doc},
+#include "crushzone/result_files.def"
+#undef CZ_RESULT_FILE
+    };
     puts("A result folder (-o DIR) holds:\n");
     write_entries((int)(sizeof files / sizeof *files), files, 22);
     puts("\nWith several scenarios each has a folder of its own in it. A folder that crushzone "

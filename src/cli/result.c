@@ -16,7 +16,7 @@ static bool is_there(const char *folder, const char *name) {
 }
 
 /* The scenario of a folder that holds the files of a single one, from its log. */
-static void read_scenario(const char *folder, char scenario[128]) {
+static void read_scenario(const char *folder, char scenario[CZ_NAME_ROOM]) {
     char path[4096], line[512];
     static const char before[] = "scenario ";
     snprintf(path, sizeof path, "%s/run.log", folder);
@@ -26,7 +26,7 @@ static void read_scenario(const char *folder, char scenario[128]) {
         if (strncmp(line, before, strlen(before)) != 0 || end == NULL)
             continue;
         *end = '\0';
-        snprintf(scenario, 128, "%.127s", line + strlen(before));
+        snprintf(scenario, CZ_NAME_ROOM, "%.48s", line + strlen(before));
     }
     if (stream != NULL)
         fclose(stream);

@@ -6,9 +6,9 @@
 
 /* A run to draw from. */
 typedef struct CzResult {
-    CzArguments arguments; /* of this result: with the scenario that its folder holds */
-    char scenario[128];    /* room for that name */
-    char file[4096];       /* what is run: resolved.yaml of a folder */
+    CzArguments arguments;       /* of this result: with the scenario that its folder holds */
+    char scenario[CZ_NAME_ROOM]; /* room for that name */
+    char file[4096];             /* what is run: resolved.yaml of a folder */
     CzSession session;
     CzEvaluation evaluation;
     CzReportRun run; /* label: the operand */

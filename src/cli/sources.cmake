@@ -2,6 +2,7 @@
 set(CZ_SOURCES_cli
     ../base/number.c
     ../base/suggest.c
+    ../base/text.c
     arguments.c
     command_explain.c
     command_fit.c

@@ -164,7 +164,7 @@ static void judge_history(const CzMatchItem *item, const CzRun *run, const doubl
     result->is_history = true;
     result->target = 0;
     result->value = sqrt(sum / n); /* NaN when the run ends too early */
-    snprintf(result->where, sizeof result->where, "%.47s", item->written->channel);
+    snprintf(result->where, sizeof result->where, "%s", item->written->channel);
 }
 
 static void judge_event(const CzMatchItem *item, const CzRunSummary *run, CzMatchResult *result) {
@@ -207,7 +207,7 @@ CzStatus cz_match_judge(const CzMatchItem *item, const CzSubject *subject, const
             judge_history(item, run, values, result, detail);
         } else {
             result->value = value_at(run, values, written->time, &from);
-            snprintf(result->where, sizeof result->where, "%.47s", written->channel);
+            snprintf(result->where, sizeof result->where, "%s", written->channel);
         }
     }
     if (!isnan(result->value))

@@ -253,7 +253,7 @@ typedef struct Sum {
     int n_known;
     double extreme, total; /* in the unit */
     double when[2];        /* of the extreme [s] */
-    char where[48], unknown_where[48];
+    char where[CZ_WHERE_ROOM], unknown_where[CZ_WHERE_ROOM];
     bool any_unknown;
 } Sum;
 

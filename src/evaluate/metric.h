@@ -39,7 +39,7 @@ typedef struct CzPlace {
     double section_force; /* [N] */
     double rate;          /* rate of flow that tube forces are taken at [m/s] */
     bool must_declare;    /* a full vehicle: what it does not declare is unknown, not absent */
-    char name[48];
+    char name[CZ_WHERE_ROOM];
 } CzPlace;
 
 typedef struct CzMetricKind {
@@ -91,12 +91,13 @@ typedef enum CzKnown {
 
 typedef struct CzMetricValue {
     CzKnown known;
-    double value;           /* in the metric's unit */
-    char where[48];         /* place of the worst value */
-    double when[2];         /* begin and end of the time that it was reached in [s]; NaN when no
-                               place stands for the value, or its time is not kept */
-    char unknown_where[48]; /* first place that does not declare enough; empty when none */
-    const char *why;        /* when not known; static */
+    double value;              /* in the metric's unit */
+    char where[CZ_WHERE_ROOM]; /* place of the worst value */
+    double when[2];            /* begin and end of the time that it was reached in [s]; NaN when no
+                                  place stands for the value, or its time is not kept */
+    char unknown_where[CZ_WHERE_ROOM]; /* first place that does not declare enough; empty when none
+                                        */
+    const char *why;                   /* when not known; static */
 } CzMetricValue;
 
 /* Reads a metric's text. Status: CZ_STATUS_INPUT with the nearest name as help. */

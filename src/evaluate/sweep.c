@@ -130,9 +130,9 @@ static CzStatus judge(const CzSweepOptions *options, const CzEvaluation *evaluat
     if (deciding == NULL)
         return CZ_OK;
     point->margin = deciding->margin;
-    snprintf(point->check, sizeof point->check, "%.95s", deciding->name);
-    snprintf(point->scenario, sizeof point->scenario, "%.63s", deciding->scenario);
-    snprintf(point->where, sizeof point->where, "%.47s", deciding->where);
+    snprintf(point->check, sizeof point->check, "%s", deciding->name);
+    snprintf(point->scenario, sizeof point->scenario, "%s", deciding->scenario);
+    snprintf(point->where, sizeof point->where, "%s", deciding->where);
     return CZ_OK;
 }
 
@@ -225,7 +225,7 @@ static CzStatus prepare(Sweeping *sweeping, CzError *error) {
     }
     for (int k = 0; k < options->n_metric; k++) {
         CZ_TRY(cz_metric_parse(options->metric[k], &sweeping->metric[k], error));
-        snprintf(sweep->metric[k], sizeof sweep->metric[k], "%.95s", options->metric[k]);
+        snprintf(sweep->metric[k], sizeof sweep->metric[k], "%s", options->metric[k]);
         sweep->metric_unit[k] = sweeping->metric[k].kind->unit;
         sweep->metric_doc[k] = sweeping->metric[k].kind->doc;
     }

@@ -121,7 +121,7 @@ static void set_car(const CzModel *model, CzCar *car, const CzTrain *train, int 
     if (vehicle->name != NULL)
         snprintf(car->name, sizeof car->name, "%s", vehicle->name);
     else
-        snprintf(car->name, sizeof car->name, "%.12s%d", train->name, index + 1);
+        snprintf(car->name, sizeof car->name, "%s%d", train->name, index + 1);
     car->vehicle = (int)(vehicle - cz_problem_vehicles(model->problem, &n_vehicle));
     car->model = (CzVehicleModel)vehicle->model;
     car->speed = given_or(own, train->speed);

@@ -4,13 +4,14 @@
 
 #include "base/arena.h"
 #include "crushzone/model.h"
+#include "crushzone/names.h"
 #include "model/lanes.h"
 #include "model/track.h"
 #include "problem/problem.h"
 
 /* One car of the scenario, along +x. */
 typedef struct CzCar {
-    char name[24];
+    char name[CZ_NAME_ROOM];
     int vehicle; /* index into the problem's vehicle array */
     int train;   /* 0: behind, 1: ahead */
     CzVehicleModel model;
@@ -28,9 +29,9 @@ struct CzModel {
     int train[2];               /* of the input: behind, ahead */
     int n_car;
     CzCar *car;
-    int colliding;              /* interface between the two trains */
-    int perturbed;              /* inner interface that the scenario perturbs; -1 for none */
-    char (*interface_name)[48]; /* (n_car - 1) */
+    int colliding; /* interface between the two trains */
+    int perturbed; /* inner interface that the scenario perturbs; -1 for none */
+    char (*interface_name)[CZ_INTERFACE_ROOM]; /* (n_car - 1) */
     const CzSimulation *simulation;
     const CzTrackModes *track; /* NULL on a rigid track, and without wheels */
     double friction;           /* peak wheel-rail friction of the scenario */

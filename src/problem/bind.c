@@ -1,7 +1,6 @@
 /* Trees to typed records, driven by the table of keys. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/suggest.h"
@@ -29,38 +28,6 @@ typedef struct {
 
 static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const CzTrail *trail,
                         void *memory);
-
-/* ---- places ---- */
-
-void cz_places_add(CzReader *reader, CzPlace place) {
-    CzPlaces *places = &reader->places;
-    if (places->n_place == places->n_allocated) {
-        const int n = places->n_allocated > 0 ? 2 * places->n_allocated : 1024;
-        CzPlace *larger = realloc(places->place, (size_t)n * sizeof *larger);
-        if (larger == NULL) {
-            reader->arena.out_of_memory = true;
-            return;
-        }
-        places->place = larger;
-        places->n_allocated = n;
-    }
-    places->place[places->n_place++] = place;
-}
-
-const CzPlace *cz_places_find(const CzPlaces *places, const void *field) {
-    const CzPlace *record = NULL;
-    const uintptr_t at = (uintptr_t)field;
-    for (int i = 0; i < places->n_place; i++) {
-        const CzPlace *place = &places->place[i];
-        const uintptr_t start = (uintptr_t)place->address;
-        if (place->size == 0 && start == at)
-            return place;
-        if (place->size > 0 && start <= at && at < start + place->size &&
-            (record == NULL || place->size < record->size))
-            record = place;
-    }
-    return record;
-}
 
 /* ---- records that are absent ---- */
 
@@ -433,4 +400,5 @@ static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const 
 void cz_bind_record(CzReader *reader, const CzTree *tree, CzRecordId record, const CzNode *node,
                     const CzTrail *trail, void *record_memory) {
     bind_record((Binder){.reader = reader, .tree = tree}, record, node, trail, record_memory);
+    cz_places_sort(reader);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "crushzone/names.h"
 #include "problem/reader.h"
 
 /* A value at the edge of its range may miss it by rounding in the change of units. */
@@ -134,8 +135,12 @@ const char *cz_bind_text(CzReader *reader, const char *key, const CzNode *value,
                          const CzTrail *trail) {
     if (!is_value(reader, key, value, trail))
         return NULL;
-    if (value->text[0] != '\0')
-        return value->text;
-    cz_mistake(&reader->mistakes, value, trail, "'%s' is an empty text", key);
-    return NULL;
+    if (value->text[strspn(value->text, " ")] == '\0') {
+        cz_mistake(&reader->mistakes, value, trail, "'%s' is an empty text", key);
+        return NULL;
+    }
+    if (strlen(value->text) > CZ_MOST_TEXT)
+        cz_mistake(&reader->mistakes, value, trail, "'%s' has more than %d letters", key,
+                   (int)CZ_MOST_TEXT);
+    return value->text;
 }

@@ -13,7 +13,7 @@
 #include "problem/range.h"
 #include "problem/reader.h"
 
-enum { MOST_MEMBERS = 500, MOST_SWEPT = 8, LONGEST_MEMBER = 160 };
+enum { MOST_MEMBERS = 500, MOST_SCENARIOS = 10000, MOST_SWEPT = 8, LONGEST_MEMBER = 160 };
 
 /* One key of `sweep` with its values. */
 typedef struct Swept {
@@ -140,7 +140,7 @@ static bool add_text(CzReader *reader, CzNode *mapping, const char *key, const c
                      const CzNode *place) {
     CzEntry *entry = &mapping->entry[mapping->n_entry++];
     *entry = (CzEntry){cz_node_text(&reader->arena, key, place),
-                       cz_node_text(&reader->arena, text, place), NULL};
+                       cz_node_name(&reader->arena, text, place), NULL};
     return entry->key != NULL && entry->value != NULL;
 }
 
@@ -170,11 +170,42 @@ static const CzNode *member_node(const Family *family, const CzEntry *name, int 
     return node;
 }
 
+/* All scenarios, growing. */
+typedef struct Scenarios {
+    CzReader *reader;
+    const CzTree *tree;
+    int n, room;
+    CzEntry *entry; /* (room) */
+    bool is_full;   /* there are too many, which was told */
+} Scenarios;
+
+/* Room for n more; false when they are too many, or without memory. */
+static bool make_room(Scenarios *scenarios, int n, const CzNode *place) {
+    if (scenarios->n + n > MOST_SCENARIOS) {
+        cz_mistake(&scenarios->reader->mistakes, place, NULL,
+                   "the problem has more than %d scenarios, members of sweeps counted",
+                   (int)MOST_SCENARIOS);
+        scenarios->is_full = true;
+        return false;
+    }
+    if (scenarios->n + n <= scenarios->room)
+        return true;
+    const int room = 2 * (scenarios->n + n);
+    CzEntry *more = cz_reader_allocate(scenarios->reader, (size_t)room, sizeof *more);
+    if (more == NULL)
+        return false;
+    if (scenarios->n > 0)
+        memcpy(more, scenarios->entry, (size_t)scenarios->n * sizeof *more);
+    scenarios->entry = more;
+    scenarios->room = room;
+    return true;
+}
+
 /* Appends the members of a scenario, or the scenario itself when it has no sweep that can be
  * written out. */
-static bool append_scenario(CzReader *reader, CzNode *list, const CzTree *tree,
-                            const CzEntry *entry) {
-    const CzNode *scenario = cz_take_part(reader, tree, entry->value, entry->trail);
+static bool append_scenario(Scenarios *scenarios, const CzEntry *entry) {
+    CzReader *reader = scenarios->reader;
+    const CzNode *scenario = cz_take_part(reader, scenarios->tree, entry->value, entry->trail);
     if (scenario == NULL)
         return false;
     Family family = {.reader = reader, .node = scenario, .sweep = cz_node_find(scenario, "sweep")};
@@ -182,14 +213,10 @@ static bool append_scenario(CzReader *reader, CzNode *list, const CzTree *tree,
     const bool is_family = family.sweep != NULL && name != NULL &&
                            name->value->kind == CZ_NODE_TEXT && read_sweep(&family);
     const int n = is_family ? family.n_member : 1;
-    CzEntry *more = cz_reader_allocate(reader, (size_t)(list->n_entry + n), sizeof *more);
-    if (more == NULL)
+    if (!make_room(scenarios, n, family.sweep != NULL ? family.sweep->key : scenario))
         return false;
-    if (list->n_entry > 0)
-        memcpy(more, list->entry, (size_t)list->n_entry * sizeof *more);
-    list->entry = more;
     for (int i = 0; i < n; i++) {
-        CzEntry *item = &list->entry[list->n_entry++];
+        CzEntry *item = &scenarios->entry[scenarios->n++];
         *item = *entry;
         if (is_family)
             item->value = member_node(&family, name, i);
@@ -203,19 +230,18 @@ static bool append_scenario(CzReader *reader, CzNode *list, const CzTree *tree,
 
 const CzNode *cz_families_write_out(CzReader *reader, const CzTree *tree) {
     const CzEntry *entry = cz_node_find(tree->root, "scenarios");
-    bool any = false;
-    for (int i = 0; entry != NULL && i < entry->value->n_entry; i++)
-        any |= cz_node_find(entry->value->entry[i].value, "sweep") != NULL;
-    if (!any || entry->value->kind != CZ_NODE_LIST)
+    Scenarios scenarios = {.reader = reader, .tree = tree};
+    if (entry == NULL || entry->value->kind != CZ_NODE_LIST)
         return tree->root;
     CzNode *root = cz_node_copy(&reader->arena, tree->root, 0);
     CzNode *list = cz_node_copy(&reader->arena, entry->value, 0);
     if (root == NULL || list == NULL)
         return NULL;
-    list->n_entry = 0;
-    for (int i = 0; i < entry->value->n_entry; i++)
-        if (!append_scenario(reader, list, tree, &entry->value->entry[i]))
+    for (int i = 0; i < list->n_entry && !scenarios.is_full; i++)
+        if (!append_scenario(&scenarios, &list->entry[i]) && !scenarios.is_full)
             return NULL;
+    list->n_entry = scenarios.n;
+    list->entry = scenarios.entry;
     root->entry[entry - tree->root->entry].value = list;
     return root;
 }

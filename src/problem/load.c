@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/suggest.h"
+#include "crushzone/names.h"
 #include "problem/reader.h"
 #include "problem/yaml_document.h"
 
@@ -12,6 +13,7 @@ typedef struct {
     CzReader *reader;
     CzPart *part; /* all parts of catalogues so far */
     int n_part, n_allocated;
+    CzIndex by_name;        /* of the parts */
     const char *loaded[64]; /* paths of the catalogues read */
     int n_loaded;
 } Loader;
@@ -53,10 +55,8 @@ const char *cz_load_locate(CzReader *reader, const char *name, const CzNode *pla
 /* ---- parts ---- */
 
 static CzPart *find_part(const Loader *loader, const char *name) {
-    for (int i = 0; i < loader->n_part; i++)
-        if (strcmp(loader->part[i].name, name) == 0)
-            return &loader->part[i];
-    return NULL;
+    const int at = cz_index_find(&loader->by_name, name, strlen(name));
+    return at >= 0 ? &loader->part[at] : NULL;
 }
 
 static void add_part(Loader *loader, const CzEntry *entry) {
@@ -70,10 +70,16 @@ static void add_part(Loader *loader, const CzEntry *entry) {
         loader->part = larger;
         loader->n_allocated = n;
     }
-    loader->part[loader->n_part++] = (CzPart){entry->key->text, entry->key, entry->value};
+    const char *name = entry->key->text;
+    if (!cz_index_add(&loader->by_name, name, strlen(name), loader->n_part))
+        return;
+    loader->part[loader->n_part++] = (CzPart){name, entry->key, entry->value, 0};
 }
 
 static bool is_part(CzReader *reader, const CzEntry *entry) {
+    if (strlen(entry->key->text) > CZ_MOST_LABEL)
+        cz_mistake(&reader->mistakes, entry->key, NULL,
+                   "the name of a part has more than %d letters", (int)CZ_MOST_LABEL);
     if (entry->value->kind == CZ_NODE_MAPPING)
         return true;
     cz_mistake(&reader->mistakes, entry->value, NULL, "part '%s' must be a mapping, but this is %s",
@@ -109,7 +115,7 @@ static void gather_own_parts(Loader *loader, const CzNode *parts) {
         const CzNode *merged =
             cz_merge(&loader->reader->arena, first->node, NULL, entry->value, NULL, false);
         if (merged != NULL)
-            *first = (CzPart){first->name, entry->key, merged};
+            *first = (CzPart){first->name, entry->key, merged, 0};
     }
 }
 
@@ -215,7 +221,7 @@ static const CzNode *load_bases(Loader *loader, const CzNode *top, const char **
 }
 
 CzTree cz_load_tree(CzReader *reader, const CzNode *top) {
-    Loader loader = {.reader = reader};
+    Loader loader = {.reader = reader, .by_name = {.arena = &reader->arena}};
     const char *chain[DEEPEST_CHAIN + 1] = {top->source->name};
     const CzNode *root = load_bases(&loader, top, chain, 1);
     const CzNode *parts = root != NULL ? expect(reader, root, "parts", CZ_NODE_MAPPING) : NULL;
@@ -225,5 +231,7 @@ CzTree cz_load_tree(CzReader *reader, const CzNode *top) {
     for (int i = 0; root != NULL && i < 3; i++)
         if (cz_node_find(root, done[i]) != NULL)
             root = cz_node_without(&reader->arena, root, done[i]);
-    return (CzTree){root, loader.n_part, loader.part};
+    CzTree tree = {root, loader.n_part, loader.part, loader.by_name};
+    cz_parts_measure(reader, &tree);
+    return tree;
 }

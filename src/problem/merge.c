@@ -1,7 +1,7 @@
-/* Laying one tree over another: `extends`, and `use` with what is written beside it. */
+/* Laying one tree over another. */
 #include <string.h>
 
-#include "base/suggest.h"
+#include "base/index.h"
 #include "problem/reader.h"
 
 const CzTrail cz_no_trail = {0};
@@ -28,13 +28,15 @@ static CzEntry *find_same_stem(CzNode *mapping, const char *key) {
     return NULL;
 }
 
-static CzEntry *find_named(CzNode *list, const char *name) {
+/* Numbers of a list's items by their names; of several with one name the first. */
+static bool index_names(CzIndex *index, const CzNode *list) {
     for (int i = 0; i < list->n_entry; i++) {
-        const char *other = cz_node_find_text(list->entry[i].value, "name");
-        if (other != NULL && strcmp(other, name) == 0)
-            return &list->entry[i];
+        const char *name = cz_node_find_text(list->entry[i].value, "name");
+        const size_t n = name != NULL ? strlen(name) : 0;
+        if (name != NULL && cz_index_find(index, name, n) < 0 && !cz_index_add(index, name, n, i))
+            return false;
     }
-    return NULL;
+    return true;
 }
 
 static bool all_named(const CzNode *list) {
@@ -89,9 +91,16 @@ static const CzNode *merge_mappings(CzArena *arena, const CzNode *base, const Cz
 static const CzNode *merge_lists(CzArena *arena, const CzNode *base, const CzTrail *base_trail,
                                  const CzNode *over, const CzTrail *over_trail) {
     CzNode *merged = copy_base(arena, base, base_trail, over);
-    for (int i = 0; merged != NULL && i < over->n_entry; i++) {
-        CzEntry *like = find_named(merged, cz_node_find_text(over->entry[i].value, "name"));
-        if (!merge_entry(arena, merged, like, &over->entry[i], over_trail, true))
+    CzIndex known = {.arena = arena};
+    if (merged == NULL || !index_names(&known, base))
+        return NULL;
+    for (int i = 0; i < over->n_entry; i++) {
+        const char *name = cz_node_find_text(over->entry[i].value, "name");
+        const int at = cz_index_find(&known, name, strlen(name));
+        if (!merge_entry(arena, merged, at >= 0 ? &merged->entry[at] : NULL, &over->entry[i],
+                         over_trail, true))
+            return NULL;
+        if (at < 0 && !cz_index_add(&known, name, strlen(name), merged->n_entry - 1))
             return NULL;
     }
     return merged;
@@ -109,51 +118,4 @@ const CzNode *cz_merge(CzArena *arena, const CzNode *base, const CzTrail *base_t
     if (alone != NULL)
         alone->is_partial = true;
     return alone;
-}
-
-static const CzPart *find_part(CzReader *reader, const CzTree *tree, const CzNode *used,
-                               const CzTrail *trail) {
-    for (int i = 0; i < tree->n_part; i++)
-        if (strcmp(tree->part[i].name, used->text) == 0)
-            return &tree->part[i];
-    CzSuggestion suggestion = {0};
-    for (int i = 0; i < tree->n_part; i++)
-        cz_suggest(&suggestion, used->text, tree->part[i].name);
-    cz_mistake(&reader->mistakes, used, trail, "there is no part '%s'", used->text);
-    cz_mistake_suggest(&reader->mistakes, suggestion.best);
-    if (suggestion.best == NULL)
-        cz_mistake_help(&reader->mistakes,
-                        "parts stand under 'parts:' or in the files of 'catalogue:'");
-    return NULL;
-}
-
-static bool is_on_trail(const CzTrail *trail, const char *part) {
-    for (; trail != NULL && trail->part != NULL; trail = trail->from)
-        if (strcmp(trail->part, part) == 0)
-            return true;
-    return false;
-}
-
-const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *node,
-                           const CzTrail *trail) {
-    const CzEntry *use = cz_node_find(node, "use");
-    if (use == NULL)
-        return node;
-    const CzTrail *use_trail = cz_entry_trail(use, trail);
-    CzNode *rest = cz_node_without(&reader->arena, node, "use");
-    CzTrail *part_trail = cz_reader_allocate(reader, 1, sizeof *part_trail);
-    if (rest == NULL || part_trail == NULL)
-        return NULL;
-    const char *name = cz_bind_text(reader, "use", use->value, use_trail);
-    const CzPart *part = name != NULL ? find_part(reader, tree, use->value, use_trail) : NULL;
-    const bool is_circle = part != NULL && is_on_trail(use_trail, name);
-    if (is_circle)
-        cz_mistake(&reader->mistakes, use->value, use_trail, "part '%s' uses itself", name);
-    if (part == NULL || is_circle) {
-        rest->is_partial = reader->has_holes = true;
-        return rest;
-    }
-    *part_trail = (CzTrail){part->name, part->written, use->value, use_trail};
-    const CzNode *base = cz_take_part(reader, tree, part->node, part_trail);
-    return base != NULL ? cz_merge(&reader->arena, base, part_trail, rest, trail, false) : NULL;
 }

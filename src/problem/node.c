@@ -29,6 +29,17 @@ const CzNode *cz_node_text(CzArena *arena, const char *text, const CzNode *place
     return node->text != NULL ? node : NULL;
 }
 
+const CzNode *cz_node_name(CzArena *arena, const char *name, const CzNode *place) {
+    const CzNode *text = cz_node_text(arena, name, place);
+    CzNode *node = text != NULL ? cz_arena_allocate(arena, 1, sizeof *node) : NULL;
+    if (node == NULL)
+        return NULL;
+    *node = *text;
+    node->quoted = true;
+    node->is_refused = place->is_refused;
+    return node;
+}
+
 CzNode *cz_node_copy(CzArena *arena, const CzNode *node, int n_more) {
     CzNode *copy = cz_arena_allocate(arena, 1, sizeof *copy);
     if (copy == NULL)

@@ -63,6 +63,9 @@ const char *cz_node_find_text(const CzNode *mapping, const char *key);
 /* A text node at the place of another; NULL without memory. */
 const CzNode *cz_node_text(CzArena *arena, const char *text, const CzNode *place);
 
+/* The same of a name, which is a text whatever it looks like: null, true, 12. */
+const CzNode *cz_node_name(CzArena *arena, const char *name, const CzNode *place);
+
 /* Copy of a list or mapping with room for n_more entries beyond its own; the entries' nodes are
  * shared. NULL without memory. */
 CzNode *cz_node_copy(CzArena *arena, const CzNode *node, int n_more);

@@ -11,7 +11,7 @@
 #include "base/suggest.h"
 #include "problem/reader.h"
 
-enum { MOST_SEGMENTS = 24, LONGEST_NAME = 96, MOST_MATCHES = 10000 };
+enum { MOST_SEGMENTS = 24, LONGEST_NAME = CZ_LABEL_ROOM, MOST_MATCHES = 10000, MOST_SET = 20000 };
 
 typedef enum { SEGMENT_NAME, SEGMENT_INDEX, SEGMENT_ALL } SegmentKind;
 
@@ -134,8 +134,13 @@ static void leave(Walk *walk, size_t before) {
 static const CzNode *value_to_put(Walk *walk) {
     CzMatches *matches = walk->matches;
     walk->n_found++;
-    if (matches == NULL)
+    if (matches == NULL) {
+        if (++walk->reader->n_set == MOST_SET)
+            cz_mistake(&walk->reader->mistakes, walk->place, NULL,
+                       "the settings change more than %d values", (int)MOST_SET);
+        walk->failed |= walk->reader->n_set >= MOST_SET;
         return walk->value;
+    }
     if (matches->n_match == MOST_MATCHES) {
         if (!walk->failed)
             cz_mistake(&walk->reader->mistakes, walk->place, NULL,
@@ -414,12 +419,9 @@ static const CzNode *walk_on(Walk *walk, const CzNode *node, Step step) {
 
 static bool put_into_part(Walk *walk, CzTree *tree) {
     const Segment *segment = &walk->segment[1];
-    CzSuggestion suggestion = {0};
-    for (int i = 0; walk->n_segment > 2 && i < tree->n_part; i++) {
-        CzPart *part = &tree->part[i];
-        cz_suggest(&suggestion, segment->name, part->name);
-        if (segment->kind != SEGMENT_NAME || strcmp(part->name, segment->name) != 0)
-            continue;
+    const bool names = walk->n_segment > 2 && segment->kind == SEGMENT_NAME;
+    CzPart *part = names ? cz_tree_part(tree, segment->name, strlen(segment->name)) : NULL;
+    if (part != NULL) {
         CzTrail *trail = cz_reader_allocate(walk->reader, 1, sizeof *trail);
         if (trail == NULL)
             return false;
@@ -430,9 +432,12 @@ static bool put_into_part(Walk *walk, CzTree *tree) {
             part->node = changed;
         return changed != NULL;
     }
+    CzSuggestion suggestion = {0};
+    for (int i = 0; names && i < tree->n_part; i++)
+        cz_suggest(&suggestion, segment->name, tree->part[i].name);
     const CzNode place = place_of(walk, walk->n_segment > 1 ? 1 : 0);
     walk->failed = true;
-    if (walk->n_segment > 2 && segment->kind == SEGMENT_NAME)
+    if (names)
         cz_mistake(&walk->reader->mistakes, &place, NULL, "there is no part '%s'", segment->name);
     else
         cz_mistake(&walk->reader->mistakes, &place, NULL,

@@ -62,6 +62,7 @@ static void add_scenario(CzProblem *problem, const CzNode *root) {
     problem->input.n_scenarios = 1;
     cz_places_add(&problem->reader,
                   (CzPlace){.address = scenario, .size = sizeof *scenario, .node = root});
+    cz_places_sort(&problem->reader);
 }
 
 void cz_problem_bind(CzProblem *problem, const CzTree *tree) {
@@ -170,7 +171,7 @@ CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name,
 void cz_problem_free(CzProblem *problem) {
     if (problem == NULL)
         return;
-    free(problem->reader.places.place);
+    cz_places_free(&problem->reader.places);
     cz_arena_free(&problem->reader.arena);
     free(problem);
 }

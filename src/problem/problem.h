@@ -3,6 +3,7 @@
 #ifndef CZ_PROBLEM_PROBLEM_H
 #define CZ_PROBLEM_PROBLEM_H
 
+#include "crushzone/names.h"
 #include "crushzone/problem.h"
 #include "problem/input.h"
 
@@ -36,17 +37,17 @@ CZ_MUST_CHECK CzStatus cz_problem_check_vehicles(const CzProblem *problem,
 
 /* One number of the input that a path names. */
 typedef struct CzTarget {
-    const double *field; /* in the input */
-    int vehicle;         /* index into cz_problem_vehicles; -1 for a number elsewhere */
-    size_t offset;       /* of the double inside CzVehicle [byte]; 0 elsewhere */
-    double value;        /* the file's own value [SI] */
-    double unit;         /* SI value of one unit of the path's key, such as 1000 for kN */
-    const char *suffix;  /* unit as typed, such as "kN"; "" when none; borrowed */
-    int match;           /* which match of a [*] this belongs to, from 0 */
-    bool may_vary;       /* the key is one of the kinds an optimiser may change */
-    bool may_fit;        /* or one that may be fitted to measurements */
-    char place[160];     /* path of this match without any *, as `set:` takes it; the targets of one
-                            match share it */
+    const double *field;      /* in the input */
+    int vehicle;              /* index into cz_problem_vehicles; -1 for a number elsewhere */
+    size_t offset;            /* of the double inside CzVehicle [byte]; 0 elsewhere */
+    double value;             /* the file's own value [SI] */
+    double unit;              /* SI value of one unit of the path's key, such as 1000 for kN */
+    const char *suffix;       /* unit as typed, such as "kN"; "" when none; borrowed */
+    int match;                /* which match of a [*] this belongs to, from 0 */
+    bool may_vary;            /* the key is one of the kinds an optimiser may change */
+    bool may_fit;             /* or one that may be fitted to measurements */
+    char place[CZ_PATH_ROOM]; /* path of this match without any *, as `set:` takes it; the targets
+                        of one match share it */
 } CzTarget;
 
 /* All numbers that setting a path would change, ordered by match. Through `parts.NAME`

@@ -13,7 +13,9 @@
 #ifndef CZ_PROBLEM_READER_H
 #define CZ_PROBLEM_READER_H
 
+#include "base/index.h"
 #include "base/suggest.h"
+#include "crushzone/names.h"
 #include "problem/input.h"
 #include "problem/keys.h"
 #include "problem/mistakes.h"
@@ -26,13 +28,15 @@ typedef struct CzPart {
     const char *name;
     const CzNode *written; /* the part's name where it is written */
     const CzNode *node;    /* a mapping */
+    int depth;             /* of the parts that it uses: 0 without any */
 } CzPart;
 
 /* What a problem says, in nodes. */
 typedef struct CzTree {
     const CzNode *root;
     int n_part;
-    CzPart *part; /* (n_part) */
+    CzPart *part;    /* (n_part) */
+    CzIndex by_name; /* of the parts */
 } CzTree;
 
 /* Where a record or one of its values was written. */
@@ -46,9 +50,19 @@ typedef struct CzPlace {
     const CzUnit *unit;
 } CzPlace;
 
+/* A record's memory, from start to before end, and the record around it: -1 for none. */
+typedef struct CzPlacedRecord {
+    uintptr_t start, end;
+    int place, around;
+} CzPlacedRecord;
+
 typedef struct CzPlaces {
     int n_place, n_allocated;
     CzPlace *place;
+    int n_slot; /* fields by address */
+    int *slot;
+    int n_record; /* records by address, as of the last cz_places_sort */
+    CzPlacedRecord *record;
 } CzPlaces;
 
 typedef struct CzReader {
@@ -56,6 +70,7 @@ typedef struct CzReader {
     CzSources sources;
     CzMistakes mistakes, warnings;
     CzPlaces places;
+    int n_set;      /* values that settings have changed so far */
     bool has_holes; /* records could not be read, so what is absent may have been written */
     const char *share_folder; /* with catalogue/ and profiles/; NULL for none */
 } CzReader;
@@ -95,6 +110,16 @@ const CzTrail *cz_entry_trail(const CzEntry *entry, const CzTrail *outer);
 /* `over` laid over `base`. With by_name, lists of named records merge by name. */
 const CzNode *cz_merge(CzArena *arena, const CzNode *base, const CzTrail *base_trail,
                        const CzNode *over, const CzTrail *over_trail, bool by_name);
+
+/* ---- parts.c ---- */
+
+enum { CZ_MOST_NESTED = 40 }; /* parts that use one another */
+
+/* The part whose name is the first n bytes of a text; NULL when there is none. */
+CzPart *cz_tree_part(const CzTree *tree, const char *name, size_t n);
+/* Finds how deep parts use one another, each part once; tells circles and chains that are too deep.
+ */
+void cz_parts_measure(CzReader *reader, CzTree *tree);
 /* A mapping with its `use` taken; the node itself when it has none. NULL without memory. */
 const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *node,
                            const CzTrail *trail);
@@ -126,7 +151,7 @@ int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion 
 
 /* ---- path.c ---- */
 
-enum { CZ_MAX_PLACE = 160 };
+enum { CZ_MAX_PLACE = CZ_PATH_ROOM };
 
 /* What a path ended in: the concrete path of each match. */
 typedef struct CzMatches {
@@ -167,7 +192,13 @@ void cz_bind_record(CzReader *reader, const CzTree *tree, CzRecordId record, con
                     const CzTrail *trail, void *record_memory);
 /* Fills a record that the file does not have. */
 void cz_bind_absent(CzRecordId record, void *record_memory);
+
+/* ---- places.c ---- */
+
 void cz_places_add(CzReader *reader, CzPlace place);
+/* Makes the records that were added be found; reading a record does it at its end. */
+void cz_places_sort(CzReader *reader);
+void cz_places_free(CzPlaces *places);
 /* Place of a field, or of the innermost record about it; NULL when it is not in the input. */
 const CzPlace *cz_places_find(const CzPlaces *places, const void *field);
 

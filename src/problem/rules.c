@@ -107,6 +107,7 @@ static CzRules rules_of(CzProblem *problem) {
 void cz_rules_check_collision(CzProblem *problem) {
     const CzRules rules = rules_of(problem);
     check_simulation(&rules);
+    cz_rules_check_names(&rules);
     check_vehicles(&rules);
     cz_rules_check_trains(&rules);
     cz_rules_check_scenarios(&rules);

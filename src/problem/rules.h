@@ -36,6 +36,7 @@ double cz_rule_stroke(const CzStage *stages, int n_stage, const CzTable *curve);
 /* The rules, by what they look at. */
 void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end);
 void cz_rules_check_vehicle(const CzRules *rules, const CzVehicle *vehicle);
+void cz_rules_check_names(const CzRules *rules);
 void cz_rules_check_trains(const CzRules *rules);
 void cz_rules_check_scenarios(const CzRules *rules);
 void cz_rules_check_design(const CzRules *rules);

@@ -2,12 +2,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/suggest.h"
+#include "crushzone/names.h"
 #include "problem/rules.h"
-
-enum { LONGEST_NAME = 48 };
 
 /* ---- vehicles ---- */
 
@@ -58,27 +56,6 @@ void cz_rules_check_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
         check_full_vehicle(rules, vehicle);
 }
 
-/* ---- names ---- */
-
-/* Names stand in paths, files and folders. */
-static void check_name(const CzRules *rules, const char *const *name, const char *what,
-                       const char *further) {
-    static const char *const allowed =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+";
-    if (*name == NULL)
-        return;
-    if (strlen(*name) > LONGEST_NAME)
-        cz_rule_broken(rules, name, "the name of a %s has at most %d letters", what,
-                       (int)LONGEST_NAME);
-    for (const unsigned char *c = (const unsigned char *)*name; *c != '\0'; c++)
-        if (*c < 0x80 && strchr(allowed, *c) == NULL && strchr(further, *c) == NULL) {
-            cz_rule_broken(rules, name,
-                           "the name of a %s has letters, digits and _-+%s, but '%.48s' has '%c'",
-                           what, further, *name, *c);
-            return;
-        }
-}
-
 /* ---- trains ---- */
 
 static bool is_full_train(const CzTrain *train) {
@@ -93,31 +70,6 @@ static bool is_fixed_train(const CzTrain *train) {
         if (train->vehicles[i].model == CZ_MODEL_FIXED)
             return true;
     return false;
-}
-
-static void check_vehicle_names(const CzRules *rules) {
-    const CzVehicle *vehicle = rules->problem->vehicle;
-    for (int i = 0; i < rules->problem->n_vehicle; i++) {
-        check_name(rules, &vehicle[i].name, "vehicle", "");
-        for (int k = 0; vehicle[i].name != NULL && k < i; k++)
-            if (vehicle[k].name != NULL && strcmp(vehicle[k].name, vehicle[i].name) == 0) {
-                cz_rule_broken(rules, &vehicle[i].name, "there are two vehicles '%.48s'",
-                               vehicle[i].name);
-                break;
-            }
-    }
-}
-
-static void check_train_names(const CzRules *rules) {
-    const CzInput *input = rules->input;
-    for (int i = 0; i < input->n_trains; i++) {
-        check_name(rules, &input->trains[i].name, "train", "");
-        for (int k = 0; input->trains[i].name != NULL && k < i; k++)
-            if (input->trains[k].name != NULL &&
-                strcmp(input->trains[k].name, input->trains[i].name) == 0)
-                cz_rule_broken(rules, &input->trains[i].name, "there are two trains '%.48s'",
-                               input->trains[i].name);
-    }
 }
 
 static bool gives_way(const CzEnd *end) {
@@ -205,8 +157,6 @@ void cz_rules_check_trains(const CzRules *rules) {
     const CzInput *input = rules->input;
     if (input->n_trains == 1)
         cz_rule_broken(rules, &input->trains, "a collision needs two trains, but there is one");
-    check_train_names(rules);
-    check_vehicle_names(rules);
     for (int i = 0; i < input->n_trains; i++)
         check_train(rules, &input->trains[i]);
 }
@@ -282,7 +232,7 @@ static void check_closing(const CzRules *rules, const CzScenario *scenario,
 static void check_interface(const CzRules *rules, const CzScenario *scenario,
                             const CzTrain *const pair[2]) {
     CzSuggestion suggestion = {0};
-    char known[2 * LONGEST_NAME + 2], best[2 * LONGEST_NAME + 2];
+    char known[CZ_INTERFACE_ROOM], best[CZ_INTERFACE_ROOM];
     if (scenario->perturbed_interface == NULL) {
         if (scenario->perturbation != 0 && cz_rule_is_written(rules, &scenario->perturbation))
             cz_rule_broken(rules, &scenario->perturbation,
@@ -312,24 +262,8 @@ static void check_brake(const CzRules *rules, const double *ratio, const CzTrain
                        train->name != NULL ? train->name : "");
 }
 
-static void check_scenario_names(const CzRules *rules) {
-    const CzInput *input = rules->input;
-    for (int i = 0; i < input->n_scenarios; i++) {
-        const char *const *name = &input->scenarios[i].name;
-        check_name(rules, name, "scenario", ".");
-        check_name(rules, &input->scenarios[i].family, "family", ".");
-        if (*name != NULL && (*name)[0] == '.')
-            cz_rule_broken(rules, name, "the name of a scenario does not begin with a point");
-        for (int k = 0; *name != NULL && k < i; k++)
-            if (input->scenarios[k].name != NULL &&
-                strcasecmp(input->scenarios[k].name, *name) == 0)
-                cz_rule_broken(rules, name, "there are two scenarios '%.48s'", *name);
-    }
-}
-
 void cz_rules_check_scenarios(const CzRules *rules) {
     const CzInput *input = rules->input;
-    check_scenario_names(rules);
     for (int i = 0; i < input->n_scenarios; i++) {
         const CzScenario *scenario = &input->scenarios[i];
         const CzTrain *pair[2];

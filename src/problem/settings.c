@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "problem/reader.h"
 
 /* Text of all settings of the options, one per line. NULL without memory. */
@@ -38,8 +39,11 @@ static const CzNode *value_of(CzReader *reader, const char *text, const CzNode *
         return NULL;
     *node = *place;
     node->quoted = is_quoted;
-    node->text = cz_arena_copy_text(&reader->arena, text + is_quoted, n - 2 * (size_t)is_quoted);
-    return node->text != NULL ? node : NULL;
+    char *copy = cz_arena_copy_text(&reader->arena, text + is_quoted, n - 2 * (size_t)is_quoted);
+    if (copy != NULL)
+        (void)cz_text_one_line(copy, strlen(copy));
+    node->text = copy;
+    return copy != NULL ? node : NULL;
 }
 
 /* Cuts "path=value". */
@@ -106,35 +110,13 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root,
 
 /* ---- their order ---- */
 
-enum { MOST_NESTED = 40 }; /* parts in parts; more is a circle, which is told elsewhere */
-
-/* How deep parts are nested below a node. */
-static int nesting(const CzTree *tree, const CzNode *node, int level) {
-    int deepest = 0;
-    for (int i = 0; level < MOST_NESTED && node->kind != CZ_NODE_TEXT && i < node->n_entry; i++) {
-        const CzEntry *entry = &node->entry[i];
-        const bool uses = entry->key != NULL && strcmp(entry->key->text, "use") == 0 &&
-                          entry->value->kind == CZ_NODE_TEXT;
-        int here = uses ? 0 : nesting(tree, entry->value, level);
-        for (int k = 0; uses && k < tree->n_part; k++)
-            if (strcmp(tree->part[k].name, entry->value->text) == 0)
-                here = 1 + nesting(tree, tree->part[k].node, level + 1);
-        deepest = here > deepest ? here : deepest;
-    }
-    return deepest;
-}
-
 int cz_setting_rank(const CzTree *tree, const char *path) {
     if (strncmp(path, "parts.", 6) != 0)
         return CZ_LAST_RANK;
     const char *name = path + 6;
-    const size_t n = strcspn(name, ".[");
-    for (int k = 0; k < tree->n_part; k++)
-        if (strlen(tree->part[k].name) == n && strncmp(tree->part[k].name, name, n) == 0) {
-            const int rank = nesting(tree, tree->part[k].node, 0);
-            return rank < CZ_LAST_RANK ? rank : CZ_LAST_RANK - 1;
-        }
-    return 0;
+    const CzPart *part = cz_tree_part(tree, name, strcspn(name, ".["));
+    const int depth = part != NULL ? part->depth : 0;
+    return depth < CZ_LAST_RANK ? depth : CZ_LAST_RANK - 1;
 }
 
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
@@ -147,9 +129,14 @@ CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *
         return *tree;
     if (tree->n_part > 0)
         memcpy(changed.part, tree->part, (size_t)tree->n_part * sizeof *changed.part);
+    int *own = cz_reader_allocate(reader, (size_t)n_setting, sizeof *own);
+    if (own == NULL)
+        return *tree;
+    for (int i = 0; i < n_setting; i++)
+        own[i] = cz_setting_rank(tree, setting[i].path);
     for (int rank = 0; rank <= CZ_LAST_RANK; rank++)
         for (int i = 0; i < n_setting; i++)
-            if (cz_setting_rank(tree, setting[i].path) == rank)
+            if (own[i] == rank)
                 cz_path_put(reader, &changed, setting[i].path, setting[i].place, setting[i].value,
                             NULL);
     return changed;

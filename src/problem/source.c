@@ -1,6 +1,8 @@
 /* Files as text. */
 #include "problem/source.h"
 
+#include "base/text.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -195,73 +197,32 @@ CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *
     return source;
 }
 
-/* Bytes of the UTF-8 character at the start of a text; 0 when there is none. */
-static size_t character_length(const unsigned char *text, size_t n_byte) {
-    const unsigned char first = text[0];
-    const size_t n = first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-    if (n == 0 || n > n_byte || first > 0xf4)
-        return 0;
-    for (size_t i = 1; i < n; i++)
-        if ((text[i] & 0xc0) != 0x80)
-            return 0;
-    const bool is_overlong = (first == 0xe0 && text[1] < 0xa0) || (first == 0xf0 && text[1] < 0x90);
-    const bool is_beyond = (first == 0xed && text[1] >= 0xa0) || (first == 0xf4 && text[1] >= 0x90);
-    return is_overlong || is_beyond ? 0 : n;
-}
-
-/* Whether the character at the start of a text is a control character other than tab and the ends
- * of lines, or one of those beyond ASCII that YAML does not print. */
-static bool is_control(const unsigned char *text, size_t n) {
-    if (n == 1)
-        return (text[0] < 0x20 && text[0] != '\t' && text[0] != '\n' && text[0] != '\r') ||
-               text[0] == 0x7f;
-    return (n == 2 && text[0] == 0xc2 && text[1] < 0xa0 && text[1] != 0x85) ||
-           (n == 3 && text[0] == 0xef && text[1] == 0xbf && text[2] >= 0xbe);
-}
-
-bool cz_source_is_printable(const char *text) {
-    const unsigned char *at = (const unsigned char *)text, *end = at + strlen(text);
-    while (at < end) {
-        const size_t n = character_length(at, (size_t)(end - at));
-        if (n == 0 || is_control(at, n))
-            return false;
-        at += n;
-    }
-    return true;
-}
-
 bool cz_source_is_utf8(const char *text, size_t n_byte) {
-    const unsigned char *at = (const unsigned char *)text, *end = at + n_byte;
     size_t n = 1;
-    while (at < end && n > 0) {
-        n = character_length(at, (size_t)(end - at));
-        at += n;
-    }
+    for (size_t at = 0; at < n_byte && n > 0; at += n)
+        n = cz_text_character(text + at, n_byte - at);
     return n > 0;
 }
 
 bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char *text,
                        size_t n_byte) {
-    const unsigned char *at = (const unsigned char *)text, *end = at + n_byte;
+    char what[CZ_FAULT_ROOM];
+    size_t at;
+    if (!cz_text_fault(text, n_byte, true, &at, what))
+        return true;
     int line = 1, column = 1;
-    while (at < end) {
-        const size_t n = character_length(at, (size_t)(end - at));
-        if (n == 0) {
-            cz_mistake_at(mistakes, source, line, column,
-                          "the file is not UTF-8 text: byte 0x%02x begins no character", at[0]);
-            return false;
-        }
-        if (is_control(at, n)) {
-            cz_mistake_at(mistakes, source, line, column,
-                          "the file is not text: it holds the control character 0x%02x", at[n - 1]);
-            return false;
-        }
-        const size_t n_end = line_end_length((const char *)at);
+    for (size_t i = 0; i < at;) {
+        const size_t n_end = line_end_length(text + i);
         column = n_end > 0 ? 1 : column + 1;
         line += n_end > 0;
-        at += n_end > 0 ? n_end : n;
+        i += n_end > 0 ? n_end : cz_text_character(text + i, n_byte - i);
     }
-    return true;
+    cz_mistake_at(mistakes, source, line, column, "the file holds %s", what);
+    if (cz_text_character(text + at, n_byte - at) == 0)
+        cz_mistake_help(mistakes, "save it as UTF-8");
+    else
+        cz_mistake_help(mistakes, "remove it, or replace it by a blank");
+    return false;
 }
 
 const char *cz_path_join(CzArena *arena, const char *folder, const char *path) {

@@ -34,15 +34,13 @@ CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *
 /* Bytes of the byte order mark that some editors put before UTF-8 text; 0 when there is none. */
 size_t cz_source_mark(const char *text, size_t n_byte);
 
-/* Whether the text is UTF-8, with control characters or without. */
+/* Whether the text is UTF-8, whatever its characters are. */
 bool cz_source_is_utf8(const char *text, size_t n_byte);
 
-/* Whether the text is UTF-8 without control characters; otherwise a mistake says where not. */
+/* Whether a file holds what a text may hold (base/text.h), its comments included; otherwise a
+ * mistake says where not. */
 bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char *text,
                        size_t n_byte);
-
-/* The same of a text that came from escapes. */
-bool cz_source_is_printable(const char *text);
 
 /* Path of a file that another file names: relative to `folder` unless it begins with '/'. NULL
  * without memory. */

@@ -18,7 +18,9 @@ set(CZ_SOURCES_problem
     merge.c
     mistakes.c
     node.c
+    parts.c
     path.c
+    places.c
     problem.c
     profile.c
     range.c
@@ -27,6 +29,7 @@ set(CZ_SOURCES_problem
     rules_design.c
     rules_end.c
     rules_fit.c
+    rules_names.c
     rules_train.c
     settings.c
     source.c

@@ -11,16 +11,19 @@
 #include <string.h>
 
 #include "base/suggest.h"
+#include "crushzone/names.h"
 #include "problem/reader.h"
 
-enum { MOST_REPEATS = 200, LONGEST_NAME = 64, DEEPEST_COPY = 8 };
+/* Room for the name of a copy's vehicle, made of two. A longer name is refused like one that is cut
+ * to this. */
+enum { NAME_ROOM = 2 * CZ_MOST_NAME + 2, MOST_REPEATS = 200, DEEPEST_COPY = 8 };
 
 /* One vehicle of a train. */
 typedef struct {
     const CzNode *node; /* with its parts taken */
     const CzTrail *trail;
     const CzNode *name_place;
-    char name[LONGEST_NAME];
+    char name[NAME_ROOM];
     bool is_turned;
 } Vehicle;
 
@@ -75,14 +78,14 @@ void cz_vehicle_name(char *text, size_t size, const CzNode *vehicle, const char 
 
 static const CzNode *name_vehicle(CzArena *arena, const CzNode *vehicle, const char *train,
                                   int position) {
-    char text[LONGEST_NAME];
+    char text[NAME_ROOM];
     if (vehicle->kind != CZ_NODE_MAPPING || cz_node_find(vehicle, "name") != NULL)
         return vehicle;
     CzNode *named = cz_node_copy(arena, vehicle, 1);
     if (named == NULL)
         return NULL;
     cz_vehicle_name(text, sizeof text, vehicle, train, position, 0);
-    const CzEntry name = {cz_node_text(arena, "name", vehicle), cz_node_text(arena, text, vehicle),
+    const CzEntry name = {cz_node_text(arena, "name", vehicle), cz_node_name(arena, text, vehicle),
                           NULL};
     named->entry[named->n_entry++] = name;
     return name.key != NULL && name.value != NULL ? named : NULL;
@@ -206,10 +209,10 @@ static void letter_anew(Train *train, const Train *original) {
         all_lettered &= strncmp(original->vehicle[i].name, original->name, n) == 0;
     for (int i = 0; i < train->n_vehicle; i++) {
         Vehicle *vehicle = &train->vehicle[i];
-        char own[LONGEST_NAME];
+        char own[NAME_ROOM];
         memcpy(own, vehicle->name, sizeof own);
         const char *rest = all_lettered ? original->vehicle[i].name + n : own;
-        snprintf(vehicle->name, sizeof vehicle->name, "%.30s%s%.30s", train->name,
+        snprintf(vehicle->name, sizeof vehicle->name, "%.48s%s%.48s", train->name,
                  all_lettered ? "" : "-", rest);
     }
 }
@@ -300,7 +303,7 @@ static const CzNode *vehicle_node(CzReader *reader, const Vehicle *vehicle) {
     if (node == NULL)
         return NULL;
     const CzEntry name = {cz_node_text(arena, "name", vehicle->name_place),
-                          cz_node_text(arena, vehicle->name, vehicle->name_place), vehicle->trail};
+                          cz_node_name(arena, vehicle->name, vehicle->name_place), vehicle->trail};
     if (name.key == NULL || name.value == NULL)
         return NULL;
     node->n_entry = 0;

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/number.h"
 #include "problem/reader.h"
@@ -22,11 +23,17 @@ static void write_record(const Writer *writer, const CzRecord *record, const cha
 
 /* ---- texts ---- */
 
-/* Whether a text can stand without quotes. */
+/* Whether a text can stand without quotes, for this reader and for others that take some words for
+ * flags. */
 static bool is_plain(const char *text) {
+    static const char *const words[] = {"null", "true", "false", "yes", "no",
+                                        "on",   "off",  "y",     "n"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcasecmp(text, words[i]) == 0)
+            return false;
     const bool has_letter =
         (text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z');
-    return has_letter && strcmp(text, "null") != 0 && text[strlen(text) - 1] != ' ' &&
+    return has_letter && text[strlen(text) - 1] != ' ' &&
            text[strspn(text,
                        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./ ")] ==
                '\0';

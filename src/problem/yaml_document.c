@@ -4,6 +4,8 @@
  * and duplicate keys are reported all and reading goes on.
  */
 #include "problem/yaml_document.h"
+#include "base/index.h"
+#include "base/text.h"
 #include "problem/source.h"
 
 #include <stdio.h>
@@ -123,15 +125,20 @@ static CzNode *read_text(Document *document) {
     if (node == NULL)
         return NULL;
     node->quoted = document->event.data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
-    node->text = cz_arena_copy_text(document->mistakes->arena,
-                                    (const char *)document->event.data.scalar.value,
-                                    document->event.data.scalar.length);
-    if (node->text == NULL)
+    size_t n_byte = document->event.data.scalar.length;
+    char *text = cz_arena_copy_text(document->mistakes->arena,
+                                    (const char *)document->event.data.scalar.value, n_byte);
+    node->text = text;
+    if (text == NULL) {
         fail_without_memory(document);
-    else if (strlen(node->text) != document->event.data.scalar.length)
-        refuse(document, "a text cannot hold a zero byte");
-    else if (!cz_source_is_printable(node->text)) {
-        refuse(document, "a text cannot hold control characters");
+        return node;
+    }
+    char what[CZ_FAULT_ROOM], sentence[CZ_FAULT_ROOM + 40];
+    size_t at;
+    n_byte = cz_text_one_line(text, n_byte); /* blocks of text have several */
+    if (cz_text_fault(text, n_byte, false, &at, what)) {
+        snprintf(sentence, sizeof sentence, "a text cannot hold %s", what);
+        refuse(document, sentence);
         node->text = "";
         node->is_refused = true;
     }
@@ -204,16 +211,9 @@ static CzNode *read_list(Document *document, int depth) {
     return list;
 }
 
-static const CzNode *find_key(const Chunk *chunk, const char *key) {
-    for (; chunk != NULL; chunk = chunk->before)
-        for (int i = 0; i < chunk->n_entry; i++)
-            if (strcmp(chunk->entry[i].key->text, key) == 0)
-                return chunk->entry[i].key;
-    return NULL;
-}
-
-/* Reads a key; *is_kept is false when it is refused and its value must be passed over. */
-static CzNode *read_key(Document *document, const Chunk *chunk, int depth, bool *is_kept) {
+/* Reads a key; *is_kept is false when it is refused and its value must be passed over. `lines` has
+ * the line of every key so far. */
+static CzNode *read_key(Document *document, CzIndex *lines, int depth, bool *is_kept) {
     *is_kept = false;
     if (document->event.type != YAML_SCALAR_EVENT) {
         refuse(document, "a key must be a text");
@@ -222,15 +222,18 @@ static CzNode *read_key(Document *document, const Chunk *chunk, int depth, bool 
     CzNode *key = read_text(document);
     if (key == NULL || document->failed)
         return NULL;
-    const CzNode *first = find_key(chunk, key->text);
+    const size_t n = strlen(key->text);
+    const int first = cz_index_find(lines, key->text, n);
     if (strcmp(key->text, "<<") == 0) {
         cz_mistake(document->mistakes, key, NULL, "merge keys ('<<') are not read here");
         cz_mistake_help(document->mistakes, "name a part under 'parts:' and take it with 'use:'");
-    } else if (first != NULL) {
+    } else if (first >= 0) {
         cz_mistake(document->mistakes, key, NULL, "key '%s' is there twice, first at line %d",
-                   key->text, first->line);
-    } else {
+                   key->text, first);
+    } else if (cz_index_add(lines, key->text, n, key->line)) {
         *is_kept = true;
+    } else {
+        fail_without_memory(document);
     }
     return key;
 }
@@ -239,11 +242,12 @@ static CzNode *read_mapping(Document *document, int depth) {
     refuse_decorations(document, document->event.data.mapping_start.anchor,
                        document->event.data.mapping_start.tag);
     CzNode *mapping = node_create(document, CZ_NODE_MAPPING);
+    CzIndex lines = {.arena = document->mistakes->arena};
     Chunk *chunk = NULL;
     int n_key = 0;
     while (next_event(document) && document->event.type != YAML_MAPPING_END_EVENT) {
         bool is_kept = false;
-        CzNode *key = read_key(document, chunk, depth, &is_kept);
+        CzNode *key = read_key(document, &lines, depth, &is_kept);
         if (key == NULL || !next_event(document))
             return NULL;
         CzNode *value = read_node(document, depth + 1);

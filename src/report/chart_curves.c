@@ -239,7 +239,7 @@ CzStatus cz_chart_curves_of_fit(const CzProblem *problem, const char *scenario, 
         made->curve = copy_history(cz_problem_measured(problem, i));
         if (made->curve == NULL)
             return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a measured curve");
-        snprintf(made->label, sizeof made->label, "measured, %.60s", match->name);
+        snprintf(made->label, sizeof made->label, "measured, %s", match->name);
         ++*n;
     }
     return CZ_OK;

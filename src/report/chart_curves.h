@@ -10,7 +10,7 @@ enum { CZ_MOST_CHART_CURVES = 12 };
 typedef struct CzChartCurve {
     CzChart chart;  /* the figure, or the one of the four panels, that it belongs to */
     CzCurve *curve; /* in the units of that figure's axes */
-    char label[80]; /* in its legend */
+    char label[CZ_LABEL_ROOM + 16]; /* in its legend */
 } CzChartCurve;
 
 /* Reads the measured curves of a figure: none without a file. Over the panels a column goes where

@@ -13,7 +13,7 @@ static bool has_any(const CzPage *page, const char *format_of_car, bool of_inter
     for (int i = 0; i < n; i++) {
         const char *name =
             of_interfaces ? page->summary->interface[i].name : page->summary->vehicle[i].name;
-        char channel[96];
+        char channel[CZ_CHANNEL_ROOM];
         const char *cut = strchr(format_of_car, '*');
         snprintf(channel, sizeof channel, "%.*s%s%s", (int)(cut - format_of_car), format_of_car,
                  name, cut + 1);
@@ -155,7 +155,7 @@ static CzStatus write_panels(const CzPage *page, int interface, CzMarkup *markup
     static const CzChart charts[] = {CZ_CHART_FORCE, CZ_CHART_VELOCITY, CZ_CHART_DISPLACEMENT,
                                      CZ_CHART_SHORTENING};
     const double slot = 340;
-    char title[160], text[200];
+    char title[CZ_SENTENCE_ROOM], text[CZ_SENTENCE_ROOM + 8];
     CzStatus status = CZ_OK;
     cz_chart_title(page, CZ_CHART_PANELS, 0, sizeof title, title);
     cz_svg_open_tiles(markup, title, 4, slot);

@@ -62,10 +62,10 @@ CzStatus cz_draw_force_closure(CzSheet *sheet, int interface, CzError *error) {
         return CZ_OK;
     const double longest = largest(closure, page->n_sample);
     double *input = cz_arena_allocate(&sheet->arena, 2 * INPUT_POINTS, sizeof *input);
-    char *x_channel = cz_arena_allocate(&sheet->arena, 64, 1);
+    char *x_channel = cz_arena_allocate(&sheet->arena, CZ_CHANNEL_ROOM, 1);
     if (input == NULL || x_channel == NULL)
         return CZ_OK; /* told by finish */
-    snprintf(x_channel, 64, "d_%s_mm", name);
+    snprintf(x_channel, CZ_CHANNEL_ROOM, "d_%s_mm", name);
     if (longest > 0) {
         CZ_TRY(cz_input_curve(page->model, interface, longest / CZ_MILLI_PER_UNIT, INPUT_POINTS,
                               input, input + INPUT_POINTS, error));

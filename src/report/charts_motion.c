@@ -29,10 +29,10 @@ void cz_draw_shortening(CzSheet *sheet, int interface) {
         for (int i = 0; i < 2; i++) {
             const char *car = run->vehicle[interface + side].name;
             CzSeries *series = cz_sheet_add_channel(sheet, stems[side][i], car, "mm");
-            char *name = cz_arena_allocate(&sheet->arena, 48, 1);
+            char *name = cz_arena_allocate(&sheet->arena, CZ_WHERE_ROOM, 1);
             if (series == NULL || name == NULL)
                 continue;
-            snprintf(name, 48, "%s %s", names[i], car);
+            snprintf(name, CZ_WHERE_ROOM, "%s %s", names[i], car);
             series->name = name;
             series->colour = 1 + i;
             series->dash = side;
@@ -105,10 +105,11 @@ void cz_draw_lifts(CzSheet *sheet) {
             flange =
                 fmin(flange, page->vehicles[page->model->car[car].vehicle].bogie.flange_height);
     for (int i = 0; i < n; i++) {
-        char *name = cz_arena_allocate(&sheet->arena, 40, 1);
+        char *name = cz_arena_allocate(&sheet->arena, CZ_WHERE_ROOM, 1);
         if (name == NULL)
             return;
-        snprintf(name, 40, "%s_w%d", page->summary->vehicle[vehicle[i]].name, axle[i] + 1);
+        snprintf(name, CZ_WHERE_ROOM, "%s_w%d", page->summary->vehicle[vehicle[i]].name,
+                 axle[i] + 1);
         CzSeries *series = cz_sheet_add_channel(sheet, "z", name, "mm");
         if (series == NULL)
             continue;
@@ -117,10 +118,10 @@ void cz_draw_lifts(CzSheet *sheet) {
     }
     if (n == 0) { /* all wheels stay down: one of them shows it */
         for (int car = 0; car < page->summary->n_vehicle && sheet->plot.n_series == 0; car++) {
-            char *name = cz_arena_allocate(&sheet->arena, 40, 1);
+            char *name = cz_arena_allocate(&sheet->arena, CZ_WHERE_ROOM, 1);
             if (name == NULL)
                 return;
-            snprintf(name, 40, "%s_w1", page->summary->vehicle[car].name);
+            snprintf(name, CZ_WHERE_ROOM, "%s_w1", page->summary->vehicle[car].name);
             cz_sheet_add_channel(sheet, "z", name, "mm");
         }
     }

@@ -133,12 +133,12 @@ static void write_checks(int n, const CzReportRun *run, bool colour, FILE *strea
         cz_grid_put(&grid, run[i].label, CZ_STYLE_PLAIN);
     for (int k = 0; k < first->n_check; k++) {
         const CzCheckResult *check = &first->check[k];
-        char name[160], text[160], value[96];
+        char name[CZ_LABEL_ROOM + 1 + CZ_NAME_ROOM], text[160], value[96];
         if (!cz_compared_differs(n, run, check)) {
             n_same++;
             continue;
         }
-        snprintf(name, sizeof name, "%.80s, %.60s", check->name,
+        snprintf(name, sizeof name, "%s, %s", check->name,
                  check->scenario != NULL ? check->scenario : "");
         cz_grid_put(&grid, name, CZ_STYLE_PLAIN);
         cz_checks_format_limit(check, sizeof text, text);

@@ -25,22 +25,52 @@ static void begin_field(Table *table) {
     table->in_row = true;
 }
 
+/* Whether a text goes on with a sign that makes a spreadsheet take a cell for a formula: = + - @,
+ * and their fullwidth forms, which some take too. */
+static bool begins_formula(const char *text) {
+    static const char *const signs[] = {
+        "=", "+", "-", "@", "\xef\xbc\x9d", "\xef\xbc\x8b", "\xef\xbc\x8d", "\xef\xbc\xa0"};
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
+        if (strncmp(text, signs[i], strlen(signs[i])) == 0)
+            return true;
+    return false;
+}
+
+/* Where a program that parts fields by another sign than ours could begin a cell. */
+static bool parts_fields(char sign) {
+    return sign != '\0' && strchr(",;\t|\"\r\n", sign) != NULL;
+}
+
+/* Walks over a text as it is written: formulas get an apostrophe in front, quotes are doubled. With
+ * `stream` NULL nothing is written; returns whether the text needs quotes around it. */
+static bool walk_text(const Table *table, const char *text, FILE *stream) {
+    bool needs_quotes = false, begins_cell = true;
+    for (; *text != '\0'; text++) {
+        const bool is_formula = begins_cell && begins_formula(text);
+        const bool is_blank = *text == ' ' || ((unsigned char)*text < 0x20);
+        needs_quotes |= is_formula || *text == table->separator || parts_fields(*text);
+        begins_cell = parts_fields(*text) || (begins_cell && is_blank);
+        if (stream != NULL && is_formula)
+            fputc('\'', stream);
+        if (stream != NULL && *text == '"')
+            fputc('"', stream);
+        if (stream != NULL)
+            fputc(*text, stream);
+    }
+    return needs_quotes;
+}
+
+/* A text is a text wherever the file is opened, and no spreadsheet runs it. */
 static void put_text(Table *table, const char *text) {
     begin_field(table);
     if (text == NULL)
         return;
-    const char special[] = {table->separator, '"', '\r', '\n', '\0'};
-    if (strpbrk(text, special) == NULL) {
-        fputs(text, table->stream);
-        return;
-    }
-    fputc('"', table->stream);
-    for (; *text != '\0'; text++) {
-        if (*text == '"')
-            fputc('"', table->stream);
-        fputc(*text, table->stream);
-    }
-    fputc('"', table->stream);
+    const bool is_quoted = walk_text(table, text, NULL);
+    if (is_quoted)
+        fputc('"', table->stream);
+    (void)walk_text(table, text, table->stream);
+    if (is_quoted)
+        fputc('"', table->stream);
 }
 
 /* A number that was typed, or measures an error. */

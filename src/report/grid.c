@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELL_BYTES = 160, MAX_COLUMNS = 12, COLUMN_SPACE = 3 };
+enum { MAX_COLUMNS = 12, COLUMN_SPACE = 3 };
 
 typedef struct CzGridCell {
-    char text[CELL_BYTES];
+    const char *text; /* in the arena */
     CzStyle style;
 } CzGridCell;
 
@@ -55,16 +55,10 @@ void cz_grid_put(CzGrid *grid, const char *text, CzStyle style) {
     }
     if (grid->failed)
         return;
-    CzGridCell *cell = &grid->cell[grid->n_cell++];
-    snprintf(cell->text, sizeof cell->text, "%s", text);
-    cell->style = style;
-    if (strlen(text) < sizeof cell->text)
-        return;
-    char *end = cell->text + strlen(cell->text); /* cut at a whole character */
-    while (end > cell->text && !begins_character(end[-1]))
-        end--;
-    if (end > cell->text)
-        end[-1] = '\0';
+    const char *copy = cz_arena_copy_text(&grid->arena, text, strlen(text));
+    grid->failed = copy == NULL;
+    if (!grid->failed)
+        grid->cell[grid->n_cell++] = (CzGridCell){copy, style};
 }
 
 static void write_row(const CzGrid *grid, const CzGridCell *cell, const int *width, bool colour,
@@ -98,4 +92,5 @@ void cz_grid_write(CzGrid *grid, bool colour, FILE *stream) {
         write_row(grid, &grid->cell[i], width, colour, stream);
     free(grid->cell);
     grid->cell = NULL;
+    cz_arena_free(&grid->arena);
 }

@@ -2,7 +2,8 @@
 #ifndef CZ_REPORT_GRID_H
 #define CZ_REPORT_GRID_H
 
-#include <stdbool.h>
+#include "base/arena.h"
+
 #include <stdio.h>
 
 typedef enum CzStyle { CZ_STYLE_PLAIN, CZ_STYLE_GOOD, CZ_STYLE_CAREFUL, CZ_STYLE_BAD } CzStyle;
@@ -12,7 +13,8 @@ typedef struct CzGrid {
     int n_column;
     struct CzGridCell *cell; /* row after row (n_cell) */
     int n_cell, room;
-    bool failed; /* no memory */
+    bool failed;   /* no memory */
+    CzArena arena; /* of the texts */
 } CzGrid;
 
 /* Starts a grid; `alignment` has one letter per column, l or r, and is borrowed. */

@@ -85,7 +85,7 @@ void cz_markup_number(CzMarkup *markup, const char *name, int decimals, double v
 }
 
 void cz_markup_format(CzMarkup *markup, const char *name, const char *format, ...) {
-    char text[512];
+    char text[CZ_SENTENCE_ROOM];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);

@@ -6,10 +6,15 @@
 #ifndef CZ_REPORT_MARKUP_H
 #define CZ_REPORT_MARKUP_H
 
+#include "crushzone/names.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { CZ_MARKUP_DEPTH = 32 };
+enum {
+    CZ_MARKUP_DEPTH = 32,
+    CZ_SENTENCE_ROOM = CZ_MOST_TEXT + 500 /* a sentence with a title or with names in it [byte] */
+};
 
 /* Zero-initialise it and set the stream. */
 typedef struct CzMarkup {

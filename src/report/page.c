@@ -14,7 +14,7 @@
 #include <string.h>
 
 static const double *channel_named(const CzRun *run, const char *format, va_list arguments) {
-    char name[128];
+    char name[CZ_CHANNEL_ROOM];
     vsnprintf(name, sizeof name, format, arguments);
     for (int i = 0; run != NULL && i < cz_run_n_channel(run); i++)
         if (strcmp(cz_run_channel_name(run, i), name) == 0)
@@ -35,7 +35,7 @@ const double *cz_page_channel(const CzPage *page, const char *format, ...) {
     va_start(arguments, format);
     const double *channel = channel_named(page->run, format, arguments);
     va_end(arguments);
-    char name[128];
+    char name[CZ_CHANNEL_ROOM];
     va_start(arguments, format);
     vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
@@ -316,7 +316,7 @@ CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluat
     CzPage page;
     CzStatus status = cz_page_begin(&page, problem, evaluation, scenario, options, stream, error);
     if (status == CZ_OK) {
-        char title[256];
+        char title[CZ_SENTENCE_ROOM];
         snprintf(title, sizeof title, "%s, %s", cz_problem_title(problem), page.summary->scenario);
         cz_page_write_head(&page.markup, title);
         cz_page_write_verdict(&page, is_top);

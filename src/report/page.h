@@ -7,6 +7,7 @@
 #define CZ_REPORT_PAGE_H
 
 #include "crushzone/report.h"
+#include "crushzone/names.h"
 #include "model/model.h"
 #include "model/stand.h"
 #include "report/markup.h"
@@ -19,7 +20,7 @@ typedef struct CzPageOther {
 
 /* A curve made of recorded channels, such as a filtered acceleration, named as they are. */
 typedef struct CzPageCurve {
-    char name[64];
+    char name[CZ_CHANNEL_ROOM];
     double *value; /* (n_sample) */
 } CzPageCurve;
 
@@ -141,6 +142,6 @@ void cz_page_event_words(CzEventKind kind, char words[48]);
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before);
 /* A scenario's name as the name of a folder. */
-void cz_page_folder_name(const char *scenario, char name[128]);
+void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]);
 
 #endif

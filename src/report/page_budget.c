@@ -37,7 +37,7 @@ static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *
     static const char *const names[] = {"source", ">moment kNms", "nose-down | nose-up",
                                         ">lift kNs", ""};
     int order[CZ_N_BUDGET];
-    char text[160], time[CZ_FIGURE_ROOM];
+    char text[CZ_SENTENCE_ROOM], time[CZ_FIGURE_ROOM];
     const int n = cz_budget_order(budget, order);
     const double most = n > 0 ? fabs(budget->moment[order[0]]) : 0;
     snprintf(text, sizeof text, "%s, until its largest %s at %s ms", car,

@@ -28,14 +28,20 @@ static const char *or_empty(const char *text) {
 static const CzBar margin_bar = {"bar", "margin", 30, 31, "#d0021b", "#009e73"};
 
 static void write_source(CzMarkup *markup, const CzCheckResult *check) {
-    char text[512];
     const bool has_source = check->source != NULL && check->source[0] != '\0';
     const bool has_confidence = has_source && check->confidence != NULL;
-    snprintf(text, sizeof text, "%s%s%s%s%s%s%s", or_empty(check->why),
-             check->why != NULL && has_source ? "; " : "", or_empty(check->clause),
-             check->clause != NULL && has_source ? ", " : "", or_empty(check->source),
-             has_confidence ? ", confidence " : "", has_confidence ? check->confidence : "");
-    cz_markup_classed(markup, "td", "small", text);
+    const char *const parts[] = {or_empty(check->why),
+                                 check->why != NULL && has_source ? "; " : "",
+                                 or_empty(check->clause),
+                                 check->clause != NULL && has_source ? ", " : "",
+                                 or_empty(check->source),
+                                 has_confidence ? ", confidence " : "",
+                                 has_confidence ? check->confidence : ""};
+    cz_markup_open(markup, "td");
+    cz_markup_attribute(markup, "class", "small");
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        cz_markup_text(markup, parts[i]);
+    cz_markup_close(markup);
 }
 
 /* When the value was reached, or the window of a mean. */
@@ -142,8 +148,8 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
     cz_markup_line(markup);
 }
 
-void cz_page_folder_name(const char *scenario, char name[128]) {
-    snprintf(name, 128, "%s", scenario);
+void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]) {
+    snprintf(name, CZ_NAME_ROOM, "%s", scenario);
     for (char *c = name; *c != '\0'; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f || strchr("/\\:*?\"<>|", *c) != NULL)
             *c = '_';
@@ -170,7 +176,7 @@ static void write_others(CzPage *page) {
     const char *between = "";
     for (int i = 0; i < page->evaluation->n_run; i++) {
         const CzRunSummary *run = cz_kept_run(page->evaluation, i);
-        char folder[128];
+        char folder[CZ_NAME_ROOM];
         if (run == NULL || i == page->scenario)
             continue;
         cz_page_folder_name(run->scenario, folder);

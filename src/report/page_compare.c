@@ -27,12 +27,12 @@ static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
     open_table(markup, n, run, "check", ">limit");
     for (int k = 0; k < first->n_check; k++) {
         const CzCheckResult *check = &first->check[k];
-        char text[192], value[96];
+        char text[CZ_LABEL_ROOM + 1 + CZ_NAME_ROOM], value[96];
         if (!cz_compared_differs(n, run, check)) {
             n_same++;
             continue;
         }
-        snprintf(text, sizeof text, "%.80s, %.60s", check->name,
+        snprintf(text, sizeof text, "%s, %s", check->name,
                  check->scenario != NULL ? check->scenario : "");
         cz_markup_open(markup, "tr");
         cz_markup_element(markup, "td", text);
@@ -133,7 +133,7 @@ static CzStatus write_loops(CzPage *page, CzError *error) {
     cz_markup_open(markup, "div");
     cz_markup_attribute(markup, "class", "figures");
     for (int i = 0; i < cz_chart_count(page, CZ_CHART_FORCE_CLOSURE) && status == CZ_OK; i++) {
-        char title[160];
+        char title[CZ_SENTENCE_ROOM];
         cz_chart_title(page, CZ_CHART_FORCE_CLOSURE, i, sizeof title, title);
         cz_markup_open(markup, "figure");
         cz_markup_element(markup, "figcaption", title);
@@ -160,7 +160,7 @@ static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
     cz_markup_open(&page->markup, "div");
     cz_markup_attribute(&page->markup, "class", "figures");
     for (size_t i = 0; i < sizeof overlays / sizeof *overlays; i++) {
-        char channel[96];
+        char channel[CZ_CHANNEL_ROOM];
         snprintf(channel, sizeof channel, "%s_%s_%s", overlays[i].stem,
                  overlays[i].of_interface ? page->summary->interface[colliding].name
                                           : page->summary->vehicle[colliding].name,
@@ -173,11 +173,11 @@ static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
 
 static CzStatus write_page(CzPage *page, int n, const CzReportRun *run, CzError *error) {
     CzMarkup *markup = &page->markup;
-    char title[256];
-    snprintf(title, sizeof title, "%.200s, compared", cz_problem_title(page->problem));
+    char title[CZ_SENTENCE_ROOM];
+    snprintf(title, sizeof title, "%s, compared", cz_problem_title(page->problem));
     cz_page_write_head(markup, title);
     cz_markup_element(markup, "h1", title);
-    snprintf(title, sizeof title, "Figures are those of scenario %.100s.", page->summary->scenario);
+    snprintf(title, sizeof title, "Figures are those of scenario %s.", page->summary->scenario);
     cz_markup_element(markup, "p", title);
     write_checks(markup, n, run);
     cz_page_open_section(markup, "numbers", "Interfaces and cars");

@@ -14,7 +14,7 @@
 static double *add(CzPage *page, const char *stem, const char *name, const char *unit) {
     CzPageCurve *curve = &page->made[page->n_made];
     curve->value = calloc((size_t)page->n_sample, sizeof *curve->value);
-    snprintf(curve->name, sizeof curve->name, "%s%.40s%s", stem, name, unit);
+    snprintf(curve->name, sizeof curve->name, "%s%s%s", stem, name, unit);
     page->n_made += curve->value != NULL;
     return curve->value;
 }

@@ -287,7 +287,7 @@ static void write_events(const CzPage *page, FILE *stream) {
     fputs("\"events\":[", stream);
     for (int i = 0; i < page->summary->n_event; i++) {
         const CzEvent *event = &page->summary->event[i];
-        char time[CZ_FIGURE_ROOM], words[48], text[128];
+        char time[CZ_FIGURE_ROOM], words[48], text[CZ_WHERE_ROOM + 48];
         cz_page_event_words(event->what, words);
         snprintf(text, sizeof text, "%s %s", words, event->where);
         fprintf(stream, "%s[%s,", i > 0 ? "," : "",

@@ -156,12 +156,12 @@ static void find_range(Axes *axes, double start, double best) {
 }
 
 static void write_names(CzMarkup *markup, const CzEvaluator *evaluator, int n) {
-    char text[256];
+    char text[CZ_SENTENCE_ROOM];
     cz_markup_open(markup, "p");
     cz_markup_attribute(markup, "class", "axes");
     for (int i = 0; i < n; i++) {
         const CzVariableInfo *variable = cz_evaluator_variable(evaluator, i);
-        snprintf(text, sizeof text, "%s%d %.200s", i > 0 ? " · " : "", i + 1, variable->name);
+        snprintf(text, sizeof text, "%s%d %s", i > 0 ? " · " : "", i + 1, variable->name);
         cz_markup_text(markup, text);
     }
     cz_markup_close(markup);

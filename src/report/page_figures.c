@@ -5,7 +5,7 @@
 
 /* One figure with its heading; what is under the cursor stands below it. */
 static CzStatus write_figure(CzPage *page, CzChart chart, int index, CzError *error) {
-    char title[160];
+    char title[CZ_SENTENCE_ROOM];
     cz_chart_title(page, chart, index, sizeof title, title);
     cz_markup_open(&page->markup, "figure");
     cz_markup_element(&page->markup, "figcaption", title);
@@ -38,10 +38,10 @@ static void close_figures(CzPage *page) {
 static CzStatus write_other_shares(CzPage *page, CzError *error) {
     CzStatus status = CZ_OK;
     for (int i = 0; i < page->n_other && status == CZ_OK; i++) {
-        char title[160];
+        char title[CZ_SENTENCE_ROOM];
         CzPage beside = *page;
         beside.summary = cz_run_summary(page->other[i].run);
-        snprintf(title, sizeof title, "The same, %.80s", page->other[i].label);
+        snprintf(title, sizeof title, "The same, %s", page->other[i].label);
         cz_markup_open(&page->markup, "figure");
         cz_markup_element(&page->markup, "figcaption", title);
         cz_markup_line(&page->markup);

@@ -337,7 +337,7 @@ static void write_verification(CzMarkup *markup, const CzVerification *verificat
 static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzOutcome *outcome,
                            CzError *error) {
     CzMarkup *markup = &page->markup;
-    char title[256];
+    char title[CZ_SENTENCE_ROOM];
     snprintf(title, sizeof title, "%s, optimised", cz_problem_title(page->problem));
     cz_page_write_head(markup, title);
     write_banner(markup, evaluator, page->problem, outcome);

@@ -43,7 +43,7 @@ static void draw_frame(const CzPage *page, int interface, int sample, const char
 
 static void write_frame(CzPage *page, int interface, int sample) {
     CzMarkup *markup = &page->markup;
-    char title[128];
+    char title[CZ_SENTENCE_ROOM];
     name_frame(page, interface, sample, sizeof title, title);
     cz_markup_open(markup, "figure");
     cz_markup_element(markup, "figcaption", title);
@@ -57,7 +57,7 @@ void cz_chart_write_frames(const CzPage *page, int interface, CzMarkup *markup) 
     cz_markup_line(markup);
     for (int i = 0; i < N_FRAME; i++) {
         const int sample = sample_of(page, interface, i);
-        char title[128];
+        char title[CZ_SENTENCE_ROOM];
         name_frame(page, interface, sample, sizeof title, title);
         cz_svg_open_tile(markup, i, CZ_SCENE_HEIGHT, 4, title);
         draw_frame(page, interface, sample, title, markup);

@@ -97,8 +97,8 @@ static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *er
                 y[i] = sweep->point[i].metric[k];
                 is_known |= isfinite(y[i]) != 0;
             }
-            char title[160];
-            snprintf(title, sizeof title, "%c%.150s", toupper((unsigned char)*sweep->metric_doc[k]),
+            char title[CZ_SENTENCE_ROOM];
+            snprintf(title, sizeof title, "%c%s", toupper((unsigned char)*sweep->metric_doc[k]),
                      sweep->metric_doc[k] + 1);
             if (is_known) /* the table tells of those that are not */
                 write_curve(markup, sweep, title, sweep->metric[k], false, x, y, n_band, band);
@@ -159,7 +159,7 @@ static void write_map(CzMarkup *markup, const CzSweep *sweep) {
                         cz_figure_digits(text, 5, cz_sweep_axis_value(&sweep->axis[1], column)));
     }
     cz_svg_text(markup, MAP_LEFT, bottom + 32, "start", sweep->axis[1].path);
-    char up[200];
+    char up[CZ_SENTENCE_ROOM];
     snprintf(up, sizeof up, "upwards: %s", sweep->axis[0].path);
     cz_svg_text(markup, MAP_LEFT, bottom + 47, "start", up);
     cz_svg_text(markup, MAP_LEFT, bottom + 64, "start",
@@ -193,7 +193,7 @@ static void write_path_head(CzMarkup *markup, const char *path) {
     cz_markup_open(markup, "th");
     cz_markup_attribute(markup, "class", "number");
     while (*path != '\0') {
-        char part[96];
+        char part[CZ_SENTENCE_ROOM];
         const int n = (int)strcspn(path, ".") + (strchr(path, '.') != NULL);
         snprintf(part, sizeof part, "%.*s", n, path);
         cz_markup_text(markup, part);
@@ -225,8 +225,8 @@ static void write_table(CzMarkup *markup, const CzSweep *sweep) {
 
 CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error) {
     CzMarkup markup = {.stream = stream};
-    char title[256];
-    snprintf(title, sizeof title, "%.150s, swept", cz_problem_title(sweep->problem));
+    char title[CZ_SENTENCE_ROOM];
+    snprintf(title, sizeof title, "%s, swept", cz_problem_title(sweep->problem));
     cz_page_write_head(&markup, title);
     cz_markup_element(&markup, "h1", title);
     if (sweep->is_interrupted)

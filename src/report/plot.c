@@ -351,7 +351,7 @@ static void put_line(Legend *legend, const char *name, const char *colour, const
 }
 
 static void put_limit(Legend *legend, const CzPlotLimit *limit) {
-    char name[96];
+    char name[CZ_LABEL_ROOM + 8];
     snprintf(name, sizeof name, "limit: %s", limit->name);
     put_line(legend, name, "#d0021b", "10 4");
 }

@@ -147,7 +147,7 @@ static CzStatus write_file(CzFolder *folder, const char *name, Writer writer,
 
 static CzStatus write_run(CzFolder *folder, Results *results, int i, CzError *error) {
     const bool several = cz_n_kept_run(results->evaluation) > 1;
-    char scenario[128], name[192];
+    char scenario[CZ_NAME_ROOM], name[CZ_NAME_ROOM + 32];
     results->scenario = i;
     results->is_top = false;
     results->run = results->evaluation->run[i];

@@ -82,12 +82,12 @@ static Pose pose_of(const CzPage *page, int car, int sample) {
                  .z = 1e-3 * sampled(page, sample, "z", name, "mm"),
                  .pitch = 1e-3 * sampled(page, sample, "pitch", name, "mrad")};
     for (int i = 0; i < 4; i++) {
-        char wheel[40];
+        char wheel[CZ_NAME_ROOM + 8];
         snprintf(wheel, sizeof wheel, "%s_w%d", name, i + 1);
         pose.lift[i] = 1e-3 * sampled(page, sample, "z", wheel, "mm");
     }
     for (int side = REAR; side <= FRONT; side++) {
-        char end[40];
+        char end[CZ_NAME_ROOM + 8];
         snprintf(end, sizeof end, "%s_%s", sides[side], name);
         pose.end[side] = 1e-3 * sampled(page, sample, "d_end", end, "mm");
         pose.anti_climber[side] = 1e-3 * sampled(page, sample, "d_anti-climber", end, "mm");

@@ -17,7 +17,7 @@ bool cz_sheet_begin(CzSheet *sheet, const CzPage *page, int room, const char *x_
 
 CzSeries *cz_sheet_add_channel(CzSheet *sheet, const char *stem, const char *name,
                                const char *unit) {
-    char channel[64];
+    char channel[CZ_CHANNEL_ROOM];
     snprintf(channel, sizeof channel, "%s%s%s_%s", stem, name[0] != '\0' ? "_" : "", name, unit);
     const double *y = cz_page_channel(sheet->page, "%s", channel);
     char *kept = cz_arena_copy_text(&sheet->arena, channel, strlen(channel));
@@ -57,7 +57,7 @@ void cz_sheet_add_limit(CzSheet *sheet, double at, const char *name) {
 
 CzStatus cz_sheet_finish(CzSheet *sheet, CzChart chart, int index, CzMarkup *markup,
                          CzError *error) {
-    char title[160];
+    char title[CZ_SENTENCE_ROOM];
     const bool fits = !sheet->arena.out_of_memory && !sheet->failed;
     cz_chart_title(sheet->page, chart, index, sizeof title, title);
     sheet->plot.title = title;

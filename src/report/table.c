@@ -99,7 +99,8 @@ static void describe_damage(const CzRunSummary *run, int interface, size_t room,
 
 static void put_interface(CzGrid *grid, const CzRunSummary *run, int index) {
     const CzInterfaceResult *interface = &run->interface[index];
-    char number[CZ_FIGURE_ROOM], damage[160], used_text[CZ_FIGURE_ROOM + 2];
+    char number[CZ_FIGURE_ROOM], damage[CZ_MAX_ELEMENTS * (CZ_WHERE_ROOM + CZ_FIGURE_ROOM + 32)],
+        used_text[CZ_FIGURE_ROOM + 2];
     const CzStyle style = interface->bottomed_out ? CZ_STYLE_BAD : CZ_STYLE_PLAIN;
     double used = 0;
     for (int i = 0; i < interface->n_element; i++)
@@ -139,7 +140,7 @@ static void write_interfaces(const CzRunSummary *run, bool compact, bool colour,
 
 /* Wheel lift and override are about the run as a whole. */
 static void write_climbing(const CzRunSummary *run, bool colour, FILE *stream) {
-    char text[160], time[CZ_FIGURE_ROOM];
+    char text[CZ_WHERE_ROOM + 160], time[CZ_FIGURE_ROOM];
     for (int i = 0; i < run->n_event; i++) {
         const CzEvent *event = &run->event[i];
         const bool override = event->what == CZ_EVENT_OVERRIDE;

@@ -11,7 +11,7 @@
 /* Names and values of the recorded channels. */
 typedef struct CzChannels {
     int n_channel, n_sample, capacity;
-    char (*name)[48];
+    char (*name)[CZ_CHANNEL_ROOM];
     double **value; /* (n_channel x capacity), each row from malloc */
 } CzChannels;
 

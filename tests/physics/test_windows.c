@@ -6,7 +6,7 @@
 /* All windows up to twice the shortest length, of the recorded speed. */
 static void assert_worst_window(const Collision *collision, int car) {
     const CzVehicleResult *vehicle = &collision->summary->vehicle[car];
-    char name[32];
+    char name[CZ_CHANNEL_ROOM];
     snprintf(name, sizeof name, "v_%s_m_s", vehicle->name);
     const double *speed = channel(collision, name);
     const int n = n_sample(collision);

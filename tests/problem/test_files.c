@@ -87,7 +87,7 @@ static void a_file_without_permission_is_told(void **state) {
 static void bytes_that_are_no_text_are_told_with_their_place(void **state) {
     (void)state;
     check_text_refused("title: a\nb: \xff\xfe\n", 15, 2, 4,
-                       "the file is not UTF-8 text: byte 0xff begins no character");
+                       "the file holds byte 0xff, which begins no character of UTF-8");
     check_text_refused("a: \xc3\xa4\xe4\n", 7, 1, 5,
                        "the file is not UTF-8 text: byte 0xe4 begins no character");
     check_text_refused("a: b\0c", 6, 1, 5,

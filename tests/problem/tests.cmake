@@ -7,6 +7,7 @@ cz_test(problem-keys unit test_keys.c)
 cz_test(problem-bad-files errors test_bad_files.c)
 cz_test(problem-files errors test_files.c)
 cz_test(problem-mutations errors test_mutations.c)
+cz_test(problem-large-files errors test_large_files.c)
 cz_test(problem-memory errors test_memory.c)
 target_link_options(problem-memory PRIVATE
     -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc)

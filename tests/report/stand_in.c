@@ -116,7 +116,7 @@ CzTrack cz_problem_track(const CzProblem *problem) {
 int cz_page_deciding(const CzEvaluation *evaluation) {
     return evaluation->n_run > 0 ? 0 : -1;
 }
-void cz_page_folder_name(const char *scenario, char name[128]) {
+void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]) {
     snprintf(name, 128, "%s", scenario);
     for (char *c = name; *c != '\0'; c++)
         *c = *c == '/' ? '_' : *c;

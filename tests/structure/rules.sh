@@ -15,7 +15,7 @@ include_arrows() {
                 BEGIN {
                     n = split("base problem model fit dynamics simulate evaluate optimise report cli", order, " ")
                     for (i = 1; i <= n; i++) { rank[order[i]] = i; public[order[i]] = order[i] }
-                    public["status"] = "base"
+                    public["status"] = public["names"] = "base"
                     public["sweep"] = public["explain"] = public["verify"] = "evaluate"
                     public["crushzone"] = "report"
                 }

@@ -1,0 +1,41 @@
+/* What may stand in texts and names. This is the one rule, whatever a text comes from: a file, an
+ * escape in it, the command line, the name of a file.
+ *
+ * A text is UTF-8 on one line. It holds no control characters, nothing that turns the direction of
+ * writing, nothing that cannot be seen, no separators of lines and no code points that are no
+ * characters. Joiners (U+200C, U+200D) and variation selectors are allowed, because some scripts
+ * need them. It does not begin with a combining mark.
+ *
+ * A name is a text of at most CZ_MOST_NAME bytes that also stands in paths, columns, files and
+ * folders: letters, digits and - _ +. Letters beyond ASCII are allowed, composed ones as one
+ * character, so that names that look alike are alike.
+ */
+#ifndef CZ_BASE_TEXT_H
+#define CZ_BASE_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Bytes of the UTF-8 character at the start of n bytes; 0 when there is none. */
+size_t cz_text_character(const char *text, size_t n_byte);
+
+enum { CZ_FAULT_ROOM = 96 };
+
+/* The first thing in a text of n bytes that it must not hold: true, with its place in bytes and in
+ * words such as "the control character U+001B". With `is_file` the ends of lines and tabs are
+ * allowed. */
+bool cz_text_fault(const char *text, size_t n_byte, bool is_file, size_t *at,
+                   char what[CZ_FAULT_ROOM]);
+
+/* Likewise of a name: the end of a sentence that begins with the name, such as "holds '/'".
+ * `further` are ASCII signs that it may hold too. */
+bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_ROOM]);
+
+/* Makes one line of n bytes: tabs and ends of lines become blanks, those at the end go. Returns how
+ * many bytes are left. */
+size_t cz_text_one_line(char *text, size_t n_byte);
+
+/* Ends a text of n bytes before the character that byte n lies in. Returns the text. */
+char *cz_text_cut(char *text, size_t n);
+
+#endif

@@ -1,0 +1,123 @@
+/* Parts: finding them, how deep they use one another, and `use` with what is written beside it. */
+#include <string.h>
+
+#include "base/suggest.h"
+#include "problem/reader.h"
+
+CzPart *cz_tree_part(const CzTree *tree, const char *name, size_t n) {
+    const int at = cz_index_find(&tree->by_name, name, n);
+    return at >= 0 ? &tree->part[at] : NULL;
+}
+
+/* ---- how deep they use one another ---- */
+
+typedef enum { NOT_MEASURED, BEING_MEASURED, MEASURED } Progress;
+
+typedef struct {
+    CzReader *reader;
+    CzTree *tree;
+    Progress *progress; /* (n_part) */
+} Measuring;
+
+static int measure_part(Measuring *measuring, CzPart *part, int level);
+
+/* The deepest chain of parts that begins below a node. */
+static int measure_node(Measuring *measuring, const CzNode *node, int level) {
+    int deepest = 0;
+    for (int i = 0; node->kind != CZ_NODE_TEXT && i < node->n_entry; i++) {
+        const CzEntry *entry = &node->entry[i];
+        const CzNode *value = entry->value;
+        const bool uses = entry->key != NULL && strcmp(entry->key->text, "use") == 0 &&
+                          value->kind == CZ_NODE_TEXT;
+        CzPart *part =
+            uses ? cz_tree_part(measuring->tree, value->text, strlen(value->text)) : NULL;
+        CzMistakes *mistakes = &measuring->reader->mistakes;
+        int here = uses ? 0 : measure_node(measuring, value, level);
+        if (part != NULL && measuring->progress[part - measuring->tree->part] == BEING_MEASURED)
+            cz_mistake(mistakes, value, NULL, "part '%s' uses itself", part->name);
+        else if (part != NULL) /* one level too deep is not followed, but counts */
+            here = 1 + (level <= CZ_MOST_NESTED ? measure_part(measuring, part, level + 1) : 0);
+        if (part != NULL && (here == CZ_MOST_NESTED + 1 || level > CZ_MOST_NESTED))
+            cz_mistake(mistakes, value, NULL, "more than %d parts use one another in a chain",
+                       (int)CZ_MOST_NESTED);
+        deepest = here > deepest ? here : deepest;
+    }
+    return deepest;
+}
+
+static int measure_part(Measuring *measuring, CzPart *part, int level) {
+    Progress *progress = &measuring->progress[part - measuring->tree->part];
+    if (*progress == MEASURED)
+        return part->depth;
+    *progress = BEING_MEASURED;
+    part->depth = measure_node(measuring, part->node, level);
+    *progress = MEASURED;
+    return part->depth;
+}
+
+void cz_parts_measure(CzReader *reader, CzTree *tree) {
+    Measuring measuring = {reader, tree, NULL};
+    measuring.progress =
+        cz_reader_allocate(reader, (size_t)tree->n_part, sizeof *measuring.progress);
+    for (int i = 0; measuring.progress != NULL && i < tree->n_part; i++)
+        measure_part(&measuring, &tree->part[i], 0);
+}
+
+/* ---- taking one ---- */
+
+static const CzPart *find_part(CzReader *reader, const CzTree *tree, const CzNode *used,
+                               const CzTrail *trail) {
+    const CzPart *part = cz_tree_part(tree, used->text, strlen(used->text));
+    if (part != NULL)
+        return part;
+    CzSuggestion suggestion = {0};
+    cz_mistake(&reader->mistakes, used, trail, "there is no part '%s'", used->text);
+    for (int i = 0; reader->mistakes.last != NULL && i < tree->n_part; i++)
+        cz_suggest(&suggestion, used->text, tree->part[i].name);
+    cz_mistake_suggest(&reader->mistakes, suggestion.best);
+    if (suggestion.best == NULL)
+        cz_mistake_help(&reader->mistakes,
+                        "parts stand under 'parts:' or in the files of 'catalogue:'");
+    return NULL;
+}
+
+/* Whether a part may be used here: it is not on the way already, and the way is not too long. Both
+ * were told of the parts as written; a setting can make new ones. */
+static bool may_use(CzReader *reader, const CzPart *part, const CzNode *used,
+                    const CzTrail *use_trail) {
+    int n_part = 0;
+    for (const CzTrail *trail = use_trail; trail != NULL && trail->part != NULL;
+         trail = trail->from) {
+        n_part++;
+        if (strcmp(trail->part, part->name) != 0)
+            continue;
+        cz_mistake(&reader->mistakes, used, use_trail, "part '%s' uses itself", part->name);
+        return false;
+    }
+    if (n_part <= CZ_MOST_NESTED)
+        return true;
+    cz_mistake(&reader->mistakes, used, use_trail, "more than %d parts use one another in a chain",
+               (int)CZ_MOST_NESTED);
+    return false;
+}
+
+const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *node,
+                           const CzTrail *trail) {
+    const CzEntry *use = cz_node_find(node, "use");
+    if (use == NULL)
+        return node;
+    const CzTrail *use_trail = cz_entry_trail(use, trail);
+    CzNode *rest = cz_node_without(&reader->arena, node, "use");
+    CzTrail *part_trail = cz_reader_allocate(reader, 1, sizeof *part_trail);
+    if (rest == NULL || part_trail == NULL)
+        return NULL;
+    const char *name = cz_bind_text(reader, "use", use->value, use_trail);
+    const CzPart *part = name != NULL ? find_part(reader, tree, use->value, use_trail) : NULL;
+    if (part == NULL || !may_use(reader, part, use->value, use_trail)) {
+        rest->is_partial = reader->has_holes = true;
+        return rest;
+    }
+    *part_trail = (CzTrail){part->name, part->written, use->value, use_trail};
+    const CzNode *base = cz_take_part(reader, tree, part->node, part_trail);
+    return base != NULL ? cz_merge(&reader->arena, base, part_trail, rest, trail, false) : NULL;
+}

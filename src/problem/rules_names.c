@@ -1,0 +1,206 @@
+/* Rules of names: what they hold (base/text.h), and that no two are one. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/index.h"
+#include "base/text.h"
+#include "crushzone/names.h"
+#include "problem/rules.h"
+
+/* ---- what they hold ---- */
+
+/* Names stand in paths, columns, files and folders. */
+static void check_name(const CzRules *rules, const char *const *name, const char *what,
+                       const char *further) {
+    char fault[CZ_FAULT_ROOM];
+    if (*name != NULL && cz_name_fault(*name, further, fault))
+        cz_rule_broken(rules, name, "the name of a %s, '%.60s', %s", what, *name, fault);
+}
+
+static void check_label(const CzRules *rules, const char *const *label, const char *what) {
+    if (*label != NULL && strlen(*label) > CZ_MOST_LABEL)
+        cz_rule_broken(rules, label, "the name of a %s has more than %d letters", what,
+                       (int)CZ_MOST_LABEL);
+}
+
+/* ---- that no two are one ---- */
+
+/* The names of one kind so far. */
+typedef struct Names {
+    const CzRules *rules;
+    CzIndex index;
+} Names;
+
+static Names names_of(const CzRules *rules) {
+    return (Names){rules, {.arena = rules->mistakes->arena}};
+}
+
+/* Adds a name; false when it is there already. */
+static bool add(Names *names, const char *name) {
+    const size_t n = strlen(name);
+    if (cz_index_find(&names->index, name, n) >= 0)
+        return false;
+    (void)cz_index_add(&names->index, name, n, 0); /* the arena knows of a lack of memory */
+    return true;
+}
+
+static bool check_vehicles(const CzRules *rules) {
+    bool are_different = true;
+    const CzVehicle *vehicle = rules->problem->vehicle;
+    Names names = names_of(rules);
+    for (int i = 0; i < rules->problem->n_vehicle; i++) {
+        const char *const *name = &vehicle[i].name;
+        check_name(rules, name, "vehicle", "");
+        if (*name == NULL || add(&names, *name))
+            continue;
+        are_different = false;
+        cz_rule_broken(rules, name, "there are two vehicles '%.48s'", *name);
+    }
+    return are_different;
+}
+
+static void check_trains(const CzRules *rules) {
+    const CzInput *input = rules->input;
+    Names names = names_of(rules);
+    for (int i = 0; i < input->n_trains; i++) {
+        const char *const *name = &input->trains[i].name;
+        check_name(rules, name, "train", "");
+        if (*name != NULL && !add(&names, *name))
+            cz_rule_broken(rules, name, "there are two trains '%.48s'", *name);
+    }
+}
+
+/* ---- columns ---- */
+
+/* What the columns of a vehicle and of an interface hold beside the name, in the order of
+ * src/simulate/channels.c. */
+static const char *const vehicle_columns[][2] = {{"z_", "_mm"},
+                                                 {"z_", "_w1_mm"},
+                                                 {"z_", "_w2_mm"},
+                                                 {"z_", "_w3_mm"},
+                                                 {"z_", "_w4_mm"},
+                                                 {"F_end_rear_", "_kN"},
+                                                 {"F_end_front_", "_kN"},
+                                                 {"d_end_rear_", "_mm"},
+                                                 {"d_end_front_", "_mm"},
+                                                 {"d_anti-climber_front_", "_mm"},
+                                                 {"d_anti-climber_rear_", "_mm"}};
+static const char *const interface_columns[][2] = {{"F_", "_kN"},
+                                                   {"d_", "_mm"},
+                                                   {"F_coupler_", "_kN"},
+                                                   {"F_anti-climber_", "_kN"},
+                                                   {"F_side-buffers_", "_kN"}};
+
+/* Adds the columns of one vehicle or interface, up to the first that is there already. */
+static void add_columns(Names *names, int n_column, const char *const (*column)[2],
+                        const char *name, const char *const *field) {
+    CzArena *arena = names->rules->mistakes->arena;
+    for (int i = 0; i < n_column; i++) {
+        char text[CZ_CHANNEL_ROOM];
+        snprintf(text, sizeof text, "%s%.97s%s", column[i][0], name, column[i][1]);
+        const char *kept = cz_arena_copy_text(arena, text, strlen(text));
+        if (kept == NULL || add(names, kept))
+            continue;
+        cz_rule_broken(names->rules, field,
+                       "the name '%.48s' gives two columns of results one name: %.120s", *field,
+                       text);
+        return;
+    }
+}
+
+/* Vehicles whose names make one name of two columns, such as A-B and C beside A and B-C, where they
+ * stand beside one another. */
+static void check_columns(const CzRules *rules) {
+    Names names = names_of(rules);
+    const CzVehicle *vehicle = rules->problem->vehicle;
+    for (int i = 0; i < rules->problem->n_vehicle; i++)
+        if (vehicle[i].name != NULL)
+            add_columns(&names, sizeof vehicle_columns / sizeof *vehicle_columns, vehicle_columns,
+                        vehicle[i].name, &vehicle[i].name);
+    for (int i = 0; i + 1 < rules->problem->n_vehicle; i++) {
+        const char *behind = vehicle[i].name, *ahead = vehicle[i + 1].name;
+        char text[CZ_INTERFACE_ROOM];
+        if (behind == NULL || ahead == NULL)
+            continue;
+        snprintf(text, sizeof text, "%.48s-%.48s", behind, ahead);
+        add_columns(&names, sizeof interface_columns / sizeof *interface_columns, interface_columns,
+                    text, &vehicle[i].name);
+    }
+}
+
+/* ---- scenarios ---- */
+
+/* Names in small letters: some file systems tell no others. */
+static const char *small(const CzRules *rules, const char *name) {
+    char *copy = cz_arena_copy_text(rules->mistakes->arena, name, strlen(name));
+    for (char *c = copy; c != NULL && *c != '\0'; c++)
+        if (*c >= 'A' && *c <= 'Z')
+            *c = (char)(*c - 'A' + 'a');
+    return copy;
+}
+
+/* Whether a result folder holds something of that name itself. */
+static bool is_result_file(const char *name) {
+    static const char *const files[] = {
+#define CZ_RESULT_FILE(constant, name, doc) name,
+#include "crushzone/result_files.def"
+#undef CZ_RESULT_FILE
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        const size_t n = strcspn(files[i], "/");
+        if (strlen(name) == n && strncmp(files[i], name, n) == 0)
+            return true;
+    }
+    return false;
+}
+
+static void check_scenario_name(const CzRules *rules, Names *names, const char *const *name) {
+    check_name(rules, name, "scenario", ".");
+    if (*name == NULL)
+        return;
+    const char *lower = small(rules, *name);
+    if ((*name)[0] == '.')
+        cz_rule_broken(rules, name, "the name of a scenario does not begin with a point");
+    else if ((*name)[strlen(*name) - 1] == '.')
+        cz_rule_broken(rules, name, "the name of a scenario does not end with a point");
+    else if (lower != NULL && is_result_file(lower))
+        cz_rule_broken(rules, name,
+                       "a scenario cannot be called '%.48s': a result folder holds a file of that "
+                       "name, and each scenario has a folder in it",
+                       *name);
+    if (lower != NULL && !add(names, lower))
+        cz_rule_broken(rules, name, "there are two scenarios '%.48s'", *name);
+}
+
+static void check_scenarios(const CzRules *rules) {
+    const CzInput *input = rules->input;
+    Names names = names_of(rules);
+    for (int i = 0; i < input->n_scenarios; i++) {
+        check_scenario_name(rules, &names, &input->scenarios[i].name);
+        check_name(rules, &input->scenarios[i].family, "family", ".");
+    }
+}
+
+/* ---- all ---- */
+
+static void check_labels(const CzRules *rules) {
+    const CzInput *input = rules->input;
+    for (int i = 0; i < input->checks.n_limits; i++)
+        check_label(rules, &input->checks.limits[i].name, "check");
+    for (int i = 0; i < rules->problem->profile.n_limits; i++)
+        check_label(rules, &rules->problem->profile.limits[i].name, "check");
+    for (int i = 0; i < input->optimise.n_variables; i++)
+        check_label(rules, &input->optimise.variables[i].name, "variable");
+    for (int i = 0; i < input->optimise.n_targets; i++)
+        check_label(rules, &input->optimise.targets[i].name, "check");
+    for (int i = 0; i < input->optimise.n_match; i++)
+        check_label(rules, &input->optimise.match[i].name, "match");
+}
+
+void cz_rules_check_names(const CzRules *rules) {
+    check_trains(rules);
+    if (check_vehicles(rules))
+        check_columns(rules);
+    check_scenarios(rules);
+    check_labels(rules);
+}

@@ -1,6 +1,8 @@
 /* Statuses and errors: texts, exit codes, writing a sentence. */
 #include "base/error.h"
 
+#include "base/text.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -31,5 +33,6 @@ CzStatus cz_fail(CzError *error, CzStatus status, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(error->message, sizeof error->message, format, arguments);
     va_end(arguments);
+    cz_text_repair(error->message);
     return status;
 }

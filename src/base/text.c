@@ -162,11 +162,19 @@ size_t cz_text_one_line(char *text, size_t n_byte) {
     return n_kept;
 }
 
-char *cz_text_cut(char *text, size_t n) {
-    if (strlen(text) <= n)
-        return text;
-    while (n > 0 && ((unsigned char)text[n] & 0xc0) == 0x80)
-        n--;
-    text[n] = '\0';
-    return text;
+void cz_text_repair(char *text) {
+    const size_t n_byte = strlen(text);
+    size_t n_kept = 0;
+    for (size_t at = 0; at < n_byte;) {
+        const size_t n = cz_text_character(text + at, n_byte - at);
+        if (n == 0 || refused_as(code_of(text + at, n)) != NULL) {
+            text[n_kept++] = '?';
+            at += n > 0 ? n : 1;
+        } else {
+            memmove(text + n_kept, text + at, n);
+            n_kept += n;
+            at += n;
+        }
+    }
+    text[n_kept] = '\0';
 }

@@ -35,7 +35,8 @@ bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_ROO
  * many bytes are left. */
 size_t cz_text_one_line(char *text, size_t n_byte);
 
-/* Ends a text of n bytes before the character that byte n lies in. Returns the text. */
-char *cz_text_cut(char *text, size_t n);
+/* Makes what is told a text: what it may not hold becomes '?', such as half a character where a
+ * quoted text was cut. */
+void cz_text_repair(char *text);
 
 #endif

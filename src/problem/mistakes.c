@@ -1,6 +1,8 @@
 /* Mistakes: collecting, sorting, naming the part that they came through. */
 #include "problem/mistakes.h"
 
+#include "base/text.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,6 +47,7 @@ static bool is_known(const CzMistakes *mistakes, const CzError *error) {
 
 static void add(CzMistakes *mistakes, CzError *error, int order, const CzTrail *trail) {
     end_at_character(error->message, sizeof error->message);
+    cz_text_repair(error->message);
     mistakes->last = NULL;
     if (is_known(mistakes, error))
         return;
@@ -105,6 +108,7 @@ void cz_mistake_help(CzMistakes *mistakes, const char *format, ...) {
     vsnprintf(error->help, sizeof error->help, format, arguments);
     va_end(arguments);
     end_at_character(error->help, sizeof error->help);
+    cz_text_repair(error->help);
 }
 
 void cz_mistake_suggest(CzMistakes *mistakes, const char *best) {

@@ -3,12 +3,18 @@
 
 #include <string.h>
 
-#include "problem/source.h"
+#include "base/text.h"
+
+static bool is_text(const char *text) {
+    char what[CZ_FAULT_ROOM];
+    size_t at;
+    return !cz_text_fault(text, strlen(text), false, &at, what);
+}
 
 static void check_error(const CzProblem *problem, const CzError *error) {
     FUZZ_DEMAND(error->status == CZ_STATUS_INPUT);
     FUZZ_DEMAND(error->message[0] != '\0' && error->file[0] != '\0');
-    FUZZ_DEMAND(cz_source_is_printable(error->message) && cz_source_is_printable(error->help));
+    FUZZ_DEMAND(is_text(error->message) && is_text(error->help));
     FUZZ_DEMAND(error->line >= 0 && error->column >= 0);
     const char *line = cz_problem_source_line(problem, error);
     FUZZ_DEMAND(line == NULL || error->column <= (int)strlen(line) + 1);

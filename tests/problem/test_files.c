@@ -90,11 +90,10 @@ static void bytes_that_are_no_text_are_told_with_their_place(void **state) {
                        "the file holds byte 0xff, which begins no character of UTF-8");
     check_text_refused("a: \xc3\xa4\xe4\n", 7, 1, 5,
                        "the file holds byte 0xe4, which begins no character of UTF-8");
-    check_text_refused("a: b\0c", 6, 1, 5,
-                       "the file is not text: it holds the control character 0x00");
+    check_text_refused("a: b\0c", 6, 1, 5, "the file holds the control character U+0000");
     check_text_refused("\x7f"
                        "ELF\x02\x01",
-                       6, 1, 1, "the file is not text: it holds the control character 0x7f");
+                       6, 1, 1, "the file holds the control character U+007F");
     check_text_refused("a: \xed\xa0\x80\n", 7, 1, 4,
                        "the file is not UTF-8 text: byte 0xed begins no character");
 }

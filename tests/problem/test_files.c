@@ -95,7 +95,7 @@ static void bytes_that_are_no_text_are_told_with_their_place(void **state) {
                        "ELF\x02\x01",
                        6, 1, 1, "the file holds the control character U+007F");
     check_text_refused("a: \xed\xa0\x80\n", 7, 1, 4,
-                       "the file is not UTF-8 text: byte 0xed begins no character");
+                       "the file holds byte 0xed, which begins no character of UTF-8");
 }
 
 static void a_byte_order_mark_is_passed_over(void **state) {

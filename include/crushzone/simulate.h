@@ -237,6 +237,11 @@ CZ_MUST_CHECK CZ_API CzStatus cz_simulate(const CzModel *model, const CzSimulate
 CZ_API void cz_run_free(CzRun *run);
 CZ_API const CzRunSummary *cz_run_summary(const CzRun *run);
 
+/* A total of a run, such as an energy, as outputs give it: NaN of a run that went beyond the
+ * model's validity, because it adds up what came after. Other numbers of such a run are given and
+ * marked. */
+CZ_API double cz_run_total(const CzRunSummary *run, double total);
+
 /* A full vehicle at rest on its springs, wheels and track, found by Newton's method (KINSOL) from
  * the laws alone; the model is built from closed forms, which this tests. Measured from springs
  * without load and wheels that just touch. NaN throughout for rigid and fixed vehicles. */

@@ -71,6 +71,7 @@ typedef struct CzSweepPoint {
                                   scenario and place; empty when none */
     char scenario[CZ_NAME_ROOM];
     char where[CZ_WHERE_ROOM];
+    bool beyond_validity; /* something climbed: the metrics may be of later, and totals are NaN */
     double metric[CZ_MOST_SWEPT_METRICS]; /* in the metrics' units; NaN when unknown (n_metric) */
     char metric_where[CZ_MOST_SWEPT_METRICS][CZ_PLACE_ROOM]; /* place and scenario (n_metric) */
     char message[256];                                       /* why it is invalid or failed */

@@ -198,7 +198,9 @@ static void write_channels(void) {
         {"overlap_A4-B1_mm", "overlap of the faces while they push"},
         {"E_kinetic_kJ, E_stored_kJ", "energies of all; E_taken_up, E_wheel_rail, E_running_gear, "
                                       "E_track likewise"},
-        {"E_imbalance_kJ", "what the balance is off by"}};
+        {"E_imbalance_kJ", "what the balance is off by"},
+        {"beyond_validity", "1 after an override, where the model says nothing; energies are blank "
+                            "there"}};
     puts("One row every simulation.output_step_ms. Which columns there are depends on the "
          "vehicles; A1 "
          "stands\nfor any car, A4-B1 for any interface, front for either end, w1 to w4 are "

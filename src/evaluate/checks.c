@@ -23,6 +23,8 @@ double cz_margin(double value, double limit, bool is_minimum, double scale) {
     return fabs(margin) < rounding ? 0 : margin;
 }
 
+static const char beyond_validity[] = "beyond model validity: something climbed in this run";
+
 /* The result with everything that does not depend on a run. */
 static CzCheckResult blank_result(const CzCheck *check, const CzScene *scene) {
     return (CzCheckResult){.name = check->name,
@@ -64,14 +66,21 @@ CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, con
         return result;
     }
     memcpy(result.where, value.where, sizeof result.where);
-    result.why = subject->run != NULL && subject->run->beyond_validity
-                     ? "beyond model validity: something climbed in this run"
-                     : NULL;
+    result.beyond_validity = subject->run != NULL && subject->run->beyond_validity;
+    result.why = result.beyond_validity ? beyond_validity : NULL;
     result.value = value.value;
     memcpy(result.when, value.when, sizeof result.when);
     result.margin = result.is_flag ? NAN : margin;
     result.verdict = fails ? CZ_VERDICT_FAIL : passing_verdict(check);
     return result;
+}
+
+void cz_check_blank_total(const CzCheck *check, CzCheckResult *result) {
+    if (!result->beyond_validity || !cz_metric_is_total(check->metric.kind))
+        return;
+    result->value = result->margin = result->when[0] = result->when[1] = NAN;
+    result->where[0] = '\0';
+    result->verdict = CZ_VERDICT_NOT_CHECKED;
 }
 
 double cz_check_constraint(const CzCheckResult *result, double required_margin) {

@@ -51,6 +51,9 @@ double cz_margin(double value, double limit, bool is_minimum, double scale);
  * `failure` says why, NULL otherwise. */
 CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, const char *failure);
 
+/* Blanks a result that adds up what came after the model's validity. */
+void cz_check_blank_total(const CzCheck *check, CzCheckResult *result);
+
 /* Constraint of a judged check: at most 0 when kept; NaN when it could not be checked. */
 double cz_check_constraint(const CzCheckResult *result, double required_margin);
 

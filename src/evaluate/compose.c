@@ -110,12 +110,15 @@ static void sort_results(const CzEvaluator *evaluator, const CzCheckResult *all,
                          CzEvaluation *evaluation) {
     for (int i = 0; i < evaluator->list.n_check; i++) {
         const CzCheck *check = &evaluator->list.check[i];
+        CzCheckResult listed = all[i];
+        cz_check_blank_total(check, &listed);
         if (!check->is_target)
-            evaluation->check[evaluation->n_check++] = all[i];
+            evaluation->check[evaluation->n_check++] = listed;
         if (!check->is_constraint)
             continue;
         const int j = evaluation->n_constraint++;
-        evaluation->constraint_check[j] = all[i];
+        evaluation->constraint_check[j] = listed;
+        /* A search follows the number itself, or it would lose its way out of what climbs. */
         const double constraint = cz_check_constraint(&all[i], evaluator->list.required_margin);
         evaluation->constraint[j] = isnan(constraint) ? 0 : constraint;
         evaluation->violation = fmax(evaluation->violation, evaluation->constraint[j]);

@@ -239,6 +239,18 @@ CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzError *error) {
     return metric->kind != NULL ? CZ_OK : fail_unknown(text, name, error);
 }
 
+bool cz_metric_is_total(const CzMetricKind *kind) {
+    static const char *const totals[] = {
+#define CZ_TOTAL(name) name,
+#include "evaluate/totals.def"
+#undef CZ_TOTAL
+    };
+    for (size_t i = 0; i < sizeof totals / sizeof totals[0]; i++)
+        if (strcmp(kind->name, totals[i]) == 0)
+            return true;
+    return false;
+}
+
 bool cz_metric_picks(const CzMetric *metric, const CzScene *scene) {
     return cz_places_count(scene, metric->kind->level, metric->selector) > 0;
 }

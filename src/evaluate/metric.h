@@ -109,6 +109,8 @@ CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, 
 /* When the value was reached at a place [s]: begin and end, NaN when that is not kept. */
 void cz_metric_when(const CzMetricKind *kind, const CzPlace *place, double when[2]);
 
+/* Whether it adds up over the whole run. */
+bool cz_metric_is_total(const CzMetricKind *kind);
 /* Whether the selector picks anything in this scene, as written. */
 bool cz_metric_picks(const CzMetric *metric, const CzScene *scene);
 

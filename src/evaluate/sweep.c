@@ -69,9 +69,13 @@ typedef struct Reading {
 static double read_metrics(int n_scenario, const CzRunSummary *const *run, void *data) {
     const Reading *reading = data;
     const CzEvaluator *evaluator = reading->evaluator;
+    for (int s = 0; s < n_scenario; s++)
+        reading->point->beyond_validity |= run[s] != NULL && run[s]->beyond_validity;
     for (int k = 0; k < reading->sweeping->options->n_metric; k++) {
         const CzMetric *metric = &reading->sweeping->metric[k];
         const bool smallest = metric->aggregate == CZ_AGGREGATE_MIN;
+        if (reading->point->beyond_validity && cz_metric_is_total(metric->kind))
+            continue;
         for (int s = 0; s < n_scenario; s++) {
             if (run[s] == NULL)
                 continue;

@@ -88,6 +88,7 @@ CzStatus cz_draw_force_closure(CzSheet *sheet, int interface, CzError *error) {
         series->name = page->label != NULL ? page->label : "computed, with unloading";
         series->x = closure;
         series->x_channel = x_channel;
+        cz_sheet_split_beyond(sheet, series);
     }
     cz_draw_force_limits(sheet);
     sheet->plot.from_zero = true;

@@ -59,7 +59,8 @@ void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text)
             break;
         cz_figure_digits(number, digits, check->value);
     }
-    snprintf(text, room, "%s%s", number, spaced_unit(check, unit));
+    snprintf(text, room, "%s%s%s", number, spaced_unit(check, unit),
+             check->beyond_validity ? "*" : "");
 }
 
 /* A check may pass because there is nothing that it could be about. */

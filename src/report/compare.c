@@ -71,7 +71,7 @@ static double closure(const CzRunSummary *run, int i) {
     return run->interface[i].shortening * CZ_MILLI_PER_UNIT;
 }
 static double energy(const CzRunSummary *run, int i) {
-    return run->interface[i].energy / CZ_KILO;
+    return cz_run_total(run, run->interface[i].energy) / CZ_KILO;
 }
 static double stroke_used(const CzRunSummary *run, int i) {
     double used = 0;
@@ -116,6 +116,24 @@ double cz_compared_value(const CzReportRun *run, int i, const CzComparedNumber *
         if (strcmp(cz_compared_name(summary, number, k), name) == 0)
             return number->value(summary, k);
     return NAN;
+}
+
+bool cz_compared_is_beyond(const CzReportRun *run, int i) {
+    const CzRunSummary *summary = cz_compared_run(run, i);
+    return summary != NULL && summary->beyond_validity;
+}
+
+const char *cz_compared_text(char text[CZ_FIGURE_ROOM], const CzReportRun *run, int i,
+                             const CzComparedNumber *number, const char *name) {
+    cz_figure_plain(text, cz_compared_value(run, i, number, name));
+    return cz_figure_mark(text, cz_compared_is_beyond(run, i));
+}
+
+const char *cz_compared_caution(int n, const CzReportRun *run) {
+    for (int i = 0; i < n; i++)
+        if (cz_compared_is_beyond(run, i))
+            return "Override: a run went beyond model validity (" CZ_FIGURE_MARK_MEANS ").";
+    return "";
 }
 
 /* ---- on the terminal ---- */
@@ -179,8 +197,7 @@ static void write_numbers(int n, const CzReportRun *run, bool of_interface, bool
             cz_grid_put(&grid, name, CZ_STYLE_PLAIN);
             cz_grid_put(&grid, number->name, CZ_STYLE_PLAIN);
             for (int m = 0; m < n; m++)
-                cz_grid_put(&grid, cz_figure_plain(text, cz_compared_value(run, m, number, name)),
-                            CZ_STYLE_PLAIN);
+                cz_grid_put(&grid, cz_compared_text(text, run, m, number, name), CZ_STYLE_PLAIN);
         }
     }
     cz_grid_write(&grid, colour, stream);
@@ -195,4 +212,8 @@ void cz_report_write_comparison(int n, const CzReportRun *run, bool colour, FILE
     write_numbers(n, run, true, colour, stream);
     fputc('\n', stream);
     write_numbers(n, run, false, colour, stream);
+    if (cz_compared_caution(n, run)[0] != '\0') {
+        cz_grid_write_text(cz_compared_caution(n, run), CZ_STYLE_BAD, colour, stream);
+        fputc('\n', stream);
+    }
 }

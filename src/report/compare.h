@@ -2,6 +2,7 @@
 #ifndef CZ_REPORT_COMPARE_H
 #define CZ_REPORT_COMPARE_H
 
+#include "report/figure.h"
 #include "report/page.h"
 #include "report/runs.h"
 
@@ -35,5 +36,12 @@ const char *cz_compared_name(const CzRunSummary *run, const CzComparedNumber *nu
 /* A number in run[i], by the name of its interface or car; NaN when that run has none. */
 double cz_compared_value(const CzReportRun *run, int i, const CzComparedNumber *number,
                          const char *name);
+/* Whether what is compared of run[i] went beyond the model's validity. */
+bool cz_compared_is_beyond(const CzReportRun *run, int i);
+/* The number as text, with the mark of such a run. */
+const char *cz_compared_text(char text[CZ_FIGURE_ROOM], const CzReportRun *run, int i,
+                             const CzComparedNumber *number, const char *name);
+/* What the mark means when one of the runs has it; empty when none has. */
+const char *cz_compared_caution(int n, const CzReportRun *run);
 
 #endif

@@ -13,6 +13,7 @@ static void put_run(CzJson *json, const CzReportRun *run, const CzRunSummary *su
     cz_json_text(json, "hash", cz_problem_hash(run->problem));
     cz_json_text(json, "scenario", summary != NULL ? summary->scenario : NULL);
     cz_document_verdict(json, run->evaluation->verdict);
+    cz_json_flag(json, "beyond_validity", summary != NULL && summary->beyond_validity);
     cz_json_close(json);
 }
 
@@ -36,6 +37,7 @@ static void put_check(CzJson *json, int n, const CzReportRun *run, const CzCheck
             cz_document_verdict(json, other->verdict);
         else
             cz_json_text(json, "verdict", NULL);
+        cz_json_flag(json, "beyond_validity", other != NULL && other->beyond_validity);
         cz_json_close(json);
     }
     cz_json_close(json);

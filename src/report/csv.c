@@ -107,9 +107,10 @@ static void put_names(Table *table, int n, const char *const *name) {
 
 void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *options,
                          FILE *stream) {
-    static const char *const names[] = {"name",    "scenario", "where",  "kind",      "limit",
-                                        "value",   "unit",     "margin", "verdict",   "why",
-                                        "profile", "clause",   "source", "confidence"};
+    static const char *const names[] = {"name",    "scenario",   "where",          "kind",
+                                        "limit",   "value",      "unit",           "margin",
+                                        "verdict", "why",        "profile",        "clause",
+                                        "source",  "confidence", "beyond_validity"};
     enum { verdict = 8, n_column = sizeof names / sizeof *names };
     Table table = table_of(options, stream);
     put_names(&table, n_column, names);
@@ -129,6 +130,7 @@ void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *
         put_text(&table, check->clause);
         put_text(&table, check->source);
         put_text(&table, check->confidence);
+        put_flag(&table, check->beyond_validity);
         end_row(&table);
     }
     for (int i = 0; i < evaluation->n_not_covered; i++) {
@@ -146,9 +148,10 @@ void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *
 /* One row per element, after one for the interface as a whole with an empty element. */
 void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *options,
                              FILE *stream) {
-    static const char *const names[] = {
-        "interface",   "element",   "peak_force_kN", "peak_time_ms", "shortening_mm", "stroke_mm",
-        "stroke_used", "energy_kJ", "energy_share",  "stored_kJ",    "bottomed_out"};
+    static const char *const names[] = {"interface",    "element",       "peak_force_kN",
+                                        "peak_time_ms", "shortening_mm", "stroke_mm",
+                                        "stroke_used",  "energy_kJ",     "energy_share",
+                                        "stored_kJ",    "bottomed_out",  "beyond_validity"};
     Table table = table_of(options, stream);
     put_names(&table, (int)(sizeof names / sizeof *names), names);
     for (int i = 0; i < run->n_interface; i++) {
@@ -160,10 +163,11 @@ void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *opt
         put_number(&table, interface->shortening * CZ_MILLI_PER_UNIT);
         put_text(&table, NULL);
         put_text(&table, NULL);
-        put_number(&table, interface->energy / CZ_KILO);
-        put_number(&table, interface->energy_share);
+        put_number(&table, cz_run_total(run, interface->energy) / CZ_KILO);
+        put_number(&table, cz_run_total(run, interface->energy_share));
         put_text(&table, NULL);
         put_flag(&table, interface->bottomed_out);
+        put_flag(&table, run->beyond_validity);
         end_row(&table);
         for (int k = 0; k < interface->n_element; k++) {
             const CzElementResult *element = &interface->element[k];
@@ -174,10 +178,11 @@ void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *opt
             put_text(&table, NULL);
             put_number(&table, element->stroke * CZ_MILLI_PER_UNIT);
             put_number(&table, element->stroke_used);
-            put_number(&table, element->energy / CZ_KILO);
+            put_number(&table, cz_run_total(run, element->energy) / CZ_KILO);
             put_text(&table, NULL);
-            put_number(&table, element->stored / CZ_KILO);
+            put_number(&table, cz_run_total(run, element->stored) / CZ_KILO);
             put_flag(&table, element->bottomed_out);
+            put_flag(&table, run->beyond_validity);
             end_row(&table);
         }
     }
@@ -186,12 +191,16 @@ void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *opt
 void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FILE *stream) {
     Table table = table_of(options, stream);
     const int n_channel = cz_run_n_channel(run);
+    const double from = cz_run_summary(run)->beyond_validity_time * CZ_MILLI_PER_UNIT; /* or NaN */
     for (int channel = 0; channel < n_channel; channel++)
         put_text(&table, cz_run_channel_name(run, channel));
+    put_text(&table, "beyond_validity");
     end_row(&table);
     for (int sample = 0; sample < cz_run_n_sample(run); sample++) {
+        const bool late = cz_run_channel(run, 0)[sample] > from;
         for (int channel = 0; channel < n_channel; channel++)
             put_number(&table, cz_run_channel(run, channel)[sample]);
+        put_number(&table, late ? 1 : 0);
         end_row(&table);
     }
 }
@@ -221,7 +230,8 @@ void cz_csv_write_history(const CzEvaluator *evaluator, const CzOutcome *outcome
 }
 
 void cz_csv_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FILE *stream) {
-    static const char *const names[] = {"state", "verdict", "margin", "check", "where", "scenario"};
+    static const char *const names[] = {"state", "verdict",  "margin",         "check",
+                                        "where", "scenario", "beyond_validity"};
     Table table = table_of(options, stream);
     for (int k = 0; k < sweep->n_axis; k++)
         put_text(&table, sweep->axis[k].path);
@@ -240,6 +250,7 @@ void cz_csv_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FI
         put_text(&table, point->check);
         put_text(&table, point->where);
         put_text(&table, point->scenario);
+        put_flag(&table, point->beyond_validity);
         end_row(&table);
     }
 }

@@ -105,3 +105,10 @@ const char *cz_figure_margin(char text[CZ_FIGURE_ROOM], double share) {
 const char *cz_figure_change(char text[CZ_FIGURE_ROOM], double change) {
     return write_percent(text, "", false, 100 * change);
 }
+
+const char *cz_figure_mark(char text[CZ_FIGURE_ROOM], bool beyond_validity) {
+    const size_t n = strlen(text);
+    if (beyond_validity && strcmp(text, "-") != 0 && n + 2 <= CZ_FIGURE_ROOM)
+        memcpy(text + n, "*", 2);
+    return text;
+}

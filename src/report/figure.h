@@ -7,6 +7,8 @@
 #ifndef CZ_REPORT_FIGURE_H
 #define CZ_REPORT_FIGURE_H
 
+#include <stdbool.h>
+
 enum { CZ_FIGURE_ROOM = 48 }; /* bytes that hold any number written here */
 
 /* A quantity by this rule: the value itself, or 0. */
@@ -33,5 +35,10 @@ const char *cz_figure_margin(char text[CZ_FIGURE_ROOM], double share);
 /* A change as a percentage of two digits: what is a part in a million off is not "0 %"; ">999 %"
  * beyond; "-" for NaN. */
 const char *cz_figure_change(char text[CZ_FIGURE_ROOM], double change);
+
+/* Marks a number that may be of the time beyond the model's validity: "3483*"; "-" stays. */
+const char *cz_figure_mark(char text[CZ_FIGURE_ROOM], bool beyond_validity);
+/* What the mark means; printed below what shows it. */
+#define CZ_FIGURE_MARK_MEANS "*: may be of later; totals are blank"
 
 #endif

@@ -89,6 +89,7 @@ static void put_constraint(CzJson *json, const CzEvaluator *evaluator, const CzO
     cz_json_exact(json, "value", check != NULL ? check->value : NAN);
     cz_json_text(json, "unit", check != NULL ? check->unit : NULL);
     cz_json_exact(json, "margin", check != NULL ? check->margin : NAN);
+    cz_json_flag(json, "beyond_validity", check != NULL && check->beyond_validity);
     cz_json_flag(json, "checked", check == NULL || check->verdict != CZ_VERDICT_NOT_CHECKED);
     cz_json_flag(json, "violated", !(best->constraint[i] <= 0));
     cz_json_close(json);
@@ -154,6 +155,8 @@ CzStatus cz_report_write_outcome(const CzProblem *problem, const CzEvaluator *ev
                  outcome->best_evaluation.status == CZ_OK &&
                      outcome->best_evaluation.violation <= 0);
     cz_json_exact(json, "violation", outcome->best_evaluation.violation);
+    cz_json_flag(json, "start_beyond_validity", outcome->start_evaluation.beyond_validity);
+    cz_json_flag(json, "beyond_validity", outcome->best_evaluation.beyond_validity);
     put_variables(json, evaluator, outcome);
     put_objective(json, evaluator, outcome);
     if (cz_evaluator_is_fit(evaluator))

@@ -15,16 +15,22 @@ static void write_objective(const CzEvaluator *evaluator, const CzOutcome *outco
     const char *unit = cz_evaluator_objective_unit(evaluator);
     const double before = outcome->start_evaluation.objective;
     const double after = outcome->best_evaluation.objective;
+    const bool before_beyond = outcome->start_evaluation.beyond_validity;
+    const bool after_beyond = outcome->best_evaluation.beyond_validity;
     char start[CZ_FIGURE_ROOM], best[CZ_FIGURE_ROOM];
     if (cz_evaluator_maximises_margin(evaluator)) { /* its negative is minimised */
-        fprintf(stream, "smallest margin: %s -> %s\n\n", cz_figure_margin(start, -before),
-                cz_figure_margin(best, -after));
+        cz_figure_margin(start, -before);
+        cz_figure_margin(best, -after);
+        fprintf(stream, "smallest margin: %s -> %s\n\n", cz_figure_mark(start, before_beyond),
+                cz_figure_mark(best, after_beyond));
         return;
     }
+    cz_figure_plain(start, before);
+    cz_figure_plain(best, after);
     fputs("objective ", stream);
     cz_grid_write_text(cz_evaluator_objective_name(evaluator), CZ_STYLE_PLAIN, colour, stream);
-    fprintf(stream, ": %s -> %s%s%s\n\n", cz_figure_plain(start, before),
-            cz_figure_plain(best, after), unit != NULL && unit[0] != '\0' ? " " : "",
+    fprintf(stream, ": %s -> %s%s%s\n\n", cz_figure_mark(start, before_beyond),
+            cz_figure_mark(best, after_beyond), unit != NULL && unit[0] != '\0' ? " " : "",
             unit != NULL ? unit : "");
 }
 
@@ -42,7 +48,8 @@ const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outc
 static void write_unchecked(const CzEvaluation *best, bool colour, FILE *stream) {
     int n = 0;
     for (int i = 0; best->constraint_check != NULL && i < best->n_constraint; i++)
-        n += best->constraint_check[i].verdict == CZ_VERDICT_NOT_CHECKED;
+        n += best->constraint_check[i].verdict == CZ_VERDICT_NOT_CHECKED &&
+             !best->constraint_check[i].beyond_validity;
     if (n == 0)
         return;
     char text[96];
@@ -66,6 +73,11 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome, b
                 outcome->best_evaluation.violation <= 0 ? "" : "NOT ");
     fputc('\n', stream);
     write_unchecked(&outcome->best_evaluation, colour, stream);
+    if (outcome->start_evaluation.beyond_validity || outcome->best_evaluation.beyond_validity) {
+        cz_grid_write_text("Override: a run went beyond model validity (" CZ_FIGURE_MARK_MEANS ").",
+                           CZ_STYLE_BAD, colour, stream);
+        fputc('\n', stream);
+    }
     write_objective(evaluator, outcome, colour, stream);
 }
 

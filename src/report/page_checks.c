@@ -233,7 +233,8 @@ static void write_caution(CzPage *page) {
     }
     if (run->beyond_validity) {
         snprintf(text, sizeof text,
-                 "Override at %s ms: what the figures show from there on is beyond the model.",
+                 "Override at %s ms: what the figures show from there on, shaded, is beyond the "
+                 "model (" CZ_FIGURE_MARK_MEANS ").",
                  cz_figure_fixed(number, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
         cz_markup_classed(markup, "p", "fail", text);
     }

@@ -7,6 +7,7 @@
 #include "report/compare.h"
 #include "report/figure.h"
 #include "report/plot.h"
+#include "report/sheet.h"
 
 #include <math.h>
 
@@ -85,7 +86,7 @@ static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool 
             cz_markup_element(markup, "td", number->name);
             for (int m = 0; m < n; m++)
                 cz_markup_classed(markup, "td", "number",
-                                  cz_figure_plain(text, cz_compared_value(run, m, number, name)));
+                                  cz_compared_text(text, run, m, number, name));
             cz_markup_close(markup);
             cz_markup_line(markup);
         }
@@ -97,12 +98,15 @@ static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool 
 static void write_overlay(CzMarkup *markup, int n, const CzReportRun *run, const char *title,
                           const char *y_label, const char *channel) {
     CzSeries series[CZ_MOST_COMPARED];
-    int n_series = 0;
+    CzPlotBand band[CZ_MOST_COMPARED];
+    int n_series = 0, n_band = 0;
     for (int i = 0; i < n; i++) {
         const int scenario = cz_compared_scenario(run, i);
         const CzRun *own = scenario >= 0 ? run[i].evaluation->run[scenario] : NULL;
         const double *time = cz_run_channel_named(own, "t_ms");
         const double *y = cz_run_channel_named(own, "%s", channel);
+        if (time != NULL && y != NULL && cz_compared_is_beyond(run, i))
+            band[n_band++] = cz_band_beyond(cz_compared_run(run, i), time, cz_run_n_sample(own));
         if (time != NULL && y != NULL)
             series[n_series++] = (CzSeries){.name = run[i].label,
                                             .n = cz_run_n_sample(own),
@@ -118,6 +122,8 @@ static void write_overlay(CzMarkup *markup, int n, const CzReportRun *run, const
                          .y_label = y_label,
                          .n_series = n_series,
                          .series = series,
+                         .n_band = n_band,
+                         .band = band,
                          .from_zero = true};
     cz_markup_open(markup, "figure");
     cz_markup_element(markup, "figcaption", title);
@@ -179,6 +185,8 @@ static CzStatus write_page(CzPage *page, int n, const CzReportRun *run, CzError 
     cz_markup_element(markup, "h1", title);
     snprintf(title, sizeof title, "Figures are those of scenario %s.", page->summary->scenario);
     cz_markup_element(markup, "p", title);
+    if (cz_compared_caution(n, run)[0] != '\0')
+        cz_markup_classed(markup, "p", "fail", cz_compared_caution(n, run));
     write_checks(markup, n, run);
     cz_page_open_section(markup, "numbers", "Interfaces and cars");
     cz_markup_open(markup, "div");

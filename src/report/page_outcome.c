@@ -43,6 +43,13 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
                  unit[0] != '\0' ? " " : "", unit, cz_figure_plain(after, best),
                  unit[0] != '\0' ? " " : "", unit);
     cz_markup_element(markup, "p", text);
+    if (outcome->start_evaluation.beyond_validity || outcome->best_evaluation.beyond_validity)
+        cz_markup_classed(markup, "p", "fail",
+                          outcome->best_evaluation.beyond_validity
+                              ? "The best design climbs: its numbers are beyond model validity "
+                                "(" CZ_FIGURE_MARK_MEANS ")."
+                              : "The design before the search climbs: its numbers are beyond model "
+                                "validity (" CZ_FIGURE_MARK_MEANS ").");
     cz_markup_close(markup);
     cz_markup_line(markup);
 }

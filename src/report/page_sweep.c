@@ -179,8 +179,10 @@ static void write_point(CzMarkup *markup, const CzSweep *sweep, const CzSweepPoi
         cz_markup_classed(markup, "td", "number", cz_figure_digits(text, 6, point->value[k]));
     cz_markup_classed(markup, "td", look.class_name, look.word);
     cz_markup_classed(markup, "td", "number", cz_figure_margin(text, point->margin));
-    for (int k = 0; k < sweep->n_metric; k++)
-        cz_markup_classed(markup, "td", "number", cz_figure_plain(text, point->metric[k]));
+    for (int k = 0; k < sweep->n_metric; k++) {
+        cz_figure_plain(text, point->metric[k]);
+        cz_markup_classed(markup, "td", "number", cz_figure_mark(text, point->beyond_validity));
+    }
     cz_markup_element(markup, "td", point->check[0] != '\0' ? point->check : point->message);
     cz_markup_element(markup, "td", point->where);
     cz_markup_element(markup, "td", point->scenario);
@@ -231,6 +233,10 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     cz_markup_element(&markup, "h1", title);
     if (sweep->is_interrupted)
         cz_markup_classed(&markup, "p", "fail", "The sweep was interrupted: points are missing.");
+    if (cz_sweep_is_beyond(sweep))
+        cz_markup_classed(&markup, "p", "fail",
+                          "Override: some points went beyond model validity (" CZ_FIGURE_MARK_MEANS
+                          ").");
     cz_page_open_section(&markup, "figures", sweep->n_axis == 1 ? "Over the value" : "Map");
     cz_markup_open(&markup, "div");
     cz_markup_attribute(&markup, "class", "figures");

@@ -52,13 +52,19 @@ static void write_car(const CzPage *page, int car, double x, double y, CzMarkup 
 static void write_interface(const CzPage *page, int index, double x, double y, CzMarkup *markup) {
     const CzInterfaceResult *interface = &page->summary->interface[index];
     char number[CZ_FIGURE_ROOM], text[5][CZ_FIGURE_ROOM + 16];
-    snprintf(text[0], sizeof *text, "%s kN",
-             cz_figure_fixed(number, 0, interface->peak_force / CZ_KILO));
-    snprintf(text[1], sizeof *text, "%s mm",
-             cz_figure_fixed(number, 0, interface->shortening * CZ_MILLI_PER_UNIT));
-    snprintf(text[2], sizeof *text, "%s used", cz_figure_percent(number, largest_use(interface)));
-    snprintf(text[3], sizeof *text, "%s kJ", cz_figure_plain(number, interface->energy / CZ_KILO));
-    snprintf(text[4], sizeof *text, "%s", cz_figure_percent(number, interface->energy_share));
+    const CzRunSummary *run = page->summary;
+    const char *mark = run->beyond_validity ? "*" : "";
+    snprintf(text[0], sizeof *text, "%s kN%s",
+             cz_figure_fixed(number, 0, interface->peak_force / CZ_KILO),
+             interface->peak_time <= run->beyond_validity_time ? "" : mark);
+    snprintf(text[1], sizeof *text, "%s mm%s",
+             cz_figure_fixed(number, 0, interface->shortening * CZ_MILLI_PER_UNIT), mark);
+    snprintf(text[2], sizeof *text, "%s used%s", cz_figure_percent(number, largest_use(interface)),
+             mark);
+    snprintf(text[3], sizeof *text, "%s kJ",
+             cz_figure_plain(number, cz_run_total(run, interface->energy) / CZ_KILO));
+    snprintf(text[4], sizeof *text, "%s",
+             cz_figure_percent(number, cz_run_total(run, interface->energy_share)));
     const bool collides = index == page->model->colliding;
     cz_markup_open(markup, "path");
     cz_markup_format(markup, "d", "M%d %dH%d", (int)(x - BETWEEN / 2), (int)(y + CAR_TOP + 22),
@@ -104,19 +110,28 @@ static void write_diagram(const CzPage *page, CzMarkup *markup) {
 
 /* ---- tables ---- */
 
-static void put_number(CzMarkup *markup, const char *text) {
-    cz_markup_classed(markup, "td", "number", text);
+/* A number of the run, marked when it may be of the time beyond the model's validity. */
+static void put_number(CzMarkup *markup, const CzRunSummary *run, char text[CZ_FIGURE_ROOM]) {
+    cz_markup_classed(markup, "td", "number", cz_figure_mark(text, run->beyond_validity));
 }
 
-static void write_element(CzMarkup *markup, const char *interface, const CzElementResult *element) {
+static void put_plain(CzMarkup *markup, const CzRunSummary *run, double value) {
+    char number[CZ_FIGURE_ROOM];
+    cz_figure_plain(number, value);
+    put_number(markup, run, number);
+}
+
+static void write_element(CzMarkup *markup, const CzRunSummary *run, const char *interface,
+                          const CzElementResult *element) {
     char number[CZ_FIGURE_ROOM];
     cz_markup_open(markup, "tr");
     cz_markup_element(markup, "td", interface);
     cz_markup_element(markup, "td", element->name);
-    put_number(markup, cz_figure_plain(number, element->peak_force / CZ_KILO));
-    put_number(markup, cz_figure_plain(number, element->stroke * CZ_MILLI_PER_UNIT));
-    put_number(markup, cz_figure_percent(number, element->stroke_used));
-    put_number(markup, cz_figure_plain(number, element->energy / CZ_KILO));
+    put_plain(markup, run, element->peak_force / CZ_KILO);
+    put_plain(markup, run, element->stroke * CZ_MILLI_PER_UNIT);
+    cz_figure_percent(number, element->stroke_used);
+    put_number(markup, run, number);
+    put_plain(markup, run, cz_run_total(run, element->energy) / CZ_KILO);
     cz_markup_classed(markup, "td", element->bottomed_out ? "fail" : "small",
                       element->bottomed_out ? "bottomed out"
                       : element->sheared    ? "sheared off"
@@ -135,27 +150,28 @@ static void write_elements(const CzPage *page, CzMarkup *markup) {
         for (int k = 0; k < interface->n_element; k++) {
             if (!(interface->element[k].energy > NOTHING) && !interface->element[k].bottomed_out)
                 continue;
-            write_element(markup, is_first ? interface->name : "", &interface->element[k]);
+            write_element(markup, page->summary, is_first ? interface->name : "",
+                          &interface->element[k]);
             is_first = false;
         }
     }
     cz_page_close_table(markup);
 }
 
-static void write_vehicle(CzMarkup *markup, const CzVehicleResult *vehicle) {
-    char number[CZ_FIGURE_ROOM];
+static void write_vehicle(CzMarkup *markup, const CzRunSummary *run,
+                          const CzVehicleResult *vehicle) {
     double lift = NAN;
     for (int i = 0; i < 4; i++)
         lift = fmax(lift, vehicle->wheel_lift[i]);
     cz_markup_open(markup, "tr");
     cz_markup_element(markup, "td", vehicle->name);
-    put_number(markup, cz_figure_plain(number, vehicle->final_speed * CZ_KM_H_PER_M_S));
-    put_number(markup, cz_figure_plain(number, vehicle->peak_deceleration / CZ_GRAVITY));
-    put_number(markup, cz_figure_plain(number, vehicle->mean_deceleration_contact / CZ_GRAVITY));
-    put_number(markup, cz_figure_plain(number, vehicle->mean_deceleration_120ms / CZ_GRAVITY));
-    put_number(markup, cz_figure_plain(number, lift * CZ_MILLI_PER_UNIT));
-    put_number(markup, cz_figure_plain(number, vehicle->max_pitch * CZ_MILLI_PER_UNIT));
-    put_number(markup, cz_figure_plain(number, vehicle->link_force / CZ_KILO));
+    put_plain(markup, run, vehicle->final_speed * CZ_KM_H_PER_M_S);
+    put_plain(markup, run, vehicle->peak_deceleration / CZ_GRAVITY);
+    put_plain(markup, run, vehicle->mean_deceleration_contact / CZ_GRAVITY);
+    put_plain(markup, run, vehicle->mean_deceleration_120ms / CZ_GRAVITY);
+    put_plain(markup, run, lift * CZ_MILLI_PER_UNIT);
+    put_plain(markup, run, vehicle->max_pitch * CZ_MILLI_PER_UNIT);
+    put_plain(markup, run, vehicle->link_force / CZ_KILO);
     cz_markup_close(markup);
     cz_markup_line(markup);
 }
@@ -171,7 +187,7 @@ static void write_vehicles(const CzPage *page, CzMarkup *markup) {
                                         ">traction link kN"};
     cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
     for (int i = 0; i < page->summary->n_vehicle; i++)
-        write_vehicle(markup, &page->summary->vehicle[i]);
+        write_vehicle(markup, page->summary, &page->summary->vehicle[i]);
     cz_page_close_table(markup);
 }
 

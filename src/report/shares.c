@@ -32,19 +32,20 @@ static void write_bar(CzMarkup *markup, double x, double y, double width, double
     cz_markup_close(markup);
 }
 
-static void write_row(const CzInterfaceResult *interface, double y, double scale,
-                      CzMarkup *markup) {
+static void write_row(const CzRunSummary *run, const CzInterfaceResult *interface, double y,
+                      double scale, CzMarkup *markup) {
     char number[CZ_FIGURE_ROOM], share[CZ_FIGURE_ROOM], text[2 * CZ_FIGURE_ROOM + 8];
     cz_svg_text(markup, LEFT - 6, y + 13, "end", interface->name);
     double x = LEFT;
     for (int kind = 0; kind < CZ_N_ELEMENT_KIND; kind++) {
-        const double width = scale * energy_of_kind(interface, kind);
+        const double width = cz_run_total(run, scale * energy_of_kind(interface, kind));
         if (width >= 0.1)
             write_bar(markup, x, y + 2, width, ROW - 6, kind);
-        x += width;
+        x += width > 0 ? width : 0;
     }
-    snprintf(text, sizeof text, "%s kJ  %s", cz_figure_plain(number, interface->energy / CZ_KILO),
-             cz_figure_percent(share, interface->energy_share));
+    snprintf(text, sizeof text, "%s kJ  %s",
+             cz_figure_plain(number, cz_run_total(run, interface->energy) / CZ_KILO),
+             cz_figure_percent(share, cz_run_total(run, interface->energy_share)));
     cz_svg_text(markup, x + 6, y + 13, "start", text);
 }
 
@@ -70,7 +71,7 @@ void cz_chart_write_shares(const CzPage *page, CzMarkup *markup) {
     const double bottom = TOP + ROW * run->n_interface;
     cz_svg_open(markup, "Dissipated energy by interface and element", CZ_PLOT_WIDTH, bottom + 24);
     for (int i = 0; i < run->n_interface; i++)
-        write_row(&run->interface[i], TOP + ROW * i, scale, markup);
+        write_row(run, &run->interface[i], TOP + ROW * i, scale, markup);
     double x = LEFT;
     for (int kind = 0; kind < CZ_N_ELEMENT_KIND; kind++) {
         const char *name = cz_element_text((CzElementKind)kind);

@@ -2,7 +2,9 @@
 #include "report/sheet.h"
 
 #include "base/error.h"
+#include "report/units.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,6 +57,42 @@ void cz_sheet_add_limit(CzSheet *sheet, double at, const char *name) {
         sheet->limit[sheet->plot.n_limit++] = (CzPlotLimit){name, at};
 }
 
+CzPlotBand cz_band_beyond(const CzRunSummary *run, const double *time, int n_sample) {
+    return (CzPlotBand){"beyond the model", run->beyond_validity_time * CZ_MILLI_PER_UNIT,
+                        time[n_sample - 1], 5};
+}
+
+/* Shades what lies beyond the model's validity. */
+static void mark_beyond(CzSheet *sheet) {
+    const CzPage *page = sheet->page;
+    const int room = sizeof sheet->band / sizeof sheet->band[0];
+    if (page->summary->beyond_validity && sheet->plot.n_band < room)
+        sheet->band[sheet->plot.n_band++] =
+            cz_band_beyond(page->summary, page->time, page->n_sample);
+}
+
+CzSeries *cz_sheet_split_beyond(CzSheet *sheet, CzSeries *series) {
+    const CzPage *page = sheet->page;
+    if (!page->summary->beyond_validity || sheet->plot.n_series == sheet->room)
+        return NULL;
+    double *part = cz_arena_allocate(&sheet->arena, 2 * (size_t)series->n, sizeof *part);
+    if (part == NULL)
+        return NULL; /* told by finish */
+    const double from = page->summary->beyond_validity_time * CZ_MILLI_PER_UNIT;
+    for (int i = 0; i < series->n; i++) {
+        const bool late = page->time[i] > from;
+        part[i] = late ? NAN : series->y[i];
+        part[series->n + i] = late ? series->y[i] : NAN;
+    }
+    CzSeries *late = &sheet->series[sheet->plot.n_series++];
+    *late = *series;
+    late->name = "beyond the model";
+    late->y = part + series->n;
+    late->dash = 2;
+    series->y = part;
+    return late;
+}
+
 CzStatus cz_sheet_finish(CzSheet *sheet, CzChart chart, int index, CzMarkup *markup,
                          CzError *error) {
     char title[CZ_SENTENCE_ROOM];
@@ -62,6 +100,8 @@ CzStatus cz_sheet_finish(CzSheet *sheet, CzChart chart, int index, CzMarkup *mar
     cz_chart_title(sheet->page, chart, index, sizeof title, title);
     sheet->plot.title = title;
     sheet->plot.is_time = chart != CZ_CHART_FORCE_CLOSURE;
+    if (sheet->plot.is_time && sheet->page->n_sample > 0)
+        mark_beyond(sheet);
     sheet->plot.series = sheet->series;
     sheet->plot.limit = sheet->limit;
     sheet->plot.band = sheet->band;

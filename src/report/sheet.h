@@ -18,6 +18,12 @@ typedef struct CzSheet {
     bool failed; /* no memory for a derived curve */
 } CzSheet;
 
+/* The stretch of time in which a run is beyond the model's validity. */
+CzPlotBand cz_band_beyond(const CzRunSummary *run, const double *time, int n_sample);
+/* Draws the part of a curve beyond the model's validity dotted, by a name of its own; returns that
+ * part, NULL where there is none. */
+CzSeries *cz_sheet_split_beyond(CzSheet *sheet, CzSeries *series);
+
 /* Starts a figure with room for that many curves; false without memory. */
 bool cz_sheet_begin(CzSheet *sheet, const CzPage *page, int room, const char *x_label,
                     const char *y_label);

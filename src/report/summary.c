@@ -100,50 +100,58 @@ static const char *track_word(const CzProblem *problem) {
     return NULL;
 }
 
-static void put_energy(CzJson *json, const CzEnergy *energy) {
+/* A total in kilojoules. */
+static void put_total(CzJson *json, const CzRunSummary *run, const char *key, double energy) {
+    cz_json_real(json, key, cz_run_total(run, energy) / CZ_KILO);
+}
+
+static void put_energy(CzJson *json, const CzRunSummary *run) {
+    const CzEnergy *energy = &run->energy;
     cz_json_open_object(json, "energy");
     cz_json_real(json, "initial_kJ", energy->initial / CZ_KILO);
-    cz_json_real(json, "final_kinetic_kJ", energy->final_kinetic / CZ_KILO);
-    cz_json_real(json, "dissipated_kJ", energy->dissipated / CZ_KILO);
-    cz_json_real(json, "stored_kJ", energy->stored / CZ_KILO);
-    cz_json_real(json, "wheel_rail_kJ", energy->wheel_rail / CZ_KILO);
-    cz_json_real(json, "running_gear_kJ", energy->running_gear / CZ_KILO);
-    cz_json_real(json, "track_kJ", energy->track / CZ_KILO);
-    cz_json_real(json, "moving_load_kJ", energy->moving_load / CZ_KILO);
-    cz_json_real(json, "absorbers_kJ", energy->absorbers / CZ_KILO);
-    cz_json_real(json, "occupied_kJ", energy->occupied / CZ_KILO);
+    put_total(json, run, "final_kinetic_kJ", energy->final_kinetic);
+    put_total(json, run, "dissipated_kJ", energy->dissipated);
+    put_total(json, run, "stored_kJ", energy->stored);
+    put_total(json, run, "wheel_rail_kJ", energy->wheel_rail);
+    put_total(json, run, "running_gear_kJ", energy->running_gear);
+    put_total(json, run, "track_kJ", energy->track);
+    put_total(json, run, "moving_load_kJ", energy->moving_load);
+    put_total(json, run, "absorbers_kJ", energy->absorbers);
+    put_total(json, run, "occupied_kJ", energy->occupied);
     cz_json_exact(json, "balance_error", energy->balance_error);
     cz_json_close(json);
 }
 
-static void put_element(CzJson *json, const CzElementResult *element) {
+static void put_element(CzJson *json, const CzRunSummary *run, const CzElementResult *element) {
     cz_json_open_object(json, NULL);
     cz_json_text(json, "name", element->name);
     cz_json_text(json, "kind", cz_element_text(element->kind));
-    cz_json_real(json, "energy_kJ", element->energy / CZ_KILO);
-    cz_json_real(json, "stored_kJ", element->stored / CZ_KILO);
+    put_total(json, run, "energy_kJ", element->energy);
+    put_total(json, run, "stored_kJ", element->stored);
     cz_json_real(json, "stroke_mm", element->stroke * CZ_MILLI_PER_UNIT);
     cz_json_real(json, "stroke_used", element->stroke_used);
     cz_json_real(json, "peak_force_kN", element->peak_force / CZ_KILO);
-    cz_json_real(json, "tube_energy_kJ", element->tube_energy / CZ_KILO);
+    put_total(json, run, "tube_energy_kJ", element->tube_energy);
     cz_json_flag(json, "sheared", element->sheared);
     cz_json_flag(json, "bottomed_out", element->bottomed_out);
     cz_json_open_object(json, "zone_energy_kJ");
-    cz_json_real(json, "crush", element->zone_energy[0] / CZ_KILO);
-    cz_json_real(json, "temporary", element->zone_energy[1] / CZ_KILO);
-    cz_json_real(json, "occupied", element->zone_energy[2] / CZ_KILO);
+    put_total(json, run, "crush", element->zone_energy[0]);
+    put_total(json, run, "temporary", element->zone_energy[1]);
+    put_total(json, run, "occupied", element->zone_energy[2]);
     cz_json_close(json);
+    cz_json_flag(json, "beyond_validity", run->beyond_validity);
     cz_json_close(json);
 }
 
-static void put_interface(CzJson *json, const CzInterfaceResult *interface) {
+static void put_interface(CzJson *json, const CzRunSummary *run,
+                          const CzInterfaceResult *interface) {
     cz_json_open_object(json, NULL);
     cz_json_text(json, "name", interface->name);
     cz_json_real(json, "peak_force_kN", interface->peak_force / CZ_KILO);
     cz_json_real(json, "peak_time_ms", cz_milliseconds(interface->peak_time));
     cz_json_real(json, "shortening_mm", interface->shortening * CZ_MILLI_PER_UNIT);
-    cz_json_real(json, "energy_kJ", interface->energy / CZ_KILO);
-    cz_json_real(json, "energy_share", interface->energy_share);
+    put_total(json, run, "energy_kJ", interface->energy);
+    cz_json_real(json, "energy_share", cz_run_total(run, interface->energy_share));
     cz_json_flag(json, "bottomed_out", interface->bottomed_out);
     cz_json_open_list(json, "section_force_kN");
     for (int side = 0; side < 2; side++)
@@ -161,9 +169,10 @@ static void put_interface(CzJson *json, const CzInterfaceResult *interface) {
         cz_json_real(json, NULL, interface->swing[side] * CZ_MILLI_PER_UNIT);
     cz_json_close(json);
     cz_json_real(json, "critical_force_kN", interface->critical_force / CZ_KILO);
+    cz_json_flag(json, "beyond_validity", run->beyond_validity);
     cz_json_open_list(json, "elements");
     for (int i = 0; i < interface->n_element; i++)
-        put_element(json, &interface->element[i]);
+        put_element(json, run, &interface->element[i]);
     cz_json_close(json);
     cz_json_close(json);
 }
@@ -184,7 +193,7 @@ void cz_document_budget(CzJson *json, const CzVehicleBudget *budget, int n, cons
     cz_json_close(json);
 }
 
-static void put_vehicle(CzJson *json, const CzVehicleResult *vehicle,
+static void put_vehicle(CzJson *json, const CzRunSummary *run, const CzVehicleResult *vehicle,
                         const CzVehicleBudget *budget) {
     double lift = NAN;
     for (int wheelset = 0; wheelset < 4; wheelset++)
@@ -217,6 +226,7 @@ static void put_vehicle(CzJson *json, const CzVehicleResult *vehicle,
     cz_json_real(json, "link_travel_mm", vehicle->link_travel * CZ_MILLI_PER_UNIT);
     cz_json_real(json, "survival_shortening_mm", vehicle->survival_shortening * CZ_MILLI_PER_UNIT);
     cz_json_flag(json, "checks_override", vehicle->checks_override);
+    cz_json_flag(json, "beyond_validity", run->beyond_validity);
     if (budget != NULL && vehicle->checks_override) {
         cz_json_open_object(json, "budget");
         cz_document_budget(json, budget, 0, NULL);
@@ -232,6 +242,7 @@ static void put_event(CzJson *json, const CzRunSummary *run, const CzEvent *even
     cz_json_text(json, "where", event->where);
     cz_json_text(json, "interface",
                  event->interface >= 0 ? run->interface[event->interface].name : NULL);
+    cz_json_flag(json, "beyond_validity", event->time > run->beyond_validity_time);
     cz_json_close(json);
 }
 
@@ -248,7 +259,7 @@ static void put_scenario(CzJson *json, const CzProblem *problem, const CzRunSumm
     cz_json_whole(json, "steps", run->n_step);
     cz_json_text(json, "track", track_word(problem));
     cz_json_text(json, "ended", cz_ended_text(run->ended));
-    put_energy(json, &run->energy);
+    put_energy(json, run);
     cz_json_exact(json, "momentum_error", run->momentum_error);
     cz_json_exact(json, "law_error", run->law_error);
     cz_json_whole(json, "chains_searched", run->n_searched);
@@ -260,11 +271,11 @@ static void put_scenario(CzJson *json, const CzProblem *problem, const CzRunSumm
 
     cz_json_open_list(json, "interfaces");
     for (int i = 0; i < run->n_interface; i++)
-        put_interface(json, &run->interface[i]);
+        put_interface(json, run, &run->interface[i]);
     cz_json_close(json);
     cz_json_open_list(json, "vehicles");
     for (int i = 0; i < run->n_vehicle; i++)
-        put_vehicle(json, &run->vehicle[i], run->budget != NULL ? &run->budget[i] : NULL);
+        put_vehicle(json, run, &run->vehicle[i], run->budget != NULL ? &run->budget[i] : NULL);
     cz_json_close(json);
     cz_json_open_list(json, "events");
     for (int i = 0; i < run->n_event; i++)
@@ -291,6 +302,7 @@ static void put_check(CzJson *json, const CzCheckResult *check) {
     cz_json_exact(json, "margin", check->margin);
     cz_document_verdict(json, check->verdict);
     cz_json_text(json, "why", check->why);
+    cz_json_flag(json, "beyond_validity", check->beyond_validity);
     cz_json_text(json, "profile", check->profile);
     cz_json_text(json, "clause", check->clause);
     cz_json_text(json, "source", check->source);

@@ -47,7 +47,8 @@ static void put_point(CzGrid *grid, const CzSweep *sweep, const CzSweepPoint *po
     cz_grid_put(grid, cz_figure_margin(text, point->margin), CZ_STYLE_PLAIN);
     for (int k = 0; k < sweep->n_metric; k++) {
         const char *unit = sweep->metric_unit[k];
-        snprintf(value, sizeof value, "%s%s%s", cz_figure_plain(text, point->metric[k]),
+        cz_figure_plain(text, point->metric[k]);
+        snprintf(value, sizeof value, "%s%s%s", cz_figure_mark(text, point->beyond_validity),
                  isfinite(point->metric[k]) && unit[0] != '\0' ? " " : "",
                  isfinite(point->metric[k]) ? unit : "");
         cz_grid_put(grid, value, CZ_STYLE_PLAIN);
@@ -137,6 +138,12 @@ void cz_report_write_sweep_table(const CzSweep *sweep, bool colour, FILE *stream
         write_line_per_value(sweep, colour, stream);
     else
         write_map(sweep, colour, stream);
+    if (cz_sweep_is_beyond(sweep)) {
+        cz_grid_write_text("Override: some points went beyond model validity (" CZ_FIGURE_MARK_MEANS
+                           ").",
+                           CZ_STYLE_BAD, colour, stream);
+        fputc('\n', stream);
+    }
     write_worst(sweep, colour, stream);
     if (sweep->is_interrupted) {
         cz_grid_write_text("INTERRUPTED: not every point was run.", CZ_STYLE_BAD, colour, stream);
@@ -157,6 +164,7 @@ static void put_json_point(CzJson *json, const CzSweep *sweep, const CzSweepPoin
         cz_document_verdict(json, point->verdict);
     else
         cz_json_text(json, "verdict", NULL);
+    cz_json_flag(json, "beyond_validity", point->beyond_validity);
     cz_json_exact(json, "margin", point->margin);
     cz_json_text(json, "check", point->check[0] != '\0' ? point->check : NULL);
     cz_json_text(json, "scenario", point->scenario[0] != '\0' ? point->scenario : NULL);

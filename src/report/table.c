@@ -101,21 +101,27 @@ static void put_interface(CzGrid *grid, const CzRunSummary *run, int index) {
     const CzInterfaceResult *interface = &run->interface[index];
     char number[CZ_FIGURE_ROOM], damage[CZ_MAX_ELEMENTS * (CZ_WHERE_ROOM + CZ_FIGURE_ROOM + 32)],
         used_text[CZ_FIGURE_ROOM + 2];
+    const bool late = run->beyond_validity;
+    const bool peak_is_late = late && !(interface->peak_time <= run->beyond_validity_time);
     const CzStyle style = interface->bottomed_out ? CZ_STYLE_BAD : CZ_STYLE_PLAIN;
     double used = 0;
     for (int i = 0; i < interface->n_element; i++)
         used = fmax(used, interface->element[i].stroke_used);
-    snprintf(used_text, sizeof used_text, "%s%s", cz_figure_percent(number, used),
+    cz_figure_percent(number, used);
+    snprintf(used_text, sizeof used_text, "%s%s", cz_figure_mark(number, late),
              interface->bottomed_out ? " !" : "");
     describe_damage(run, index, sizeof damage, damage);
 
     cz_grid_put(grid, interface->name, CZ_STYLE_PLAIN);
-    cz_grid_put(grid, cz_figure_fixed(number, 0, interface->peak_force / CZ_KILO), CZ_STYLE_PLAIN);
-    cz_grid_put(grid, cz_figure_fixed(number, 0, interface->shortening * CZ_MILLI_PER_UNIT),
-                CZ_STYLE_PLAIN);
+    cz_figure_fixed(number, 0, interface->peak_force / CZ_KILO);
+    cz_grid_put(grid, cz_figure_mark(number, peak_is_late), CZ_STYLE_PLAIN);
+    cz_figure_fixed(number, 0, interface->shortening * CZ_MILLI_PER_UNIT);
+    cz_grid_put(grid, cz_figure_mark(number, late), CZ_STYLE_PLAIN);
     cz_grid_put(grid, used_text, style);
-    cz_grid_put(grid, cz_figure_plain(number, interface->energy / CZ_KILO), CZ_STYLE_PLAIN);
-    cz_grid_put(grid, cz_figure_percent(number, interface->energy_share), CZ_STYLE_PLAIN);
+    const double energy = cz_run_total(run, interface->energy);
+    cz_grid_put(grid, cz_figure_plain(number, energy / CZ_KILO), CZ_STYLE_PLAIN);
+    const double share = cz_run_total(run, interface->energy_share);
+    cz_grid_put(grid, cz_figure_percent(number, share), CZ_STYLE_PLAIN);
     cz_grid_put(grid, damage, style);
 }
 
@@ -154,7 +160,8 @@ static void write_climbing(const CzRunSummary *run, bool colour, FILE *stream) {
     }
     if (!run->beyond_validity)
         return;
-    snprintf(text, sizeof text, "From %s ms on this run is beyond model validity.",
+    snprintf(text, sizeof text,
+             "From %s ms on this run is beyond model validity. " CZ_FIGURE_MARK_MEANS ".",
              cz_figure_fixed(time, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
     cz_grid_write_text(text, CZ_STYLE_BAD, colour, stream);
     fputc('\n', stream);

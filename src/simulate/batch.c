@@ -175,6 +175,8 @@ static CzStatus record_step(Recording *recording, const CzBatch *batch) {
 static void record_end(Recording *recording) {
     CzRunSummary *summary = &recording->run->summary;
     summary->rest_residual = recording->rest_residual;
+    if (summary->beyond_validity)
+        cz_channels_blank_totals(&recording->run->channels, summary->beyond_validity_time);
     if (recording->budget != NULL)
         summary->budget = cz_budget_result(recording->budget);
     summary->event = cz_watch_events(recording->watch, &summary->n_event);

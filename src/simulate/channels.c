@@ -148,6 +148,17 @@ CzStatus cz_channels_add(CzChannels *channels, const CzBatch *batch) {
     return CZ_OK;
 }
 
+void cz_channels_blank_totals(CzChannels *channels, double from) {
+    for (int i = 0; i < channels->n_channel; ++i) {
+        if (strncmp(channels->name[i], "E_", 2) != 0 ||
+            strcmp(channels->name[i], "E_imbalance_kJ") == 0)
+            continue;
+        for (int k = 0; k < channels->n_sample; ++k)
+            if (1e-3 * channels->value[0][k] > from)
+                channels->value[i][k] = NAN;
+    }
+}
+
 void cz_channels_free(CzChannels *channels) {
     for (int i = 0; i < channels->n_channel; ++i)
         free(channels->value[i]);

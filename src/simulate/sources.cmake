@@ -15,5 +15,6 @@ set(CZ_SOURCES_simulate
     rest.c
     run.c
     summary.c
+    validity.c
     watch.c
 )

@@ -1,5 +1,9 @@
-/* Events are what the largest values of the run say, and happen when they are reached. */
+/* Events are what the largest values of the run say, and happen when they are reached; what comes
+ * after an override is marked. */
 #include "physics/collision.h"
+
+#include "crushzone/evaluate.h"
+#include "evaluate/metric.h"
 
 /* Time of the first event of a kind at a place; NaN when there is none. */
 static double time_of(const Collision *collision, CzEventKind what, const char *where,
@@ -46,9 +50,71 @@ static void a_swing_stop_is_met_just_when_the_largest_swing_is_beyond_it(void **
     assert_true(n_met > 0 && n_met < 3 * 22); /* both were tried */
 }
 
+static void every_total_is_a_metric(void **state) {
+    (void)state;
+    static const char *const totals[] = {
+#define CZ_TOTAL(name) name,
+#include "evaluate/totals.def"
+#undef CZ_TOTAL
+    };
+    for (size_t i = 0; i < sizeof totals / sizeof totals[0]; i++) {
+        CzMetric metric;
+        assert_int_equal(cz_metric_parse(totals[i], &metric, NULL), CZ_OK);
+        assert_true(cz_metric_is_total(metric.kind));
+    }
+}
+
+/* Checks of totals are not made, those of other numbers are marked; a pass of neither is one. */
+static void assert_marked(const CzEvaluation *evaluation) {
+    int n_total = 0;
+    for (int i = 0; i < evaluation->n_check; i++) {
+        const CzCheckResult *check = &evaluation->check[i];
+        const bool is_of_run = strcmp(check->scenario, "design") != 0;
+        const bool is_total = strstr(check->name, "energy") != NULL;
+        if (!is_of_run)
+            continue;
+        assert_true(check->beyond_validity);
+        assert_true(!is_total || check->verdict == CZ_VERDICT_NOT_CHECKED);
+        assert_true(!is_total || isnan(check->value));
+        n_total += is_total;
+    }
+    assert_int_equal(n_total, 3);
+    assert_int_equal(evaluation->verdict, CZ_VERDICT_FAIL);
+}
+
+static void numbers_past_an_override_are_marked_and_totals_blank(void **state) {
+    (void)state;
+    CzProblem *problem = NULL;
+    CzEvaluator *evaluator = NULL;
+    CzEvaluation evaluation = {0};
+    CzError error = {0};
+    if (cz_problem_read(CZ_SOURCE_FOLDER "/problems/override-bottoming-lifts.yaml", NULL, &problem,
+                        &error) != CZ_OK ||
+        cz_evaluator_build(problem, NULL, &evaluator, &error) != CZ_OK ||
+        cz_evaluate(evaluator, 1, NULL, true, &evaluation, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    assert_marked(&evaluation);
+    const Collision collision = {.run = evaluation.run[0],
+                                 .summary = cz_run_summary(evaluation.run[0])};
+    assert_true(collision.summary->beyond_validity);
+    assert_true(isnan(cz_run_total(collision.summary, 1.0)));
+    const double *t = channel(&collision, "t_ms");
+    static const char *const energies[] = {"E_stored_kJ", "E_kinetic_kJ", "E_A1-B1_kJ"};
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < n_sample(&collision); i++) {
+            const bool late = 1e-3 * t[i] > collision.summary->beyond_validity_time;
+            assert_true(late == !isfinite(channel(&collision, energies[k])[i]));
+        }
+    cz_evaluation_free(&evaluation);
+    cz_evaluator_free(evaluator);
+    cz_problem_free(problem);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_swing_stop_is_met_just_when_the_largest_swing_is_beyond_it),
+        cmocka_unit_test(every_total_is_a_metric),
+        cmocka_unit_test(numbers_past_an_override_are_marked_and_totals_blank),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

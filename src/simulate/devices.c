@@ -85,8 +85,9 @@ double cz_device_used(const CzBatch *batch, const CzDevice *device) {
     return stroke_of(batch, device) / device->usable;
 }
 
-/* Adds one device to the element that it belongs to. Of a coupler that has sheared off the space to
- * retract counts, and nothing else. */
+/* Adds one device to the element that it belongs to. Where another takes over, what is beyond the
+ * stroke is the deflection of a stop. Of a coupler that has sheared off the space to retract
+ * counts, and nothing else. */
 static void judge(const CzBatch *batch, const CzDevice *device, CzElementResult *element) {
     const double used = cz_device_used(batch, device);
     element->bottomed_out |= !device->is_followed && used > 1.0;
@@ -95,7 +96,8 @@ static void judge(const CzBatch *batch, const CzDevice *device, CzElementResult 
     if (device->class == CZ_DEVICE_RETRACTION)
         element->stroke_used = element->sheared ? used : element->stroke_used;
     else if (!device->is_reversible || !device->is_followed)
-        element->stroke_used = fmax(element->stroke_used, used);
+        element->stroke_used =
+            fmax(element->stroke_used, device->is_followed ? fmin(used, 1) : used);
 }
 
 void cz_devices_judge(const CzBatch *batch, int interface, int design, int side, int n_element,

@@ -420,52 +420,6 @@ static void csv_lists_interfaces_with_their_elements(void **state) {
     free(written);
 }
 
-/* The CSV of interfaces and channels of a stand-in. */
-static char *csv_text(const StandIn *s) {
-    const CzReportOptions options = cz_report_options_default();
-    Text text;
-    text_begin(&text);
-    cz_csv_write_interfaces(&s->run[0].summary, &options, text.stream);
-    cz_csv_write_channels(&s->run[0], &options, text.stream);
-    return text_end(&text);
-}
-
-static void what_climbed_is_marked_and_its_totals_are_blank(void **state) {
-    (void)state;
-    StandIn s;
-    stand_in_fill(&s);
-    s.run[0].summary.beyond_validity = true;
-    s.run[0].summary.beyond_validity_time = 0.5e-3;
-    json_t *json = summary_of(&s);
-    static const char *const totals[] = {
-        "scenarios.0.energy.dissipated_kJ",
-        "scenarios.0.energy.stored_kJ",
-        "scenarios.0.energy.final_kinetic_kJ",
-        "scenarios.0.energy.absorbers_kJ",
-        "scenarios.0.energy.wheel_rail_kJ",
-        "scenarios.0.energy.occupied_kJ",
-        "scenarios.0.interfaces.0.energy_kJ",
-        "scenarios.0.interfaces.0.energy_share",
-        "scenarios.0.interfaces.0.elements.0.energy_kJ",
-        "scenarios.0.interfaces.0.elements.0.zone_energy_kJ.crush"};
-    for (size_t i = 0; i < sizeof totals / sizeof totals[0]; i++)
-        assert_null_at(json, totals[i]);
-    static const char *const marked[] = {"scenarios.0.interfaces.0.beyond_validity",
-                                         "scenarios.0.interfaces.0.elements.0.beyond_validity",
-                                         "scenarios.0.vehicles.0.beyond_validity",
-                                         "scenarios.0.events.1.beyond_validity"};
-    for (size_t i = 0; i < sizeof marked / sizeof marked[0]; i++)
-        assert_true(json_is_true(at(json, marked[i])));
-    assert_real_at(json, "scenarios.0.interfaces.0.peak_force_kN", 3483);
-    json_decref(json);
-
-    char *written = csv_text(&s);
-    assert_non_null(strstr(written, "\r\nA1-B1,,3483,372,659,,,,,,yes,yes\r\n"));
-    assert_non_null(strstr(written, "\r\nA1-B1,coupler A1,1412,,,250,1.01,,,,yes,yes\r\n"));
-    assert_non_null(strstr(written, "\r\n0,10,0\r\n1,9.66666667,1\r\n2,,1\r\n"));
-    free(written);
-}
-
 static void a_decimal_comma_of_the_host_gets_in_nowhere(void **state) {
     (void)state;
     static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8"};
@@ -512,7 +466,6 @@ int main(void) {
         cmocka_unit_test(csv_quotes_what_would_break_a_row),
         cmocka_unit_test(csv_has_nine_digits_and_the_asked_for_signs),
         cmocka_unit_test(csv_lists_interfaces_with_their_elements),
-        cmocka_unit_test(what_climbed_is_marked_and_its_totals_are_blank),
         cmocka_unit_test(a_decimal_comma_of_the_host_gets_in_nowhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

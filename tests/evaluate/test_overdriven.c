@@ -134,7 +134,7 @@ static void assert_check_fails(const CzEvaluation *evaluation, const char *name)
 static void assert_used_up(const CzRunSummary *run, const Class *class, const char *car) {
     bool has_event = false;
     for (int i = 0; i < run->n_event; i++) {
-        char where[64];
+        char where[CZ_WHERE_ROOM + 16];
         snprintf(where, sizeof where, "%s %s", class->where, car);
         has_event |=
             run->event[i].what == CZ_EVENT_BOTTOMED_OUT && strcmp(run->event[i].where, where) == 0;

@@ -34,7 +34,7 @@ static void a_swing_stop_is_met_just_when_the_largest_swing_is_beyond_it(void **
         for (int k = 0; k < collision.summary->n_interface; k++) {
             const CzInterfaceResult *interface = &collision.summary->interface[k];
             for (int side = 0; side < 2; side++) {
-                char where[64];
+                char where[CZ_WHERE_ROOM + 16];
                 snprintf(where, sizeof where, "coupler %s",
                          collision.summary->vehicle[k + side].name);
                 const bool beyond = interface->swing[side] > interface->swing_stop[side];

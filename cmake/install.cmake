@@ -1,7 +1,7 @@
 # What `cmake --install` lays down: program, library, headers, shipped problems, CMake package and pkg-config file.
 install(TARGETS crushzone EXPORT crushzone
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS crushzone-program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS crushzone-installed RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/crushzone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY problems/ DESTINATION ${CMAKE_INSTALL_DATADIR}/crushzone)
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -61,9 +61,7 @@ static const char *const usual_metrics[] = {"elements.stroke_used", "interfaces.
 
 static int sweep_file(const CzSession *session, const CzSweepAxis *axis) {
     const CzArguments *arguments = session->arguments;
-    CzProblemOptions problem_options = cz_problem_options_default();
-    problem_options.set = arguments->set;
-    problem_options.n_set = arguments->n_set;
+    const CzProblemOptions problem_options = cz_session_problem_options(arguments);
     CzSweepOptions options = cz_sweep_options_default();
     options.n_axis = arguments->n_vary;
     options.axis = axis;

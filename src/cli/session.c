@@ -25,10 +25,16 @@ static CzStatus read_input(CzSession *session, CzError *error) {
     return error->status = CZ_STATUS_INPUT;
 }
 
-static CzStatus read_problem(CzSession *session, CzError *error) {
+CzProblemOptions cz_session_problem_options(const CzArguments *arguments) {
     CzProblemOptions options = cz_problem_options_default();
-    options.set = session->arguments->set;
-    options.n_set = session->arguments->n_set;
+    options.set = arguments->set;
+    options.n_set = arguments->n_set;
+    options.share_folder = cz_share_folder;
+    return options;
+}
+
+static CzStatus read_problem(CzSession *session, CzError *error) {
+    const CzProblemOptions options = cz_session_problem_options(session->arguments);
     if (strcmp(session->file, "-") != 0)
         return cz_problem_read(session->file, &options, &session->problem, error);
     const CzStatus status = read_input(session, error);

@@ -17,6 +17,12 @@ typedef struct CzSession {
     int n_word;
 } CzSession;
 
+/* Folder of shipped data of this program (share_folder.c). */
+extern const char *const cz_share_folder;
+
+/* How this program reads problem files: settings of the command line, shipped data. */
+CzProblemOptions cz_session_problem_options(const CzArguments *arguments);
+
 /* Reads a problem file with the settings of the command line and tells its mistakes and warnings.
  * Returns the exit code, 0 when all is well; end with cz_session_end in any case. */
 CZ_MUST_CHECK int cz_session_read(CzSession *session, const CzArguments *arguments,

@@ -23,4 +23,5 @@ set(CZ_SOURCES_cli
     result.c
     progress.c
     session.c
+    share_folder.c
 )

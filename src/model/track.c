@@ -179,13 +179,14 @@ CzStatus cz_track_build(const CzRoadbed *roadbed, const CzTrackOptions *options,
     CzArena scratch = {0};
     BlockModes *blocks = cz_arena_allocate(&scratch, 2 * n, sizeof *blocks);
     CzStatus status = CZ_OK;
-    if (blocks == NULL)
+    if (blocks == NULL) {
         status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the track");
-    BlockModes *copy[2] = {blocks, blocks + n};
-    if (status == CZ_OK)
+    } else {
+        BlockModes *copy[2] = {blocks, blocks + n};
         status = find_copies(made, copy, error);
-    if (status == CZ_OK)
-        status = gather_groups(made, copy, arena, error);
+        if (status == CZ_OK)
+            status = gather_groups(made, copy, arena, error);
+    }
     cz_arena_free(&scratch);
     return status;
 }

@@ -16,6 +16,7 @@ typedef struct {
     CzIndex by_name;        /* of the parts */
     const char *loaded[64]; /* paths of the catalogues read */
     int n_loaded;
+    bool lacks_parts; /* a catalogue could not be read */
 } Loader;
 
 const CzNode *cz_load_file(CzReader *reader, const char *path, const CzNode *place) {
@@ -160,6 +161,7 @@ static void load_catalogue(Loader *loader, const CzNode *named) {
     CzReader *reader = loader->reader;
     const char *name = cz_bind_text(reader, "catalogue", named, NULL);
     const char *path = name != NULL ? cz_load_locate(reader, name, named, "catalogue") : NULL;
+    loader->lacks_parts |= path == NULL;
     if (path == NULL || is_loaded(loader, path))
         return;
     if (loader->n_loaded == (int)(sizeof loader->loaded / sizeof loader->loaded[0])) {
@@ -169,6 +171,7 @@ static void load_catalogue(Loader *loader, const CzNode *named) {
     }
     loader->loaded[loader->n_loaded++] = path;
     const CzNode *top = cz_load_file(reader, path, named);
+    loader->lacks_parts |= top == NULL;
     if (top == NULL)
         return;
     check_catalogue_keys(reader, top);
@@ -231,7 +234,7 @@ CzTree cz_load_tree(CzReader *reader, const CzNode *top) {
     for (int i = 0; root != NULL && i < 3; i++)
         if (cz_node_find(root, done[i]) != NULL)
             root = cz_node_without(&reader->arena, root, done[i]);
-    CzTree tree = {root, loader.n_part, loader.part, loader.by_name};
+    CzTree tree = {root, loader.n_part, loader.part, loader.by_name, loader.lacks_parts};
     cz_parts_measure(reader, &tree);
     return tree;
 }

@@ -70,6 +70,8 @@ static const CzPart *find_part(CzReader *reader, const CzTree *tree, const CzNod
     const CzPart *part = cz_tree_part(tree, used->text, strlen(used->text));
     if (part != NULL)
         return part;
+    if (tree->lacks_parts)
+        return NULL;
     CzSuggestion suggestion = {0};
     cz_mistake(&reader->mistakes, used, trail, "there is no part '%s'", used->text);
     for (int i = 0; reader->mistakes.last != NULL && i < tree->n_part; i++)

@@ -222,6 +222,10 @@ static void report_unknown(Walk *walk, const CzNode *mapping, Step step) {
     const char *name = walk->segment[step.level].name;
     const CzNode place = place_of(walk, step.level);
     CzSuggestion suggestion = {0};
+    walk->failed = true;
+    if (mapping
+            ->is_partial) /* the part that has it is not there, and that is told where it is used */
+        return;
     for (int i = 0; i < mapping->n_entry; i++)
         cz_suggest(&suggestion, name, mapping->entry[i].key->text);
     for (int i = 0; step.record != NULL && i < step.record->n_key; i++)
@@ -233,7 +237,6 @@ static void report_unknown(Walk *walk, const CzNode *mapping, Step step) {
                walk->at[0] != '\0' ? walk->at : "the problem");
     if (!is_known)
         cz_mistake_suggest(&walk->reader->mistakes, suggestion.best);
-    walk->failed = true;
 }
 
 /* A train that copies another has no vehicles of its own to change. */
@@ -437,6 +440,8 @@ static bool put_into_part(Walk *walk, CzTree *tree) {
         cz_suggest(&suggestion, segment->name, tree->part[i].name);
     const CzNode place = place_of(walk, walk->n_segment > 1 ? 1 : 0);
     walk->failed = true;
+    if (names && tree->lacks_parts)
+        return true;
     if (names)
         cz_mistake(&walk->reader->mistakes, &place, NULL, "there is no part '%s'", segment->name);
     else

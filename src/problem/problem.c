@@ -266,6 +266,10 @@ const char *cz_problem_told_name(const CzProblem *problem, const char *name) {
     return beside != NULL ? beside : shared != NULL ? shared : name;
 }
 
+const char *cz_problem_share_folder(const CzProblem *problem) {
+    return problem->reader.share_folder;
+}
+
 const CzSource *cz_problem_first_source(const CzProblem *problem) {
     return problem->reader.sources.first;
 }

@@ -29,6 +29,9 @@ const char *cz_problem_told_name(const CzProblem *problem, const char *name);
  * inside the input. */
 void cz_problem_place(const CzProblem *problem, const void *field, CzError *error);
 
+/* The folder that was searched after the file's own; NULL for none. Borrowed. */
+const char *cz_problem_share_folder(const CzProblem *problem);
+
 /* Judges the vehicles of a candidate design, one array like the problem's own, by the rules that
  * the reader holds a file's vehicles to: so a design that passes can be written down and read.
  * Statuses: CZ_OK, CZ_STATUS_INPUT with the first broken rule, CZ_STATUS_NO_MEMORY. */

@@ -35,8 +35,9 @@ typedef struct CzPart {
 typedef struct CzTree {
     const CzNode *root;
     int n_part;
-    CzPart *part;    /* (n_part) */
-    CzIndex by_name; /* of the parts */
+    CzPart *part;     /* (n_part) */
+    CzIndex by_name;  /* of the parts */
+    bool lacks_parts; /* a catalogue could not be read: what a part is missing for is told there */
 } CzTree;
 
 /* Where a record or one of its values was written. */

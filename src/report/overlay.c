@@ -132,6 +132,7 @@ static CzStatus read_best(const CzProblem *problem, const CzReportOptions *optio
     CzProblemOptions read = cz_problem_options_default();
     read.set = setting;
     read.n_set = n_setting;
+    read.share_folder = cz_problem_share_folder(problem);
     if (options->text == NULL)
         return cz_problem_read(cz_problem_file(problem), &read, best, error);
     return cz_problem_read_text(options->text, options->n_text, cz_problem_file(problem), ".",

@@ -32,6 +32,11 @@ const char *cz_problem_title(const CzProblem *problem) {
     (void)problem;
     return "Zwei Züge, 36 km/h";
 }
+const char *cz_problem_share_folder(const CzProblem *problem) {
+    (void)problem;
+    return NULL;
+}
+
 const char *cz_problem_file(const CzProblem *problem) {
     (void)problem;
     return stand_in_file;

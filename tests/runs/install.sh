@@ -33,6 +33,14 @@ needs_only_the_library() { # what a program that links crushzone names itself
 installed_program_runs() {
     "$prefix/bin/crushzone" run "$prefix/share/crushzone/two-cars-25kmh.yaml"
 }
+named() { # named PROGRAM: what that one takes a catalogue from that does not lie beside the problem file
+    mkdir -p elsewhere
+    sed 's|catalogue/generic.yaml|generic.yaml|' "$SOURCE/problems/two-cars-25kmh.yaml" >elsewhere/cars.yaml
+    (cd elsewhere && "$1" validate cars.yaml)
+}
+finds_what_is_installed() { # and not the source tree's
+    named "$prefix/bin/crushzone" 2>&1 | grep -q "looked beside the file that names it and in '.*/share/crushzone'"
+}
 moved_tree_runs() {
     mv "$prefix" moved && moved/bin/crushzone run moved/share/crushzone/two-cars-25kmh.yaml
 }
@@ -56,5 +64,7 @@ leads_on() { # every page that the installed README names is there
     done
 }
 check "the installed README leads to pages that are there" leads_on
+check "a program in its build tree finds the catalogue of its source tree" named "$PROGRAM"
+check "an installed program looks where it is installed, not in the source tree" finds_what_is_installed
 check "an installed tree can be moved" moved_tree_runs
 finish

@@ -38,9 +38,25 @@ static void tell_runs(const CzArguments *arguments, const CzEvaluation *evaluati
     }
 }
 
+/* Says what to do about runs that were cut at the longest time. */
+static void tell_incomplete(const CzArguments *arguments, const CzEvaluation *evaluation) {
+    for (int i = 0; i < evaluation->n_run; i++) {
+        if (evaluation->run == NULL || evaluation->run[i] == NULL)
+            continue;
+        const CzRunSummary *run = cz_run_summary(evaluation->run[i]);
+        if (run->status == CZ_OK && run->ended == CZ_ENDED_INCOMPLETE)
+            cz_tell(arguments,
+                    "scenario '%s' was not over after %.3g s, the simulation.longest_s of the "
+                    "problem; allow "
+                    "more, such as --set simulation.longest_s=%.3g",
+                    run->scenario, run->simulated, 2.0 * run->simulated);
+    }
+}
+
 /* Only `check`, or `run --strict`, judges by exit code. What could not be judged is no pass. */
 static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
     if (evaluation->status != CZ_OK) {
+        tell_incomplete(arguments, evaluation);
         cz_tell(arguments, "a run failed or is incomplete: its results are no basis for a design");
         return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
     }

@@ -10,6 +10,7 @@
 #include "dynamics/equilibrium.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "base/error.h"
 #include "integrate/integrator.h"
@@ -172,6 +173,38 @@ static CzEquilibrium read(Car *car, const double *q, double weight) {
     return found;
 }
 
+/* Says which spring or contact is furthest from its rest. */
+static CzStatus tell_unrest(const Car *car, const double *q, double weight, CzError *error) {
+    static const char *const side[] = {"rear", "front"};
+    char what[80];
+    double residual[N_UNKNOWN];
+    int worst = 0;
+    residuals((CzEquations *)&car->equations, q, residual);
+    for (int i = 0; i < N_UNKNOWN; i++)
+        if (!(fabs(residual[i]) <= fabs(residual[worst])))
+            worst = i;
+    if (worst < BOGIE_Z)
+        snprintf(what, sizeof what, "the body on its secondary suspensions");
+    else if (worst < WHEEL_Z)
+        snprintf(what, sizeof what, "the %s bogie on its primary suspensions",
+                 side[(worst - BOGIE_Z) % 2]);
+    else if (worst < LOAD)
+        snprintf(what, sizeof what, "wheelset %d under its primary suspension",
+                 worst - WHEEL_Z + 1);
+    else
+        snprintf(what, sizeof what, "the contact of wheelset %d with the rail", worst - LOAD + 1);
+    CzStatus status = cz_fail(error, CZ_STATUS_RUN_FAILED,
+                              "no static equilibrium: %s is %.0f kN away from it, of %.0f kN that "
+                              "the vehicle weighs",
+                              what, 1e-3 * fabs(residual[worst]), 1e-3 * weight);
+    if (error != NULL)
+        snprintf(error->help, sizeof error->help,
+                 "compare the vehicle's mass with its springs: %.0f kN/m per bogie (secondary), "
+                 "%.0f kN/m per axle (primary)",
+                 1e-3 * car->secondary.stiffness, 1e-3 * car->primary.stiffness);
+    return status;
+}
+
 CzStatus cz_equilibrium_find(const CzLanes *lanes, size_t lane, const CzTrackModes *modes,
                              CzEquilibrium *equilibrium, CzError *error) {
     Car car = car_of(lanes, lane);
@@ -186,7 +219,11 @@ CzStatus cz_equilibrium_find(const CzLanes *lanes, size_t lane, const CzTrackMod
     }
     car.equations = (CzEquations){N_UNKNOWN, unknown_scale, residual_scale, residuals};
     guess(weight, q);
-    CZ_TRY(cz_equations_solve(&car.equations, TOLERANCE, q, error));
+    const CzStatus status = cz_equations_solve(&car.equations, TOLERANCE, q, error);
+    if (status == CZ_STATUS_RUN_FAILED)
+        return tell_unrest(&car, q, weight, error);
+    if (status != CZ_OK)
+        return status;
     *equilibrium = read(&car, q, weight);
     return CZ_OK;
 }

@@ -342,9 +342,13 @@ static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluatio
         const CzClimbing climbing = cz_climbing_of(evaluator, s);
         const CzCheckResult worst =
             cz_climbing_judge(&climbing, evaluator, evaluator->vehicles, summary);
-        if (summary->status != CZ_OK || summary->ended == CZ_ENDED_INCOMPLETE)
-            return cz_fail(error, CZ_STATUS_RUN_FAILED, "scenario '%s' %s", summary->scenario,
-                           summary->status != CZ_OK ? "failed" : "did not come to its end");
+        if (summary->status != CZ_OK)
+            return cz_fail(error, CZ_STATUS_RUN_FAILED, "scenario '%s' failed", summary->scenario);
+        if (summary->ended == CZ_ENDED_INCOMPLETE)
+            return cz_fail(error, CZ_STATUS_RUN_FAILED,
+                           "scenario '%s' did not come to its end within simulation.longest_s = %g",
+                           summary->scenario,
+                           cz_problem_input(evaluator->problem)->simulation.longest);
         if (!isnan(worst.margin) && (chosen < 0 || worst.margin < explanation->worst.margin)) {
             chosen = s;
             chosen_run = run;

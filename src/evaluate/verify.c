@@ -254,8 +254,9 @@ static void tell_failure(CzVerification *verification, const char *way,
         const CzRunSummary *run = cz_run_summary(evaluation->run[i]);
         if (run->status == CZ_OK && run->ended != CZ_ENDED_INCOMPLETE)
             continue;
-        const char *why =
-            run->failure[0] != '\0' ? run->failure : "the run did not come to its end";
+        const char *why = run->failure[0] != '\0'
+                              ? run->failure
+                              : "the run did not come to its end within simulation.longest_s";
         snprintf(verification->failure, sizeof verification->failure, "%s, scenario %.60s: %.220s",
                  way, run->scenario, why);
         return;

@@ -108,6 +108,7 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     cz_profile_read(problem);
     cz_measured_read(problem);
     cz_rules_check(problem);
+    cz_usual_check(reader);
 }
 
 /* Sorts what was found and tells the first mistake. */

@@ -252,6 +252,13 @@ void cz_bind_strokes(CzReader *reader, CzRecordId record, const CzNode *node, co
  * rule, so that the rules hold even for a problem with other mistakes. */
 void cz_rules_check(CzProblem *problem);
 
+/* ---- usual.c ---- */
+
+/* Warns of numbers outside of their usual range. */
+void cz_usual_check(CzReader *reader);
+/* Writes the usual range of a key behind its range; nothing when it has none. */
+void cz_usual_write(FILE *stream, const CzKey *key);
+
 /* ---- profile.c ---- */
 
 /* Reads the profile that the problem names, with the limits of its category. */

@@ -35,13 +35,32 @@ static Names names_of(const CzRules *rules) {
     return (Names){rules, {.arena = rules->mistakes->arena}};
 }
 
-/* Adds a name; false when it is there already. */
-static bool add(Names *names, const char *name) {
+/* Adds the name of the record of a number; the number of the first record that has it, which is
+ * this one unless the name is there already. */
+static int add(Names *names, const char *name, int number) {
     const size_t n = strlen(name);
-    if (cz_index_find(&names->index, name, n) >= 0)
-        return false;
-    (void)cz_index_add(&names->index, name, n, 0); /* the arena knows of a lack of memory */
-    return true;
+    const int first = cz_index_find(&names->index, name, n);
+    if (first >= 0)
+        return first;
+    (void)cz_index_add(&names->index, name, n, number); /* the arena knows of a lack of memory */
+    return number;
+}
+
+/* A name that two records have. Where both have it from one part, the places are those of the
+ * records and not of the part. */
+static void refuse_second(const CzRules *rules, const char *what, const char *const *first_name,
+                          const void *first, const char *const *name, const void *second) {
+    CzError at = {0}, first_at = {0};
+    cz_problem_place(rules->problem, name, &at);
+    cz_problem_place(rules->problem, first_name, &first_at);
+    const bool is_one_place = first_at.line == at.line && first_at.column == at.column &&
+                              strcmp(first_at.file, at.file) == 0;
+    if (is_one_place)
+        cz_problem_place(rules->problem, first, &first_at);
+    const bool is_elsewhere = strcmp(first_at.file, at.file) != 0;
+    cz_rule_broken(rules, is_one_place ? second : (const void *)name,
+                   "there are two %s '%.48s'; the first is at %s%s%d", what, *name,
+                   is_elsewhere ? first_at.file : "line", is_elsewhere ? ":" : " ", first_at.line);
 }
 
 static bool check_vehicles(const CzRules *rules) {
@@ -51,10 +70,11 @@ static bool check_vehicles(const CzRules *rules) {
     for (int i = 0; i < rules->problem->n_vehicle; i++) {
         const char *const *name = &vehicle[i].name;
         check_name(rules, name, "vehicle", "");
-        if (*name == NULL || add(&names, *name))
+        const int first = *name != NULL ? add(&names, *name, i) : i;
+        if (first == i)
             continue;
         are_different = false;
-        cz_rule_broken(rules, name, "there are two vehicles '%.48s'", *name);
+        refuse_second(rules, "vehicles", &vehicle[first].name, &vehicle[first], name, &vehicle[i]);
     }
     return are_different;
 }
@@ -65,8 +85,10 @@ static void check_trains(const CzRules *rules) {
     for (int i = 0; i < input->n_trains; i++) {
         const char *const *name = &input->trains[i].name;
         check_name(rules, name, "train", "");
-        if (*name != NULL && !add(&names, *name))
-            cz_rule_broken(rules, name, "there are two trains '%.48s'", *name);
+        const int first = *name != NULL ? add(&names, *name, i) : i;
+        if (first != i)
+            refuse_second(rules, "trains", &input->trains[first].name, &input->trains[first], name,
+                          &input->trains[i]);
     }
 }
 
@@ -99,7 +121,8 @@ static void add_columns(Names *names, int n_column, const char *const (*column)[
         char text[CZ_CHANNEL_ROOM];
         snprintf(text, sizeof text, "%s%.97s%s", column[i][0], name, column[i][1]);
         const char *kept = cz_arena_copy_text(arena, text, strlen(text));
-        if (kept == NULL || add(names, kept))
+        const int number = names->index.n_entry;
+        if (kept == NULL || add(names, kept, number) == number)
             continue;
         cz_rule_broken(names->rules, field,
                        "the name '%.48s' gives two columns of results one name: %.120s", *field,
@@ -154,7 +177,9 @@ static bool is_result_file(const char *name) {
     return false;
 }
 
-static void check_scenario_name(const CzRules *rules, Names *names, const char *const *name) {
+static void check_scenario_name(const CzRules *rules, Names *names, int scenario) {
+    const CzScenario *all = rules->input->scenarios;
+    const char *const *name = &all[scenario].name;
     check_name(rules, name, "scenario", ".");
     if (*name == NULL)
         return;
@@ -168,15 +193,16 @@ static void check_scenario_name(const CzRules *rules, Names *names, const char *
                        "a scenario cannot be called '%.48s': a result folder holds a file of that "
                        "name, and each scenario has a folder in it",
                        *name);
-    if (lower != NULL && !add(names, lower))
-        cz_rule_broken(rules, name, "there are two scenarios '%.48s'", *name);
+    const int first = lower != NULL ? add(names, lower, scenario) : scenario;
+    if (first != scenario)
+        refuse_second(rules, "scenarios", &all[first].name, &all[first], name, &all[scenario]);
 }
 
 static void check_scenarios(const CzRules *rules) {
     const CzInput *input = rules->input;
     Names names = names_of(rules);
     for (int i = 0; i < input->n_scenarios; i++) {
-        check_scenario_name(rules, &names, &input->scenarios[i].name);
+        check_scenario_name(rules, &names, i);
         check_name(rules, &input->scenarios[i].family, "family", ".");
     }
 }

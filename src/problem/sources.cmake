@@ -36,6 +36,7 @@ set(CZ_SOURCES_problem
     strokes.c
     trace.c
     trains.c
+    usual.c
     write_keys.c
     write_resolved.c
     write_schema.c

@@ -23,6 +23,7 @@ static void write_kind(FILE *stream, const CzKey *key) {
         fprintf(stream, "%s to %s%s%s", cz_number_print_short(lo, key->lo),
                 cz_number_print_short(hi, key->hi), key->dimension != CZ_DIMENSION_NONE ? " " : "",
                 cz_unit_si(key->dimension)->suffix);
+        cz_usual_write(stream, key);
         break;
     case CZ_KEY_COUNT:
         fprintf(stream, "whole number, %.0f to %.0f", key->lo, key->hi);
@@ -91,7 +92,9 @@ static const char *variation_text(CzVariation variation) {
 void cz_keys_write_help(FILE *stream) {
     char spelled[200];
     fputs("Keys of a problem file. Every number with a dimension carries its unit in the key.\n"
-          "Any record may also `use: PART`, with keys of its own laid over the part's.\n",
+          "Any record may also `use: PART`, with keys of its own laid over the part's.\n"
+          "A number outside of what is usual is computed with as written; a warning asks for its\n"
+          "unit, which -q leaves out.\n",
           stream);
     for (int r = 0; r < CZ_N_RECORD; r++) {
         const CzRecord *record = &cz_records[r];
@@ -162,6 +165,10 @@ void cz_keys_write_reference(FILE *stream) {
         "A problem file is YAML, or JSON, which is nearly a subset of it.\n"
         "Every number with a dimension carries its unit in its key, such as `force_kN`; ranges and "
         "defaults below are in SI units.\n"
+        "A number outside of what is usual is computed with as written, but a warning asks whether "
+        "it is in the right unit; `-q` leaves warnings out. The usual ranges are ours, from a "
+        "light "
+        "rail car to a loaded heavy wagon, and change no result.\n"
         "Anchors, aliases, tags and merge keys are refused; what is written once is used again by "
         "the keys under Reuse.\n",
         stream);

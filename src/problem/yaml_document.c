@@ -5,6 +5,7 @@
  */
 #include "problem/yaml_document.h"
 #include "base/index.h"
+#include "base/number.h"
 #include "base/text.h"
 #include "problem/source.h"
 
@@ -211,9 +212,31 @@ static CzNode *read_list(Document *document, int depth) {
     return list;
 }
 
-/* Reads a key; *is_kept is false when it is refused and its value must be passed over. `lines` has
- * the line of every key so far. */
-static CzNode *read_key(Document *document, CzIndex *lines, int depth, bool *is_kept) {
+/* The mapping at hand: the line of every key so far, the entry that was read last. */
+typedef struct {
+    CzIndex lines;
+    CzNode *last_key, *last_value; /* NULL at the first key */
+} Mapping;
+
+/* Whether a key is what stands behind a decimal comma, for {mass_t: 36,8} is two keys; the value
+ * before it is then refused. */
+static bool is_behind_comma(Document *document, Mapping *mapping, const CzNode *key) {
+    double number;
+    CzNode *value = mapping->last_value;
+    if (value == NULL || value->kind != CZ_NODE_TEXT || value->quoted || key->quoted ||
+        key->line != value->line || key->column != value->column + (int)strlen(value->text) + 1 ||
+        key->text[0] < '0' || key->text[0] > '9' || cz_number_parse(value->text, &number) != NULL)
+        return false;
+    cz_mistake(document->mistakes, value, NULL,
+               "%s: '%.30s,%.30s' is not a number: the decimal sign is a point",
+               mapping->last_key->text, value->text, key->text);
+    value->is_refused = true;
+    return true;
+}
+
+/* Reads a key; *is_kept is false when it is refused and its value must be passed over. */
+static CzNode *read_key(Document *document, Mapping *mapping, int depth, bool *is_kept) {
+    CzIndex *lines = &mapping->lines;
     *is_kept = false;
     if (document->event.type != YAML_SCALAR_EVENT) {
         refuse(document, "a key must be a text");
@@ -224,7 +247,9 @@ static CzNode *read_key(Document *document, CzIndex *lines, int depth, bool *is_
         return NULL;
     const size_t n = strlen(key->text);
     const int first = cz_index_find(lines, key->text, n);
-    if (strcmp(key->text, "<<") == 0) {
+    if (is_behind_comma(document, mapping, key)) {
+        /* told */
+    } else if (strcmp(key->text, "<<") == 0) {
         cz_mistake(document->mistakes, key, NULL, "merge keys ('<<') are not read here");
         cz_mistake_help(document->mistakes, "name a part under 'parts:' and take it with 'use:'");
     } else if (first >= 0) {
@@ -242,12 +267,12 @@ static CzNode *read_mapping(Document *document, int depth) {
     refuse_decorations(document, document->event.data.mapping_start.anchor,
                        document->event.data.mapping_start.tag);
     CzNode *mapping = node_create(document, CZ_NODE_MAPPING);
-    CzIndex lines = {.arena = document->mistakes->arena};
+    Mapping at_hand = {.lines = {.arena = document->mistakes->arena}};
     Chunk *chunk = NULL;
     int n_key = 0;
     while (next_event(document) && document->event.type != YAML_MAPPING_END_EVENT) {
         bool is_kept = false;
-        CzNode *key = read_key(document, &lines, depth, &is_kept);
+        CzNode *key = read_key(document, &at_hand, depth, &is_kept);
         if (key == NULL || !next_event(document))
             return NULL;
         CzNode *value = read_node(document, depth + 1);
@@ -255,6 +280,8 @@ static CzNode *read_mapping(Document *document, int depth) {
             return NULL;
         if (is_kept && !push(document, &chunk, (CzEntry){.key = key, .value = value}))
             return NULL;
+        at_hand.last_key = key;
+        at_hand.last_value = value;
         if (++n_key > MOST_KEYS) {
             cz_mistake(document->mistakes, key, NULL, "a mapping has more than %d keys",
                        (int)MOST_KEYS);

@@ -229,7 +229,8 @@ static void write_caution(CzPage *page) {
         cz_markup_classed(markup, "p", "fail", text);
     } else if (run->ended == CZ_ENDED_INCOMPLETE) {
         cz_markup_classed(markup, "p", "fail",
-                          "This run is incomplete: it was cut before the collision was over.");
+                          "This run is incomplete: the collision was not over within "
+                          "simulation.longest_s, so nothing can be judged by it.");
     }
     if (run->beyond_validity) {
         snprintf(text, sizeof text,

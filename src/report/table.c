@@ -63,8 +63,11 @@ static void write_run_head(const CzProblem *problem, const CzRunSummary *run, bo
     const bool cut = run->ended == CZ_ENDED_INCOMPLETE;
     if (!cut)
         fputs("ended ", stream);
-    cz_grid_write_text(cut ? "INCOMPLETE: not at an end yet" : cz_ended_text(run->ended),
-                       cut ? CZ_STYLE_BAD : CZ_STYLE_PLAIN, colour, stream);
+    char end[80];
+    snprintf(end, sizeof end, "INCOMPLETE: not over within simulation.longest_s = %s",
+             cz_figure_digits(simulated, 3, cz_problem_input(problem)->simulation.longest));
+    cz_grid_write_text(cut ? end : cz_ended_text(run->ended), cut ? CZ_STYLE_BAD : CZ_STYLE_PLAIN,
+                       colour, stream);
     fprintf(stream, "   energy balance %s", cz_figure_percent(balance, run->energy.balance_error));
     if (cz_run_is_unbalanced(run)) {
         fputs("   ", stream);

@@ -3,8 +3,11 @@
 
 #include "base/error.h"
 #include "dynamics/equilibrium.h"
+#include "problem/problem.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 static CzRest no_rest(void) {
     CzRest rest = {.body_sag = NAN, .body_pitch = NAN, .residual = NAN};
@@ -29,13 +32,30 @@ static CzRest rest_of(const CzEquilibrium *found) {
     return rest;
 }
 
+/* Names the vehicle of a failure, and the place of its mass. */
+static void place_at_mass(const CzModel *model, int vehicle, CzError *error) {
+    int n_vehicle;
+    char sentence[sizeof error->message];
+    const CzStatus status = error->status;
+    const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
+    const CzVehicle *own = &vehicles[model->car[vehicle].vehicle];
+    memcpy(sentence, error->message, sizeof sentence);
+    snprintf(error->message, sizeof error->message, "%.48s: %.400s", own->name, sentence);
+    cz_problem_place(model->problem, &own->mass, error);
+    error->status = status;
+}
+
 CzStatus cz_rest_of_lane(const CzModel *model, const CzLanes *lanes, int vehicle, size_t lane,
                          CzRest *rest, CzError *error) {
     *rest = no_rest();
     if (model->car[vehicle].model != CZ_MODEL_FULL)
         return CZ_OK;
     CzEquilibrium found;
-    CZ_TRY(cz_equilibrium_find(lanes, lane, model->track, &found, error));
+    const CzStatus status = cz_equilibrium_find(lanes, lane, model->track, &found, error);
+    if (status == CZ_STATUS_RUN_FAILED && error != NULL)
+        place_at_mass(model, vehicle, error);
+    if (status != CZ_OK)
+        return status;
     *rest = rest_of(&found);
     return CZ_OK;
 }

@@ -79,7 +79,7 @@ passing="--set parts.inner-end.coupler.tube.stages[0].force_kN=580 --set parts.i
 check "check of a passing design ends with 0" exits 0 "$C" check two-trains.yaml $passing
 unjudged() { sed '/^  limits:/,/^$/d' two-trains.yaml >unjudged.yaml && exits 1 "$C" check unjudged.yaml && says out.txt 'NOTHING WAS JUDGED'; }
 check "check of a problem without checks is no pass" unjudged
-incomplete() { exits 3 "$C" run two-trains.yaml --set simulation.longest_ms=50 && says out.txt INCOMPLETE; }
+incomplete() { exits 3 "$C" run two-trains.yaml --set simulation.longest_ms=50 && says out.txt 'INCOMPLETE: not over within simulation.longest_s = 0.05' && says err.txt "scenario 'collision' was not over after 0.05" && says err.txt 'such as --set simulation.longest_s=0.1'; }
 check "a run that did not come to its end ends with 3" incomplete
 check "an incomplete check ends with 3" exits 3 "$C" check two-trains.yaml --set simulation.longest_ms=50
 several() { exits 1 "$C" check two-trains.yaml two-trains.yaml -o many && [ -f many/two-trains/summary.json ]; }

@@ -10,7 +10,7 @@ unchecked() {
     exits 0 "$C" explain no-stops.yaml && says out.txt 'NOT CHECKED'
 }
 check "without declared stops it says what is not known" unchecked
-cut() { exits 3 "$C" explain "$cars" --set simulation.longest_s=0.1 && says err.txt 'did not come to its end'; }
+cut() { exits 3 "$C" explain "$cars" --set simulation.longest_s=0.1 && says err.txt 'did not come to its end within simulation.longest_s = 0.1'; }
 check "a run that is cut short explains nothing" cut
 interrupted() {
     "$C" explain "$SOURCE/problems/metro-6-car.yaml" >out.txt 2>err.txt &

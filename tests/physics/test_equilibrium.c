@@ -100,6 +100,23 @@ static void rigid_cars_and_walls_have_no_rest(void **state) {
     collision_free(&collision);
 }
 
+/* A mass with three zeros too many: the sentence has the vehicle, what does not come to rest, the
+ * springs, and the place of the mass. */
+static void a_car_that_finds_no_rest_is_named_with_its_springs(void **state) {
+    (void)state;
+    Collision collision =
+        collision_model(file, WITH("simulation.track=modal", "parts.paper-car.mass_t=4900"), 0);
+    CzRest rest[16];
+    CzError error = {0};
+    assert_int_equal(cz_rest_find(collision.model, rest, &error), CZ_STATUS_RUN_FAILED);
+    assert_string_equal(error.file, "--set");
+    assert_non_null(strstr(error.message, "A1: no static equilibrium: "));
+    assert_non_null(strstr(error.message, "suspension"));
+    assert_non_null(strstr(error.help, "860 kN/m per bogie"));
+    assert_null(strstr(error.message, "KIN"));
+    collision_free(&collision);
+}
+
 static void a_recorded_run_tells_its_residual(void **state) {
     (void)state;
     Collision full = collide(file, AS_WRITTEN, 0);
@@ -117,6 +134,7 @@ int main(void) {
         cmocka_unit_test(an_elastic_track_takes_the_wheels_down),
         cmocka_unit_test(the_kernel_moves_nothing_at_rest),
         cmocka_unit_test(rigid_cars_and_walls_have_no_rest),
+        cmocka_unit_test(a_car_that_finds_no_rest_is_named_with_its_springs),
         cmocka_unit_test(a_recorded_run_tells_its_residual),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

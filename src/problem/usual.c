@@ -1,0 +1,76 @@
+/* Warns of numbers that are allowed and hardly meant: a car of 38 kg, 25 m/s for 25 km/h.
+ *
+ * Zero and what is absent is never unusual; signs do not count.
+ */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/number.h"
+#include "problem/rules.h"
+
+typedef struct {
+    CzRecordId record;
+    const char *stem, *unit;
+    double lo, hi; /* [unit] */
+    bool is_typed; /* only for numbers that are typed in the unit */
+} Usual;
+
+static const Usual usual[] = {
+#define CZ_USUAL(type, stem, unit, lo, hi) {CZ_RECORD_##type, #stem, #unit, lo, hi, false},
+#define CZ_USUAL_IN(type, stem, unit, lo, hi) {CZ_RECORD_##type, #stem, #unit, lo, hi, true},
+#include "problem/usual.def"
+#undef CZ_USUAL
+#undef CZ_USUAL_IN
+};
+enum { N_USUAL = sizeof usual / sizeof usual[0] };
+
+/* Prints a number with its unit, if it has one. */
+static const char *with_unit(char text[CZ_NUMBER_TEXT + 16], double value, const char *unit) {
+    char number[CZ_NUMBER_TEXT];
+    snprintf(text, CZ_NUMBER_TEXT + 16, "%s%s%s", cz_number_print_short(number, value),
+             unit[0] != '\0' ? " " : "", unit);
+    return text;
+}
+
+static void warn(CzReader *reader, const CzPlace *place, const Usual *range, const CzUnit *unit) {
+    char own[CZ_NUMBER_TEXT + 16], lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT + 16];
+    const double si = *(const double *)place->address;
+    const double size = fabs(si) / unit->si, scale = unit->si / place->unit->si;
+    if (!(size > 0.0) || (size >= range->lo && size <= range->hi))
+        return;
+    cz_mistake(&reader->warnings, place->value, place->trail,
+               "%s of a %s is unusual: %s, where %s to %s is usual; is it in the right unit?",
+               place->key->stem, cz_records[range->record].name,
+               with_unit(own, si / place->unit->si, place->unit->suffix),
+               cz_number_print_short(lo, range->lo * scale),
+               with_unit(hi, range->hi * scale, place->unit->suffix));
+    cz_mistake_help(&reader->warnings,
+                    "it is computed with as written; 'crushzone help keys' has the usual values");
+}
+
+void cz_usual_write(FILE *stream, const CzKey *key) {
+    const char *before = "; usually ";
+    for (int i = 0; i < N_USUAL; i++) {
+        const Usual *range = &usual[i];
+        char lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT + 16];
+        if (cz_record_key(&cz_records[range->record], range->stem) != key)
+            continue;
+        fprintf(stream, "%s%s to %s", before, cz_number_print_short(lo, range->lo),
+                with_unit(hi, range->hi, range->unit));
+        before = ", ";
+    }
+}
+
+void cz_usual_check(CzReader *reader) {
+    for (int i = 0; i < N_USUAL; i++) {
+        const Usual *range = &usual[i];
+        const CzKey *key = cz_record_key(&cz_records[range->record], range->stem);
+        const CzUnit *unit = cz_unit_find(key->dimension, range->unit);
+        for (int k = 0; k < reader->places.n_place; k++) {
+            const CzPlace *place = &reader->places.place[k];
+            if (place->size == 0 && place->key == key && place->unit != NULL &&
+                place->value->kind == CZ_NODE_TEXT && (!range->is_typed || place->unit == unit))
+                warn(reader, place, range, unit);
+        }
+    }
+}

@@ -1,0 +1,103 @@
+/* Numbers that are allowed and hardly meant are warned of, and nothing else is. */
+#include "problem/read_problem.h"
+
+#include <dirent.h>
+
+#include "problem/keys.h"
+
+/* Of each range: that its key is a number with that unit, and that it lies in what is allowed. */
+static void every_usual_range_is_one_of_a_key(void **state) {
+    (void)state;
+    static const struct {
+        CzRecordId record;
+        const char *stem, *unit;
+        double lo, hi;
+    } usual[] = {
+#define CZ_USUAL(type, stem, unit, lo, hi) {CZ_RECORD_##type, #stem, #unit, lo, hi},
+#define CZ_USUAL_IN CZ_USUAL
+#include "problem/usual.def"
+#undef CZ_USUAL
+#undef CZ_USUAL_IN
+    };
+    for (size_t i = 0; i < sizeof usual / sizeof usual[0]; i++) {
+        const CzKey *key = cz_record_key(&cz_records[usual[i].record], usual[i].stem);
+        assert_non_null(key);
+        assert_int_equal(key->kind, CZ_KEY_NUMBER);
+        const CzUnit *unit = cz_unit_find(key->dimension, usual[i].unit);
+        assert_non_null(unit);
+        assert_true(usual[i].lo < usual[i].hi);
+        assert_true(usual[i].lo * unit->si >= key->lo || key->lo <= 0);
+        assert_true(usual[i].hi * unit->si <= key->hi * (1 + 1e-12));
+        if (!isnan(key->absent) && key->absent != 0) /* a default is usual */
+            assert_true(fabs(key->absent) >= usual[i].lo * unit->si &&
+                        fabs(key->absent) <= usual[i].hi * unit->si);
+    }
+}
+
+/* How many warnings of a problem say that something is unusual; those of `word` only. */
+static int count_unusual(const CzProblem *problem, const char *word) {
+    int n = 0;
+    for (int i = 0; i < cz_problem_n_warning(problem); i++) {
+        const char *message = cz_problem_warning(problem, i)->message;
+        n += strstr(message, " is unusual: ") != NULL && strstr(message, word) != NULL;
+    }
+    return n;
+}
+
+static int count_with(const char *setting, const char *word) {
+    CzProblem *problem = read_good("rigid.yaml", 1, &setting);
+    const int n = count_unusual(problem, word);
+    assert_int_equal(count_unusual(problem, ""), n);
+    cz_problem_free(problem);
+    return n;
+}
+
+static void what_newcomers_mistype_is_warned_of(void **state) {
+    (void)state;
+    assert_int_equal(count_with("parts.car.mass_kg=38", "38 kg, where 1000 to 250000 kg is"), 1);
+    assert_int_equal(count_with("trains.A.speed_m_s=25", "25 m_s, where 0.3 to 20 m_s is"), 1);
+    assert_int_equal(count_with("simulation.time_step_ms=0.0002", "0.0002 ms, where 0.001"), 1);
+    assert_int_equal(
+        count_with("parts.bumper.anti_climber.stages[0].stroke_mm=0.25", "0.25 mm, where"), 1);
+}
+
+static void usual_numbers_and_edges_are_not_warned_of(void **state) {
+    (void)state;
+    assert_int_equal(count_with("parts.car.mass_t=1", ""), 0);
+    assert_int_equal(count_with("parts.car.mass_kg=250000", ""), 0);
+    assert_int_equal(count_with("trains.A.speed_km_h=90", ""), 0); /* where km/h is typed */
+    assert_int_equal(count_with("trains.B.speed_km_h=-30", ""), 0);
+    assert_int_equal(count_with("trains.B.speed_km_h=0", ""), 0);
+}
+
+static void shipped_problems_have_usual_numbers(void **state) {
+    (void)state;
+    static const char *const folder = CZ_SOURCE_FOLDER "/problems";
+    int n = 0;
+    DIR *all = opendir(folder);
+    assert_non_null(all);
+    for (struct dirent *entry = readdir(all); entry != NULL; entry = readdir(all)) {
+        char path[600];
+        CzProblem *problem = NULL;
+        if (strstr(entry->d_name, ".yaml") == NULL)
+            continue;
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        assert_int_equal(cz_problem_read(path, NULL, &problem, NULL), CZ_OK);
+        if (count_unusual(problem, "") > 0)
+            fail_msg("%s: %s", path, cz_problem_warning(problem, 0)->message);
+        cz_problem_free(problem);
+        n++;
+    }
+    closedir(all);
+    assert_true(n >= 10);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_usual_range_is_one_of_a_key),
+        cmocka_unit_test(what_newcomers_mistype_is_warned_of),
+        cmocka_unit_test(usual_numbers_and_edges_are_not_warned_of),
+        cmocka_unit_test(shipped_problems_have_usual_numbers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -2,7 +2,8 @@
  * and shear-offs, and whose ends turn against hinges. Part of kernel.c only.
  *
  *   closure = free length - |r_B - r_A|,   force along the current line,   theta its angle;
- *   where neither car can tilt, or one is a wall, closure and force are those along the track
+ *   where neither car can tilt, or one is a wall, closure and force are those along the track;
+ *   where it has sheared off, those along the mean normal of the cars
  *   hinge i:  M_i = engaged * (slider(theta - beta_i) + swing stop),  reacted by transverse forces
  * (M_A + M_B) / length
  */
@@ -69,7 +70,7 @@ static void coupler_geometry(CzBlock *d, const Carrier *a, const Carrier *b) {
         const double vx = (cb.vx[i] - bz * cb.turn[i]) - (ca.vx[i] - az * ca.turn[i]);
         const double vz = tilts[i] * ((cb.vz[i] + bx * cb.turn[i]) - (ca.vz[i] + ax * ca.turn[i]));
         const double apart = sqrt(dx * dx + dz * dz);
-        const double strut = dx < 0.0 ? -apart : apart; /* pivots that pass fail the run */
+        const double strut = dx < 0.0 ? -apart : apart; /* the run fails where pivots pass */
         const double l = tilts[i] > 0.0 ? strut : dx;
         const double inverse = 1.0 / (tilts[i] > 0.0 ? strut : 1.0);
         const double nx = tilts[i] > 0.0 ? dx * inverse : 1.0, nz = dz * inverse;
@@ -84,6 +85,59 @@ static void coupler_geometry(CzBlock *d, const Carrier *a, const Carrier *b) {
         arm_x_b[i] = bx;
         arm_z_b[i] = bz;
     }
+}
+
+/* Where a coupler has sheared off its line no longer turns about two pivots: from there on it
+ * pushes like a face, midway between them and along the mean normal of the cars, which holds where
+ * the pivots pass each other too. */
+static void released_geometry(CzBlock *d, const Carrier *a, const Carrier *b) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict travel_a = M(SHEAR_A), *restrict travel_b = M(SHEAR_B);
+    const double *restrict softening_a = P(SHEAR_SOFTENING_A), *restrict softening_b =
+                                                                   P(SHEAR_SOFTENING_B);
+    const double *restrict tilts = P(TILTS), *restrict rise = P(PIVOT_RISE);
+    const double *restrict x_a = P(PIVOT_X_A), *restrict x_b = P(PIVOT_X_B);
+    const double *restrict z_a = P(PIVOT_Z_A), *restrict z_b = P(PIVOT_Z_B);
+    const double *restrict distance = P(PIVOT_DISTANCE), *restrict along = P(COUPLER_ALONG);
+    const Carrier ca = *a, cb = *b;
+    double *restrict closure = S(CLOSURE), *restrict rate = S(RATE), *restrict turn = S(SLIP_RATE);
+    double *restrict direction_x = S(NORMAL_X), *restrict direction_z = S(NORMAL_Z),
+                     *restrict inverse_length = S(INVERSE_LENGTH);
+    double *restrict arm_x_a = S(ARM_X_A), *restrict arm_z_a = S(ARM_Z_A);
+    double *restrict arm_x_b = S(ARM_X_B), *restrict arm_z_b = S(ARM_Z_B);
+    CZ_LANES (i, n) {
+        const double gone_a = travel_a[i] >= softening_a[i] ? tilts[i] : 0.0;
+        const double gone = travel_b[i] >= softening_b[i] ? tilts[i] : gone_a;
+        const double ax = arm_x_a[i], az = arm_z_a[i], bx = arm_x_b[i], bz = arm_z_b[i];
+        const double dx = distance[i] + (cb.x[i] - ca.x[i]) + (bx - x_b[i]) - (ax - x_a[i]);
+        const double dz = rise[i] + (cb.z[i] - ca.z[i]) + (bz - z_b[i]) - (az - z_a[i]);
+        const double tilt = 0.5 * (ca.pitch[i] + cb.pitch[i]);
+        const double nx = 1.0 / sqrt(1.0 + tilt * tilt), nz = tilt * nx;
+        const double pax = ax + 0.5 * dx, paz = az + 0.5 * dz;
+        const double pbx = bx - 0.5 * dx, pbz = bz - 0.5 * dz;
+        const double vx = (ca.vx[i] - paz * ca.turn[i]) - (cb.vx[i] - pbz * cb.turn[i]);
+        const double vz = (ca.vz[i] + pax * ca.turn[i]) - (cb.vz[i] + pbx * cb.turn[i]);
+        closure[i] = gone > 0.0 ? along[i] - (nx * dx + nz * dz) : closure[i];
+        rate[i] = gone > 0.0 ? nx * vx + nz * vz : rate[i];
+        turn[i] = gone > 0.0 ? 0.0 : turn[i];
+        direction_x[i] = gone > 0.0 ? nx : direction_x[i];
+        direction_z[i] = gone > 0.0 ? nz : direction_z[i];
+        inverse_length[i] = gone > 0.0 ? 1.0 : inverse_length[i];
+        arm_x_a[i] = gone > 0.0 ? pax : ax;
+        arm_z_a[i] = gone > 0.0 ? paz : az;
+        arm_x_b[i] = gone > 0.0 ? pbx : bx;
+        arm_z_b[i] = gone > 0.0 ? pbz : bz;
+    }
+}
+
+static int some_are_released(const CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict travel_a = M(SHEAR_A), *restrict travel_b = M(SHEAR_B);
+    double n_released = 0.0;
+    _Pragma("omp simd reduction(+ : n_released)") for (size_t i = 0; i < n; ++i) {
+        n_released += travel_a[i] + travel_b[i] > 0.0 ? 1.0 : 0.0;
+    }
+    return n_released > 0.0;
 }
 
 /* Whether the evaluation at hand leaves the memory of the couplers as it was. */
@@ -219,17 +273,35 @@ static int couplers_are_apart(const CzBlock *d) {
     return n_near == 0.0;
 }
 
+/* The same by the closures themselves: that of a released coupler is not along the line. */
+static int closures_are_apart(const CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict closure = S(CLOSURE), *restrict reach = d->coupler_reach;
+    double n_near = d->couplers_rest ? 0.0 : 1.0;
+    _Pragma("omp simd reduction(+ : n_near)") for (size_t i = 0; i < n; ++i) {
+        n_near += closure[i] <= reach[i] ? 0.0 : 1.0;
+    }
+    return n_near == 0.0;
+}
+
 /* All couplers; 0 when none was at work. Where they changed nothing and are still apart they are
  * left out: no force, and both copies of their memory hold what they would leave. */
 static int couplers(CzBlock *d, double step) {
-    if (couplers_are_apart(d)) {
+    const int released = some_are_released(d);
+    if (!released && couplers_are_apart(d)) {
         memcpy(S(COUPLER_FORCE), M(COUPLER_FORCE), sizeof(CzRow));
         return 0;
     }
     const Carrier a = coupler_carrier(d, 0);
     const Carrier b = coupler_carrier(d, 1);
     coupler_geometry(d, &a, &b);
+    if (released)
+        released_geometry(d, &a, &b);
     memcpy(S(COUPLER_CLOSURE), S(CLOSURE), sizeof(CzRow));
+    if (released && closures_are_apart(d)) {
+        memcpy(S(COUPLER_FORCE), M(COUPLER_FORCE), sizeof(CzRow));
+        return 0;
+    }
     const int slack = coupler_chain_force(d, step);
     coupler_engagement(d);
     hinge_moment(d, 0, &a);

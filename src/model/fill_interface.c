@@ -272,6 +272,7 @@ static CzStatus fill_couplers(const Pair *pair) {
     put(pair, CZ_P_PIVOT_DISTANCE, pair->distance + coupler_gap(a) + coupler_gap(b) + length);
     put(pair, CZ_P_PIVOT_RISE, rise);
     put(pair, CZ_P_COUPLER_LENGTH, sqrt(length * length + rise * rise));
+    put(pair, CZ_P_COUPLER_ALONG, length);
     put(pair, CZ_P_COUPLER_COMPLIANCE, compliance);
     pair->fill->lanes->has_couplers = 1;
     return CZ_OK;

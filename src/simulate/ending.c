@@ -125,11 +125,13 @@ static bool fails_to_fit(CzBatch *batch, int design) {
 }
 
 /* Fails the design when a coupler has shortened by all that lies between its pivot and its face:
- * there is no line between two pivots that have met. */
+ * there is no line between two pivots that have met. Cars that climbed before that slide on over
+ * each other, which is beyond the model's validity anyway. */
 static bool fails_to_keep_apart(CzBatch *batch, int design) {
     static const int rows[] = {CZ_M_BUFFER_A, CZ_M_TUBE_A, CZ_M_SECOND_TUBE_A, CZ_M_SHEAR_A};
     char what[160];
-    for (int car = 0; car + 1 < batch->model->n_car; ++car)
+    for (int car = 0; car + 1 < batch->model->n_car && isnan(batch->design[design].override_time);
+         ++car)
         for (int side = 0; side < 2; ++side) {
             const size_t lane = cz_lane(batch, car, design);
             const double length = cz_parameter(batch, CZ_P_STRUT_LENGTH_A + side, lane);

@@ -73,7 +73,7 @@ typedef struct CzElementResult {
     double zone_energy[3]; /* plastic energy by zone: crush, temporary, occupied [J] */
 } CzElementResult;
 
-enum { CZ_MAX_ELEMENTS = 10 };
+enum { CZ_MAX_ELEMENTS = 12 };
 
 typedef struct CzInterfaceResult {
     char name[CZ_INTERFACE_ROOM]; /* "A4-B1" */

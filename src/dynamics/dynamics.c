@@ -77,7 +77,9 @@ static void invert(CzBlock *block, int parameter, int constant) {
 }
 
 static void derive_constants(CzBlock *block) {
-    static const int inverses[][2] = {{CZ_P_CREEP_STIFFNESS, CZ_C_CREEP_COMPLIANCE},
+    static const int inverses[][2] = {{CZ_P_INVERSE_BODY_MASS, CZ_C_BODY_MASS},
+                                      {CZ_P_INVERSE_WHEELSET_INERTIA, CZ_C_WHEELSET_INERTIA},
+                                      {CZ_P_CREEP_STIFFNESS, CZ_C_CREEP_COMPLIANCE},
                                       {CZ_P_BRAKE_STIFFNESS, CZ_C_BRAKE_COMPLIANCE},
                                       {CZ_P_HINGE_STIFFNESS_A, CZ_C_HINGE_COMPLIANCE_A},
                                       {CZ_P_HINGE_STIFFNESS_B, CZ_C_HINGE_COMPLIANCE_B},

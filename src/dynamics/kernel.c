@@ -13,6 +13,7 @@
 #include "dynamics/kernel_budget.h"
 #include "dynamics/kernel_car.h"
 #include "dynamics/kernel_coupler.h"
+#include "dynamics/kernel_drag.h"
 #include "dynamics/kernel_face.h"
 #include "dynamics/kernel_neighbours.h"
 #include "dynamics/kernel_rows.h"
@@ -157,6 +158,8 @@ static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
         else
             press_on_rigid(d, axle);
         wheel(d, axle, step);
+        if (dynamics->lanes->has_rolling)
+            roll(d, axle);
     }
 }
 
@@ -175,6 +178,8 @@ static void end_block(const CzDynamics *dynamics, int index, double step) {
     if (dynamics->lanes->has_full_cars)
         evaluate_cars(dynamics, index, step);
     push_bodies(d);
+    if (dynamics->lanes->has_drag)
+        drag(d);
     divide_by_masses(d);
 }
 
@@ -363,6 +368,10 @@ static void commit_block(const CzLanes *lanes, CzBlock *d, double step, double t
     add_to(d, CZ_E_SEARCHED, S(SEARCHED));
     if (lanes->has_full_cars)
         car_extremes(d, time);
+    if (lanes->has_drag) {
+        keep_larger_size(d, CZ_E_SLIDE_TRAVEL, X(BODY_X));
+        keep_larger(d, CZ_E_SLIDE_FORCE, S(SLIDE_FORCE));
+    }
 }
 
 static void commit(CzDynamics *dynamics, double step, double time) {

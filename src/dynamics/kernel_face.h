@@ -46,10 +46,15 @@ static const BufferRows side_buffer = {CZ_CURVE_SIDE_BUFFER_A,
 static const ContactRows side_contact = {CZ_P_SIDE_X_A, CZ_P_SIDE_Z_A, CZ_P_SIDE_X_B,
                                          CZ_P_SIDE_Z_B, CZ_P_SIDE_GAP, CZ_P_SIDE_RISE};
 
-/* Linearises a crush zone without end mass as spring member `side`. A lane without one is rigid:
- * its compliance is 0. */
+/* Force per way of this step that the damping of a crush zone without end mass adds: scaled in over
+ * the stroke that it had before. */
+static inline double limp_damper(double damping, double committed, double step) {
+    return damping * cz_fade_in(committed, CZ_FADE_LENGTH) / step;
+}
+
+/* Linearises a crush zone without end mass as spring member `side`, a damper beside it. A lane
+ * without one is rigid: its compliance is 0. */
 static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
-    (void)step;
     const size_t n = CZ_LANE_BLOCK;
     if (!d->has_limp_end[side])
         return leave_out_spring(d, side);
@@ -65,6 +70,8 @@ static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
                                                                          P_AT(LIMP_SHARE_A, side);
     const double *restrict second = P_AT(LIMP_SECOND_UNLOADING_A, side);
     const double *restrict exists = P_AT(LIMP_END_A, side), *restrict wanted = S(CHAIN_FORCE);
+    const double *restrict damping = P_AT(LIMP_DAMPING_A, side), *restrict committed =
+                                                                     M_AT(LIMP_A, side);
     double *restrict force = S(TRIAL_FORCE);
     double *restrict up = S(TRIAL_UP), *restrict down = S(TRIAL_DOWN);
     const double is_again = again ? 1.0 : 0.0;
@@ -77,22 +84,23 @@ static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
         const double path =
             response.force < curve[i] ? response.slope : cz_larger(slope[i], response.slope);
         const double stop = shortening[i] > largest[i] ? slope[i] : path;
-        const double off = fabs(response.force - wanted[i]);
+        const double damper = limp_damper(damping[i], committed[i], step);
+        const double resists = response.force + damper * (shortening[i] - committed[i]);
+        const double off = fabs(resists - wanted[i]);
         const double begins = peak_slope[i] < 0.0 ? 0.0 : is_again;
         const double drops = off > LARGE_DROP * fabs(wanted[i]) ? is_again : begins;
-        const double falling = slope[i] < 0.0 ? exists[i] * drops : 0.0;
+        const double falling = slope[i] + damper < 0.0 ? exists[i] * drops : 0.0;
         const double back = cz_larger(shortening[i] > 0.0 ? stop : slope[i], CZ_SMALLEST_STIFFNESS);
         falls[i] += shortening[i] > largest[i] ? falling : 0.0;
-        force[i] = exists[i] > 0.5 ? response.force : wanted[i];
-        up[i] = exists[i] / (shortening[i] >= largest[i] ? loading : back);
-        down[i] = exists[i] / back;
+        force[i] = exists[i] > 0.5 ? resists : wanted[i];
+        up[i] = exists[i] / (damper + (shortening[i] >= largest[i] ? loading : back));
+        down[i] = exists[i] / (damper + back);
     }
     return accept(d, side, again, shortening, force, up, down);
 }
 
 /* The law of that in one lane. */
 static double limp_end_force(const CzBlock *d, int side, size_t i, double shortening, double step) {
-    (void)step;
     const int id = CZ_CURVE_LIMP_END_A + side;
     const CzVehicleEndLaw law = {cz_larger(P_AT(LIMP_UNLOADING_A, side)[i], 1.0),
                                  P_AT(LIMP_SHARE_A, side)[i],
@@ -101,7 +109,10 @@ static double limp_end_force(const CzBlock *d, int side, size_t i, double shorte
     double backbone, peak, slope;
     curve_at(d, id, i, largest, &peak, &slope);
     curve_at(d, id, i, shortening, &backbone, &slope);
-    return cz_vehicle_end(&law, backbone, peak, shortening, largest).force;
+    const double committed = M_AT(LIMP_A, side)[i];
+    const double damper = limp_damper(P_AT(LIMP_DAMPING_A, side)[i], committed, step);
+    return cz_vehicle_end(&law, backbone, peak, shortening, largest).force +
+           damper * (shortening - committed);
 }
 
 static double limp_end_falls(const CzBlock *d, int side, size_t i) {
@@ -225,7 +236,7 @@ static int faces_are_slack(CzBlock *d) {
  * will seat. */
 static int faces_remember(const CzBlock *d) {
     const size_t before = (size_t)(CZ_M_FACE_SLIP - CZ_M_FACE_FORCE) * sizeof(CzRow);
-    const size_t after = (size_t)(CZ_M_LIMP_ENERGY_B - CZ_M_FACE_SLIP) * sizeof(CzRow);
+    const size_t after = (size_t)(CZ_M_LIMP_DAMPED_B - CZ_M_FACE_SLIP) * sizeof(CzRow);
     return memcmp(M(FACE_FORCE), NEXT(FACE_FORCE), before) == 0 &&
            memcmp(M(FACE_ENERGY_A), NEXT(FACE_ENERGY_A), after) == 0;
 }
@@ -275,6 +286,26 @@ static void contact_top(CzBlock *d, const Chain *chain, const double *restrict n
     }
 }
 
+/* Largest shortening of a crush zone without end mass, and what its damping took in the step. */
+static void keep_limp(CzBlock *d, int side, double step) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict peak = M_AT(LIMP_PEAK_A, side), *restrict before = M_AT(LIMP_A, side);
+    const double *restrict now = NEXT_AT(LIMP_A, side), *restrict damped =
+                                                            M_AT(LIMP_DAMPED_A, side);
+    const double *restrict damping = P_AT(LIMP_DAMPING_A, side);
+    const double *restrict last = M_AT(LIMP_RESISTS_A, side);
+    double *restrict next_peak = NEXT_AT(LIMP_PEAK_A, side);
+    double *restrict resists = NEXT_AT(LIMP_RESISTS_A, side);
+    double *restrict next_damped = NEXT_AT(LIMP_DAMPED_A, side);
+    CZ_LANES (i, n) {
+        const double way = now[i] - before[i];
+        const double resisting = limp_damper(damping[i], before[i], step) * way;
+        next_peak[i] = cz_larger(peak[i], now[i]);
+        resists[i] = resisting;
+        next_damped[i] = damped[i] + 0.5 * (last[i] + resisting) * way;
+    }
+}
+
 /* All anti-climbers and bare ends; 0 when all are apart. */
 static int faces(CzBlock *d, double step) {
     const size_t n = CZ_LANE_BLOCK;
@@ -294,20 +325,15 @@ static int faces(CzBlock *d, double step) {
     }
     const int settled = solve_chain(d, &face_chain, &face_springs, step);
     move_members(d, &face_chain, CZ_M_LIMP_ENERGY_A, CZ_M_FACE_ENERGY_A);
-    for (int side = 0; side < 2; ++side) {
-        const double *restrict before = M_AT(LIMP_PEAK_A, side), *restrict now =
-                                                                     NEXT_AT(LIMP_A, side);
-        double *restrict next = NEXT_AT(LIMP_PEAK_A, side);
-        CZ_LANES (i, n) {
-            next[i] = cz_larger(before[i], now[i]);
-        }
-    }
+    for (int side = 0; side < 2; ++side)
+        keep_limp(d, side, step);
     d->faces_rest = settled && faces_are_slack(d) && faces_remember(d) && !d->leaves_nothing_out;
     face_normal(d);
     contact_top(d, &face_chain, S(FACE_FORCE), S(FACE_TOP));
     for (int side = 0; side < 2; ++side) {
         count_held(d, M_AT(FACE_ENERGY_A, side), NEXT_AT(FACE_ENERGY_A, side));
         count_held(d, M_AT(LIMP_ENERGY_A, side), NEXT_AT(LIMP_ENERGY_A, side));
+        count_held(d, M_AT(LIMP_DAMPED_A, side), NEXT_AT(LIMP_DAMPED_A, side));
     }
     face_tangential(d);
     const CarrierForce on_a = end_force(d, 0), on_b = end_force(d, 1);

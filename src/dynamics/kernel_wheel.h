@@ -3,6 +3,7 @@
 #define CZ_DYNAMICS_KERNEL_WHEEL_H
 
 #include "dynamics/kernel_rows.h"
+#include "laws/drag.h"
 #include "laws/slider.h"
 #include "laws/wheel_rail.h"
 
@@ -93,6 +94,23 @@ static void wheel(CzBlock *d, int axle, double step) {
         normal_power[i] -= more * vzw[i];
         creep_power[i] -= tangential * slip;
         brake_power[i] += held.force * (spin[i] + turn_t[i]);
+    }
+}
+
+/* Rolling resistance of one axle: a moment of the rail against the turning, after all others on the
+ * wheelset; what it costs the car comes through the creepage. */
+static void roll(CzBlock *d, int axle) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict inertia = C(WHEELSET_INERTIA), *restrict radius = P(WHEEL_RADIUS);
+    const double *restrict resistance = P(ROLLING_RESISTANCE), *restrict normal =
+                                                                   S_AT(WHEEL_FORCE_0, axle);
+    const double *restrict spin = V_AT(WHEEL_SPIN_0, 3 * axle);
+    double *restrict torque = G_AT(WHEEL_SPIN_0, 3 * axle), *restrict power = POWER(ROLLING);
+    CZ_LANES (i, n) {
+        const double capacity = resistance[i] * normal[i] * radius[i];
+        const double moment = cz_drag(inertia[i], capacity, spin[i], torque[i]);
+        torque[i] += moment;
+        power[i] -= moment * spin[i];
     }
 }
 

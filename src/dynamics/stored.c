@@ -1,6 +1,8 @@
 /* Elastic energy that the elements could still give back. */
 #include "dynamics/stored.h"
 
+#include <math.h>
+
 #include "laws/vehicle_end.h"
 
 static double parameter(const CzDynamics *dynamics, int row, size_t lane) {
@@ -125,6 +127,12 @@ double cz_limp_stored(const CzDynamics *dynamics, size_t lane, int side) {
                         dynamics->lanes->stride, lane, &law,
                         memory(dynamics, CZ_M_LIMP_A + side, lane),
                         memory(dynamics, CZ_M_LIMP_PEAK_A + side, lane));
+}
+
+double cz_slide_stored(const CzDynamics *dynamics, size_t lane) {
+    const double x = cz_block_of(dynamics, lane)->position[CZ_DOF_BODY_X][lane % CZ_LANE_BLOCK];
+    const double over = cz_larger(fabs(x) - parameter(dynamics, CZ_P_SLIDE_LENGTH, lane), 0.0);
+    return 0.5 * parameter(dynamics, CZ_P_SLIDE_STIFFNESS, lane) * over * over;
 }
 
 double cz_track_stored(const CzDynamics *dynamics, size_t lane) {

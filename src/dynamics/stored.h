@@ -15,6 +15,9 @@ double cz_coupler_elastic(const CzDynamics *dynamics, size_t lane);
 double cz_side_elastic(const CzDynamics *dynamics, size_t lane);
 double cz_end_stored(const CzDynamics *dynamics, size_t lane, int end);
 
+/* In the end stop of a buffer stop that was dragged as far as it goes. */
+double cz_slide_stored(const CzDynamics *dynamics, size_t lane);
+
 /* Kinetic and elastic energy of the track under a car above that at t = 0. */
 double cz_track_stored(const CzDynamics *dynamics, size_t lane);
 

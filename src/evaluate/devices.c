@@ -203,6 +203,8 @@ double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate) {
         return side_buffers_force(&end->side_buffers, rate);
     case CZ_ELEMENT_SUPERSTRUCTURE:
         return end->superstructure.given ? end->superstructure.strength : 0;
+    case CZ_ELEMENT_SLIDE:
+        return end->slide.force;
     case CZ_N_ELEMENT_KIND:
         break;
     }

@@ -21,6 +21,7 @@ static inline const CzEnd *cz_end_of(const CzVehicle *vehicle, int end) {
 /* Masses and static loads of one car of a design, and where its foremost planes lie. */
 typedef struct CzStatics {
     double mass;              /* total with payload and absorbers [kg] */
+    double weight;            /* of it [N] */
     double body_mass;         /* between the crush zones; all of it for a rigid car [kg] */
     double body_inertia;      /* [kg m2] */
     double plane[2];          /* foremost planes from the body's centre of gravity [m] */
@@ -89,6 +90,13 @@ CZ_MUST_CHECK CzStatus cz_fill_interface(const CzFill *fill, int interface, cons
 static inline double cz_second_unloading(const CzEnd *end) {
     return isnan(end->second_unloading_stiffness) ? end->unloading_stiffness
                                                   : end->second_unloading_stiffness;
+}
+
+/* Friction jaws of a buffer stop; NULL of a vehicle without. */
+static inline const CzSlide *cz_slide_of(const CzVehicle *vehicle) {
+    if (vehicle->rear.given && vehicle->rear.slide.given)
+        return &vehicle->rear.slide;
+    return vehicle->front.given && vehicle->front.slide.given ? &vehicle->front.slide : NULL;
 }
 
 /* True when an end has loading stages or a curve of its own. */

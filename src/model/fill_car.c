@@ -160,6 +160,18 @@ static void fill_bogies(const CzFill *fill, int car) {
     }
 }
 
+typedef struct {
+    double peak, sliding;
+} Friction;
+
+/* A scenario's own peak keeps the share that is left in sliding. */
+static Friction friction_of(const CzModel *model) {
+    const CzAdhesion *adhesion = &model->simulation->adhesion;
+    const bool falls = !isnan(adhesion->sliding_friction) && adhesion->friction > 0.0;
+    const double left = falls ? adhesion->sliding_friction / adhesion->friction : 1.0;
+    return (Friction){model->friction, model->friction * left};
+}
+
 /* Axles are braked from the front of the car on. */
 static int n_braked_axle(const CzBrake *brake) {
     return brake == NULL ? 0 : (int)(4.0 * brake->axle_share + 0.5);
@@ -167,7 +179,8 @@ static int n_braked_axle(const CzBrake *brake) {
 
 static void fill_wheels(const CzFill *fill, int car, const CzStatics *statics) {
     const CzCar *place = &fill->model->car[car];
-    const CzBogie *bogie = &cz_fill_vehicle(fill, car)->bogie;
+    const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
+    const CzBogie *bogie = &vehicle->bogie;
     const CzAdhesion *adhesion = &fill->model->simulation->adhesion;
     const double radius = bogie->wheel_radius;
     const double hertz = hertz_constant(radius, bogie->tread);
@@ -194,16 +207,42 @@ static void fill_wheels(const CzFill *fill, int car, const CzStatics *statics) {
     cz_put(fill, car, CZ_P_BRAKE_STIFFNESS,
            bogie->wheelset_inertia * HELD_AXLE_FREQUENCY * HELD_AXLE_FREQUENCY);
 
-    /* A scenario's own peak keeps the share that is left in sliding. */
-    const double peak = fill->model->friction;
-    const bool falls = !isnan(adhesion->sliding_friction) && adhesion->friction > 0.0;
-    const double left = falls ? adhesion->sliding_friction / adhesion->friction : 1.0;
+    const Friction friction = friction_of(fill->model);
     cz_put(fill, car, CZ_P_CREEP_STIFFNESS,
-           peak * load / (adhesion->peak_creepage * CONTACT_LENGTH));
+           friction.peak * load / (adhesion->peak_creepage * CONTACT_LENGTH));
     cz_put(fill, car, CZ_P_CREEP_LENGTH, CONTACT_LENGTH);
-    cz_put(fill, car, CZ_P_FRICTION_PEAK, peak);
-    cz_put(fill, car, CZ_P_FRICTION_SLIDING, peak * left);
+    cz_put(fill, car, CZ_P_FRICTION_PEAK, friction.peak);
+    cz_put(fill, car, CZ_P_FRICTION_SLIDING, friction.sliding);
     cz_put(fill, car, CZ_P_FRICTION_FALL_SPEED, adhesion->fall_speed);
+    cz_put(fill, car, CZ_P_ROLLING_RESISTANCE, vehicle->rolling_resistance);
+    fill->lanes->has_rolling |= vehicle->rolling_resistance > 0.0;
+}
+
+/* ---- cars without running gear ---- */
+
+/* Brakes that ask for more than the peak friction lock the wheels. */
+static void fill_drag(const CzFill *fill, int car, const CzStatics *statics) {
+    const CzCar *place = &fill->model->car[car];
+    const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
+    const Friction friction = friction_of(fill->model);
+    const double braked = place->brake == NULL ? 0.0 : place->brake->axle_share * statics->weight;
+    const double ratio = fmin(place->brake_ratio, friction.peak);
+    const bool locks = place->brake_ratio > friction.peak;
+    const double rolling = vehicle->rolling_resistance * statics->weight;
+    cz_put(fill, car, CZ_P_DRAG_BRAKE, ratio * braked);
+    cz_put(fill, car, CZ_P_DRAG_BRAKE_SLIDING, (locks ? friction.sliding : ratio) * braked);
+    cz_put(fill, car, CZ_P_FRICTION_FALL_SPEED, fill->model->simulation->adhesion.fall_speed);
+    cz_put(fill, car, CZ_P_DRAG_ROLLING, rolling);
+    fill->lanes->has_drag |= ratio * braked + rolling > 0.0;
+}
+
+static void fill_slide(const CzFill *fill, int car, const CzSlide *slide) {
+    if (slide == NULL)
+        return;
+    cz_put(fill, car, CZ_P_DRAG_SLIDE, slide->force);
+    cz_put(fill, car, CZ_P_SLIDE_LENGTH, slide->length);
+    cz_put(fill, car, CZ_P_SLIDE_STIFFNESS, slide->bottom_stiffness);
+    fill->lanes->has_drag = 1;
 }
 
 CzStatus cz_fill_car(const CzFill *fill, int car, const CzStatics *statics) {
@@ -214,6 +253,10 @@ CzStatus cz_fill_car(const CzFill *fill, int car, const CzStatics *statics) {
     if (place->model != CZ_MODEL_FULL) {
         put_dof(fill, car, CZ_DOF_END_X_REAR, 0.0, place->speed);
         put_dof(fill, car, CZ_DOF_END_X_FRONT, 0.0, place->speed);
+        if (place->model == CZ_MODEL_RIGID)
+            fill_drag(fill, car, statics);
+        else
+            fill_slide(fill, car, cz_slide_of(cz_fill_vehicle(fill, car)));
         return CZ_OK;
     }
     fill->lanes->has_full_cars = 1;

@@ -300,6 +300,7 @@ static CzStatus fill_limp_end(const Pair *pair, int which) {
     put(pair, CZ_OF_SIDE(CZ_P_LIMP_END, which), 1.0);
     put(pair, CZ_OF_SIDE(CZ_P_LIMP_UNLOADING, which), end->unloading_stiffness);
     put(pair, CZ_OF_SIDE(CZ_P_LIMP_SHARE, which), end->unloading_share);
+    put(pair, CZ_OF_SIDE(CZ_P_LIMP_DAMPING, which), end->damping);
     put(pair, CZ_OF_SIDE(CZ_P_LIMP_SECOND_UNLOADING, which), cz_second_unloading(end));
     return CZ_OK;
 }

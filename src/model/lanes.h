@@ -55,6 +55,8 @@ typedef struct CzLanes {
     int has_superstructures; /* likewise */
     int has_couplers;        /* any interface has them */
     int has_full_cars;       /* any car is a full one */
+    int has_rolling;         /* any wheelset has rolling resistance */
+    int has_drag;            /* the track holds back some car without running gear */
 } CzLanes;
 
 #endif

@@ -84,6 +84,7 @@ static CzStatus full_statics(const CzFill *fill, int car, const CzVehicle *vehic
                          absorber_mass(&vehicle->rear) + absorber_mass(&vehicle->front);
     statics->body_inertia = vehicle->pitch_inertia * scenario->mass_factor;
     statics->mass = statics->body_mass + ends + gear;
+    statics->weight = statics->mass * GRAVITY;
 
     /* Loads. */
     const double carried = (statics->body_mass + ends) * GRAVITY;
@@ -117,8 +118,11 @@ CzStatus cz_fill_statics(const CzFill *fill, int car, CzStatics *statics) {
         statics->plane[end] =
             half + added_length(cz_end_of(vehicle, end), cz_end_of(baseline, end));
     }
-    if (place->model == CZ_MODEL_FIXED)
+    if (place->model == CZ_MODEL_FIXED) {
+        const CzSlide *slide = cz_slide_of(vehicle);
+        statics->body_mass = statics->mass = slide == NULL ? 0.0 : slide->mass;
         return CZ_OK;
+    }
     CZ_TRY(check_positive(fill, car, &vehicle->mass, "mass"));
     if (place->model == CZ_MODEL_FULL)
         return full_statics(fill, car, vehicle, statics);
@@ -128,5 +132,6 @@ CzStatus cz_fill_statics(const CzFill *fill, int car, CzStatics *statics) {
                          vehicle->payload * scenario->payload_share +
                          absorber_mass(&vehicle->rear) + absorber_mass(&vehicle->front);
     statics->mass = statics->body_mass;
+    statics->weight = statics->mass * GRAVITY;
     return CZ_OK;
 }

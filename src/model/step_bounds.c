@@ -10,13 +10,14 @@
  * four times the static load (ours).
  */
 #include "base/error.h"
+#include "laws/drag.h"
 #include "model/fill.h"
 #include "model/own_design.h"
 #include "model/track_bound.h"
 
 #include <stdio.h>
 
-enum { BOUNDS_PER_CAR = 21 };
+enum { BOUNDS_PER_CAR = 22 };
 
 #define SHORTEST_STRUT 0.2               /* of a coupler, as a share of its length (ours) */
 #define FOURFOLD_LOAD 2.5198420997897464 /* indentation at four times the load: 4^(2/3) */
@@ -109,6 +110,17 @@ static void note_wheels(const Car *car, const char *name) {
     note(car->model, "creep", name, value(car, CZ_P_CREEP_STIFFNESS), 0.0,
          wheelset + radius * radius * spin);
     note(car->model, "brake", name, value(car, CZ_P_BRAKE_STIFFNESS), 0.0, spin);
+    if (value(car, CZ_P_ROLLING_RESISTANCE) > 0.0)
+        note_bound(car->model, "rolling resistance", "", name, CZ_DRAG_TIME);
+}
+
+/* Of a car without running gear. */
+static void note_drag(const Car *car, const char *name) {
+    if (value(car, CZ_P_DRAG_BRAKE) + value(car, CZ_P_DRAG_ROLLING) + value(car, CZ_P_DRAG_SLIDE) >
+        0.0)
+        note_bound(car->model, "drag of the track", "", name, CZ_DRAG_TIME);
+    note(car->model, "end of the slide", name, value(car, CZ_P_SLIDE_STIFFNESS), 0.0,
+         value(car, CZ_P_INVERSE_BODY_MASS));
 }
 
 static void note_bogies(const Car *car, const char *name) {
@@ -207,7 +219,8 @@ static void note_faces(const Car *car, const char *name) {
     note(car->model, "anti-climber", name,
          chain_stiffness(limp_stiffness(car, CZ_SIDE_A), limp_stiffness(car, CZ_SIDE_B),
                          value(car, CZ_P_FACE_COMPLIANCE)),
-         value(car, CZ_P_FACE_DAMPING),
+         value(car, CZ_P_FACE_DAMPING) +
+             fmax(value(car, CZ_P_LIMP_DAMPING_A), value(car, CZ_P_LIMP_DAMPING_B)),
          mobility(carrier, value(car, CZ_P_FACE_Z_A), value(car, CZ_P_FACE_Z_B)));
     if (value(car, CZ_P_RIB_CAPACITY) + value(car, CZ_P_FACE_FRICTION) > 0.0)
         note(car->model, "anti-climber ribs", name, value(car, CZ_P_FACE_VERTICAL_STIFFNESS), 0.0,
@@ -328,7 +341,8 @@ CzStatus cz_model_find_bounds(CzModel *model, const CzLanes *lanes, CzError *err
             note_bogies(&car, name);
             note_end(&car, name, CZ_REAR);
             note_end(&car, name, CZ_FRONT);
-        }
+        } else
+            note_drag(&car, name);
         if (i == model->n_car - 1)
             break;
         note_faces(&car, model->interface_name[i]);

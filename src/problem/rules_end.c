@@ -245,6 +245,12 @@ void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const Cz
         check_tube(rules, &end->side_buffers.tube);
     }
     check_gaps(rules, end);
+    if (end->slide.given && vehicle->model != CZ_MODEL_FIXED)
+        cz_rule_broken(rules, &end->slide, "only a fixed vehicle is dragged on a slide");
+    if (end->slide.given && end == &vehicle->front && vehicle->rear.given &&
+        vehicle->rear.slide.given)
+        cz_rule_broken(rules, &end->slide,
+                       "a vehicle slides as a whole: one of its ends has the slide, not both");
     if (end->distance > vehicle->length / 2)
         cz_rule_broken(rules, &end->distance,
                        "an end mass %s from the middle lies beyond half the vehicle's length, %s",

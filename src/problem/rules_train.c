@@ -138,6 +138,14 @@ static void check_neighbours(const CzRules *rules, const CzVehicle *behind,
     check_strut(rules, ahead, &ahead->rear, behind, &behind->front);
 }
 
+static bool can_brake(const CzRules *rules, const CzTrain *train) {
+    bool brakes = train->brake.given && train->brake.ratio > 0;
+    for (int i = 0; i < rules->input->n_scenarios && train->brake.given; i++)
+        brakes |= rules->input->scenarios[i].brake_ratio > 0 ||
+                  rules->input->scenarios[i].partner_brake_ratio > 0;
+    return brakes && !is_fixed_train(train);
+}
+
 static void check_train(const CzRules *rules, const CzTrain *train) {
     const CzSimulation *simulation = &rules->input->simulation;
     if (is_full_train(train) && !cz_rule_is_written(rules, &train->brake))
@@ -147,6 +155,10 @@ static void check_train(const CzRules *rules, const CzTrain *train) {
         cz_rule_absent(
             rules, rules->input,
             "a problem with full vehicles needs 'simulation: {adhesion: {friction: ...}}'");
+    else if (can_brake(rules, train) && !cz_rule_is_written(rules, &simulation->adhesion))
+        cz_rule_absent(rules, &train->brake,
+                       "a brake holds by the wheel-rail friction: it needs 'simulation: {adhesion: "
+                       "{friction: ...}}'");
     if (is_fixed_train(train) && train->speed != 0)
         cz_rule_broken(rules, &train->speed, "a train with a fixed vehicle stands still");
     for (int i = 1; i < train->n_vehicles; i++)

@@ -63,7 +63,8 @@ double cz_wheel_rail_work(const CzBatch *batch, int design) {
     double work = 0.0;
     for (int car = 0; car < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        work += cz_work(batch, CZ_L_WHEEL_CREEP, lane) + cz_work(batch, CZ_L_BRAKE, lane);
+        work += cz_work(batch, CZ_L_WHEEL_CREEP, lane) + cz_work(batch, CZ_L_BRAKE, lane) +
+                cz_work(batch, CZ_L_ROLLING, lane);
     }
     return work;
 }

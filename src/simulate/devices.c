@@ -5,7 +5,7 @@
 
 #define MISSING 1e29 /* strokes from here on stand for a device that is not there */
 
-typedef enum { MEMORY, EXTREME, OF_CAR } Source;
+typedef enum { MEMORY, EXTREME, OF_CAR, OF_SLIDE } Source;
 typedef enum { CURVE, PARAMETER } Limit;
 typedef enum { REVERSIBLE, COLLAPSES } Kind;
 
@@ -39,22 +39,31 @@ static bool has_element(const CzBatch *batch, size_t lane, int car, CzDeviceClas
     return true;
 }
 
+/* Whether the end of the side is the one that the vehicle's slide is written at. */
+static bool has_slide(const CzBatch *batch, int car, int design, int side) {
+    const CzVehicle *vehicle = &batch->vehicles[design][batch->model->car[car].vehicle];
+    const CzEnd *end = side == 0 ? &vehicle->front : &vehicle->rear;
+    return end->given && end->slide.given;
+}
+
 /* A device of a side; its usable stroke is infinite when it is not there. */
 static CzDevice device_of(const CzBatch *batch, int interface, int design, int side,
                           CzDeviceClass class) {
     const Class *kind = &classes[class];
     const int car = interface + side;
-    const bool of_car = kind->source == OF_CAR;
-    const int which = of_car ? 1 - side : side; /* side A is a front end */
+    const bool slides = kind->source == OF_SLIDE;
+    const bool of_car = kind->source == OF_CAR || slides;
+    const int which = slides ? 0 : of_car ? 1 - side : side; /* side A is a front end */
     const size_t own = cz_lane(batch, of_car ? car : interface, design);
     const double usable = kind->limit == CURVE ? batch->lanes->curve[kind->of + which].usable[own]
                                                : cz_parameter(batch, kind->of + which, own);
-    const bool is_there =
-        usable < MISSING && has_element(batch, cz_lane(batch, interface, design), car, class);
+    const bool is_there = usable < MISSING &&
+                          has_element(batch, cz_lane(batch, interface, design), car, class) &&
+                          (!slides || has_slide(batch, car, design, side));
     return (CzDevice){.class = class,
                       .element = kind->element,
                       .text = kind->text,
-                      .from_extremes = kind->source == EXTREME,
+                      .from_extremes = kind->source == EXTREME || slides,
                       .row = kind->row + which,
                       .lane = own,
                       .usable = is_there ? usable : INFINITY,

@@ -152,9 +152,10 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
     const double work = slaved ? cz_memory(batch, CZ_M_LIMP_ENERGY_A + side, lane) -
                                      cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane)
                                : cz_work(batch, CZ_L_END_REAR + which, own);
+    const double damped = slaved ? cz_memory(batch, CZ_M_LIMP_DAMPED_A + side, lane) : 0.0;
     const double shared = slaved ? 0.0 : cz_work(batch, CZ_L_END_DAMPING, own);
-    result->tube_energy = work - result->stored;
-    result->energy = result->tube_energy + 0.5 * shared;
+    result->tube_energy = work - damped - result->stored;
+    result->energy = work - result->stored + 0.5 * shared;
     result->stroke = largest;
     result->peak_force = slaved ? cz_extreme(batch, CZ_E_FACE_FORCE, lane)
                                 : cz_extreme(batch, CZ_E_END_FORCE_REAR + which, own);
@@ -173,6 +174,23 @@ static void fill_zones(const CzBatch *batch, size_t lane, int side, int design,
                 result->zone_energy);
 }
 
+/* Friction jaws of a buffer stop. */
+static bool fill_slide(const CzBatch *batch, int side, int car, int design,
+                       CzElementResult *result) {
+    const CzEnd *end = end_of(batch, car, design, side);
+    const size_t lane = cz_lane(batch, car, design);
+    if (!end->given || !end->slide.given)
+        return false;
+    result->kind = CZ_ELEMENT_SLIDE;
+    result->vehicle = car;
+    result->stored = cz_slide_stored(batch->dynamics, lane);
+    result->energy = cz_work(batch, CZ_L_SLIDE, lane) - result->stored;
+    result->tube_energy = result->energy;
+    result->stroke = cz_extreme(batch, CZ_E_SLIDE_TRAVEL, lane);
+    result->peak_force = cz_extreme(batch, CZ_E_SLIDE_FORCE, lane);
+    return true;
+}
+
 /* Elements of one side of an interface; returns how many. */
 static int fill_side(const CzBatch *batch, size_t lane, int side, int car, int design,
                      CzElementResult *element) {
@@ -182,7 +200,13 @@ static int fill_side(const CzBatch *batch, size_t lane, int side, int car, int d
     next += fill_end(batch, lane, side, car, design, next);
     next += fill_side_buffers(batch, lane, side, car, next);
     next += fill_superstructure(batch, lane, car, next);
+    next += fill_slide(batch, side, car, design, next);
     return (int)(next - element);
+}
+
+/* What an element takes of the work that its interface does: the ground takes that of a slide. */
+static double energy_at_interface(const CzElementResult *element) {
+    return element->kind == CZ_ELEMENT_SLIDE ? 0.0 : element->energy;
 }
 
 double cz_interface_energy(const CzBatch *batch, int interface, int design) {
@@ -192,7 +216,7 @@ double cz_interface_energy(const CzBatch *batch, int interface, int design) {
         const int n = fill_side(batch, cz_lane(batch, interface, design), side, interface + side,
                                 design, element);
         for (int k = 0; k < n; ++k)
-            energy += element[k].energy;
+            energy += energy_at_interface(&element[k]);
     }
     return energy;
 }
@@ -262,7 +286,7 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
         result->n_element += n;
     }
     for (int k = 0; k < result->n_element; ++k) {
-        result->energy += result->element[k].energy;
+        result->energy += energy_at_interface(&result->element[k]);
         result->bottomed_out |= result->element[k].bottomed_out;
     }
 }

@@ -179,7 +179,9 @@ static double rest_or_speed(const CzBatch *batch, int car, int design) {
     const size_t lane = cz_lane(batch, car, design);
     const double speed = cz_velocity(batch, CZ_DOF_BODY_X, lane);
     const bool brakes = cz_parameter(batch, CZ_P_BRAKE_MOMENT_0, lane) > 0.0 ||
-                        cz_parameter(batch, CZ_P_BRAKE_MOMENT_3, lane) > 0.0;
+                        cz_parameter(batch, CZ_P_BRAKE_MOMENT_3, lane) > 0.0 ||
+                        cz_parameter(batch, CZ_P_DRAG_BRAKE, lane) > 0.0 ||
+                        cz_parameter(batch, CZ_P_DRAG_SLIDE, lane) > 0.0;
     return brakes ? fmin(speed, 0.0) : speed;
 }
 

@@ -37,6 +37,7 @@ static double stored_in_mixed(const CzBatch *batch, int design) {
                           cz_side_stored(batch->dynamics, lane, side);
             stored += cz_end_stored(batch->dynamics, lane, side);
         }
+        stored += cz_slide_stored(batch->dynamics, lane);
     }
     return stored;
 }

@@ -11,6 +11,7 @@
 
 #include "drive.h"
 #include "laws/buffer.h"
+#include "laws/drag.h"
 #include "laws/plastic_member.h"
 #include "laws/ribs.h"
 #include "laws/shear_off.h"
@@ -71,6 +72,16 @@ static void cz_superstructure_at(const double *input, double *output) {
     const CzSuperstructureResponse response = cz_superstructure(5e7, input[2], input[0], input[1]);
     output[0] = response.force;
     output[1] = response.set;
+}
+
+/* Mass, capacity, speed, sum of the other forces. */
+static void cz_drag_at(const double *input, double *output) {
+    output[0] = cz_drag(input[0], input[1], input[2], input[3]);
+}
+
+/* Forces of rolling and of locked wheels, fall speed, speed. */
+static void cz_brake_capacity_at(const double *input, double *output) {
+    output[0] = cz_brake_capacity(input[0], input[1], input[2], input[3]);
 }
 
 /* Displacement, offset, capacity. */
@@ -159,6 +170,16 @@ static const Law range_cz_slider = {
     .n_output = 2,
     .scale = {1e6, 0.1},
 };
+static const Law range_cz_drag = {.n_input = 4,
+                                  .low = {1e3, 0, -20, -2e6},
+                                  .high = {8e4, 1e6, 20, 2e6},
+                                  .n_output = 1,
+                                  .scale = {1e6}};
+static const Law range_cz_brake_capacity = {.n_input = 4,
+                                            .low = {1e4, 1e3, 1, -20},
+                                            .high = {3e5, 1e5, 10, 20},
+                                            .n_output = 1,
+                                            .scale = {1e5}};
 static const Law range_cz_stop = {
     .n_input = 2, .low = {-0.2, 0}, .high = {0.2, 0.1}, .n_output = 1, .scale = {1e6}};
 static const Law range_cz_suspension_spring = {

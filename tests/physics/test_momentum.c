@@ -178,7 +178,7 @@ static void every_element_took_part(void **state) {
     }
     for (int row = 0; row < CZ_N_LEDGER; row++) {
         if (row == CZ_L_WHEEL_NORMAL || row == CZ_L_WHEEL_CREEP || row == CZ_L_TRACK ||
-            row == CZ_L_MOVING_LOAD)
+            row == CZ_L_MOVING_LOAD || row == CZ_L_ROLLING || row == CZ_L_SLIDE)
             continue; /* no rail */
         double work = 0.0;
         for (int car = 0; car < N_CAR; car++)

@@ -65,6 +65,15 @@ static bool is_word(const char *text, const char *const *words) {
     return false;
 }
 
+/* Whether a text is groups of three digits to its end, each behind the sign of the first: ,000,000.
+ */
+static bool groups_digits(const char *text) {
+    const char *at = text;
+    while (*at == text[0] && is_digit(at[1]) && is_digit(at[2]) && is_digit(at[3]))
+        at += 4;
+    return *at == '\0' && at > text;
+}
+
 /* Why a text that is no decimal number is none. */
 static const char *what_is_wrong(const char *text, const char *end) {
     static const char *const not_finite[] = {".nan", "nan", ".inf", "inf", "infinity", NULL};
@@ -73,10 +82,20 @@ static const char *what_is_wrong(const char *text, const char *end) {
         return "is not a finite number";
     if (bare[0] == '0' && (bare[1] == 'x' || bare[1] == 'X' || bare[1] == 'o'))
         return "is not a decimal number";
+    if (strncmp(text, "\xe2\x88\x92", 3) == 0 || strncmp(text, "\xe2\x80\x93", 3) == 0)
+        return "is not a number: its minus is another character than '-'";
     if (end == NULL)
         return "is not a number";
     if (*end == '_')
         return "is not a number: digits are not grouped with '_'";
+    if (*end == ',' && groups_digits(end))
+        return "is not a number: digits are not grouped, and the decimal sign is a point";
+    if ((*end == '\'' || *end == ' ') && groups_digits(end))
+        return "is not a number: digits are not grouped";
+    if (*end == '%')
+        return "is not a number alone: a share is written as 0.3, not as 30%";
+    if (strncmp(end, "\xc2\xa0", 2) == 0)
+        return "is not a number alone: a blank that is no space follows it (U+00A0)";
     if (*end == ',')
         return "is not a number: the decimal sign is a point";
     if (*end == ':')

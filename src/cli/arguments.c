@@ -66,6 +66,8 @@ static CzStatus unknown_command(const char *name, CzError *error) {
     misuse(error, "there is no command '%.100s'", name);
     if (suggestion.best != NULL)
         snprintf(error->help, sizeof error->help, "did you mean 'crushzone %s'?", suggestion.best);
+    else if (strstr(name, ".yaml") != NULL)
+        snprintf(error->help, sizeof error->help, "did you mean 'crushzone run %.100s'?", name);
     else
         snprintf(error->help, sizeof error->help, "'crushzone help' lists the commands");
     return CZ_STATUS_INPUT;

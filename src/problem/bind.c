@@ -126,6 +126,31 @@ static void report_unit(Binder binder, const Record *record, const CzNode *typed
     cz_mistake_help(&binder.reader->mistakes, "write %s", spellings);
 }
 
+/* The key that reuses and is nearest to a typed one; NULL when none is near. */
+static const char *nearest_reuse_key(const CzRecord *record, const char *typed) {
+    CzSuggestion suggestion = {0};
+    for (int i = 0; i < cz_n_reuse_key; i++)
+        if (cz_reuse_keys[i].record[0] == '\0' ||
+            strcmp(cz_reuse_keys[i].record, record->name) == 0)
+            cz_suggest(&suggestion, typed, cz_reuse_keys[i].key);
+    return suggestion.best;
+}
+
+/* Says of which inner record a key is, when it is one level too far out. */
+static void help_inwards(CzMistakes *mistakes, const CzRecord *record, const char *typed) {
+    for (int i = 0; i < record->n_key; i++) {
+        const CzKey *key = &record->key[i];
+        const CzUnit *unit = NULL;
+        const bool is_list = key->kind == CZ_KEY_STAGES || key->kind == CZ_KEY_LIST;
+        if ((key->kind != CZ_KEY_CHILD && !is_list) ||
+            cz_record_match(&cz_records[key->child], typed, &unit) == NULL)
+            continue;
+        cz_mistake_help(mistakes, "it belongs to '%s', one level further in: %s: %s{%s: ...}%s",
+                        key->stem, key->stem, is_list ? "[" : "", typed, is_list ? "]" : "");
+        return;
+    }
+}
+
 /* Reports a key that the record does not have; the key that was meant, when that is plain. */
 static const CzKey *report_unknown(Binder binder, const Record *record, const CzNode *typed,
                                    const CzTrail *trail) {
@@ -144,6 +169,11 @@ static const CzKey *report_unknown(Binder binder, const Record *record, const Cz
                         reuse->record);
     else if (near != NULL)
         cz_mistake_suggest(&binder.reader->mistakes, nearest);
+    else if (nearest_reuse_key(record->record, typed->text) != NULL)
+        cz_mistake_suggest(&binder.reader->mistakes,
+                           nearest_reuse_key(record->record, typed->text));
+    else
+        help_inwards(&binder.reader->mistakes, record->record, typed->text);
     return reuse == NULL ? near : NULL;
 }
 
@@ -255,7 +285,8 @@ static void bind_value(Binder binder, const Record *record, const CzKey *key, co
                             key->hi);
         break;
     case CZ_KEY_CHOICE:
-        cz_bind_choice(reader, key, entry->value, trail, field);
+        if (!cz_bind_choice(reader, key, entry->value, trail, field))
+            reader->has_holes = true; /* another word might have asked for less */
         break;
     case CZ_KEY_FLAG:
         cz_bind_flag(reader, key->stem, entry->value, trail, field);

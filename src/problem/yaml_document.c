@@ -62,11 +62,18 @@ static void report_syntax(Document *document) {
     else
         cz_mistake_at(document->mistakes, document->source, line_of(parser->problem_mark),
                       column_of(parser->problem_mark), "this is not YAML: %s", problem);
-    if (strstr(problem, "cannot start any token") != NULL)
+    if (strstr(problem, "could not find expected ':'") != NULL)
+        cz_mistake_help(document->mistakes, "line %d lacks a colon, or the blank behind it",
+                        line_of(parser->context_mark));
+    else if (strstr(problem, "found a tab character") != NULL)
+        cz_mistake_help(document->mistakes, "tabs cannot indent; write blanks");
+    else if (strstr(problem, "cannot start any token") != NULL)
         cz_mistake_help(document->mistakes,
                         "tabs cannot indent, and texts that begin with @, ` or %% need quotes");
     else if (strstr(problem, "mapping values are not allowed") != NULL)
-        cz_mistake_help(document->mistakes, "is a line indented too far, or a ':' without quotes?");
+        cz_mistake_help(
+            document->mistakes,
+            "is a line indented too far, a ':' without quotes, or the line before without one?");
     else if (strstr(problem, "did not find expected key") != NULL)
         cz_mistake_help(document->mistakes, "keys of one mapping begin in the same column");
 }
@@ -222,14 +229,15 @@ typedef struct {
  * before it is then refused. */
 static bool is_behind_comma(Document *document, Mapping *mapping, const CzNode *key) {
     double number;
+    char whole[80];
     CzNode *value = mapping->last_value;
     if (value == NULL || value->kind != CZ_NODE_TEXT || value->quoted || key->quoted ||
         key->line != value->line || key->column != value->column + (int)strlen(value->text) + 1 ||
         key->text[0] < '0' || key->text[0] > '9' || cz_number_parse(value->text, &number) != NULL)
         return false;
-    cz_mistake(document->mistakes, value, NULL,
-               "%s: '%.30s,%.30s' is not a number: the decimal sign is a point",
-               mapping->last_key->text, value->text, key->text);
+    snprintf(whole, sizeof whole, "%.30s,%.30s", value->text, key->text);
+    cz_mistake(document->mistakes, value, NULL, "%s: '%s' %s", mapping->last_key->text, whole,
+               cz_number_parse(whole, &number));
     value->is_refused = true;
     return true;
 }

@@ -158,6 +158,8 @@ bad_algorithm() { exits 2 "$C" validate two-trains.yaml --set optimise.algorithm
 check "validate tells an algorithm that does not exist" bad_algorithm
 folding() { exits 0 "$C" validate "$SOURCE/problems/two-cars-25kmh.yaml" && says out.txt 'interface A1-B1: F_crit'; }
 check "validate tells the force at which a coupler folds" folding
+warned() { exits 0 "$C" validate "$SOURCE/problems/metro-6-car.yaml" && says err.txt 'interface A1-A2: the collapse tubes carry up to 1100.0 kN, more than F_crit, 1015.5 kN' && ! says err.txt 'interface A2-A3' >/dev/null; }
+check "validate warns of tubes that carry more than the force at which a train folds" warned
 verified() { exits 0 "$C" verify two-trains.yaml && says out.txt 'Verification: pass' && says out.txt 'Runge-Kutta'; }
 check "verify passes numbers that hang on no step and no solver" verified
 verified_json() { exits 0 "$C" verify two-trains.yaml --json && json out.txt format crushzone.verification && json out.txt verdict pass && json out.txt ways.adams.flips 0; }

@@ -41,6 +41,7 @@ typedef struct CzVerifiedValue {
     char where[CZ_WHERE_ROOM];   /* of the record; empty when it has no place */
     const char *unit;
     double record;
+    bool beyond_validity;           /* of the record: it may be of the time after an override */
     double value[CZ_N_VERIFY_WAY];  /* NaN when not computed */
     double change[CZ_N_VERIFY_WAY]; /* of a check or target: by how much its margin changes, a
                                        margin above 1 counting as 1, over the size of one below

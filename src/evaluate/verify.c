@@ -96,6 +96,7 @@ typedef struct Number {
     double counted;             /* a change is the difference of this over `scale` */
     double scale;               /* infinite: no change counts */
     const CzCheckResult *check; /* NULL for the objective and the bulk of a scenario */
+    bool beyond_validity;
 } Number;
 
 static Number number_of_check(const CzCheck *check, const CzCheckResult *result) {
@@ -106,7 +107,8 @@ static Number number_of_check(const CzCheck *check, const CzCheckResult *result)
                     .value = result->value,
                     .counted = result->margin > 1.0 ? 1.0 : result->margin,
                     .scale = check->scale == CZ_FLAG_SCALE ? INFINITY : fmax(1.0, -result->margin),
-                    .check = result};
+                    .check = result,
+                    .beyond_validity = result->beyond_validity};
 }
 
 enum { N_BULK = 3 };
@@ -122,10 +124,13 @@ static Number bulk_of(const CzRunSummary *run, int which) {
                                              "dissipated energy"};
     static const char *const unit[N_BULK] = {"kN", "mm", "kJ"};
     const double least[N_BULK] = {1, 1, energy_scale(run, 1e3)}; /* those of the metrics */
-    Number number = {
-        .name = name[which], .scenario = run->scenario, .unit = unit[which], .where = ""};
+    Number number = {.name = name[which],
+                     .scenario = run->scenario,
+                     .unit = unit[which],
+                     .where = "",
+                     .beyond_validity = run->beyond_validity};
     if (which == 2)
-        number.value = 1e-3 * run->energy.dissipated;
+        number.value = 1e-3 * cz_run_total(run, run->energy.dissipated);
     for (int i = 0; which < 2 && i < run->n_interface; i++) {
         const CzInterfaceResult *interface = &run->interface[i];
         const double value =
@@ -186,6 +191,7 @@ static int list_numbers(const CzEvaluator *evaluator, const CzEvaluation *evalua
                                  .unit = evaluator->objective_unit,
                                  .value = evaluation->objective,
                                  .counted = evaluation->objective,
+                                 .beyond_validity = evaluation->beyond_validity,
                                  .scale = scale_of_objective(evaluator, evaluation)};
         n++;
     }
@@ -221,7 +227,10 @@ static bool differs(CzVerdict a, CzVerdict b) {
 }
 
 static void begin_value(CzVerifiedValue *value, const Number *number) {
-    *value = (CzVerifiedValue){.name = number->name, .unit = number->unit, .record = number->value};
+    *value = (CzVerifiedValue){.name = number->name,
+                               .unit = number->unit,
+                               .record = number->value,
+                               .beyond_validity = number->beyond_validity};
     snprintf(value->scenario, sizeof value->scenario, "%s",
              number->scenario != NULL ? number->scenario : "");
     snprintf(value->where, sizeof value->where, "%s", number->where);

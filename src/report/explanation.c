@@ -188,6 +188,7 @@ static void put_worst(CzJson *json, const CzCheckResult *worst) {
     cz_json_text(json, "unit", worst->unit);
     cz_json_exact(json, "margin", worst->margin);
     cz_json_text(json, "why", worst->why);
+    cz_json_flag(json, "beyond_validity", worst->beyond_validity);
     cz_json_close(json);
 }
 

@@ -3,6 +3,7 @@
 #include "report/figure.h"
 #include "report/plot.h"
 #include "report/scene.h"
+#include "report/units.h"
 
 #include <math.h>
 
@@ -29,8 +30,10 @@ static void name_frame(const CzPage *page, int interface, int sample, size_t roo
     const double *force =
         cz_page_channel(page, "F_%s_kN", page->summary->interface[interface].name);
     char time[CZ_FIGURE_ROOM], number[CZ_FIGURE_ROOM];
-    snprintf(title, room, "%s ms, %s kN", cz_figure_fixed(time, 0, page->time[sample]),
-             cz_figure_fixed(number, 0, force != NULL ? force[sample] : NAN));
+    const double from = page->summary->beyond_validity_time * CZ_MILLI_PER_UNIT; /* or NaN */
+    snprintf(title, room, "%s ms, %s kN%s", cz_figure_fixed(time, 0, page->time[sample]),
+             cz_figure_fixed(number, 0, force != NULL ? force[sample] : NAN),
+             page->time[sample] > from ? " (beyond the model)" : "");
 }
 
 static void draw_frame(const CzPage *page, int interface, int sample, const char *title,

@@ -39,7 +39,8 @@ static void put_row(CzGrid *grid, const CzVerification *verification,
     cz_grid_put(grid, value->name, CZ_STYLE_PLAIN);
     cz_grid_put(grid, value->where, CZ_STYLE_PLAIN);
     cz_grid_put(grid, value->scenario, CZ_STYLE_PLAIN);
-    snprintf(record, sizeof record, "%s%s%s", cz_figure_plain(text, value->record),
+    cz_figure_plain(text, value->record);
+    snprintf(record, sizeof record, "%s%s%s", cz_figure_mark(text, value->beyond_validity),
              unit[0] != '\0' ? " " : "", unit);
     cz_grid_put(grid, record, CZ_STYLE_PLAIN);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
@@ -155,6 +156,7 @@ static void put_value(CzJson *json, const CzVerifiedValue *value) {
     cz_json_text(json, "where", value->where[0] != '\0' ? value->where : NULL);
     cz_json_text(json, "unit", value->unit);
     cz_json_exact(json, "record", value->record);
+    cz_json_flag(json, "beyond_validity", value->beyond_validity);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
         cz_json_open_object(json, cz_verify_way_key((CzVerifyWay)way));
         cz_json_exact(json, "value", value->value[way]);

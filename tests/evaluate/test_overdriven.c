@@ -152,28 +152,42 @@ static void assert_used_up(const CzRunSummary *run, const Class *class, const ch
     fail_msg("no such element");
 }
 
-static void overdrive(const Class *class, Setting setting, bool full) {
+typedef struct {
+    CzProblem *problem;
+    CzEvaluator *evaluator;
+    CzEvaluation evaluation;
+    const CzRunSummary *run;
+} Judged;
+
+static Judged judge(const Class *class, Setting setting, bool full) {
     char text[MOST_TEXT];
     write_problem(text, class, setting, full);
-    CzProblem *problem = NULL;
-    CzEvaluator *evaluator = NULL;
-    CzEvaluation evaluation = {0};
+    Judged judged = {0};
     CzError error = {0};
     if (cz_problem_read_text(text, strlen(text), "text.yaml",
-                             CZ_SOURCE_FOLDER "/tests/problem/good", NULL, &problem,
+                             CZ_SOURCE_FOLDER "/tests/problem/good", NULL, &judged.problem,
                              &error) != CZ_OK ||
-        cz_evaluator_build(problem, NULL, &evaluator, &error) != CZ_OK ||
-        cz_evaluate(evaluator, 1, NULL, true, &evaluation, &error) != CZ_OK)
+        cz_evaluator_build(judged.problem, NULL, &judged.evaluator, &error) != CZ_OK ||
+        cz_evaluate(judged.evaluator, 1, NULL, true, &judged.evaluation, &error) != CZ_OK)
         fail_msg("%s: %s\n%s", class->where, error.message, text);
-    const CzRunSummary *run = cz_run_summary(evaluation.run[0]);
-    if (run->status != CZ_OK)
-        fail_msg("%s: %s", class->where, run->failure);
-    assert_used_up(run, class, setting == CAR_AHEAD ? "B1" : "A1");
-    assert_check_fails(&evaluation, "bottoming out");
-    assert_check_fails(&evaluation, "stroke used");
-    cz_evaluation_free(&evaluation);
-    cz_evaluator_free(evaluator);
-    cz_problem_free(problem);
+    judged.run = cz_run_summary(judged.evaluation.run[0]);
+    if (judged.run->status != CZ_OK)
+        fail_msg("%s: %s", class->where, judged.run->failure);
+    return judged;
+}
+
+static void forget(Judged *judged) {
+    cz_evaluation_free(&judged->evaluation);
+    cz_evaluator_free(judged->evaluator);
+    cz_problem_free(judged->problem);
+}
+
+static void overdrive(const Class *class, Setting setting, bool full) {
+    Judged judged = judge(class, setting, full);
+    assert_used_up(judged.run, class, setting == CAR_AHEAD ? "B1" : "A1");
+    assert_check_fails(&judged.evaluation, "bottoming out");
+    assert_check_fails(&judged.evaluation, "stroke used");
+    forget(&judged);
 }
 
 static void overdrive_all(bool full) {
@@ -192,10 +206,27 @@ static void every_device_of_a_full_car_reports_that_it_bottomed_out(void **state
     overdrive_all(true);
 }
 
+/* A superstructure has no stroke to use: crushing it takes survival space at once. */
+static void superstructures_that_meet_report_it_and_fail(void **state) {
+    (void)state;
+    const char *const devices =
+        "superstructure: {gap_m: 0, height_m: 1.9, strength_kN: 300, stiffness_MN_m: 50}";
+    const Class class = {"superstructures", CZ_ELEMENT_SUPERSTRUCTURE, devices, devices};
+    Judged judged = judge(&class, CAR_BEHIND, true);
+    bool has_event = false;
+    for (int i = 0; i < judged.run->n_event; i++)
+        has_event |= judged.run->event[i].what == CZ_EVENT_SUPERSTRUCTURE_FLOW &&
+                     strcmp(judged.run->event[i].where, "superstructures A1-B1") == 0;
+    assert_true(has_event);
+    assert_check_fails(&judged.evaluation, "energy in occupied space");
+    forget(&judged);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_device_of_a_rigid_car_reports_that_it_bottomed_out),
         cmocka_unit_test(every_device_of_a_full_car_reports_that_it_bottomed_out),
+        cmocka_unit_test(superstructures_that_meet_report_it_and_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

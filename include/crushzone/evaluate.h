@@ -17,6 +17,8 @@ typedef struct CzVariableInfo {
     double min, max;  /* in that unit */
     double start;     /* in that unit */
     double step;      /* catalogue step in that unit; 0 when none */
+    bool is_fixed;    /* its bounds hold one value only, as a single increment or min = max */
+    double fixed_at;  /* that value, in that unit; 0 when it can vary */
     int n_choice;     /* parts that it chooses from; the variable is then the number of one, counted
                          from 0. 0 for a number */
     const char *const *choice; /* their names (n_choice) */

@@ -51,7 +51,7 @@ typedef struct CzTrial {
  * search. */
 typedef struct CzOutcome {
     CzOutcomeStatus status;
-    char why_stopped[128];
+    char why_stopped[160];
     long n_evaluation;
     int n_variable;
     double *start, *best; /* in the variables' units; best is snapped to the catalogue steps unless

@@ -2,6 +2,7 @@
 set(CZ_SOURCES_base
     arena.c
     error.c
+    increment.c
     index.c
     number.c
     suggest.c

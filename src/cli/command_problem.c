@@ -83,6 +83,16 @@ static int check_search(const CzSession *session) {
     return cz_session_fail(session, &error);
 }
 
+/* Variables that a search will not vary. */
+static void tell_fixed(const CzSession *session) {
+    for (int i = 0; i < cz_evaluator_n_variable(session->evaluator); i++) {
+        const CzVariableInfo *info = cz_evaluator_variable(session->evaluator, i);
+        if (info->is_fixed)
+            printf("  variable %s is fixed at %.10g %s: its bounds hold no other %s\n", info->name,
+                   info->fixed_at, info->unit, info->min == info->max ? "value" : "increment");
+    }
+}
+
 static int validate_file(const CzArguments *arguments, const char *file) {
     CzSession session;
     int n_vehicle = 0;
@@ -100,6 +110,8 @@ static int validate_file(const CzArguments *arguments, const char *file) {
         printf("%s: ok, %d scenarios, %d vehicles, %d design variables\n", file,
                cz_problem_n_scenario(session.problem), n_vehicle,
                cz_evaluator_n_variable(session.evaluator));
+    if (code == 0 && arguments->text[CZ_OPTION_JSON] == NULL)
+        tell_fixed(&session);
     if (code == 0)
         code = tell_models(&session);
     cz_session_end(&session);

@@ -20,7 +20,7 @@ typedef struct History {
     double *x;      /* (room x n_variable) */
     char separator; /* of the file */
     CzOutcomeStatus status;
-    char why[128];
+    char why[160];
 } History;
 
 static FILE *open_in(const char *folder, const char *name, const char **path, char room[4096]) {

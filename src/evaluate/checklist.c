@@ -340,13 +340,28 @@ static CzStatus append_closing_rules(Builder *builder) {
 }
 
 /* A design must be one that a file may hold, whatever else is asked of it. The file's own values
- * do, so that this is nothing to be listed. */
+ * do, so that this is nothing to be listed. Each rule that a variable can break has a name; the
+ * last one is about all rules of the reader together. */
 static CzStatus append_rules_of_files(Builder *builder) {
+    for (int rule = 0; rule < CZ_N_VALUE_RULE; rule++) {
+        const CzMetricKind *kind = cz_metric_of_rule((CzValueRule)rule);
+        const CzCheck named = {.name = kind->name,
+                               .scenario = CZ_NO_SCENARIO,
+                               .metric_text = kind->name,
+                               .metric = {.kind = kind, .selector = "*"},
+                               .limit = 1,
+                               .scale = kind->scale,
+                               .source = kind->doc,
+                               .is_target = true,
+                               .is_rule = true};
+        CZ_TRY(append(builder, &named));
+    }
     CzCheck check = {.name = "rules between values",
                      .metric_text = "design.rules_broken",
                      .scenario = CZ_NO_SCENARIO,
                      .source = "a design is written down and read back",
-                     .is_target = true};
+                     .is_target = true,
+                     .is_rule = true};
     CZ_TRY(cz_metric_parse(check.metric_text, &check.metric, builder->error));
     check.scale = check.metric.kind->scale;
     return append(builder, &check);

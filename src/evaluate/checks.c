@@ -102,7 +102,7 @@ static bool is_by_place(const CzCheck *check) {
 }
 
 int cz_check_n_detail(const CzCheck *check, const CzScene *scene) {
-    if (check->scale == CZ_FLAG_SCALE)
+    if (check->scale == CZ_FLAG_SCALE || check->is_rule)
         return 0;
     return is_by_place(check)
                ? cz_places_count(scene, check->metric.kind->level, check->metric.selector)

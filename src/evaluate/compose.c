@@ -50,12 +50,12 @@ static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *ve
 }
 
 /* The smallest margin of all constraints, negative: what is maximised when nothing is minimised.
- * A yes or no has no margin to enlarge. */
+ * A yes or no has no margin to enlarge, and a rule of files asks for none. */
 static double margin_objective(const CzEvaluator *evaluator, const CzEvaluation *evaluation) {
     double smallest = INFINITY;
     for (int j = 0; j < evaluation->n_constraint; j++) {
         const CzCheck *check = &evaluator->list.check[evaluator->constraint_check[j]];
-        if (check->scale != CZ_FLAG_SCALE) /* fmin passes over NaN */
+        if (check->scale != CZ_FLAG_SCALE && !check->is_rule) /* fmin passes over NaN */
             smallest = fmin(smallest, evaluation->constraint_check[j].margin);
     }
     return isinf(smallest) ? NAN : -smallest;
@@ -120,7 +120,8 @@ static void sort_results(const CzEvaluator *evaluator, const CzCheckResult *all,
         const int j = evaluation->n_constraint++;
         evaluation->constraint_check[j] = listed;
         /* A search follows the number itself, or it would lose its way out of what climbs. */
-        const double constraint = cz_check_constraint(&all[i], evaluator->list.required_margin);
+        const double required = check->is_rule ? 0 : evaluator->list.required_margin;
+        const double constraint = cz_check_constraint(&all[i], required);
         evaluation->constraint[j] = isnan(constraint) ? 0 : constraint;
         evaluation->violation = fmax(evaluation->violation, evaluation->constraint[j]);
     }

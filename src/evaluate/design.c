@@ -1,10 +1,12 @@
 /* Design map: variables to places in the vehicle records. */
 #include "evaluate/design.h"
 #include "base/error.h"
+#include "base/increment.h"
 #include "base/number.h"
 #include "evaluate/choices.h"
 #include "model/kinks.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -240,17 +242,9 @@ static bool is_own(const Builder *builder, int vehicle) {
 static CzStatus check_variable(const Builder *builder, const CzVariable *written,
                                const CzDesignVariable *variable) {
     const CzVariableInfo *info = &variable->info;
-    if (!(info->min < info->max))
-        return fail_at(builder, &written->min, "the lower bound of '%s' is not below the upper one",
+    if (!(info->min <= info->max))
+        return fail_at(builder, &written->min, "the lower bound of '%s' is above the upper one",
                        info->name);
-    if (!(info->start >= info->min && info->start <= info->max)) {
-        char start[CZ_NUMBER_TEXT], min[CZ_NUMBER_TEXT], max[CZ_NUMBER_TEXT];
-        return fail_at(builder, isnan(written->start) ? &written->min : &written->start,
-                       "the starting value %s of '%s' lies outside %s to %s %s",
-                       cz_number_print_short(start, info->start), info->name,
-                       cz_number_print_short(min, info->min), cz_number_print_short(max, info->max),
-                       info->unit);
-    }
     bool any_own = builder->design->is_fit;
     for (int i = 0; i < variable->n_place; i++)
         any_own |= is_own(builder, variable->place[i].vehicle);
@@ -285,6 +279,24 @@ static const char *name_variable(const Builder *builder, const CzVariable *writt
     else
         snprintf(text, sizeof text, "%s", n_match == 1 && written->path ? written->path : place);
     return cz_arena_copy_text(builder->arena, text, strlen(text));
+}
+
+/* A variable whose bounds hold one value only does not vary. */
+static void settle_fixed(CzVariableInfo *info) {
+    const bool by_bounds = info->min == info->max;
+    const bool by_step =
+        info->step > 0 && cz_increment_count(info->step, info->min, info->max) == 1;
+    info->is_fixed = info->n_choice == 0 && (by_bounds || by_step);
+    if (info->is_fixed)
+        info->fixed_at = by_bounds ? info->min : cz_increment_not_below(info->step, info->min);
+}
+
+/* A start that misses a bound by what the conversion of units leaves stands on it. */
+static void settle_start(CzVariableInfo *info) {
+    const double bounds[2] = {info->min, info->max};
+    for (int i = 0; i < 2; i++)
+        if (fabs(info->start - bounds[i]) <= 4 * DBL_EPSILON * fabs(bounds[i]))
+            info->start = bounds[i];
 }
 
 /* First target of a match; all targets are one match when `n_match` is 1. */
@@ -333,8 +345,11 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
     variable->info.step = isnan(written->step) ? 0 : written->step;
     if (!isnan(written->start))
         variable->info.start = written->start;
+    variable->start_field = isnan(written->start) ? &written->min : &written->start;
     if (written->choices.n_text > 0)
         CZ_TRY(settle_choice(builder, written, variable));
+    settle_fixed(&variable->info);
+    settle_start(&variable->info);
     CZ_TRY(check_variable(builder, written, variable));
     if (!design->is_fit)
         CZ_TRY(check_twins(builder, field_of(written), variable));
@@ -436,6 +451,24 @@ CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *s
         if ((written->path == NULL) == (written->paths.n_text == 0))
             return fail_at(&builder, &written->min, "a variable needs either 'path' or 'paths'");
         CZ_TRY(written->path != NULL ? add_path(&builder, written) : add_tied(&builder, written));
+    }
+    return CZ_OK;
+}
+
+CzStatus cz_design_check_start(const CzProblem *problem, const CzDesign *design, CzError *error) {
+    for (int i = 0; i < design->n_variable; i++) {
+        const CzVariableInfo *info = &design->variable[i].info;
+        if (info->n_choice > 0 || (info->start >= info->min && info->start <= info->max))
+            continue;
+        char start[CZ_NUMBER_TEXT], min[CZ_NUMBER_TEXT], max[CZ_NUMBER_TEXT];
+        const CzStatus status =
+            cz_fail(error, CZ_STATUS_INPUT,
+                    "the starting value %s of '%s' lies outside its bounds, %s to %s %s",
+                    cz_number_print(start, info->start), info->name,
+                    cz_number_print(min, info->min), cz_number_print(max, info->max), info->unit);
+        if (error != NULL)
+            cz_problem_place(problem, design->variable[i].start_field, error);
+        return status;
     }
     return CZ_OK;
 }

@@ -21,6 +21,7 @@ typedef struct CzDesignPlace {
 
 typedef struct CzDesignVariable {
     CzVariableInfo info;
+    const void *start_field; /* of the input: where its start is written, else its bounds */
     int n_place;
     CzDesignPlace *place; /* (n_place) */
     int n_shown;
@@ -39,6 +40,11 @@ typedef struct CzDesign {
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *scene,
                                        CzArena *arena, CzDesign *design, CzError *error);
+
+/* Whether every variable starts within its bounds, as a search needs. Statuses: CZ_OK,
+ * CZ_STATUS_INPUT with the place. */
+CZ_MUST_CHECK CzStatus cz_design_check_start(const CzProblem *problem, const CzDesign *design,
+                                             CzError *error);
 
 /* Writes the numbers of a design into a copy of the vehicle array of its choices; x is
  * (n_variable).

@@ -228,8 +228,57 @@ bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint) {
     return evaluator->list.check[evaluator->constraint_check[constraint]].scale == CZ_FLAG_SCALE;
 }
 
+static bool is_rule(const CzEvaluator *evaluator, int constraint) {
+    return constraint < evaluator->list.n_constraint &&
+           evaluator->list.check[evaluator->constraint_check[constraint]].is_rule;
+}
+
+bool cz_evaluator_is_rules(const CzEvaluator *evaluator, int constraint) {
+    return is_rule(evaluator, constraint) && cz_evaluator_is_flag(evaluator, constraint);
+}
+
+bool cz_evaluator_is_named_rule(const CzEvaluator *evaluator, int constraint) {
+    return is_rule(evaluator, constraint) && !cz_evaluator_is_flag(evaluator, constraint);
+}
+
 void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *stop) {
     evaluator->stop = stop;
+}
+
+/* The vehicles at the start, with what is fixed; a fit reads its designs anew. */
+static CzStatus check_start_vehicles(const CzEvaluator *evaluator, CzError *error) {
+    const CzDesign *design = &evaluator->design;
+    const size_t n_vehicle = (size_t)evaluator->n_vehicle;
+    if (design->is_fit)
+        return CZ_OK;
+    double *x = calloc((size_t)design->n_variable + 1, sizeof *x);
+    CzVehicle *vehicles = malloc(n_vehicle * sizeof *vehicles);
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    if (x == NULL || vehicles == NULL) {
+        cz_fail(error, status, "no memory for the start of a search");
+    } else {
+        for (int i = 0; i < design->n_variable; i++) {
+            const CzVariableInfo *info = &design->variable[i].info;
+            x[i] = info->is_fixed ? info->fixed_at : info->start;
+        }
+        memcpy(vehicles, evaluator->vehicles, n_vehicle * sizeof *vehicles);
+        cz_design_apply(design, x, vehicles);
+        CzError broken = {0};
+        status = cz_problem_check_vehicles(evaluator->problem, vehicles, &broken);
+        if (status != CZ_OK) {
+            cz_fail(error, status, "the start of the search breaks a rule: %.400s", broken.message);
+            if (error != NULL && design->n_variable > 0)
+                cz_problem_place(evaluator->problem, design->variable[0].start_field, error);
+        }
+    }
+    free(vehicles);
+    free(x);
+    return status;
+}
+
+CzStatus cz_evaluator_check_start(const CzEvaluator *evaluator, CzError *error) {
+    CZ_TRY(cz_design_check_start(evaluator->problem, &evaluator->design, error));
+    return check_start_vehicles(evaluator, error);
 }
 
 int cz_evaluator_n_combination(const CzEvaluator *evaluator) {

@@ -29,6 +29,15 @@ bool cz_evaluator_is_fit(const CzEvaluator *evaluator);
 /* Whether a constraint is a mere yes or no, or one that the objective leads to. */
 bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint);
 
+/* Whether a constraint is about all rules of files: a design that breaks it could not be read back;
+ * and whether it is one of these rules by its name, which the other covers. */
+bool cz_evaluator_is_rules(const CzEvaluator *evaluator, int constraint);
+bool cz_evaluator_is_named_rule(const CzEvaluator *evaluator, int constraint);
+
+/* Whether every variable starts within its bounds, and the search at a design that a file may hold.
+ * Statuses: CZ_OK, CZ_STATUS_INPUT with the place, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_evaluator_check_start(const CzEvaluator *evaluator, CzError *error);
+
 /* Combinations of the variables that choose, 1 without any; the numbers of one combination's
  * choices are written into a design x (n_variable), all else is left. */
 int cz_evaluator_n_combination(const CzEvaluator *evaluator);

@@ -168,6 +168,32 @@ const CzMetricKind *cz_metric_kind(int index) {
     return &kinds[index];
 }
 
+/* ---- rules between values -----------------------------------------------------------------------
+ */
+
+static double rule_ratio(const CzPlace *place, CzValueRule rule) {
+    double ratio[CZ_N_VALUE_RULE];
+    cz_problem_rule_ratios(place->problem, place->vehicles, place->record, place->end, ratio);
+    return ratio[rule];
+}
+
+#define CZ_VALUE_RULE(constant, name, doc)                                                         \
+    static double read_rule_##constant(const CzPlace *place) {                                     \
+        return rule_ratio(place, CZ_VALUE_RULE_##constant);                                        \
+    }
+#include "problem/value_rules.def"
+#undef CZ_VALUE_RULE
+
+const CzMetricKind *cz_metric_of_rule(CzValueRule rule) {
+#define CZ_VALUE_RULE(constant, name, doc)                                                         \
+    {CZ_LEVEL_END, name, "", 1, 0.01, false, "no end has such a value", read_rule_##constant, doc},
+    static const CzMetricKind of_rule[] = {
+#include "problem/value_rules.def"
+    };
+#undef CZ_VALUE_RULE
+    return &of_rule[rule];
+}
+
 /* ---- reading the text --------------------------------------------------------------------------
  */
 

@@ -114,6 +114,9 @@ bool cz_metric_is_total(const CzMetricKind *kind);
 /* Whether the selector picks anything in this scene, as written. */
 bool cz_metric_picks(const CzMetric *metric, const CzScene *scene);
 
+/* What a rule between values is judged by, place by place: an end's ratio, at most 1. */
+const CzMetricKind *cz_metric_of_rule(CzValueRule rule);
+
 /* All kinds, for documents and tests. */
 int cz_n_metric_kind(void);
 const CzMetricKind *cz_metric_kind(int index);

@@ -8,16 +8,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The record that counts: the best on the catalogue steps when there are any. A search that ended
- * before it came to them gives the best it has seen, and so does one whose only designs that pass
+/* The best on the catalogue steps when there are any. A search that ended before it came to them
+ * gives the best it has seen, and so does one whose only designs that pass, or can be written down,
  * lie between them. */
-long cz_hunt_record(const CzSearch *search) {
+static long best_record(const CzSearch *search) {
     const long best = search->best, on_grid = search->best_on_grid;
     if (!cz_search_has_steps(search) || !search->is_snapped || on_grid < 0)
         return best;
-    const bool passes_only_between =
-        search->record[best].violation <= 0 && search->record[on_grid].violation > 0;
-    return passes_only_between ? best : on_grid;
+    const CzRecord *between = &search->record[best], *snapped = &search->record[on_grid];
+    const bool passes_only_between = between->violation <= 0 && snapped->violation > 0;
+    const bool reads_only_between = !between->is_barred && snapped->is_barred;
+    return passes_only_between || reads_only_between ? best : on_grid;
+}
+
+long cz_hunt_record(const CzSearch *search) {
+    const long record = best_record(search);
+    return record >= 0 && search->record[record].is_barred ? -1 : record;
 }
 
 /* ---- one search ------------------------------------------------------------------------------ */

@@ -92,8 +92,8 @@ static CzStatus confirm_best(CzEvaluator *evaluator, const CzHunt *hunt, double 
     long tried[MOST_CONFIRMED];
     int n_tried = 0;
     long record = cz_hunt_record(search);
-    if (record < 0)
-        cz_search_round(search, search->function->start, x);
+    if (record < 0) /* the start is known to be readable, the nearest increments are not */
+        memcpy(x, search->function->start, (size_t)search->function->n_variable * sizeof *x);
     else
         memcpy(x, cz_search_x(search, record), (size_t)search->function->n_variable * sizeof *x);
     CZ_TRY(
@@ -122,8 +122,9 @@ void cz_outcome_mark_bounds(const CzEvaluator *evaluator, CzOutcome *outcome) {
     for (int i = 0; i < outcome->n_variable; i++) {
         const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
         const double nearness = 1e-6 * (info->max - info->min);
-        outcome->at_bound[i] = info->n_choice == 0 && (outcome->best[i] <= info->min + nearness ||
-                                                       outcome->best[i] >= info->max - nearness);
+        outcome->at_bound[i] =
+            info->n_choice == 0 && !info->is_fixed &&
+            (outcome->best[i] <= info->min + nearness || outcome->best[i] >= info->max - nearness);
     }
 }
 
@@ -166,17 +167,35 @@ static bool is_between_steps(const CzHunt *hunt, const CzOutcome *outcome) {
     return false;
 }
 
-static void conclude(const CzHunt *hunt, CzOutcome *outcome) {
+/* Why the last search ended, to the digit. */
+static void tell_end(const CzHunt *hunt, long limit, const CzOutcome *outcome, size_t room,
+                     char *text) {
     const CzSearch *search = &hunt->search[hunt->n - 1];
+    const long left = limit - outcome->n_evaluation;
+    if (search->why[0] != '\0')
+        snprintf(text, room, "%s", search->why);
+    else if (search->function->n_variable == 0 && hunt->n == 1)
+        snprintf(text, room, "no variable can vary: each has one value within its bounds");
+    else if (search->is_spent && left <= 0)
+        snprintf(text, room, "the limit of %ld evaluations is reached", limit);
+    else if (search->is_spent)
+        snprintf(text, room, "%ld of %ld evaluations are left, %s", left, limit,
+                 cz_search_has_steps(search) ? "all kept for the increments"
+                                             : "too few to go on searching");
+    else
+        snprintf(text, room, "nothing was left to gain");
+}
+
+static void conclude(const CzHunt *hunt, long limit, CzOutcome *outcome) {
+    const CzSearch *search = &hunt->search[hunt->n - 1];
+    char end[sizeof outcome->why_stopped];
     const bool feasible =
         outcome->best_evaluation.status == CZ_OK && outcome->best_evaluation.violation <= 0;
     outcome->status = feasible ? CZ_OUTCOME_FEASIBLE : CZ_OUTCOME_INFEASIBLE;
     if (search->status == CZ_STATUS_INTERRUPTED)
         outcome->status = CZ_OUTCOME_INTERRUPTED;
-    snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%.80s%s",
-             search->why[0] != '\0' ? search->why
-             : search->is_spent     ? "the limit of evaluations is reached"
-                                    : "nothing was left to gain",
+    tell_end(hunt, limit, outcome, sizeof end, end);
+    snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%.100s%s", end,
              is_between_steps(hunt, outcome) ? "; the best lies between catalogue steps" : "");
 }
 
@@ -212,6 +231,7 @@ static CzStatus settle_options(const CzEvaluator *evaluator, const CzOptimiseOpt
     if (options->evaluations < 1)
         return cz_fail(error, CZ_STATUS_INPUT, "the limit of %ld evaluations is below 1",
                        options->evaluations);
+    CZ_TRY(cz_evaluator_check_start(evaluator, error));
     if (strcmp(options->algorithm, "auto") == 0)
         return CZ_OK;
     const CzStatus status = cz_nlopt_check(options->algorithm, error);
@@ -253,7 +273,7 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
         status = cz_alternatives_find(&hunt.subspace[hunt.chosen], &hunt.search[hunt.chosen],
                                       cz_hunt_record(&hunt.search[hunt.chosen]), made, error);
     if (status == CZ_OK)
-        conclude(&hunt, made);
+        conclude(&hunt, options.evaluations, made);
     if (status == CZ_OK)
         status = cz_outcome_verify(evaluator, &options, made, error);
     if (status == CZ_OK)

@@ -1,6 +1,7 @@
 /* One search: budget, history, best design so far, the wish to stop. */
 #include "optimise/search.h"
 #include "base/error.h"
+#include "base/increment.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -99,9 +100,9 @@ void cz_search_round(const CzSearch *search, const double *x, double *rounded) {
             continue;
         double value = round(x[i] / step) * step;
         if (value > hi)
-            value = floor(hi / step * (1 + 1e-12)) * step;
+            value = cz_increment_not_above(step, hi);
         if (value < lo)
-            value = ceil(lo / step * (1 - 1e-12)) * step;
+            value = cz_increment_not_below(step, lo);
         rounded[i] = value < lo || value > hi ? lo : value; /* no step within the bounds */
     }
 }
@@ -119,6 +120,8 @@ bool cz_search_is_better(const CzSearch *search, long record, long other) {
     if (other < 0 || record < 0)
         return record >= 0;
     const CzRecord *a = &search->record[record], *b = &search->record[other];
+    if (a->is_barred != b->is_barred)
+        return b->is_barred;
     if (a->penalty != b->penalty)
         return a->penalty < b->penalty;
     return a->objective < b->objective; /* false for NaN */
@@ -140,7 +143,7 @@ static bool make_room(CzSearch *search, long n) {
     CzRecord *record = realloc(search->record, (size_t)room * sizeof *record);
     if (record != NULL)
         search->record = record;
-    double *x = realloc(search->x, (size_t)room * n_variable * sizeof *x);
+    double *x = realloc(search->x, ((size_t)room * n_variable + 1) * sizeof *x);
     if (x != NULL)
         search->x = x;
     if (record != NULL && x != NULL)
@@ -153,6 +156,8 @@ static bool is_gain(const CzSearch *search, long record) {
     if (search->best < 0)
         return true;
     const CzRecord *a = &search->record[record], *b = &search->record[search->best];
+    if (a->is_barred != b->is_barred)
+        return b->is_barred;
     if (b->penalty > 0)
         return a->penalty < 0.99 * b->penalty;
     const double scale = search->function->is_minimax ? 1 : fabs(b->objective); /* a margin is 1 */
@@ -257,6 +262,8 @@ static void take_answer(CzSearch *search, const char *phase, const double *x, do
     for (int j = 0; j < m; j++) {
         failed |= isnan(constraint[j]);
         record.violation = fmax(record.violation, constraint[j]);
+        record.is_barred |=
+            search->function->is_rule != NULL && search->function->is_rule[j] && constraint[j] > 0;
         if (!search->function->is_fit)
             record.penalty += cz_search_compressed(fmax(constraint[j], 0));
         else if (!search->function->is_flag[j])
@@ -265,7 +272,7 @@ static void take_answer(CzSearch *search, const char *phase, const double *x, do
     if (search->function->is_fit)
         record.penalty += *objective;
     if (failed)
-        record = (CzRecord){NAN, INFINITY, INFINITY, phase, false};
+        record = (CzRecord){NAN, INFINITY, INFINITY, phase, false, true};
     add_record(search, x, &record);
     if (failed) {
         const double ramp = 1 + distance_from_best(search, x);
@@ -301,7 +308,8 @@ bool cz_search_evaluate_details(CzSearch *search, const char *phase, int n, cons
         return false;
     const CzFunction *function = search->function;
     if (cz_search_left(search) < n) {
-        finish(search, CZ_OK, "the limit of evaluations is reached");
+        finish(search, CZ_OK, "");
+        search->is_spent = true;
         return false;
     }
     CzStatus status = CZ_STATUS_NO_MEMORY;

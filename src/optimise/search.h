@@ -19,6 +19,9 @@ typedef struct CzFunction {
     const double *step;              /* catalogue steps, 0 for none (n_variable) */
     const bool *is_flag; /* constraints that are a mere yes or no (n_constraint), NULL for none:
                             they count in what is kept, but no algorithm is shown such a step */
+    const bool *is_rule; /* constraints without which a design could not be written down and read
+                            back (n_constraint), NULL for none: one that breaks them is never the
+                            best while another was seen */
     int n_detail; /* constraints again, place by place and so without the kinks of the worst one; 0
                      when there are none */
     bool is_minimax; /* the objective is the largest constraint, up to a constant */
@@ -40,7 +43,8 @@ typedef struct CzRecord {
     double penalty;   /* sum of the compressed positive constraints, of a fit beside the sum of
                          squares: what infeasible designs are ranked by */
     const char *phase;
-    bool on_grid; /* every variable lies on its catalogue step */
+    bool on_grid;   /* every variable lies on its catalogue step */
+    bool is_barred; /* a rule of files is broken */
 } CzRecord;
 
 typedef struct CzSearch {
@@ -116,7 +120,8 @@ bool cz_search_is_apart(const CzSearch *search, long record, int n_chosen, const
 /* Variables of a record (n_variable). */
 const double *cz_search_x(const CzSearch *search, long record);
 
-/* Whether a record is better: kept constraints first, then the objective; else the penalty. */
+/* Whether a record is better: what can be written down first, then by kept constraints and the
+ * objective; else the penalty. */
 bool cz_search_is_better(const CzSearch *search, long record, long other);
 
 /* Record with exactly these variables, -1 when there is none. */

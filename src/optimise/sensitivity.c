@@ -21,7 +21,7 @@
 /* The step of a variable at a value, negative towards the lower bound; 0 when there is none. */
 static double step_of(const CzVariableInfo *variable, double value) {
     const double range = variable->max - variable->min;
-    if (variable->n_choice > 0 || !(range > 0))
+    if (variable->n_choice > 0 || variable->is_fixed || !(range > 0))
         return 0;
     double step = SMALLEST_SHARE * range;
     if (variable->step > 0)

@@ -28,9 +28,10 @@ static CzStatus evaluate_designs(void *data, int n_point, const double *numbers,
         status = cz_evaluator_search(subspace->evaluator, n_point, x, evaluation, detail, error);
     }
     for (int i = 0; i < n_point && status == CZ_OK; i++) {
-        const size_t m = (size_t)evaluation[i].n_constraint;
+        const int m = subspace->function.n_constraint;
         objective[i] = evaluation[i].objective;
-        memcpy(constraint + (size_t)i * m, evaluation[i].constraint, m * sizeof *constraint);
+        for (int j = 0; j < m; j++)
+            constraint[i * m + j] = evaluation[i].constraint[subspace->constraint[j]];
         cz_evaluation_free(&evaluation[i]);
     }
     free(evaluation);
@@ -44,9 +45,10 @@ bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *s
     const int n_constraint = cz_evaluator_n_constraint(evaluator);
     const size_t room = (size_t)n_all;
     double *numbers = cz_arena_allocate(arena, 5 * room, sizeof *numbers);
-    bool *flags = cz_arena_allocate(arena, (size_t)n_constraint + 1, sizeof *flags);
+    bool *flags = cz_arena_allocate(arena, 2 * (size_t)n_constraint + 1, sizeof *flags);
     int *number = cz_arena_allocate(arena, room, sizeof *number);
-    if (numbers == NULL || flags == NULL || number == NULL)
+    int *shown = cz_arena_allocate(arena, (size_t)n_constraint + 1, sizeof *shown);
+    if (numbers == NULL || flags == NULL || number == NULL || shown == NULL)
         return false;
     double *min = numbers, *max = min + room, *first = max + room, *step = first + room;
     double *made = step + room;
@@ -54,7 +56,9 @@ bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *s
     cz_evaluator_set_combination(evaluator, combination, made);
     for (int i = 0; i < n_all; i++) {
         const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
-        if (info->n_choice > 0)
+        if (info->is_fixed)
+            made[i] = info->fixed_at;
+        if (info->is_fixed || info->n_choice > 0)
             continue;
         min[n] = info->min;
         max[n] = info->max;
@@ -62,18 +66,28 @@ bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *s
         step[n] = info->step;
         number[n++] = i;
     }
-    for (int j = 0; j < n_constraint; j++)
-        flags[j] = cz_evaluator_is_flag(evaluator, j);
-    *subspace =
-        (CzSubspace){.evaluator = evaluator, .n_all = n_all, .number = number, .made = made};
+    int m = 0;
+    for (int j = 0; j < n_constraint; j++) {
+        if (cz_evaluator_is_named_rule(evaluator, j))
+            continue;
+        flags[m] = cz_evaluator_is_flag(evaluator, j);
+        flags[n_constraint + m] = cz_evaluator_is_rules(evaluator, j);
+        shown[m++] = j;
+    }
+    *subspace = (CzSubspace){.evaluator = evaluator,
+                             .n_all = n_all,
+                             .number = number,
+                             .constraint = shown,
+                             .made = made};
     subspace->function = (CzFunction){.n_variable = n,
-                                      .n_constraint = n_constraint,
+                                      .n_constraint = m,
                                       .min = min,
                                       .max = max,
                                       .start = first,
                                       .step = step,
                                       .n_detail = cz_evaluator_n_detail(evaluator),
                                       .is_flag = flags,
+                                      .is_rule = flags + n_constraint,
                                       .is_minimax = cz_evaluator_maximises_margin(evaluator),
                                       .is_fit = cz_evaluator_is_fit(evaluator),
                                       .evaluate = evaluate_designs,

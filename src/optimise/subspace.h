@@ -12,8 +12,10 @@
 typedef struct CzSubspace {
     CzEvaluator *evaluator;
     int n_all;           /* variables of the problem */
-    int *number;         /* those that are no choice (function.n_variable) */
-    double *made;        /* a design with the choices made (n_all) */
+    int *number;         /* those that are no choice and can vary (function.n_variable) */
+    int *constraint;     /* those of the evaluator that are searched by: all but the rules of files
+                            by name, which one constraint covers (function.n_constraint) */
+    double *made;        /* a design with the choices made and what is fixed (n_all) */
     CzFunction function; /* of the numbers alone */
 } CzSubspace;
 

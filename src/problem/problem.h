@@ -38,6 +38,22 @@ const char *cz_problem_share_folder(const CzProblem *problem);
 CZ_MUST_CHECK CzStatus cz_problem_check_vehicles(const CzProblem *problem,
                                                  const CzVehicle *vehicles, CzError *error);
 
+/* Rules between values that a design variable can break. */
+typedef enum CzValueRule {
+#define CZ_VALUE_RULE(constant, name, doc) CZ_VALUE_RULE_##constant,
+#include "problem/value_rules.def"
+#undef CZ_VALUE_RULE
+    CZ_N_VALUE_RULE
+} CzValueRule;
+const char *cz_value_rule_name(CzValueRule rule);
+const char *cz_value_rule_doc(CzValueRule rule);
+
+/* How near an end of a candidate's vehicle comes to breaking each rule: the number that is limited
+ * over what it may be, above 1 when it is broken, NaN where the rule has no subject. `vehicle` is
+ * one of `vehicles`, `end` one of its ends; `ratio` is (CZ_N_VALUE_RULE). */
+void cz_problem_rule_ratios(const CzProblem *problem, const CzVehicle *vehicles,
+                            const CzVehicle *vehicle, const CzEnd *end, double *ratio);
+
 /* One number of the input that a path names. */
 typedef struct CzTarget {
     const double *field;      /* in the input */

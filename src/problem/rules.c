@@ -1,6 +1,7 @@
 /* What must hold between the values of a problem: going through the records. */
 #include "problem/rules.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -71,6 +72,32 @@ double cz_rule_stroke(const CzStage *stages, int n_stage, const CzTable *curve) 
     return stroke;
 }
 
+const char *cz_value_rule_name(CzValueRule rule) {
+    static const char *const names[] = {
+#define CZ_VALUE_RULE(constant, name, doc) name,
+#include "problem/value_rules.def"
+#undef CZ_VALUE_RULE
+    };
+    return names[rule];
+}
+
+const char *cz_value_rule_doc(CzValueRule rule) {
+    static const char *const docs[] = {
+#define CZ_VALUE_RULE(constant, name, doc) doc,
+#include "problem/value_rules.def"
+#undef CZ_VALUE_RULE
+    };
+    return docs[rule];
+}
+
+void cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most) {
+    if (rules->ratio == NULL || isnan(value) || isnan(most))
+        return;
+    const double far_off = 1e3; /* finite, whatever there is to be at most 0 */
+    const double ratio = most > 0 ? fmin(value / most, far_off) : value > 0 ? far_off : 0;
+    rules->ratio[rule] = fmax(rules->ratio[rule], ratio); /* passes over NaN */
+}
+
 /* A step of the simulation cannot be longer than what is written out. */
 static void check_simulation(const CzRules *rules) {
     const CzSimulation *simulation = &rules->input->simulation;
@@ -100,8 +127,9 @@ static void check_vehicles(const CzRules *rules) {
 
 static CzRules rules_of(CzProblem *problem) {
     CzReader *reader = &problem->reader;
-    return (CzRules){problem,           reader,           &problem->input, problem->vehicle,
-                     &reader->mistakes, &reader->warnings};
+    return (CzRules){
+        problem,           reader, &problem->input, problem->vehicle, &reader->mistakes,
+        &reader->warnings, NULL};
 }
 
 void cz_rules_check_collision(CzProblem *problem) {
@@ -124,7 +152,11 @@ CzStatus cz_problem_check_vehicles(const CzProblem *problem, const CzVehicle *ve
                                    CzError *error) {
     CzArena arena = {0};
     CzMistakes mistakes = {.arena = &arena};
-    const CzRules rules = {problem, &problem->reader, &problem->input, vehicles, &mistakes, NULL};
+    const CzRules rules = {.problem = problem,
+                           .reader = &problem->reader,
+                           .input = &problem->input,
+                           .vehicle = vehicles,
+                           .mistakes = &mistakes};
     CzStatus status = CZ_OK;
     check_vehicles(&rules);
     if (arena.out_of_memory) {
@@ -136,4 +168,16 @@ CzStatus cz_problem_check_vehicles(const CzProblem *problem, const CzVehicle *ve
     }
     cz_arena_free(&arena);
     return status;
+}
+
+void cz_problem_rule_ratios(const CzProblem *problem, const CzVehicle *vehicles,
+                            const CzVehicle *vehicle, const CzEnd *end, double *ratio) {
+    const CzRules rules = {.problem = problem,
+                           .reader = &problem->reader,
+                           .input = &problem->input,
+                           .vehicle = vehicles,
+                           .ratio = ratio};
+    for (int i = 0; i < CZ_N_VALUE_RULE; i++)
+        ratio[i] = NAN;
+    cz_rules_check_end(&rules, vehicle, end);
 }

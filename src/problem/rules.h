@@ -10,8 +10,13 @@ typedef struct CzRules {
     const CzReader *reader;
     const CzInput *input;
     const CzVehicle *vehicle;        /* those that are judged: the problem's own or a candidate's */
-    CzMistakes *mistakes, *warnings; /* where to tell; warnings may be NULL */
+    CzMistakes *mistakes, *warnings; /* where to tell; both may be NULL */
+    double *ratio;                   /* how near each rule comes to being broken, the largest so far
+                                        (CZ_N_VALUE_RULE); NULL when nobody asks */
 } CzRules;
+
+/* Notes that a rule limits a number, in SI, to at most another. */
+void cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most);
 
 /* Tells a mistake at the place where a field was written, or at its record when it was not. */
 void cz_rule_broken(const CzRules *rules, const void *field, const char *format, ...)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/increment.h"
 #include "base/number.h"
 #include "problem/rules.h"
 
@@ -85,18 +86,22 @@ static void check_path(const CzRules *rules, const CzVariable *variable, const c
 }
 
 static void check_bounds(const CzRules *rules, const CzVariable *variable) {
-    if (!cz_rule_is_written(rules, &variable->min) || !cz_rule_is_written(rules, &variable->max))
+    char first[CZ_NUMBER_TEXT], min[CZ_NUMBER_TEXT], max[CZ_NUMBER_TEXT];
+    if (!cz_rule_is_written(rules, &variable->min) || !cz_rule_is_written(rules, &variable->max)) {
         cz_rule_broken(rules, variable, "a variable needs 'min' and 'max', or 'choices'");
-    else if (variable->min >= variable->max)
-        cz_rule_broken(rules, &variable->min, "min %g must be below max %g", variable->min,
-                       variable->max);
+        return;
+    }
+    cz_number_print(min, variable->min);
+    cz_number_print(max, variable->max);
+    if (variable->min > variable->max)
+        cz_rule_broken(rules, &variable->min, "min %s is above max %s", min, max);
     else if (variable->start < variable->min || variable->start > variable->max)
-        cz_rule_broken(rules, &variable->start, "start %g must lie within %g to %g",
-                       variable->start, variable->min, variable->max);
-    if (variable->step > variable->max - variable->min)
-        cz_rule_broken(rules, &variable->step,
-                       "a step of %g leaves no second value within %g to %g", variable->step,
-                       variable->min, variable->max);
+        cz_rule_broken(rules, &variable->start, "start %s must lie within %s to %s",
+                       cz_number_print(first, variable->start), min, max);
+    else if (variable->min < variable->max && variable->step > 0 &&
+             cz_increment_count(variable->step, variable->min, variable->max) == 0)
+        cz_rule_broken(rules, &variable->step, "no multiple of the step %s lies within %s to %s",
+                       cz_number_print(first, variable->step), min, max);
 }
 
 /* ---- choices ---- */

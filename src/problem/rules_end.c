@@ -5,6 +5,9 @@
 
 enum { MOST_END_STAGES = 4 };
 
+/* Turns "at most" into "below" where a rule says so. */
+static const double just_above = 1 + 1e-9;
+
 /* ---- curves ---- */
 
 static bool is_there(const CzRules *rules, const void *field) {
@@ -31,9 +34,11 @@ static void check_curve_start(const CzRules *rules, const CzTable *curve) {
 
 /* Plateaus of a tube or an anti-climber carry a force. */
 static void check_plateaus(const CzRules *rules, const CzStage *stages, int n_stage) {
-    for (int i = 0; i < n_stage; i++)
+    for (int i = 0; i < n_stage; i++) {
+        cz_rule_note(rules, CZ_VALUE_RULE_FORCE, stages[i].force <= 0, 0);
         if (stages[i].force <= 0)
             cz_rule_broken(rules, &stages[i].force, "a plateau without force absorbs nothing");
+    }
 }
 
 /* The peak that starts the flow is no lower than what follows. */
@@ -41,6 +46,7 @@ static void check_trigger(const CzRules *rules, const double *trigger, const CzS
                           int n_stage, const CzTable *curve) {
     char peak[48], first[48];
     const double plateau = curve->given ? curve->y[0] : n_stage > 0 ? stages[0].force : NAN;
+    cz_rule_note(rules, CZ_VALUE_RULE_TRIGGER, plateau, *trigger);
     if (*trigger < plateau)
         cz_rule_broken(rules, trigger, "a trigger of %s is below the first plateau of %s",
                        CZ_KN(peak, *trigger), CZ_KN(first, plateau));
@@ -58,6 +64,7 @@ static void check_rate(const CzRules *rules, const double *factor, const CzTable
 static void check_installed(const CzRules *rules, const double *installed, double efficiency,
                             double stroke) {
     char stroke_text[48], length[48], usable[48];
+    cz_rule_note(rules, CZ_VALUE_RULE_INSTALLED, stroke, efficiency * *installed);
     if (stroke > efficiency * *installed * (1 + 1e-12))
         cz_rule_broken(rules, installed,
                        "a stroke of %s does not fit: %s installed at an efficiency of %g give %s",
@@ -71,6 +78,7 @@ static void check_buffer(const CzRules *rules, const CzBuffer *buffer) {
     char now[48], before[48];
     double force = buffer->preload;
     for (int i = 0; buffer->given && i < buffer->n_stages; i++) {
+        cz_rule_note(rules, CZ_VALUE_RULE_BUFFER, force, buffer->stages[i].force);
         if (buffer->stages[i].force < force)
             cz_rule_broken(rules, &buffer->stages[i].force,
                            "a buffer's force cannot fall while it is pressed: %s after %s",
@@ -108,6 +116,8 @@ static void check_coupler(const CzRules *rules, const CzVehicle *vehicle,
     check_buffer(rules, &coupler->buffer);
     check_tube(rules, &coupler->tube);
     check_tube(rules, &coupler->second_tube);
+    cz_rule_note(rules, CZ_VALUE_RULE_COUPLER, coupler_stroke(coupler) * just_above,
+                 coupler->length);
     if (coupler_stroke(coupler) >= coupler->length)
         cz_rule_broken(rules, &coupler->length,
                        "buffer and tubes have a stroke of %s in a coupler of %s",
@@ -158,6 +168,7 @@ static double steepest_rise(const CzEnd *end) {
 static void check_unloading(const CzRules *rules, const CzEnd *end) {
     char stiffness[48], rise[48];
     const double steepest = steepest_rise(end);
+    cz_rule_note(rules, CZ_VALUE_RULE_UNLOADING, steepest, end->unloading_stiffness);
     if (end->unloading_stiffness < steepest * (1 - 1e-12))
         cz_rule_broken(
             rules, &end->unloading_stiffness,
@@ -183,6 +194,7 @@ static void check_available(const CzRules *rules, const CzEnd *end) {
     double stroke = free_stroke(end);
     if (device->given)
         stroke += cz_rule_stroke(device->stages, device->n_stages, &device->curve);
+    cz_rule_note(rules, CZ_VALUE_RULE_AVAILABLE, stroke, end->available_length);
     if (stroke > end->available_length * (1 + 1e-12))
         cz_rule_broken(
             rules, &end->available_length,
@@ -198,9 +210,11 @@ static void check_structure(const CzRules *rules, const CzVehicle *vehicle, cons
     if (end->n_stages > MOST_END_STAGES)
         cz_rule_broken(rules, end->stages, "an end has %d stages; %d is the most", end->n_stages,
                        (int)MOST_END_STAGES);
-    for (int i = 0; i < end->n_stages; i++)
+    for (int i = 0; i < end->n_stages; i++) {
+        cz_rule_note(rules, CZ_VALUE_RULE_FORCE, end->stages[i].force <= 0, 0);
         if (end->stages[i].force <= 0)
             cz_rule_broken(rules, &end->stages[i].force, "a stage of an end must end at a force");
+    }
     check_zones(rules, end);
     check_unloading(rules, end);
     check_available(rules, end);
@@ -212,6 +226,8 @@ static void check_gaps(const CzRules *rules, const CzEnd *end) {
     char gap[48], other[48];
     const CzAntiClimber *device = &end->anti_climber;
     const CzCoupler *coupler = &end->coupler;
+    if (device->given)
+        cz_rule_note(rules, CZ_VALUE_RULE_BARE_END, device->gap * just_above, end->face_gap);
     if (device->given && device->gap >= end->face_gap)
         cz_rule_broken(
             rules, &device->gap,
@@ -219,6 +235,7 @@ static void check_gaps(const CzRules *rules, const CzEnd *end) {
             CZ_MM(gap, device->gap), CZ_MM(other, end->face_gap));
     if (!device->given || !coupler->given)
         return;
+    cz_rule_note(rules, CZ_VALUE_RULE_REACHED, device->gap, coupler->gap + coupler->length);
     if (device->gap > coupler->gap + coupler->length)
         cz_rule_broken(
             rules, &device->gap,
@@ -226,6 +243,8 @@ static void check_gaps(const CzRules *rules, const CzEnd *end) {
             "long",
             CZ_MM(gap, device->gap), CZ_MM(other, coupler->length));
     const double travel = coupler_stroke(coupler) + coupler->shear_off.retraction_space;
+    if (coupler->shear_off.given)
+        cz_rule_note(rules, CZ_VALUE_RULE_RETRACTION, device->gap, coupler->gap + travel);
     if (coupler->shear_off.given && coupler->gap + travel < device->gap)
         cz_rule_broken(
             rules, &coupler->shear_off.retraction_space,

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "report/figure.h"
 #include "crushzone/report.h"
 
 /* One line per check of a single scenario; of several scenarios the worst line of each check and
@@ -26,5 +27,14 @@ bool cz_checks_is_shown(const CzEvaluation *evaluation, int i);
 
 /* How a search ended, in capital letters; of a fit, about its tolerances. */
 const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome);
+
+/* A value or bound of a variable: a bound to its last digit, any other value with six, or with all
+ * of them where six would read as a bound that it does not stand on. */
+const char *cz_outcome_number(char text[CZ_FIGURE_ROOM], const CzVariableInfo *variable,
+                              double value);
+
+/* What is to be said of a variable beside its values: that it is fixed, or at its bound; else "".
+ */
+const char *cz_outcome_remark(const CzVariableInfo *variable, bool is_at_bound);
 
 #endif

@@ -18,6 +18,7 @@ static void put_variables(CzJson *json, const CzEvaluator *evaluator, const CzOu
         cz_json_exact(json, "start", outcome->start[i]);
         cz_json_exact(json, "value", outcome->best[i]);
         cz_json_flag(json, "at_bound", outcome->at_bound[i]);
+        cz_json_flag(json, "fixed", variable->is_fixed);
         if (variable->n_choice > 0) {
             cz_json_text(json, "start_choice", variable->choice[(int)outcome->start[i]]);
             cz_json_text(json, "choice", variable->choice[(int)outcome->best[i]]);

@@ -1,6 +1,7 @@
 /* What a search answers, on a terminal: before and after, what is still violated, new values. */
 #include "crushzone/report.h"
 
+#include "base/number.h"
 #include "evaluate/evaluator.h"
 #include "report/checks_table.h"
 #include "report/grid.h"
@@ -59,6 +60,24 @@ static void write_unchecked(const CzEvaluation *best, bool colour, FILE *stream)
     fputc('\n', stream);
 }
 
+const char *cz_outcome_number(char text[CZ_FIGURE_ROOM], const CzVariableInfo *variable,
+                              double value) {
+    double read;
+    if (value == variable->min || value == variable->max)
+        return cz_number_print(text, value);
+    cz_figure_digits(text, 6, value);
+    const bool looks_like_bound =
+        cz_number_parse(text, &read) == NULL && (read <= variable->min || read >= variable->max);
+    return looks_like_bound ? cz_number_print(text, value) : text;
+}
+
+const char *cz_outcome_remark(const CzVariableInfo *variable, bool is_at_bound) {
+    if (variable->is_fixed)
+        return variable->min == variable->max ? "fixed: min = max"
+                                              : "fixed: one increment within its bounds";
+    return is_at_bound ? "at its bound" : "";
+}
+
 static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
                        FILE *stream) {
     static const CzStyle styles[] = {[CZ_OUTCOME_FEASIBLE] = CZ_STYLE_GOOD,
@@ -66,7 +85,8 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome, b
                                      [CZ_OUTCOME_INTERRUPTED] = CZ_STYLE_CAREFUL};
     cz_grid_write_text(cz_outcome_words(evaluator, outcome), styles[outcome->status], colour,
                        stream);
-    fprintf(stream, " after %ld evaluations: ", outcome->n_evaluation);
+    fprintf(stream, " after %ld evaluation%s: ", outcome->n_evaluation,
+            outcome->n_evaluation == 1 ? "" : "s");
     cz_grid_write_text(outcome->why_stopped, CZ_STYLE_PLAIN, colour, stream);
     if (outcome->status == CZ_OUTCOME_INTERRUPTED)
         fprintf(stream, "; the best so far is %sfeasible",
@@ -99,9 +119,9 @@ static void write_variables(const CzEvaluator *evaluator, const CzOutcome *outco
             cz_grid_put(&grid,
                         variable->n_choice > 0 && k < 2 ? ""
                         : variable->n_choice > 0        ? variable->choice[(int)numbers[k]]
-                                                        : cz_figure_digits(text, 6, numbers[k]),
+                                                 : cz_outcome_number(text, variable, numbers[k]),
                         CZ_STYLE_PLAIN);
-        cz_grid_put(&grid, outcome->at_bound[i] ? "at its bound" : "", CZ_STYLE_CAREFUL);
+        cz_grid_put(&grid, cz_outcome_remark(variable, outcome->at_bound[i]), CZ_STYLE_CAREFUL);
     }
     cz_grid_write(&grid, colour, stream);
     fputc('\n', stream);

@@ -246,8 +246,8 @@ CzStatus cz_report_write_overlay(const CzProblem *problem, const CzEvaluator *ev
     const CzReportOptions absent = cz_report_options_default();
     if (options == NULL)
         options = &absent;
-    fprintf(stream, "# The best design of %ld evaluations: %s. Verdict of its checks: %s.\n",
-            outcome->n_evaluation,
+    fprintf(stream, "# The best design of %ld evaluation%s: %s. Verdict of its checks: %s.\n",
+            outcome->n_evaluation, outcome->n_evaluation == 1 ? "" : "s",
             outcome->best_evaluation.violation <= 0 ? "it keeps every constraint"
                                                     : "IT BREAKS A CONSTRAINT",
             cz_verdict_text(outcome->best_evaluation.verdict));

@@ -31,8 +31,8 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
                       : outcome->status == CZ_OUTCOME_INFEASIBLE ? "banner fail"
                                                                  : "banner careful",
                       cz_outcome_words(evaluator, outcome));
-    snprintf(text, sizeof text, "%ld evaluations: %s.", outcome->n_evaluation,
-             outcome->why_stopped);
+    snprintf(text, sizeof text, "%ld evaluation%s: %s.", outcome->n_evaluation,
+             outcome->n_evaluation == 1 ? "" : "s", outcome->why_stopped);
     cz_markup_element(markup, "p", text);
     if (cz_evaluator_maximises_margin(evaluator)) /* its negative is minimised */
         snprintf(text, sizeof text, "Smallest margin of all constraints: before %s, after %s.",
@@ -102,11 +102,13 @@ static void write_variables(CzMarkup *markup, const CzEvaluator *evaluator,
         cz_markup_element(markup, "td", variable->name);
         cz_markup_element(markup, "td", variable->unit != NULL ? variable->unit : "");
         for (int k = 0; k < 4; k++)
-            cz_markup_classed(markup, "td", "number", cz_figure_digits(text, 6, numbers[k]));
+            cz_markup_classed(markup, "td", "number",
+                              cz_outcome_number(text, variable, numbers[k]));
         cz_markup_open(markup, "td");
         write_place(markup, variable, outcome->start[i], outcome->best[i]);
         cz_markup_close(markup);
-        cz_markup_classed(markup, "td", "careful", outcome->at_bound[i] ? "at its bound" : "");
+        cz_markup_classed(markup, "td", "careful",
+                          cz_outcome_remark(variable, outcome->at_bound[i]));
         cz_markup_close(markup);
         cz_markup_line(markup);
     }

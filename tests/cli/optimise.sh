@@ -86,4 +86,38 @@ terminated() { interrupted TERM 143 --json && json out.txt status interrupted &&
 check "SIGTERM keeps the best and ends with 143" terminated
 no_progress() { plain err.txt && ! grep -q "^eval " err.txt; }
 check "a log gets no progress" no_progress
+# Bounds bind a search alone, and what it writes can be read whatever it found.
+cat >bounded.yaml <<END
+schema: 1
+title: a tube under a trigger
+parts:
+  end:
+    face_gap_mm: 800
+    stages: [{stroke_mm: 200, force_kN: 2000}]
+    unloading_stiffness_MN_m: 100
+    coupler: {length_m: 1, buffer: {stages: [{stroke_mm: 50, force_kN: 300}]}, tube: {trigger_kN: 700, installed_length_mm: 400, mass_per_stroke_kg_m: 900, stages: [{stroke_mm: 250, force_kN: 650}]}}
+  car: {model: rigid, mass_t: 35, length_m: 16, front: {use: end}, rear: {use: end}}
+checks: {closing_rules: false, limits: [{name: heavy, metric: design.absorber_mass_kg, min: 1e6}, {name: strong, metric: elements.coupler *.peak_force_kN.min, min: 1e5}]}
+trains:
+  - {name: A, speed_km_h: 12, vehicles: [{use: car}]}
+  - {name: B, vehicles: [{use: car}]}
+optimise:
+  variables:
+    - {path: "parts.end.coupler.tube.stages[0].stroke_mm", min: 200, max: 900, step: 10}
+    - {path: "parts.end.coupler.tube.stages[0].force_kN", min: 600, max: 3000, step: 10}
+    - {path: "parts.end.coupler.tube.trigger_kN", min: 690, max: 720, step: 700}
+  evaluations: 60
+END
+unbound() {
+    stroke='parts.end.coupler.tube.stages[0].stroke_mm' && exits 0 "$C" run bounded.yaml --set "$stroke=150" -o bounded-run && ! grep -q outside err.txt &&
+        exits 0 "$C" sweep bounded.yaml --vary "$stroke=100:300:3" && ! says out.txt invalid >nothing.txt &&
+        exits 2 "$C" optimise bounded.yaml --set "$stroke=199.9999999" -o bounded && says err.txt "the starting value 199.9999999 of '$stroke' lies outside its bounds, 200 to 900 mm"
+}
+check "run and sweep do not mind the bounds of a search, and a search tells the digits that differ" unbound
+readable() {
+    exits 1 "$C" optimise bounded.yaml -o bounded && says out.txt 'NOTHING FEASIBLE FOUND' && says out.txt 'fixed: one increment within its bounds' &&
+        json bounded/outcome.json variables.2.fixed true && json bounded/outcome.json constraints.3.name 'rule: trigger above the plateau, design' &&
+        exits 0 "$C" validate bounded/optimised.yaml && exits 1 "$C" check bounded/optimised.yaml
+}
+check "the best design of a search without success can be read back" readable
 finish

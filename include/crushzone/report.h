@@ -33,8 +33,10 @@ typedef struct CzReportOptions {
     const char *const *word; /* further words of it that results depend on, such as "--scenario"
                                 and its name (n_word) */
     int n_word;
-    const char *text; /* what the problem was read from when that was no file; NULL otherwise */
-    size_t n_text;    /* [byte] */
+    const char *text;     /* what the problem was read from when that was no file; NULL otherwise */
+    size_t n_text;        /* [byte] */
+    bool replaces_search; /* a result folder that holds the result of a search may be replaced by
+                             something else */
 } CzReportOptions;
 CZ_API CzReportOptions cz_report_options_default(void);
 
@@ -167,9 +169,24 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_comparison_page(int n, const CzRep
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_elevation(const CzProblem *problem, int scenario,
                                                         FILE *stream, CzError *error);
 
-/* Whether a result folder can be written there: the place is free, or holds a result folder of our
- * own with nothing else in it. Status: CZ_STATUS_OUTPUT. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_check_folder(const char *folder, CzError *error);
+/* Whether a result folder can be written there, before anything is computed: the place is free, or
+ * holds a result folder of our own with nothing else in it, no search unless the options allow
+ * that, and no file that the problem was read from (NULL: of no problem). NULL options are the
+ * default ones. Status: CZ_STATUS_OUTPUT. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_check_folder(const CzProblem *problem, const char *folder,
+                                                     const CzReportOptions *options,
+                                                     CzError *error);
+
+/* Writes a single file whole or not at all: to a temporary name first, renamed at the end. A link
+ * is replaced and not followed; a pipe or a device is written to. `write` puts the content into a
+ * stream. cz_report_check_file tells beforehand whether that can be, and refuses to replace a file
+ * that the problem was read from (NULL: of no problem). Statuses: CZ_STATUS_OUTPUT, those of
+ * `write`. */
+typedef CzStatus CzReportWriter(const void *data, FILE *stream, CzError *error);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_check_file(const CzProblem *problem, const char *path,
+                                                   CzError *error);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_file(const char *path, CzReportWriter *write,
+                                                   const void *data, CzError *error);
 
 /* Writes a whole result folder: to a temporary name first, renamed at the end; replaces only a
  * folder of our own. Needs runs that were kept. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */

@@ -82,7 +82,8 @@ static CzStatus find_long(CzCommand command, const char *name, size_t n, int *op
                           CzError *error) {
     char typed[64];
     CzSuggestion suggestion = {0};
-    const char *longer = NULL; /* an option that begins with what was typed */
+    const char *longer = NULL;   /* an option that begins with what was typed */
+    const char *of_other = NULL; /* an option of another command that it is */
     snprintf(typed, sizeof typed, "%.*s", (int)n, name);
     for (int i = 0; i < CZ_N_OPTION; i++) {
         const char *known = cz_options[i].name;
@@ -90,8 +91,7 @@ static CzStatus find_long(CzCommand command, const char *name, size_t n, int *op
             *option = i;
             if (takes(command, i))
                 return CZ_OK;
-            return misuse(error, "'crushzone %s' takes no option '--%s'", cz_commands[command].name,
-                          known);
+            of_other = known; /* one name may be several options */
         }
         if (!takes(command, i))
             continue;
@@ -99,6 +99,9 @@ static CzStatus find_long(CzCommand command, const char *name, size_t n, int *op
         if (n > 0 && strncmp(known, name, n) == 0)
             longer = known;
     }
+    if (of_other != NULL)
+        return misuse(error, "'crushzone %s' takes no option '--%s'", cz_commands[command].name,
+                      of_other);
     misuse(error, "there is no option '--%s'%s", typed,
            longer != NULL ? "; options are not abbreviated" : "");
     const char *best = longer != NULL ? longer : suggestion.best;

@@ -53,7 +53,7 @@ int cz_command_report(const CzArguments *arguments) {
     find_report(arguments, path);
     if (is_search)
         cz_recall_problem(folder, problem);
-    int code = cz_result_begin(&result, arguments, is_search ? problem : folder);
+    int code = cz_result_begin(&result, arguments, is_search ? problem : folder, path);
     if (code == 0 && is_search)
         code = cz_recall_outcome(&result, folder, &outcome);
     const Search search = {&result, outcome};
@@ -86,7 +86,7 @@ static CzStatus write_chart(const void *data, FILE *stream, CzError *error) {
 int cz_command_plot(const CzArguments *arguments) {
     const char *path = arguments->text[CZ_OPTION_SVG];
     CzResult result;
-    int code = cz_result_begin(&result, arguments, arguments->operand[0]);
+    int code = cz_result_begin(&result, arguments, arguments->operand[0], path);
     if (code == 0)
         code = cz_result_write(arguments, path != NULL ? path : "-", write_chart, &result);
     cz_result_end(&result);
@@ -129,7 +129,8 @@ int cz_command_compare(const CzArguments *arguments) {
         return cz_status_exit_code(CZ_STATUS_NO_MEMORY);
     int code = 0;
     for (int i = 0; i < arguments->n_operand && code == 0; i++)
-        code = cz_result_begin(&result[i], arguments, arguments->operand[i]);
+        code = cz_result_begin(&result[i], arguments, arguments->operand[i],
+                               arguments->text[CZ_OPTION_OUTPUT]);
     if (code == 0)
         code = compare(arguments, result);
     for (int i = 0; i < arguments->n_operand; i++)

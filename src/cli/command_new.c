@@ -25,15 +25,19 @@ static const char *find_template(const char *name, CzError *error) {
 /* Writes a new file; one that is there already is somebody's work and stays. */
 static CzStatus write_new(const char *path, const char *text, CzError *error) {
     FILE *stream = fopen(path, "wbx");
+    int why = errno;
     if (stream != NULL) {
         const bool is_written = fputs(text, stream) != EOF;
+        why = is_written ? 0 : errno;
         if (fclose(stream) == 0 && is_written)
             return CZ_OK;
+        why = why != 0 ? why : errno;
+        (void)remove(path); /* it is ours: it was not there before */
     }
     error->status = CZ_STATUS_OUTPUT;
     snprintf(error->message, sizeof error->message, "%.300s cannot be written: %s", path,
-             errno == EEXIST ? "it is there already" : strerror(errno));
-    if (errno == EEXIST)
+             why == EEXIST ? "it is there already" : strerror(why));
+    if (why == EEXIST)
         snprintf(error->help, sizeof error->help,
                  "choose another name with -o FILE, or -o - for standard output");
     return CZ_STATUS_OUTPUT;

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-static const char default_folder[] = "out";
+static const char default_folder[] = "out-optimised";
 
 static CzStatus search(CzSession *session, CzOutcome **outcome, CzError *error) {
     const CzArguments *arguments = session->arguments;
@@ -80,7 +80,8 @@ int cz_command_optimise(const CzArguments *arguments) {
     CzSession session;
     CzOutcome *outcome = NULL;
     int code = cz_session_begin(&session, arguments, arguments->operand[0]);
-    if (code == 0 && cz_report_check_folder(folder, &error) != CZ_OK)
+    const CzReportOptions options = {.replaces_search = true};
+    if (code == 0 && cz_report_check_folder(session.problem, folder, &options, &error) != CZ_OK)
         code = cz_tell_error(arguments, &error); /* before anything is searched in vain */
     if (code == 0) {
         const CzStatus status = search(&session, &outcome, &error);

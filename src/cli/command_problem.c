@@ -222,9 +222,13 @@ static int show_facts(const CzSession *session) {
     if (asked_for != NULL &&
         cz_problem_find_scenario(session->problem, asked_for, &scenario, &error) != CZ_OK)
         return cz_session_fail(session, &error);
-    if (session->arguments->text[CZ_OPTION_SVG] != NULL)
-        return cz_result_write(session->arguments, session->arguments->text[CZ_OPTION_SVG],
-                               write_elevation, &(Elevation){session->problem, scenario});
+    const char *svg = session->arguments->text[CZ_OPTION_SVG];
+    const int code_of_file = cz_result_check(session->arguments, session->problem, svg);
+    if (code_of_file != 0)
+        return code_of_file;
+    if (svg != NULL)
+        return cz_result_write(session->arguments, svg, write_elevation,
+                               &(Elevation){session->problem, scenario});
     if (cz_model_build(session->problem, scenario, &model, &error) != CZ_OK)
         return cz_session_fail(session, &error);
     cz_problem_write_resolved(session->problem, stdout);

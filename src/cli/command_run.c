@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 static const char default_folder[] = "out";
@@ -97,7 +98,9 @@ static int run_file(const CzArguments *arguments, const char *file) {
     CzError error = {0};
     CzSession session;
     int code = cz_session_begin(&session, arguments, file);
-    if (code == 0 && folder != NULL && cz_report_check_folder(folder, &error) != CZ_OK)
+    const CzReportOptions options = {.replaces_search = arguments->text[CZ_OPTION_REPLACE] != NULL};
+    if (code == 0 && folder != NULL &&
+        cz_report_check_folder(session.problem, folder, &options, &error) != CZ_OK)
         code = cz_tell_error(arguments, &error); /* before anything runs in vain */
     if (code == 0) {
         CzEvaluation evaluation = {0};
@@ -116,8 +119,31 @@ static int run_file(const CzArguments *arguments, const char *file) {
     return code;
 }
 
+/* Whether two of the files would be written to one folder, which the second would replace. Where
+ * the file system tells no capitals they are one folder too. */
+static int check_folders(const CzArguments *arguments) {
+    char first[4096], second[4096];
+    for (int i = 0; i < arguments->n_operand; i++)
+        for (int k = 0; k < i; k++) {
+            const char *folder = folder_of(arguments, arguments->operand[i], first);
+            const char *other = folder_of(arguments, arguments->operand[k], second);
+            if (folder == NULL || strcasecmp(folder, other) != 0)
+                continue;
+            CzError error = {.status = CZ_STATUS_OUTPUT};
+            snprintf(error.message, sizeof error.message,
+                     "%.150s and %.150s would be written to one folder, %.100s",
+                     arguments->operand[k], arguments->operand[i], folder);
+            snprintf(error.help, sizeof error.help,
+                     "run them one by one, each with a -o of its own");
+            return cz_tell_error(arguments, &error);
+        }
+    return 0;
+}
+
 int cz_command_run(const CzArguments *arguments) {
-    int worst = 0;
+    int worst = check_folders(arguments);
+    if (worst != 0)
+        return worst;
     for (int i = 0; i < arguments->n_operand; i++) {
         if (i > 0)
             fputc('\n', stdout);

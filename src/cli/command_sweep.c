@@ -101,7 +101,9 @@ int cz_command_sweep(const CzArguments *arguments) {
         return code;
     code = cz_session_read(&session, arguments, arguments->operand[0]); /* tells every mistake */
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
-    if (code == 0 && folder != NULL && cz_report_check_folder(folder, &error) != CZ_OK)
+    const CzReportOptions options = {.replaces_search = arguments->text[CZ_OPTION_REPLACE] != NULL};
+    if (code == 0 && folder != NULL &&
+        cz_report_check_folder(session.problem, folder, &options, &error) != CZ_OK)
         code = cz_tell_error(arguments, &error); /* before anything runs in vain */
     if (code == 0)
         code = sweep_file(&session, axis);

@@ -239,7 +239,9 @@ static void write_files(void) {
     write_entries((int)(sizeof files / sizeof *files), files, 22);
     puts("\nWith several scenarios each has a folder of its own in it. A folder that crushzone "
          "wrote "
-         "is replaced\nby the next run, any other is left alone.");
+         "is replaced\nby the next run; one that holds the result of a search only by another "
+         "search "
+         "or with --force;\nany other is left alone.");
 }
 
 void cz_help_write_topic(CzTopic topic) {

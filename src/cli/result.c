@@ -3,7 +3,6 @@
 
 #include "cli/messages.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -76,12 +75,15 @@ static int find_file(CzResult *result, const char *operand) {
     return 0;
 }
 
-int cz_result_begin(CzResult *result, const CzArguments *arguments, const char *operand) {
+int cz_result_begin(CzResult *result, const CzArguments *arguments, const char *operand,
+                    const char *output) {
     memset(result, 0, sizeof *result);
     result->arguments = *arguments;
     int code = find_file(result, operand);
     if (code == 0)
         code = cz_session_begin(&result->session, &result->arguments, result->file);
+    if (code == 0)
+        code = cz_result_check(arguments, result->session.problem, output);
     if (code != 0)
         return code;
     CzError error = {0};
@@ -99,36 +101,22 @@ void cz_result_end(CzResult *result) {
     cz_session_end(&result->session);
 }
 
-static int fail_to_write(const CzArguments *arguments, const char *path, int why) {
-    CzError error = {.status = CZ_STATUS_OUTPUT};
-    snprintf(error.message, sizeof error.message, "%.200s cannot be written: %s", path,
-             strerror(why));
+int cz_result_check(const CzArguments *arguments, const CzProblem *problem, const char *path) {
+    CzError error = {0};
+    if (path == NULL || cz_report_check_file(problem, path, &error) == CZ_OK)
+        return 0;
     return cz_tell_error(arguments, &error);
 }
 
-int cz_result_write(const CzArguments *arguments, const char *path,
-                    CzStatus (*write)(const void *data, FILE *stream, CzError *error),
+int cz_result_write(const CzArguments *arguments, const char *path, CzReportWriter *write,
                     const void *data) {
-    char temporary[4096];
     CzError error = {0};
     if (strcmp(path, "-") == 0) {
         const CzStatus status = write(data, stdout, &error);
         return status == CZ_OK ? 0 : cz_tell_error(arguments, &error);
     }
-    const int n = snprintf(temporary, sizeof temporary, "%s.tmp", path);
-    if (n < 0 || (size_t)n >= sizeof temporary)
-        return fail_to_write(arguments, path, ENAMETOOLONG);
-    FILE *stream = fopen(temporary, "w");
-    if (stream == NULL)
-        return fail_to_write(arguments, path, errno);
-    const CzStatus status = write(data, stream, &error);
-    const bool is_written = !ferror(stream);
-    const bool is_whole = fclose(stream) == 0 && is_written;
-    if (status == CZ_OK && is_whole && rename(temporary, path) == 0) {
-        cz_tell(arguments, "wrote %s", path);
-        return 0;
-    }
-    const int why = errno;
-    remove(temporary);
-    return status != CZ_OK ? cz_tell_error(arguments, &error) : fail_to_write(arguments, path, why);
+    if (cz_report_write_file(path, write, data, &error) != CZ_OK)
+        return cz_tell_error(arguments, &error);
+    cz_tell(arguments, "wrote %s", path);
+    return 0;
 }

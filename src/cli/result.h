@@ -15,15 +15,20 @@ typedef struct CzResult {
 } CzResult;
 
 /* Runs what a folder holds, or a problem file, with everything recorded: the same bytes come out as
- * when the folder was written, so nothing that a figure needs has to be stored. Tells what is wrong
- * and returns the exit code, 0 when all is well; end with cz_result_end in any case. */
+ * when the folder was written, so nothing that a figure needs has to be stored. Before that it is
+ * tried whether `output` can be written, NULL for none. Tells what is wrong and returns the exit
+ * code, 0 when all is well; end with cz_result_end in any case. */
 CZ_MUST_CHECK int cz_result_begin(CzResult *result, const CzArguments *arguments,
-                                  const char *operand);
+                                  const char *operand, const char *output);
 void cz_result_end(CzResult *result);
+
+/* Whether a file can be written, before it is computed; `problem` is NULL when none was read yet.
+ * Returns the exit code. */
+CZ_MUST_CHECK int cz_result_check(const CzArguments *arguments, const CzProblem *problem,
+                                  const char *path);
 
 /* Writes a file whole or not at all; "-" is standard output. Returns the exit code. */
 CZ_MUST_CHECK int cz_result_write(const CzArguments *arguments, const char *path,
-                                  CzStatus (*write)(const void *data, FILE *stream, CzError *error),
-                                  const void *data);
+                                  CzReportWriter *write, const void *data);
 
 #endif

@@ -118,6 +118,7 @@ CzReportOptions cz_session_report_options(const CzSession *session, double wall_
     options.n_word = session->n_word;
     options.text = session->text;
     options.n_text = session->n_text;
+    options.replaces_search = session->arguments->text[CZ_OPTION_REPLACE] != NULL;
     return options;
 }
 

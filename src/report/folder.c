@@ -1,43 +1,20 @@
 /* A folder of result files that appears whole or not at all. */
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "report/folder.h"
 
 #include "base/error.h"
+#include "base/text.h"
+#include "report/temporary.h"
 
 #include <dirent.h>
 #include <errno.h>
-#include <stdbool.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char marker_name[] = ".crushzone";
-static const char marker_head[] = "crushzone results\n";
-enum { MARKER_ROOM = 1 << 20 }; /* no marker of ours is larger [byte] */
-
-static bool join(char path[PATH_MAX], const char *folder, const char *name) {
-    const int n = snprintf(path, PATH_MAX, "%s/%s", folder, name);
-    return n > 0 && n < PATH_MAX;
-}
-
-/* Reads the marker of a folder: the lines after its head, freed by the caller; NULL when the folder
- * is not ours. */
-static char *read_marker(const char *folder) {
-    char path[PATH_MAX];
-    FILE *stream = join(path, folder, marker_name) ? fopen(path, "rb") : NULL;
-    char *text = stream != NULL ? malloc(MARKER_ROOM) : NULL;
-    const size_t n = text != NULL ? fread(text, 1, MARKER_ROOM - 1, stream) : 0;
-    if (stream != NULL)
-        fclose(stream);
-    const size_t n_head = sizeof marker_head - 1;
-    if (n < n_head || memcmp(text, marker_head, n_head) != 0) {
-        free(text);
-        return NULL;
-    }
-    text[n] = '\0';
-    memmove(text, text + n_head, n - n_head + 1);
-    return text;
-}
+/* ---- what is there already ---- */
 
 /* Whether the marker lists a file, or a file inside it when it is a folder. */
 static bool lists(const char *marker, const char *name, bool is_folder) {
@@ -62,12 +39,12 @@ static bool find_foreign(const char *folder, const char *marker, const char *pre
         char path[PATH_MAX], name[PATH_MAX];
         struct stat info;
         const char *own = entry->d_name;
-        if (strcmp(own, ".") == 0 || strcmp(own, "..") == 0 ||
-            (prefix[0] == '\0' && strcmp(own, marker_name) == 0))
+        if (cz_is_temporary(own) || strcmp(own, ".") == 0 || strcmp(own, "..") == 0 ||
+            (prefix[0] == '\0' && strcmp(own, CZ_MARKER_NAME) == 0))
             continue;
         snprintf(name, sizeof name, "%.*s%s", 2048, prefix, own);
-        const bool is_folder =
-            join(path, folder, own) && lstat(path, &info) == 0 && S_ISDIR(info.st_mode);
+        const bool is_folder = cz_path_in(path, folder, own, NULL) == CZ_OK &&
+                               lstat(path, &info) == 0 && S_ISDIR(info.st_mode);
         found = !lists(marker, name, is_folder);
         if (found)
             snprintf(foreign, PATH_MAX, "%s", name);
@@ -77,25 +54,6 @@ static bool find_foreign(const char *folder, const char *marker, const char *pre
     if (entries != NULL)
         closedir(entries);
     return found;
-}
-
-/* Removes the files that a marker lists, the marker, and the folders that are empty then. */
-static void remove_listed(const char *folder, char *marker) {
-    char path[PATH_MAX];
-    for (int pass = 0; pass < 2; pass++) /* files, then the folders around them */
-        for (char *line = marker; *line != '\0';) {
-            const size_t n = strcspn(line, "\n");
-            const size_t n_folder = strcspn(line, "/");
-            const bool plain = line[0] != '/' && strncmp(line, "../", 3) != 0;
-            const int shown = (int)(pass == 0 ? n : n_folder);
-            if (plain && (pass == 0 || n_folder < n) &&
-                snprintf(path, sizeof path, "%s/%.*s", folder, shown, line) < PATH_MAX)
-                (void)(pass == 0 ? unlink(path) : rmdir(path));
-            line += n + (line[n] == '\n');
-        }
-    if (join(path, folder, marker_name))
-        (void)unlink(path);
-    (void)rmdir(folder);
 }
 
 static bool is_empty_folder(const char *path) {
@@ -108,78 +66,148 @@ static bool is_empty_folder(const char *path) {
     return n == 2; /* . and .. */
 }
 
-/* The folder above a path, "." for a plain name. */
-static void parent_of(const char *path, char parent[PATH_MAX]) {
-    snprintf(parent, PATH_MAX, "%s", path);
-    char *slash = strrchr(parent, '/');
-    if (slash == NULL)
-        snprintf(parent, PATH_MAX, ".");
-    else
-        slash[slash == parent ? 1 : 0] = '\0';
-}
-
-/* Whether a folder can be made there: the nearest folder above that exists can be written. */
-static CzStatus check_parents(const char *path, CzError *error) {
-    char parent[PATH_MAX], above[PATH_MAX];
-    struct stat info;
-    parent_of(path, parent);
-    while (stat(parent, &info) != 0 && errno == ENOENT && strcmp(parent, ".") != 0) {
-        parent_of(parent, above);
-        memcpy(parent, above, sizeof parent);
-    }
-    if (stat(parent, &info) != 0 || !S_ISDIR(info.st_mode))
-        return cz_fail(error, CZ_STATUS_OUTPUT, "%.200s cannot be written: %.200s is no folder",
-                       path, parent);
-    if (access(parent, W_OK | X_OK) != 0)
-        return cz_fail(error, CZ_STATUS_OUTPUT,
-                       "%.200s cannot be written: the folder %.200s is not writable", path, parent);
-    return CZ_OK;
-}
-
-/* The path without slashes at its end. */
+/* The path without slashes at its end. What it cannot be is told. */
 static CzStatus clean_path(const char *path, char clean[PATH_MAX], CzError *error) {
-    size_t n = strlen(path);
+    enum { ROOM_INSIDE = 256 }; /* for the longest name of a file in it */
+    char what[CZ_FAULT_ROOM];
+    size_t n = strlen(path), at;
     while (n > 1 && path[n - 1] == '/')
         n--;
-    if (n == 0 || n > PATH_MAX - 64)
+    if (n == 0 || n > PATH_MAX - ROOM_INSIDE)
         return cz_fail(error, CZ_STATUS_OUTPUT, "the name of the result folder is %s",
                        n == 0 ? "empty" : "too long");
+    if (cz_text_fault(path, n, false, &at, what))
+        return cz_fail(error, CZ_STATUS_OUTPUT, "the name of the result folder holds %s", what);
     snprintf(clean, PATH_MAX, "%.*s", (int)n, path);
+    const char *slash = strrchr(clean, '/'), *name = slash != NULL ? slash + 1 : clean;
+    if (name[0] == '\0' || strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
+        return cz_fail(
+            error, CZ_STATUS_OUTPUT,
+            "the result folder cannot be '%.100s': it is replaced as a whole, so give it "
+            "a name of its own",
+            clean);
     return CZ_OK;
 }
 
-CzStatus cz_folder_check(const char *path, CzError *error) {
-    char clean[PATH_MAX], foreign[PATH_MAX];
-    struct stat info;
-    CZ_TRY(clean_path(path, clean, error));
-    if (lstat(clean, &info) != 0)
-        return check_parents(clean, error);
-    if (!S_ISDIR(info.st_mode))
-        return cz_fail(error, CZ_STATUS_OUTPUT,
-                       "%.200s is there already and is no folder; choose another one with -o",
-                       clean);
-    if (is_empty_folder(clean))
-        return check_parents(clean, error);
-    char *marker = read_marker(clean);
+/* The text with everything resolved that is there; false when nothing is. */
+static bool resolve(const char *path, char resolved[PATH_MAX]) {
+    char *found = realpath(path, NULL);
+    const bool is_there = found != NULL && strlen(found) < PATH_MAX;
+    if (is_there)
+        snprintf(resolved, PATH_MAX, "%s", found);
+    free(found);
+    return is_there;
+}
+
+bool cz_folder_holds(const char *folder, const char *file) {
+    char above[PATH_MAX], below[PATH_MAX];
+    if (!resolve(folder, above) || !resolve(file, below))
+        return false;
+    const size_t n = strlen(above);
+    return strncmp(above, below, n) == 0 && (below[n] == '/' || below[n] == '\0');
+}
+
+/* Whether nothing in a folder is not ours. */
+static CzStatus check_content(const char *path, bool replaces_search, CzError *error) {
+    char foreign[PATH_MAX];
+    char *marker = cz_marker_read(path);
     if (marker == NULL)
         return cz_fail(error, CZ_STATUS_OUTPUT,
                        "the folder %.200s is there already and crushzone did not write it; choose "
                        "another one with -o",
-                       clean);
-    const bool has_foreign = find_foreign(clean, marker, "", foreign);
+                       path);
+    const bool has_foreign = find_foreign(path, marker, "", foreign);
+    const bool is_search = lists(marker, "outcome.json", false);
     free(marker);
     if (has_foreign)
         return cz_fail(error, CZ_STATUS_OUTPUT,
                        "the folder %.150s holds %.150s, which crushzone did not write; move it "
                        "away or choose another folder with -o",
-                       clean, foreign);
+                       path, foreign);
+    if (is_search && !replaces_search)
+        return cz_fail(error, CZ_STATUS_OUTPUT,
+                       "the folder %.150s holds the result of a search, which took long to find; "
+                       "choose another folder with -o, or replace it with --force",
+                       path);
+    return CZ_OK;
+}
+
+/* Whether a folder that is there can be moved away: not where a disk begins, and not where we
+ * stand. Removing a folder that is not empty always fails, but in another way where a disk begins;
+ * one that is empty is made anew. */
+static CzStatus check_movable(const char *path, const struct stat *info, CzError *error) {
+    if (cz_folder_holds(path, "."))
+        return cz_fail(error, CZ_STATUS_OUTPUT,
+                       "the result folder %.200s cannot be replaced: it holds the folder that "
+                       "crushzone was started in",
+                       path);
+    if (rmdir(path) == 0)
+        return mkdir(path, info->st_mode & 07777) == 0 ? CZ_OK
+                                                       : cz_cannot_write(path, errno, error);
+    if (errno == EBUSY)
+        return cz_fail(error, CZ_STATUS_OUTPUT,
+                       "the result folder %.200s cannot be replaced: a file system is mounted "
+                       "there; choose a folder in it",
+                       path);
+    return errno == ENOTEMPTY || errno == EEXIST ? CZ_OK : cz_cannot_write(path, errno, error);
+}
+
+static CzStatus check_target(const char *path, bool replaces_search, CzError *error) {
+    struct stat info;
+    if (lstat(path, &info) != 0)
+        return errno == ENOENT || errno == ENOTDIR ? CZ_OK : cz_cannot_write(path, errno, error);
+    if (S_ISLNK(info.st_mode))
+        return cz_fail(error, CZ_STATUS_OUTPUT,
+                       "%.200s is a link; crushzone replaces folders and follows no links, so "
+                       "choose another one with -o",
+                       path);
+    if (!S_ISDIR(info.st_mode))
+        return cz_fail(error, CZ_STATUS_OUTPUT,
+                       "%.200s is there already and is no folder; choose another one with -o",
+                       path);
+    if (!is_empty_folder(path))
+        CZ_TRY(check_content(path, replaces_search, error));
+    return check_movable(path, &info, error);
+}
+
+/* Whether a folder can be made there: one is made and removed in the nearest folder above that is
+ * there. */
+static CzStatus check_parents(const char *path, CzError *error) {
+    char parent[PATH_MAX], above[PATH_MAX], trial[PATH_MAX];
+    struct stat info;
+    cz_parent_of(path, parent);
+    while (stat(parent, &info) != 0 && errno == ENOENT && strcmp(parent, ".") != 0) {
+        cz_parent_of(parent, above);
+        memcpy(parent, above, sizeof parent);
+    }
+    if (stat(parent, &info) != 0 && errno != ENOTDIR)
+        return cz_cannot_write(path, errno, error);
+    if (stat(parent, &info) != 0 || !S_ISDIR(info.st_mode))
+        return cz_fail(error, CZ_STATUS_OUTPUT, "%.200s cannot be written: %.200s is no folder",
+                       path, parent);
+    int why = cz_temporary_name(parent, trial);
+    if (why == 0 && mkdir(trial, 0777) == 0) {
+        (void)rmdir(trial);
+        return CZ_OK;
+    }
+    why = why != 0 ? why : errno;
+    return cz_fail(error, CZ_STATUS_OUTPUT, "%.200s cannot be written: the folder %.200s: %s", path,
+                   parent, strerror(why));
+}
+
+CzStatus cz_folder_check(const char *path, bool replaces_search, CzError *error) {
+    char clean[PATH_MAX];
+    CZ_TRY(clean_path(path, clean, error));
+    CZ_TRY(check_target(clean, replaces_search, error));
     return check_parents(clean, error);
 }
+
+/* ---- writing ---- */
 
 /* Makes the folders above a path. */
 static void make_parents(const char *path) {
     char parent[PATH_MAX];
-    parent_of(path, parent);
+    cz_parent_of(path, parent);
     for (char *slash = strchr(parent + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
         (void)mkdir(parent, 0777); /* what is missing shows when the folder itself is made */
@@ -188,103 +216,126 @@ static void make_parents(const char *path) {
     (void)mkdir(parent, 0777);
 }
 
-static CzStatus cannot_write(const char *path, CzError *error) {
-    return cz_fail(error, CZ_STATUS_OUTPUT, "%.300s cannot be written: %s", path, strerror(errno));
-}
-
-CzStatus cz_folder_begin(CzFolder *folder, const char *path, CzError *error) {
+CzStatus cz_folder_begin(CzFolder *folder, const char *path, bool replaces_search, CzError *error) {
+    char parent[PATH_MAX];
     memset(folder, 0, sizeof *folder);
-    CZ_TRY(cz_folder_check(path, error));
+    folder->replaces_search = replaces_search;
+    CZ_TRY(cz_folder_check(path, replaces_search, error));
     CZ_TRY(clean_path(path, folder->target, error));
     make_parents(folder->target);
-    snprintf(folder->temporary, PATH_MAX, "%.*s.partial-%ld", PATH_MAX - 64, folder->target,
-             (long)getpid());
-    if (mkdir(folder->temporary, 0777) != 0) {
-        const CzStatus status = cannot_write(folder->temporary, error);
+    cz_parent_of(folder->target, parent);
+    int why = cz_temporary_folder(parent, folder->temporary, &folder->marker);
+    if (why != 0) {
         folder->temporary[0] = '\0';
-        return status;
+        return cz_cannot_write(folder->target, why, error);
     }
-    char marker[PATH_MAX];
-    folder->marker = join(marker, folder->temporary, marker_name) ? fopen(marker, "wb") : NULL;
-    if (folder->marker == NULL || fputs(marker_head, folder->marker) == EOF) {
-        const CzStatus status = cannot_write(folder->temporary, error);
-        cz_folder_abandon(folder);
-        return status;
-    }
-    return CZ_OK;
+    if (fputs(CZ_MARKER_HEAD, folder->marker) != EOF && fflush(folder->marker) == 0)
+        return CZ_OK;
+    why = errno;
+    cz_folder_abandon(folder);
+    return cz_cannot_write(folder->target, why, error);
 }
 
+/* A file is listed before it is made: what is not listed would not be removed. */
 CzStatus cz_folder_open(CzFolder *folder, const char *name, FILE **stream, CzError *error) {
     char path[PATH_MAX];
     snprintf(folder->file_name, PATH_MAX, "%s", name);
-    if (!join(path, folder->temporary, name)) {
-        errno = ENAMETOOLONG;
-        return cannot_write(name, error);
-    }
+    CZ_TRY(cz_path_in(path, folder->temporary, name, error));
     char *slash = strrchr(name, '/') != NULL ? strrchr(path, '/') : NULL;
     if (slash != NULL) {
         *slash = '\0';
         (void)mkdir(path, 0777);
         *slash = '/';
     }
-    folder->file = fopen(path, "wbx");
-    if (folder->file == NULL || fprintf(folder->marker, "%s\n", name) < 0 ||
-        fflush(folder->marker) != 0) {
-        const CzStatus status = cannot_write(name, error);
-        (void)unlink(path); /* the marker may not list it */
-        return status;
+    if (fprintf(folder->marker, "%s\n", name) < 0 || fflush(folder->marker) != 0)
+        return cz_cannot_write(name, errno, error);
+    const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        return cz_cannot_write(name, errno, error);
+    folder->file = fdopen(descriptor, "wb");
+    if (folder->file == NULL) {
+        close(descriptor);
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory to write %.300s", name);
     }
     *stream = folder->file;
     return CZ_OK;
 }
 
-CzStatus cz_folder_close(CzFolder *folder, CzError *error) {
+/* What failed first may be long past; the same reason holds for a byte more. */
+int cz_stream_close(FILE *stream) {
+    int why = 0;
     errno = 0;
-    const bool flushed = fflush(folder->file) == 0 && !ferror(folder->file);
-    const int flush_errno = errno;
-    const bool closed = fclose(folder->file) == 0;
+    const bool has_failed = ferror(stream) != 0;
+    if (fflush(stream) != 0)
+        why = errno;
+    if (has_failed && why == 0) {
+        const long n = write(fileno(stream), "\n", 1);
+        why = n < 0 ? errno : EIO;
+    }
+    if (fclose(stream) != 0 && why == 0)
+        why = errno != 0 ? errno : EIO;
+    return why;
+}
+
+CzStatus cz_folder_close(CzFolder *folder, CzError *error) {
+    const int why = cz_stream_close(folder->file);
     folder->file = NULL;
-    if (flushed && closed)
+    return why == 0 ? CZ_OK : cz_cannot_write(folder->file_name, why, error);
+}
+
+/* Puts what is there out of the way; `old` is empty when nothing was. */
+static CzStatus move_away(CzFolder *folder, char old[PATH_MAX], CzError *error) {
+    char parent[PATH_MAX];
+    struct stat info;
+    old[0] = '\0';
+    CZ_TRY(check_target(folder->target, folder->replaces_search, error)); /* it may have changed */
+    if (lstat(folder->target, &info) != 0)
         return CZ_OK;
-    if (!flushed)
-        errno = flush_errno != 0 ? flush_errno : EIO;
-    return cannot_write(folder->file_name, error);
+    cz_parent_of(folder->target, parent);
+    int why = cz_temporary_name(parent, old);
+    if (why == 0 && rename(folder->target, old) == 0)
+        return CZ_OK;
+    why = why != 0 ? why : errno;
+    old[0] = '\0';
+    return why == ENOENT ? CZ_OK : cz_cannot_write(folder->target, why, error);
 }
 
 CzStatus cz_folder_finish(CzFolder *folder, CzError *error) {
-    char old[PATH_MAX];
-    const bool flushed = fclose(folder->marker) == 0;
-    folder->marker = NULL;
-    snprintf(old, sizeof old, "%.*s.old-%ld", PATH_MAX - 64, folder->target, (long)getpid());
-    const bool was_there = flushed && rename(folder->target, old) == 0;
-    if (!flushed || rename(folder->temporary, folder->target) != 0) {
-        const CzStatus status = cannot_write(folder->target, error);
-        if (was_there)
+    enum { MOST_TRIES = 20 };
+    char old[PATH_MAX] = "";
+    CzStatus status = CZ_OK;
+    if (fputs(CZ_MARKER_WHOLE, folder->marker) == EOF || fflush(folder->marker) != 0)
+        status = cz_cannot_write(folder->target, errno, error);
+    int why = status == CZ_OK ? EEXIST : 0;
+    for (int attempt = 0; attempt < MOST_TRIES && (why == EEXIST || why == ENOTEMPTY); attempt++) {
+        if (old[0] != '\0') /* another process has put its results there meanwhile */
+            cz_remove_listed(old);
+        status = move_away(folder, old, error);
+        why = status == CZ_OK && rename(folder->temporary, folder->target) != 0 ? errno : 0;
+    }
+    if (why != 0)
+        status = cz_cannot_write(folder->target, why, error);
+    if (status != CZ_OK) {
+        if (old[0] != '\0')
             (void)rename(old, folder->target);
         cz_folder_abandon(folder);
         return status;
     }
     folder->temporary[0] = '\0';
-    char *marker = was_there ? read_marker(old) : NULL;
-    if (marker != NULL)
-        remove_listed(old, marker);
-    else if (was_there)
-        (void)rmdir(old); /* it was empty */
-    free(marker);
+    (void)fclose(folder->marker); /* it was flushed; this lets its lock go */
+    folder->marker = NULL;
+    if (old[0] != '\0')
+        cz_remove_listed(old);
     return CZ_OK;
 }
 
 void cz_folder_abandon(CzFolder *folder) {
     if (folder->file != NULL)
         fclose(folder->file);
+    if (folder->temporary[0] != '\0')
+        cz_remove_listed(folder->temporary);
     if (folder->marker != NULL)
         fclose(folder->marker);
     folder->file = folder->marker = NULL;
-    if (folder->temporary[0] == '\0')
-        return;
-    char *marker = read_marker(folder->temporary);
-    char nothing[] = "";
-    remove_listed(folder->temporary, marker != NULL ? marker : nothing);
-    free(marker);
     folder->temporary[0] = '\0';
 }

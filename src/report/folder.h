@@ -2,12 +2,14 @@
  *
  * Files are written into a folder of a temporary name beside the final one, which is renamed at the
  * end. A folder that is there already is replaced only when we wrote it: it holds a marker that
- * lists its files, and nothing that the marker does not list.
+ * lists its files, and nothing that the marker does not list. The result of a search is replaced
+ * only by another search, or when that is asked for.
  */
 #ifndef CZ_REPORT_FOLDER_H
 #define CZ_REPORT_FOLDER_H
 
 #include <limits.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "crushzone/status.h"
@@ -15,17 +17,24 @@
 typedef struct CzFolder {
     char target[PATH_MAX];    /* final path */
     char temporary[PATH_MAX]; /* path while it is being written; empty when there is none */
-    FILE *marker;             /* list of files, open while writing */
+    FILE *marker;             /* list of files, open and locked while writing */
     FILE *file;               /* file being written, NULL between files */
     char file_name[PATH_MAX];
+    bool replaces_search;
 } CzFolder;
 
-/* Whether a folder could be written there. Status: CZ_STATUS_OUTPUT. */
-CZ_MUST_CHECK CzStatus cz_folder_check(const char *path, CzError *error);
+/* Whether a folder could be written there: tried, as far as it can be without writing it. Status:
+ * CZ_STATUS_OUTPUT. */
+CZ_MUST_CHECK CzStatus cz_folder_check(const char *path, bool replaces_search, CzError *error);
+
+/* Whether a file lies in a folder, or in one inside it, links followed. */
+bool cz_folder_holds(const char *folder, const char *file);
 
 /* Starts a folder; the folders above it are made when they are not there. After a success the
- * caller ends with cz_folder_finish or cz_folder_abandon. Status: CZ_STATUS_OUTPUT. */
-CZ_MUST_CHECK CzStatus cz_folder_begin(CzFolder *folder, const char *path, CzError *error);
+ * caller ends with cz_folder_finish or cz_folder_abandon. Statuses: CZ_STATUS_OUTPUT,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_folder_begin(CzFolder *folder, const char *path, bool replaces_search,
+                                       CzError *error);
 
 /* Opens the next file, such as "summary.json" or "25kmh/channels.csv". The stream belongs to the
  * folder. */
@@ -40,5 +49,8 @@ CZ_MUST_CHECK CzStatus cz_folder_finish(CzFolder *folder, CzError *error);
 
 /* Removes what was written. */
 void cz_folder_abandon(CzFolder *folder);
+
+/* Closes a stream; 0, or the errno of what could not be written. */
+int cz_stream_close(FILE *stream);
 
 #endif

@@ -1,6 +1,7 @@
 /* The files of a result folder: summary and checks on top, histories per scenario. */
 #include "crushzone/report.h"
 
+#include "base/error.h"
 #include "problem/node.h"
 #include "problem/problem.h"
 #include "report/csv.h"
@@ -227,7 +228,8 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
 
 static CzStatus write_folder(Results *results, CzError *error) {
     CzFolder folder;
-    CzStatus status = cz_folder_begin(&folder, results->folder, error);
+    CzStatus status =
+        cz_folder_begin(&folder, results->folder, results->options->replaces_search, error);
     if (status != CZ_OK)
         return status;
     status = write_all(&folder, results, error);
@@ -237,8 +239,17 @@ static CzStatus write_folder(Results *results, CzError *error) {
     return status;
 }
 
-CzStatus cz_report_check_folder(const char *folder, CzError *error) {
-    return cz_folder_check(folder, error);
+CzStatus cz_report_check_folder(const CzProblem *problem, const char *folder,
+                                const CzReportOptions *options, CzError *error) {
+    CZ_TRY(cz_folder_check(folder, options != NULL && options->replaces_search, error));
+    const CzSource *source = problem != NULL ? cz_problem_first_source(problem) : NULL;
+    for (; source != NULL; source = source->next)
+        if (cz_folder_holds(folder, source->name))
+            return cz_fail(error, CZ_STATUS_OUTPUT,
+                           "the result folder %.150s holds %.150s, which this problem is read from "
+                           "and which would be replaced with it; choose another folder with -o",
+                           folder, source->name);
+    return CZ_OK;
 }
 
 CzStatus cz_report_write_folder(const CzProblem *problem, const CzEvaluation *evaluation,
@@ -257,12 +268,13 @@ CzStatus cz_report_write_folder(const CzProblem *problem, const CzEvaluation *ev
 CzStatus cz_report_write_outcome_folder(const CzProblem *problem, const CzEvaluator *evaluator,
                                         const CzOutcome *outcome, const CzReportOptions *options,
                                         const char *folder, CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
+    CzReportOptions own = options != NULL ? *options : cz_report_options_default();
+    own.replaces_search = true; /* a search replaces a search */
     Results results = {.problem = problem,
                        .evaluator = evaluator,
                        .outcome = outcome,
                        .evaluation = &outcome->best_evaluation,
-                       .options = options != NULL ? options : &absent,
+                       .options = &own,
                        .folder = folder};
     CzProblem *best = NULL;
     CzError mistake = {0}; /* such as a file that has changed meanwhile: then there is no report */

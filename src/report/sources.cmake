@@ -41,9 +41,11 @@ set(CZ_SOURCES_report
     sha256.c
     shares.c
     sheet.c
+    single_file.c
     summary.c
     sweep.c
     table.c
+    temporary.c
     thin.c
     verification.c
 )

@@ -246,10 +246,11 @@ CzStatus cz_report_write_sweep_folder(const CzSweep *sweep, const CzReportOption
                                       const char *path, CzError *error) {
     const CzReportOptions absent = cz_report_options_default();
     CzFolder folder;
-    CzStatus status = cz_folder_begin(&folder, path, error);
+    options = options != NULL ? options : &absent;
+    CzStatus status = cz_folder_begin(&folder, path, options->replaces_search, error);
     if (status != CZ_OK)
         return status;
-    status = write_files(&folder, sweep, options != NULL ? options : &absent, error);
+    status = write_files(&folder, sweep, options, error);
     if (status == CZ_OK)
         return cz_folder_finish(&folder, error);
     cz_folder_abandon(&folder);

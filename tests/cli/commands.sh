@@ -82,7 +82,7 @@ check "check of a problem without checks is no pass" unjudged
 incomplete() { exits 3 "$C" run two-trains.yaml --set simulation.longest_ms=50 && says out.txt 'INCOMPLETE: not over within simulation.longest_s = 0.05' && says err.txt "scenario 'collision' was not over after 0.05" && says err.txt 'such as --set simulation.longest_s=0.1'; }
 check "a run that did not come to its end ends with 3" incomplete
 check "an incomplete check ends with 3" exits 3 "$C" check two-trains.yaml --set simulation.longest_ms=50
-several() { exits 1 "$C" check two-trains.yaml two-trains.yaml -o many && [ -f many/two-trains/summary.json ]; }
+several() { cp two-trains.yaml other.yaml && exits 1 "$C" check two-trains.yaml other.yaml -o many && [ -f many/two-trains/summary.json ] && [ -f many/other/summary.json ]; }
 check "check takes several files, each with a folder of its own" several
 finer() { exits 0 "$C" run two-trains.yaml --json --time-step-ms 0.05 && json out.txt scenarios.0.time_step_s 5e-5; }
 check "--time-step-ms sets the time step" finer

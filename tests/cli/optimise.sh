@@ -5,14 +5,14 @@
 
 found() { exits 0 "$C" optimise two-trains.yaml && says out.txt FEASIBLE && says out.txt 'Verdict: pass' && says out.txt 'set:'; }
 check "a design that passes is found" found
-check "outcome.json is feasible" json out/outcome.json status feasible
-verified() { json out/outcome.json verification.verdict pass && json out/outcome.json verification.half_step_change && says out.txt 'Computed again: half the step changes'; }
+check "outcome.json is feasible" json out-optimised/outcome.json status feasible
+verified() { json out-optimised/outcome.json verification.verdict pass && json out-optimised/outcome.json verification.half_step_change && says out.txt 'Computed again: half the step changes'; }
 check "the optimum is verified by half the step and by another solver" verified
-files() { for file in summary.json checks.csv outcome.json optimised.yaml history.csv resolved.yaml run.log; do [ -s out/$file ] || return 1; done; }
+files() { for file in summary.json checks.csv outcome.json optimised.yaml history.csv resolved.yaml run.log; do [ -s out-optimised/$file ] || return 1; done; }
 check "the result folder holds the outcome, the optimum and the history" files
 replayed() { # the last feasible design of the history gives its objective again
-    row=$(tr -d '\r' <out/history.csv | awk -F, '$5 == "yes"' | tail -1) && set -- && i=6
-    for path in $(head -1 out/history.csv | tr -d '\r' | cut -d, -f6- | tr ',' ' '); do
+    row=$(tr -d '\r' <out-optimised/history.csv | awk -F, '$5 == "yes"' | tail -1) && set -- && i=6
+    for path in $(head -1 out-optimised/history.csv | tr -d '\r' | cut -d, -f6- | tr ',' ' '); do
         set -- "$@" --set "$path=$(echo "$row" | cut -d, -f$i)"
         i=$((i + 1))
     done
@@ -21,11 +21,11 @@ replayed() { # the last feasible design of the history gives its objective again
         awk -v told="$(echo "$row" | cut -d, -f3)" '{ exit !($1 + told < 1e-4 && $1 + told > -1e-4) }'
 }
 check "a design of the history gives its objective again" replayed
-check "the optimum passes its check" exits 0 "$C" check out/optimised.yaml -o checked
+check "the optimum passes its check" exits 0 "$C" check out-optimised/optimised.yaml -o checked
 strip() { tr -d '\n' <"$1" | sed 's/"run_info": *{[^}]*}//g; s/"problem": *{[^}]*}//; s/"warnings": *\[[^]]*\]//'; }
-same() { strip out/summary.json >a; strip checked/summary.json >b; cmp a b; }
+same() { strip out-optimised/summary.json >a; strip checked/summary.json >b; cmp a b; }
 check "the optimum gives the same numbers to the last bit" same
-resolved() { exits 0 "$C" check out/resolved.yaml -o alone && strip alone/summary.json >c && cmp a c; }
+resolved() { exits 0 "$C" check out-optimised/resolved.yaml -o alone && strip alone/summary.json >c && cmp a c; }
 check "so does the resolved problem beside it" resolved
 # A longer anti-climber makes a longer car: the overlay says which stroke the car is drawn for.
 cat >longer.yaml <<END

@@ -123,7 +123,7 @@ static void an_empty_folder_is_taken(void **state) {
 
 static void refuses(const StandIn *s, const char *folder, const char *sentence) {
     CzError error = {0};
-    assert_int_equal(cz_report_check_folder(folder, &error), CZ_STATUS_OUTPUT);
+    assert_int_equal(cz_report_check_folder(NULL, folder, NULL, &error), CZ_STATUS_OUTPUT);
     assert_int_equal(write_run(s, folder, &error), CZ_STATUS_OUTPUT);
     if (strstr(error.message, sentence) == NULL)
         print_error("%s\n", error.message);
@@ -149,7 +149,7 @@ static void whatever_we_did_not_write_is_left_alone(void **state) {
     refuses(&s, "file", "is no folder");
     refuses(&s, "file/out", "is no folder");
     assert_int_equal(symlink("thesis", "link"), 0);
-    refuses(&s, "link", "is no folder");
+    refuses(&s, "link", "is a link");
     refuses(&s, "", "empty");
     assert_int_equal(n_entries(), 4);
 }

@@ -1,0 +1,276 @@
+/* Temporary files and folders: names, locks, and what dead makers left. */
+#include "report/temporary.h"
+
+#include "base/error.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+static const char prefix[] = ".crushzone-";
+enum { N_SIGN = 16, MOST_TRIES = 100, MOST_MARKER = 1 << 26 /* [byte] */ };
+
+void cz_parent_of(const char *path, char parent[PATH_MAX]) {
+    snprintf(parent, PATH_MAX, "%s", path);
+    char *slash = strrchr(parent, '/');
+    if (slash == NULL)
+        snprintf(parent, PATH_MAX, ".");
+    else
+        slash[slash == parent ? 1 : 0] = '\0';
+}
+
+CzStatus cz_path_in(char path[PATH_MAX], const char *folder, const char *name, CzError *error) {
+    const int n = strcmp(folder, ".") == 0 ? snprintf(path, PATH_MAX, "%s", name)
+                                           : snprintf(path, PATH_MAX, "%s/%s", folder, name);
+    return n > 0 && n < PATH_MAX ? CZ_OK : cz_cannot_write(name, ENAMETOOLONG, error);
+}
+
+CzStatus cz_cannot_write(const char *path, int why, CzError *error) {
+    if (why == ENOMEM)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory to write %.300s", path);
+    return cz_fail(error, CZ_STATUS_OUTPUT, "%.300s cannot be written: %s", path, strerror(why));
+}
+
+/* ---- names ---- */
+
+/* Sixteen signs that another process, or this one a moment later, does not choose. */
+static void choose_name(char name[sizeof prefix + N_SIGN], int attempt) {
+    struct timespec now = {0, 0};
+    (void)clock_gettime(CLOCK_REALTIME, &now);
+    uint64_t bits = (uint64_t)now.tv_sec * UINT64_C(1000000000) + (uint64_t)now.tv_nsec;
+    bits ^= (uint64_t)getpid() << 40 ^ (uint64_t)(uintptr_t)name << 20 ^ (uint64_t)attempt;
+    bits = (bits ^ bits >> 31) * UINT64_C(0x9e3779b97f4a7c15);
+    bits = (bits ^ bits >> 29) * UINT64_C(0xbf58476d1ce4e5b9);
+    snprintf(name, sizeof prefix + N_SIGN, "%s%016llx", prefix, (unsigned long long)bits);
+}
+
+bool cz_is_temporary(const char *name) {
+    const size_t n = sizeof prefix - 1;
+    return strncmp(name, prefix, n) == 0 && strlen(name) == n + N_SIGN &&
+           strspn(name + n, "0123456789abcdef") == N_SIGN;
+}
+
+int cz_temporary_name(const char *folder, char path[PATH_MAX]) {
+    struct stat info;
+    char name[sizeof prefix + N_SIGN];
+    for (int attempt = 0; attempt < MOST_TRIES; attempt++) {
+        choose_name(name, attempt);
+        if (cz_path_in(path, folder, name, NULL) != CZ_OK)
+            return ENAMETOOLONG;
+        if (lstat(path, &info) != 0)
+            return errno == ENOENT ? 0 : errno;
+    }
+    return EEXIST;
+}
+
+/* ---- markers ---- */
+
+char *cz_marker_read(const char *folder) {
+    char path[PATH_MAX];
+    char *text = NULL;
+    int descriptor = -1;
+    size_t n = 0;
+    if (cz_path_in(path, folder, CZ_MARKER_NAME, NULL) == CZ_OK)
+        descriptor = open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    struct stat info;
+    if (descriptor >= 0 && fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode) &&
+        info.st_size < MOST_MARKER)
+        text = malloc((size_t)info.st_size + 1);
+    while (text != NULL && n < (size_t)info.st_size) {
+        const ssize_t n_read = read(descriptor, text + n, (size_t)info.st_size - n);
+        if (n_read <= 0)
+            break;
+        n += (size_t)n_read;
+    }
+    if (descriptor >= 0)
+        close(descriptor);
+    const size_t n_head = sizeof CZ_MARKER_HEAD - 1;
+    if (n < n_head || memcmp(text, CZ_MARKER_HEAD, n_head) != 0) {
+        free(text);
+        return NULL;
+    }
+    text[n] = '\0';
+    memmove(text, text + n_head, n - n_head + 1);
+    return text;
+}
+
+/* Whether a line of a marker is a path inside the folder. */
+static bool is_inside(const char *line, size_t n) {
+    for (const char *c = line; c < line + n; c++) {
+        const bool begins = c == line || c[-1] == '/';
+        if (begins && c[0] == '.' && c[1] == '.' && (c + 2 == line + n || c[2] == '/'))
+            return false;
+    }
+    return n > 0 && line[0] != '/' && line[0] != '#';
+}
+
+/* What is about to be removed is whole no more: if this is cut short, the rest is cleared later. */
+static void give_up(const char *folder) {
+    static const char line[] = "# given up\n";
+    char path[PATH_MAX];
+    if (cz_path_in(path, folder, CZ_MARKER_NAME, NULL) != CZ_OK)
+        return;
+    const int descriptor = open(path, O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0)
+        return;
+    (void)!write(descriptor, line, sizeof line - 1);
+    close(descriptor);
+}
+
+/* Removes temporary files in a folder that goes. */
+static void remove_temporary(const char *folder) {
+    DIR *entries = opendir(folder);
+    struct dirent *entry;
+    char path[PATH_MAX];
+    while (entries != NULL && (entry = readdir(entries)) != NULL)
+        if (cz_is_temporary(entry->d_name) &&
+            cz_path_in(path, folder, entry->d_name, NULL) == CZ_OK)
+            (void)unlink(path);
+    if (entries != NULL)
+        closedir(entries);
+}
+
+void cz_remove_listed(const char *folder) {
+    char path[PATH_MAX];
+    give_up(folder);
+    remove_temporary(folder);
+    char *marker = cz_marker_read(folder);
+    for (int pass = 0; pass < 2 && marker != NULL; pass++) /* files, then the folders around them */
+        for (char *line = marker; *line != '\0';) {
+            const size_t n = strcspn(line, "\n"), n_folder = strcspn(line, "/\n");
+            const int shown = (int)(pass == 0 ? n : n_folder);
+            if (is_inside(line, n) && (pass == 0 || n_folder < n) &&
+                snprintf(path, sizeof path, "%s/%.*s", folder, shown, line) < PATH_MAX)
+                (void)(pass == 0 ? unlink(path) : rmdir(path));
+            line += n + (line[n] == '\n');
+        }
+    free(marker);
+    if (cz_path_in(path, folder, CZ_MARKER_NAME, NULL) == CZ_OK)
+        (void)unlink(path);
+    (void)rmdir(folder);
+}
+
+/* ---- leftovers ---- */
+
+/* Whether a file under a path is still the one that is open. */
+static bool is_still(const char *path, int descriptor) {
+    struct stat named, opened;
+    return lstat(path, &named) == 0 && fstat(descriptor, &opened) == 0 &&
+           named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
+}
+
+/* Opens a file and takes its lock; -1 when somebody else has it. */
+static int take(const char *path) {
+    const int descriptor = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_still(path, descriptor))
+        return descriptor;
+    if (descriptor >= 0)
+        close(descriptor);
+    return -1;
+}
+
+static void clear_file(const char *path) {
+    const int descriptor = take(path);
+    if (descriptor < 0)
+        return;
+    (void)unlink(path);
+    close(descriptor);
+}
+
+/* A folder that is whole stays: it holds results that somebody was about to put in their place. */
+static void clear_folder(const char *path) {
+    char marker_path[PATH_MAX];
+    if (cz_path_in(marker_path, path, CZ_MARKER_NAME, NULL) != CZ_OK)
+        return;
+    const int descriptor = take(marker_path);
+    if (descriptor < 0) {
+        (void)rmdir(path); /* its maker died before it made the marker, or tries again */
+        return;
+    }
+    char *marker = cz_marker_read(path);
+    const size_t n = marker != NULL ? strlen(marker) : 0, n_end = sizeof CZ_MARKER_WHOLE - 1;
+    if (n < n_end || strcmp(marker + n - n_end, CZ_MARKER_WHOLE) != 0)
+        cz_remove_listed(path);
+    free(marker);
+    close(descriptor);
+}
+
+/* Clears what makers that died have left in a folder. */
+static void clear_leftovers(const char *folder) {
+    DIR *entries = opendir(folder);
+    struct dirent *entry;
+    while (entries != NULL && (entry = readdir(entries)) != NULL) {
+        char path[PATH_MAX];
+        struct stat info;
+        if (!cz_is_temporary(entry->d_name) ||
+            cz_path_in(path, folder, entry->d_name, NULL) != CZ_OK || lstat(path, &info) != 0 ||
+            info.st_uid != geteuid())
+            continue;
+        if (S_ISREG(info.st_mode))
+            clear_file(path);
+        else if (S_ISDIR(info.st_mode))
+            clear_folder(path);
+    }
+    if (entries != NULL)
+        closedir(entries);
+}
+
+/* ---- making them ---- */
+
+/* Makes a file that is not there, locked. Where the system knows no locks nothing is ever cleared.
+ * EAGAIN: somebody cleared it before it was locked. */
+static int make_locked(const char *path, FILE **stream) {
+    const int descriptor = open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        return errno;
+    const bool is_taken = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    int why = is_taken || !is_still(path, descriptor) ? EAGAIN : 0;
+    *stream = why == 0 ? fdopen(descriptor, "wb") : NULL;
+    if (*stream != NULL)
+        return 0;
+    why = why != 0 ? why : ENOMEM;
+    if (why == ENOMEM)
+        (void)unlink(path);
+    close(descriptor);
+    return why;
+}
+
+int cz_temporary_file(const char *folder, char path[PATH_MAX], FILE **stream) {
+    int why = EAGAIN;
+    clear_leftovers(folder);
+    for (int attempt = 0; attempt < MOST_TRIES && (why == EAGAIN || why == EEXIST); attempt++) {
+        why = cz_temporary_name(folder, path);
+        if (why == 0)
+            why = make_locked(path, stream);
+    }
+    return why;
+}
+
+int cz_temporary_folder(const char *folder, char path[PATH_MAX], FILE **marker) {
+    char marker_path[PATH_MAX];
+    int why = EAGAIN;
+    clear_leftovers(folder);
+    for (int attempt = 0; attempt < MOST_TRIES; attempt++) {
+        why = cz_temporary_name(folder, path);
+        if (why != 0 || cz_path_in(marker_path, path, CZ_MARKER_NAME, NULL) != CZ_OK)
+            return why != 0 ? why : ENAMETOOLONG;
+        if (mkdir(path, 0777) != 0) {
+            why = errno;
+        } else {
+            why = make_locked(marker_path, marker);
+            if (why != 0)
+                (void)rmdir(path);
+        }
+        if (why != EAGAIN && why != EEXIST && (why != ENOENT || attempt > 2))
+            return why;
+    }
+    return why;
+}

@@ -1,0 +1,172 @@
+# Result folders and files: what is replaced and what never, several processes at once, and processes that were killed.
+. "$SOURCE/tests/support/cases.sh"
+. "$SOURCE/tests/cli/cli.sh"
+# A small problem whose search takes a moment.
+cat >small.yaml <<'EOF'
+schema: 1
+title: small
+parts:
+  end:
+    face_gap_mm: 900
+    stages: [{stroke_mm: 300, force_kN: 2500}]
+    unloading_stiffness_MN_m: 100
+    coupler: {length_m: 1, buffer: {stages: [{stroke_mm: 50, force_kN: 400}]}, tube: {stages: [{stroke_mm: 200, force_kN: 700}]}}
+  car: {model: rigid, mass_t: 40, length_m: 18, front: {use: end}, rear: {use: end}}
+trains:
+  - {name: A, speed_km_h: 15, vehicles: [{use: car}]}
+  - {name: B, vehicles: [{use: car}]}
+checks: {closing_rules: false, limits: [{name: force, metric: interfaces.peak_force_kN, max: 5000}]}
+optimise:
+  evaluations: 20
+  variables: [{path: "parts.end.coupler.tube.stages[0].force_kN", min: 500, max: 900}]
+EOF
+leftovers() { find . -name '.crushzone-*'; }
+
+# ---- what holds a search ----
+default() { exits 0 "$C" optimise small.yaml -q && [ -f out-optimised/outcome.json ] && [ ! -e out ]; }
+check "optimise writes to out-optimised" default
+kept() {
+    for command in run check "sweep --vary trains.A.speed_km_h=10:12:2"; do
+        # shellcheck disable=SC2086
+        exits 4 "$C" $command small.yaml -o out-optimised -q && says err.txt 'holds the result of a search' && says err.txt -- --force || return 1
+    done
+    [ -f out-optimised/optimised.yaml ]
+}
+check "the result of a search is replaced by no other command" kept
+again() { exits 0 "$C" optimise small.yaml -q && [ -f out-optimised/optimised.yaml ]; }
+check "it is replaced by another search" again
+forced() { exits 0 "$C" run small.yaml -o out-optimised -q --force && [ ! -e out-optimised/outcome.json ] && [ -f out-optimised/summary.json ]; }
+check "and by a run with --force" forced
+column() { exits 2 "$C" optimise small.yaml --force && says err.txt "takes no option '--force'" && printf 's,f\n0,0\n' >c.csv && ! "$C" fit c.csv --as end --basis static --force f >out.txt 2>err.txt && ! grep -q 'takes no value' err.txt; }
+check "--force of fit is its column" column
+
+# ---- inputs ----
+own() {
+    exits 0 "$C" run small.yaml -o out -q || return 1
+    exits 4 "$C" run out/resolved.yaml -q && says err.txt 'holds out/resolved.yaml, which this problem is read from' || return 1
+    mkdir -p deep && exits 0 "$C" optimise small.yaml -q -o search && echo 'extends: search/optimised.yaml' >over.yaml &&
+        exits 4 "$C" optimise over.yaml -o search -q && says err.txt 'search/optimised.yaml, which this problem is read from' && [ -f search/optimised.yaml ]
+}
+check "a folder that holds an input is refused, the file or one that it is built on" own
+input_file() {
+    cp small.yaml kept.yaml
+    exits 4 "$C" plot small.yaml --svg small.yaml && says err.txt 'is read and would be replaced' && exits 4 "$C" report out -o out/resolved.yaml -q &&
+        exits 4 "$C" show small.yaml --svg ./small.yaml && cmp small.yaml kept.yaml
+}
+check "a file that is an input is not written over" input_file
+two() {
+    mkdir -p a b && cp small.yaml a/x.yaml && cp small.yaml b/X.yaml && exits 4 "$C" run a/x.yaml b/X.yaml -o many -q && says err.txt 'would be written to one folder' && [ ! -e many ]
+}
+check "two inputs of one name are refused before anything is computed" two
+scenario() {
+    sed 's/^checks:/scenarios: [{name: Report.html}, {name: b}]\nchecks:/' small.yaml >bad.yaml && exits 2 "$C" run bad.yaml -q -o bad && says err.txt 'cannot be called' && [ ! -e bad ]
+}
+check "a scenario cannot be called like a file of a result folder" scenario
+
+# ---- what cannot be written is told before anything is computed ----
+slow="--set simulation.time_step_ms=0.0001 --set simulation.longest_s=50"
+early() { # early OUTPUT TEXT: refused at once, though the run would take minutes
+    # shellcheck disable=SC2086
+    exits 4 timeout 20 "$C" run small.yaml $slow -o "$1" -q && says err.txt "$2"
+}
+long=$(printf 'x%.0s' $(seq 300))
+early_ones() {
+    : >file && early . 'give it a name of its own' && early .. 'give it a name of its own' && early a/. 'give it a name of its own' && early / 'give it a name of its own' &&
+        early "$long" 'File name too long' && early "deep/$long/out" 'File name too long' && early file/out 'is no folder' && early file/a/out 'is no folder' && early file 'is no folder' &&
+        early "../$(basename "$PWD")" 'did not write it' && early '' empty
+}
+check "names that cannot be folders are told at once" early_ones
+inside() {
+    mkdir -p work && cd work && exits 0 "$C" run ../small.yaml -q && cd out || return 1
+    code=0
+    "$C" run ../../small.yaml -o ../out -q 2>../../err.txt || code=$?
+    cd ../.. && [ "$code" = 4 ] && says err.txt 'started in'
+}
+check "the folder that it was started in is not replaced" inside
+files() {
+    for output in "$long" "deep/none/a.html" file/a.html deep out/; do
+        exits 4 timeout 20 "$C" report out -q -o "$output" && says err.txt "cannot be written" || return 1
+    done
+    # shellcheck disable=SC2086
+    exits 4 timeout 20 "$C" plot small.yaml $slow --svg deep/none/a.svg
+}
+check "so are files" files
+if [ "$(id -u)" = 0 ] && mkdir -p disk && mount -t tmpfs -o size=64k tmpfs disk 2>/dev/null; then
+    mounted() { early disk 'a file system is mounted' && early disk/. 'give it a name'; }
+    check "a folder where a file system is mounted is told at once" mounted
+    full() { exits 4 "$C" run small.yaml -o disk/out -q && says err.txt 'No space left on device' && [ -z "$(ls -A disk)" ]; }
+    check "a full disk leaves nothing, and is told as that" full
+    full_file() { exits 4 "$C" report out -o disk/a.html -q && says err.txt 'disk/a.html cannot be written: No space left on device' && [ -z "$(ls -A disk)" ]; }
+    check "nor does it leave half a file" full_file
+    mount -o remount,ro disk
+    locked() { early disk/out 'Read-only file system' && exits 4 "$C" plot out --svg disk/a.svg && says err.txt 'Read-only file system'; }
+    check "a disk that cannot be written to is told at once" locked
+    umount disk
+else
+    skipped "a full, a locked and a mounted disk" "no file system can be mounted here"
+fi
+
+# ---- links ----
+links() {
+    echo precious >precious && ln -sf ../precious out/report.html.tmp && rm -f out/report.html.tmp && ln -sf precious link.html && exits 0 "$C" report out -o link.html -q &&
+        [ "$(cat precious)" = precious ] && [ ! -L link.html ] && says link.html '<html'
+}
+check "a link is replaced, not followed" links
+linked_folder() { mkdir -p elsewhere && ln -sfn elsewhere linked && exits 4 "$C" run small.yaml -o linked -q && says err.txt 'is a link' && [ -z "$(ls -A elsewhere)" ]; }
+check "a folder that is a link is refused" linked_folder
+device() { exits 0 "$C" plot out --svg /dev/null -q && [ -c /dev/null ] && "$C" plot out --svg /dev/stdout -q | grep -q '<svg' && [ -L /dev/stdout ]; }
+check "a device is written to, not replaced" device
+
+# ---- several at once, and killed ones ----
+at_once() { # the same folder from several processes, over and over
+    for round in 1 2 3 4 5; do
+        for process in 1 2 3 4; do "$C" run small.yaml -o shared -q >"o$process" 2>"e$process" & done
+        wait
+        cat e1 e2 e3 e4 >err.txt
+        [ ! -s err.txt ] && json shared/summary.json format crushzone.summary && says shared/report.html '</html>' && [ -z "$(leftovers)" ] || { echo "round $round"; cat err.txt; leftovers; return 1; }
+    done
+}
+check "several runs into one folder leave one whole result" at_once
+reports() {
+    for round in 1 2 3 4 5; do
+        "$C" report shared -q 2>e1 & first=$!
+        "$C" report shared -q 2>e2 & second=$!
+        wait $first && wait $second || { cat e1 e2; return 1; }
+        says shared/report.html '</html>' && [ -z "$(leftovers)" ] || return 1
+    done
+}
+check "so do several reports" reports
+killed() {
+    n_left=0
+    for delay in 0.002 0.004 0.006 0.008 0.01 0.012 0.015 0.02 0.025 0.03; do
+        "$C" run small.yaml -o dies -q >o1 2>e1 & victim=$!
+        sleep $delay
+        kill -9 $victim 2>/dev/null
+        wait $victim 2>/dev/null
+        [ -z "$(leftovers)" ] || n_left=$((n_left + 1))
+        [ ! -e dies ] || json dies/summary.json format || return 1
+    done
+    exits 0 "$C" run small.yaml -o dies -q && [ -z "$(leftovers)" ] || { leftovers; return 1; }
+    echo "$n_left left something"
+}
+check "a run that was killed leaves no half folder, and the next clears what it left" killed
+made_up() { # as a killed process would leave them: a file, a folder with half its files, one without a marker
+    mkdir -p left && cd left || return 1
+    echo half >.crushzone-0123456789abcdef && mkdir .crushzone-0123456789abcdee .crushzone-0123456789abcded .crushzone-mine .crushzone-0123456789abcdec &&
+        printf 'crushzone results\nsummary.json\n25/channels.csv\n' >.crushzone-0123456789abcdee/.crushzone && echo >.crushzone-0123456789abcdee/summary.json && mkdir .crushzone-0123456789abcdee/25 &&
+        echo mine >.crushzone-mine/file && echo mine >.crushzone-0123456789abcdec/file
+    exits 0 "$C" run ../small.yaml -q && [ "$(ls -A | tr '\n' ' ')" = ".crushzone-0123456789abcdec .crushzone-mine err.txt out out.txt " ] || { ls -A; cd ..; return 1; }
+    cd .. && rm -rf left
+}
+check "what dead processes left is cleared, and nothing else" made_up
+stopped() { # while a process holds its temporary folder, nobody clears it
+    # shellcheck disable=SC2086
+    "$C" optimise small.yaml --evaluations 100000 -o busy -q >o1 2>e1 & busy=$!
+    sleep 0.3
+    exits 0 "$C" run small.yaml -o other -q
+    kill -INT $busy
+    wait $busy
+    [ -f busy/outcome.json ] && [ -z "$(leftovers)" ]
+}
+check "processes side by side do not clear each other's work" stopped
+finish

@@ -42,7 +42,7 @@ static const CzSimulation *default_simulation(CzArena *arena) {
         .track = CZ_TRACK_MODAL,
         .time_step = NAN,
         .duration = NAN,
-        .longest = 6.0,
+        .longest = 20.0,
         .output_step = 1e-3,
         .adhesion = {.sliding_friction = NAN, .peak_creepage = 0.01, .fall_speed = 3.0}};
     return simulation;

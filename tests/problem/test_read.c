@@ -24,7 +24,7 @@ static void values_are_in_si_units_and_absent_ones_have_their_defaults(void **st
     assert_near(input->trains[1].vehicles[0].front.anti_climber.gap, 0.12, 1e-15, 0);
     assert_near(input->trains[1].vehicles[0].rear.anti_climber.gap, 0.1, 1e-15, 0);
     assert_false(input->simulation.given);
-    assert_near(input->simulation.longest, 6, 0, 0);
+    assert_near(input->simulation.longest, 20, 0, 0);
     cz_problem_free(problem);
 }
 

@@ -143,7 +143,7 @@ static void the_origin_of_every_value_stands_behind_it(void **state) {
         strstr(text, "speed_m_s: 5                             # --set:1, speed_km_h: 18\n"));
     assert_non_null(strstr(text, "rigid.yaml:12, gap_mm: 100, part bumper, part car\n"));
     assert_non_null(strstr(text, "stiffness_N_m: 200000000         # default (ours)\n"));
-    assert_non_null(strstr(text, "#   longest_s: 6                             # default\n"));
+    assert_non_null(strstr(text, "#   longest_s: 20                            # default\n"));
     cz_problem_free(problem);
     free(text);
 }

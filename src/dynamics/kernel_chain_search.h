@@ -78,9 +78,10 @@ static double plastic_force(const Search *s, int member, double stroke) {
     const int side = member % 2;
     if (s->holds)
         return S_AT(STRENGTH_0, member)[i] + way / S_AT(FLOW_0, member)[i];
-    const CzShearOffResponse response = cz_shear_off(
-        P_AT(SHEAR_FORCE_A, side)[i], cz_larger(P_AT(SHEAR_SOFTENING_A, side)[i], 1e-6),
-        P_AT(SHEAR_SPACE_A, side)[i], P_AT(SHEAR_BOTTOM_A, side)[i], stroke);
+    const CzShearOffLaw law = {P_AT(SHEAR_FORCE_A, side)[i], P_AT(SHEAR_RESIDUAL_A, side)[i],
+                               cz_larger(P_AT(SHEAR_SOFTENING_A, side)[i], 1e-6),
+                               P_AT(SHEAR_SPACE_A, side)[i], P_AT(SHEAR_BOTTOM_A, side)[i]};
+    const CzShearOffResponse response = cz_shear_off(&law, stroke);
     return response.strength + CZ_SMALLEST_RESISTANCE * way;
 }
 

@@ -47,6 +47,7 @@ static double linearise_shear_off(CzBlock *d, int side, double step, int again) 
                                                                   P_AT(SHEAR_SOFTENING_A, side);
     const double *restrict space = P_AT(SHEAR_SPACE_A, side), *restrict bottom =
                                                                   P_AT(SHEAR_BOTTOM_A, side);
+    const double *restrict residual = P_AT(SHEAR_RESIDUAL_A, side);
     double *trial = S(TRIAL_STROKE);
     if (again && trial_of_plastic(d, &coupler_chain, member, trial) == 0.0)
         return 0.0;
@@ -54,8 +55,9 @@ static double linearise_shear_off(CzBlock *d, int side, double step, int again) 
     double *restrict strength = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
     double *restrict damage = again ? S(UNUSED) : S(DAMAGE);
     CZ_LANES (i, n) {
-        const CzShearOffResponse response =
-            cz_shear_off(force[i], cz_larger(softening[i], 1e-6), space[i], bottom[i], travel[i]);
+        const CzShearOffLaw law = {force[i], residual[i], cz_larger(softening[i], 1e-6), space[i],
+                                   bottom[i]};
+        const CzShearOffResponse response = cz_shear_off(&law, travel[i]);
         strength[i] = response.strength;
         slope[i] = response.slope;
         damage[i] = cz_larger(damage[i], response.damage);
@@ -144,10 +146,14 @@ static void release_impulse(CzBlock *d, double step) {
     const double *restrict last = M(COUPLER_FORCE), *restrict force = S(CHAIN_FORCE);
     const double *restrict rate = S(RATE), *restrict compliance = P(COUPLER_COMPLIANCE);
     const double *restrict down_a = S(SPRING_DOWN_A), *restrict down_b = S(SPRING_DOWN_B);
+    const double *restrict kept_a = P(SHEAR_RESIDUAL_A), *restrict kept_b = P(SHEAR_RESIDUAL_B);
     double *restrict more = S(RELEASE_MORE);
     CZ_LANES (i, n) {
         const double rest = beyond[i] / cz_larger(cz_larger(rate[i] * step, beyond[i]), 1e-30);
-        const double back = (compliance[i] + down_a[i] + down_b[i]) * released[i];
+        const double of_a = softening_a[i] > 0.0 ? kept_a[i] : 0.0;
+        const double of_b = softening_b[i] > 0.0 ? kept_b[i] : 0.0;
+        const double dropped = cz_positive_part(released[i] - cz_larger(of_a, of_b));
+        const double back = (compliance[i] + down_a[i] + down_b[i]) * dropped;
         const double length = softening_a[i] + softening_b[i] - back;
         const double falls = cz_clamp(length / cz_larger(beyond[i], 1e-30), 0.0, 1.0);
         const double end = cz_smaller(cz_smaller(left_a[i], left_b[i]), released[i]);

@@ -219,6 +219,7 @@ static void fill_coupler_pivot(const Pair *pair, int which, double height) {
 
 static void fill_shear_off(const Pair *pair, int which, const CzShearOff *shear_off) {
     put(pair, CZ_OF_SIDE(CZ_P_SHEAR_FORCE, which), shear_off->force);
+    put(pair, CZ_OF_SIDE(CZ_P_SHEAR_RESIDUAL, which), shear_off->residual_force);
     put(pair, CZ_OF_SIDE(CZ_P_SHEAR_SOFTENING, which), shear_off->softening_length);
     put(pair, CZ_OF_SIDE(CZ_P_SHEAR_SPACE, which),
         shear_off->softening_length + shear_off->retraction_space);

@@ -252,11 +252,21 @@ static void check_gaps(const CzRules *rules, const CzEnd *end) {
             CZ_MM(other, coupler->gap + travel), CZ_MM(gap, device->gap));
 }
 
+/* What a sheared coupler keeps is less than what sheared it. */
+static void check_shear_off(const CzRules *rules, const CzShearOff *device) {
+    char kept[48], force[48];
+    if (device->given && device->residual_force >= device->force)
+        cz_rule_broken(rules, &device->residual_force,
+                       "a residual force of %s is no less than the shear-off force of %s",
+                       CZ_KN(kept, device->residual_force), CZ_KN(force, device->force));
+}
+
 void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end) {
     char distance[48], half[48];
     if (!end->given)
         return;
     check_structure(rules, vehicle, end);
+    check_shear_off(rules, &end->coupler.shear_off);
     check_coupler(rules, vehicle, &end->coupler);
     check_anti_climber(rules, &end->anti_climber);
     if (end->side_buffers.given) {

@@ -25,7 +25,8 @@ typedef struct Path {
     Member member[MOST_MEMBERS];
     double starts_at; /* closure at which it touches [m] */
     double shear_off; /* force that lets it go [N] */
-    double softening; /* closure over which it lets go [m] */
+    double residual;  /* force that it keeps then [N] */
+    double softening; /* closure over which it falls to that [m] */
     double let_go;    /* closure at which it began to; NaN before */
 } Path;
 
@@ -46,7 +47,7 @@ static double advance(Path *path, double closure, double step) {
         return 0.0;
     if (!isnan(path->let_go)) {
         const double left = 1.0 - (closure - path->let_go) / path->softening;
-        return left > 0.0 ? left * path->shear_off : 0.0;
+        return path->residual + fmax(left, 0.0) * (path->shear_off - path->residual);
     }
     Member *weakest = &path->member[0];
     for (int i = 1; i < path->n_member; i++)
@@ -77,8 +78,10 @@ static Path coupler_path(const CzLanes *lanes, int interface) {
             add(&path, side == 0 ? CZ_CURVE_END_FRONT : CZ_CURVE_END_REAR, (size_t)car);
         const double force = cz_lane_value(lanes, interface, CZ_P_SHEAR_FORCE_A + side);
         const double softening = cz_lane_value(lanes, interface, CZ_P_SHEAR_SOFTENING_A + side);
-        if (force < path.shear_off || (force == path.shear_off && softening > path.softening))
+        if (force < path.shear_off || (force == path.shear_off && softening > path.softening)) {
             path.softening = softening; /* of the weaker one: a wall has none that counts */
+            path.residual = cz_lane_value(lanes, interface, CZ_P_SHEAR_RESIDUAL_A + side);
+        }
         path.shear_off = fmin(path.shear_off, force);
     }
     return path;

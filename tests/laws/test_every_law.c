@@ -54,7 +54,8 @@ static void cz_plastic_flow_at(const double *input, double *output) {
 
 /* Travel, softening length, space. */
 static void cz_shear_off_at(const double *input, double *output) {
-    const CzShearOffResponse response = cz_shear_off(9.11e5, input[1], input[2], 1e9, input[0]);
+    const CzShearOffResponse response =
+        cz_shear_off(&(CzShearOffLaw){9.11e5, 1.1e5, input[1], input[2], 1e9}, input[0]);
     output[0] = response.strength;
     output[1] = response.damage;
 }

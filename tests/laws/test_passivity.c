@@ -73,7 +73,8 @@ static double tube_force(Element *element, double x) {
 }
 
 static double shear_force(Element *element, double x) {
-    const CzShearOffResponse device = cz_shear_off(9e5, 0.01, 0.06, 1e9, element->memory[0]);
+    const CzShearOffResponse device =
+        cz_shear_off(&(CzShearOffLaw){9e5, 2e5, 0.01, 0.06, 1e9}, element->memory[0]);
     const double compliance = cz_plastic_compliance(device.strength, device.slope, 0.0, 1e-4);
     const double force = series_force(2e8, x - element->memory[0], device.strength, compliance);
     element->memory[0] += cz_plastic_flow(force, device.strength, compliance);

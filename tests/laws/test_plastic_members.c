@@ -21,7 +21,8 @@ static double chain_force(Element *element, double x) {
     const Member *member = element->law;
     const double stroke = element->memory[0], stiffness = 2e8;
     const bool tube = member->kind == TUBE;
-    const CzShearOffResponse device = cz_shear_off(9e5, 0.01, 0.06, 1e9, stroke);
+    const CzShearOffResponse device =
+        cz_shear_off(&(CzShearOffLaw){9e5, 0.0, 0.01, 0.06, 1e9}, stroke);
     const double strength = tube ? backbone_value(&member->curve, stroke) : device.strength;
     const double slope = tube ? backbone_slope(&member->curve, stroke) : device.slope;
     const double compliance =
@@ -113,6 +114,20 @@ static void shearing_off_takes_half_force_times_softening_length(void **state) {
     assert_near(chain.f, 0.0, 0.0, 1.0);
 }
 
+/* The trapezium of the fall, then what friction keeps over the rest of the travel. */
+static void a_residual_force_takes_energy_over_the_retraction_space(void **state) {
+    (void)state;
+    const CzShearOffLaw law = {9e5, 1.5e5, 0.01, 0.06, 1e9};
+    double work = 0.0;
+    const int n = 6000;
+    for (int i = 0; i < n; i++)
+        work += 0.06 / n * cz_shear_off(&law, 0.06 * (i + 0.5) / n).strength;
+    assert_near(work, 0.01 * (9e5 + 1.5e5) / 2.0 + 0.05 * 1.5e5, 1e-9, 0.0);
+    assert_near(cz_shear_off(&law, 0.061).strength, 1.5e5 + 1e6, 1e-9, 0.0);
+    const CzShearOffLaw whole = {9e5, 0.0, 0.01, 0.06, 1e9};
+    assert_near(cz_shear_off(&whole, 0.03).strength, 0.0, 0.0, 0.0);
+}
+
 static void shear_off_is_whole_then_damaged_then_gone(void **state) {
     (void)state;
     const double places[][3] = {/* travel, strength, damage */
@@ -122,7 +137,8 @@ static void shear_off_is_whole_then_damaged_then_gone(void **state) {
                                 {0.06, 0.0, 1.0},
                                 {0.061, 1e6, 1.0}};
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
-        const CzShearOffResponse response = cz_shear_off(9e5, 0.01, 0.06, 1e9, places[i][0]);
+        const CzShearOffResponse response =
+            cz_shear_off(&(CzShearOffLaw){9e5, 0.0, 0.01, 0.06, 1e9}, places[i][0]);
         assert_near(response.strength, places[i][1], 1e-9, 1e-6);
         assert_near(response.damage, places[i][2], 1e-12, 0.0);
         assert_near(response.slope, places[i][0] > 0.06 ? 1e9 : 0.0, 0.0, 0.0);
@@ -190,6 +206,7 @@ int main(void) {
         cmocka_unit_test(beyond_its_stroke_a_tube_is_stiff),
         cmocka_unit_test(the_rate_factor_raises_the_plastic_force),
         cmocka_unit_test(rates_do_not_act_on_elastic_unloading),
+        cmocka_unit_test(a_residual_force_takes_energy_over_the_retraction_space),
         cmocka_unit_test(shearing_off_takes_half_force_times_softening_length),
         cmocka_unit_test(shear_off_is_whole_then_damaged_then_gone),
         cmocka_unit_test(a_sheared_coupler_without_space_is_a_second_load_path),

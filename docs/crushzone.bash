@@ -59,7 +59,7 @@ _crushzone() {
     compare) options='--output --json --quiet --scenario --jobs --color --help' ;;
     validate) options='--json --quiet --set --color --help' ;;
     show) options='--quiet --set --scenario --time-step-ms --svg --color --help' ;;
-    fit) options='--json --as --basis --stages --name --stroke --force --stroke-unit --force-unit --zero --flip --scale --from --to --csv-sep --csv-decimal --help' ;;
+    fit) options='--json --svg --as --basis --stages --name --stroke --force --stroke-unit --force-unit --zero --flip --scale --from --to --csv-sep --csv-decimal --help' ;;
     new) options='--output --quiet --help' ;;
     schema) options='--help' ;;
     help) options='--markdown --man --completion --help' ;;

@@ -59,6 +59,12 @@ typedef struct CzFitOptions {
 } CzFitOptions;
 CZ_API CzFitOptions cz_fit_options_default(void);
 
+/* Whether a law is like its curve. The levels are ours: see docs/fitting-curves.md. */
+typedef enum CzFitVerdict { CZ_FIT_GOOD, CZ_FIT_DOUBTFUL, CZ_FIT_REFUSED } CzFitVerdict;
+
+/* "good", "doubtful" or "refused". */
+CZ_API const char *cz_fit_verdict_word(CzFitVerdict verdict);
+
 /* What was found. Energies are work on the device [J]. */
 typedef struct CzFitSummary {
     CzFitKind kind;
@@ -72,9 +78,16 @@ typedef struct CzFitSummary {
     double law_energy;         /* of the law over its whole stroke [J] */
     double returned;           /* by the unloading of the curve [J]; NaN without */
     double law_returned;       /* by the unloading of the law [J]; NaN when it has none */
-    double largest_difference; /* of the force between curve and law while loading [N] */
+    double largest_difference; /* of the force between curve and law while loading, over the whole
+                                  curve [N] */
     double at_stroke;          /* where that is [m] */
     double mean_square;        /* root of the mean square difference over the stroke [N] */
+    double mean_force;         /* of the curve over its stroke [N] */
+    double law_peak;           /* largest force of the law over that stroke [N] */
+    double whole_energy;       /* under the whole loading of the curve [J] */
+    double law_whole_energy;   /* of the law over the same stroke [J] */
+    double stretch_difference; /* largest mean difference over a tenth of the stroke [N] */
+    CzFitVerdict verdict;
 } CzFitSummary;
 
 /* A law that was found. Opaque, owns its memory. */
@@ -107,6 +120,15 @@ CZ_API double cz_fit_value(const CzFit *fit, int index);
 CZ_API int cz_fit_n_note(const CzFit *fit);
 CZ_API const char *cz_fit_note(const CzFit *fit, int index);
 
+/* Why a law is doubtful or refused: sentences without a stop. Borrowed. */
+CZ_API int cz_fit_n_doubt(const CzFit *fit);
+CZ_API const char *cz_fit_doubt(const CzFit *fit, int index);
+
+/* The loading of the curve, and of the law over the same stroke: strokes [m] and forces [N] (*n),
+ * borrowed; strokes do not fall. */
+CZ_API void cz_fit_curve(const CzFit *fit, int *n, const double **stroke, const double **force);
+CZ_API void cz_fit_law(const CzFit *fit, int *n, const double **stroke, const double **force);
+
 /* Which columns of a file make a curve. Texts are borrowed. */
 typedef struct CzCurveColumns {
     const char *x_quantity, *y_quantity; /* such as "time", "length", "force", "speed",
@@ -136,7 +158,8 @@ CZ_API void cz_curve_free(CzCurve *curve);
 CZ_MUST_CHECK CZ_API CzStatus cz_curve_titles(const char *path, char separator, int *n,
                                               char ***title, CzError *error);
 
-/* Writes the law as a catalogue with one part, the summary in comments above it. */
+/* Writes the law as a catalogue with one part, the summary in comments above it; a refused law is
+ * not written. */
 CZ_API void cz_fit_write_yaml(const CzFit *fit, FILE *stream);
 
 #ifdef __cplusplus

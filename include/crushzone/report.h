@@ -58,6 +58,11 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome(const CzProblem *problem,
 /* JSON document `crushzone.fit`: what was found, the law's values by path, and the same as YAML. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_fit(const CzFit *fit, FILE *stream, CzError *error);
 
+/* Writes an SVG figure of the law over its curve; a title says whether it is doubtful or refused.
+ * Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_fit_figure(const CzFit *fit, FILE *stream,
+                                                         CzError *error);
+
 /* JSON document {"error": first, "errors": [all]} of n_mistake errors. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_mistakes(int n_mistake, const CzError *const *mistake,
                                                        FILE *stream, CzError *error);

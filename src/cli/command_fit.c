@@ -3,6 +3,7 @@
 #include "base/suggest.h"
 #include "cli/command.h"
 #include "cli/messages.h"
+#include "cli/result.h"
 #include "crushzone/report.h"
 
 #include <stdio.h>
@@ -106,18 +107,55 @@ static CzStatus take_options(const CzArguments *arguments, CzFitOptions *options
     return take_shape(arguments, options, error);
 }
 
+static CzStatus write_figure(const void *data, FILE *stream, CzError *error) {
+    return cz_report_write_fit_figure(data, stream, error);
+}
+
+/* Says on standard error what is doubtful, or why nothing was written. */
+static void tell_doubts(const CzFit *fit) {
+    const CzFitSummary *summary = cz_fit_summary(fit);
+    for (int i = 0; i < cz_fit_n_doubt(fit); i++)
+        fprintf(stderr, "%s: %s: %s\n", summary->file,
+                summary->verdict == CZ_FIT_REFUSED ? "error" : "warning", cz_fit_doubt(fit, i));
+    if (summary->verdict == CZ_FIT_REFUSED)
+        fprintf(stderr,
+                "  help: no law as %s is like this curve, so none is written; another --as, --from "
+                "or --to may be, and --svg FILE shows both\n",
+                cz_fit_kind_word(summary->kind));
+}
+
+/* Writes the law; a refused one only with --json, which says so. Returns the exit code. */
+static int write_fit(const CzArguments *arguments, const CzFit *fit) {
+    const char *svg = arguments->text[CZ_OPTION_SVG];
+    CzError error = {0};
+    int code = cz_fit_summary(fit)->verdict == CZ_FIT_REFUSED ? 1 : 0;
+    if (arguments->text[CZ_OPTION_JSON] != NULL) {
+        if (cz_report_write_fit(fit, stdout, &error) != CZ_OK)
+            return cz_tell_error(arguments, &error);
+    } else {
+        tell_doubts(fit);
+        cz_fit_write_yaml(fit, stdout);
+    }
+    if (svg == NULL)
+        return code;
+    const int written = cz_result_write(arguments, svg, write_figure, fit);
+    return written != 0 ? written : code;
+}
+
 int cz_command_fit(const CzArguments *arguments) {
     CzFitOptions options = cz_fit_options_default();
+    const char *svg = arguments->text[CZ_OPTION_SVG];
     CzError error = {0};
     CzFit *fit = NULL;
+    if (svg != NULL && strcmp(svg, "-") == 0) {
+        misuse(&error, "'--svg -' and the law cannot both go to standard output",
+               "name a file, such as --svg fit.svg");
+        return cz_tell_error(arguments, &error);
+    }
     if (take_options(arguments, &options, &error) != CZ_OK ||
         cz_fit_read(arguments->operand[0], &options, &fit, &error) != CZ_OK)
         return cz_tell_error(arguments, &error);
-    int code = 0;
-    if (arguments->text[CZ_OPTION_JSON] == NULL)
-        cz_fit_write_yaml(fit, stdout);
-    else if (cz_report_write_fit(fit, stdout, &error) != CZ_OK)
-        code = cz_tell_error(arguments, &error);
+    const int code = write_fit(arguments, fit);
     cz_fit_free(fit);
     return code;
 }

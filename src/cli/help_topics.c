@@ -25,7 +25,8 @@ CzTopic cz_topic_named(const char *name) {
 
 static const char *const codes[][2] = {
     {"0", "done"},
-    {"1", "a check fails or could not be made (check, run --strict), nothing feasible (optimise)"},
+    {"1",
+     "a check fails or could not be made, nothing feasible (optimise), a law is refused (fit)"},
     {"2", "something is wrong with the command line or a problem file"},
     {"3", "a run failed or is incomplete"},
     {"4", "results cannot be written"},

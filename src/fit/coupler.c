@@ -11,19 +11,24 @@
  * u_b is where lines before and plateaus behind leave the least squares.
  */
 #include "base/error.h"
+#include "base/number.h"
 #include "fit/fit.h"
 #include "fit/plateaus.h"
 
-#define GONE 0.05            /* of the highest force: below this there is none (ours) */
-#define HIGH_UP 0.5          /* of the highest force: above this the coupler still holds (ours) */
-#define PEAK_BEFORE 0.05     /* of the stroke: how far before that the peak may lie (ours) */
-#define LONGEST_DROP 0.25    /* of the stroke: a slower fall is no shear-off (ours) */
-#define RISES 1.05           /* of a shear-off over the tube in front of it (ours) */
-#define RISE_FOOT 0.2        /* part of that rise at which it begins (ours) */
-#define REVERSIBLE 0.1       /* of the stroke that a buffer alone may keep (ours) */
-#define SHORTEST 0.05        /* of a buffer's stage, as a share of its stroke (ours) */
-#define STIFFER 2.0          /* than the steepest line from zero to a point of the curve (ours) */
-#define WORTH_A_PRELOAD 0.05 /* of the buffer's force: less is none (ours) */
+#define GONE 0.05             /* of the highest force: below this there is none (ours) */
+#define HIGH_UP 0.5           /* of the highest force: above this the coupler still holds (ours) */
+#define LIKE_RESIDUAL 1.1     /* of the residual force: a drop to this is over (ours) */
+#define LARGEST_RESIDUAL 0.35 /* of the shear-off: more is a stage, not friction (ours) */
+#define PEAK_BEFORE 0.05      /* of the stroke: how far before that the peak may lie (ours) */
+#define LONGEST_DROP 0.25     /* of the stroke: a slower fall is no shear-off (ours) */
+#define RISES 1.05            /* of a shear-off over the tube in front of it (ours) */
+#define RISE_FOOT 0.2         /* part of that rise at which it begins (ours) */
+#define REVERSIBLE 0.1        /* of the stroke that a buffer alone may keep (ours) */
+#define SHORTEST 0.05         /* of a buffer's stage, as a share of its stroke (ours) */
+#define STIFFER 2.0           /* than the steepest line from zero to a point of the curve (ours) */
+#define LEAST_STROKE 1e-3     /* of the largest: less is too little for a stiffness (ours) */
+#define LEAST_FORCE 0.1       /* of the highest: the same (ours) */
+#define WORTH_A_PRELOAD 0.05  /* of the buffer's force: less is none (ours) */
 
 enum { CELLS = 60, BUFFER_STAGES = 3 };
 
@@ -31,41 +36,69 @@ enum { CELLS = 60, BUFFER_STAGES = 3 };
 typedef struct Parts {
     double tube, stop, peak, drop; /* where they begin: u_b, u_t, u_p, u_d */
     double stop_stiffness;         /* of the rise [N/m] */
+    CzStop rise;                   /* at the end of a curve without shear-off */
     double force;                  /* F_s [N]; NaN without shear-off */
+    double residual;               /* mean force behind it [N] */
     int end;                       /* last point of the drop, or of the curve */
 } Parts;
 
 /* ---- shear-off ---- */
 
-/* Finds where the force drops for good; otherwise `parts` ends where the curve does. */
-static void find_drop(const CzBranch *branch, Parts *parts) {
-    int top = 0, end = branch->n - 1;
-    for (int i = 0; i < branch->n; i++)
+static int highest_point(const CzBranch *branch, int from, int to) {
+    int top = from;
+    for (int i = from; i <= to; i++)
         top = branch->f[i] > branch->f[top] ? i : top;
-    const double highest = branch->f[top];
-    parts->stop = parts->peak = parts->drop = cz_branch_last(branch);
-    parts->force = NAN;
-    parts->end = end;
-    if (!(branch->f[end] < GONE * highest))
-        return;
+    return top;
+}
 
-    /* The first point of the last stretch without force, and the peak just before it. */
-    while (end > 0 && branch->f[end - 1] < GONE * highest)
-        end--;
-    int edge = end;
+/* The last point that is high up; behind it the force is low for good. */
+static int find_edge(const CzBranch *branch, double highest) {
+    int edge = branch->n - 1;
     while (edge > 0 && branch->f[edge] < HIGH_UP * highest)
         edge--;
-    top = edge;
-    for (int i = edge; i > 0 && branch->x[edge] - branch->x[i] <= PEAK_BEFORE * parts->drop; i--)
-        top = branch->f[i] > branch->f[top] ? i : top;
-    if (branch->x[end] - branch->x[top] > LONGEST_DROP * parts->drop)
-        return; /* a curve that fades away */
-    while (end + 1 < branch->n && branch->f[end + 1] < branch->f[end])
+    return edge;
+}
+
+/* What the released coupler keeps: the mean force over the second half of what is behind the edge;
+ * less than a share of the highest is none. */
+static double residual_behind(const CzBranch *branch, int edge, double highest) {
+    const double last = cz_branch_last(branch);
+    const double kept = cz_branch_mean(branch, 0.5 * (branch->x[edge] + last), last);
+    return branch->f[branch->n - 1] < GONE * highest ? 0.0 : kept;
+}
+
+/* Finds where the force drops for good, to nothing or to a residual force; otherwise `parts` ends
+ * where the curve does. */
+static void find_drop(const CzBranch *branch, Parts *parts) {
+    const int last = branch->n - 1;
+    const double length = cz_branch_last(branch);
+    const double highest = branch->f[highest_point(branch, 0, last)];
+    const int edge = find_edge(branch, highest);
+    parts->stop = parts->peak = parts->drop = length;
+    parts->force = NAN;
+    parts->residual = 0.0;
+    parts->end = last;
+    if (edge == last)
+        return;
+    const double residual = residual_behind(branch, edge, highest);
+    const double low = residual > 0.0 ? LIKE_RESIDUAL * residual : GONE * highest;
+    int end = edge;
+    while (end < last && !(branch->f[end] < low))
+        end++;
+    int first = edge;
+    while (first > 0 && branch->x[edge] - branch->x[first] <= PEAK_BEFORE * length)
+        first--;
+    const int top = highest_point(branch, first, edge);
+    if (branch->x[end] - branch->x[top] > LONGEST_DROP * length ||
+        residual > LARGEST_RESIDUAL * branch->f[top] || (residual > 0.0 && end == last))
+        return; /* a curve that fades away, or a lower stage */
+    while (residual == 0.0 && end < last && branch->f[end + 1] < branch->f[end])
         end++;
     parts->stop = parts->peak = branch->x[top];
     parts->drop = branch->x[end];
     parts->force = branch->f[top];
-    parts->end = end;
+    parts->end = residual > 0.0 ? last : end;
+    parts->residual = residual > 0.0 ? cz_branch_mean(branch, parts->drop, length) : 0.0;
 }
 
 /* Finds the foot of the rise to the shear-off, and the stiffness that gives it its area. */
@@ -93,10 +126,19 @@ static void fit_shear_off(CzFit *fit, const CzBranch *branch, const Parts *parts
     const CzKey *length = cz_fit_key(CZ_RECORD_CzShearOff, "softening_length");
     const double area =
         cz_branch_sums(branch, parts->drop).area - cz_branch_sums(branch, parts->peak).area;
-    const double softening = 2.0 * area / parts->force;
+    const double softening = 2.0 * area / (parts->force + parts->residual);
+    char kN[CZ_NUMBER_TEXT], kept[CZ_NUMBER_TEXT], at[CZ_NUMBER_TEXT];
     fit->shear_force = cz_fit_round(fmax(parts->force, force->lo), 1e3);
+    fit->residual = cz_fit_round(parts->residual, 1e3);
     fit->softening = cz_fit_round(fmin(fmax(softening, length->lo), length->hi), 1e-3);
     fit->retraction = cz_fit_round(fmax(cz_branch_last(branch) - parts->drop, 0.0), 1e-3);
+    if (!(parts->stop < parts->peak))
+        cz_fit_doubt_that(fit,
+                          "the force falls from %s to %s kN at %s mm without a stop before it: a "
+                          "tube that ruptures looks like that, and is no shear-off",
+                          cz_number_print_short(kN, 1e-3 * parts->force),
+                          cz_number_print_short(kept, 1e-3 * parts->residual),
+                          cz_number_print_short(at, 1e3 * parts->peak));
     cz_fit_note_down(fit, "retraction_space is the free travel of the curve; the coupler's own may "
                           "be longer");
 }
@@ -196,6 +238,7 @@ static CzStatus fit_members(CzFit *fit, const CzBranch *branch, int n_stage, Par
         fit->buffer.stage[i].force = fmin(fit->buffer.stage[i].force, flows);
     cz_fit_round_staged(&fit->buffer);
     fit->member.bottom_stiffness = parts->stop_stiffness;
+    CZ_TRY(cz_fit_place_stop(fit, &parts->rise, &fit->member, &behind, error));
     return cz_fit_settle(fit, &fit->member, &behind, error);
 }
 
@@ -205,18 +248,22 @@ static CzStatus fit_buffer_alone(CzFit *fit, const CzBranch *branch, Parts *part
     if (!cz_branch_cut(&fit->arena, branch, 0.0, parts->stop, &part))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
     CZ_TRY(fit_buffer(fit, &part, error));
+    CZ_TRY(cz_fit_place_stop(fit, &parts->rise, &fit->buffer, &part, error));
     CZ_TRY(cz_fit_settle(fit, &fit->buffer, &part, error));
     if (is_reversible(&fit->trace))
         fit->share = cz_fit_round(fmin(fit->summary.returned / fit->summary.energy, 1.0), 1.0);
     return CZ_OK;
 }
 
-/* Elastic stiffness of the tube: the usual one, unless the curve rises more steeply than that. */
+/* Elastic stiffness of the tube: the usual one, unless the curve rises more steeply than that. The
+ * ratio of two numbers near zero is no stiffness. */
 static double find_stiffness(const CzFit *fit) {
     const CzKey *key = cz_fit_key(CZ_RECORD_CzTube, "stiffness");
+    const double least_x = LEAST_STROKE * cz_branch_last(&fit->curve);
+    const double least_f = LEAST_FORCE * fit->summary.peak_force;
     double steepest = 0.0;
     for (int i = 0; i < fit->curve.n; i++)
-        if (fit->curve.x[i] > 0.0)
+        if (fit->curve.x[i] > least_x && fit->curve.f[i] > least_f)
             steepest = fmax(steepest, fit->curve.f[i] / fit->curve.x[i]);
     return fmax(key->absent, cz_fit_round(fmin(STIFFER * steepest, key->hi), 1e6));
 }
@@ -225,10 +272,15 @@ static double find_stiffness(const CzFit *fit) {
 static CzStatus find_parts(CzFit *fit, bool is_alone, int n_stage, CzBranch *branch, Parts *parts,
                            CzError *error) {
     CzBranch whole;
-    fit->stiffness = is_alone ? INFINITY : find_stiffness(fit);
+    const CzStop rise = cz_fit_find_stop(fit);
+    fit->stiffness = is_alone ? INFINITY : cz_fit_stiffness_for(fit, &rise, find_stiffness(fit));
     CZ_TRY(cz_fit_branch(fit, fit->stiffness, branch, error));
     find_drop(branch, parts);
+    parts->rise = rise;
+    parts->rise.is_there = rise.is_there && isnan(parts->force);
     parts->stop_stiffness = find_stop(branch, parts);
+    if (parts->rise.is_there)
+        parts->stop = branch->x[rise.onset];
     parts->tube = parts->stop;
     if (is_alone)
         return CZ_OK;

@@ -167,15 +167,18 @@ static void fit_unloading(CzFit *fit, double peak) {
 }
 
 CzStatus cz_fit_end(CzFit *fit, int n_stage, CzError *error) {
-    CzBranch branch;
+    CzBranch branch, part;
+    const CzStop stop = cz_fit_find_stop(fit);
     fit->stiffness = INFINITY;
     CZ_TRY(cz_fit_branch(fit, INFINITY, &branch, error));
     const CzLines lines = {
         .n_stage = n_stage < 0 ? (int)STAGES : n_stage, .n_most = STAGES, .shortest = SHORTEST};
-    if (!cz_fit_lines(&fit->arena, &branch, &lines, &fit->member))
+    if (!cz_branch_cut(&fit->arena, &branch, 0.0, branch.x[stop.onset], &part) ||
+        !cz_fit_lines(&fit->arena, &part, &lines, &fit->member))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
     fit->member.bottom_stiffness = cz_fit_key(CZ_RECORD_CzEnd, "bottom_stiffness")->absent;
-    CZ_TRY(cz_fit_settle(fit, &fit->member, &branch, error));
+    CZ_TRY(cz_fit_place_stop(fit, &stop, &fit->member, &part, error));
+    CZ_TRY(cz_fit_settle(fit, &fit->member, &part, error));
     const double peak = fit->member.stage[fit->member.n_stage - 1].force;
     fit_unloading(fit, peak);
     const CzVehicleEndLaw law = {.unloading = fit->unloading,

@@ -90,7 +90,8 @@ static CzStatus make_curve(CzFit *fit, CzError *error) {
     }
     if (!cz_branch_build(&fit->arena, n, fit->path_x, fit->path_f, &fit->curve))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
-    fit->summary.energy = cz_fit_work(fit, n - 1);
+    fit->summary.energy = fit->summary.whole_energy = cz_fit_work(fit, n - 1);
+    fit->summary.mean_force = fit->summary.energy / cz_branch_last(&fit->curve);
     return CZ_OK;
 }
 
@@ -243,6 +244,8 @@ static void put_coupler(CzFit *fit) {
         steepest = fmax(steepest, (buffer->stage[i].force - force) / buffer->stage[i].stroke);
     if (steepest > cz_fit_key(CZ_RECORD_CzBuffer, "transition_stiffness")->absent)
         put(fit, cz_fit_round(1.001 * steepest, 1e6) * 1e-6, "buffer.transition_stiffness_MN_m");
+    put_unusual(fit, buffer->bottom_stiffness, CZ_RECORD_CzBuffer, "bottom_stiffness", 1e6,
+                "buffer.bottom_stiffness_MN_m");
     if (fit->summary.is_dynamic)
         put(fit, 0.0, "buffer.damping_kN_s_m");
     if (fit->member.n_stage > 0) {
@@ -252,6 +255,8 @@ static void put_coupler(CzFit *fit) {
                     "tube.bottom_stiffness_MN_m");
     }
     put(fit, 1e-3 * fit->shear_force, "shear_off.force_kN");
+    if (fit->residual > 0.0)
+        put(fit, 1e-3 * fit->residual, "shear_off.residual_force_kN");
     put(fit, 1e3 * fit->softening, "shear_off.softening_length_mm");
     put(fit, 1e3 * fit->retraction, "shear_off.retraction_space_mm");
 }
@@ -266,11 +271,15 @@ static void put_values(CzFit *fit) {
         put(fit, 1e-6 * fit->unloading, "unloading_stiffness_MN_m");
         put(fit, fit->share, "unloading_share");
         put(fit, 1e-6 * fit->second_unloading, "second_unloading_stiffness_MN_m");
+        put_unusual(fit, fit->member.bottom_stiffness, CZ_RECORD_CzEnd, "bottom_stiffness", 1e6,
+                    "bottom_stiffness_MN_m");
         break;
     default:
         put_member(fit, "");
         put_unusual(fit, fit->stiffness, CZ_RECORD_CzAntiClimber, "stiffness", 1e6,
                     "stiffness_MN_m");
+        put_unusual(fit, fit->member.bottom_stiffness, CZ_RECORD_CzAntiClimber, "bottom_stiffness",
+                    1e6, "bottom_stiffness_MN_m");
     }
 }
 
@@ -342,6 +351,8 @@ static CzStatus fit_law(CzFit *fit, int n_stage, CzError *error) {
                               : "static: the curve holds no rise with the rate");
     summary->law_energy = cz_fit_law_energy(fit);
     cz_fit_compare(fit);
+    cz_fit_judge(fit);
+    cz_fit_load_whole(fit, &fit->whole);
     put_values(fit);
     return check_values(fit, error);
 }
@@ -371,7 +382,7 @@ static CzFit *begin(const char *path, const CzFitOptions *options) {
     fit->buffer = cz_staged_begin(false);
     fit->member = cz_staged_begin(options->kind != CZ_FIT_END);
     fit->shear_force = fit->softening = fit->retraction = NAN;
-    fit->unloading = fit->share = fit->second_unloading = NAN;
+    fit->unloading = fit->share = fit->second_unloading = fit->stop_force = NAN;
     fit->summary = (CzFitSummary){.kind = options->kind, .is_dynamic = options->is_dynamic != 0};
     if (path != NULL)
         fit->summary.file = cz_arena_copy_text(&fit->arena, path, strlen(path));

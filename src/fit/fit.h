@@ -8,7 +8,8 @@
 
 enum {
     CZ_FIT_MOST_VALUES = 4 * CZ_MAX_STAGES + 16,
-    CZ_FIT_MOST_NOTES = 8,
+    CZ_FIT_MOST_NOTES = 12,
+    CZ_FIT_MOST_DOUBTS = 6,
     CZ_FIT_DIGITS = 5 /* significant ones of what is written, but for the force that settles the
                          energy */
 };
@@ -17,6 +18,14 @@ typedef struct CzFitValue {
     char path[64];
     double value; /* in the unit of the path */
 } CzFitValue;
+
+enum { CZ_MOST_CORNERS = 2 * CZ_MOST_BENDS + 12 };
+
+/* Force over shortening as straight lines; x never falls. */
+typedef struct CzLoading {
+    int n;
+    double x[CZ_MOST_CORNERS], f[CZ_MOST_CORNERS];
+} CzLoading;
 
 struct CzFit {
     CzArena arena;
@@ -34,14 +43,20 @@ struct CzFit {
     double shear_force;      /* [N] */
     double softening;        /* [m] */
     double retraction;       /* [m] */
+    double residual;         /* force that is kept behind the shear-off [N]; 0: none */
+    double stop_force;       /* to which the curve rises along the last stop [N]; NaN: no stop */
     double unloading;        /* of an end [N/m] */
     double share;            /* [-]; of an end, and of a buffer that gives back */
     double second_unloading; /* [N/m] */
+
+    CzLoading whole; /* over the stroke of the curve */
 
     CzFitValue value[CZ_FIT_MOST_VALUES];
     int n_value;
     char note[CZ_FIT_MOST_NOTES][200];
     int n_note;
+    char doubt[CZ_FIT_MOST_DOUBTS][160]; /* why the law is not like the curve */
+    int n_doubt;
 };
 
 /* From a file, or from points, to a trace (read.c). */
@@ -85,20 +100,40 @@ void cz_fit_note_down(CzFit *fit, const char *format, ...) __attribute__((format
 /* Key of the problem file: its default and its range [SI]. */
 const CzKey *cz_fit_key(CzRecordId record, const char *stem);
 
+/* ---- where a curve ends in a stop (stop.c) ---- */
+
+/* Densification: the force rises for good, steeply, above all that was before. */
+typedef struct CzStop {
+    bool is_there;
+    int onset;        /* last point of the loading before it; else the last one of all */
+    double stiffness; /* of the rise as a whole, elasticity included [N/m] */
+} CzStop;
+
+CzStop cz_fit_find_stop(const CzFit *fit);
+
+/* The stiffness in series with the members, raised where the stop is as stiff. */
+double cz_fit_stiffness_for(CzFit *fit, const CzStop *stop, double stiffness);
+
+/* Lets a member end and rise along its stop so that the rise has the area and the last force of the
+ * curve. The member's stages are those of its part of the curve in front of the onset, which
+ * becomes as long as the member. */
+CZ_MUST_CHECK CzStatus cz_fit_place_stop(CzFit *fit, const CzStop *stop, CzStaged *staged,
+                                         CzBranch *part, CzError *error);
+
 /* ---- the law under a growing shortening (loading.c) ---- */
-
-enum { CZ_MOST_CORNERS = 2 * CZ_MOST_BENDS + 8 };
-
-/* Force over shortening as straight lines; x never falls. */
-typedef struct CzLoading {
-    int n;
-    double x[CZ_MOST_CORNERS], f[CZ_MOST_CORNERS];
-} CzLoading;
 
 void cz_fit_load(const CzFit *fit, CzLoading *loading);
 double cz_fit_law_energy(const CzFit *fit);
 
+/* The same over the whole stroke of the curve: beyond its own the law rises along its stop, or
+ * keeps what a shear-off leaves. */
+void cz_fit_load_whole(const CzFit *fit, CzLoading *loading);
+
 /* Fills the differences of the summary. */
 void cz_fit_compare(CzFit *fit);
+
+/* Judges them (quality.c). */
+void cz_fit_judge(CzFit *fit);
+void cz_fit_doubt_that(CzFit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

@@ -9,7 +9,10 @@
  */
 #include "fit/fit.h"
 
-enum { SAMPLES = 4000 }; /* of the mean square */
+#define ROUNDED                                                                                    \
+    1e-3 /* of the stroke: a law that ends by less before the curve ends with it (ours) */
+
+enum { SAMPLES = 4000, STRETCH = SAMPLES / 10 }; /* of the mean square, and of a stretch of it */
 
 static void add(CzLoading *loading, double x, double f) {
     const double before = loading->n > 0 ? loading->x[loading->n - 1] : 0.0;
@@ -62,12 +65,40 @@ void cz_fit_load(const CzFit *fit, CzLoading *loading) {
         at = add_stop(loading, at, kinks.start, fit->buffer.bottom_stiffness, compliance);
     }
     at = add_staged(loading, &fit->member, at, compliance);
+    const double stop =
+        fit->member.n_stage > 0 ? fit->member.bottom_stiffness : fit->buffer.bottom_stiffness;
+    if (!isnan(fit->stop_force))
+        add_stop(loading, at, fit->stop_force, stop, compliance);
     if (isnan(fit->shear_force))
+        return;
+    at = add_stop(loading, at, fit->shear_force, stop, compliance);
+    at += fit->softening;
+    add(loading, at + fit->residual * compliance, fit->residual);
+    if (fit->residual > 0.0)
+        add(loading, at + fit->retraction + fit->residual * compliance, fit->residual);
+}
+
+void cz_fit_load_whole(const CzFit *fit, CzLoading *loading) {
+    cz_fit_load(fit, loading);
+    const double last = loading->x[loading->n - 1], end = cz_branch_last(&fit->curve);
+    if (end - last <= ROUNDED * end)
         return;
     const double stop =
         fit->member.n_stage > 0 ? fit->member.bottom_stiffness : fit->buffer.bottom_stiffness;
-    at = add_stop(loading, at, fit->shear_force, stop, compliance);
-    add(loading, at + fit->softening, 0.0);
+    const double compliance = isfinite(fit->stiffness) ? 1.0 / fit->stiffness : 0.0;
+    const double slope = isnan(fit->shear_force) ? 1.0 / (compliance + 1.0 / stop) : 0.0;
+    add(loading, end, last_force(loading) + slope * (end - last));
+}
+
+static double energy_under(const CzLoading *loading, double end) {
+    double energy = 0.0;
+    for (int i = 1; i < loading->n && loading->x[i - 1] < end; i++) {
+        const double x = fmin(loading->x[i], end), length = loading->x[i] - loading->x[i - 1];
+        const double share = length > 0.0 ? (x - loading->x[i - 1]) / length : 0.0;
+        const double force = loading->f[i - 1] + share * (loading->f[i] - loading->f[i - 1]);
+        energy += 0.5 * (force + loading->f[i - 1]) * (x - loading->x[i - 1]);
+    }
+    return energy;
 }
 
 double cz_fit_law_energy(const CzFit *fit) {
@@ -110,11 +141,31 @@ static void take_larger(CzFit *fit, const CzLoading *loading, double x, double f
     }
 }
 
+/* Differences at evenly spread strokes: their mean square, and the largest mean over a stretch. */
+static void compare_samples(CzFit *fit, const CzLoading *loading, double end) {
+    double squares = 0.0, stretch = 0.0, last[STRETCH] = {0.0};
+    fit->summary.stretch_difference = 0.0;
+    for (int i = 0; i < SAMPLES; i++) {
+        const double x = end * (i + 0.5) / SAMPLES, force = cz_branch_force(&fit->curve, x);
+        double low, high;
+        force_at(loading, x, &low, &high);
+        const double difference = force < low ? low - force : force > high ? high - force : 0.0;
+        squares += difference * difference;
+        stretch += difference - last[i % STRETCH];
+        last[i % STRETCH] = difference;
+        if (i + 1 >= STRETCH)
+            fit->summary.stretch_difference =
+                fmax(fit->summary.stretch_difference, fabs(stretch) / STRETCH);
+    }
+    fit->summary.mean_square = sqrt(squares / SAMPLES);
+}
+
 void cz_fit_compare(CzFit *fit) {
+    CzFitSummary *summary = &fit->summary;
     CzLoading loading;
-    cz_fit_load(fit, &loading);
+    cz_fit_load_whole(fit, &loading);
     const double end = fmin(loading.x[loading.n - 1], cz_branch_last(&fit->curve));
-    fit->summary.largest_difference = fit->summary.at_stroke = 0.0;
+    summary->largest_difference = summary->at_stroke = summary->law_peak = 0.0;
     for (int i = 0; i < fit->curve.n && fit->curve.x[i] <= end; i++)
         take_larger(fit, &loading, fit->curve.x[i], fit->curve.f[i]);
     for (int i = 0; i < loading.n && loading.x[i] <= end; i++) {
@@ -123,11 +174,8 @@ void cz_fit_compare(CzFit *fit) {
         if (!is_jump)
             take_larger(fit, &loading, loading.x[i], cz_branch_force(&fit->curve, loading.x[i]));
     }
-    double squares = 0.0;
-    for (int i = 0; i < SAMPLES; i++) {
-        const double x = end * (i + 0.5) / SAMPLES;
-        const double difference = difference_at(&loading, x, cz_branch_force(&fit->curve, x));
-        squares += difference * difference;
-    }
-    fit->summary.mean_square = sqrt(squares / SAMPLES);
+    for (int i = 0; i < loading.n && loading.x[i] <= end * (1.0 + ROUNDED); i++)
+        summary->law_peak = fmax(summary->law_peak, loading.f[i]);
+    compare_samples(fit, &loading, end);
+    summary->law_whole_energy = energy_under(&loading, cz_branch_last(&fit->curve));
 }

@@ -16,6 +16,7 @@
 #define WITHOUT_FORCE 0.2 /* of the mean force: less than this is no force (ours) */
 #define RISE_LOW 0.2      /* part of the rise that gives the stiffness, of the mean force (ours) */
 #define RISE_HIGH 0.8
+#define NO_RISE 2e-4 /* of the stroke: a rise over less is a jump, and no stiffness (ours) */
 
 /* Stroke at which the loading first reaches a force. */
 static double stroke_of(const CzBranch *curve, double force) {
@@ -35,20 +36,29 @@ static double stiffness_of_unloading(const CzTrace *trace) {
     return returned > 0.0 ? (high * high - low * low) / (2.0 * returned) : INFINITY;
 }
 
-static double find_stiffness(CzFit *fit) {
+/* Stiffness from the rise to the first force; INFINITY when the rise is no longer than what can be
+ * told from a jump. */
+static double stiffness_of_rise(const CzBranch *curve, double first, double last) {
+    const double low = stroke_of(curve, RISE_LOW * first);
+    const double high = stroke_of(curve, RISE_HIGH * first);
+    return high - low > NO_RISE * last ? (RISE_HIGH - RISE_LOW) * first / (high - low) : INFINITY;
+}
+
+static double find_stiffness(CzFit *fit, const CzStop *stop) {
     const CzKey *key = cz_fit_key(CZ_RECORD_CzAntiClimber, "stiffness");
-    const double last = cz_branch_last(&fit->curve);
+    const double last = fit->curve.x[stop->onset];
     const double mean = cz_branch_mean(&fit->curve, 0.0, last);
     if (fit->curve.f[0] > WITHOUT_FORCE * mean)
         return INFINITY;
     const double first =
         fmin(mean, cz_branch_mean(&fit->curve, FIRST_FROM * last, FIRST_TO * last));
-    const double low = stroke_of(&fit->curve, RISE_LOW * first);
-    const double high = stroke_of(&fit->curve, RISE_HIGH * first);
-    double stiffness = high > low ? (RISE_HIGH - RISE_LOW) * first / (high - low) : INFINITY;
+    double peak = 0.0;
+    for (int i = 0; i <= stop->onset; i++)
+        peak = fmax(peak, fit->curve.f[i]);
+    double stiffness = stiffness_of_rise(&fit->curve, first, last);
     if (fit->trace.unloads)
         stiffness = stiffness_of_unloading(&fit->trace);
-    else if (!(stiffness >= STEEPER * fit->summary.peak_force / last)) {
+    else if (!(stiffness >= STEEPER * peak / last && isfinite(stiffness))) {
         stiffness = key->absent;
         cz_fit_note_down(fit, "the curve shows no elastic rise; stiffness is the usual one (ours)");
     }
@@ -56,15 +66,18 @@ static double find_stiffness(CzFit *fit) {
 }
 
 CzStatus cz_fit_plastic(CzFit *fit, int n_stage, CzError *error) {
-    CzBranch branch;
-    fit->stiffness = find_stiffness(fit);
+    CzBranch branch, part;
+    const CzStop stop = cz_fit_find_stop(fit);
+    fit->stiffness = cz_fit_stiffness_for(fit, &stop, find_stiffness(fit, &stop));
     if (!isfinite(fit->stiffness))
         cz_fit_note_down(fit, "the curve begins with force: its strokes are taken as plastic");
     CZ_TRY(cz_fit_branch(fit, fit->stiffness, &branch, error));
-    if (!cz_fit_plateaus(&fit->arena, &branch, n_stage, fit->stiffness, &fit->member))
+    if (!cz_branch_cut(&fit->arena, &branch, 0.0, branch.x[stop.onset], &part) ||
+        !cz_fit_plateaus(&fit->arena, &part, n_stage, fit->stiffness, &fit->member))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
     fit->member.bottom_stiffness = cz_fit_key(CZ_RECORD_CzAntiClimber, "bottom_stiffness")->absent;
-    CZ_TRY(cz_fit_settle(fit, &fit->member, &branch, error));
+    CZ_TRY(cz_fit_place_stop(fit, &stop, &fit->member, &part, error));
+    CZ_TRY(cz_fit_settle(fit, &fit->member, &part, error));
     if (fit->trace.unloads && isfinite(fit->stiffness)) {
         CzLoading loading;
         cz_fit_load(fit, &loading);

@@ -8,7 +8,9 @@ set(CZ_SOURCES_fit
     loading.c
     plastic.c
     plateaus.c
+    quality.c
     read.c
     staged.c
+    stop.c
     write_yaml.c
 )

@@ -8,7 +8,8 @@ enum {
 };
 
 #define GOLDEN 0.6180339887498949
-#define ROUNDING 1e-12 /* of a difference of integrals of squares, as a share of them */
+#define ROUNDING 1e-12   /* of a difference of integrals of squares, as a share of them */
+#define LEAST_FORCE 1e-3 /* of the mean force: no stage may have less (ours) */
 
 CzStaged cz_staged_begin(bool is_strength) {
     return (CzStaged){.is_strength = is_strength, .trigger = NAN, .trigger_length = 0.01};
@@ -173,8 +174,6 @@ static double take_forces(CzStaged *staged, const Terms *terms, const CzBranchSu
     for (int k = 0; k < terms->n_bend; k++)
         value[k] = terms->fixed[k];
     for (int i = 0; i < terms->n_term; i++) {
-        if (!(force[i] > 0.0))
-            return INFINITY;
         if (i < staged->n_stage)
             staged->stage[i].force = force[i];
         else
@@ -187,6 +186,91 @@ static double take_forces(CzStaged *staged, const Terms *terms, const CzBranchSu
                 0.0);
 }
 
+/* Least squares of forces that may not fall below one:
+ *
+ *   minimise c'A c / 2 - b'c   under   p'c = e,   c_i >= least
+ *
+ * by an active set: forces that would be lower are held at the bound, and let go again where the
+ * multiplier m = A c + l p - b says that they want to rise (Karush, Kuhn and Tucker: m >= 0). */
+typedef struct Problem {
+    int n;
+    bool has_energy, is_held[MOST_TERMS];
+    double a[MOST_TERMS][MOST_TERMS], b[MOST_TERMS], p[MOST_TERMS];
+    double energy, least;
+    double force[MOST_TERMS], multiplier; /* the solution, and l */
+} Problem;
+
+/* Solves for the forces that are not held; false when there is no single solution. */
+static bool solve_free(Problem *problem) {
+    int index[MOST_TERMS], n = 0;
+    Equations equations;
+    double energy = problem->energy;
+    for (int i = 0; i < problem->n; i++) {
+        if (problem->is_held[i]) {
+            problem->force[i] = problem->least;
+            energy -= problem->p[i] * problem->least;
+        } else
+            index[n++] = i;
+    }
+    equations.n = problem->has_energy ? n + 1 : n;
+    for (int i = 0; i < n; i++) {
+        equations.x[i] = problem->b[index[i]];
+        for (int k = 0; k < problem->n; k++)
+            if (problem->is_held[k])
+                equations.x[i] -= problem->a[index[i]][k] * problem->least;
+        for (int k = 0; k < n; k++)
+            equations.a[i][k] = problem->a[index[i]][index[k]];
+        equations.a[i][n] = equations.a[n][i] = problem->p[index[i]];
+    }
+    equations.a[n][n] = 0.0;
+    equations.x[n] = energy;
+    if (n == 0 || !eliminate(&equations))
+        return false;
+    for (int i = 0; i < n; i++)
+        problem->force[index[i]] = equations.x[i];
+    problem->multiplier = problem->has_energy ? equations.x[n] : 0.0;
+    return true;
+}
+
+/* Holds the forces that are too low; false when none is. */
+static bool hold_low_ones(Problem *problem) {
+    bool is_low = false;
+    for (int i = 0; i < problem->n; i++)
+        if (!problem->is_held[i] && !(problem->force[i] >= problem->least))
+            is_low = problem->is_held[i] = true;
+    return is_low;
+}
+
+/* Lets the force go that most wants to rise; false when none does. */
+static bool let_one_go(Problem *problem) {
+    double lowest = 0.0;
+    int which = -1;
+    for (int i = 0; i < problem->n; i++) {
+        double m = problem->multiplier * problem->p[i] - problem->b[i], size = fabs(m);
+        for (int k = 0; k < problem->n; k++) {
+            m += problem->a[i][k] * problem->force[k];
+            size = fmax(size, fabs(problem->a[i][k] * problem->force[k]));
+        }
+        if (problem->is_held[i] && m < -ROUNDING * size && m < lowest) {
+            lowest = m;
+            which = i;
+        }
+    }
+    if (which >= 0)
+        problem->is_held[which] = false;
+    return which >= 0;
+}
+
+static bool solve_bounded(Problem *problem) {
+    for (int i = 0; i < 4 * problem->n + 4; i++) {
+        if (!solve_free(problem))
+            return false;
+        if (!hold_low_ones(problem) && !let_one_go(problem))
+            return true;
+    }
+    return false; /* forces that are held and let go in turn, by rounding */
+}
+
 double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy) {
     Terms terms;
     CzBranchSums sums[CZ_MOST_BENDS];
@@ -197,18 +281,19 @@ double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy) 
         one[i] = 1.0;
     }
     const int n = terms.n_term;
-    Equations equations = {.n = isnan(energy) ? n : n + 1};
+    Problem problem = {.n = n, .has_energy = !isnan(energy)};
+    problem.least = LEAST_FORCE * cz_branch_mean(branch, 0.0, terms.at[terms.n_bend - 1]);
     for (int i = 0; i < n; i++) {
         for (int k = 0; k < n; k++)
-            equations.a[i][k] = product(&terms, terms.phi[i], terms.phi[k]);
-        equations.a[i][n] = equations.a[n][i] = product(&terms, terms.phi[i], one);
-        equations.x[i] =
+            problem.a[i][k] = product(&terms, terms.phi[i], terms.phi[k]);
+        problem.p[i] = product(&terms, terms.phi[i], one);
+        problem.b[i] =
             product_with(&terms, sums, terms.phi[i]) - product(&terms, terms.phi[i], terms.fixed);
     }
-    equations.x[n] = energy - product(&terms, terms.fixed, one);
-    if (!eliminate(&equations))
+    problem.energy = energy - product(&terms, terms.fixed, one);
+    if (!solve_bounded(&problem))
         return INFINITY;
-    return take_forces(staged, &terms, sums, equations.x);
+    return take_forces(staged, &terms, sums, problem.force);
 }
 
 /* ---- strokes ---- */

@@ -7,7 +7,8 @@
  *
  *   integral of (f(x) - g(x))^2 dx     under     integral of g(x) dx = energy
  *
- * solve a small linear system. The strokes are found by searches over that minimum.
+ * are the least squares of a small linear system with lower bounds. The strokes are found by
+ * searches over that minimum.
  */
 #ifndef CZ_FIT_STAGED_H
 #define CZ_FIT_STAGED_H
@@ -44,8 +45,9 @@ double cz_staged_energy(const CzStaged *staged);
 enum { CZ_MOST_BENDS = 2 * CZ_MAX_STAGES + 4 };
 int cz_staged_bends(const CzStaged *staged, double at[CZ_MOST_BENDS]);
 
-/* Finds the forces for the strokes as they are; `energy` NaN leaves out the condition. Returns the
- * integral of the squared difference, INFINITY when a force would not be positive. */
+/* Finds the forces for the strokes as they are, none below a thousandth of the mean force; `energy`
+ * NaN leaves out the condition. Returns the integral of the squared difference, INFINITY when no
+ * such forces have the energy. */
 double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy);
 
 /* Moves breaks between stages (and the length of a trigger) until the integral no longer falls.

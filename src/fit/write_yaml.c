@@ -15,6 +15,11 @@ static const char *text_of(char text[CZ_NUMBER_TEXT], double value) {
     return cz_number_print_short(text, value);
 }
 
+/* To a tenth of a percent. */
+static const char *percent_of(char text[CZ_NUMBER_TEXT], double share) {
+    return cz_number_print_short(text, round(1e3 * share) / 10.0);
+}
+
 static void write_head(const CzFitSummary *summary, FILE *stream) {
     char a[CZ_NUMBER_TEXT], b[CZ_NUMBER_TEXT], c[CZ_NUMBER_TEXT];
     fprintf(stream, "# %s of %d points (%s) as %s\n",
@@ -30,6 +35,14 @@ static void write_head(const CzFitSummary *summary, FILE *stream) {
     fprintf(stream, "#   force       differs by at most %s kN, at %s mm; root mean square %s kN\n",
             text_of(a, 1e-3 * summary->largest_difference), text_of(b, 1e3 * summary->at_stroke),
             text_of(c, 1e-3 * summary->mean_square));
+    fprintf(
+        stream,
+        "#   quality     %s: root mean square %s %% of the mean force, peak %s %% and energy %s "
+        "%% of the curve's\n",
+        cz_fit_verdict_word(summary->verdict),
+        percent_of(a, summary->mean_square / summary->mean_force),
+        percent_of(b, summary->law_peak / summary->peak_force),
+        percent_of(c, summary->law_whole_energy / summary->whole_energy));
 }
 
 /* One line of stages: stroke and force, which follow each other. */
@@ -67,7 +80,11 @@ static void write_values(const CzFit *fit, FILE *stream) {
 }
 
 void cz_fit_write_yaml(const CzFit *fit, FILE *stream) {
+    if (fit->summary.verdict == CZ_FIT_REFUSED)
+        return;
     write_head(&fit->summary, stream);
+    for (int i = 0; i < fit->n_doubt; i++)
+        fprintf(stream, "# DOUBTFUL: %s\n", fit->doubt[i]);
     for (int i = 0; i < fit->n_note; i++)
         fprintf(stream, "# note: %s\n", fit->note[i]);
     fprintf(stream,

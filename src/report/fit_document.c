@@ -22,6 +22,16 @@ static void put_summary(CzJson *json, const CzFitSummary *summary) {
     cz_json_real(json, "largest_force_difference_kN", summary->largest_difference / CZ_KILO);
     cz_json_real(json, "at_stroke_mm", summary->at_stroke * CZ_MILLI_PER_UNIT);
     cz_json_real(json, "mean_square_difference_kN", summary->mean_square / CZ_KILO);
+    cz_json_real(json, "mean_force_kN", summary->mean_force / CZ_KILO);
+    cz_json_real(json, "law_peak_force_kN", summary->law_peak / CZ_KILO);
+    cz_json_real(json, "whole_energy_kJ", summary->whole_energy / CZ_KILO);
+    cz_json_real(json, "law_whole_energy_kJ", summary->law_whole_energy / CZ_KILO);
+    cz_json_real(json, "stretch_difference_kN", summary->stretch_difference / CZ_KILO);
+    cz_json_text(json, "verdict", cz_fit_verdict_word(summary->verdict));
+}
+
+static bool is_refused(const CzFit *fit) {
+    return cz_fit_summary(fit)->verdict == CZ_FIT_REFUSED;
 }
 
 /* The YAML text, to be freed; NULL without memory. */
@@ -48,11 +58,15 @@ CzStatus cz_report_write_fit(const CzFit *fit, FILE *stream, CzError *error) {
     for (int i = 0; i < cz_fit_n_value(fit); i++)
         cz_json_exact(json, cz_fit_value_path(fit, i), cz_fit_value(fit, i));
     cz_json_close(json);
+    cz_json_open_list(json, "doubts");
+    for (int i = 0; i < cz_fit_n_doubt(fit); i++)
+        cz_json_text(json, NULL, cz_fit_doubt(fit, i));
+    cz_json_close(json);
     cz_json_open_list(json, "notes");
     for (int i = 0; i < cz_fit_n_note(fit); i++)
         cz_json_text(json, NULL, cz_fit_note(fit, i));
     cz_json_close(json);
-    cz_json_text(json, "yaml", yaml);
+    cz_json_text(json, "yaml", is_refused(fit) ? NULL : yaml);
     const bool has_memory = yaml != NULL;
     free(yaml);
     const CzStatus status = cz_json_finish(json, stream, error);

@@ -13,6 +13,7 @@ set(CZ_SOURCES_report
     explanation.c
     figure.c
     fit_document.c
+    fit_figure.c
     folder.c
     grid.c
     inputs_text.c

@@ -66,6 +66,30 @@ check "--name and --stages are followed" named
 from_stdin() { "$C" fit - --as end --basis static <zone.csv >stdin.yaml && says stdin.yaml '  end:'; }
 check "a dash reads standard input" from_stdin
 
+# Whether the law is like the curve.
+printf 'stroke_mm,force_kN\n0,0\n1,1000\n200,5\n' >triangle.csv
+unlike() {
+    exits 1 "$C" fit triangle.csv --as anti-climber --basis static --stages 1 --svg triangle.svg && [ ! -s out.txt ] || return 1
+    says err.txt 'error: the root mean square difference is 57 % of the mean force' && says err.txt 'more than 50 % is refused' || return 1
+    says triangle.svg 'REFUSED' || return 1
+    exits 1 "$C" fit triangle.csv --as anti-climber --basis static --stages 1 --json && json out.txt verdict refused && json out.txt yaml null
+}
+check "a law that is not like its curve is refused with exit code 1, and drawn" unlike
+printf 'stroke_mm,force_kN\n0,0\n60,60\n120,250\n200,580\n230,700\n233,70\n270,110\n' >rupture.csv
+rupture() { exits 0 "$C" fit rupture.csv --as coupler --basis static && says err.txt 'warning: the force falls from 700 to' && says out.txt '# DOUBTFUL: the force falls' && exits 0 "$C" fit rupture.csv --as coupler --basis static --json && json out.txt verdict doubtful; }
+check "a curve that ruptures is doubtful, on standard error and in the law" rupture
+{ cat tube.csv; awk 'BEGIN { for (i = 1; i <= 40; i++) printf "%.3f,%.1f\n", 464 + i / 4, 700 + 100 * i }'; } >bottoms.csv
+bottoms() { exits 0 "$C" fit bottoms.csv --as anti-climber --basis static && says out.txt 'bottom_stiffness_MN_m: ' && says out.txt 'the stop begins at 46' && says out.txt 'peak 100 %'; }
+check "a curve that ends in a stop gives the stop's stiffness" bottoms
+awk 'BEGIN { print "stroke_mm,force_kN"
+    for (i = 0; i <= 50; i++) printf "%d,%.1f\n", i, 8 * i
+    for (i = 52; i <= 300; i += 2) print i ",600"
+    print "303,911"; print "309,120"; for (i = 310; i <= 450; i += 2) print i ",120" }' >friction.csv
+friction() { exits 0 "$C" fit friction.csv --as coupler --basis static && says out.txt 'residual_force_kN: 120' && says out.txt 'force_kN: 911'; }
+check "a shear-off keeps its residual force" friction
+drawn() { exits 0 "$C" fit tube.csv --as anti-climber --basis static --svg tube.svg && says tube.svg '<svg' && says tube.svg 'measured' && says err.txt 'wrote tube.svg' && exits 2 "$C" fit tube.csv --as anti-climber --basis static --svg -; }
+check "--svg draws the law over the curve" drawn
+
 # Columns, units and separators.
 sed 's/stroke_mm,force_kN/Travel [mm],Load (kN)/' tube.csv >titles.csv
 titles() { exits 0 "$C" fit titles.csv --as anti-climber --basis static --stroke 'Travel [mm]' --force 2 && says out.txt 'trigger_kN: 800'; }

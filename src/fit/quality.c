@@ -1,0 +1,100 @@
+/* Whether a law is like its curve, over the whole loading of the curve.
+ *
+ * Equal energy alone says little: a plateau through a curve that ruptures has it too. Levels are
+ * ours; a doubtful law is written with what is doubtful, a refused one is not written.
+ */
+#include "fit/fit.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/number.h"
+
+/* Share that is measured, and its levels. */
+typedef struct Level {
+    double doubtful, refused;
+} Level;
+
+static const Level mean_square = {0.2, 0.5}; /* over the mean force (ours) */
+static const Level stretch = {0.4, 1.0};     /* over a tenth of the stroke, over the mean (ours) */
+static const Level energy = {0.03, 0.1};     /* difference over the curve's (ours) */
+static const Level too_high = {0.15, 0.3};   /* peak of the law over the curve's, less 1 (ours) */
+static const Level too_low = {0.45, 0.7}; /* 1 less the peak of the law over the curve's (ours) */
+
+const char *cz_fit_verdict_word(CzFitVerdict verdict) {
+    static const char *const words[] = {"good", "doubtful", "refused"};
+    return words[verdict];
+}
+
+/* Notes why a law is doubtful, or refused. */
+__attribute__((format(printf, 3, 0))) static void
+note_doubt(CzFit *fit, CzFitVerdict verdict, const char *format, va_list arguments) {
+    if (verdict > fit->summary.verdict)
+        fit->summary.verdict = verdict;
+    if (fit->n_doubt < CZ_FIT_MOST_DOUBTS)
+        vsnprintf(fit->doubt[fit->n_doubt++], sizeof fit->doubt[0], format, arguments);
+}
+
+void cz_fit_doubt_that(CzFit *fit, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    note_doubt(fit, CZ_FIT_DOUBTFUL, format, arguments);
+    va_end(arguments);
+}
+
+__attribute__((format(printf, 4, 5))) static void
+judge(CzFit *fit, double share, const Level *level, const char *format, ...) {
+    const bool is_refused = !(share <= level->refused); /* what is no number is refused */
+    if (share <= level->doubtful)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    note_doubt(fit, is_refused ? CZ_FIT_REFUSED : CZ_FIT_DOUBTFUL, format, arguments);
+    va_end(arguments);
+    char *text = fit->doubt[fit->n_doubt - 1];
+    const size_t n = strlen(text);
+    snprintf(text + n, sizeof fit->doubt[0] - n, "; more than %g %% is %s",
+             100.0 * (is_refused ? level->refused : level->doubtful),
+             is_refused ? "refused" : "doubtful");
+}
+
+void cz_fit_judge(CzFit *fit) {
+    CzFitSummary *summary = &fit->summary;
+    char a[CZ_NUMBER_TEXT], b[CZ_NUMBER_TEXT];
+    const double peak = summary->law_peak / summary->peak_force;
+    const double taken = summary->law_whole_energy / summary->whole_energy - 1.0;
+    judge(fit, summary->mean_square / summary->mean_force, &mean_square,
+          "the root mean square difference is %.0f %% of the mean force of %s kN",
+          100.0 * summary->mean_square / summary->mean_force,
+          cz_number_print_short(a, 1e-3 * summary->mean_force));
+    judge(fit, summary->stretch_difference / summary->mean_force, &stretch,
+          "over a tenth of the stroke the force differs by %.0f %% of the mean force",
+          100.0 * summary->stretch_difference / summary->mean_force);
+    judge(fit, fabs(taken), &energy, "over the whole curve the law takes %.0f %% %s energy",
+          100.0 * fabs(taken), taken > 0.0 ? "more" : "less");
+    judge(fit, peak - 1.0, &too_high, "the law's peak of %s kN is %.0f %% above the curve's",
+          cz_number_print_short(b, 1e-3 * summary->law_peak), 100.0 * (peak - 1.0));
+    judge(fit, 1.0 - peak, &too_low, "the law's peak of %s kN is %.0f %% below the curve's",
+          cz_number_print_short(b, 1e-3 * summary->law_peak), 100.0 * (1.0 - peak));
+}
+
+int cz_fit_n_doubt(const CzFit *fit) {
+    return fit->n_doubt;
+}
+
+const char *cz_fit_doubt(const CzFit *fit, int index) {
+    return fit->doubt[index];
+}
+
+void cz_fit_curve(const CzFit *fit, int *n, const double **stroke, const double **force) {
+    *n = fit->curve.n;
+    *stroke = fit->curve.x;
+    *force = fit->curve.f;
+}
+
+void cz_fit_law(const CzFit *fit, int *n, const double **stroke, const double **force) {
+    *n = fit->whole.n;
+    *stroke = fit->whole.x;
+    *force = fit->whole.f;
+}

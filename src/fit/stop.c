@@ -1,0 +1,110 @@
+/* Where a curve ends in a stop, and the stop of the law.
+ *
+ * The rise from the onset d_o to the last point (d_e, F_e) has the area A. A member whose last
+ * force is F_p ends at d_s and rises with the stiffness k_t along a line of the same area and last
+ * force:
+ *
+ *   d_s = d_e - 2 (A - F_p (d_e - d_o)) / (F_e - F_p),   k_t = (F_e - F_p) / (d_e - d_s)
+ *
+ * k_t holds the elasticity k in series with the member: 1 / k_bottom = 1 / k_t - 1 / k.
+ */
+#include "fit/fit.h"
+
+#include "base/error.h"
+#include "base/number.h"
+
+#define LEVEL 1.1   /* of the mean force of the stroke so far: above it a rise has begun (ours) */
+#define HEIGHT 1.5  /* of the highest force before: less is a stage (ours) */
+#define STEEP 20.0  /* times the stiffness of force over stroke: less is a stage (ours) */
+#define STIFFER 1.1 /* than the stop, the elasticity in series with it at least (ours) */
+#define RAISED 2.0  /* the same where it has to be raised (ours) */
+
+/* The last point whose force is no higher than what the second half of the stroke so far carries.
+ */
+static int find_onset(const CzBranch *curve) {
+    int i = curve->n - 1;
+    while (i > 0 && curve->f[i] > LEVEL * cz_branch_mean(curve, 0.5 * curve->x[i], curve->x[i]))
+        i--;
+    return i;
+}
+
+CzStop cz_fit_find_stop(const CzFit *fit) {
+    const CzBranch *curve = &fit->curve;
+    const int last = curve->n - 1, onset = find_onset(curve);
+    const double length = curve->x[last] - curve->x[onset];
+    CzStop stop = {.onset = last};
+    if (onset == 0 || !(curve->x[onset] > 0.0) || !(length > 0.0))
+        return stop;
+    double highest = 0.0;
+    for (int i = 0; i <= onset; i++)
+        if (curve->x[i] >= 0.25 * curve->x[onset])
+            highest = fmax(highest, curve->f[i]);
+    const double level = cz_branch_mean(curve, 0.5 * curve->x[onset], curve->x[onset]);
+    const double area =
+        cz_branch_sums(curve, curve->x[last]).area - cz_branch_sums(curve, curve->x[onset]).area;
+    const double above = area - level * length;
+    const double rise = curve->f[last] - level;
+    if (!(above > 0.0) || !(curve->f[last] > HEIGHT * highest))
+        return stop;
+    stop.stiffness = rise * rise / (2.0 * above);
+    const CzKey *key = cz_fit_key(CZ_RECORD_CzTube, "bottom_stiffness");
+    stop.is_there = stop.stiffness >= key->lo && stop.stiffness >= STEEP * level / curve->x[onset];
+    if (stop.is_there)
+        stop.onset = onset;
+    return stop;
+}
+
+double cz_fit_stiffness_for(CzFit *fit, const CzStop *stop, double stiffness) {
+    if (!stop->is_there || stiffness >= STIFFER * stop->stiffness)
+        return stiffness;
+    cz_fit_note_down(fit,
+                     "the stop is stiffer than the elastic rise lets it be: `stiffness` is that "
+                     "of twice the stop");
+    return cz_fit_round(RAISED * stop->stiffness, 1e6);
+}
+
+/* Lets a part go on at its last stage's force to the end of a member that is longer. */
+static bool extend(CzArena *arena, double stroke, double force, CzBranch *part) {
+    const int n = part->n;
+    double *x = cz_arena_allocate(arena, (size_t)n + 1, sizeof *x);
+    double *f = cz_arena_allocate(arena, (size_t)n + 1, sizeof *f);
+    if (x == NULL || f == NULL)
+        return false;
+    for (int i = 0; i < n; i++) {
+        x[i] = part->x[i];
+        f[i] = part->f[i];
+    }
+    x[n] = fmax(stroke, x[n - 1]);
+    f[n] = force;
+    return cz_branch_build(arena, n + 1, x, f, part);
+}
+
+CzStatus cz_fit_place_stop(CzFit *fit, const CzStop *stop, CzStaged *staged, CzBranch *part,
+                           CzError *error) {
+    if (!stop->is_there)
+        return CZ_OK;
+    const CzKey *key = cz_fit_key(CZ_RECORD_CzTube, "bottom_stiffness");
+    const CzBranch *curve = &fit->curve;
+    CzStage *stage = &staged->stage[staged->n_stage - 1];
+    CzLoading loading;
+    const double end = cz_branch_last(curve), onset = curve->x[stop->onset];
+    const double force = curve->f[curve->n - 1], plateau = stage->force;
+    const double area = cz_branch_sums(curve, end).area - cz_branch_sums(curve, onset).area;
+    const double above = area - plateau * (end - onset);
+    const double length = fmin(2.0 * above / (force - plateau), 2.0 * (end - onset));
+    cz_fit_load(fit, &loading);
+    if (!(force > plateau) || !(length > 0.0))
+        return CZ_OK;
+    const double moves = end - length - loading.x[loading.n - 1];
+    const double compliance = isfinite(fit->stiffness) ? 1.0 / fit->stiffness : 0.0;
+    const double soft = length / (force - plateau) - compliance;
+    stage->stroke = cz_fit_round(fmax(stage->stroke + moves, 0.5 * stage->stroke), 1e-3);
+    staged->bottom_stiffness = cz_fit_round(fmin(fmax(1.0 / soft, key->lo), key->hi), 1e6);
+    fit->stop_force = force;
+    char at[CZ_NUMBER_TEXT];
+    cz_fit_note_down(fit, "the stop begins at %s mm; its stiffness is the curve's",
+                     cz_number_print_short(at, 1e3 * (end - length)));
+    return extend(&fit->arena, cz_staged_stroke(staged), plateau, part)
+               ? CZ_OK
+               : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+}

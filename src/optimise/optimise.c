@@ -14,9 +14,6 @@
 #include <string.h>
 #include <time.h>
 
-/* Designs that are run in full until one keeps what it kept in the search. */
-enum { MOST_CONFIRMED = 8 };
-
 const char *cz_outcome_text(CzOutcomeStatus status) {
     static const char *const texts[] = {[CZ_OUTCOME_FEASIBLE] = "feasible",
                                         [CZ_OUTCOME_INFEASIBLE] = "infeasible",
@@ -56,21 +53,32 @@ static CzStatus copy_history(const CzHunt *hunt, int n_variable, CzOutcome *outc
     return CZ_OK;
 }
 
-/* The best record that passed in the search and is none of those whose full run did not, -1 when
- * there is none; on the catalogue steps when the first of them is. */
-static long next_passing(const CzSearch *search, int n_refuted, const long *refuted) {
-    const bool on_grid = search->record[refuted[0]].on_grid;
-    long best = -1;
+/* Whether a record has the design of a listed one. */
+static bool is_listed(const CzSearch *search, long record, long n, const long *list) {
+    const size_t size = (size_t)search->function->n_variable * sizeof(double);
+    for (long i = 0; i < n; i++)
+        if (memcmp(cz_search_x(search, record), cz_search_x(search, list[i]), size) == 0)
+            return true;
+    return false;
+}
+
+/* Lists the designs that passed in the search, best first, from a record on; those on the catalogue
+ * steps alone when that one is. `list` has room for all records. Returns how many. */
+static long rank_passing(const CzSearch *search, long from, long *list) {
+    const bool on_grid = search->record[from].on_grid;
+    long n = 0;
+    list[n++] = from;
     for (long record = 0; record < search->n_record; record++) {
-        bool is_open =
-            search->record[record].violation <= 0 && (search->record[record].on_grid || !on_grid);
-        for (int i = 0; i < n_refuted && is_open; i++)
-            is_open = memcmp(cz_search_x(search, record), cz_search_x(search, refuted[i]),
-                             (size_t)search->function->n_variable * sizeof(double)) != 0;
-        if (is_open && cz_search_is_better(search, record, best))
-            best = record;
+        const CzRecord *found = &search->record[record];
+        if (found->violation > 0 || (on_grid && !found->on_grid) ||
+            is_listed(search, record, n, list))
+            continue;
+        long at = n++;
+        for (; at > 1 && cz_search_is_better(search, record, list[at - 1]); at--)
+            list[at] = list[at - 1];
+        list[at] = record;
     }
-    return best;
+    return n;
 }
 
 /* Evaluates the design of a record in full. */
@@ -81,41 +89,82 @@ static CzStatus evaluate_record(CzEvaluator *evaluator, const CzSubspace *subspa
     return cz_evaluate(evaluator, 1, x, true, evaluation, error);
 }
 
-/* Evaluates the chosen record in full. Runs of a search end once they have settled; when the full
- * run finds a violation that this left out, the next best designs take their turn. `x` is scratch
- * (n_variable). */
-static CzStatus confirm_best(CzEvaluator *evaluator, const CzHunt *hunt, double *x,
-                             CzOutcome *outcome, CzError *error) {
-    const CzSearch *search = &hunt->search[hunt->chosen];
-    const CzSubspace *subspace = &hunt->subspace[hunt->chosen];
-    const size_t size = (size_t)outcome->n_variable * sizeof *outcome->best;
-    long tried[MOST_CONFIRMED];
-    int n_tried = 0;
-    long record = cz_hunt_record(search);
-    if (record < 0) /* the start is known to be readable, the nearest increments are not */
-        memcpy(x, search->function->start, (size_t)search->function->n_variable * sizeof *x);
-    else
-        memcpy(x, cz_search_x(search, record), (size_t)search->function->n_variable * sizeof *x);
+/* Whether one evaluation in full is worth more than another one. */
+static bool is_worth_more(const CzEvaluation *one, const CzEvaluation *other) {
+    if (one->violation > 0 || other->violation > 0)
+        return one->violation < other->violation;
+    return one->objective < other->objective;
+}
+
+/* The designs that passed in the search, best first. */
+typedef struct Ranking {
+    CzEvaluator *evaluator;
+    const CzSearch *search;
+    const CzSubspace *subspace;
+    long n;
+    long *record; /* (n) */
+    double *x;    /* scratch (n_variable) */
+} Ranking;
+
+/* Evaluates a design in full and takes it for the best one when it is worth more; says whether it
+ * passes. */
+static CzStatus try_in_full(const Ranking *ranking, const double *number, CzOutcome *outcome,
+                            bool *passes, CzError *error) {
+    CzEvaluation next;
     CZ_TRY(
-        evaluate_record(evaluator, subspace, x, outcome->best, &outcome->best_evaluation, error));
-    if (record < 0 || search->record[record].violation > 0)
+        evaluate_record(ranking->evaluator, ranking->subspace, number, ranking->x, &next, error));
+    *passes = next.violation <= 0;
+    if (!is_worth_more(&next, &outcome->best_evaluation)) {
+        cz_evaluation_free(&next);
         return CZ_OK;
-    while (outcome->best_evaluation.violation > 0 && n_tried < MOST_CONFIRMED) {
-        tried[n_tried++] = record;
-        record = next_passing(search, n_tried, tried);
-        if (record < 0)
-            return CZ_OK;
-        CzEvaluation next;
-        CZ_TRY(evaluate_record(evaluator, subspace, cz_search_x(search, record), x, &next, error));
-        if (next.violation >= outcome->best_evaluation.violation) {
-            cz_evaluation_free(&next);
-            continue;
-        }
-        cz_evaluation_free(&outcome->best_evaluation);
-        outcome->best_evaluation = next;
-        memcpy(outcome->best, x, size);
     }
+    cz_evaluation_free(&outcome->best_evaluation);
+    outcome->best_evaluation = next;
+    memcpy(outcome->best, ranking->x, (size_t)outcome->n_variable * sizeof *ranking->x);
     return CZ_OK;
+}
+
+/* The first design of the ranking does not pass in full. Alike designs fail alike, so that the next
+ * ones are tried in leaps that double, and what was leapt over is halved until the best one that
+ * passes has a neighbour that does not. Last comes the start, which the search may have left. */
+static CzStatus find_passing(const Ranking *ranking, CzOutcome *outcome, CzError *error) {
+    const CzSearch *search = ranking->search;
+    long failed = 0, passed = ranking->n;
+    bool passes;
+    for (long leap = 1; failed + leap < passed && passed == ranking->n; leap *= 2) {
+        const long at = failed + leap;
+        CZ_TRY(try_in_full(ranking, cz_search_x(search, ranking->record[at]), outcome, &passes,
+                           error));
+        *(passes ? &passed : &failed) = at;
+    }
+    while (passed - failed > 1) {
+        const long at = failed + (passed - failed) / 2;
+        CZ_TRY(try_in_full(ranking, cz_search_x(search, ranking->record[at]), outcome, &passes,
+                           error));
+        *(passes ? &passed : &failed) = at;
+    }
+    return try_in_full(ranking, search->function->start, outcome, &passes, error);
+}
+
+/* Evaluates the chosen record in full. Runs of a search end once they have settled; when the full
+ * run finds a violation that this left out, the next best designs take their turn. */
+static CzStatus confirm_best(Ranking *ranking, CzOutcome *outcome, CzError *error) {
+    const CzSearch *search = ranking->search;
+    const long record = cz_hunt_record(search);
+    /* Without a record the start is known to be readable, the nearest increments are not. */
+    CZ_TRY(evaluate_record(ranking->evaluator, ranking->subspace,
+                           record < 0 ? search->function->start : cz_search_x(search, record),
+                           outcome->best, &outcome->best_evaluation, error));
+    if (record < 0 || search->record[record].violation > 0 ||
+        outcome->best_evaluation.violation <= 0)
+        return CZ_OK;
+    ranking->record = calloc((size_t)search->n_record + 1, sizeof *ranking->record);
+    if (ranking->record == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the outcome");
+    ranking->n = rank_passing(search, record, ranking->record);
+    const CzStatus status = find_passing(ranking, outcome, error);
+    free(ranking->record);
+    return status;
 }
 
 void cz_outcome_mark_bounds(const CzEvaluator *evaluator, CzOutcome *outcome) {
@@ -145,7 +194,11 @@ static CzStatus confirm(CzEvaluator *evaluator, const CzHunt *hunt, CzOutcome *o
             outcome->start[i] = cz_evaluator_variable(evaluator, i)->start;
         status = cz_evaluate(evaluator, 1, outcome->start, true, &outcome->start_evaluation, error);
         if (status == CZ_OK)
-            status = confirm_best(evaluator, hunt, x, outcome, error);
+            status = confirm_best(&(Ranking){.evaluator = evaluator,
+                                             .search = &hunt->search[hunt->chosen],
+                                             .subspace = &hunt->subspace[hunt->chosen],
+                                             .x = x},
+                                  outcome, error);
     }
     if (status == CZ_OK)
         cz_outcome_mark_bounds(evaluator, outcome);

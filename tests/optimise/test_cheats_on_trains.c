@@ -264,7 +264,7 @@ static void optimiser_cannot_win_with_a_run_that_does_not_end(void **state) {
     (void)state;
     CzStatus status = CZ_OK;
     Case made =
-        run_failing(TWO_RIGID("longest_s: 0.165") AT("speed_km_h: 25"), "interfaces.peak_force_kN",
+        run_failing(TWO_RIGID("longest_s: 0.23") AT("speed_km_h: 25"), "interfaces.peak_force_kN",
                     "{path: \"parts.tube.stages[0].force_kN\", min: 450, max: 800, "
                     "start: 500}",
                     800, &status);

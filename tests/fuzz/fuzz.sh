@@ -12,10 +12,10 @@ if [ -n "${CZ_FUZZ_SECONDS:-}" ]; then
     corpus=$BUILD/corpus/$target
 fi
 mkdir -p "$corpus"
-"$BUILD/tests/fuzz_words" >words.dict
 sh "$SOURCE/tests/fuzz/seeds.sh" "$target" seeds
 
 searched() { # what was found stands in the log, and the input in crash-..., timeout-..., oom-... or leak-...
+    "$BUILD/tests/fuzz_words" >words.dict || return
     ASAN_OPTIONS=quarantine_size_mb=16 "$BUILD/tests/fuzz_$target" -seed=$seed -max_total_time="$seconds" -timeout=20 \
         -rss_limit_mb=1024 -max_len=24000 -use_cmp=0 -dict=words.dict -print_final_stats=1 "$corpus" seeds >log 2>&1 && return
     grep -vE '^#[0-9]+	(NEW|REDUCE|pulse)' log | tail -n 60

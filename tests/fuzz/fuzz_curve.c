@@ -1,5 +1,5 @@
 /* Any bytes as a measured curve: for a fit, as a table of a problem, as a time history of a match,
- * and as columns to draw. The first byte chooses how the curve is read. */
+ * and as columns to draw. The first two bytes choose how the curve is read. */
 #include "fuzz/fuzz.h"
 
 #include "crushzone/fit.h"
@@ -47,6 +47,15 @@ static void fit_curve(const char *path, unsigned choice) {
     options.n_stage = (int)(choice / 16) % 4 - 1;
     if (choice & 64)
         options.decimal = ',';
+    options.flips_stroke = choice >> 8 & 1;
+    options.flips_force = choice >> 9 & 1;
+    options.zero = (CzFitZero)(choice >> 10 & 3);
+    options.zero_stroke = 1.5;
+    options.scale = choice >> 12 & 1 ? 0.5 : 1.0;
+    if (choice >> 13 & 1)
+        options.from = 5.0;
+    if (choice >> 14 & 1)
+        options.to = 100.0;
     if (choice & 128) {
         options.stroke = "1";
         options.force = "2";
@@ -62,7 +71,7 @@ static void fit_curve(const char *path, unsigned choice) {
 }
 
 static void draw_curve(const char *path, unsigned choice) {
-    const CzCurveColumns columns = {"time", "force", "1", "2", 0, choice & 64 ? ',' : '.'};
+    const CzCurveColumns columns = {"time", "force", "1", "2", 0, choice & 64 ? ',' : 0};
     CzCurve *curve = NULL;
     CzError error = {0};
     const CzStatus status = cz_curve_read(path, &columns, &curve, &error);
@@ -70,6 +79,12 @@ static void draw_curve(const char *path, unsigned choice) {
     for (int i = 0; status == CZ_OK && i < curve->n; i++)
         FUZZ_DEMAND(isfinite(curve->x[i]) && isfinite(curve->y[i]));
     cz_curve_free(curve);
+    char **title = NULL;
+    int n = 0;
+    check_refusal(cz_curve_titles(path, 0, &n, &title, &error), &error);
+    for (int i = 0; title != NULL && i < n; i++)
+        FUZZ_DEMAND(title[i] != NULL);
+    free(title);
 }
 
 static void read_problem(const char *end, const char *optimise) {
@@ -84,8 +99,8 @@ static void read_problem(const char *end, const char *optimise) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_byte) {
-    const unsigned choice = n_byte > 0 ? data[0] : 0;
-    const size_t n_head = n_byte > 0 ? 1 : 0;
+    const size_t n_head = n_byte < 2 ? n_byte : 2;
+    const unsigned choice = n_byte < 2 ? 0 : data[0] | (unsigned)data[1] << 8;
     const char *path = fuzz_write_file("curve.csv", data + n_head, n_byte - n_head);
     fit_curve(path, choice);
     draw_curve(path, choice);

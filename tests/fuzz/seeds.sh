@@ -14,10 +14,10 @@ problem | resolved)
     [ "$target" = resolved ] || copy "$SOURCE"/tests/problem/bad/*.yaml
     ;;
 profile) copy "$SOURCE"/problems/profiles/*.yaml "$SOURCE"/tests/problem/*/profiles/*.yaml ;;
-curve) # the first byte chooses the device and how the file is read
+curve) # the first two bytes choose the device and how the file is read
     for file in "$SOURCE"/examples/*.csv "$SOURCE"/tests/problem/good/*.csv "$SOURCE"/tests/problem/bad/*.csv; do
         for first in 0 1 2 3 11 65 129; do
-            { printf "\\$(printf %03o $first)" && cat "$file"; } >"$folder/$first-$(basename "$file")"
+            { printf "\\$(printf %03o $first)\\000" && cat "$file"; } >"$folder/$first-$(basename "$file")"
         done
     done
     ;;

@@ -73,6 +73,12 @@ typedef struct CzMatchResult {
     bool is_history;
 } CzMatchResult;
 
+/* A train that limits do not judge. Texts are borrowed from the evaluator. */
+typedef struct CzNotJudged {
+    const char *train, *why;
+    bool is_inferred; /* no role was given: it is taken for an obstacle by what it is */
+} CzNotJudged;
+
 /* What one design answers. Arrays are borrowed from the evaluation and freed with it. */
 typedef struct CzEvaluation {
     CzStatus status;  /* CZ_OK, or CZ_STATUS_RUN_FAILED when a scenario failed or is incomplete */
@@ -91,8 +97,10 @@ typedef struct CzEvaluation {
     int n_not_covered;    /* what the profile asks for and this program cannot compute, which is no
                              check and counts in no verdict */
     const char *const *not_covered; /* borrowed from the evaluator (n_not_covered) */
-    int n_match;                    /* the last constraints belong to them */
-    CzMatchResult *match;           /* of a fit (n_match) */
+    int n_not_judged;
+    const CzNotJudged *not_judged; /* obstacles, borrowed from the evaluator (n_not_judged) */
+    int n_match;                   /* the last constraints belong to them */
+    CzMatchResult *match;          /* of a fit (n_match) */
     int n_run;
     CzRun **run; /* one per scenario when asked for, else NULL */
 } CzEvaluation;

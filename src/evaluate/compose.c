@@ -23,7 +23,8 @@ CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                          .vehicles = vehicles,
                          .n_vehicle = evaluator->n_vehicle,
                          .n_first_train = input->trains[0].n_vehicles,
-                         .rate = evaluator->rate};
+                         .rate = evaluator->rate,
+                         .is_obstacle = evaluator->obstacles.has_vehicle};
     if (scenario != CZ_NO_SCENARIO) {
         subject.scene = &evaluator->scene[scenario];
         subject.run = run;
@@ -209,6 +210,8 @@ static CzStatus compose_checks(const CzEvaluator *evaluator, const CzVehicle *ve
     evaluation->beyond_validity = any_climbed(evaluator, run);
     evaluation->n_not_covered = evaluator->list.n_not_covered;
     evaluation->not_covered = evaluator->list.not_covered;
+    evaluation->n_not_judged = evaluator->obstacles.n;
+    evaluation->not_judged = evaluator->obstacles.train;
     free(all);
     return CZ_OK;
 }

@@ -139,6 +139,8 @@ static CzStatus build(CzEvaluator *evaluator, const char *only, CzError *error) 
     CzArena *arena = &evaluator->arena;
     cz_problem_vehicles(problem, &evaluator->n_vehicle);
     CZ_TRY(cz_scenes_build(problem, arena, &evaluator->n_scene, &evaluator->scene, error));
+    CZ_TRY(cz_obstacles_find(problem, evaluator->n_scene, evaluator->scene, arena,
+                             &evaluator->obstacles, error));
     CZ_TRY(cz_design_build(problem, evaluator->n_scene, evaluator->scene, arena, &evaluator->design,
                            error));
     CZ_TRY(cz_checklist_build(problem, evaluator->n_scene, evaluator->scene, arena,

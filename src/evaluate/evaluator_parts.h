@@ -13,6 +13,7 @@ struct CzEvaluator {
     const CzProblem *problem;
     int n_job;
     CzManner manner; /* of what is no search */
+    CzObstacles obstacles;
     int n_scene;
     CzScene *scene;            /* (n_scene) */
     const char *only;          /* scenario that is run; NULL for all */

@@ -44,6 +44,30 @@ static double overlap_in_ribs(const CzPlace *place) {
     return place->interface->min_overlap / rib_pitch(place);
 }
 
+static bool is_judged(const CzPlace *place, int vehicle) {
+    return !cz_scene_has_obstacle_at(place->scene, vehicle);
+}
+
+/* Whether anything at an interface ran beyond its last point, the devices of an obstacle aside. */
+static double judged_bottoming(const CzPlace *place) {
+    const CzInterfaceResult *interface = place->interface;
+    if (is_judged(place, place->interface_index) && is_judged(place, place->interface_index + 1))
+        return interface->bottomed_out;
+    for (int i = 0; i < interface->n_element; i++)
+        if (interface->element[i].bottomed_out && is_judged(place, interface->element[i].vehicle))
+            return 1;
+    return 0;
+}
+
+/* Largest force through the sections at an interface that are judged. */
+static double judged_section_force(const CzPlace *place) {
+    double force = NAN;
+    for (int side = 0; side < 2; side++)
+        if (is_judged(place, place->interface_index + side))
+            force = fmax(force, place->interface->section_force[side]);
+    return force;
+}
+
 /* Closure between the end structures over the room that the folded gangways leave; 0 at the
  * colliding interface, which has no gangway. */
 static double inner_gap_used(const CzPlace *place) {

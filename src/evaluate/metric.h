@@ -78,9 +78,10 @@ typedef struct CzSubject {
     const CzVehicle
         *vehicles; /* the problem's vehicle array with the design's values (n_vehicle) */
     int n_vehicle;
-    int n_first_train;    /* the first n vehicles of the array are the first train */
-    const CzInput *input; /* for names of trains */
-    double rate;          /* rate of flow that tube forces are taken at [m/s] */
+    int n_first_train;       /* the first n vehicles of the array are the first train */
+    const CzInput *input;    /* for names of trains */
+    double rate;             /* rate of flow that tube forces are taken at [m/s] */
+    const bool *is_obstacle; /* whether a vehicle is part of an obstacle (n_vehicle); NULL: none */
 } CzSubject;
 
 typedef enum CzKnown {

@@ -70,11 +70,21 @@ static const CzVehicle *record_of(const CzSubject *subject, int vehicle) {
     return &subject->vehicles[subject->scene->record[vehicle]];
 }
 
+static bool has_wildcard(const char *selector) {
+    return strpbrk(selector, "*?") != NULL;
+}
+
+/* Whether a vehicle of the scene is passed over: an obstacle is not judged unless it is named. */
+static bool is_passed_over(const Walk *walk, int vehicle) {
+    return has_wildcard(walk->selector) && cz_scene_has_obstacle_at(walk->subject->scene, vehicle);
+}
+
 static void visit_vehicles(Walk *walk) {
     const CzRunSummary *run = walk->subject->run;
     for (int i = 0; i < run->n_vehicle; i++) {
         const CzVehicle *record = record_of(walk->subject, i);
-        if (record->model == CZ_MODEL_FIXED || !cz_matches(walk->selector, run->vehicle[i].name))
+        if (record->model == CZ_MODEL_FIXED || is_passed_over(walk, i) ||
+            !cz_matches(walk->selector, run->vehicle[i].name))
             continue;
         walk->place.vehicle = &run->vehicle[i];
         walk->place.record = record;
@@ -87,7 +97,8 @@ static void visit_elements(Walk *walk, bool is_colliding) {
     const CzInterfaceResult *interface = walk->place.interface;
     for (int i = 0; i < interface->n_element; i++) {
         const CzElementResult *element = &interface->element[i];
-        if (!picks_element(walk->selector, interface->name, element->name, is_colliding))
+        if (is_passed_over(walk, element->vehicle) ||
+            !picks_element(walk->selector, interface->name, element->name, is_colliding))
             continue;
         const CzVehicle *record = record_of(walk->subject, element->vehicle);
         walk->place.element = element;
@@ -99,6 +110,11 @@ static void visit_elements(Walk *walk, bool is_colliding) {
     }
 }
 
+/* A section is picked by its interface, which an obstacle shares with the train. */
+static bool is_obstacle_section(const Walk *walk, int vehicle) {
+    return cz_scene_has_obstacle_at(walk->subject->scene, vehicle);
+}
+
 static void visit_sections(Walk *walk, bool is_colliding) {
     const CzInterfaceResult *interface = walk->place.interface;
     if (!picks_interface(walk->selector, interface->name, is_colliding))
@@ -106,7 +122,7 @@ static void visit_sections(Walk *walk, bool is_colliding) {
     for (int side = 0; side < 2; side++) {
         const int vehicle = walk->place.interface_index + side;
         const CzVehicle *record = record_of(walk->subject, vehicle);
-        if (record->model == CZ_MODEL_FIXED)
+        if (record->model == CZ_MODEL_FIXED || is_obstacle_section(walk, vehicle))
             continue;
         walk->place.record = record;
         walk->place.end = side == 0 ? &record->front : &record->rear;
@@ -145,7 +161,10 @@ static void visit_ends(Walk *walk) {
         char name[CZ_WHERE_ROOM];
         snprintf(name, sizeof name, "%s %s", record->name != NULL ? record->name : "",
                  i % 2 == 0 ? "rear" : "front");
-        if (!end->given || record->model == CZ_MODEL_FIXED || !cz_matches(walk->selector, name))
+        const bool is_passed_over = subject->is_obstacle != NULL && subject->is_obstacle[i / 2] &&
+                                    has_wildcard(walk->selector);
+        if (!end->given || record->model == CZ_MODEL_FIXED || is_passed_over ||
+            !cz_matches(walk->selector, name))
             continue;
         walk->place.record = record;
         walk->place.end = end;

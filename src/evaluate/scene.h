@@ -3,6 +3,7 @@
 #define CZ_EVALUATE_SCENE_H
 
 #include "base/arena.h"
+#include "crushzone/evaluate.h"
 #include "problem/problem.h"
 
 typedef struct CzScene {
@@ -15,11 +16,29 @@ typedef struct CzScene {
     int colliding;                   /* interface between the two trains */
     double closing_speed;            /* at the start [m/s] */
     const CzTexts *judged_by;        /* names of the only checks that judge it; NULL for all */
+    bool is_obstacle[2];             /* whether a train is one, and so not judged */
     bool is_overload;                /* heavier than the others: judged for bottoming only */
 } CzScene;
 
 /* Whether a name means this scenario: its own or that of its family. */
 bool cz_scene_is(const CzScene *scene, const char *name);
+
+/* Whether a vehicle, counted as in `vehicle`, belongs to an obstacle. */
+static inline bool cz_scene_has_obstacle_at(const CzScene *scene, int vehicle) {
+    return scene->is_obstacle[vehicle > scene->colliding];
+}
+
+/* The obstacles of a problem. */
+typedef struct CzObstacles {
+    int n;
+    const CzNotJudged *train; /* those that collide in some scene (n) */
+    const bool *has_vehicle;  /* whether a vehicle of the problem's array is part of one */
+} CzObstacles;
+
+/* Finds the obstacles and marks them in the scenes; memory comes from the arena. Statuses: CZ_OK,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_obstacles_find(const CzProblem *problem, int n_scene, CzScene *scene,
+                                         CzArena *arena, CzObstacles *obstacles, CzError *error);
 
 /* Whether checks of this name judge the scenario. */
 bool cz_scene_is_judged_by(const CzScene *scene, const char *check);

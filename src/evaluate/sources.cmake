@@ -12,6 +12,7 @@ set(CZ_SOURCES_evaluate
     levers.c
     match.c
     metric.c
+    obstacle.c
     place.c
     runs.c
     scene.c

@@ -274,6 +274,19 @@ static void check_brake(const CzRules *rules, const double *ratio, const CzTrain
                        train->name != NULL ? train->name : "");
 }
 
+/* One of two trains at least must be there to be judged. */
+static void check_roles(const CzRules *rules, const CzTrain *const pair[2]) {
+    bool any_judged = false;
+    for (int i = 0; i < 2; i++)
+        any_judged |= pair[i]->role != CZ_ROLE_OBSTACLE && !is_fixed_train(pair[i]);
+    if (!any_judged)
+        cz_rule_broken(rules, pair[0]->role == CZ_ROLE_OBSTACLE ? &pair[0]->role : &pair[1]->role,
+                       "nothing would be judged: neither '%.48s' nor '%.48s' is a train, by role "
+                       "or because it is fixed",
+                       pair[0]->name != NULL ? pair[0]->name : "",
+                       pair[1]->name != NULL ? pair[1]->name : "");
+}
+
 void cz_rules_check_scenarios(const CzRules *rules) {
     const CzInput *input = rules->input;
     for (int i = 0; i < input->n_scenarios; i++) {
@@ -282,11 +295,16 @@ void cz_rules_check_scenarios(const CzRules *rules) {
         if (!scenario->given || !find_pair(rules, scenario, pair))
             continue;
         check_closing(rules, scenario, pair);
+        check_roles(rules, pair);
         check_interface(rules, scenario, pair);
         check_brake(rules, &scenario->brake_ratio, pair[0]);
         check_brake(rules, &scenario->partner_brake_ratio, pair[1]);
         if (pair[0]->n_vehicles > 0 && pair[1]->n_vehicles > 0)
             check_neighbours(rules, &pair[0]->vehicles[pair[0]->n_vehicles - 1],
                              &pair[1]->vehicles[0]);
+    }
+    if (input->n_scenarios == 0 && input->n_trains > 1) {
+        const CzTrain *const pair[2] = {&input->trains[0], &input->trains[1]};
+        check_roles(rules, pair);
     }
 }

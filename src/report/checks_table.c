@@ -141,8 +141,13 @@ static void write_count(const CzEvaluation *evaluation, bool colour, FILE *strea
     fputs(".\n", stream);
 }
 
-/* What the profile asks for and no check is made of. */
+/* Whom no limit judges, and what the profile asks for and no check is made of. */
 static void write_not_covered(const CzEvaluation *evaluation, bool colour, FILE *stream) {
+    for (int i = 0; i < evaluation->n_not_judged; i++) {
+        fputs("Not judged: ", stream);
+        cz_grid_write_text(evaluation->not_judged[i].train, CZ_STYLE_CAREFUL, colour, stream);
+        fprintf(stream, ", %s.\n", evaluation->not_judged[i].why);
+    }
     if (evaluation->n_not_covered == 0)
         return;
     fputs("Not covered by this program, to be shown by other means: ", stream);

@@ -107,8 +107,15 @@ static void write_table(CzMarkup *markup, const CzEvaluation *evaluation,
     cz_page_close_table(markup);
 }
 
-/* What the profile asks for and no check is made of. */
+/* Whom no limit judges, and what the profile asks for and no check is made of. */
 static void write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation) {
+    char text[512];
+    for (int i = 0; i < evaluation->n_not_judged; i++) {
+        snprintf(text, sizeof text, "Not judged: %s, %s.", evaluation->not_judged[i].train,
+                 evaluation->not_judged[i].why);
+        cz_markup_element(markup, "p", text);
+        cz_markup_line(markup);
+    }
     if (evaluation->n_not_covered == 0)
         return;
     cz_markup_open(markup, "p");

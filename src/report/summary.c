@@ -332,6 +332,15 @@ CzStatus cz_report_write_summary(const CzProblem *problem, const CzEvaluation *e
     for (int i = 0; i < evaluation->n_check; i++)
         put_check(json, &evaluation->check[i]);
     cz_json_close(json);
+    cz_json_open_list(json, "not_judged");
+    for (int i = 0; i < evaluation->n_not_judged; i++) {
+        cz_json_open_object(json, NULL);
+        cz_json_text(json, "train", evaluation->not_judged[i].train);
+        cz_json_text(json, "why", evaluation->not_judged[i].why);
+        cz_json_flag(json, "inferred", evaluation->not_judged[i].is_inferred);
+        cz_json_close(json);
+    }
+    cz_json_close(json);
     cz_json_open_list(json, "not_covered");
     for (int i = 0; i < evaluation->n_not_covered; i++)
         cz_json_text(json, NULL, evaluation->not_covered[i]);

@@ -89,4 +89,60 @@ verified() {
     exits 0 "$C" verify elastic.yaml && says out.txt 'Verification: pass' && ! grep -E '[0-9]e\+' out.txt
 }
 check "a run that dissipates nothing is verified against its kinetic energy" verified
+# A car onto something heavy or light that nothing couples to, whose short crush zone bottoms out.
+cat >crossing.yaml <<'END'
+schema: 1
+title: a car onto an obstacle at a level crossing
+parts:
+  end: {face_gap_mm: 700, unloading_stiffness_MN_m: 100, stages: [{stroke_mm: 250, force_kN: 1500}], proof_strength_MN: 9, anti_climber: {gap_mm: 0, stages: [{stroke_mm: 600, force_kN: 900}]}}
+  car: {model: rigid, mass_t: 40, length_m: 18, front: {use: end}, rear: {use: end}}
+trains:
+  - {name: A, speed_km_h: 40, vehicles: [{use: car}]}
+  - {name: lorry, vehicles: [{name: L, model: rigid, mass_t: 12, length_m: 5, rear: {face_gap_mm: 0, proof_strength_MN: 0.5, stages: [{stroke_mm: 100, force_kN: 700}], unloading_stiffness_MN_m: 100}}]}
+checks:
+  limits:
+    - {name: deceleration, metric: vehicles.mean_deceleration_120ms_g, max: 5}
+    - {name: anything used up, metric: interfaces.bottomed_out, max: 0}
+END
+# judged WHERE VERDICT ARGS...: the deceleration is judged there, with this verdict.
+judged() {
+    where=$1 verdict=$2
+    shift 2
+    "$C" run crossing.yaml -o out "$@" >out.txt 2>err.txt || { cat err.txt; return 1; }
+    line=$(grep '^deceleration' out.txt) && case $line in *"   $where   "*"$verdict"*) return ;; esac
+    echo "$line"
+    return 1
+}
+obstacle() {
+    judged A1 pass && says out.txt 'Not judged: lorry, taken for an obstacle' && json out/summary.json not_judged.0.train lorry &&
+        json out/summary.json not_judged.0.inferred true && says out/report.html 'Not judged: lorry' &&
+        grep -qE '^bottoming out .* pass' out.txt && grep -qE '^anything used up .* pass' out.txt && grep -qE '^section strength .* A1 .* pass' out.txt &&
+        says out.txt 'end L BOTTOMED OUT'
+}
+check "an obstacle is not judged, and the table says so" obstacle
+declared() {
+    judged L FAIL --set trains.lorry.role=train && ! grep -q 'Not judged' out.txt && grep -qE '^bottoming out .* FAIL' out.txt &&
+        judged A1 '' --set trains.lorry.role=obstacle --set trains.lorry.vehicles.L.mass_t=30 && says out.txt 'Not judged: lorry, its role' && json out/summary.json not_judged.0.inferred false
+}
+check "a role outweighs what a train looks like" declared
+passengers() {
+    judged L '' --set trains.lorry.vehicles.L.mass_t=20.1 && ! grep -q 'Not judged' out.txt &&
+        printf 'extends: crossing.yaml\ntrains: [{name: lorry, vehicles: [{name: L, rear: {anti_climber: {gap_mm: -0, count: 1, stages: [{stroke_mm: 50, force_kN: 300}]}}}]}]\n' | sed 's/-0/0/; s/face_gap_mm: 0/face_gap_mm: 50/' >face.yaml &&
+        exits 0 "$C" run face.yaml -o out --set trains.lorry.vehicles.L.rear.face_gap_mm=60 && ! grep -q 'Not judged' out.txt
+}
+check "what may carry people is judged" passengers
+twins() {
+    sed 's/- {name: A, speed_km_h: 40, vehicles: .*/- {name: A, speed_km_h: 40, vehicles: [{name: A1, model: rigid, mass_t: 14, length_m: 5, front: {face_gap_mm: 0, stages: [{stroke_mm: 200, force_kN: 900}], unloading_stiffness_MN_m: 100}}]}/' crossing.yaml >twins.yaml &&
+        exits 0 "$C" run twins.yaml -o out && ! grep -q 'Not judged' out.txt
+}
+check "two trains that look alike are both judged" twins
+named() {
+    sed 's/    - {name: deceleration.*/    - {name: deceleration, metric: vehicles.L.mean_deceleration_120ms_g, max: 5}/' crossing.yaml >named.yaml &&
+        exits 0 "$C" run named.yaml -o out && grep -qE '^deceleration .* L .* FAIL' out.txt && says out.txt 'Not judged: lorry'
+}
+check "a limit that names an obstacle judges it" named
+nobody() {
+    exits 2 "$C" check crossing.yaml --set trains.lorry.role=obstacle --set trains.A.role=obstacle && says err.txt 'nothing would be judged'
+}
+check "two obstacles are refused" nobody
 finish

@@ -1,0 +1,97 @@
+/* Trains that are obstacles: nobody sits in them, so passengers' limits are not theirs.
+ *
+ * `role: obstacle` says so. Where no role is given, a partner is taken for an obstacle when nothing
+ * of a rail vehicle is about it: one rigid vehicle of at most 20 t (the reference obstacles at
+ * level crossings have 3 t and 15 t, EN 15227 from memory; the bound is ours) without coupler, side
+ * buffers, anti-climber or occupied space, which is never the train behind. A train behind that
+ * looks like it is no help to tell them apart, and both are then judged.
+ */
+#include "base/error.h"
+#include "evaluate/scene.h"
+
+static const double heaviest = 20e3; /* [kg] */
+
+static bool couples(const CzEnd *end) {
+    return end->given && (end->coupler.given || end->side_buffers.given || end->anti_climber.given);
+}
+
+static bool has_occupied_space(const CzEnd *end) {
+    for (int i = 0; end->given && i < end->n_stages; i++)
+        if (end->stages[i].zone == CZ_ZONE_OCCUPIED)
+            return true;
+    return false;
+}
+
+static bool looks_like_obstacle(const CzTrain *train) {
+    if (train->n_vehicles != 1)
+        return false;
+    const CzVehicle *vehicle = &train->vehicles[0];
+    const CzEnd *ends[2] = {&vehicle->rear, &vehicle->front};
+    for (int i = 0; i < 2; i++)
+        if (couples(ends[i]) || has_occupied_space(ends[i]))
+            return false;
+    return vehicle->model == CZ_MODEL_RIGID && vehicle->mass <= heaviest;
+}
+
+/* Whether a train without a role is taken for an obstacle. */
+static bool is_taken_for_obstacle(const CzInput *input, int train, int n_scene,
+                                  const CzScene *scene) {
+    if (!looks_like_obstacle(&input->trains[train]))
+        return false;
+    bool is_partner = false;
+    for (int s = 0; s < n_scene; s++) {
+        if (scene[s].train[0] == train)
+            return false;
+        if (scene[s].train[1] != train)
+            continue;
+        if (looks_like_obstacle(&input->trains[scene[s].train[0]]))
+            return false;
+        is_partner = true;
+    }
+    return is_partner;
+}
+
+static const char *why_not_judged(const CzInput *input, int train, int n_scene,
+                                  const CzScene *scene) {
+    switch (input->trains[train].role) {
+    case CZ_ROLE_TRAIN:
+        return NULL;
+    case CZ_ROLE_OBSTACLE:
+        return "its role is that of an obstacle";
+    case CZ_ROLE_AUTO:
+        break;
+    }
+    return is_taken_for_obstacle(input, train, n_scene, scene)
+               ? "taken for an obstacle: one rigid vehicle of at most 20 t that nothing couples "
+                 "to; "
+                 "'role: train' has it judged, 'role: obstacle' confirms it"
+               : NULL;
+}
+
+CzStatus cz_obstacles_find(const CzProblem *problem, int n_scene, CzScene *scene, CzArena *arena,
+                           CzObstacles *obstacles, CzError *error) {
+    const CzInput *input = cz_problem_input(problem);
+    int n_vehicle = 0;
+    const CzVehicle *first = cz_problem_vehicles(problem, &n_vehicle);
+    CzNotJudged *found = cz_arena_allocate(arena, (size_t)input->n_trains + 1, sizeof *found);
+    bool *has_vehicle = cz_arena_allocate(arena, (size_t)n_vehicle + 1, sizeof *has_vehicle);
+    *obstacles = (CzObstacles){.train = found, .has_vehicle = has_vehicle};
+    if (found == NULL || has_vehicle == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the trains");
+    for (int train = 0; train < input->n_trains; train++) {
+        const char *why = why_not_judged(input, train, n_scene, scene);
+        bool collides = false;
+        for (int i = 0; i < input->trains[train].n_vehicles && why != NULL; i++)
+            has_vehicle[input->trains[train].vehicles + i - first] = true;
+        for (int s = 0; s < n_scene && why != NULL; s++)
+            for (int side = 0; side < 2; side++)
+                if (scene[s].train[side] == train)
+                    collides = scene[s].is_obstacle[side] = true;
+        if (collides)
+            found[obstacles->n++] =
+                (CzNotJudged){.train = input->trains[train].name,
+                              .why = why,
+                              .is_inferred = input->trains[train].role == CZ_ROLE_AUTO};
+    }
+    return CZ_OK;
+}

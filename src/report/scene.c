@@ -82,7 +82,7 @@ static Pose pose_of(const CzPage *page, int car, int sample) {
                  .z = 1e-3 * sampled(page, sample, "z", name, "mm"),
                  .pitch = 1e-3 * sampled(page, sample, "pitch", name, "mrad")};
     for (int i = 0; i < 4; i++) {
-        char wheel[CZ_NAME_ROOM + 8];
+        char wheel[CZ_NAME_ROOM + 16];
         snprintf(wheel, sizeof wheel, "%s_w%d", name, i + 1);
         pose.lift[i] = 1e-3 * sampled(page, sample, "z", wheel, "mm");
     }

@@ -60,11 +60,19 @@ const CzCurveUnit *cz_curve_unit_alone(const CzField *field) {
     return cz_curve_unit_find(CZ_N_DIMENSION, text);
 }
 
+/* Whether a unit is listed before under another spelling. */
+static bool is_listed(int unit) {
+    for (int i = 0; i < unit; i++)
+        if (units[i].dimension == units[unit].dimension && units[i].si == units[unit].si)
+            return true;
+    return false;
+}
+
 void cz_curve_unit_list(CzDimension dimension, char *text, size_t size) {
     size_t n = 0;
     text[0] = '\0';
     for (int i = 0; i < N_UNIT; i++) {
-        if (units[i].dimension != dimension || n + 1 >= size)
+        if (units[i].dimension != dimension || is_listed(i) || n + 1 >= size)
             continue;
         n += (size_t)snprintf(text + n, size - n, "%s%s", n > 0 ? ", " : "", units[i].spelling);
     }

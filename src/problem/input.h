@@ -38,6 +38,7 @@ typedef struct CzTable {
     int n_point;
     CzBasis basis;
     CzStrokes strokes;
+    bool converted;                /* its strokes were made with the stiffnesses of the device */
     double x[CZ_MAX_CURVE_POINTS]; /* [SI] */
     double y[CZ_MAX_CURVE_POINTS]; /* [SI] */
 } CzTable;

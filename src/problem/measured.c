@@ -15,8 +15,9 @@
 static CzCurveColumn column_of(const CzMatch *match) {
     const CzCurveUnit *unit =
         match->channel != NULL ? cz_curve_unit_of_title(match->channel, NULL) : NULL;
-    return (CzCurveColumn){.name = match->column != NULL ? match->column : match->channel,
-                           .title = match->column != NULL ? match->column : match->channel,
+    const char *wanted = match->column != NULL ? match->column : match->channel;
+    return (CzCurveColumn){.name = unit != NULL ? cz_dimension_text[unit->dimension] : wanted,
+                           .title = wanted,
                            .dimension = unit != NULL ? unit->dimension : CZ_DIMENSION_NONE,
                            .without = unit != NULL ? unit->si : 1.0,
                            .in = unit != NULL ? unit->si : 1.0};

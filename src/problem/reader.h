@@ -245,6 +245,8 @@ bool cz_bind_curve_file(CzReader *reader, const CzKey *key, const CzNode *node,
  * anti-climber, total ones of an end. Other records are left alone. */
 void cz_bind_strokes(CzReader *reader, CzRecordId record, const CzNode *node, const CzTrail *trail,
                      void *memory);
+/* Whether the strokes of a curve were made with this number, which then cannot vary. */
+bool cz_strokes_depend_on(const CzInput *input, const double *field);
 
 /* ---- rules ---- */
 

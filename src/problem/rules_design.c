@@ -54,6 +54,12 @@ static void check_target(const CzRules *rules, const CzVariable *variable, const
                                   "gaps may vary");
         return;
     }
+    if (cz_strokes_depend_on(rules->input, target->field))
+        cz_rule_broken(
+            rules, path,
+            "'%.120s' cannot vary: the strokes of the curve beside it were made with it; "
+            "give the curve in the strokes that its law is over",
+            *path);
     const CzPlace *place = cz_places_find(&rules->reader->places, target->field);
     if (place == NULL || place->address != target->field || place->key == NULL)
         return;

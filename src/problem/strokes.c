@@ -40,6 +40,7 @@ static bool add_elastic(CzTable *curve, double compliance) {
 
 static void convert(CzReader *reader, const CzNode *node, const CzTrail *trail, CzTable *curve,
                     double compliance) {
+    curve->converted = true;
     if (isfinite(compliance) && !add_elastic(curve, compliance))
         cz_mistake(&reader->mistakes, node, trail,
                    "the whole shortening of 'curve' would be elastic: the stiffness is too small "
@@ -83,4 +84,28 @@ void cz_bind_strokes(CzReader *reader, CzRecordId record, const CzNode *node, co
             convert(reader, node, trail, &end->curve, (1 - share) / first + share / second);
         end->curve.strokes = CZ_STROKES_TOTAL;
     }
+}
+
+static bool is_of_tube(const CzTube *tube, const double *field) {
+    return tube->given && tube->curve.converted && field == &tube->stiffness;
+}
+
+static bool is_of_end(const CzEnd *end, const double *field) {
+    const bool is_unloading = field == &end->unloading_stiffness ||
+                              field == &end->unloading_share ||
+                              field == &end->second_unloading_stiffness;
+    return is_of_tube(&end->coupler.tube, field) || is_of_tube(&end->coupler.second_tube, field) ||
+           is_of_tube(&end->side_buffers.tube, field) ||
+           (end->anti_climber.curve.converted && field == &end->anti_climber.stiffness) ||
+           (end->curve.converted && is_unloading);
+}
+
+bool cz_strokes_depend_on(const CzInput *input, const double *field) {
+    for (int t = 0; t < input->n_trains; t++)
+        for (int v = 0; v < input->trains[t].n_vehicles; v++) {
+            const CzVehicle *vehicle = &input->trains[t].vehicles[v];
+            if (is_of_end(&vehicle->front, field) || is_of_end(&vehicle->rear, field))
+                return true;
+        }
+    return false;
 }

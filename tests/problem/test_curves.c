@@ -3,6 +3,8 @@
 
 #include "problem/reduce_curve.h"
 
+#include <unistd.h>
+
 static double area(const double *x, const double *y, int n_point) {
     double sum = 0;
     for (int i = 1; i < n_point; i++)
@@ -119,6 +121,35 @@ static void total_strokes_lose_their_elastic_part(void **state) {
     }
 }
 
+/* What the keys beside a file do, against the same curve by points. */
+static void keys_beside_a_file_shape_its_curve(void **state) {
+    static const char content[] = "a test\nTime;Weg;Kraft A;Kraft B\ns;mm;N;N\n"
+                                  "0;-120,5;0;9\n1;-125,5;-1.000.000;9\n2;-525,5;-2.400.000;9\n"
+                                  "3;-620,5;-3.000.000;9\n4;-600;-100;9\n";
+    char path[] = "/tmp/crushzone-curve-XXXXXX", text[600];
+    const int descriptor = mkstemp(path);
+    (void)state;
+    assert_true(descriptor >= 0);
+    assert_int_equal(write(descriptor, content, sizeof content - 1), sizeof content - 1);
+    close(descriptor);
+    snprintf(text, sizeof text,
+             "extends: rigid.yaml\nparts: {bumper: {anti_climber: {stages: null, curve: {file: %s, "
+             "columns: [Weg, Kraft A], basis: static, strokes: plastic, scale: 0.5, flip: both, "
+             "zero_mm: 120.5, to_mm: 525.5}}}}\noptimise: null\n",
+             path);
+    CzProblem *problem = NULL;
+    assert_int_equal(read_text(text, &problem), CZ_OK);
+    const CzTable *curve = &find_vehicle(problem, "A1")->front.anti_climber.curve;
+    assert_int_equal(curve->n_point, 3);
+    const double x[] = {0, 0.005, 0.405}, y[] = {0, 5e5, 1.2e6};
+    for (int i = 0; i < 3; i++) {
+        assert_near(curve->x[i], x[i], 1e-12, 1e-15);
+        assert_near(curve->y[i], y[i], 1e-12, 0);
+    }
+    cz_problem_free(problem);
+    unlink(path);
+}
+
 /* An end's law is over the total shortening: c F with c = (1 - r) / Ku1 + r / Ku2 is added. */
 static void plastic_strokes_of_an_end_get_their_elastic_part(void **state) {
     (void)state;
@@ -143,6 +174,7 @@ int main(void) {
         cmocka_unit_test(points_in_the_file_are_read_in_their_units),
         cmocka_unit_test(a_long_csv_curve_keeps_energy_ends_and_peak),
         cmocka_unit_test(total_strokes_lose_their_elastic_part),
+        cmocka_unit_test(keys_beside_a_file_shape_its_curve),
         cmocka_unit_test(plastic_strokes_of_an_end_get_their_elastic_part),
         cmocka_unit_test(reducing_keeps_the_area),
         cmocka_unit_test(a_straight_line_loses_nothing),

@@ -37,9 +37,10 @@ static bool is_fit(const CzRules *rules) {
     return rules->input->optimise.n_match > 0;
 }
 
-/* Range of a variable against the range of the key that its path ends in. */
+/* Range of a variable against the range of the key that its path ends in. Bounds are in the unit of
+ * the variable's first path, `first`. */
 static void check_target(const CzRules *rules, const CzVariable *variable, const char *const *path,
-                         const CzTarget *target) {
+                         const CzTarget *target, const CzTarget *first) {
     if (!target->may_vary && !(target->may_fit && is_fit(rules))) {
         cz_rule_broken(rules, path, "'%.120s' is data, not a %s", *path,
                        is_fit(rules) ? "parameter of a fit" : "design variable");
@@ -64,16 +65,18 @@ static void check_target(const CzRules *rules, const CzVariable *variable, const
     if (place == NULL || place->address != target->field || place->key == NULL)
         return;
     char limit[CZ_NUMBER_TEXT];
-    const double lo = place->key->lo / target->unit, hi = place->key->hi / target->unit;
+    const double lo = place->key->lo / first->unit, hi = place->key->hi / first->unit;
     if (variable->min < lo)
         cz_rule_broken(rules, &variable->min, "%s can be no smaller than %s %s", place->key->stem,
-                       cz_number_print_short(limit, lo), target->suffix);
+                       cz_number_print_short(limit, lo), first->suffix);
     if (variable->max > hi)
         cz_rule_broken(rules, &variable->max, "%s can be no larger than %s %s", place->key->stem,
-                       cz_number_print_short(limit, hi), target->suffix);
+                       cz_number_print_short(limit, hi), first->suffix);
 }
 
-static void check_path(const CzRules *rules, const CzVariable *variable, const char *const *path) {
+/* `first` is the first target of the variable once one was found (its unit above 0). */
+static void check_path(const CzRules *rules, const CzVariable *variable, const char *const *path,
+                       CzTarget *first) {
     CzTarget *target = NULL;
     CzError error = {0};
     int n_target = 0;
@@ -85,9 +88,11 @@ static void check_path(const CzRules *rules, const CzVariable *variable, const c
         if (error.help[0] != '\0')
             cz_mistake_help(rules->mistakes, "%s", error.help);
     }
+    if (n_target > 0 && !(first->unit > 0))
+        *first = target[0];
     for (int i = 0; i < n_target; i++)
         if (i == 0 || target[i].match != target[i - 1].match)
-            check_target(rules, variable, path, &target[i]);
+            check_target(rules, variable, path, &target[i], first);
     free(target);
 }
 
@@ -190,10 +195,11 @@ static void check_variable(const CzRules *rules, const CzVariable *variable) {
     check_bounds(rules, variable);
     if (rules->reader->has_holes)
         return; /* a path may lead into what could not be read */
+    CzTarget first = {0};
     if (variable->path != NULL)
-        check_path(rules, variable, &variable->path);
+        check_path(rules, variable, &variable->path, &first);
     for (int i = 0; i < variable->paths.n_text; i++)
-        check_path(rules, variable, &variable->paths.text[i]);
+        check_path(rules, variable, &variable->paths.text[i], &first);
 }
 
 void cz_rules_check_design(const CzRules *rules) {

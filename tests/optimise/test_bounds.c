@@ -56,6 +56,20 @@ static void a_start_on_its_bound_is_within_it_whatever_the_unit(void **state) {
     }
 }
 
+/* Bounds are in the unit of the first path, also where others have another. */
+static void tied_places_of_other_units_share_the_bounds(void **state) {
+    (void)state;
+    stand_in_reset();
+    Case made = begin("optimise:\n  variables:\n"
+                      "    - {paths: [\"parts.tube.stages[0].stroke_mm\","
+                      " \"parts.anti-climber.stages[0].stroke_m\"], min: 100, max: 700}\n",
+                      1);
+    const CzVariableInfo *stroke = cz_evaluator_variable(made.evaluator, 0);
+    assert_near(cz_evaluator_place(made.evaluator, 0, 1).factor, 1e-3, 1e-18, 0);
+    assert_near(stroke->max, 700, 0, 0);
+    end(&made);
+}
+
 /* ---- what does not vary ---------------------------------------------------------------------- */
 
 #define VARIED                                                                                     \
@@ -270,6 +284,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_a_search_minds_bounds),
         cmocka_unit_test(a_start_on_its_bound_is_within_it_whatever_the_unit),
+        cmocka_unit_test(tied_places_of_other_units_share_the_bounds),
         cmocka_unit_test(fixed_variables_cost_nothing_and_are_told),
         cmocka_unit_test(a_search_without_anything_to_vary_says_so),
         cmocka_unit_test(the_reason_of_the_end_is_true_to_the_digit),

@@ -22,10 +22,11 @@ CZ_API const char *cz_outcome_text(CzOutcomeStatus status);
 /* What a progress callback gets after each evaluation. */
 typedef struct CzProgress {
     long n_evaluation, most_evaluations;
-    bool feasible;         /* whether the incumbent is */
-    double best_objective; /* of the incumbent */
-    double best_violation; /* of the incumbent */
-    const char *phase;     /* such as "screen", "descend", "polish" */
+    bool feasible;          /* whether the incumbent is */
+    double best_objective;  /* of the incumbent */
+    double best_violation;  /* of the incumbent */
+    bool best_fails_a_flag; /* and nothing else: it has no margin that it misses */
+    const char *phase;      /* such as "screen", "descend", "polish" */
 } CzProgress;
 
 typedef struct CzOptimiseOptions {

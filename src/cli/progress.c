@@ -62,6 +62,8 @@ static void describe(const CzProgress *progress, const CzProgressLine *line, dou
     else if (progress->feasible)
         snprintf(best, sizeof best, "best %s%s%s feasible", number,
                  line->unit[0] != '\0' ? " " : "", line->unit);
+    else if (progress->best_fails_a_flag)
+        snprintf(best, sizeof best, "best fails a check of yes or no");
     else if (isfinite(progress->best_violation))
         snprintf(best, sizeof best, "best misses by %.3g %%", 100 * progress->best_violation);
     else

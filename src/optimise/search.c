@@ -199,6 +199,8 @@ static void report_progress(const CzSearch *search, const char *phase) {
         progress.best_objective = search->record[search->best].objective;
         progress.best_violation = search->record[search->best].violation;
         progress.feasible = progress.best_violation <= 0;
+        progress.best_fails_a_flag = !progress.feasible && !search->function->is_fit &&
+                                     search->record[search->best].missed <= 0;
     }
     search->progress(&progress, search->progress_data);
 }
@@ -262,6 +264,8 @@ static void take_answer(CzSearch *search, const char *phase, const double *x, do
     for (int j = 0; j < m; j++) {
         failed |= isnan(constraint[j]);
         record.violation = fmax(record.violation, constraint[j]);
+        if (search->function->is_flag == NULL || !search->function->is_flag[j])
+            record.missed = fmax(record.missed, constraint[j]);
         record.is_barred |=
             search->function->is_rule != NULL && search->function->is_rule[j] && constraint[j] > 0;
         if (!search->function->is_fit)
@@ -272,7 +276,7 @@ static void take_answer(CzSearch *search, const char *phase, const double *x, do
     if (search->function->is_fit)
         record.penalty += *objective;
     if (failed)
-        record = (CzRecord){NAN, INFINITY, INFINITY, phase, false, true};
+        record = (CzRecord){NAN, INFINITY, INFINITY, phase, false, true, INFINITY};
     add_record(search, x, &record);
     if (failed) {
         const double ramp = 1 + distance_from_best(search, x);

@@ -45,6 +45,7 @@ typedef struct CzRecord {
     const char *phase;
     bool on_grid;   /* every variable lies on its catalogue step */
     bool is_barred; /* a rule of files is broken */
+    double missed;  /* largest positive constraint that is no yes or no; 0 when there is none */
 } CzRecord;
 
 typedef struct CzSearch {

@@ -38,6 +38,9 @@ static void write_head(const CzExplanation *explanation, bool colour, FILE *stre
     } else if (broken) {
         cz_grid_write_text("it nearly climbed: a limit is broken", CZ_STYLE_BAD, colour, stream);
         fputs(".\n", stream);
+    } else if (explanation->verdict == CZ_VERDICT_NOT_CHECKED) {
+        cz_grid_write_text("NOT CHECKED in full", CZ_STYLE_CAREFUL, colour, stream);
+        fprintf(stream, ": %s.\n", worst->why != NULL ? worst->why : "a margin is not known");
     } else {
         cz_grid_write_text("it holds", CZ_STYLE_GOOD, colour, stream);
         fputs(".\n", stream);
@@ -48,10 +51,6 @@ static void write_head(const CzExplanation *explanation, bool colour, FILE *stre
     cz_grid_write_text(worst->name, CZ_STYLE_PLAIN, colour, stream);
     fprintf(stream, "%s%s, %s against %s, %s\n", worst->where[0] != '\0' ? " at " : "",
             worst->where, value, limit, cz_figure_margin(margin, worst->margin));
-    if (explanation->verdict == CZ_VERDICT_NOT_CHECKED && worst->why != NULL) {
-        cz_grid_write_text("NOT CHECKED", CZ_STYLE_CAREFUL, colour, stream);
-        fprintf(stream, " in full: %s\n", worst->why);
-    }
 }
 
 static void write_signs(const CzExplanation *explanation, bool colour, FILE *stream) {

@@ -24,12 +24,14 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
     const double start = outcome->start_evaluation.objective;
     const double best = outcome->best_evaluation.objective;
     const char *given = cz_evaluator_objective_unit(evaluator), *unit = given != NULL ? given : "";
+    const CzVerdict verdict = outcome->best_evaluation.verdict;
+    const bool is_passed = outcome->status == CZ_OUTCOME_FEASIBLE && verdict == CZ_VERDICT_PASS;
     cz_markup_open(markup, "header");
     cz_markup_element(markup, "h1", cz_problem_title(problem));
     cz_markup_classed(markup, "p",
-                      outcome->status == CZ_OUTCOME_FEASIBLE     ? "banner pass"
-                      : outcome->status == CZ_OUTCOME_INFEASIBLE ? "banner fail"
-                                                                 : "banner careful",
+                      outcome->status == CZ_OUTCOME_INFEASIBLE ? "banner fail"
+                      : is_passed                              ? "banner pass"
+                                                               : "banner careful",
                       cz_outcome_words(evaluator, outcome));
     snprintf(text, sizeof text, "%ld evaluation%s: %s.", outcome->n_evaluation,
              outcome->n_evaluation == 1 ? "" : "s", outcome->why_stopped);
@@ -42,6 +44,9 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
                  cz_evaluator_objective_name(evaluator), cz_figure_plain(before, start),
                  unit[0] != '\0' ? " " : "", unit, cz_figure_plain(after, best),
                  unit[0] != '\0' ? " " : "", unit);
+    cz_markup_element(markup, "p", text);
+    snprintf(text, sizeof text, "Verdict of the checks of the best design: %s.",
+             cz_verdict_text(verdict));
     cz_markup_element(markup, "p", text);
     if (outcome->start_evaluation.beyond_validity || outcome->best_evaluation.beyond_validity)
         cz_markup_classed(markup, "p", "fail",

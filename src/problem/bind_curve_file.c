@@ -195,7 +195,7 @@ bool cz_bind_curve_file(CzReader *reader, const CzKey *key, const CzNode *node,
     size_t n_byte = 0;
     if (path == NULL || !take_shape(&reading) || !take_request(&reading, &request))
         return false;
-    const CzSource *source =
+    CzSource *source =
         cz_sources_read(&reader->sources, &reader->mistakes, path, named, &text, &n_byte);
     const bool is_read =
         source != NULL && cz_curve_points_read(&reader->arena, &reader->mistakes, source, text,

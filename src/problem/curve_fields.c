@@ -113,7 +113,7 @@ static const char *skip_blanks(const char *at) {
 
 CzFieldWalk cz_fields_begin(const char *line, char separator) {
     const char *at = separator == ' ' ? skip_blanks(line) : line;
-    return (CzFieldWalk){.line = line, .at = at, .separator = separator};
+    return (CzFieldWalk){.at = at, .separator = separator, .counted = line};
 }
 
 static bool is_bracket(char c) {
@@ -157,7 +157,9 @@ bool cz_fields_next(CzFieldWalk *walk, CzField *field) {
         start++;
     while (end > start && (is_blank(end[-1]) || end[-1] == '"'))
         end--;
-    *field = (CzField){start, (size_t)(end - start), (int)(start - walk->line) + 1};
+    for (; walk->counted < start; walk->counted++)
+        walk->n_character += ((unsigned char)*walk->counted & 0xc0) != 0x80;
+    *field = (CzField){start, (size_t)(end - start), walk->n_character + 1};
     return true;
 }
 

@@ -20,13 +20,15 @@ bool cz_curve_lines(CzArena *arena, CzMistakes *mistakes, const char *text, size
 typedef struct CzField {
     const char *text; /* in the line (n) */
     size_t n;
-    int column; /* in the line, counted from 1 */
+    int column; /* character of the line, counted from 1 */
 } CzField;
 
 /* Walks through the fields of a line. Begin with `at` the line and `separator` ' ' for blanks. */
 typedef struct CzFieldWalk {
-    const char *line, *at; /* `at` NULL: no field is left */
+    const char *at; /* NULL: no field is left */
     char separator;
+    const char *counted; /* characters of the line are counted up to here */
+    int n_character;
 } CzFieldWalk;
 
 CzFieldWalk cz_fields_begin(const char *line, char separator);

@@ -258,19 +258,20 @@ static bool begin(CzArena *arena, const char *text, size_t n_byte, CzCurveReadin
     return true;
 }
 
-bool cz_curve_points_read(CzArena *arena, CzMistakes *mistakes, const CzSource *source,
-                          const char *text, size_t n_byte, const CzCurveRequest *request,
-                          CzCurvePoints *points) {
+bool cz_curve_points_read(CzArena *arena, CzMistakes *mistakes, CzSource *source, const char *text,
+                          size_t n_byte, const CzCurveRequest *request, CzCurvePoints *points) {
     CzCurveReading reading = {.mistakes = mistakes,
                               .source = *source,
                               .request = request,
                               .points = points,
                               .separator = request->separator};
     *points = (CzCurvePoints){.source = source};
-    return begin(arena, text, n_byte, &reading) && cz_reading_find_columns(&reading) &&
-           cz_reading_find_unit(&reading, 0) && cz_reading_find_unit(&reading, 1) &&
-           find_decimal(&reading) && make_room(arena, reading.source.n_line, points) &&
-           take_points(&reading);
+    const bool has_begun = begin(arena, text, n_byte, &reading);
+    source->line = reading.source.line;
+    source->n_line = reading.source.n_line;
+    return has_begun && cz_reading_find_columns(&reading) && cz_reading_find_unit(&reading, 0) &&
+           cz_reading_find_unit(&reading, 1) && find_decimal(&reading) &&
+           make_room(arena, reading.source.n_line, points) && take_points(&reading);
 }
 
 static CzStatus finish(CzMistakes *mistakes, const char *name, CzError *error) {
@@ -304,7 +305,7 @@ CzStatus cz_curve_points_read_file(CzArena *arena, const char *path, const CzCur
     CzSources sources = {.arena = arena, .hash = CZ_HASH_START};
     char *text = NULL;
     size_t n_byte = 0;
-    const CzSource *source = cz_sources_read(&sources, &mistakes, path, NULL, &text, &n_byte);
+    CzSource *source = cz_sources_read(&sources, &mistakes, path, NULL, &text, &n_byte);
     if (source != NULL)
         cz_curve_points_read(arena, &mistakes, source, text, n_byte, request, points);
     free(text);

@@ -32,11 +32,11 @@ typedef struct CzCurvePoints {
     const CzSource *source;
 } CzCurvePoints;
 
-/* Reads a text that was read from `source`, whose name goes into messages. False with a mistake, or
- * without memory. */
-bool cz_curve_points_read(CzArena *arena, CzMistakes *mistakes, const CzSource *source,
-                          const char *text, size_t n_byte, const CzCurveRequest *request,
-                          CzCurvePoints *points);
+/* Reads a text that was read from `source`, whose name goes into messages and whose lines become
+ * those that are read: UTF-8, whatever the file is written in. False with a mistake, or without
+ * memory. */
+bool cz_curve_points_read(CzArena *arena, CzMistakes *mistakes, CzSource *source, const char *text,
+                          size_t n_byte, const CzCurveRequest *request, CzCurvePoints *points);
 
 /* Reads a file ("-" is standard input), and the same from memory, which `name` stands for in
  * messages. Statuses: CZ_OK, CZ_STATUS_INPUT with the first mistake, CZ_STATUS_NO_MEMORY. */

@@ -65,7 +65,7 @@ static void read_measured(CzProblem *problem, const CzMatch *match, CzMeasured *
     CzCurvePoints points;
     char *text = NULL;
     size_t n_byte = 0;
-    const CzSource *source =
+    CzSource *source =
         cz_sources_read(&reader->sources, &reader->mistakes, path, named->value, &text, &n_byte);
     if (source != NULL &&
         cz_curve_points_read(&reader->arena, &reader->mistakes, source, text, n_byte, &request,

@@ -122,6 +122,7 @@ static void what_can_be_read_in_two_ways_is_refused(void **state) {
         {"stroke_mm;force_kN\nmm;N\n0;0\n1;1\n", 1, 11, "the force has two units: kN in its title"},
         {"stroke_mm;F\n0;0\n1;1\n", 1, 1, "no column is the force; the titles are"},
         {"stroke_mm;force_Nm\n0;0\n1;1\n", 1, 11, "the unit of column 'force_Nm', the force"},
+        {"stroke_mm;\xe4\xe4;force_Nm\n0;0;0\n1;1;1\n", 1, 14, "the unit of column 'force_Nm'"},
         {"stroke_mm;force_kN\n0;0\n1;5 kN\n", 3, 3, "force: '5 kN' is not a number"},
         {"0;0\n1;1\n", 1, 1, "no line of titles above says which column is the stroke"},
         {"stroke_mm;force_kN\n0;0\nstroke_mm;force_kN\n0;0\n", 3, 1, "is not a number"},

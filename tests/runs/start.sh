@@ -155,5 +155,12 @@ check "a program without cases counts as a failure" program_without_cases
 check "a run cut short counts as a failure" cut_short
 check "a run without tests counts as a failure" no_test
 check "no result at all is a failure" nothing_ran
+bare_root_needs_root() { # and says so before it makes anything
+    stand_in id 'echo 1000'
+    code=0
+    PATH=$PWD/stand-ins:$PATH "$SOURCE/scripts/try-bare" >said 2>&1 || code=$?
+    [ $code = 2 ] && grep -q 'only root can do that' said
+}
+check "a bare root is not tried without rights" bare_root_needs_root
 check "an unknown build is refused" sh -c '"$SOURCE/test" nonsense; [ $? = 2 ]'
 finish

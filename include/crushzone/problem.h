@@ -66,7 +66,8 @@ CZ_MUST_CHECK CZ_API CzStatus cz_problem_find_scenario(const CzProblem *problem,
 
 /* Writes the resolved file as YAML: all parts, copies and defaults filled in, SI values and origin
  * in comments. The output is itself a problem file with the same meaning to the last bit. */
-CZ_API void cz_problem_write_resolved(const CzProblem *problem, FILE *stream);
+CZ_MUST_CHECK CZ_API CzStatus cz_problem_write_resolved(const CzProblem *problem, FILE *stream,
+                                                        CzError *error);
 
 /* Writes the JSON schema (draft-07), the key list for a terminal, and the key reference (Markdown).
  */

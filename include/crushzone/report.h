@@ -67,13 +67,18 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_fit_figure(const CzFit *fit, FILE 
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_mistakes(int n_mistake, const CzError *const *mistake,
                                                        FILE *stream, CzError *error);
 
-/* The table of a run on a terminal, of a family of scenarios the worst member, and the one of a
+/* Tables end with CZ_STATUS_NO_MEMORY when rows are missing, which the text says too.
+ *
+ * The table of a run on a terminal, of a family of scenarios the worst member, and the one of a
  * search: before and after, what is still violated, the new values as YAML. `colour` allows escape
  * codes. */
-CZ_API void cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluation,
-                                  bool colour, FILE *stream);
-CZ_API void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,
-                                          const CzOutcome *outcome, bool colour, FILE *stream);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_table(const CzProblem *problem,
+                                                    const CzEvaluation *evaluation, bool colour,
+                                                    FILE *stream);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome_table(const CzProblem *problem,
+                                                            const CzEvaluator *evaluator,
+                                                            const CzOutcome *outcome, bool colour,
+                                                            FILE *stream);
 
 /* Why cars climb: the document `crushzone.explanation`, and the same on a terminal. Statuses as
  * above. */
@@ -81,8 +86,8 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_explanation(const CzProblem *probl
                                                           const CzExplanation *explanation,
                                                           const CzReportOptions *options,
                                                           FILE *stream, CzError *error);
-CZ_API void cz_report_write_explanation_table(const CzExplanation *explanation, bool colour,
-                                              FILE *stream);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_explanation_table(const CzExplanation *explanation,
+                                                                bool colour, FILE *stream);
 
 /* A verification: the document `crushzone.verification`, and a table of the numbers that change
  * most. Statuses as above. */
@@ -90,16 +95,17 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_verification(const CzProblem *prob
                                                            const CzVerification *verification,
                                                            const CzReportOptions *options,
                                                            FILE *stream, CzError *error);
-CZ_API void cz_report_write_verification_table(const CzProblem *problem,
-                                               const CzVerification *verification, bool colour,
-                                               FILE *stream);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_verification_table(const CzProblem *problem,
+                                                                 const CzVerification *verification,
+                                                                 bool colour, FILE *stream);
 
 /* A sweep: the document `crushzone.sweep`, the table of one path or the map of two, a folder with
  * sweep.json and sweep.csv. Statuses as above. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_sweep(const CzSweep *sweep,
                                                     const CzReportOptions *options, FILE *stream,
                                                     CzError *error);
-CZ_API void cz_report_write_sweep_table(const CzSweep *sweep, bool colour, FILE *stream);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_sweep_table(const CzSweep *sweep, bool colour,
+                                                          FILE *stream);
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_sweep_folder(const CzSweep *sweep,
                                                            const CzReportOptions *options,
                                                            const char *path, CzError *error);
@@ -159,7 +165,8 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_chart(const CzReportRun *run,
 /* Runs side by side: n of them, the first is what the others are compared with. On a terminal:
  * checks, interfaces, cars that differ; as a page: the same with curves over each other. Statuses
  * of the page: as above. */
-CZ_API void cz_report_write_comparison(int n, const CzReportRun *run, bool colour, FILE *stream);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_comparison(int n, const CzReportRun *run, bool colour,
+                                                         FILE *stream);
 /* The same as the document `crushzone.comparison`. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY.
  */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_comparison_json(int n, const CzReportRun *run,

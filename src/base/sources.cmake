@@ -4,6 +4,7 @@ set(CZ_SOURCES_base
     error.c
     increment.c
     index.c
+    memory_text.c
     number.c
     suggest.c
     symmetric.c

@@ -12,15 +12,19 @@ static int answer(const CzSession *session, const CzExplanation *explanation) {
     const CzArguments *arguments = session->arguments;
     const CzReportOptions options = cz_session_report_options(session, explanation->wall_s);
     CzError error = {0};
-    if (arguments->text[CZ_OPTION_JSON] == NULL) {
-        cz_report_write_explanation_table(explanation, cz_wants_colour(arguments, STDOUT_FILENO),
-                                          stdout);
-        cz_tell(arguments, "%ld collisions in %.3g s", explanation->n_run, explanation->wall_s);
-    } else if (cz_report_write_explanation(session->problem, explanation, &options, stdout,
-                                           &error) != CZ_OK) {
+    CzStatus status;
+    if (arguments->text[CZ_OPTION_JSON] == NULL)
+        status = cz_end_table(cz_report_write_explanation_table(
+                                  explanation, cz_wants_colour(arguments, STDOUT_FILENO), stdout),
+                              &error);
+    else
+        status =
+            cz_report_write_explanation(session->problem, explanation, &options, stdout, &error);
+    if (status != CZ_OK) {
         cz_print_mistake(arguments, "error", NULL, &error);
-        return cz_status_exit_code(error.status);
+        return cz_status_exit_code(status);
     }
+    cz_tell(arguments, "%ld collisions in %.3g s", explanation->n_run, explanation->wall_s);
     return 0;
 }
 

@@ -112,10 +112,14 @@ static int compare(const CzArguments *arguments, const CzResult *result) {
     for (int i = 0; i < comparison.n; i++)
         comparison.run[i] = result[i].run;
     CzError error = {0};
-    if (arguments->text[CZ_OPTION_JSON] == NULL)
-        cz_report_write_comparison(comparison.n, comparison.run,
-                                   cz_wants_colour(arguments, STDOUT_FILENO), stdout);
-    else if (cz_report_write_comparison_json(comparison.n, comparison.run, stdout, &error) != CZ_OK)
+    const CzStatus status =
+        arguments->text[CZ_OPTION_JSON] == NULL
+            ? cz_end_table(cz_report_write_comparison(comparison.n, comparison.run,
+                                                      cz_wants_colour(arguments, STDOUT_FILENO),
+                                                      stdout),
+                           &error)
+            : cz_report_write_comparison_json(comparison.n, comparison.run, stdout, &error);
+    if (status != CZ_OK)
         return cz_tell_error(arguments, &error);
     if (arguments->text[CZ_OPTION_OUTPUT] == NULL)
         return 0;
@@ -125,8 +129,10 @@ static int compare(const CzArguments *arguments, const CzResult *result) {
 
 int cz_command_compare(const CzArguments *arguments) {
     CzResult *result = calloc((size_t)arguments->n_operand, sizeof *result);
-    if (result == NULL)
-        return cz_status_exit_code(CZ_STATUS_NO_MEMORY);
+    if (result == NULL) {
+        const CzError error = {.status = CZ_STATUS_NO_MEMORY, .message = "no memory to compare"};
+        return cz_tell_error(arguments, &error);
+    }
     int code = 0;
     for (int i = 0; i < arguments->n_operand && code == 0; i++)
         code = cz_result_begin(&result[i], arguments, arguments->operand[i],

@@ -54,16 +54,18 @@ static int answer(const CzSession *session, const CzOutcome *outcome, const char
     const bool is_kept = status == CZ_OK;
     if (!is_kept)
         cz_print_mistake(arguments, "error", NULL, &error);
-    if (arguments->text[CZ_OPTION_JSON] != NULL) {
-        const CzStatus written = cz_report_write_outcome(session->problem, session->evaluator,
-                                                         outcome, &options, stdout, &error);
-        if (written != CZ_OK)
-            cz_print_mistake(arguments, "error", NULL, &error);
-        status = is_kept ? written : status;
-    } else {
-        cz_report_write_outcome_table(session->problem, session->evaluator, outcome,
-                                      cz_wants_colour(arguments, STDOUT_FILENO), stdout);
-    }
+    CzStatus written;
+    if (arguments->text[CZ_OPTION_JSON] != NULL)
+        written = cz_report_write_outcome(session->problem, session->evaluator, outcome, &options,
+                                          stdout, &error);
+    else
+        written = cz_end_table(
+            cz_report_write_outcome_table(session->problem, session->evaluator, outcome,
+                                          cz_wants_colour(arguments, STDOUT_FILENO), stdout),
+            &error);
+    if (written != CZ_OK)
+        cz_print_mistake(arguments, "error", NULL, &error);
+    status = is_kept ? written : status;
     if (is_kept)
         cz_tell(arguments,
                 "results in %s, computed in %.3g s; run the best design with: crushzone "

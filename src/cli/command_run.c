@@ -79,8 +79,10 @@ static int answer(const CzSession *session, const CzEvaluation *evaluation, doub
     if (arguments->text[CZ_OPTION_JSON] != NULL)
         status = cz_report_write_summary(session->problem, evaluation, &options, stdout, &error);
     else
-        cz_report_write_table(session->problem, evaluation,
-                              cz_wants_colour(arguments, STDOUT_FILENO), stdout);
+        status =
+            cz_end_table(cz_report_write_table(session->problem, evaluation,
+                                               cz_wants_colour(arguments, STDOUT_FILENO), stdout),
+                         &error);
     if (status == CZ_OK && folder != NULL)
         status = cz_report_write_folder(session->problem, evaluation, &options, folder, &error);
     if (status != CZ_OK) {

@@ -45,7 +45,9 @@ static int answer(const CzSession *session, const CzSweep *sweep) {
     if (status == CZ_OK && arguments->text[CZ_OPTION_JSON] != NULL)
         status = cz_report_write_sweep(sweep, &options, stdout, &error);
     else if (status == CZ_OK)
-        cz_report_write_sweep_table(sweep, cz_wants_colour(arguments, STDOUT_FILENO), stdout);
+        status = cz_end_table(
+            cz_report_write_sweep_table(sweep, cz_wants_colour(arguments, STDOUT_FILENO), stdout),
+            &error);
     if (status != CZ_OK) {
         cz_print_mistake(arguments, "error", NULL, &error);
         return cz_status_exit_code(status);

@@ -18,13 +18,18 @@ static int answer(const CzSession *session, const CzVerification *verification) 
     const CzArguments *arguments = session->arguments;
     const CzReportOptions options = cz_session_report_options(session, 0.0);
     CzError error = {0};
-    if (arguments->text[CZ_OPTION_JSON] == NULL) {
-        cz_report_write_verification_table(session->problem, verification,
-                                           cz_wants_colour(arguments, STDOUT_FILENO), stdout);
-    } else if (cz_report_write_verification(session->problem, verification, &options, stdout,
-                                            &error) != CZ_OK) {
+    CzStatus status;
+    if (arguments->text[CZ_OPTION_JSON] == NULL)
+        status = cz_end_table(
+            cz_report_write_verification_table(session->problem, verification,
+                                               cz_wants_colour(arguments, STDOUT_FILENO), stdout),
+            &error);
+    else
+        status =
+            cz_report_write_verification(session->problem, verification, &options, stdout, &error);
+    if (status != CZ_OK) {
         cz_print_mistake(arguments, "error", NULL, &error);
-        return cz_status_exit_code(error.status);
+        return cz_status_exit_code(status);
     }
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
         if (verification->is_done[way] && arguments->text[CZ_OPTION_VERBOSE] != NULL)

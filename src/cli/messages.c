@@ -119,6 +119,13 @@ void cz_tell(const CzArguments *arguments, const char *format, ...) {
     fputc('\n', stderr);
 }
 
+CzStatus cz_end_table(CzStatus status, CzError *error) {
+    error->status = status;
+    if (status != CZ_OK)
+        snprintf(error->message, sizeof error->message, "no memory for the whole table");
+    return status;
+}
+
 int cz_end_output(const CzArguments *arguments, int code) {
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout))

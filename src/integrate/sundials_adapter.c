@@ -213,7 +213,9 @@ static int drops_of(sunrealtype time, N_Vector state, sunrealtype *value, void *
     return 0;
 }
 
-static CzStatus tell(const CzSolver *solver, CzError *error) {
+static CzStatus tell(const CzSolver *solver, int flag, CzError *error) {
+    if (flag == ARK_MEM_FAIL || flag == CV_MEM_FAIL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the second solver");
     return cz_fail(error, CZ_STATUS_RUN_FAILED, "the second solver gave up at %.3f ms: %s",
                    1e3 * solver->time, solver->message.text);
 }
@@ -284,6 +286,15 @@ static bool allocate(CzSolver *solver, const double *state) {
     return solver->memory != NULL && (solver->method == CZ_METHOD_ERK || solver->iteration != NULL);
 }
 
+/* Whether there is memory for all that SUNDIALS asks for in pieces: where one is refused it may end
+ * the program instead of saying so. */
+static bool has_room(size_t n_unknown) {
+    enum { MOST_VECTORS = 40, MOST_ELSE = 1 << 18 /* [byte] */ };
+    void *room = malloc(MOST_VECTORS * n_unknown * sizeof(double) + MOST_ELSE);
+    free(room);
+    return room != NULL;
+}
+
 CzStatus cz_solver_create(CzMethod method, CzOde *ode, double time, const double *state,
                           double longest, CzSolver **made, CzError *error) {
     CzSolver *solver = calloc(1, sizeof *solver);
@@ -294,11 +305,10 @@ CzStatus cz_solver_create(CzMethod method, CzOde *ode, double time, const double
     solver->ode = ode;
     solver->time = time;
     solver->first_step = FIRST_STEP * longest;
-    CzStatus status = CZ_OK;
-    if (!allocate(solver, state))
+    CzStatus status = CZ_OK; /* the settings are right, so nothing but memory can be missing */
+    if (!has_room(ode->n_unknown) || !allocate(solver, state) ||
+        (method == CZ_METHOD_ERK ? settle_erk : settle_adams)(solver, longest) != 0)
         status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the second solver");
-    else if ((method == CZ_METHOD_ERK ? settle_erk : settle_adams)(solver, longest) != 0)
-        status = tell(solver, error);
     if (status != CZ_OK)
         cz_solver_free(solver);
     else
@@ -333,7 +343,7 @@ CzStatus cz_solver_advance(CzSolver *solver, double until, CzSolverStep *step, C
         flag = is_erk ? ERKStepEvolve(memory, until, solver->state, &reached, ARK_ONE_STEP)
                       : CVode(memory, until, solver->state, &reached, CV_ONE_STEP);
     if (flag < 0 || solver->is_refused)
-        return tell(solver, error);
+        return tell(solver, flag, error);
     solver->time = reached;
     *step = (CzSolverStep){.time = reached,
                            .state = N_VGetArrayPointer(solver->state),
@@ -348,7 +358,7 @@ CzStatus cz_solver_restart(CzSolver *solver, CzError *error) {
                       : CVodeReInit(memory, solver->time, solver->state);
     flag |= is_erk ? ERKStepSetInitStep(memory, solver->first_step)
                    : CVodeSetInitStep(memory, solver->first_step);
-    return flag == 0 ? CZ_OK : tell(solver, error);
+    return flag == 0 ? CZ_OK : tell(solver, flag, error);
 }
 
 /* ---- equations ------------------------------------------------------------------------------- */

@@ -127,7 +127,7 @@ static FILE *open_file(const char *path, const char **why) {
     if (*why != NULL)
         return NULL;
     FILE *stream = fopen(path, "rb");
-    if (stream == NULL)
+    if (stream == NULL && errno != ENOMEM) /* then it is no fault of the file */
         *why = why_failed();
     return stream;
 }
@@ -164,7 +164,10 @@ CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *
     *text = NULL;
     FILE *stream = open_file(path, &why);
     if (stream == NULL) {
-        refuse_file(mistakes, path, place, why);
+        if (why != NULL)
+            refuse_file(mistakes, path, place, why);
+        else
+            mistakes->arena->out_of_memory = true;
         return NULL;
     }
     *text = read_stream(stream, n_byte);

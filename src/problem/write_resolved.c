@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/error.h"
 #include "base/number.h"
 #include "problem/reader.h"
 
@@ -16,6 +17,7 @@ typedef struct {
     FILE *stream;
     const char *lead; /* "# " while a record that the file has not is shown */
     bool is_there;    /* for a result folder */
+    bool *failed;     /* there was no memory for something */
 } Writer;
 
 static void write_record(const Writer *writer, const CzRecord *record, const char *memory,
@@ -233,7 +235,7 @@ static void write_variable(const Writer *writer, const CzVariable *variable, con
 }
 
 /* Targets of all paths of a variable; false when they cannot be found. */
-static bool find_targets(const CzProblem *problem, const CzVariable *variable, CzTarget **targets,
+static bool find_targets(const Writer *writer, const CzVariable *variable, CzTarget **targets,
                          int *n_target) {
     const int n_path = variable->path != NULL ? 1 : variable->paths.n_text;
     *targets = NULL;
@@ -242,7 +244,9 @@ static bool find_targets(const CzProblem *problem, const CzVariable *variable, C
         const char *path = variable->path != NULL ? variable->path : variable->paths.text[i];
         CzTarget *more = NULL;
         int n_more = 0;
-        if (cz_problem_find(problem, path, &more, &n_more, NULL) != CZ_OK)
+        const CzStatus status = cz_problem_find(writer->problem, path, &more, &n_more, NULL);
+        *writer->failed |= status == CZ_STATUS_NO_MEMORY;
+        if (status != CZ_OK)
             return false;
         CzTarget *all = realloc(*targets, (size_t)(*n_target + n_more) * sizeof **targets);
         if (all != NULL) {
@@ -251,6 +255,7 @@ static bool find_targets(const CzProblem *problem, const CzVariable *variable, C
             *n_target += n_more;
         }
         free(more);
+        *writer->failed |= all == NULL;
         if (all == NULL)
             return false;
     }
@@ -267,7 +272,7 @@ static void write_variables(const Writer *writer, const CzVariable *variable, in
                      "- ");
         return;
     }
-    const bool is_found = find_targets(writer->problem, variable, &target, &n_target);
+    const bool is_found = find_targets(writer, variable, &target, &n_target);
     const int n_match = is_found && variable->path != NULL ? target[n_target - 1].match + 1 : 1;
     const char *name = variable->name != NULL   ? variable->name
                        : variable->path != NULL ? variable->path
@@ -354,8 +359,10 @@ static void write_record(const Writer *writer, const CzRecord *record, const cha
     }
 }
 
-static void write_resolved(const CzProblem *problem, bool is_there, FILE *stream) {
-    const Writer writer = {problem, stream, "", is_there};
+static CzStatus write_resolved(const CzProblem *problem, bool is_there, FILE *stream,
+                               CzError *error) {
+    bool failed = false;
+    const Writer writer = {problem, stream, "", is_there, &failed};
     fprintf(stream,
             "# %s resolved: parts, copies and defaults filled in, values in SI.\n"
             "# Behind each value: where it was written, or that it is a default.\n",
@@ -364,12 +371,14 @@ static void write_resolved(const CzProblem *problem, bool is_there, FILE *stream
          source = source->next)
         fprintf(stream, "# read: %s\n", cz_problem_told_name(problem, source->name));
     write_record(&writer, &cz_records[CZ_RECORD_CzInput], (const char *)&problem->input, 0, "");
+    return failed ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the resolved problem")
+                  : CZ_OK;
 }
 
-void cz_problem_write_resolved(const CzProblem *problem, FILE *stream) {
-    write_resolved(problem, false, stream);
+CzStatus cz_problem_write_resolved(const CzProblem *problem, FILE *stream, CzError *error) {
+    return write_resolved(problem, false, stream, error);
 }
 
-void cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream) {
-    write_resolved(problem, true, stream);
+CzStatus cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream, CzError *error) {
+    return write_resolved(problem, true, stream, error);
 }

@@ -158,12 +158,13 @@ static void write_not_covered(const CzEvaluation *evaluation, bool colour, FILE 
     fputs(".\n", stream);
 }
 
-void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
+bool cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
                            FILE *stream) {
+    bool is_whole = true;
     if (evaluation->n_check == 0) {
         fputs("No checks: NOTHING WAS JUDGED. Add `checks:` to the problem file.\n", stream);
         write_not_covered(evaluation, colour, stream);
-        return;
+        return true;
     }
     const bool several = cz_n_kept_run(evaluation) > 1;
     const bool with_before = before != NULL && before->n_check == evaluation->n_check;
@@ -186,7 +187,8 @@ void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *b
             continue;
         put_check(&grid, check, with_before ? &before->check[i] : NULL, several);
     }
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
     write_count(evaluation, colour, stream);
     write_not_covered(evaluation, colour, stream);
+    return is_whole;
 }

@@ -10,7 +10,7 @@
 /* One line per check of a single scenario; of several scenarios the worst line of each check and
  * every failure, of a family of scenarios its worst failure. `before` (NULL for none) is an
  * evaluation with the same checks. Ends with a line that counts the verdicts. */
-void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
+bool cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
                            FILE *stream);
 
 /* A value in its unit, with as many digits as set it apart from its limit when it breaks it. */

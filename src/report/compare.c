@@ -138,7 +138,8 @@ const char *cz_compared_caution(int n, const CzReportRun *run) {
 
 /* ---- on the terminal ---- */
 
-static void write_checks(int n, const CzReportRun *run, bool colour, FILE *stream) {
+static bool write_checks(int n, const CzReportRun *run, bool colour, FILE *stream) {
+    bool is_whole = true;
     const CzEvaluation *first = run[0].evaluation;
     int n_same = 0;
     char alignment[] = "llrrrrrrrr";
@@ -173,12 +174,14 @@ static void write_checks(int n, const CzReportRun *run, bool colour, FILE *strea
                         other->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
         }
     }
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
     fprintf(stream, "%d check%s the same.\n\n", n_same, n_same == 1 ? " is" : "s are");
+    return is_whole;
 }
 
-static void write_numbers(int n, const CzReportRun *run, bool of_interface, bool colour,
+static bool write_numbers(int n, const CzReportRun *run, bool of_interface, bool colour,
                           FILE *stream) {
+    bool is_whole = true;
     const CzRunSummary *first = cz_compared_run(run, 0);
     char alignment[] = "llrrrrrrrr";
     alignment[2 + n] = '\0';
@@ -200,20 +203,23 @@ static void write_numbers(int n, const CzReportRun *run, bool of_interface, bool
                 cz_grid_put(&grid, cz_compared_text(text, run, m, number, name), CZ_STYLE_PLAIN);
         }
     }
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
+    return is_whole;
 }
 
-void cz_report_write_comparison(int n, const CzReportRun *run, bool colour, FILE *stream) {
+CzStatus cz_report_write_comparison(int n, const CzReportRun *run, bool colour, FILE *stream) {
+    bool is_whole = true;
     n = n < CZ_MOST_COMPARED ? n : CZ_MOST_COMPARED;
     if (n < 1 || cz_compared_run(run, 0) == NULL)
-        return;
+        return CZ_OK;
     fprintf(stream, "scenario %s\n\n", cz_compared_run(run, 0)->scenario);
-    write_checks(n, run, colour, stream);
-    write_numbers(n, run, true, colour, stream);
+    is_whole &= write_checks(n, run, colour, stream);
+    is_whole &= write_numbers(n, run, true, colour, stream);
     fputc('\n', stream);
-    write_numbers(n, run, false, colour, stream);
+    is_whole &= write_numbers(n, run, false, colour, stream);
     if (cz_compared_caution(n, run)[0] != '\0') {
         cz_grid_write_text(cz_compared_caution(n, run), CZ_STYLE_BAD, colour, stream);
         fputc('\n', stream);
     }
+    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
 }

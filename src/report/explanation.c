@@ -53,9 +53,10 @@ static void write_head(const CzExplanation *explanation, bool colour, FILE *stre
             worst->where, value, limit, cz_figure_margin(margin, worst->margin));
 }
 
-static void write_signs(const CzExplanation *explanation, bool colour, FILE *stream) {
+static bool write_signs(const CzExplanation *explanation, bool colour, FILE *stream) {
+    bool is_whole = true;
     if (explanation->n_sign == 0)
-        return;
+        return true;
     CzGrid grid;
     cz_grid_begin(&grid, "lrl");
     cz_grid_put(&grid, "signs", CZ_STYLE_PLAIN);
@@ -72,20 +73,22 @@ static void write_signs(const CzExplanation *explanation, bool colour, FILE *str
         cz_grid_put(&grid, sign->what, CZ_STYLE_PLAIN);
     }
     fputc('\n', stream);
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
+    return is_whole;
 }
 
 /* What turned the body of the car that is worst off. */
-static void write_budget(const CzExplanation *explanation, bool colour, FILE *stream) {
+static bool write_budget(const CzExplanation *explanation, bool colour, FILE *stream) {
+    bool is_whole = true;
     const CzRunSummary *run = cz_run_summary(explanation->run);
     if (run->budget == NULL)
-        return;
+        return true;
     const CzVehicleBudget *budget = &run->budget[explanation->vehicle];
     int order[CZ_N_BUDGET];
     const int n = cz_budget_order(budget, order);
     char text[CZ_FIGURE_ROOM];
     if (n == 0)
-        return;
+        return true;
     fprintf(stream, "\nWhat turned the body of %s until its largest %s at %s ms, nose-up:\n",
             run->vehicle[explanation->vehicle].name, budget->of_lift ? "wheel lift" : "pitch",
             cz_figure_fixed(text, 0, budget->time * CZ_MILLI_PER_UNIT));
@@ -104,7 +107,8 @@ static void write_budget(const CzExplanation *explanation, bool colour, FILE *st
                     CZ_STYLE_PLAIN);
         cz_grid_put(&grid, cz_budget_counts(source) ? "" : "through the end", CZ_STYLE_PLAIN);
     }
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
+    return is_whole;
 }
 
 static void put_lever(CzGrid *grid, const CzLever *lever) {
@@ -122,8 +126,9 @@ static void put_lever(CzGrid *grid, const CzLever *lever) {
 }
 
 /* Those that turn the verdict, or those that do not. */
-static void write_levers(const CzExplanation *explanation, bool turning, bool colour,
+static bool write_levers(const CzExplanation *explanation, bool turning, bool colour,
                          FILE *stream) {
+    bool is_whole = true;
     const bool broken = explanation->worst.margin < 0;
     static const char *const titles[2][2] = {
         {"No change of one of these alone breaks the margin; the worst of those tried:",
@@ -145,20 +150,23 @@ static void write_levers(const CzExplanation *explanation, bool turning, bool co
         fprintf(stream, "\n%s\n", titles[broken][turning]);
     else
         grid.n_cell = 0;
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
+    return is_whole;
 }
 
-void cz_report_write_explanation_table(const CzExplanation *explanation, bool colour,
-                                       FILE *stream) {
+CzStatus cz_report_write_explanation_table(const CzExplanation *explanation, bool colour,
+                                           FILE *stream) {
+    bool is_whole = true;
     write_head(explanation, colour, stream);
-    write_signs(explanation, colour, stream);
-    write_budget(explanation, colour, stream);
-    write_levers(explanation, true, colour, stream);
-    write_levers(explanation, false, colour, stream);
+    is_whole &= write_signs(explanation, colour, stream);
+    is_whole &= write_budget(explanation, colour, stream);
+    is_whole &= write_levers(explanation, true, colour, stream);
+    is_whole &= write_levers(explanation, false, colour, stream);
     if (explanation->has_cause)
         fprintf(stream, "\n%s: %s: %s.\n",
                 explanation->worst.margin < 0 ? "First cause" : "First to give way",
                 cz_cause_text(explanation->cause), cz_cause_doc(explanation->cause));
+    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
 }
 
 /* ---- document -------------------------------------------------------------------------------- */

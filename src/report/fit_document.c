@@ -1,6 +1,7 @@
 /* JSON document `crushzone.fit`. */
 #include <stdlib.h>
 
+#include "base/memory_text.h"
 #include "base/error.h"
 #include "crushzone/report.h"
 #include "report/json.h"
@@ -36,15 +37,13 @@ static bool is_refused(const CzFit *fit) {
 
 /* The YAML text, to be freed; NULL without memory. */
 static char *yaml_of(const CzFit *fit) {
-    char *text = NULL;
-    size_t n = 0;
-    FILE *memory = open_memstream(&text, &n);
-    if (memory == NULL)
-        return NULL;
-    cz_fit_write_yaml(fit, memory);
-    if (fclose(memory) == 0)
-        return text;
-    free(text);
+    CzMemoryText memory = {0};
+    FILE *stream = cz_memory_text_open(&memory);
+    if (stream != NULL)
+        cz_fit_write_yaml(fit, stream);
+    if (stream != NULL && fclose(stream) == 0 && !memory.failed)
+        return memory.text;
+    cz_memory_text_free(&memory);
     return NULL;
 }
 

@@ -79,7 +79,7 @@ static void write_row(const CzGrid *grid, const CzGridCell *cell, const int *wid
     fputc('\n', stream);
 }
 
-void cz_grid_write(CzGrid *grid, bool colour, FILE *stream) {
+bool cz_grid_write(CzGrid *grid, bool colour, FILE *stream) {
     int width[MAX_COLUMNS] = {0};
     if (grid->failed)
         fputs("no memory for this table\n", stream);
@@ -93,4 +93,5 @@ void cz_grid_write(CzGrid *grid, bool colour, FILE *stream) {
     free(grid->cell);
     grid->cell = NULL;
     cz_arena_free(&grid->arena);
+    return !grid->failed;
 }

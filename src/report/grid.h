@@ -23,8 +23,9 @@ void cz_grid_begin(CzGrid *grid, const char *alignment);
 /* Appends a cell; rows follow each other as they are full. Control characters become '?'. */
 void cz_grid_put(CzGrid *grid, const char *text, CzStyle style);
 
-/* Writes all rows and frees the grid. */
-void cz_grid_write(CzGrid *grid, bool colour, FILE *stream);
+/* Writes all rows and frees the grid. False without memory: then rows are missing, which the text
+ * says too. */
+bool cz_grid_write(CzGrid *grid, bool colour, FILE *stream);
 
 /* Writes a text in a style, control characters as '?'. */
 void cz_grid_write_text(const char *text, CzStyle style, bool colour, FILE *stream);

@@ -4,6 +4,7 @@
 #include "report/inputs_text.h"
 
 #include "base/error.h"
+#include "base/memory_text.h"
 #include "problem/node.h"
 #include "problem/problem.h"
 
@@ -13,16 +14,17 @@
 enum { CAR_INDENT = 6, MOST_LEVELS = 16, MOST_DEFAULTS = 400 };
 
 CzStatus cz_inputs_text_begin(CzInputsText *inputs, const CzProblem *problem, CzError *error) {
-    size_t n_byte = 0;
+    CzMemoryText memory = {0};
     *inputs = (CzInputsText){0};
     const CzSource *source = cz_problem_first_source(problem);
     inputs->folder = source != NULL ? source->folder : "";
-    FILE *stream = open_memstream(&inputs->text, &n_byte);
+    FILE *stream = cz_memory_text_open(&memory);
     if (stream != NULL) {
-        cz_problem_write_resolved(problem, stream);
-        if (fclose(stream) == 0 && inputs->text != NULL)
-            inputs->line = malloc((n_byte + 1) * sizeof *inputs->line);
+        const CzStatus status = cz_problem_write_resolved(problem, stream, NULL);
+        if (fclose(stream) == 0 && status == CZ_OK && !memory.failed && memory.text != NULL)
+            inputs->line = malloc((memory.n + 1) * sizeof *inputs->line);
     }
+    inputs->text = memory.text;
     if (inputs->line == NULL) {
         cz_inputs_text_free(inputs);
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the inputs");

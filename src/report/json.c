@@ -2,6 +2,7 @@
 #include "report/json.h"
 
 #include "base/error.h"
+#include "base/memory_text.h"
 #include "base/number.h"
 #include "report/figure.h"
 
@@ -78,7 +79,9 @@ void cz_json_text(CzJson *json, const char *key, const char *text) {
     if (json == NULL || json->failed)
         return;
     json_t *value = text == NULL ? json_null() : json_string(text);
-    put(json, key, value != NULL ? value : ascii_text(text));
+    if (value == NULL && text != NULL) /* no UTF-8, or no memory, which shows again */
+        value = ascii_text(text);
+    put(json, key, value);
 }
 
 void cz_json_real(CzJson *json, const char *key, double value) {
@@ -133,17 +136,24 @@ static void write_document(const char *text, FILE *stream) {
     fputc('\n', stream);
 }
 
+static int take_text(const char *bytes, size_t n, void *memory) {
+    return cz_memory_text_add(memory, bytes, n) ? 0 : -1;
+}
+
 CzStatus cz_json_finish(CzJson *json, FILE *stream, CzError *error) {
-    char *text = json != NULL && !json->failed
-                     ? json_dumps(json->open[0], JSON_INDENT(2) | JSON_REAL_PRECISION(17))
-                     : NULL;
+    CzMemoryText memory = {0};
+    const bool is_whole = json != NULL && !json->failed &&
+                          json_dump_callback(json->open[0], take_text, &memory,
+                                             JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
+                          !memory.failed; /* which not every failure of taking text leads to */
     if (json != NULL)
         json_decref(json->open[0]);
     free(json);
-    if (text == NULL)
+    if (is_whole)
+        write_document(memory.text, stream);
+    cz_memory_text_free(&memory);
+    if (!is_whole)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a JSON document");
-    write_document(text, stream);
-    free(text);
     if (fflush(stream) != 0 || ferror(stream))
         return cz_fail(error, CZ_STATUS_OUTPUT, "the JSON document cannot be written: %s",
                        strerror(errno));

@@ -101,8 +101,9 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome, b
     write_objective(evaluator, outcome, colour, stream);
 }
 
-static void write_variables(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
+static bool write_variables(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
                             FILE *stream) {
+    bool is_whole = true;
     static const char *const names[] = {"variable", "unit", "min", "max", "before", "after", ""};
     CzGrid grid;
     cz_grid_begin(&grid, "llrrrrl");
@@ -123,12 +124,14 @@ static void write_variables(const CzEvaluator *evaluator, const CzOutcome *outco
                         CZ_STYLE_PLAIN);
         cz_grid_put(&grid, cz_outcome_remark(variable, outcome->at_bound[i]), CZ_STYLE_CAREFUL);
     }
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
     fputc('\n', stream);
+    return is_whole;
 }
 
 /* What a fit was to reproduce, before and after. */
-static void write_matches(const CzOutcome *outcome, bool colour, FILE *stream) {
+static bool write_matches(const CzOutcome *outcome, bool colour, FILE *stream) {
+    bool is_whole = true;
     static const char *const names[] = {"match",     "where",  "unit",  "measured",
                                         "tolerance", "before", "after", "off by"};
     const CzEvaluation *best = &outcome->best_evaluation, *start = &outcome->start_evaluation;
@@ -153,17 +156,19 @@ static void write_matches(const CzOutcome *outcome, bool colour, FILE *stream) {
         snprintf(text, sizeof text, "%s%.40s tol", number[0] == '-' ? "" : "+", number);
         cz_grid_put(&grid, text, fabs(match->residual) <= 1 ? CZ_STYLE_GOOD : CZ_STYLE_BAD);
     }
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
     fputc('\n', stream);
+    return is_whole;
 }
 
 /* Further parameter sets that fit about as well, a column each. */
-static void write_alternatives(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
+static bool write_alternatives(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
                                FILE *stream) {
+    bool is_whole = true;
     char text[CZ_FIGURE_ROOM + 16];
     if (outcome->n_alternative == 0) {
         fputs("No other parameter set of this search fits as well.\n\n", stream);
-        return;
+        return true;
     }
     CzGrid grid;
     cz_grid_begin(&grid, "lrrrrrr");
@@ -186,18 +191,20 @@ static void write_alternatives(const CzEvaluator *evaluator, const CzOutcome *ou
             cz_grid_put(&grid, is_there ? cz_figure_digits(text, 4, value) : "", CZ_STYLE_PLAIN);
         }
     }
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
     fputc('\n', stream);
+    return is_whole;
 }
 
 /* Every constraint that the best design breaks; a constraint may be a target that is no check. */
-static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
+static bool write_violations(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
                              FILE *stream) {
+    bool is_whole = true;
     static const char *const names[] = {"violated", "where", "scenario",
                                         "limit",    "value", "margin"};
     const CzEvaluation *best = &outcome->best_evaluation;
     if (best->violation <= 0 || best->n_constraint == best->n_match)
-        return; /* what is matched has a table of its own */
+        return true; /* what is matched has a table of its own */
     CzGrid grid;
     cz_grid_begin(&grid, "lllrrr");
     for (int i = 0; i < 6; i++)
@@ -223,7 +230,8 @@ static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outc
                     CZ_STYLE_PLAIN);
     }
     fputc('\n', stream);
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
+    return is_whole;
 }
 
 /* A change in per cent, up to the next tenth. */
@@ -262,18 +270,20 @@ static void write_verification(const CzVerification *verification, bool colour, 
         write_worst(verification, (CzVerifyWay)way, stream);
 }
 
-void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,
-                                   const CzOutcome *outcome, bool colour, FILE *stream) {
+CzStatus cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,
+                                       const CzOutcome *outcome, bool colour, FILE *stream) {
+    bool is_whole = true;
     cz_grid_write_text(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
     fputs("\n\n", stream);
     write_head(evaluator, outcome, colour, stream);
-    write_variables(evaluator, outcome, colour, stream);
+    is_whole &= write_variables(evaluator, outcome, colour, stream);
     if (cz_evaluator_is_fit(evaluator)) {
-        write_matches(outcome, colour, stream);
-        write_alternatives(evaluator, outcome, colour, stream);
+        is_whole &= write_matches(outcome, colour, stream);
+        is_whole &= write_alternatives(evaluator, outcome, colour, stream);
     }
-    cz_checks_write_table(&outcome->best_evaluation, &outcome->start_evaluation, colour, stream);
-    write_violations(evaluator, outcome, colour, stream);
+    is_whole &= cz_checks_write_table(&outcome->best_evaluation, &outcome->start_evaluation, colour,
+                                      stream);
+    is_whole &= write_violations(evaluator, outcome, colour, stream);
     write_verification(outcome->verification, colour, stream);
 
     CzArena arena = {0};
@@ -283,4 +293,5 @@ void cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *
     if (setting != NULL)
         cz_overlay_write_set(n_setting, setting, stream);
     cz_arena_free(&arena);
+    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
 }

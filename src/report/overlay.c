@@ -164,16 +164,20 @@ CzStatus cz_overlay_write_resolved(const CzProblem *problem, const CzEvaluator *
         cz_arena_free(&arena);
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
     }
-    if (read_best(problem, options, n_setting, setting, &best, &mistake) == CZ_OK) {
-        cz_problem_write_resolved_there(best, stream);
+    CzStatus status = read_best(problem, options, n_setting, setting, &best, &mistake);
+    if (status == CZ_OK) {
+        status = cz_problem_write_resolved_there(best, stream, error);
+    } else if (status == CZ_STATUS_NO_MEMORY) {
+        status = cz_fail(error, status, "%s", mistake.message);
     } else { /* such as a file that has changed meanwhile: the values must not get lost */
         fprintf(stream, "# The problem cannot be read again (%s), so these are the values alone.\n",
                 mistake.message);
         cz_overlay_write_set(n_setting, setting, stream);
+        status = CZ_OK;
     }
     cz_problem_free(best);
     cz_arena_free(&arena);
-    return CZ_OK;
+    return status;
 }
 
 /* Path of `target` as seen from `folder`, both absolute and without dots. */

@@ -83,7 +83,7 @@ CzStatus cz_page_begin(CzPage *page, const CzProblem *problem, const CzEvaluatio
                      .scenario = scenario,
                      .run = evaluation->run[scenario],
                      .summary = cz_kept_run(evaluation, scenario)};
-    page->markup.stream = open_memstream(&page->text, &page->n_text);
+    page->markup.stream = cz_memory_text_open(&page->text);
     if (page->markup.stream == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
     int n_vehicle;
@@ -105,9 +105,8 @@ void cz_page_free(CzPage *page) {
     cz_page_free_curves(page);
     if (page->markup.stream != NULL)
         fclose(page->markup.stream);
-    free(page->text);
+    cz_memory_text_free(&page->text);
     page->markup.stream = NULL;
-    page->text = NULL;
     free(page->stand);
     cz_model_free(page->model);
     page->stand = NULL;
@@ -304,9 +303,10 @@ CzStatus cz_page_write_parts(CzPage *page, CzError *error) {
 }
 
 CzStatus cz_page_finish(CzPage *page, CzError *error) {
-    if (page->markup.failed || fflush(page->markup.stream) != 0)
+    if (page->markup.failed || fflush(page->markup.stream) != 0 || page->text.failed ||
+        page->text.text == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
-    fwrite(page->text, 1, page->n_text, page->stream);
+    fwrite(page->text.text, 1, page->text.n, page->stream);
     return CZ_OK;
 }
 

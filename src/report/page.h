@@ -7,6 +7,7 @@
 #define CZ_REPORT_PAGE_H
 
 #include "crushzone/report.h"
+#include "base/memory_text.h"
 #include "crushzone/names.h"
 #include "model/model.h"
 #include "model/stand.h"
@@ -25,10 +26,9 @@ typedef struct CzPageCurve {
 } CzPageCurve;
 
 typedef struct CzPage {
-    CzMarkup markup; /* writes into memory, for a page must know how long it is */
-    FILE *stream;    /* where the page goes when it is whole; borrowed */
-    char *text;      /* what was written, known once the markup's stream was flushed */
-    size_t n_text;   /* its length [bytes] */
+    CzMarkup markup;   /* writes into memory, for a page must know how long it is */
+    FILE *stream;      /* where the page goes when it is whole; borrowed */
+    CzMemoryText text; /* what was written, known once the markup's stream was flushed */
     const CzProblem *problem;
     const CzEvaluation *evaluation;
     const CzReportOptions *options;

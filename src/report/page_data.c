@@ -243,7 +243,7 @@ static void put_channels(Letters *letters, const CzPage *page, const Rows *rows)
 
 /* All rows where they fit into the page, else as many of the first ones as do. */
 static void fill(const CzPage *page, Rows *rows) {
-    const long room = PAGE_ROOM - FOOT_ROOM - (long)strlen(cz_report_js) - (long)page->n_text;
+    const long room = PAGE_ROOM - FOOT_ROOM - (long)strlen(cz_report_js) - (long)page->text.n;
     const int fine = rows->n / 64 + 1;
     int most = rows->n + 1, least = 0; /* fit, do not fit */
     for (rows->n_first = rows->n; most - least > fine; rows->n_first = (least + most) / 2) {

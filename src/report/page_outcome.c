@@ -278,21 +278,21 @@ static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const C
 static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
                              const CzOutcome *outcome, CzError *error) {
     CzArena arena = {0};
-    char *text = NULL;
-    size_t n_byte = 0;
+    CzMemoryText memory = {0};
     int n_setting;
-    FILE *stream = open_memstream(&text, &n_byte);
+    FILE *stream = cz_memory_text_open(&memory);
     const char **setting = cz_overlay_settings(evaluator, outcome, NULL, &arena, &n_setting);
     if (stream != NULL && setting != NULL)
         cz_overlay_write_set(n_setting, setting, stream);
-    const bool fits = stream != NULL && setting != NULL && fclose(stream) == 0 && text != NULL;
+    const bool is_closed = stream != NULL && fclose(stream) == 0;
+    const bool fits = is_closed && setting != NULL && !memory.failed && memory.text != NULL;
     if (fits) {
         cz_page_open_section(markup, "values", "New values, to paste");
-        cz_markup_element(markup, "pre", text);
+        cz_markup_element(markup, "pre", memory.text);
         cz_page_close_section(markup);
     }
     cz_arena_free(&arena);
-    free(text);
+    cz_memory_text_free(&memory);
     return fits ? CZ_OK : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
 }
 

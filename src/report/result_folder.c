@@ -73,8 +73,7 @@ static CzStatus write_channels(const Results *results, FILE *stream, CzError *er
 /* The problem that gives these results when it is run alone: of a search, with the best values. */
 static CzStatus write_resolved(const Results *results, FILE *stream, CzError *error) {
     if (results->outcome == NULL) {
-        cz_problem_write_resolved_there(results->problem, stream);
-        return CZ_OK;
+        return cz_problem_write_resolved_there(results->problem, stream, error);
     }
     return cz_overlay_write_resolved(results->problem, results->evaluator, results->outcome,
                                      results->options, stream, error);
@@ -278,10 +277,17 @@ CzStatus cz_report_write_outcome_folder(const CzProblem *problem, const CzEvalua
                        .folder = folder};
     CzProblem *best = NULL;
     CzError mistake = {0}; /* such as a file that has changed meanwhile: then there is no report */
-    results.has_report = cz_overlay_read_best(problem, evaluator, outcome, results.options, &best,
-                                              &mistake) == CZ_OK;
+    const CzStatus read =
+        cz_overlay_read_best(problem, evaluator, outcome, results.options, &best, &mistake);
+    results.has_report = read == CZ_OK;
     results.computed = best;
     const CzStatus status = write_folder(&results, error);
     cz_problem_free(best);
+    if (status == CZ_OK &&
+        read == CZ_STATUS_NO_MEMORY) /* the best design is kept, and it is told */
+        return cz_fail(error, read,
+                       "no memory for the report of %.300s; crushzone report %.100s "
+                       "writes it",
+                       folder, folder);
     return status;
 }

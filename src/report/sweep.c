@@ -59,7 +59,8 @@ static void put_point(CzGrid *grid, const CzSweep *sweep, const CzSweepPoint *po
     cz_grid_put(grid, point->scenario, CZ_STYLE_PLAIN);
 }
 
-static void write_line_per_value(const CzSweep *sweep, bool colour, FILE *stream) {
+static bool write_line_per_value(const CzSweep *sweep, bool colour, FILE *stream) {
+    bool is_whole = true;
     char alignment[MOST_COLUMNS + CZ_MOST_SWEPT_METRICS] = "rlr";
     for (int k = 0; k < sweep->n_metric; k++)
         alignment[FIRST_METRIC + k] = 'r';
@@ -77,7 +78,8 @@ static void write_line_per_value(const CzSweep *sweep, bool colour, FILE *stream
     cz_grid_put(&grid, "scenario", CZ_STYLE_PLAIN);
     for (int i = 0; i < sweep->n_point; i++)
         put_point(&grid, sweep, &sweep->point[i]);
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
+    return is_whole;
 }
 
 /* The map: a row per value of the first path, a sign per value of the second. */
@@ -131,11 +133,12 @@ static void write_worst(const CzSweep *sweep, bool colour, FILE *stream) {
     fputs(".\n", stream);
 }
 
-void cz_report_write_sweep_table(const CzSweep *sweep, bool colour, FILE *stream) {
+CzStatus cz_report_write_sweep_table(const CzSweep *sweep, bool colour, FILE *stream) {
+    bool is_whole = true;
     cz_grid_write_text(cz_problem_title(sweep->problem), CZ_STYLE_PLAIN, colour, stream);
     fputs("\n\n", stream);
     if (sweep->n_axis == 1)
-        write_line_per_value(sweep, colour, stream);
+        is_whole &= write_line_per_value(sweep, colour, stream);
     else
         write_map(sweep, colour, stream);
     if (cz_sweep_is_beyond(sweep)) {
@@ -149,6 +152,7 @@ void cz_report_write_sweep_table(const CzSweep *sweep, bool colour, FILE *stream
         cz_grid_write_text("INTERRUPTED: not every point was run.", CZ_STYLE_BAD, colour, stream);
         fputc('\n', stream);
     }
+    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
 }
 
 /* ---- document -------------------------------------------------------------------------------- */

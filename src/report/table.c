@@ -129,7 +129,8 @@ static void put_interface(CzGrid *grid, const CzRunSummary *run, int index) {
 }
 
 /* Interfaces of a run; a compact table keeps the one with the highest force and the overrun. */
-static void write_interfaces(const CzRunSummary *run, bool compact, bool colour, FILE *stream) {
+static bool write_interfaces(const CzRunSummary *run, bool compact, bool colour, FILE *stream) {
+    bool is_whole = true;
     static const char *const names[] = {"interface", "peak kN", "crush mm", "used",
                                         "energy kJ", "share",   ""};
     int worst = 0;
@@ -144,7 +145,8 @@ static void write_interfaces(const CzRunSummary *run, bool compact, bool colour,
     for (int i = 0; i < run->n_interface; i++)
         if (!compact || i == worst || run->interface[i].bottomed_out)
             put_interface(&grid, run, i);
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
+    return is_whole;
 }
 
 /* Wheel lift and override are about the run as a whole. */
@@ -242,8 +244,9 @@ static bool is_told(const CzProblem *problem, const CzEvaluation *evaluation, in
     return family == NULL || worst_member(problem, evaluation, family) == index;
 }
 
-void cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluation, bool colour,
-                           FILE *stream) {
+CzStatus cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluation,
+                               bool colour, FILE *stream) {
+    bool is_whole = true;
     cz_grid_write_text(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
     fputs("\n\n", stream);
     for (int i = 0; i < evaluation->n_run; i++) {
@@ -254,10 +257,11 @@ void cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluat
             write_family(problem, evaluation, family_of(problem, run->scenario), colour, stream);
         write_run_head(problem, run, colour, stream);
         if (run->status == CZ_OK) {
-            write_interfaces(run, cz_n_kept_run(evaluation) > 1, colour, stream);
+            is_whole &= write_interfaces(run, cz_n_kept_run(evaluation) > 1, colour, stream);
             write_climbing(run, colour, stream);
         }
         fputc('\n', stream);
     }
-    cz_checks_write_table(evaluation, NULL, colour, stream);
+    is_whole &= cz_checks_write_table(evaluation, NULL, colour, stream);
+    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
 }

@@ -52,11 +52,12 @@ static void put_row(CzGrid *grid, const CzVerification *verification,
     }
 }
 
-static void write_values(const CzVerification *verification, bool colour, FILE *stream) {
+static bool write_values(const CzVerification *verification, bool colour, FILE *stream) {
+    bool is_whole = true;
     const size_t n = (size_t)verification->n_value;
     const CzVerifiedValue **value = calloc(n + 1, sizeof *value);
     if (value == NULL)
-        return;
+        return false;
     for (size_t i = 0; i < n; i++)
         value[i] = &verification->value[i];
     qsort(value, n, sizeof *value, by_change);
@@ -74,11 +75,13 @@ static void write_values(const CzVerification *verification, bool colour, FILE *
             cz_grid_put(&grid, cz_verify_way_text((CzVerifyWay)way), CZ_STYLE_PLAIN);
     for (size_t i = 0; i < n && i < MOST_ROWS; i++)
         put_row(&grid, verification, value[i]);
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
     free(value);
+    return is_whole;
 }
 
-static void write_ways(const CzVerification *verification, bool colour, FILE *stream) {
+static bool write_ways(const CzVerification *verification, bool colour, FILE *stream) {
+    bool is_whole = true;
     static const char *const names[] = {"by", "largest change", "verdicts that flip"};
     char text[CZ_FIGURE_ROOM];
     CzGrid grid;
@@ -97,7 +100,8 @@ static void write_ways(const CzVerification *verification, bool colour, FILE *st
         snprintf(text, sizeof text, "%d", verification->n_flip[way]);
         cz_grid_put(&grid, text, verification->n_flip[way] > 0 ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
     }
-    cz_grid_write(&grid, colour, stream);
+    is_whole &= cz_grid_write(&grid, colour, stream);
+    return is_whole;
 }
 
 static bool changes_too_much(const CzVerification *verification, const CzVerifiedValue *value) {
@@ -122,16 +126,17 @@ static void write_scatter(const CzVerification *verification, FILE *stream) {
                 verification->n_value, cz_figure_change(text, verification->limit), n_scatter);
 }
 
-void cz_report_write_verification_table(const CzProblem *problem,
-                                        const CzVerification *verification, bool colour,
-                                        FILE *stream) {
+CzStatus cz_report_write_verification_table(const CzProblem *problem,
+                                            const CzVerification *verification, bool colour,
+                                            FILE *stream) {
+    bool is_whole = true;
     char text[CZ_FIGURE_ROOM];
     cz_grid_write_text(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
     fputs("\n\n", stream);
     if (verification->n_value > 0) {
-        write_values(verification, colour, stream);
+        is_whole &= write_values(verification, colour, stream);
         fputc('\n', stream);
-        write_ways(verification, colour, stream);
+        is_whole &= write_ways(verification, colour, stream);
         fputc('\n', stream);
     }
     if (verification->failure[0] != '\0') {
@@ -145,6 +150,7 @@ void cz_report_write_verification_table(const CzProblem *problem,
                        stream);
     fprintf(stream, " (%d numbers, %s allowed)\n", verification->n_value,
             cz_figure_change(text, verification->limit));
+    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
 }
 
 /* ---- document -------------------------------------------------------------------------------- */

@@ -1,6 +1,15 @@
 add_executable(read_json ${CMAKE_CURRENT_LIST_DIR}/read_json.c)
 target_link_libraries(read_json PRIVATE cz_flags PkgConfig::JANSSON)
 cz_test(test_arguments cli test_arguments.c src/cli/arguments.c)
+# The whole program in a test that takes the place of the system's allocation; sanitizers take it themselves.
+if(CZ_IS_WHOLE AND NOT CMAKE_BUILD_TYPE STREQUAL Debug)
+    set(program_sources ${CZ_SOURCES_cli})
+    list(FILTER program_sources EXCLUDE REGEX "main\\.c$|/base/")
+    cz_test(test_memory_of_program cli test_memory.c program.c ${program_sources})
+    target_compile_definitions(test_memory_of_program PRIVATE CZ_SHARE_FOLDER="${PROJECT_SOURCE_DIR}/problems")
+    add_test(NAME every_request_of_the_program COMMAND test_memory_of_program long)
+    cz_label(every_request_of_the_program long)
+endif()
 if(CZ_IS_WHOLE)
     cz_script(cli_commands cli commands.sh) # words of cli.sh
     cz_script(cli_fit cli fit.sh)

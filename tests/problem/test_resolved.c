@@ -8,7 +8,7 @@ static char *resolve(const CzProblem *problem) {
     size_t n_byte = 0;
     FILE *stream = open_memstream(&text, &n_byte);
     assert_non_null(stream);
-    cz_problem_write_resolved(problem, stream);
+    assert_int_equal(cz_problem_write_resolved(problem, stream, NULL), CZ_OK);
     fclose(stream);
     return text;
 }

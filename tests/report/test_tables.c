@@ -27,14 +27,16 @@ static char *text_end(Text *text) {
 
 static char *table_text(const StandIn *s, bool colour) {
     Text *text = text_begin();
-    cz_report_write_table(stand_in_problem, &s->evaluation, colour, text->stream);
+    assert_int_equal(cz_report_write_table(stand_in_problem, &s->evaluation, colour, text->stream),
+                     CZ_OK);
     return text_end(text);
 }
 
 static char *outcome_text(const StandIn *s) {
     Text *text = text_begin();
-    cz_report_write_outcome_table(stand_in_problem, stand_in_evaluator, &s->outcome, false,
-                                  text->stream);
+    assert_int_equal(cz_report_write_outcome_table(stand_in_problem, stand_in_evaluator,
+                                                   &s->outcome, false, text->stream),
+                     CZ_OK);
     return text_end(text);
 }
 

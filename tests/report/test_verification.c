@@ -69,7 +69,8 @@ static void a_verification_is_a_table_with_the_largest_change_first(void **state
     char *text = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
-    cz_report_write_verification_table(stand_in_problem, &verification, false, stream);
+    assert_int_equal(
+        cz_report_write_verification_table(stand_in_problem, &verification, false, stream), CZ_OK);
     fclose(stream);
     assert_true(strstr(text, "interface force") < strstr(text, "stroke used"));
     assert_non_null(strstr(text, "FLIPS"));
@@ -91,7 +92,8 @@ static void what_scatters_is_counted(void **state) {
     char *text = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
-    cz_report_write_verification_table(stand_in_problem, &verification, false, stream);
+    assert_int_equal(
+        cz_report_write_verification_table(stand_in_problem, &verification, false, stream), CZ_OK);
     fclose(stream);
     assert_non_null(strstr(text, "2 of 2 numbers change by more than 1 %; 1 of them scatter"));
     free(text);

@@ -1,0 +1,30 @@
+/* Text that grows in memory, and a stream into it.
+ *
+ * open_memstream would do but for one thing: what there is no memory for is left out, and neither
+ * the stream nor closing it says so. Here a failure is remembered.
+ */
+#ifndef CZ_BASE_MEMORY_TEXT_H
+#define CZ_BASE_MEMORY_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* Zero-initialise it. */
+typedef struct CzMemoryText {
+    char *text;  /* ended by a zero; NULL while nothing was written */
+    size_t n;    /* [byte] */
+    size_t room; /* [byte] */
+    bool failed; /* something is missing */
+} CzMemoryText;
+
+/* Appends n bytes; false without memory. */
+bool cz_memory_text_add(CzMemoryText *memory, const char *bytes, size_t n);
+
+/* A stream into the text, which must outlive it; NULL without memory. What was written is there
+ * after fflush or fclose. */
+FILE *cz_memory_text_open(CzMemoryText *memory);
+
+void cz_memory_text_free(CzMemoryText *memory);
+
+#endif

@@ -137,18 +137,29 @@ static double area_of(const CzTrace *trace) {
     return cz_trace_work(trace, 0, trace->n - 1);
 }
 
+/* Where the force jumps most at one stroke. */
+typedef struct Jump {
+    double x, from, to;
+    int line;
+} Jump;
+
 /* One point for all at one stroke: at 0 the last one, elsewhere their mean. */
-static void merge_points(CzTrace *trace) {
+static Jump merge_points(CzTrace *trace) {
+    Jump jump = {.line = trace->line[0]};
     int n = 0;
     for (int first = 0, end = 0; first < trace->n; first = end) {
         double sum = 0.0;
         for (end = first; end < trace->n && trace->x[end] == trace->x[first]; end++)
             sum += trace->f[end];
+        const double from = trace->f[first], to = trace->f[end - 1];
+        if (trace->x[first] > 0.0 && fabs(to - from) > fabs(jump.to - jump.from))
+            jump = (Jump){trace->x[first], from, to, trace->line[end - 1]};
         trace->x[n] = trace->x[first];
-        trace->f[n] = trace->x[first] == 0.0 ? trace->f[end - 1] : sum / (end - first);
+        trace->f[n] = trace->x[first] == 0.0 ? to : sum / (end - first);
         trace->line[n++] = trace->line[first];
     }
     trace->n = trace->n_loading = n;
+    return jump;
 }
 
 /* The loading alone, its strokes rising from 0. A jump of the force cannot be kept. */
@@ -171,11 +182,17 @@ static bool keep_loading(const Reading *reading, const CzSource *source, CzTrace
         trace->f[0] = trace->f[0] > WITHOUT_FORCE * mean ? trace->f[0] : 0.0;
     }
     const double before = area_of(trace);
-    merge_points(trace);
+    const Jump jump = merge_points(trace);
     if (trace->n >= 2 && fabs(area_of(trace) - before) <= JUMP * before)
         return true;
-    cz_mistake_at(mistakes, source, trace->line[0], 1,
-                  "the force of this curve jumps at one stroke; a curve needs two strokes for it");
+    char at[CZ_NUMBER_TEXT], from[CZ_NUMBER_TEXT], to[CZ_NUMBER_TEXT];
+    cz_mistake_at(
+        mistakes, source, jump.line, 1, "the force jumps from %s to %s kN at one stroke, %s mm",
+        cz_number_print_short(from, 1e-3 * jump.from), cz_number_print_short(to, 1e-3 * jump.to),
+        cz_number_print_short(at, 1e3 * jump.x));
+    cz_mistake_help(mistakes,
+                    "a curve of a device has one force at a stroke: give the second point "
+                    "a stroke that is a little larger, or use stages");
     return false;
 }
 

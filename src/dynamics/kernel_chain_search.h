@@ -18,6 +18,7 @@
 #include "dynamics/kernel_chain.h"
 
 #include "laws/shear_off.h"
+#include "model/kinks.h"
 
 enum {
     SEARCH_MEMBERS = 8,     /* two springs and up to six plastic members */
@@ -48,18 +49,33 @@ typedef struct Search {
     double last; /* force at the beginning of the step [N] */
 } Search;
 
-/* Where a curve begins to fall, from a stroke on; infinite where it never does. */
-static double curve_falls_at(const CzBlock *d, int id, size_t lane, double from) {
+/* Where a strength s(x) (1 + e (x - from)) + r (x - from) begins to fall from a stroke on, e being
+ * what the strength gains by the rate of the step per way and r a resistance; infinite where it
+ * never does. Along a falling part its slope falls, too, so one root tells. */
+static double curve_falls_at(const CzBlock *d, int id, size_t lane, double from, double gain,
+                             double resistance) {
     const CzBlockCurve *curve = &d->curve[id];
-    double slope = 0.0, falls = INFINITY;
-    for (int kink = 0; kink < curve->n_kink; ++kink) {
-        const double at = curve->kink[2 * kink][lane];
-        if (slope < -SEARCH_STIFFNESS && at > from)
-            break;
-        slope += curve->kink[2 * kink + 1][lane];
-        falls = slope < -SEARCH_STIFFNESS ? cz_larger(at, from) : INFINITY;
+    double slope = 0.0, value = curve->start[lane], begin = 0.0;
+    for (int kink = 0; kink <= curve->n_kink; ++kink) {
+        const int is_last = kink == curve->n_kink;
+        const double end = is_last ? INFINITY : curve->kink[2 * kink][lane];
+        if (slope < 0.0 && end > from) {
+            const double first = cz_larger(begin, from), way = first - from;
+            const double at_first = value + slope * (first - begin);
+            const double rises = slope * (1.0 + gain * way) + at_first * gain + resistance;
+            const double root = gain > 0.0 ? first - rises / (2.0 * slope * gain) : INFINITY;
+            if (rises < 0.0)
+                return first;
+            if (root < end)
+                return root;
+        }
+        if (!is_last && end < CZ_NEVER) {
+            value += slope * (end - begin);
+            begin = end;
+            slope += curve->kink[2 * kink + 1][lane];
+        }
     }
-    return falls;
+    return INFINITY;
 }
 
 /* Force of a plastic member that has flowed by `way` in the step. */
@@ -96,8 +112,11 @@ static double law_at(const Search *s, int member, double stroke) {
 static double plastic_falls_at(const Search *s, int member) {
     const CzBlock *d = s->d;
     const double stroke = s->start[2 + member];
-    if (member < s->chain->n_curve)
-        return curve_falls_at(d, s->chain->curve + member, s->lane, stroke);
+    if (member < s->chain->n_curve) {
+        const double gain = d->parameter[s->chain->rate + member][s->lane] / s->step;
+        return curve_falls_at(d, s->chain->curve + member, s->lane, stroke, gain,
+                              CZ_SMALLEST_RESISTANCE);
+    }
     const double softening = P_AT(SHEAR_SOFTENING_A, member % 2)[s->lane];
     return s->holds || stroke >= softening ? INFINITY : stroke;
 }

@@ -117,7 +117,8 @@ static double limp_end_force(const CzBlock *d, int side, size_t i, double shorte
 
 static double limp_end_falls(const CzBlock *d, int side, size_t i) {
     return curve_falls_at(d, CZ_CURVE_LIMP_END_A + side, i,
-                          cz_larger(M_AT(LIMP_A, side)[i], M_AT(LIMP_PEAK_A, side)[i]));
+                          cz_larger(M_AT(LIMP_A, side)[i], M_AT(LIMP_PEAK_A, side)[i]), 0.0,
+                          SEARCH_STIFFNESS);
 }
 
 static const Springs face_springs = {linearise_limp_end, limp_end_force, limp_end_falls};

@@ -7,6 +7,9 @@
  *   p' = x - clamped / k_t
  *   F = static + (c1 + c2 |x'|) * fade(x) * x'        c2 while loading only
  *
+ * fade(x) is taken at the larger of the strokes at both ends of a step, so that the force of the
+ * step never falls while its stroke moves on.
+ *
  * loading(x) rises nowhere faster than k_t, or a cycle between the curves would create energy.
  * Beyond the usable stroke s it stays what it is there: what bottoms out is an elastic stop k_b in
  * parallel, stiff and without hysteresis.
@@ -73,19 +76,19 @@ static inline CzBufferResponse cz_buffer_of(const CzBufferLaw *law, double compl
     const double push_down = stop_slope + (inside <= lower ? lower_slope : down_upper);
     const double up = stroke >= 0.0 ? push_up : draw_slope;
     const double down = stroke > 0.0 ? push_down : draw_slope;
-    const double fade = cz_fade_in(stroke, CZ_FADE_LENGTH);
-    const double linear = law->damping * fade;
-    const double hydraulic = law->quadratic * cz_positive_part(rate) * fade;
 
-    const double damped = moved > 0.0 ? linear + hydraulic : linear;
+    /* Damping by the larger of the strokes at both ends of the step, so that its force never falls
+     * while the stroke moves on; what it grows by as it fades in. */
+    const double before = fabs(stroke - moved), after = fabs(stroke);
+    const double fade = cz_fade_in(cz_larger(before, after), CZ_FADE_LENGTH);
+    const double growing = law->quadratic * cz_positive_part(rate);
+    const double slow = law->damping, fast = law->damping + growing;
+    const double still_fades = after > before && after < CZ_FADE_LENGTH ? 1.0 : 0.0;
+    const double fading = fade + still_fades * fabs(moved) * (1.0 / CZ_FADE_LENGTH);
     const double per_step = 1.0 / step;
-
-    /* Damping per way moved, up and down, and what it grows by as it fades in. */
-    const double undamped = law->damping + law->quadratic * cz_positive_part(rate);
-    const double still_fades = stroke < CZ_FADE_LENGTH ? undamped : 0.0;
-    const double fading = still_fades * cz_positive_part(moved) * (1.0 / CZ_FADE_LENGTH);
-    const double damping_up = linear + hydraulic + (stroke > 0.0 ? fading : 0.0);
-    const double damping_down = moved > 0.0 ? damping_up : linear;
+    const double damped = (moved > 0.0 ? fast : slow) * fade;
+    const double damping_up = (moved < 0.0 ? slow : fast) * fading;
+    const double damping_down = (moved > 0.0 ? fast : slow) * fading;
 
     CzBufferResponse response;
     response.force = inside + stop - law->draw_stiffness * drawn + damped * moved * per_step;

@@ -149,6 +149,29 @@ static void a_stroke_that_moved_has_one_tangent(void **state) {
     }
 }
 
+/* A chain has one answer only where no force falls while its stroke moves on, back and forth across
+ * zero, slack and stop included. */
+static void the_force_of_a_step_never_falls_with_its_stroke(void **state) {
+    (void)state;
+    const CzBufferLaw law = {5e7, 0.35, 5e3, 3e4, 2e7, 0.002, 0.05};
+    const double committed[] = {-0.006, -0.001, 0.0, 0.0005, 0.004, 0.012, 0.0502};
+    const double rates[] = {-3.0, 0.0, 3.0};
+    for (size_t i = 0; i < sizeof committed / sizeof committed[0]; i++)
+        for (size_t k = 0; k < sizeof rates / sizeof rates[0]; k++) {
+            const double from = committed[i];
+            const double offset = at(&law, &draft_gear, from, rates[k], 0.0).offset;
+            double last = -INFINITY;
+            for (double x = from - 0.015; x < from + 0.015; x += 1e-5) {
+                const double force =
+                    cz_buffer(&law, backbone_value(&draft_gear, x), backbone_slope(&draft_gear, x),
+                              x, x - from, rates[k], offset, step)
+                        .force;
+                assert_true(force >= last - 1e-6);
+                last = force;
+            }
+        }
+}
+
 /* Inside the slack a chain must still have one answer. */
 static void within_the_slack_the_smallest_stiffness_is_left(void **state) {
     (void)state;
@@ -169,6 +192,7 @@ int main(void) {
         cmocka_unit_test(the_compliances_are_the_tangents_of_the_force),
         cmocka_unit_test(damping_adds_its_force_to_the_step),
         cmocka_unit_test(a_stroke_that_moved_has_one_tangent),
+        cmocka_unit_test(the_force_of_a_step_never_falls_with_its_stroke),
         cmocka_unit_test(within_the_slack_the_smallest_stiffness_is_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

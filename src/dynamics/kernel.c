@@ -47,10 +47,14 @@ static void clear(CzBlock *d) {
     zero(&d->scratch[CZ_S_INTERFACE_FORCE], CZ_N_SCRATCH - CZ_S_INTERFACE_FORCE);
 }
 
-static void rotations(CzBlock *d) {
+static void rotations(CzBlock *d, int has_full_cars) {
     rotate(X(BODY_PITCH), S(BODY_COS), S(BODY_SIN));
     rotate(X(END_PITCH_REAR), S(END_COS_REAR), S(END_SIN_REAR));
     rotate(X(END_PITCH_FRONT), S(END_COS_FRONT), S(END_SIN_FRONT));
+    if (has_full_cars)
+        for (int bogie = 0; bogie < 2; ++bogie)
+            rotate(X_AT(BOGIE_PITCH_REAR, 3 * bogie), S_AT(BOGIE_COS_REAR, 2 * bogie),
+                   S_AT(BOGIE_SIN_REAR, 2 * bogie));
 }
 
 /* Row = force * inverse mass. */
@@ -164,11 +168,11 @@ static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
 }
 
 /* Everything of a block before the interfaces. */
-static void begin_block(CzBlock *d) {
+static void begin_block(const CzLanes *lanes, CzBlock *d) {
     clear(d);
     if (d->budget != NULL)
         zero((CzRow *)d->budget, (int)(sizeof *d->budget / sizeof(CzRow)));
-    rotations(d);
+    rotations(d, lanes->has_full_cars);
 }
 
 /* Everything of a block after the interfaces. */
@@ -192,7 +196,7 @@ static void all_interfaces(const CzDynamics *dynamics, double step) {
 
 static void evaluate(CzDynamics *dynamics, double step) {
     for (int i = 0; i < dynamics->n_block; ++i)
-        begin_block(&dynamics->block[i]);
+        begin_block(dynamics->lanes, &dynamics->block[i]);
     all_interfaces(dynamics, step);
     for (int i = 0; i < dynamics->n_block; ++i)
         end_block(dynamics, i, step);
@@ -396,7 +400,7 @@ static void advance(CzDynamics *dynamics, double step, int first) {
 static void whole_step(CzDynamics *dynamics, double step, int first, double time) {
     for (int i = 0; i < dynamics->n_block; ++i) {
         advance_block(dynamics, i, step, first);
-        begin_block(&dynamics->block[i]);
+        begin_block(dynamics->lanes, &dynamics->block[i]);
     }
     all_interfaces(dynamics, step);
     for (int i = 0; i < dynamics->n_block; ++i) {

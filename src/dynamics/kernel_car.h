@@ -227,7 +227,9 @@ static void bogie_to_body(CzBlock *d, int bogie) {
     }
 }
 
-/* Primary suspension and axle guidance of one axle, counted from the rear of the car. */
+/* Primary suspension and axle guidance of one axle, counted from the rear of the car, in the frame
+ * of the bogie: one whose wheels are off the rail may turn by any angle. Strokes and rates are each
+ * other's integrals at any, so that the springs give back no more than they took. */
 static void axle_to_bogie(CzBlock *d, int axle) {
     const size_t n = CZ_LANE_BLOCK;
     const int bogie = axle / 2;
@@ -235,7 +237,8 @@ static void axle_to_bogie(CzBlock *d, int axle) {
     const double *restrict half = P(AXLE_X), *restrict axle_z = P(AXLE_Z);
     const double *restrict xt = X_AT(BOGIE_X_REAR, 3 * bogie), *restrict zt =
                                                                    X_AT(BOGIE_Z_REAR, 3 * bogie);
-    const double *restrict pitch = X_AT(BOGIE_PITCH_REAR, 3 * bogie);
+    const double *restrict c = S_AT(BOGIE_COS_REAR, 2 * bogie), *restrict s =
+                                                                    S_AT(BOGIE_SIN_REAR, 2 * bogie);
     const double *restrict vxt = V_AT(BOGIE_X_REAR, 3 * bogie), *restrict vzt =
                                                                     V_AT(BOGIE_Z_REAR, 3 * bogie);
     const double *restrict turn = V_AT(BOGIE_PITCH_REAR, 3 * bogie);
@@ -259,28 +262,28 @@ static void axle_to_bogie(CzBlock *d, int axle) {
     double *restrict guide_power = POWER(AXLE_GUIDANCE), *restrict guide_lost =
                                                              POWER(AXLE_GUIDANCE_DAMPING);
     CZ_LANES (i, n) {
-        /* Vertical: at the axle. */
+        /* The axle as the bogie sees it. */
         const CzSuspensionLaw law = {k[i],      preload[i], bump[i],     bump_k[i], lift[i],
                                      lift_k[i], damping[i], blow_off[i], beyond[i]};
-        const double arm = sign * half[i] + (xw[i] - xt[i]);
-        const double compression = zw[i] - (zt[i] + sign * half[i] * pitch[i]);
-        const double rate = vzw[i] - (vzt[i] + arm * turn[i]);
+        const double dx = sign * half[i] + (xw[i] - xt[i]), dz = axle_z[i] + (zw[i] - zt[i]);
+        const double vx = vxw[i] - vxt[i], vz = vzw[i] - vzt[i];
+        const double axle_x = c[i] * dx + s[i] * dz, height = c[i] * dz - s[i] * dx;
+        const double compression = height - axle_z[i];
+        const double rate = c[i] * vz - s[i] * vx - turn[i] * axle_x;
         const double spring = cz_suspension_spring(&law, compression);
         const double damper = cz_suspension_damper(&law, rate);
         const double lifted = spring + damper;
-
-        /* Longitudinal: at the axle. */
-        const double height = axle_z[i] + (zw[i] - zt[i]);
-        const double stretch = (xt[i] - axle_z[i] * pitch[i]) - xw[i];
-        const double stretching = (vxt[i] - height * turn[i]) - vxw[i];
+        const double stretch = sign * half[i] - axle_x;
+        const double stretching = -(c[i] * vx + s[i] * vz + turn[i] * height);
         const double held = guide_k[i] * stretch, resisted = guide_c[i] * stretching;
         const double pull = held + resisted; /* forward on the wheelset */
 
-        gzt[i] += lifted;
-        gzw[i] -= lifted;
-        gxt[i] -= pull;
-        gxw[i] += pull;
-        gmt[i] += arm * lifted + height * pull;
+        const double fx = c[i] * pull + s[i] * lifted, fz = s[i] * pull - c[i] * lifted;
+        gxt[i] -= fx;
+        gzt[i] -= fz;
+        gxw[i] += fx;
+        gzw[i] += fz;
+        gmt[i] += axle_x * lifted + height * pull;
         spring_power[i] += spring * rate;
         damper_power[i] += damper * rate;
         guide_power[i] += held * stretching;

@@ -41,10 +41,11 @@ static void contact_geometry(CzBlock *d, const Carrier *a, const Carrier *b,
         const double dz =
             tilts[i] * (rise[i] + (cb.z[i] - ca.z[i]) + (bz - z_b[i]) - (az - z_a[i]));
 
-        /* Mean normal. */
-        const double tilt = 0.5 * tilts[i] * (ca.pitch[i] + cb.pitch[i]);
-        const double nx = 1.0 / sqrt(1.0 + tilt * tilt);
-        const double nz = tilt * nx;
+        /* Mean normal: it turns at the mean rate of both carriers. */
+        const double sum_x = ca.cosine[i] + cb.cosine[i];
+        const double sum_z = tilts[i] * (ca.sine[i] + cb.sine[i]);
+        const double size = sqrt(sum_x * sum_x + sum_z * sum_z);
+        const double nx = sum_x / size, nz = sum_z / size;
 
         /* Point of action and relative velocity there. */
         const double pax = ax + 0.5 * dx, paz = az + 0.5 * dz;

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "base/complex.h"
 #include "dynamics/dynamics.h"
 #include "laws/law.h"
 
@@ -61,15 +62,15 @@ static inline Carrier end_carrier(const CzBlock *d, int side) {
                      : eight_rows(&d->scratch[CZ_S_END_AHEAD_X]);
 }
 
-/* Cosine and sine by series: exact derivatives of each other to pitch^4, and no library call in the
- * loop. */
+/* Cosine and sine of an angle: exact at any, so that strokes and rates stay each other's integrals
+ * however far a body turns. */
 static inline void rotate(const double *restrict pitch, double *restrict cosine,
                           double *restrict sine) {
     const size_t n = CZ_LANE_BLOCK;
     CZ_LANES (i, n) {
-        const double square = pitch[i] * pitch[i];
-        cosine[i] = 1.0 - square * (0.5 - square * (1.0 / 24.0));
-        sine[i] = pitch[i] * (1.0 - square * (1.0 / 6.0));
+        const CzComplex turned = cz_turned(pitch[i] * (0.5 / CZ_PI));
+        cosine[i] = turned.re;
+        sine[i] = turned.im;
     }
 }
 

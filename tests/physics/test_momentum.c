@@ -185,7 +185,7 @@ static void every_element_took_part(void **state) {
             work = fmax(
                 work,
                 fabs(cz_block_of(motion.dynamics, (size_t)car)->work[row][car % CZ_LANE_BLOCK]));
-        if (!(work > 1.0))
+        if (!(work > 1e-4)) /* in springs of 20 MN/m: 60 N, where the sums see a millinewton */
             fail_msg("%s did %g J", names[row], work);
     }
     motion_close(&motion);

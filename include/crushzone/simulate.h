@@ -194,6 +194,9 @@ typedef struct CzRunSummary {
     double beyond_validity_time; /* [s]; NaN when not */
     int n_interface;
     const CzInterfaceResult *interface; /* (n_interface) */
+    int n_outer_end;
+    CzElementResult outer_end[2]; /* ends that face no other vehicle, rear and front of the row:
+                                     their masses move too */
     int n_vehicle;
     const CzVehicleResult *vehicle; /* (n_vehicle) */
     const CzVehicleBudget *budget;  /* of a recorded run of the usual integrator, else NULL; all 0

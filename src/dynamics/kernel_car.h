@@ -81,7 +81,8 @@ static void end_crush(CzBlock *d, int end) {
     const double *restrict compliance = C_AT(END_COMPLIANCE_REAR, end),
                            *restrict second_compliance = C_AT(END_SECOND_COMPLIANCE_REAR, end);
     double *restrict force = S_AT(END_REAR, end), *restrict damped = S(CHAIN_FORCE);
-    double *restrict power = POWER_AT(END_REAR, end), *restrict lost = POWER(END_DAMPING);
+    double *restrict power = POWER_AT(END_REAR, end), *restrict lost =
+                                                          POWER_AT(END_DAMPING_REAR, end);
     CZ_LANES (i, n) {
         const CzVehicleEndLaw law = {cz_larger(unloading[i], 1.0), share[i],
                                      cz_larger(second[i], 1.0), tension[i]};
@@ -110,8 +111,10 @@ static void end_guidance(CzBlock *d, int end) {
     const double *restrict compliance = C_AT(FOLD_COMPLIANCE_REAR, end);
     double *restrict next = NEXT_AT(FOLD_REAR, end);
     double *restrict across = S(CHAIN_FORCE), *restrict moment = S(CHAIN_LOWEST);
-    double *restrict guide = POWER(GUIDE), *restrict guide_lost = POWER(GUIDE_DAMPING);
-    double *restrict folding = POWER(FOLD), *restrict folding_lost = POWER(FOLD_DAMPING);
+    double *restrict guide = POWER_AT(GUIDE_REAR, end), *restrict guide_lost =
+                                                            POWER_AT(GUIDE_DAMPING_REAR, end);
+    double *restrict folding = POWER_AT(FOLD_REAR, end), *restrict folding_lost =
+                                                             POWER_AT(FOLD_DAMPING_REAR, end);
     CZ_LANES (i, n) {
         const double spring = k[i] * slip[i], damper = c[i] * slip_rate[i];
         const CzSliderResponse hinge =
@@ -259,6 +262,8 @@ static void axle_to_bogie(CzBlock *d, int axle) {
     double *restrict gmt = G_AT(BOGIE_PITCH_REAR, 3 * bogie);
     double *restrict gxw = G_AT(WHEEL_X_0, 3 * axle), *restrict gzw = G_AT(WHEEL_Z_0, 3 * axle);
     double *restrict spring_power = POWER(PRIMARY), *restrict damper_power = POWER(PRIMARY_DAMPING);
+    double *restrict compressed = S_AT(PRIMARY_0, axle), *restrict stretched =
+                                                             S_AT(AXLE_GUIDANCE_0, axle);
     double *restrict guide_power = POWER(AXLE_GUIDANCE), *restrict guide_lost =
                                                              POWER(AXLE_GUIDANCE_DAMPING);
     CZ_LANES (i, n) {
@@ -284,6 +289,8 @@ static void axle_to_bogie(CzBlock *d, int axle) {
         gxw[i] += fx;
         gzw[i] += fz;
         gmt[i] += axle_x * lifted + height * pull;
+        compressed[i] = compression;
+        stretched[i] = stretch;
         spring_power[i] += spring * rate;
         damper_power[i] += damper * rate;
         guide_power[i] += held * stretching;

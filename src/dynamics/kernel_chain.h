@@ -45,7 +45,7 @@ typedef double ForceAt(const CzBlock *d, int side, size_t lane, double stroke, d
 
 /* Stroke at which the law of that spring begins to fall, from the committed state on; infinite
  * where it never does. */
-typedef double FallsAt(const CzBlock *d, int side, size_t lane);
+typedef double FallsAt(const CzBlock *d, int side, size_t lane, double step);
 
 /* The springs of a chain. */
 typedef struct {

@@ -267,7 +267,8 @@ static Search search_of(const CzBlock *d, const Chain *chain, const Springs *spr
         const double stroke = d->memory[chain->spring + side][lane];
         const int gives = S_AT(SPRING_UP_A, side)[lane] > 1.0 / RIGID;
         const int falls = gives && springs->falls_at != NULL;
-        list_member(&s, side, stroke, gives, falls ? springs->falls_at(d, side, lane) : INFINITY);
+        list_member(&s, side, stroke, gives,
+                    falls ? springs->falls_at(d, side, lane, step) : INFINITY);
         sum += stroke;
         size += fabs(stroke);
     }

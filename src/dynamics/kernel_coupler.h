@@ -174,7 +174,7 @@ static void hinge_moment(CzBlock *d, int side, const Carrier *carrier) {
     const double *restrict line_turn = S(SLIP_RATE), *restrict yielded = M_AT(HINGE_A, side);
     const double *restrict pitch = carrier->pitch, *restrict turn = carrier->turn;
     double *restrict next = NEXT_AT(HINGE_A, side), *restrict moment = S_AT(SPRING_UP_A, side);
-    double *restrict power = POWER(HINGE), *restrict kept = S_AT(SWING_A, side);
+    double *restrict power = POWER_AT(HINGE_A, side), *restrict kept = S_AT(SWING_A, side);
     CZ_LANES (i, n) {
         const double angle = nz[i] * (1.0 + nz[i] * nz[i] * (1.0 / 6.0));
         const double swing = angle - rest[i] - pitch[i];

@@ -187,6 +187,32 @@ static void release_work(CzBlock *d, double step) {
     }
 }
 
+/* Buffers that snap back as a shear-off lets go: their force falls along their own law, at least to
+ * that at the end of the step, and not in proportion to their way. What the mean force of the step
+ * would have them give back beyond that, the shear-off does not get. */
+static void snap_work(CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict last = M(COUPLER_FORCE), *restrict force = NEXT(COUPLER_FORCE);
+    const double *restrict shear_a = M(SHEAR_A), *restrict next_a = NEXT(SHEAR_A);
+    const double *restrict shear_b = M(SHEAR_B), *restrict next_b = NEXT(SHEAR_B);
+    const double *restrict buffer_a = M(BUFFER_A), *restrict moved_a = NEXT(BUFFER_A);
+    const double *restrict buffer_b = M(BUFFER_B), *restrict moved_b = NEXT(BUFFER_B);
+    double *restrict all_a = NEXT(COUPLER_ENERGY_A), *restrict all_b = NEXT(COUPLER_ENERGY_B);
+    double *restrict tube_a = NEXT(TUBE_ENERGY_A), *restrict tube_b = NEXT(TUBE_ENERGY_B);
+    CZ_LANES (i, n) {
+        const double way_a = next_a[i] - shear_a[i], way_b = next_b[i] - shear_b[i];
+        const double ways = way_a + way_b;
+        const double falls = ways > 0.0 ? 0.5 * cz_positive_part(last[i] - force[i]) : 0.0;
+        const double kept_a = falls * cz_positive_part(buffer_a[i] - moved_a[i]);
+        const double kept_b = falls * cz_positive_part(buffer_b[i] - moved_b[i]);
+        const double lost = (kept_a + kept_b) / cz_larger(ways, 1e-30);
+        all_a[i] += kept_a - lost * way_a;
+        all_b[i] += kept_b - lost * way_b;
+        tube_a[i] -= lost * way_a;
+        tube_b[i] -= lost * way_b;
+    }
+}
+
 /* Lets shear-offs go where they are to flow; returns how often the force was found anew. */
 static int release(CzBlock *d, double step) {
     if (!mark_release(d))
@@ -274,8 +300,10 @@ static int coupler_chain_force(CzBlock *d, double step) {
     memcpy(S(CHAIN_ACTIVE), P(COUPLER), sizeof(CzRow));
     finish_chain(d, &coupler_chain);
     move_members(d, &coupler_chain, CZ_M_COUPLER_ENERGY_A, CZ_M_TUBE_ENERGY_A);
-    if (d->releases)
+    if (d->releases) {
         release_work(d, step);
+        snap_work(d);
+    }
     coupler_top(d);
     keep_rates(d, &coupler_chain, CZ_M_BUFFER_RATE_A, step);
     return n_anew == 0 && couplers_are_slack(d);

@@ -7,11 +7,11 @@
 #include "dynamics/kernel_contact.h"
 #include <string.h>
 
+#include "dynamics/stored.h"
 #include "laws/ribs.h"
 #include "laws/slider.h"
 
-#define PLATE_STIFFNESS 2e7 /* vertical stiffness of buffer plates that stick [N/m] (ours) */
-#define LARGE_DROP 0.01     /* share of its force that a spring loses in a step (ours) */
+#define LARGE_DROP 0.01 /* share of its force that a spring loses in a step (ours) */
 
 static const Chain face_chain = {2,
                                  2,
@@ -115,10 +115,12 @@ static double limp_end_force(const CzBlock *d, int side, size_t i, double shorte
            damper * (shortening - committed);
 }
 
-static double limp_end_falls(const CzBlock *d, int side, size_t i) {
+static double limp_end_falls(const CzBlock *d, int side, size_t i, double step) {
+    const double committed = M_AT(LIMP_A, side)[i];
+    const double damper = limp_damper(P_AT(LIMP_DAMPING_A, side)[i], committed, step);
     return curve_falls_at(d, CZ_CURVE_LIMP_END_A + side, i,
-                          cz_larger(M_AT(LIMP_A, side)[i], M_AT(LIMP_PEAK_A, side)[i]), 0.0,
-                          SEARCH_STIFFNESS);
+                          cz_larger(committed, M_AT(LIMP_PEAK_A, side)[i]), 0.0,
+                          SEARCH_STIFFNESS + damper);
 }
 
 static const Springs face_springs = {linearise_limp_end, limp_end_force, limp_end_falls};
@@ -166,12 +168,29 @@ static void face_normal(CzBlock *d) {
     }
 }
 
-/* Members of faces that have let go are carried on without work. */
+/* Members of faces that have let go are carried on without work: of the mean force of the step they
+ * count what was and is held. */
 static void count_held(CzBlock *d, const double *restrict before, double *restrict next) {
     const size_t n = CZ_LANE_BLOCK;
-    const double *restrict lost = NEXT(FACE_LOST);
+    const double *restrict lost = NEXT(FACE_LOST), *restrict lost_before = M(FACE_LOST);
+    const double *restrict force = NEXT(FACE_FORCE), *restrict last = M(FACE_FORCE);
     CZ_LANES (i, n) {
-        next[i] = before[i] + (1.0 - lost[i]) * (next[i] - before[i]);
+        const double held = (1.0 - lost_before[i]) * last[i] + (1.0 - lost[i]) * force[i];
+        const double share = held / cz_larger(last[i] + force[i], 1e-30);
+        next[i] = before[i] + share * (next[i] - before[i]);
+    }
+}
+
+/* Work on the compliance of the faces: what it stored is lost where they let go under load. */
+static void strain_faces(CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict compliance = P(FACE_COMPLIANCE), *restrict lost = NEXT(FACE_LOST);
+    const double *restrict force = NEXT(FACE_FORCE), *restrict last = M(FACE_FORCE);
+    const double *restrict lost_before = M(FACE_LOST), *restrict before = M(FACE_STRAIN);
+    double *restrict after = NEXT(FACE_STRAIN);
+    CZ_LANES (i, n) {
+        const double held = (1.0 - lost_before[i]) * last[i] + (1.0 - lost[i]) * force[i];
+        after[i] = before[i] + 0.5 * held * compliance[i] * (force[i] - last[i]);
     }
 }
 
@@ -237,7 +256,7 @@ static int faces_are_slack(CzBlock *d) {
  * will seat. */
 static int faces_remember(const CzBlock *d) {
     const size_t before = (size_t)(CZ_M_FACE_SLIP - CZ_M_FACE_FORCE) * sizeof(CzRow);
-    const size_t after = (size_t)(CZ_M_LIMP_DAMPED_B - CZ_M_FACE_SLIP) * sizeof(CzRow);
+    const size_t after = (size_t)(CZ_M_FACE_STRAIN - CZ_M_FACE_SLIP) * sizeof(CzRow);
     return memcmp(M(FACE_FORCE), NEXT(FACE_FORCE), before) == 0 &&
            memcmp(M(FACE_ENERGY_A), NEXT(FACE_ENERGY_A), after) == 0;
 }
@@ -334,8 +353,8 @@ static int faces(CzBlock *d, double step) {
     for (int side = 0; side < 2; ++side) {
         count_held(d, M_AT(FACE_ENERGY_A, side), NEXT_AT(FACE_ENERGY_A, side));
         count_held(d, M_AT(LIMP_ENERGY_A, side), NEXT_AT(LIMP_ENERGY_A, side));
-        count_held(d, M_AT(LIMP_DAMPED_A, side), NEXT_AT(LIMP_DAMPED_A, side));
     }
+    strain_faces(d);
     face_tangential(d);
     const CarrierForce on_a = end_force(d, 0), on_b = end_force(d, 1);
     contact_forces(d, &on_a, &on_b, S(FACE_FORCE), S(FACE_DEMAND));
@@ -382,7 +401,7 @@ static void side_buffers(CzBlock *d, double step) {
     double *restrict power = POWER(SIDE), *restrict sliding = POWER(SIDE_SLIDING);
     CZ_LANES (i, n) {
         const CzSliderResponse grip =
-            cz_slider(PLATE_STIFFNESS, friction[i] * force[i], slip[i], offset[i]);
+            cz_slider(CZ_PLATE_STIFFNESS, friction[i] * force[i], slip[i], offset[i]);
         next[i] = grip.offset;
         kept[i] = force[i];
         tangential[i] = grip.force;

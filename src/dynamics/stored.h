@@ -5,15 +5,38 @@
 
 #include "dynamics/dynamics.h"
 
+#define CZ_PLATE_STIFFNESS 2e7 /* vertical stiffness of buffer plates that stick [N/m] (ours) */
+
+/* Buffers of one side. */
 double cz_coupler_stored(const CzDynamics *dynamics, size_t lane, int side);
-double cz_face_stored(const CzDynamics *dynamics, size_t lane, int side);
-double cz_limp_stored(const CzDynamics *dynamics, size_t lane, int side);
 double cz_side_stored(const CzDynamics *dynamics, size_t lane, int side);
 
-/* The part of it that belongs to no member of the chain: half of what its compliance stores. */
-double cz_coupler_elastic(const CzDynamics *dynamics, size_t lane);
-double cz_side_elastic(const CzDynamics *dynamics, size_t lane);
+/* Hinge and swing stop of one side. */
+double cz_hinge_stored(const CzDynamics *dynamics, size_t lane, int side);
+
+/* Both sides of the faces: along the normal, and across it; plates of side buffers across it. */
+double cz_face_stored(const CzDynamics *dynamics, size_t lane);
+double cz_face_sliding_stored(const CzDynamics *dynamics, size_t lane);
+double cz_side_sliding_stored(const CzDynamics *dynamics, size_t lane);
+
+/* Crush zones with and without an end mass: what they store, and what they have received so far:
+ * the work of loading to their largest shortening less what unloading from there gave back. */
 double cz_end_stored(const CzDynamics *dynamics, size_t lane, int end);
+double cz_end_received(const CzDynamics *dynamics, size_t lane, int end);
+double cz_limp_stored(const CzDynamics *dynamics, size_t lane, int side);
+double cz_limp_received(const CzDynamics *dynamics, size_t lane, int side);
+
+/* Springs of the running gear, all of a car. */
+double cz_secondary_stored(const CzDynamics *dynamics, size_t lane);
+double cz_primary_stored(const CzDynamics *dynamics, size_t lane);
+double cz_link_stored(const CzDynamics *dynamics, size_t lane);
+double cz_axle_guidance_stored(const CzDynamics *dynamics, size_t lane);
+
+/* Contact of the wheels with a rail that does not give way, and their weight. */
+double cz_wheels_stored(const CzDynamics *dynamics, size_t lane);
+
+/* Hinge of an end mass. */
+double cz_fold_stored(const CzDynamics *dynamics, size_t lane, int end);
 
 /* In the end stop of a buffer stop that was dragged as far as it goes. */
 double cz_slide_stored(const CzDynamics *dynamics, size_t lane);

@@ -36,6 +36,16 @@ static inline double cz_suspension_spring(const CzSuspensionLaw *law, double com
     return spring + cz_suspension_stops(law, compression);
 }
 
+/* Energy of the spring and its stops, from static rest [J]. */
+static inline double cz_suspension_stored(const CzSuspensionLaw *law, double compression) {
+    const double least = -law->preload / cz_larger(law->stiffness, 1.0);
+    const double bound = cz_larger(compression, least), free = compression - bound;
+    const double bump = cz_positive_part(compression - law->bump_gap);
+    const double lift = cz_positive_part(-compression - law->lift_gap);
+    return 0.5 * law->stiffness * bound * bound - law->preload * free +
+           0.5 * (law->bump_stiffness * bump * bump + law->lift_stiffness * lift * lift);
+}
+
 static inline double cz_suspension_damper(const CzSuspensionLaw *law, double rate) {
     const double small = cz_clamp(rate, -law->blow_off_rate, law->blow_off_rate);
     return law->damping * small + law->damping_beyond * (rate - small);

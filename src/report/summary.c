@@ -273,6 +273,10 @@ static void put_scenario(CzJson *json, const CzProblem *problem, const CzRunSumm
     for (int i = 0; i < run->n_interface; i++)
         put_interface(json, run, &run->interface[i]);
     cz_json_close(json);
+    cz_json_open_list(json, "outer_ends");
+    for (int i = 0; i < run->n_outer_end; i++)
+        put_element(json, run, &run->outer_end[i]);
+    cz_json_close(json);
     cz_json_open_list(json, "vehicles");
     for (int i = 0; i < run->n_vehicle; i++)
         put_vehicle(json, run, &run->vehicle[i], run->budget != NULL ? &run->budget[i] : NULL);

@@ -32,12 +32,32 @@ double cz_kinetic_energy(const CzBatch *batch, int design) {
     return energy;
 }
 
+CzLedgerClass cz_ledger_class(int row) {
+    static const CzLedgerClass of_row[CZ_N_LEDGER] = {
+#define CZ_LEDGER(name, class, doc) CZ_LEDGER_##class,
+#include "dynamics/ledger.def"
+#undef CZ_LEDGER
+    };
+    return of_row[row];
+}
+
 double cz_total_work(const CzBatch *batch, int design) {
     double work = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car)
+    for (int car = 0; car < batch->model->n_car; ++car) {
+        const size_t lane = cz_lane(batch, car, design);
         for (int row = 0; row < CZ_N_LEDGER; ++row)
-            work += cz_work(batch, row, cz_lane(batch, car, design));
+            if (cz_ledger_class(row) != CZ_LEDGER_BODIES)
+                work += cz_work(batch, row, lane);
+        work += cz_chains_account(batch, lane).received + cz_gear_account(batch, lane).received;
+        for (int end = 0; end < 2; ++end)
+            work += cz_crush_account(batch, lane, end).received;
+    }
     return work;
+}
+
+double cz_balance_residual(const CzBatch *batch, int design) {
+    return cz_kinetic_energy(batch, design) + cz_total_work(batch, design) -
+           batch->design[design].initial_energy;
 }
 
 double cz_momentum_error(const CzBatch *batch, int design) {

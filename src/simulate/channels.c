@@ -104,7 +104,7 @@ static void put_energy(Writer *writer) {
     put(writer, 1e-3 * energy.running_gear, "E_running_gear_kJ");
     put(writer, 1e-3 * energy.track, "E_track_kJ");
     put(writer, 1e-3 * energy.stored, "E_stored_kJ");
-    put(writer, 1e-3 * (kinetic + work - batch->design[0].initial_energy), "E_imbalance_kJ");
+    put(writer, 1e-3 * cz_balance_residual(batch, 0), "E_imbalance_kJ");
 }
 
 static void put_all(Writer *writer) {

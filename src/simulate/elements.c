@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/error.h"
 #include "simulate/devices.h"
@@ -20,21 +21,22 @@ static void name_element(CzElementResult *result, const CzBatch *batch) {
              batch->model->car[result->vehicle].name);
 }
 
+static void take(CzElementResult *result, CzAccount account) {
+    result->stored += account.stored;
+    result->energy += account.received - account.stored;
+}
+
 /* Coupler of side A (0) or B (1) of the interface in a lane. */
 static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
                          CzElementResult *result) {
-    if (cz_parameter(batch, CZ_P_COUPLER, lane) < 0.5 ||
-        cz_parameter(batch, CZ_P_BUFFER_TRANSITION_A + side, lane) > MISSING) /* a bare wall */
+    if (!cz_has_element(batch, lane, side, CZ_ELEMENT_COUPLER)) /* a bare wall */
         return false;
     result->kind = CZ_ELEMENT_COUPLER;
     result->vehicle = car;
     const double tube = cz_memory(batch, CZ_M_TUBE_A + side, lane);
     const double second = cz_memory(batch, CZ_M_SECOND_TUBE_A + side, lane);
     const double travel = cz_memory(batch, CZ_M_SHEAR_A + side, lane);
-    result->stored = cz_coupler_stored(batch->dynamics, lane, side);
-    /* The row holds the work on the members, without what the chain's compliance stores. */
-    const double of_members = result->stored - cz_coupler_elastic(batch->dynamics, lane);
-    result->energy = cz_memory(batch, CZ_M_COUPLER_ENERGY_A + side, lane) - of_members;
+    take(result, cz_coupler_account(batch, lane, side));
     result->tube_energy = cz_memory(batch, CZ_M_TUBE_ENERGY_A + side, lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
     result->stroke = tube + second;
@@ -43,21 +45,13 @@ static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
     return true;
 }
 
-static bool has_anti_climber(const CzBatch *batch, size_t lane, int side) {
-    return batch->lanes->curve[CZ_CURVE_FACE_A + side].start[lane] <= MISSING;
-}
-
 static bool fill_anti_climber(const CzBatch *batch, size_t lane, int side, int car,
                               CzElementResult *result) {
-    if (!has_anti_climber(batch, lane, side))
+    if (!cz_has_element(batch, lane, side, CZ_ELEMENT_ANTI_CLIMBER))
         return false;
     result->kind = CZ_ELEMENT_ANTI_CLIMBER;
     result->vehicle = car;
-    const double shared =
-        cz_work(batch, CZ_L_FACE_DAMPING, lane) + cz_work(batch, CZ_L_FACE_SLIDING, lane);
-    const double share = has_anti_climber(batch, lane, 1 - side) ? 0.5 : 1.0;
-    result->stored = cz_face_stored(batch->dynamics, lane, side);
-    result->energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane) + share * shared;
+    take(result, cz_anti_climber_account(batch, lane, side));
     result->tube_energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
     result->stroke = cz_memory(batch, CZ_M_FACE_A + side, lane);
@@ -67,15 +61,11 @@ static bool fill_anti_climber(const CzBatch *batch, size_t lane, int side, int c
 
 static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int car,
                               CzElementResult *result) {
-    if (cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) < 0.5 ||
-        cz_parameter(batch, CZ_P_SIDE_TRANSITION_A + side, lane) > MISSING)
+    if (!cz_has_element(batch, lane, side, CZ_ELEMENT_SIDE_BUFFERS))
         return false;
     result->kind = CZ_ELEMENT_SIDE_BUFFERS;
     result->vehicle = car;
-    result->stored = cz_side_stored(batch->dynamics, lane, side);
-    const double of_members = result->stored - cz_side_elastic(batch->dynamics, lane);
-    result->energy = cz_memory(batch, CZ_M_SIDE_ENERGY_A + side, lane) - of_members +
-                     0.5 * cz_work(batch, CZ_L_SIDE_SLIDING, lane);
+    take(result, cz_side_account(batch, lane, side));
     result->tube_energy = cz_memory(batch, CZ_M_SIDE_TUBE_ENERGY_A + side, lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
     result->stroke = cz_memory(batch, CZ_M_SIDE_TUBE_A + side, lane);
@@ -86,14 +76,11 @@ static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int c
 /* Both sides share one contact; what it crushes is room that people stand in. */
 static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
                                 CzElementResult *result) {
-    const double force = cz_scratch(batch, CZ_S_SUPERSTRUCTURE_FORCE, lane);
-    if (!(cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STRENGTH, lane) > 0.0))
+    if (!cz_has_element(batch, lane, 0, CZ_ELEMENT_SUPERSTRUCTURE))
         return false;
     result->kind = CZ_ELEMENT_SUPERSTRUCTURE;
     result->vehicle = car;
-    result->stored =
-        0.25 * force * force / cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STIFFNESS, lane);
-    result->energy = 0.5 * cz_work(batch, CZ_L_SUPERSTRUCTURE, lane) - result->stored;
+    take(result, cz_superstructure_account(batch, lane));
     result->tube_energy = result->energy;
     result->zone_energy[CZ_ZONE_OCCUPIED] = fmax(result->energy, 0.0);
     result->stroke = 0.5 * cz_memory(batch, CZ_M_SUPERSTRUCTURE_SET, lane);
@@ -133,32 +120,63 @@ static void split_zones(const CzBatch *batch, const CzEnd *end, int curve, size_
         zone_energy[zone] = sum > 0.0 ? fmax(energy, 0.0) * areas[zone] / sum : 0.0;
 }
 
+/* Whether the end of a car is an element: one with a mass has its guidance, one without its crush
+ * zone. */
+static bool has_end(const CzBatch *batch, int car, int design, int side) {
+    const CzEnd *end = end_of(batch, car, design, side);
+    return end->given &&
+           (end->n_stages > 0 || end->curve.given || batch->model->car[car].model == CZ_MODEL_FULL);
+}
+
+/* Share of an end in the bare faces of its interface. */
+static double share_of_faces(const CzBatch *batch, int car, int design, int side) {
+    const int other = side == 0 ? car + 1 : car - 1;
+    return has_end(batch, other, design, 1 - side) ? 0.5 : 1.0;
+}
+
+static void take_faces(const CzBatch *batch, size_t lane, double share, CzElementResult *result) {
+    const CzAccount faces = cz_bare_faces_account(batch, lane);
+    take(result, (CzAccount){share * faces.received, share * faces.stored});
+}
+
+/* Crush zone of an end with mass and all that holds it. */
+static void fill_end_mass(const CzBatch *batch, size_t own, int which, CzElementResult *result) {
+    result->kind = CZ_ELEMENT_END;
+    take(result, cz_crush_account(batch, own, which));
+    result->tube_energy = result->energy;
+    take(result, cz_end_mass_account(batch, own, which));
+    result->stroke = cz_memory(batch, CZ_M_END_PEAK_REAR + which, own);
+    result->peak_force = cz_extreme(batch, CZ_E_END_FORCE_REAR + which, own);
+}
+
 /* Crush zone of the end at side A (0) or B (1); `lane` is the interface's, `car` the owner. */
 static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int design,
                      CzElementResult *result) {
-    const CzEnd *end = end_of(batch, car, design, side);
-    if (!end->given || (end->n_stages == 0 && !end->curve.given))
+    if (!has_end(batch, car, design, side))
         return false;
-    result->kind = CZ_ELEMENT_END;
+    if (batch->model->car[car].model == CZ_MODEL_FULL)
+        fill_end_mass(batch, cz_lane(batch, car, design), 1 - side, result);
+    else {
+        result->kind = CZ_ELEMENT_END;
+        take(result, cz_limp_account(batch, lane, side));
+        result->tube_energy = result->energy;
+        result->energy += cz_memory(batch, CZ_M_LIMP_DAMPED_A + side, lane);
+        result->stroke = cz_memory(batch, CZ_M_LIMP_PEAK_A + side, lane);
+        result->peak_force = cz_extreme(batch, CZ_E_FACE_FORCE, lane);
+    }
     result->vehicle = car;
-    const bool slaved = batch->model->car[car].model != CZ_MODEL_FULL;
-    const size_t own = cz_lane(batch, car, design);
-    const int which = side == 0 ? 1 : 0; /* front or rear end of the car */
-    const double largest = slaved ? cz_memory(batch, CZ_M_LIMP_PEAK_A + side, lane)
-                                  : cz_memory(batch, CZ_M_END_PEAK_REAR + which, own);
-    result->stored = slaved ? cz_limp_stored(batch->dynamics, lane, side)
-                            : cz_end_stored(batch->dynamics, own, which);
-    /* The series pair's row holds the anti-climber's energy too. */
-    const double work = slaved ? cz_memory(batch, CZ_M_LIMP_ENERGY_A + side, lane) -
-                                     cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane)
-                               : cz_work(batch, CZ_L_END_REAR + which, own);
-    const double damped = slaved ? cz_memory(batch, CZ_M_LIMP_DAMPED_A + side, lane) : 0.0;
-    const double shared = slaved ? 0.0 : cz_work(batch, CZ_L_END_DAMPING, own);
-    result->tube_energy = work - damped - result->stored;
-    result->energy = work - result->stored + 0.5 * shared;
-    result->stroke = largest;
-    result->peak_force = slaved ? cz_extreme(batch, CZ_E_FACE_FORCE, lane)
-                                : cz_extreme(batch, CZ_E_END_FORCE_REAR + which, own);
+    take_faces(batch, lane, share_of_faces(batch, car, design, side), result);
+    return true;
+}
+
+bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResult *result) {
+    const int car = side == 0 ? batch->model->n_car - 1 : 0;
+    *result = (CzElementResult){0};
+    if (batch->model->car[car].model != CZ_MODEL_FULL || !has_end(batch, car, design, side))
+        return false;
+    fill_end_mass(batch, cz_lane(batch, car, design), 1 - side, result);
+    result->vehicle = car;
+    name_element(result, batch);
     return true;
 }
 
@@ -195,6 +213,7 @@ static bool fill_slide(const CzBatch *batch, int side, int car, int design,
 static int fill_side(const CzBatch *batch, size_t lane, int side, int car, int design,
                      CzElementResult *element) {
     CzElementResult *next = element;
+    memset(element, 0, CZ_MAX_ELEMENTS / 2 * sizeof *element);
     next += fill_coupler(batch, lane, side, car, next);
     next += fill_anti_climber(batch, lane, side, car, next);
     next += fill_end(batch, lane, side, car, design, next);
@@ -209,27 +228,28 @@ static double energy_at_interface(const CzElementResult *element) {
     return element->kind == CZ_ELEMENT_SLIDE ? 0.0 : element->energy;
 }
 
+int cz_interface_elements(const CzBatch *batch, int interface, int design,
+                          CzElementResult element[CZ_MAX_ELEMENTS]) {
+    const size_t lane = cz_lane(batch, interface, design);
+    const int n = fill_side(batch, lane, 0, interface, design, element);
+    return n + fill_side(batch, lane, 1, interface + 1, design, &element[n]);
+}
+
 double cz_interface_energy(const CzBatch *batch, int interface, int design) {
     CzElementResult element[CZ_MAX_ELEMENTS];
+    const int n = cz_interface_elements(batch, interface, design, element);
     double energy = 0.0;
-    for (int side = 0; side < 2; ++side) {
-        const int n = fill_side(batch, cz_lane(batch, interface, design), side, interface + side,
-                                design, element);
-        for (int k = 0; k < n; ++k)
-            energy += energy_at_interface(&element[k]);
-    }
+    for (int k = 0; k < n; ++k)
+        energy += energy_at_interface(&element[k]);
     return energy;
 }
 
 double cz_interface_stored(const CzBatch *batch, int interface, int design) {
-    CzElementResult element[CZ_MAX_ELEMENTS] = {0};
+    CzElementResult element[CZ_MAX_ELEMENTS];
+    const int n = cz_interface_elements(batch, interface, design, element);
     double stored = 0.0;
-    for (int side = 0; side < 2; ++side) {
-        const int n = fill_side(batch, cz_lane(batch, interface, design), side, interface + side,
-                                design, element);
-        for (int k = 0; k < n; ++k)
-            stored += element[k].stored;
-    }
+    for (int k = 0; k < n; ++k)
+        stored += element[k].stored;
     return stored;
 }
 

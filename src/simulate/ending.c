@@ -11,6 +11,8 @@
 #include <math.h>
 #include <stdio.h>
 
+enum { LOOKS_BETWEEN_BOOKS = 64 }; /* looks at the end between two at the books (ours) */
+
 #define CLOSING_SPEED 0.1      /* [m/s] */
 #define MEETING_SHARE 0.4      /* a sixth of the first impact's energy (ours) */
 #define FLOW 1e-6              /* growth of the plastic strokes that counts as flow [m] (ours) */
@@ -58,8 +60,7 @@ static bool fails_to_be_finite(CzBatch *batch, int design) {
  * work. */
 static bool fails_to_balance(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
-    const double residual = fabs(cz_kinetic_energy(batch, design) + cz_total_work(batch, design) -
-                                 progress->initial_energy);
+    const double residual = fabs(cz_balance_residual(batch, design));
     progress->balance = fmax(progress->balance, residual);
     if (residual <= LARGEST_IMBALANCE * progress->initial_energy) /* not a number fails too */
         return false;
@@ -77,6 +78,15 @@ static bool fails_to_balance(CzBatch *batch, int design) {
     fail(batch, design, batch->model->car[worst_car].name, ledger_text[worst_row],
          "energy balance lost (most work here)");
     return true;
+}
+
+/* Fails the design when its energies cannot be: looked at now and then, and at the end. */
+static void fail_its_books(CzBatch *batch, int design) {
+    char where[CZ_FAULT_ROOM], what[CZ_FAULT_ROOM];
+    CzProgressOfDesign *progress = &batch->design[design];
+    const bool is_time = progress->n_look++ % LOOKS_BETWEEN_BOOKS == 0;
+    if ((progress->over || is_time) && cz_books_are_wrong(batch, design, where, what))
+        fail(batch, design, where, "energy", what);
 }
 
 /* Fails the design when a series chain was left open or one of its members off its law. */
@@ -290,6 +300,7 @@ static void look_at(CzBatch *batch, int design) {
         progress->ended = CZ_ENDED_INCOMPLETE;
         progress->over = true;
     }
+    fail_its_books(batch, design);
 }
 
 bool cz_ending_look(CzBatch *batch) {

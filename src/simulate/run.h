@@ -38,6 +38,7 @@ typedef struct CzProgressOfDesign {
     char failure[256];
     double initial_energy;
     double balance;       /* largest |residual| so far [J] */
+    int n_look;           /* looks at how it goes */
     double quiet_since;   /* when the end-of-run conditions began to hold; NaN when they do not */
     double settled_since; /* likewise for the conditions of a brief run */
     double plastic;       /* sum of the plastic strokes at the last look [m] */
@@ -107,9 +108,50 @@ void cz_history_free(CzHistory *history);
 CZ_MUST_CHECK CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design,
                                                 CzVehicleResult *result);
 
+/* accounts.c: energy that an element has received, and what it can still give back [J]. The lane is
+ * the interface's, or the car's for what belongs to one car. */
+typedef struct CzAccount {
+    double received, stored;
+} CzAccount;
+/* Whether a side has a coupler, an anti-climber, side buffers or a superstructure. */
+bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind kind);
+CzAccount cz_coupler_account(const CzBatch *batch, size_t lane, int side);
+CzAccount cz_anti_climber_account(const CzBatch *batch, size_t lane, int side);
+CzAccount cz_side_account(const CzBatch *batch, size_t lane, int side);
+CzAccount cz_superstructure_account(const CzBatch *batch, size_t lane); /* of one side */
+/* Faces of two bare ends, both sides together; nothing where an anti-climber is. */
+CzAccount cz_bare_faces_account(const CzBatch *batch, size_t lane);
+/* Crush zone of an end with mass, and the rest of that end; crush zone of an end without. */
+CzAccount cz_crush_account(const CzBatch *batch, size_t lane, int end);
+CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end);
+CzAccount cz_limp_account(const CzBatch *batch, size_t lane, int side);
+/* All series chains of an interface, without regard to whom they belong. */
+CzAccount cz_chains_account(const CzBatch *batch, size_t lane);
+/* Springs of the running gear and the wheels' contact. */
+CzAccount cz_gear_account(const CzBatch *batch, size_t lane);
+/* What the sliders and stops of a lane store; their powers are in the ledger. */
+CzAccount cz_springs_account(const CzBatch *batch, size_t lane);
+
+/* books.c: whether the energies of a design do not hold what they must, and where and what that is.
+ */
+enum { CZ_FAULT_ROOM = 96 };
+bool cz_books_are_wrong(const CzBatch *batch, int design, char *where, char *what);
+
 /* balance.c */
 double cz_kinetic_energy(const CzBatch *batch, int design);
+/* What the energy balance leaves open [J]: kinetic energy and that of the laws against the initial.
+ */
+double cz_balance_residual(const CzBatch *batch, int design);
+/* Work that the laws have received, all of it; classes as in ledger.def. */
 double cz_total_work(const CzBatch *batch, int design);
+typedef enum CzLedgerClass {
+    CZ_LEDGER_STORED,
+    CZ_LEDGER_LOST,
+    CZ_LEDGER_MIXED,
+    CZ_LEDGER_OUTSIDE,
+    CZ_LEDGER_BODIES
+} CzLedgerClass;
+CzLedgerClass cz_ledger_class(int row);
 double cz_wheel_rail_work(const CzBatch *batch, int design);
 /* Mean speed of the vehicles of a train that can move, by mass. */
 double cz_train_speed(const CzBatch *batch, int train, int design);
@@ -136,6 +178,12 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design);
 
 /* elements.c */
 void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result);
+/* Elements of an interface with their energies, unnamed and unjudged; returns how many. */
+int cz_interface_elements(const CzBatch *batch, int interface, int design,
+                          CzElementResult element[CZ_MAX_ELEMENTS]);
+/* The end that faces no other vehicle, at the rear (1) or the front (0) of all; false where it has
+ * no mass. */
+bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResult *result);
 /* What the elements of an interface have dissipated so far [J], as cz_interface_fill tells it. */
 double cz_interface_energy(const CzBatch *batch, int interface, int design);
 /* Elastic energy in the elements of an interface [J]. */

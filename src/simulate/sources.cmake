@@ -1,7 +1,9 @@
 # Sources of src/simulate, one per line.
 set(CZ_SOURCES_simulate
+    accounts.c
     balance.c
     batch.c
+    books.c
     budget.c
     channels.c
     devices.c

@@ -17,27 +17,15 @@ static double work_of(const CzBatch *batch, int design, int row) {
     return work;
 }
 
-enum { STORED, LOST, MIXED, OUTSIDE };
-static const int ledger_class[CZ_N_LEDGER] = {
-#define CZ_LEDGER(name, class, doc) class,
-#include "dynamics/ledger.def"
-#undef CZ_LEDGER
-};
-
 /* Elastic energy in elements that store and lose. */
 static double stored_in_mixed(const CzBatch *batch, int design) {
     double stored = 0.0;
     for (int car = 0; car < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        for (int side = 0; side < 2; ++side) {
-            if (car + 1 < batch->model->n_car)
-                stored += cz_coupler_stored(batch->dynamics, lane, side) +
-                          cz_face_stored(batch->dynamics, lane, side) +
-                          cz_limp_stored(batch->dynamics, lane, side) +
-                          cz_side_stored(batch->dynamics, lane, side);
-            stored += cz_end_stored(batch->dynamics, lane, side);
-        }
-        stored += cz_slide_stored(batch->dynamics, lane);
+        stored += cz_chains_account(batch, lane).stored + cz_springs_account(batch, lane).stored +
+                  cz_gear_account(batch, lane).stored;
+        for (int end = 0; end < 2; ++end)
+            stored += cz_crush_account(batch, lane, end).stored;
     }
     return stored;
 }
@@ -46,12 +34,11 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
     static const int running_gear[] = {CZ_L_SECONDARY_DAMPING, CZ_L_PRIMARY_DAMPING,
                                        CZ_L_LINK_DAMPING, CZ_L_AXLE_GUIDANCE_DAMPING};
     CzEnergy energy = {0};
-    double work = 0.0, in_track = 0.0;
-    for (int row = 0; row < CZ_N_LEDGER; ++row) {
-        const double of_row = work_of(batch, design, row);
-        work += of_row;
-        energy.stored += ledger_class[row] == STORED ? of_row : 0.0;
-    }
+    const double work = cz_total_work(batch, design);
+    double in_track = 0.0;
+    for (int row = 0; row < CZ_N_LEDGER; ++row)
+        if (cz_ledger_class(row) == CZ_LEDGER_STORED)
+            energy.stored += work_of(batch, design, row);
     energy.initial = batch->design[design].initial_energy;
     energy.final_kinetic = cz_kinetic_energy(batch, design);
     for (int car = 0; car < batch->model->n_car; ++car)
@@ -127,6 +114,12 @@ static void blank_energy(CzEnergy *energy) {
     *energy = (CzEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
+static void blank_element(CzElementResult *element) {
+    element->energy = element->stored = element->stroke = element->stroke_used = NAN;
+    element->peak_force = element->tube_energy = NAN;
+    element->zone_energy[0] = element->zone_energy[1] = element->zone_energy[2] = NAN;
+}
+
 static void blank_interface(CzInterfaceResult *result) {
     result->peak_force = result->peak_time = result->shortening = result->energy =
         result->energy_share = NAN;
@@ -134,12 +127,8 @@ static void blank_interface(CzInterfaceResult *result) {
     result->min_overlap = result->vertical_demand = result->vertical_margin = NAN;
     result->overlap_time = result->margin_time = result->ramp = result->underframe_rise = NAN;
     result->swing[0] = result->swing[1] = NAN;
-    for (int k = 0; k < result->n_element; ++k) {
-        CzElementResult *element = &result->element[k];
-        element->energy = element->stored = element->stroke = element->stroke_used = NAN;
-        element->peak_force = element->tube_energy = NAN;
-        element->zone_energy[0] = element->zone_energy[1] = element->zone_energy[2] = NAN;
-    }
+    for (int k = 0; k < result->n_element; ++k)
+        blank_element(&result->element[k]);
 }
 
 static void blank_vehicle(CzVehicleResult *result) {
@@ -196,6 +185,9 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     summary->beyond_validity = !isnan(progress->override_time);
     summary->beyond_validity_time = progress->override_time;
     CZ_TRY(fill_critical_forces(batch, design, run, interface));
+    for (int side = 1; side >= 0; --side)
+        summary->n_outer_end +=
+            cz_outer_end_fill(batch, design, side, &summary->outer_end[summary->n_outer_end]);
     for (int i = 0; i < n_interface; ++i) {
         cz_interface_fill(batch, i, design, &interface[i]);
         interface[i].energy_share = share_of(interface[i].energy, summary->energy.dissipated);
@@ -209,6 +201,8 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
         if (failed)
             blank_vehicle(&vehicle[i]);
     }
+    for (int i = 0; failed && i < summary->n_outer_end; ++i)
+        blank_element(&summary->outer_end[i]);
     if (failed) {
         blank_energy(&summary->energy);
         summary->momentum_error = summary->closing_speed = summary->plastic_energy = NAN;

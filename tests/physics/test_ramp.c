@@ -57,14 +57,13 @@ static double ramp_of(double a, double b) {
 }
 
 /* Faces that fold as mirror images stay upright on the whole; one alone makes half its turn. The
- * slope of a face is its turn, as everywhere in small-angle kinematics: 0.5 % less than the tangent
- * at 120 mrad. */
+ * slope of a face is the tangent of its turn. */
 static void the_ramp_is_the_mean_turn_of_the_faces(void **state) {
     (void)state;
     assert_near(ramp_of(0.0, 0.0), 0.0, 0.0, 1e-15);
-    assert_near(ramp_of(TURN, TURN), TURN, 1e-12, 0.0);
-    assert_near(ramp_of(-TURN, -TURN), TURN, 1e-12, 0.0);
-    assert_near(ramp_of(TURN, 0.0), TURN / 2, 1e-12, 0.0);
+    assert_near(ramp_of(TURN, TURN), tan(TURN), 1e-12, 0.0);
+    assert_near(ramp_of(-TURN, -TURN), tan(TURN), 1e-12, 0.0);
+    assert_near(ramp_of(TURN, 0.0), tan(TURN / 2), 1e-12, 0.0);
     assert_near(ramp_of(TURN, -TURN), 0.0, 0.0, 1e-15);
 }
 
@@ -72,7 +71,7 @@ static void the_ramp_is_the_mean_turn_of_the_faces(void **state) {
  * friction, as it slides one way or the other. The difference of two forces loses some digits. */
 static void a_face_that_slides_on_a_ramp_leans_by_the_angle_of_friction(void **state) {
     (void)state;
-    const double incline = atan(TURN), friction = atan(0.2);
+    const double incline = TURN, friction = atan(0.2);
     assert_near(slope_of_push(TURN, TURN, 0.03), tan(incline + friction), 1e-9, 0.0);
     assert_near(slope_of_push(TURN, TURN, -0.03), tan(incline - friction), 1e-9, 0.0);
     assert_near(slope_of_push(0.0, 0.0, 0.03), tan(friction), 1e-9, 0.0);

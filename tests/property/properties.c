@@ -313,6 +313,8 @@ static void try_run(Trial *trial, const CzModel *model) {
                energy->dissipated, energy->initial);
         for (int i = 0; i < summary->n_interface; i++)
             try_interface(trial, summary, &summary->interface[i], &sum);
+        for (int i = 0; i < summary->n_outer_end; i++)
+            sum += summary->outer_end[i].energy;
         expect(trial, SUMS, fabs(sum - energy->absorbers) <= rounding, "all", sum,
                energy->absorbers);
         try_end(trial, run, summary);

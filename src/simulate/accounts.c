@@ -1,0 +1,189 @@
+/* Where the energy of a run is: what every element has received and what it can still give back.
+ *
+ *   dissipated = received - stored, of each element
+ *
+ * Members of series chains receive the mean force of a step times their way, the compliance of a
+ * chain what it stores, and crush zones what their law says of their state: the work of loading to
+ * the largest shortening less what unloading gives back. Everything else receives its power. These
+ * are the works of the laws; what the bodies give is the force of a chain or a crush zone times the
+ * closing rate (ledger rows of class BODIES), and the two agree to the square of the step.
+ */
+#include "simulate/run.h"
+
+#include <math.h>
+
+#define MISSING 1e29 /* strengths and strokes from here on stand for a member that is not there */
+
+static CzAccount sum_of(CzAccount a, CzAccount b) {
+    return (CzAccount){a.received + b.received, a.stored + b.stored};
+}
+
+/* Received and not given back, nothing stored. */
+static CzAccount lost(double work) {
+    return (CzAccount){work, 0.0};
+}
+
+static CzAccount share_of(double share, CzAccount a) {
+    return (CzAccount){share * a.received, share * a.stored};
+}
+
+static bool has_coupler(const CzBatch *batch, size_t lane, int side) {
+    return cz_parameter(batch, CZ_P_COUPLER, lane) >= 0.5 &&
+           cz_parameter(batch, CZ_P_BUFFER_TRANSITION_A + side, lane) <= MISSING;
+}
+
+static bool has_side_buffers(const CzBatch *batch, size_t lane, int side) {
+    return cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) >= 0.5 &&
+           cz_parameter(batch, CZ_P_SIDE_TRANSITION_A + side, lane) <= MISSING;
+}
+
+static bool has_anti_climber(const CzBatch *batch, size_t lane, int side) {
+    return batch->lanes->curve[CZ_CURVE_FACE_A + side].start[lane] <= MISSING;
+}
+
+bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind kind) {
+    switch (kind) {
+    case CZ_ELEMENT_COUPLER:
+        return has_coupler(batch, lane, side);
+    case CZ_ELEMENT_ANTI_CLIMBER:
+        return has_anti_climber(batch, lane, side);
+    case CZ_ELEMENT_SIDE_BUFFERS:
+        return has_side_buffers(batch, lane, side);
+    case CZ_ELEMENT_SUPERSTRUCTURE:
+        return cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STRENGTH, lane) > 0.0;
+    default:
+        return false;
+    }
+}
+
+/* Share of one side in what both sides of an interface are one element for. */
+static double half_of(const CzBatch *batch, size_t lane, int side, CzElementKind kind) {
+    return cz_has_element(batch, lane, 1 - side, kind) ? 0.5 : 1.0;
+}
+
+/* A compliance that stores C F^2 / 2 and gives back all of it. */
+static CzAccount compliance(const CzBatch *batch, size_t lane, int parameter, int force) {
+    const double f = cz_memory(batch, force, lane);
+    const double stored = 0.5 * cz_parameter(batch, parameter, lane) * f * f;
+    return (CzAccount){stored, stored};
+}
+
+/* Faces that meet at an angle are flattened by the push; the model does not count that work, so
+ * what their hinges store is counted where they were coupled before. */
+static double stored_in_hinge(const CzBatch *batch, size_t lane, int side) {
+    const bool coupled = cz_parameter(batch, CZ_P_COUPLED, lane) > 0.5;
+    return coupled ? cz_hinge_stored(batch->dynamics, lane, side) : 0.0;
+}
+
+CzAccount cz_coupler_account(const CzBatch *batch, size_t lane, int side) {
+    const CzDynamics *dynamics = batch->dynamics;
+    const CzAccount members = {cz_memory(batch, CZ_M_COUPLER_ENERGY_A + side, lane),
+                               cz_coupler_stored(dynamics, lane, side)};
+    const CzAccount hinge = {cz_work(batch, CZ_L_HINGE_A + side, lane),
+                             stored_in_hinge(batch, lane, side)};
+    const CzAccount elastic = compliance(batch, lane, CZ_P_COUPLER_COMPLIANCE, CZ_M_COUPLER_FORCE);
+    const double share = half_of(batch, lane, side, CZ_ELEMENT_COUPLER);
+    return sum_of(sum_of(members, hinge), share_of(share, elastic));
+}
+
+CzAccount cz_side_account(const CzBatch *batch, size_t lane, int side) {
+    const CzDynamics *dynamics = batch->dynamics;
+    const CzAccount members = {cz_memory(batch, CZ_M_SIDE_ENERGY_A + side, lane),
+                               cz_side_stored(dynamics, lane, side)};
+    const CzAccount sliding = {cz_work(batch, CZ_L_SIDE_SLIDING, lane),
+                               cz_side_sliding_stored(dynamics, lane)};
+    const CzAccount elastic = compliance(batch, lane, CZ_P_SIDE_COMPLIANCE, CZ_M_SIDE_FORCE);
+    const double share = half_of(batch, lane, side, CZ_ELEMENT_SIDE_BUFFERS);
+    return sum_of(members, share_of(share, sum_of(sliding, elastic)));
+}
+
+/* What both faces of an interface are one element for: compliance, damping, ribs and friction. */
+static CzAccount faces_account(const CzBatch *batch, size_t lane) {
+    const CzDynamics *dynamics = batch->dynamics;
+    const CzAccount elastic = {cz_memory(batch, CZ_M_FACE_STRAIN, lane),
+                               cz_face_stored(dynamics, lane)};
+    const CzAccount sliding = {cz_work(batch, CZ_L_FACE_SLIDING, lane),
+                               cz_face_sliding_stored(dynamics, lane)};
+    return sum_of(sum_of(elastic, sliding), lost(cz_work(batch, CZ_L_FACE_DAMPING, lane)));
+}
+
+CzAccount cz_anti_climber_account(const CzBatch *batch, size_t lane, int side) {
+    const double share = half_of(batch, lane, side, CZ_ELEMENT_ANTI_CLIMBER);
+    return sum_of(lost(cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane)),
+                  share_of(share, faces_account(batch, lane)));
+}
+
+CzAccount cz_bare_faces_account(const CzBatch *batch, size_t lane) {
+    const bool bare = !has_anti_climber(batch, lane, 0) && !has_anti_climber(batch, lane, 1);
+    return bare ? faces_account(batch, lane) : (CzAccount){0.0, 0.0};
+}
+
+CzAccount cz_superstructure_account(const CzBatch *batch, size_t lane) {
+    const double force = cz_scratch(batch, CZ_S_SUPERSTRUCTURE_FORCE, lane);
+    const double stored =
+        0.5 * force * force / cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STIFFNESS, lane);
+    return share_of(0.5, (CzAccount){cz_work(batch, CZ_L_SUPERSTRUCTURE, lane), stored});
+}
+
+CzAccount cz_crush_account(const CzBatch *batch, size_t lane, int end) {
+    return (CzAccount){cz_end_received(batch->dynamics, lane, end),
+                       cz_end_stored(batch->dynamics, lane, end)};
+}
+
+/* The end mass in its guidance and its hinge, and the damping of the crush zone. */
+CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end) {
+    const double guide = cz_work(batch, CZ_L_GUIDE_REAR + end, lane);
+    const CzAccount fold = {cz_work(batch, CZ_L_FOLD_REAR + end, lane),
+                            cz_fold_stored(batch->dynamics, lane, end)};
+    const CzAccount springs = sum_of((CzAccount){guide, guide}, fold);
+    return sum_of(springs, lost(cz_work(batch, CZ_L_END_DAMPING_REAR + end, lane) +
+                                cz_work(batch, CZ_L_GUIDE_DAMPING_REAR + end, lane) +
+                                cz_work(batch, CZ_L_FOLD_DAMPING_REAR + end, lane)));
+}
+
+CzAccount cz_limp_account(const CzBatch *batch, size_t lane, int side) {
+    return (CzAccount){cz_limp_received(batch->dynamics, lane, side),
+                       cz_limp_stored(batch->dynamics, lane, side)};
+}
+
+CzAccount cz_chains_account(const CzBatch *batch, size_t lane) {
+    const CzDynamics *dynamics = batch->dynamics;
+    CzAccount sum = sum_of(compliance(batch, lane, CZ_P_COUPLER_COMPLIANCE, CZ_M_COUPLER_FORCE),
+                           compliance(batch, lane, CZ_P_SIDE_COMPLIANCE, CZ_M_SIDE_FORCE));
+    sum = sum_of(
+        sum, (CzAccount){cz_memory(batch, CZ_M_FACE_STRAIN, lane), cz_face_stored(dynamics, lane)});
+    for (int side = 0; side < 2; ++side) {
+        const double members = cz_memory(batch, CZ_M_COUPLER_ENERGY_A + side, lane) +
+                               cz_memory(batch, CZ_M_SIDE_ENERGY_A + side, lane);
+        const double buffers =
+            cz_coupler_stored(dynamics, lane, side) + cz_side_stored(dynamics, lane, side);
+        sum = sum_of(sum, (CzAccount){members, buffers});
+        sum = sum_of(sum, lost(cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane) +
+                               cz_memory(batch, CZ_M_LIMP_DAMPED_A + side, lane)));
+        sum = sum_of(sum, cz_limp_account(batch, lane, side));
+    }
+    return sum;
+}
+
+CzAccount cz_gear_account(const CzBatch *batch, size_t lane) {
+    const CzDynamics *dynamics = batch->dynamics;
+    const bool is_rigid =
+        dynamics->track == NULL && dynamics->elements == NULL && dynamics->co_running == NULL;
+    const double contact =
+        is_rigid ? cz_wheels_stored(dynamics, lane) : cz_work(batch, CZ_L_WHEEL_NORMAL, lane);
+    const double stored = cz_secondary_stored(dynamics, lane) + cz_primary_stored(dynamics, lane) +
+                          cz_link_stored(dynamics, lane) + cz_axle_guidance_stored(dynamics, lane) +
+                          contact;
+    return (CzAccount){stored, stored};
+}
+
+CzAccount cz_springs_account(const CzBatch *batch, size_t lane) {
+    const CzDynamics *dynamics = batch->dynamics;
+    double stored = cz_face_sliding_stored(dynamics, lane) +
+                    cz_side_sliding_stored(dynamics, lane) + cz_slide_stored(dynamics, lane);
+    if (cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STRENGTH, lane) > 0.0)
+        stored += 2.0 * cz_superstructure_account(batch, lane).stored;
+    for (int side = 0; side < 2; ++side)
+        stored += stored_in_hinge(batch, lane, side) + cz_fold_stored(dynamics, lane, side);
+    return (CzAccount){0.0, stored};
+}

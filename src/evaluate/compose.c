@@ -227,15 +227,12 @@ CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
         failed |= run[s] != NULL && failure_of(run[s]) != NULL;
     if (!failed)
         set_objective(evaluator, vehicles, run, evaluation);
-    if (failed || !isfinite(evaluation->objective)) {
-        const bool nothing_to_minimise = !failed && evaluator->own_objective == NULL &&
-                                         evaluator->objective.kind == NULL &&
-                                         evaluation->n_match == 0;
-        if (nothing_to_minimise)
-            evaluation->objective = 0;
-        else
-            set_failed(evaluation);
-    }
+    const bool has_objective = evaluator->own_objective != NULL ||
+                               evaluator->objective.kind != NULL || evaluation->n_match > 0;
+    if (failed)
+        set_failed(evaluation);
+    else if (!isfinite(evaluation->objective)) /* not known, which is a search's own affair */
+        evaluation->objective = has_objective ? NAN : 0;
     evaluation->verdict = cz_verdict_over(evaluation, 0, NULL);
     return CZ_OK;
 }

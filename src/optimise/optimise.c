@@ -225,14 +225,17 @@ static void tell_end(const CzHunt *hunt, long limit, const CzOutcome *outcome, s
                      char *text) {
     const CzSearch *search = &hunt->search[hunt->n - 1];
     const long left = limit - outcome->n_evaluation;
-    if (search->why[0] != '\0')
+    const CzEvaluation *start = &outcome->start_evaluation;
+    if (start->status == CZ_OK && isnan(start->objective) && search->best < 0)
+        snprintf(text, room, "what is to be minimised has no value in any design");
+    else if (search->why[0] != '\0')
         snprintf(text, room, "%s", search->why);
     else if (search->function->n_variable == 0 && hunt->n == 1)
         snprintf(text, room, "no variable can vary: each has one value within its bounds");
     else if (search->is_spent && left <= 0)
         snprintf(text, room, "the limit of %ld evaluations is reached", limit);
     else if (search->is_spent)
-        snprintf(text, room, "%ld of %ld evaluations are left, %s", left, limit,
+        snprintf(text, room, "%ld of %ld evaluations left, %s", left, limit,
                  cz_search_has_steps(search) ? "all kept for the increments"
                                              : "too few to go on searching");
     else
@@ -242,8 +245,9 @@ static void tell_end(const CzHunt *hunt, long limit, const CzOutcome *outcome, s
 static void conclude(const CzHunt *hunt, long limit, CzOutcome *outcome) {
     const CzSearch *search = &hunt->search[hunt->n - 1];
     char end[sizeof outcome->why_stopped];
-    const bool feasible =
-        outcome->best_evaluation.status == CZ_OK && outcome->best_evaluation.violation <= 0;
+    const bool feasible = outcome->best_evaluation.status == CZ_OK &&
+                          outcome->best_evaluation.violation <= 0 &&
+                          isfinite(outcome->best_evaluation.objective);
     outcome->status = feasible ? CZ_OUTCOME_FEASIBLE : CZ_OUTCOME_INFEASIBLE;
     if (search->status == CZ_STATUS_INTERRUPTED)
         outcome->status = CZ_OUTCOME_INTERRUPTED;

@@ -154,7 +154,8 @@ CzStatus cz_report_write_outcome(const CzProblem *problem, const CzEvaluator *ev
     cz_document_verdict(json, outcome->best_evaluation.verdict);
     cz_json_flag(json, "best_is_feasible",
                  outcome->best_evaluation.status == CZ_OK &&
-                     outcome->best_evaluation.violation <= 0);
+                     outcome->best_evaluation.violation <= 0 &&
+                     isfinite(outcome->best_evaluation.objective));
     cz_json_exact(json, "violation", outcome->best_evaluation.violation);
     cz_json_flag(json, "start_beyond_validity", outcome->start_evaluation.beyond_validity);
     cz_json_flag(json, "beyond_validity", outcome->best_evaluation.beyond_validity);

@@ -35,7 +35,7 @@ static ssize_t write_bytes(void *cookie, const char *bytes, size_t n) {
 
 FILE *cz_memory_text_open(CzMemoryText *memory) {
     const cookie_io_functions_t functions = {.write = write_bytes};
-    return fopencookie(memory, "w", functions);
+    return cz_memory_text_add(memory, "", 0) ? fopencookie(memory, "w", functions) : NULL;
 }
 
 void cz_memory_text_free(CzMemoryText *memory) {

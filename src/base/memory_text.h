@@ -12,7 +12,7 @@
 
 /* Zero-initialise it. */
 typedef struct CzMemoryText {
-    char *text;  /* ended by a zero; NULL while nothing was written */
+    char *text;  /* ended by a zero; NULL before something was added or a stream was opened */
     size_t n;    /* [byte] */
     size_t room; /* [byte] */
     bool failed; /* something is missing */

@@ -137,8 +137,11 @@ static bool read_history(FILE *stream, History *history) {
     if (fits) { /* the first line tells the separator and how many columns there are */
         history->separator = strncmp(line, first, strlen(first)) == 0 ? line[strlen(first)] : '\0';
         int n_column = 1;
-        for (const char *c = line; *c != '\0'; c++)
-            n_column += *c == history->separator;
+        bool in_quotes = false; /* a variable's name may hold the separator */
+        for (const char *c = line; *c != '\0'; c++) {
+            in_quotes ^= *c == '"';
+            n_column += *c == history->separator && !in_quotes;
+        }
         fits = history->separator != '\0' && n_column == FIRST_VARIABLE + history->n_variable;
     }
     while (fits && fgets(line, LONGEST_LINE, stream) != NULL)

@@ -37,6 +37,10 @@ again() { exits 0 "$C" optimise small.yaml -q && [ -f out-optimised/optimised.ya
 check "it is replaced by another search" again
 forced() { exits 0 "$C" run small.yaml -o out-optimised -q --force && [ ! -e out-optimised/outcome.json ] && [ -f out-optimised/summary.json ]; }
 check "and by a run with --force" forced
+named() {
+    sed 's/{path: "parts.end/{name: "=tube, inner", path: "parts.end/' small.yaml >named.yaml && exits 0 "$C" optimise named.yaml -q -o named && says named/history.csv "\"'=tube, inner\"" && exits 0 "$C" report named -q
+}
+check "a search whose variable has a comma in its name can be reported again" named
 column() { exits 2 "$C" optimise small.yaml --force && says err.txt "takes no option '--force'" && printf 's,f\n0,0\n' >c.csv && ! "$C" fit c.csv --as end --basis static --force f >out.txt 2>err.txt && ! grep -q 'takes no value' err.txt; }
 check "--force of fit is its column" column
 

@@ -31,10 +31,6 @@ static void put_summary(CzJson *json, const CzFitSummary *summary) {
     cz_json_text(json, "verdict", cz_fit_verdict_word(summary->verdict));
 }
 
-static bool is_refused(const CzFit *fit) {
-    return cz_fit_summary(fit)->verdict == CZ_FIT_REFUSED;
-}
-
 /* The YAML text, to be freed; NULL without memory. */
 static char *yaml_of(const CzFit *fit) {
     CzMemoryText memory = {0};
@@ -48,7 +44,8 @@ static char *yaml_of(const CzFit *fit) {
 }
 
 CzStatus cz_report_write_fit(const CzFit *fit, FILE *stream, CzError *error) {
-    char *yaml = yaml_of(fit);
+    const bool is_written = cz_fit_summary(fit)->verdict != CZ_FIT_REFUSED;
+    char *yaml = is_written ? yaml_of(fit) : NULL;
     CzJson *json = cz_json_create();
     cz_json_text(json, "format", "crushzone.fit");
     cz_json_whole(json, "version", 1);
@@ -65,8 +62,8 @@ CzStatus cz_report_write_fit(const CzFit *fit, FILE *stream, CzError *error) {
     for (int i = 0; i < cz_fit_n_note(fit); i++)
         cz_json_text(json, NULL, cz_fit_note(fit, i));
     cz_json_close(json);
-    cz_json_text(json, "yaml", is_refused(fit) ? NULL : yaml);
-    const bool has_memory = yaml != NULL;
+    cz_json_text(json, "yaml", yaml);
+    const bool has_memory = yaml != NULL || !is_written;
     free(yaml);
     const CzStatus status = cz_json_finish(json, stream, error);
     return has_memory || status != CZ_OK

@@ -109,6 +109,7 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     cz_measured_read(problem);
     cz_rules_check(problem);
     cz_usual_check(reader);
+    cz_acts_on_check(problem);
 }
 
 /* Sorts what was found and tells the first mistake. */

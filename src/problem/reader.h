@@ -261,6 +261,15 @@ void cz_usual_check(CzReader *reader);
 /* Writes the usual range of a key behind its range; nothing when it has none. */
 void cz_usual_write(FILE *stream, const CzKey *key);
 
+/* ---- acts_on.c ---- */
+
+/* Whether a key does anything on a model of vehicle. */
+bool cz_key_acts_on(const CzKey *key, CzVehicleModel model);
+/* Warns of keys that do nothing on the model that they are written for. */
+void cz_acts_on_check(CzProblem *problem);
+/* Writes on which models a key acts behind its range; nothing when on all. */
+void cz_acts_on_write(FILE *stream, const CzKey *key);
+
 /* ---- profile.c ---- */
 
 /* Reads the profile that the problem names, with the limits of its category. */

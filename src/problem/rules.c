@@ -98,6 +98,29 @@ void cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double m
     rules->ratio[rule] = fmax(rules->ratio[rule], ratio); /* passes over NaN */
 }
 
+/* What a track is made of matters where it is elastic and something rolls on it; friction where
+ * something rolls or brakes. */
+static void check_what_acts(const CzRules *rules) {
+    const CzInput *input = rules->input;
+    bool rolls = false, brakes = false;
+    for (int i = 0; i < rules->problem->n_vehicle; i++)
+        rolls |= rules->vehicle[i].model == CZ_MODEL_FULL;
+    for (int i = 0; i < input->n_trains; i++)
+        brakes |= input->trains[i].brake.given;
+    const bool is_elastic = input->simulation.track != CZ_TRACK_RIGID;
+    if (input->track.given && !(rolls && is_elastic))
+        cz_rule_warning(rules, &input->track, "no effect: %s",
+                        rolls ? "simulation: {track: rigid} has no use for a roadbed"
+                              : "no vehicle of model: full stands on the track");
+    else if (input->track.given && input->simulation.track != CZ_TRACK_FE &&
+             cz_rule_is_written(rules, &input->track.nodes_per_bay))
+        cz_rule_warning(rules, &input->track.nodes_per_bay,
+                        "no effect: only simulation: {track: fe} has nodes");
+    if (input->simulation.adhesion.given && !rolls && !brakes)
+        cz_rule_warning(rules, &input->simulation.adhesion,
+                        "no effect: no vehicle is of model: full, and no train has a brake");
+}
+
 /* A step of the simulation cannot be longer than what is written out. */
 static void check_simulation(const CzRules *rules) {
     const CzSimulation *simulation = &rules->input->simulation;
@@ -135,6 +158,7 @@ static CzRules rules_of(CzProblem *problem) {
 void cz_rules_check_collision(CzProblem *problem) {
     const CzRules rules = rules_of(problem);
     check_simulation(&rules);
+    check_what_acts(&rules);
     cz_rules_check_names(&rules);
     check_vehicles(&rules);
     cz_rules_check_trains(&rules);

@@ -268,6 +268,30 @@ static void check_interface(const CzRules *rules, const CzScenario *scenario,
     cz_mistake_suggest(rules->mistakes, suggestion.best);
 }
 
+/* A height offset tilts what can tilt: a full vehicle that meets one that moves. */
+static void check_offset(const CzRules *rules, const double *offset, const CzVehicle *behind,
+                         const CzVehicle *ahead) {
+    const bool is_full = behind->model == CZ_MODEL_FULL || ahead->model == CZ_MODEL_FULL;
+    const bool is_fixed = behind->model == CZ_MODEL_FIXED || ahead->model == CZ_MODEL_FIXED;
+    if (!isnan(*offset) && *offset != 0 && (!is_full || is_fixed))
+        cz_rule_warning(rules, offset, "no effect: %s",
+                        is_fixed ? "a fixed vehicle is met as an upright plane"
+                                 : "neither vehicle there is of model: full");
+}
+
+/* Offsets of the trains count where the scenario has none. */
+static void check_offsets(const CzRules *rules, const CzScenario *scenario,
+                          const CzTrain *const pair[2]) {
+    if (pair[0]->n_vehicles == 0 || pair[1]->n_vehicles == 0)
+        return;
+    const CzVehicle *behind = &pair[0]->vehicles[pair[0]->n_vehicles - 1];
+    const CzVehicle *ahead = &pair[1]->vehicles[0];
+    check_offset(rules, &scenario->height_offset, behind, ahead);
+    check_offset(rules, &pair[0]->height_offset, behind, ahead);
+    if (isnan(scenario->height_offset))
+        check_offset(rules, &pair[1]->height_offset, behind, ahead);
+}
+
 static void check_brake(const CzRules *rules, const double *ratio, const CzTrain *train) {
     if (!isnan(*ratio) && !cz_rule_is_written(rules, &train->brake))
         cz_rule_broken(rules, ratio, "train '%.48s' has no 'brake' whose ratio could be another",
@@ -297,6 +321,7 @@ void cz_rules_check_scenarios(const CzRules *rules) {
         check_closing(rules, scenario, pair);
         check_roles(rules, pair);
         check_interface(rules, scenario, pair);
+        check_offsets(rules, scenario, pair);
         check_brake(rules, &scenario->brake_ratio, pair[0]);
         check_brake(rules, &scenario->partner_brake_ratio, pair[1]);
         if (pair[0]->n_vehicles > 0 && pair[1]->n_vehicles > 0)

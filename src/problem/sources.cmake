@@ -1,5 +1,6 @@
 # Sources of src/problem, one per line.
 set(CZ_SOURCES_problem
+    acts_on.c
     again.c
     bind.c
     bind_curve_file.c

@@ -58,6 +58,7 @@ static void write_kind(FILE *stream, const CzKey *key) {
         fputs("list of texts", stream);
         break;
     }
+    cz_acts_on_write(stream, key);
 }
 
 /* Writes whether a key must be there, or what holds without it. */

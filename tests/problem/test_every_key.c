@@ -1,0 +1,471 @@
+/* No key without effect: for every key of keys.def that a vehicle can have, on every model of
+ * vehicle that it can be written for, a change of it changes what comes out of some collision, or
+ * the reader refuses or warns. Other keys have a change of their own in every_key.def. A new key
+ * without either fails here. */
+#include "support/check.h"
+
+#include <stdbool.h>
+
+#include "problem/answer.h"
+#include "problem/reader.h"
+
+enum { LONGEST = 32768, MOST_DEPTH = 6 };
+
+/* ---- vehicles ---- */
+
+/* A collision that the tested vehicle T takes part in. */
+typedef struct {
+    CzVehicleModel model;
+    const char *car; /* what makes the part `car` the tested one */
+    const char *trains;
+} Setting;
+
+#define HARD                                                                                       \
+    "scenarios:\n"                                                                                 \
+    "  - {name: level, payload_share: 1}\n"                                                        \
+    "  - {name: offset, height_offset_m: 0.09}\n"                                                  \
+    "  - {name: slow, speed_m_s: 4}\n"                                                             \
+    "  - {name: bump, speed_m_s: 1.5, duration_s: 0.6}\n"
+#define AHEAD                                                                                      \
+    "scenarios:\n"                                                                                 \
+    "  - {name: level, payload_share: 1}\n"                                                        \
+    "  - {name: slow, partner_speed_m_s: -4}\n"
+#define TRAINS(a, b)                                                                               \
+    "trains:\n  - {name: A, speed_m_s: 14, brake: {ratio: 0.1, axle_share: 1}, vehicles: [" a      \
+    "]}\n  - {name: B, brake: {ratio: 0.1, axle_share: 1}, vehicles: [" b "]}\n" HARD
+#define WALL_BEHIND(b)                                                                             \
+    "trains:\n  - {name: A, brake: {ratio: 0, axle_share: 0}, vehicles: [{name: T, use: "          \
+    "tested}]}\n"                                                                                  \
+    "  - {name: B, speed_m_s: -14, brake: {ratio: 0, axle_share: 0}, vehicles: [" b "]}\n" AHEAD
+#define GAPS "checks: {limits: [{name: gaps, metric: interfaces.inner.gap_used, max: 1}]}\n"
+#define CAR(name) "{name: " name ", use: other-car}"
+#define BARE(name) "{name: " name ", use: bare-car}"
+#define MASS(name) "{name: " name ", use: mass}"
+#define TESTED "{name: T, use: tested}"
+#define SLIDE "slide: {mass_kg: 2000, force_N: 300000, length_m: 0.2, bottom_stiffness_N_m: 1.0e+9}"
+
+static const Setting settings[] = {
+    {CZ_MODEL_FULL, "model: full", TRAINS(CAR("A1") ", " TESTED, CAR("B1")) GAPS},
+    {CZ_MODEL_FULL, "model: full", TRAINS(BARE("A1") ", " TESTED, BARE("B1")) GAPS},
+    {CZ_MODEL_RIGID, "model: rigid", TRAINS(CAR("A1") ", " TESTED, CAR("B1")) GAPS},
+    {CZ_MODEL_RIGID, "model: rigid", TRAINS(BARE("A1") ", " TESTED, BARE("B1")) GAPS},
+    {CZ_MODEL_RIGID, "model: rigid", TRAINS(MASS("A1") ", " TESTED, MASS("B1")) GAPS},
+    {CZ_MODEL_FULL,
+     "model: full, front: {anti_climber: {friction: 0}}, bogie: {primary: {lift_gap_m: null, "
+     "stiffness_N_m: 5.0e+7}, secondary: {lift_gap_m: null, stiffness_N_m: 1.0e+7}}",
+     TRAINS(BARE("A1") ", " TESTED, BARE("B1")) GAPS},
+    {CZ_MODEL_RIGID, "model: rigid, front: {anti_climber: {friction: 0}}",
+     TRAINS(BARE("A1") ", " TESTED, BARE("B1")) GAPS},
+    {CZ_MODEL_RIGID, "model: rigid, front: {anti_climber: null}",
+     TRAINS(BARE("A1") ", " TESTED, BARE("B1")) GAPS},
+    {CZ_MODEL_FIXED,
+     "model: fixed, rear: {anti_climber: null, coupler: null, side_buffers: null, stages: "
+     "[{stroke_m: 0.05, force_N: 1200000}]}",
+     TRAINS("{name: A1, use: mass, front: {anti_climber: null, coupler: null, side_buffers: null}}",
+            TESTED)},
+    {CZ_MODEL_FIXED, "model: fixed, rear: {" SLIDE "}", TRAINS(CAR("A1"), TESTED)},
+    {CZ_MODEL_FIXED, "model: fixed, rear: {side_buffers: null}", TRAINS(BARE("A1"), TESTED)},
+    {CZ_MODEL_FIXED, "model: fixed", TRAINS(MASS("A1"), TESTED)},
+    {CZ_MODEL_FIXED, "model: fixed", TRAINS(MASS("A1"), MASS("B1") ", " TESTED)},
+    {CZ_MODEL_FIXED, "model: fixed, front: {" SLIDE "}", WALL_BEHIND(CAR("B1"))},
+};
+enum { N_SETTING = sizeof settings / sizeof settings[0] };
+
+static char base[LONGEST];
+
+static void read_base(void) {
+    FILE *file = fopen(CZ_SOURCE_FOLDER "/tests/problem/cases/every-key.yaml", "r");
+    assert_non_null(file);
+    base[fread(base, 1, sizeof base - 1, file)] = '\0';
+    fclose(file);
+}
+
+/* The problem of a setting with something written for the tested vehicle; for the caller to free.
+ */
+static char *problem_text(const Setting *setting, const char *written) {
+    char *text = NULL;
+    size_t n = 0;
+    FILE *stream = open_memstream(&text, &n);
+    assert_non_null(stream);
+    fprintf(stream, "%s  tuned: {use: car, %s}\n  tested: {use: tuned%s%s}\n%s", base, setting->car,
+            written[0] != '\0' ? ", " : "", written, setting->trains);
+    fclose(stream);
+    return text;
+}
+
+static Answer answer_with(const Setting *setting, const char *written) {
+    char *text = problem_text(setting, written);
+    Answer answer = answer_of(text);
+    free(text);
+    return answer;
+}
+
+/* The tested vehicle as it is read in a setting. */
+static void read_tested(const Setting *setting, CzVehicle *vehicle) {
+    char *text = problem_text(setting, "");
+    CzProblem *problem = NULL;
+    CzError error = {0};
+    CzProblemOptions options = cz_problem_options_default();
+    if (cz_problem_read_text(text, strlen(text), "key.yaml", ".", &options, &problem, &error) !=
+        CZ_OK)
+        fail_msg("%d:%d: %s", error.line, error.column, error.message);
+    int n_vehicle;
+    const CzVehicle *all = cz_problem_vehicles(problem, &n_vehicle);
+    for (int i = 0; i < n_vehicle; i++)
+        if (all[i].name != NULL && strcmp(all[i].name, "T") == 0)
+            *vehicle = all[i];
+    cz_problem_free(problem);
+    free(text);
+}
+
+/* ---- changes ---- */
+
+/* Values for keys of which a quarter more or less of the value does nothing. */
+static const struct {
+    CzRecordId record;
+    const char *stem, *value;
+} values[] = {
+#define CZ_VALUE(type, stem, value) {CZ_RECORD_##type, #stem, value},
+#define CZ_CHANGE(type, stem, from, to)
+#define CZ_EXCEPTION(type, stem, reason)
+#include "problem/every_key.def"
+#undef CZ_VALUE
+#undef CZ_CHANGE
+#undef CZ_EXCEPTION
+};
+enum { N_VALUE = sizeof values / sizeof values[0], MOST_VALUES = 8 };
+
+typedef struct {
+    int n;
+    char text[MOST_VALUES][400]; /* "key: value" */
+} Changes;
+
+static void add_number(Changes *changes, const CzKey *key, double value) {
+    const CzUnit *unit = cz_unit_si(key->dimension);
+    if (key->kind == CZ_KEY_NUMBER && (value < key->lo || value > key->hi))
+        return;
+    snprintf(changes->text[changes->n++], sizeof changes->text[0], "%s%s%s: %.9g", key->stem,
+             unit->suffix[0] != '\0' ? "_" : "", unit->suffix, value);
+}
+
+/* What may be written instead of a key's own value, which `record` holds. */
+static Changes changes_of(CzRecordId id, const CzKey *key, const char *record) {
+    Changes changes = {0};
+    for (int i = 0; i < N_VALUE; i++)
+        if (values[i].record == id && strcmp(values[i].stem, key->stem) == 0)
+            snprintf(changes.text[changes.n++], sizeof changes.text[0], "%s", values[i].value);
+    const void *field = record + key->offset;
+    if (key->kind == CZ_KEY_NUMBER && isfinite(*(const double *)field)) {
+        static const double factors[] = {1.25, 0.8, 3.0, 0.3};
+        for (int i = 0; i < 4 && *(const double *)field != 0.0; i++)
+            add_number(&changes, key, *(const double *)field * factors[i]);
+    } else if (key->kind == CZ_KEY_COUNT) {
+        for (int more = -1; more <= 1; more += 2)
+            snprintf(changes.text[changes.n++], sizeof changes.text[0], "%s: %d", key->stem,
+                     *(const int *)field + more);
+    } else if (key->kind == CZ_KEY_FLAG)
+        snprintf(changes.text[changes.n++], sizeof changes.text[0], "%s: %s", key->stem,
+                 *(const bool *)field ? "false" : "true");
+    else if (key->kind == CZ_KEY_CHOICE)
+        for (int word = 0; word < cz_word_sets[key->words].n_word; word++)
+            if (word != *(const int *)field)
+                snprintf(changes.text[changes.n++], sizeof changes.text[0], "%s: %s", key->stem,
+                         cz_word_sets[key->words].word[word].word);
+    return changes;
+}
+
+/* ---- going through the records of a vehicle ---- */
+
+enum { MOST_KEYS = 64, N_MODEL = CZ_MODEL_FIXED + 1 };
+typedef enum { UNSEEN, IDLE, ACTS } Found;
+
+typedef struct {
+    const Setting *setting;
+    Answer as_written;
+    Found (*found)[MOST_KEYS][N_MODEL]; /* of every record (CZ_N_RECORD) */
+} Walk;
+
+/* Where a record stands in the vehicle. */
+typedef struct {
+    int n;
+    const char *name[MOST_DEPTH];
+} Trail;
+
+/* What something that is written there does. */
+typedef enum { NOTHING, REFUSED, DIFFERENCE } Effect;
+static Effect effect_of(const Walk *walk, const Trail *trail, const char *written) {
+    char text[2048] = "";
+    for (int i = 0; i < trail->n; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%s: {", trail->name[i]);
+    snprintf(text + strlen(text), sizeof text - strlen(text), "%s", written);
+    for (int i = 0; i < trail->n; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "}");
+    Answer answer = answer_with(walk->setting, text);
+    const Effect effect = answer.text == NULL                               ? REFUSED
+                          : strcmp(answer.text, walk->as_written.text) != 0 ? DIFFERENCE
+                                                                            : NOTHING;
+    if (getenv("CZ_SHOW") != NULL)
+        print_message("%s: %s %s\n", text, effect == NOTHING ? "the same" : "differs",
+                      answer.refusal);
+    answer_free(&answer);
+    return effect;
+}
+
+/* Whether the reader has warned that a key does nothing there. */
+static bool is_warned_of(const Walk *walk, const CzKey *key) {
+    static const char *const models[] = {"full: ", "rigid: ", "fixed: "};
+    for (const char *line = strstr(walk->as_written.warnings, "no effect on model: "); line != NULL;
+         line = strstr(line + 1, "no effect on model: ")) {
+        const char *list = line + strlen("no effect on model: ");
+        const size_t n = strcspn(list, ";\n");
+        const char *at = strstr(list, key->stem);
+        if (strncmp(list, models[walk->setting->model], strlen(models[0])) == 0 && at != NULL &&
+            at < list + n)
+            return true;
+    }
+    return false;
+}
+
+static void look_at_key(Walk *walk, CzRecordId id, int index, const char *record,
+                        const Trail *trail) {
+    const CzKey *key = &cz_records[id].key[index];
+    Found *found = &walk->found[id][index][walk->setting->model];
+    const bool acts = cz_key_acts_on(key, walk->setting->model);
+    if (*found == ACTS)
+        return;
+    const Changes changes = changes_of(id, key, record);
+    Effect effect = NOTHING;
+    for (int i = 0; i < changes.n && effect != DIFFERENCE; i++) {
+        const Effect next = effect_of(walk, trail, changes.text[i]);
+        effect = next > effect ? next : effect;
+    }
+    if (!acts && effect == DIFFERENCE)
+        print_error("%s of a %s acts on a model that acts_on.def excludes\n", key->stem,
+                    cz_records[id].name);
+    const bool is_well = acts ? effect != NOTHING : effect != DIFFERENCE && is_warned_of(walk, key);
+    *found = is_well ? ACTS : IDLE;
+}
+
+/* Stages are written as a list: all of them again, and one with the change. */
+static void look_at_stages(Walk *walk, const CzStage *stage, int n_stage, const Trail *trail) {
+    const CzRecord *record = &cz_records[CZ_RECORD_CzStage];
+    for (int index = 0; index < record->n_key; index++) {
+        Found *found = &walk->found[CZ_RECORD_CzStage][index][walk->setting->model];
+        for (int of = 0; of < n_stage && *found != ACTS; of++) {
+            const Changes changes =
+                changes_of(CZ_RECORD_CzStage, &record->key[index], (const char *)&stage[of]);
+            *found = IDLE;
+            for (int i = 0; i < changes.n && *found != ACTS; i++) {
+                char text[1024] = "stages: [";
+                for (int k = 0; k < n_stage; k++) {
+                    char zone[32], end[48] = "";
+                    snprintf(zone, sizeof zone, ", zone: %s",
+                             cz_word_sets[CZ_WORDS_ZONE].word[stage[k].zone].word);
+                    if (isfinite(stage[k].end_force))
+                        snprintf(end, sizeof end, ", end_force_N: %.9g", stage[k].end_force);
+                    const bool own[] = {of == k && index == 0, of == k && index == 1,
+                                        of == k && index == 2, of == k && index == 3};
+                    snprintf(text + strlen(text), sizeof text - strlen(text), "%s{",
+                             k > 0 ? ", " : "");
+                    if (!own[0])
+                        snprintf(text + strlen(text), sizeof text - strlen(text), "stroke_m: %.9g",
+                                 stage[k].stroke);
+                    if (!own[1])
+                        snprintf(text + strlen(text), sizeof text - strlen(text), "%sforce_N: %.9g",
+                                 own[0] ? "" : ", ", stage[k].force);
+                    snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s%s%s}",
+                             own[2] ? "" : end, own[3] ? "" : zone, of == k ? ", " : "",
+                             of == k ? changes.text[i] : "");
+                }
+                snprintf(text + strlen(text), sizeof text - strlen(text), "]");
+                *found = effect_of(walk, trail, text) != NOTHING ? ACTS : IDLE;
+            }
+        }
+    }
+}
+
+static void look_at_record(Walk *walk, CzRecordId id, const char *memory, const Trail *trail) {
+    const CzRecord *record = &cz_records[id];
+    assert_in_range(record->n_key, 1, MOST_KEYS);
+    for (int index = 0; index < record->n_key; index++) {
+        const CzKey *key = &record->key[index];
+        Trail inside = *trail;
+        if (key->kind == CZ_KEY_CHILD && cz_key_acts_on(key, walk->setting->model)) {
+            inside.name[inside.n++] = key->stem;
+            if (*(const bool *)(memory + key->offset)) /* given */
+                look_at_record(walk, key->child, memory + key->offset, &inside);
+            walk->found[id][index][walk->setting->model] = ACTS; /* by the keys inside */
+        } else if (key->kind == CZ_KEY_STAGES) {
+            look_at_stages(walk, (const CzStage *)(const void *)(memory + key->offset),
+                           *(const int *)(memory + key->n_offset), trail);
+            walk->found[id][index][walk->setting->model] = ACTS; /* likewise */
+        } else
+            look_at_key(walk, id, index, memory, trail);
+    }
+}
+
+/* ---- exceptions ---- */
+
+static const struct {
+    CzRecordId record;
+    const char *stem, *reason;
+} exceptions[] = {
+#define CZ_VALUE(type, stem, value)
+#define CZ_CHANGE(type, stem, from, to)
+#define CZ_EXCEPTION(type, stem, reason) {CZ_RECORD_##type, #stem, reason},
+#include "problem/every_key.def"
+#undef CZ_VALUE
+#undef CZ_CHANGE
+#undef CZ_EXCEPTION
+};
+enum { N_EXCEPTION = sizeof exceptions / sizeof exceptions[0] };
+
+static bool is_excepted(CzRecordId id, const CzKey *key) {
+    for (int i = 0; i < N_EXCEPTION; i++)
+        if (exceptions[i].record == id && strcmp(exceptions[i].stem, key->stem) == 0)
+            return true;
+    return false;
+}
+
+static void every_key_of_a_vehicle_acts_or_is_warned_of(void **state) {
+    (void)state;
+    static Found found[CZ_N_RECORD][MOST_KEYS][N_MODEL];
+    read_base();
+    for (int i = 0; i < N_SETTING; i++) {
+        Walk walk = {.setting = &settings[i], .found = found};
+        CzVehicle vehicle;
+        read_tested(walk.setting, &vehicle);
+        walk.as_written = answer_with(walk.setting, "");
+        if (walk.as_written.text == NULL)
+            fail_msg("setting %d: %s", i, walk.as_written.refusal);
+        look_at_record(&walk, CZ_RECORD_CzVehicle, (const char *)&vehicle, &(Trail){0});
+        answer_free(&walk.as_written);
+    }
+    int n_idle = 0;
+    for (int id = 0; id < CZ_N_RECORD; id++)
+        for (int index = 0; index < cz_records[id].n_key; index++)
+            for (int model = 0; model < N_MODEL; model++) {
+                const CzKey *key = &cz_records[id].key[index];
+                if (found[id][index][model] != IDLE || is_excepted((CzRecordId)id, key))
+                    continue;
+                n_idle++;
+                print_error("%s of a %s does nothing on model: %s\n", key->stem,
+                            cz_records[id].name, cz_word_sets[CZ_WORDS_MODEL].word[model].word);
+            }
+    assert_int_equal(n_idle, 0);
+}
+
+/* ---- everything else ---- */
+
+static const struct {
+    CzRecordId record;
+    const char *stem, *from, *to;
+} changes[] = {
+#define CZ_VALUE(type, stem, value)
+#define CZ_CHANGE(type, stem, from, to) {CZ_RECORD_##type, #stem, from, to},
+#define CZ_EXCEPTION(type, stem, reason)
+#include "problem/every_key.def"
+#undef CZ_VALUE
+#undef CZ_CHANGE
+#undef CZ_EXCEPTION
+};
+enum { N_CHANGE = sizeof changes / sizeof changes[0] };
+
+static char *file_text(const char *name) {
+    char path[512];
+    snprintf(path, sizeof path, "%s/tests/problem/cases/%s", CZ_SOURCE_FOLDER, name);
+    FILE *file = fopen(path, "r");
+    char *text = calloc(1, LONGEST);
+    assert_non_null(file);
+    assert_non_null(text);
+    assert_in_range(fread(text, 1, LONGEST - 1, file), 1, LONGEST - 2);
+    fclose(file);
+    return text;
+}
+
+/* The problem in which a record's keys are changed. */
+static char *text_for(CzRecordId id) {
+    if (id == CZ_RECORD_CzRail || id == CZ_RECORD_CzRoadbed)
+        return file_text("every-key-of-the-track.yaml");
+    if (id == CZ_RECORD_CzVariable || id == CZ_RECORD_CzMatch || id == CZ_RECORD_CzOptimise)
+        return file_text("every-key-of-a-search.yaml");
+    return file_text("every-key-of-a-problem.yaml");
+}
+
+static bool change_differs(int change, const char *text, const Answer *as_written) {
+    const char *at = strstr(text, changes[change].from);
+    char *changed = NULL;
+    size_t n = 0;
+    if (at == NULL)
+        fail_msg("no '%s' to change", changes[change].from);
+    FILE *stream = open_memstream(&changed, &n);
+    assert_non_null(stream);
+    fprintf(stream, "%.*s%s%s", (int)(at - text), text, changes[change].to,
+            at + strlen(changes[change].from));
+    fclose(stream);
+    Answer answer = answer_of(changed);
+    const bool differs = answer.text == NULL || answer.n_warning > as_written->n_warning ||
+                         strcmp(answer.text, as_written->text) != 0;
+    if (getenv("CZ_SHOW") != NULL)
+        print_message("%s: %s %s\n", changes[change].to, differs ? "differs" : "the same",
+                      answer.refusal);
+    answer_free(&answer);
+    free(changed);
+    return differs;
+}
+
+static int count_idle(CzRecordId id) {
+    char *text = text_for(id);
+    Answer as_written = answer_of(text);
+    if (as_written.text == NULL)
+        fail_msg("%s: %s", cz_records[id].name, as_written.refusal);
+    int n_idle = 0;
+    for (int index = 0; index < cz_records[id].n_key; index++) {
+        const CzKey *key = &cz_records[id].key[index];
+        const bool is_inside = key->kind == CZ_KEY_CHILD || key->kind == CZ_KEY_LIST;
+        bool acts = is_inside || is_excepted(id, key); /* by the keys inside */
+        for (int i = 0; i < N_CHANGE && !acts; i++)
+            if (changes[i].record == id && strcmp(changes[i].stem, key->stem) == 0)
+                acts = change_differs(i, text, &as_written);
+        if (!acts)
+            print_error("%s of a %s does nothing, or has no case\n", key->stem,
+                        cz_records[id].name);
+        n_idle += !acts;
+    }
+    answer_free(&as_written);
+    free(text);
+    return n_idle;
+}
+
+static bool is_of_vehicles(CzRecordId id, CzRecordId in) {
+    bool is_in = id == in;
+    for (int i = 0; i < cz_records[in].n_key && !is_in; i++) {
+        const CzKey *key = &cz_records[in].key[i];
+        if (key->kind == CZ_KEY_CHILD || key->kind == CZ_KEY_STAGES)
+            is_in = is_of_vehicles(id, key->child);
+    }
+    return is_in;
+}
+
+static void every_other_key_acts(void **state) {
+    (void)state;
+    int n_idle = 0;
+    for (int id = 0; id < CZ_N_RECORD; id++)
+        if (!is_of_vehicles((CzRecordId)id, CZ_RECORD_CzVehicle))
+            n_idle += count_idle((CzRecordId)id);
+    assert_int_equal(n_idle, 0);
+}
+
+static void the_exceptions_are_few(void **state) {
+    (void)state;
+    assert_in_range(N_EXCEPTION, 1, 12);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_key_of_a_vehicle_acts_or_is_warned_of),
+        cmocka_unit_test(every_other_key_acts),
+        cmocka_unit_test(the_exceptions_are_few),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

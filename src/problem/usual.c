@@ -39,7 +39,7 @@ static void warn(CzReader *reader, const CzPlace *place, const Usual *range, con
     if (!(size > 0.0) || (size >= range->lo && size <= range->hi))
         return;
     cz_mistake(&reader->warnings, place->value, place->trail,
-               "%s of a %s is unusual: %s, where %s to %s is usual; is it in the right unit?",
+               "%s of this %s is unusual: %s, where %s to %s is usual; is it in the right unit?",
                place->key->stem, cz_records[range->record].name,
                with_unit(own, si / place->unit->si, place->unit->suffix),
                cz_number_print_short(lo, range->lo * scale),

@@ -31,7 +31,7 @@ long cz_hunt_record(const CzSearch *search) {
 /* Evaluates the only design of a combination without numbers. */
 static void evaluate_only_design(CzSearch *search) {
     double objective,
-        *constraint = calloc((size_t)search->function->n_constraint + 1, sizeof *constraint);
+        *constraint = cz_search_numbers(search, (size_t)search->function->n_constraint);
     if (constraint != NULL)
         cz_search_evaluate(search, "choices", 1, search->function->start, &objective, constraint);
     free(constraint);

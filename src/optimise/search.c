@@ -135,6 +135,15 @@ long cz_search_find(const CzSearch *search, const double *x) {
     return -1;
 }
 
+double *cz_search_numbers(CzSearch *search, size_t n) {
+    double *number = calloc(n + 1, sizeof *number);
+    if (number != NULL || search->status != CZ_OK)
+        return number;
+    (void)cz_fail(&search->error, CZ_STATUS_NO_MEMORY, "no memory for the designs of a search");
+    finish(search, CZ_STATUS_NO_MEMORY, "no memory");
+    return NULL;
+}
+
 static bool make_room(CzSearch *search, long n) {
     if (search->n_record + n <= search->room)
         return true;

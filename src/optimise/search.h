@@ -89,6 +89,9 @@ bool cz_search_is_stopped(CzSearch *search);
 /* Goes on after a pause, from the best design. */
 void cz_search_resume(CzSearch *search);
 
+/* Memory for n numbers of the search; without any the search ends, which it tells. */
+double *cz_search_numbers(CzSearch *search, size_t n);
+
 /* Evaluates n designs, x in the variables' units (n x n_variable), in order. objective (n) and
  * constraint (n x n_constraint) get finite numbers; constraints far above 0 are compressed
  * logarithmically, flags are -1. Returns false when the search ended before all were evaluated; the

@@ -29,7 +29,7 @@ static const double near_start = 0.2;
 static bool evaluate_scaled(CzSearch *search, const char *phase, int n_point, const double *u) {
     const size_t n = (size_t)search->function->n_variable;
     const size_t m = (size_t)search->function->n_constraint + 1;
-    double *x = calloc((size_t)n_point * (n + 1 + m), sizeof *x);
+    double *x = cz_search_numbers(search, (size_t)n_point * (n + 1 + m));
     bool done = false;
     if (x != NULL) {
         for (int i = 0; i < n_point; i++)
@@ -44,7 +44,7 @@ static bool evaluate_scaled(CzSearch *search, const char *phase, int n_point, co
 /* The start as it is written, to the last bit. */
 static bool evaluate_start(CzSearch *search) {
     double objective,
-        *constraint = calloc((size_t)search->function->n_constraint + 1, sizeof(double));
+        *constraint = cz_search_numbers(search, (size_t)search->function->n_constraint);
     const bool done =
         constraint != NULL &&
         cz_search_evaluate(search, "start", 1, search->function->start, &objective, constraint);
@@ -54,7 +54,7 @@ static bool evaluate_start(CzSearch *search) {
 
 static void screen(CzSearch *search, unsigned long seed, long n_point) {
     const int n = search->function->n_variable;
-    double *u = calloc((size_t)(SCREEN_BATCH + 1) * (size_t)n, sizeof *u);
+    double *u = cz_search_numbers(search, (size_t)(SCREEN_BATCH + 1) * (size_t)n);
     if (u == NULL)
         return;
     double *start = u + SCREEN_BATCH * n;

@@ -114,7 +114,7 @@ bool cz_surface_try_exact(CzSurface *surface, const char *phase, int n_point, co
     *moved_to = -1;
     if (x != surface->x)
         memcpy(surface->x, x, (size_t)(n_point * n) * sizeof *x);
-    double *u = calloc(2 * (size_t)n, sizeof *u), *step = u + n;
+    double *u = cz_search_numbers(search, 2 * (size_t)n), *step = u + n;
     if (u == NULL || !evaluate(surface, phase, n_point)) {
         free(u);
         return false;
@@ -236,7 +236,7 @@ static bool search_planes(const CzSurface *surface, const Planes *planes, const 
     CzNloptRun run = cz_nlopt_run_default("LD_SLSQP");
     run.form = CZ_FORM_ELASTIC;
     run.reserve = 1e-3;
-    double *start = calloc((size_t)surface->n, sizeof *start);
+    double *start = cz_search_numbers(surface->search, (size_t)surface->n);
     bool found = start != NULL;
     if (found) {
         cz_search_scale(&inner, surface->u, start);
@@ -251,7 +251,7 @@ static bool search_planes(const CzSurface *surface, const Planes *planes, const 
 
 bool cz_surface_best(const CzSurface *surface, double radius, double *u) {
     const size_t n = (size_t)surface->n;
-    double *box = calloc(3 * n, sizeof *box);
+    double *box = cz_search_numbers(surface->search, 3 * n);
     int *detail = calloc((size_t)surface->m + 1, sizeof *detail);
     bool found = box != NULL && detail != NULL;
     if (found) {
@@ -282,7 +282,7 @@ void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, 
     const long limit = search->n_record + evaluations;
     const double smallest = 5e-3;
     double radius = 0.15, secant = 0.02;
-    double *tried = calloc((size_t)(RADII * n), sizeof *tried);
+    double *tried = cz_search_numbers(search, (size_t)(RADII * n));
     if (tried == NULL || evaluations < n + 1 + RADII ||
         !cz_surface_begin(surface, phase, u, secant)) {
         free(tried);

@@ -79,7 +79,7 @@ enum { MOST_WORDS = 16, NO_MEMORY = 5 };
 typedef struct Try {
     int code;        /* exit code; 256 + signal when it was killed */
     bool says;       /* it says that there is no memory */
-    bool is_left;    /* something that was written is there */
+    bool is_left;    /* something half written is there */
     bool is_search;  /* it holds the result of a search, which is kept */
     uint64_t answer; /* of all that it wrote */
 } Try;
@@ -108,16 +108,15 @@ static uint64_t hash_file(const char *path) {
 }
 
 static uint64_t sum;  /* of the files of a folder, whatever their order */
-static int n_visited; /* entries below it, but for what the streams went to */
+static int n_visited; /* temporary files and folders in it */
 static bool has_search;
 
 static int visit(const char *path, const struct stat *info, int type, struct FTW *place) {
     (void)info;
     if (place->level == 0)
         return 0;
-    const bool is_stream =
-        strcmp(path + place->base, "stdout") == 0 || strcmp(path + place->base, "stderr") == 0;
-    n_visited += !is_stream;
+    n_visited +=
+        strncmp(path + place->base, ".crushzone-", 11) == 0; /* what is whole has its name */
     has_search |= strcmp(path + place->base, "optimised.yaml") == 0;
     if (type == FTW_F && strcmp(path + place->base, "stderr") != 0)
         sum += hash_text(hash_file(path), path + place->base, strlen(path + place->base));

@@ -284,6 +284,16 @@ static int closures_are_apart(const CzBlock *d) {
     return n_near == 0.0;
 }
 
+/* Closure of the couplers that are there. */
+static void keep_closure(CzBlock *d) {
+    const size_t n = CZ_LANE_BLOCK;
+    const double *restrict exists = P(COUPLER), *restrict closure = S(CLOSURE);
+    double *restrict kept = S(COUPLER_CLOSURE);
+    CZ_LANES (i, n) {
+        kept[i] = exists[i] * closure[i];
+    }
+}
+
 /* All couplers; 0 when none was at work. Where they changed nothing and are still apart they are
  * left out: no force, and both copies of their memory hold what they would leave. */
 static int couplers(CzBlock *d, double step) {
@@ -297,7 +307,7 @@ static int couplers(CzBlock *d, double step) {
     coupler_geometry(d, &a, &b);
     if (released)
         released_geometry(d, &a, &b);
-    memcpy(S(COUPLER_CLOSURE), S(CLOSURE), sizeof(CzRow));
+    keep_closure(d);
     if (released && closures_are_apart(d)) {
         memcpy(S(COUPLER_FORCE), M(COUPLER_FORCE), sizeof(CzRow));
         return 0;

@@ -141,13 +141,15 @@ static CzStatus add_place(const Builder *builder, CzDesignVariable *variable,
     return CZ_OK;
 }
 
-/* The stroke that is drawn of the anti-climber whose stroke a target is: a search makes the car as
- * much longer as the stroke, and a file with that stroke has to say from where. NaN for any other
- * number. */
+/* The stroke that is drawn of the anti-climber whose stroke a target is: a search makes a full car
+ * as much longer as the stroke, and a file with that stroke has to say from where. NaN for any
+ * other number. */
 static double drawn_stroke(const Builder *builder, const CzTarget *target) {
     if (target->vehicle < 0 || builder->design->is_fit)
         return NAN;
     const CzVehicle *vehicle = &builder->vehicles[target->vehicle];
+    if (vehicle->model != CZ_MODEL_FULL)
+        return NAN;
     const CzEnd *const ends[2] = {&vehicle->rear, &vehicle->front};
     for (int end = 0; end < 2; end++) {
         const CzAntiClimber *device = &ends[end]->anti_climber;
@@ -167,16 +169,20 @@ static double drawn_stroke(const Builder *builder, const CzTarget *target) {
 static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable,
                           const CzTarget *target, double factor) {
     const char *path = target->place;
+    const double drawn = drawn_stroke(builder, target);
     for (int i = 0; i < variable->n_shown; i++)
-        if (strcmp(variable->shown[i].path, path) == 0)
+        if (strcmp(variable->shown[i].path, path) == 0) {
+            if (!isnan(drawn)) /* a part of rigid and of full cars */
+                variable->shown[i].drawn_stroke = drawn;
             return CZ_OK;
+        }
     CzVariablePlace *shown = grow(builder, variable->shown, variable->n_shown, sizeof *shown);
     const char *copy = cz_arena_copy_text(builder->arena, path, strlen(path));
     if (shown == NULL || copy == NULL)
         return fail_memory(builder);
     variable->shown = shown;
-    variable->shown[variable->n_shown++] = (CzVariablePlace){
-        .path = copy, .factor = factor, .drawn_stroke = drawn_stroke(builder, target)};
+    variable->shown[variable->n_shown++] =
+        (CzVariablePlace){.path = copy, .factor = factor, .drawn_stroke = drawn};
     return CZ_OK;
 }
 

@@ -43,13 +43,16 @@ static const CzVehicle *vehicle_of(const CzProblem *problem, const void *address
                                               : NULL;
 }
 
+bool cz_field_acts(const CzProblem *problem, const CzKey *key, const void *field) {
+    const CzVehicle *vehicle = vehicle_of(problem, field);
+    return vehicle == NULL || !vehicle->given ||
+           cz_key_acts_on(key, (CzVehicleModel)vehicle->model);
+}
+
 /* Start of the record that holds a written field which does nothing; NULL for any other place. */
 static const char *idle_record(const CzProblem *problem, const CzPlace *place) {
-    if (place->size != 0 || place->key == NULL)
-        return NULL;
-    const CzVehicle *vehicle = vehicle_of(problem, place->address);
-    if (vehicle == NULL || !vehicle->given ||
-        cz_key_acts_on(place->key, (CzVehicleModel)vehicle->model))
+    if (place->size != 0 || place->key == NULL ||
+        cz_field_acts(problem, place->key, place->address))
         return NULL;
     return (const char *)place->address - place->key->offset;
 }

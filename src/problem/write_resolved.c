@@ -329,12 +329,14 @@ static void write_child(const Writer *writer, const CzKey *key, const char *fiel
     write_record(&inside, record, field, indent + 2, "");
 }
 
-/* Writes the keys of a record; `dash` goes before the first. */
+/* Writes the keys of a record that do something; `dash` goes before the first. */
 static void write_record(const Writer *writer, const CzRecord *record, const char *memory,
                          int indent, const char *dash) {
     for (int i = 0; i < record->n_key; i++) {
         const CzKey *key = &record->key[i];
         const char *field = memory + key->offset;
+        if (!cz_field_acts(writer->problem, key, field))
+            continue;
         switch (key->kind) {
         case CZ_KEY_CHILD:
             write_child(writer, key, field, indent);

@@ -5,10 +5,11 @@
  *   lower(x) = min(share * loading(x), k_t max(x, 0))
  *   static(x, p) = clamp(k_t (x - p), lower, upper) + k_b max(x - s, 0) - k_d max(-x - slack, 0)
  *   p' = x - clamped / k_t
- *   F = static + (c1 + c2 |x'|) * fade(x) * x'        c2 while loading only
+ *   F = static + (c1 + c2 |x'|) * fade(x) * x'        c2 while loading only; at most 0 where x < 0
  *
  * fade(x) is taken at the larger of the strokes at both ends of a step, so that the force of the
- * step never falls while its stroke moves on.
+ * step never falls while its stroke moves on. A gear that is drawn out pushes nothing before it is
+ * back: its damping takes from the pull, and what returns from the draw fades in from 0.
  *
  * loading(x) rises nowhere faster than k_t, or a cycle between the curves would create energy.
  * Beyond the usable stroke s it stays what it is there: what bottoms out is an elastic stop k_b in
@@ -79,21 +80,27 @@ static inline CzBufferResponse cz_buffer_of(const CzBufferLaw *law, double compl
 
     /* Damping by the larger of the strokes at both ends of the step, so that its force never falls
      * while the stroke moves on; what it grows by as it fades in. */
-    const double before = fabs(stroke - moved), after = fabs(stroke);
-    const double fade = cz_fade_in(cz_larger(before, after), CZ_FADE_LENGTH);
-    const double growing = law->quadratic * cz_positive_part(rate);
+    const double after = fabs(stroke);
+    const double returned = stroke > 0.0 && moved > stroke ? 0.0 : fabs(stroke - moved);
+    const double fade = cz_fade_in(cz_larger(returned, after), CZ_FADE_LENGTH);
+    const double growing = stroke > 0.0 ? law->quadratic * cz_positive_part(rate) : 0.0;
     const double slow = law->damping, fast = law->damping + growing;
-    const double still_fades = after > before && after < CZ_FADE_LENGTH ? 1.0 : 0.0;
+    const double still_fades = after > returned && after < CZ_FADE_LENGTH ? 1.0 : 0.0;
     const double fading = fade + still_fades * fabs(moved) * (1.0 / CZ_FADE_LENGTH);
     const double per_step = 1.0 / step;
     const double damped = (moved > 0.0 ? fast : slow) * fade;
     const double damping_up = (moved < 0.0 ? slow : fast) * fading;
     const double damping_down = (moved > 0.0 ? fast : slow) * fading;
+    const double pull = damped * moved * per_step - law->draw_stiffness * drawn;
+    const double outside = stroke < 0.0 && pull > 0.0 ? 0.0 : pull;
+    const double follows = stroke < 0.0 && pull >= 0.0 ? 0.0 : 1.0; /* what has nothing to push */
 
     CzBufferResponse response;
-    response.force = inside + stop - law->draw_stiffness * drawn + damped * moved * per_step;
-    response.loading = 1.0 / (cz_larger(up, CZ_SMALLEST_STIFFNESS) + damping_up * per_step);
-    response.unloading = 1.0 / (cz_larger(down, CZ_SMALLEST_STIFFNESS) + damping_down * per_step);
+    response.force = inside + stop + outside;
+    response.loading =
+        1.0 / (cz_larger(follows * up, CZ_SMALLEST_STIFFNESS) + follows * damping_up * per_step);
+    response.unloading = 1.0 / (cz_larger(follows * down, CZ_SMALLEST_STIFFNESS) +
+                                follows * damping_down * per_step);
     response.offset = stroke - inside * compliance;
     return response;
 }

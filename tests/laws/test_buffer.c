@@ -172,6 +172,25 @@ static void the_force_of_a_step_never_falls_with_its_stroke(void **state) {
         }
 }
 
+/* On its way back from the draw a damper would push, and crush a tube behind it while nothing is
+ * closed: force begins where the buffer does. */
+static void a_gear_that_is_drawn_out_pushes_nothing_before_it_is_back(void **state) {
+    (void)state;
+    const CzBufferLaw law = {5e7, 0.35, 5e4, 8e4, 2e7, 0.002, 0.05};
+    for (double x = -0.03; x < 0.0; x += 1e-4) {
+        const CzBufferResponse response =
+            cz_buffer(&law, backbone_value(&draft_gear, x), backbone_slope(&draft_gear, x), x,
+                      10.0 * step, 10.0, 0.0, step);
+        assert_true(response.force <= 0.0);
+    }
+    const double just = 1e-9;
+    const CzBufferResponse back =
+        cz_buffer(&law, backbone_value(&draft_gear, just), backbone_slope(&draft_gear, just), just,
+                  10.0 * step, 10.0, 0.0, step);
+    /* the transition, and 8.5e6 N of damping faded in over 1e-9 of 10 mm */
+    assert_near(back.force, 5e7 * just + 8.5e6 * just / CZ_FADE_LENGTH, 1e-9, 0.0);
+}
+
 /* Inside the slack a chain must still have one answer. */
 static void within_the_slack_the_smallest_stiffness_is_left(void **state) {
     (void)state;
@@ -193,6 +212,7 @@ int main(void) {
         cmocka_unit_test(damping_adds_its_force_to_the_step),
         cmocka_unit_test(a_stroke_that_moved_has_one_tangent),
         cmocka_unit_test(the_force_of_a_step_never_falls_with_its_stroke),
+        cmocka_unit_test(a_gear_that_is_drawn_out_pushes_nothing_before_it_is_back),
         cmocka_unit_test(within_the_slack_the_smallest_stiffness_is_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

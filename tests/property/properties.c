@@ -21,9 +21,9 @@
     CZ_PROPERTY(CODES, "every exit code is a documented one, and no run ends by a signal")         \
     CZ_PROPERTY(NUMBERS, "a completed run has a number wherever one is asked for")                 \
     CZ_PROPERTY(VERDICTS, "table, JSON and exit code give one verdict")                            \
-    CZ_PROPERTY(FAILED, "no run of a readable design fails")                                       \
+    CZ_PROPERTY(FAILED, "no run fails but for a strut that has no length left")                    \
     CZ_PROPERTY(BALANCE, "energy and momentum balance")                                            \
-    CZ_PROPERTY(PASSIVE, "no element gives energy, none dissipates more than there was")           \
+    CZ_PROPERTY(PASSIVE, "no element gives energy, all dissipate no more than there was")          \
     CZ_PROPERTY(SUMS, "the energies of the elements add up to that of the absorbers")              \
     CZ_PROPERTY(STROKES, "no stroke exceeds the closure of its interface")                         \
     CZ_PROPERTY(BOTTOMED, "what used more than its stroke has bottomed out, and nothing else has") \
@@ -212,34 +212,62 @@ static void try_program(Trial *trial) {
 /* Rounding of sums of some 1e4 steps, as a share of the energy that was there. */
 #define ROUNDING 1e-9
 
+/* What the quadrature of steps over the kinks of a law may seem to give: the level at which the
+ * energy balance warns. */
+#define QUADRATURE 1e-3
+
+#define HINGE_STIFFNESS 600e3 /* of the couplers of full cars, coupler-hinge of the catalogue */
+#define END_STIFFNESS 110e6   /* no end of the designs is softer where it unloads [N/m] */
+
+/* What an element may seem to give [J]. A coupler that is only pushed lets go of its hinges as it
+ * opens: they give what they stored, and the push that did it is not counted. */
+static double may_give(const CzRunSummary *summary, const CzInterfaceResult *interface,
+                       const CzElementResult *element) {
+    double hinges = 0.0;
+    for (int side = 0; side < 2 && element->kind == CZ_ELEMENT_COUPLER; side++)
+        if (!isnan(interface->swing[side]))
+            hinges += 0.5 * HINGE_STIFFNESS * interface->swing[side] * interface->swing[side];
+    return QUADRATURE * summary->energy.initial + hinges;
+}
+
 /* Every element of an interface, and together. */
 static void try_interface(Trial *trial, const CzRunSummary *summary,
                           const CzInterfaceResult *interface, double *sum) {
     const double rounding = ROUNDING * summary->energy.initial;
     /* Vehicle `side` of the interface, the strokes that lie in series on its side. */
-    double coupler = 0.0, end = 0.0, buffers = 0.0;
+    double coupler = 0.0, end = 0.0, buffers = 0.0, elastic = 0.0, reversible = 0.0;
     for (int k = 0; k < interface->n_element; k++) {
         const CzElementResult *element = &interface->element[k];
         *sum += element->energy;
-        expect(trial, PASSIVE, element->energy >= -rounding, element->name, element->energy,
-               -rounding);
+        const double given = may_give(summary, interface, element);
+        expect(trial, PASSIVE, element->energy >= -given, element->name, element->energy, -given);
         expect(trial, PASSIVE, element->stored >= -rounding, element->name, element->stored,
                -rounding);
         expect(trial, BOTTOMED, element->bottomed_out == (element->stroke_used > 1.0),
                element->name, element->stroke_used, 1.0);
-        coupler += element->kind == CZ_ELEMENT_COUPLER ? element->stroke : 0.0;
-        buffers += element->kind == CZ_ELEMENT_SIDE_BUFFERS ? element->stroke : 0.0;
+        /* Reversible strokes are largest at their own times: only plastic ones add up. */
+        double *sum_of = element->kind == CZ_ELEMENT_COUPLER        ? &coupler
+                         : element->kind == CZ_ELEMENT_SIDE_BUFFERS ? &buffers
+                                                                    : NULL;
+        if (sum_of != NULL && element->tube_energy > 0.0)
+            *sum_of += element->stroke;
+        else if (sum_of != NULL)
+            reversible = fmax(reversible, element->stroke);
         end += element->kind == CZ_ELEMENT_ANTI_CLIMBER || element->kind == CZ_ELEMENT_END
                    ? element->stroke
                    : 0.0;
+        elastic += element->kind == CZ_ELEMENT_END ? element->peak_force / END_STIFFNESS : 0.0;
     }
-    /* The closure is that of the bodies; pitch moves what lies above or below by up to 3 m. */
+    if (summary->beyond_validity) /* cars that have climbed are anywhere */
+        return;
+    /* The closure is that of the bodies; pitch moves what lies above or below by up to 3 m. The
+     * stroke of an end is its largest shortening, whose elastic part the others may take later. */
     double turned = 0.0;
     for (int i = 0; i < summary->n_vehicle; i++)
         turned = fmax(turned, 6.0 * summary->vehicle[i].max_pitch);
-    const double largest = fmax(coupler, fmax(end, buffers));
-    expect(trial, STROKES, largest <= interface->shortening + turned + 1e-6, interface->name,
-           largest, interface->shortening + turned);
+    const double largest = fmax(fmax(coupler, reversible), fmax(end, buffers));
+    const double most = interface->shortening + turned + elastic + 1e-6;
+    expect(trial, STROKES, largest <= most, interface->name, largest, most);
 }
 
 /* A recorded channel of an interface; NULL when there is none. */
@@ -265,8 +293,8 @@ static bool is_held(const CzRun *run, const double *closure) {
     return high - low <= 0.2; /* [mm] */
 }
 
-/* Nothing pushes any more: what can open is open or held; what is coupled and moves stores no more
- * than a thousandth of the first energy. */
+/* Nothing pushes any more: what can open is open or held, and stores no more than a thousandth of
+ * the first energy. */
 static void try_end(Trial *trial, const CzRun *run, const CzRunSummary *summary) {
     const int last = cz_run_n_sample(run) - 1;
     if (summary->ended != CZ_ENDED_BY_RULE || last < 0)
@@ -281,10 +309,9 @@ static void try_end(Trial *trial, const CzRun *run, const CzRunSummary *summary)
             stored += interface->element[k].stored;
             opens |= interface->element[k].sheared;
         }
-        if (is_held(run, closure))
+        if (!opens || is_held(run, closure))
             continue;
-        if (opens)
-            expect(trial, ENDED, fabs(force[last]) <= 1e-3, interface->name, force[last], 1e-3);
+        expect(trial, ENDED, fabs(force[last]) <= 1e-3, interface->name, force[last], 1e-3);
         const double most = 1e-3 * summary->energy.initial;
         expect(trial, ENDED, stored <= most, interface->name, stored, most);
     }
@@ -300,7 +327,8 @@ static void try_run(Trial *trial, const CzModel *model) {
         return;
     }
     const CzRunSummary *summary = cz_run_summary(run);
-    expect(trial, FAILED, summary->status == CZ_OK, summary->failure, 0, 0);
+    const bool is_strut = strstr(summary->failure, "from its pivot to its face") != NULL;
+    expect(trial, FAILED, summary->status == CZ_OK || is_strut, summary->failure, 0, 0);
     if (summary->status == CZ_OK) {
         const CzEnergy *energy = &summary->energy;
         const double rounding = ROUNDING * energy->initial;

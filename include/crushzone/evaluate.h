@@ -48,6 +48,8 @@ typedef struct CzCheckResult {
                         for a yes or no, and when not checked or when it does not apply */
     bool is_minimum; /* the limit is a lower one */
     bool is_flag;    /* a yes or no */
+    bool is_omitted; /* its scenario was left out by CzEvaluatorOptions.scenario, so it is not
+                        checked */
     bool beyond_validity; /* its run went beyond the model's validity: the value may be of later,
                              and a total is NaN */
     CzVerdict verdict;

@@ -104,6 +104,7 @@ static void judge_all(const CzEvaluator *evaluator, const CzVehicle *vehicles,
         const char *failure =
             check->scenario == CZ_NO_SCENARIO ? NULL : failure_of(run[check->scenario]);
         all[i] = cz_check_judge(check, &subject, failure);
+        all[i].is_omitted = check->scenario != CZ_NO_SCENARIO && run[check->scenario] == NULL;
     }
 }
 
@@ -170,6 +171,7 @@ static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *veh
             CZ_TRY(cz_match_judge(item, &subject, whole[s], match, NULL, error));
         const int j = evaluation->n_constraint++;
         evaluation->constraint_check[j] = check_of(match);
+        evaluation->constraint_check[j].is_omitted = run[s] == NULL;
         evaluation->check[evaluation->n_check++] = evaluation->constraint_check[j];
         evaluation->constraint[j] = fabs(match->residual) - 1;
         evaluation->violation = fmax(evaluation->violation, evaluation->constraint[j]);

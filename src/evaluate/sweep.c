@@ -142,13 +142,15 @@ static CzStatus judge(const CzSweepOptions *options, const CzEvaluation *evaluat
 
 /* Says which run of a point failed or did not come to its end. */
 static void note_failure(const CzEvaluation *evaluation, CzSweepPoint *point) {
-    for (int i = 0; i < evaluation->n_check; i++)
-        if (evaluation->check[i].verdict == CZ_VERDICT_NOT_CHECKED &&
-            evaluation->check[i].why != NULL && isnan(evaluation->check[i].value)) {
-            snprintf(point->message, sizeof point->message, "%.80s: %.160s",
-                     evaluation->check[i].scenario, evaluation->check[i].why);
+    for (int i = 0; i < evaluation->n_check; i++) {
+        const CzCheckResult *check = &evaluation->check[i];
+        if (check->verdict == CZ_VERDICT_NOT_CHECKED && !check->is_omitted && check->why != NULL &&
+            isnan(check->value)) {
+            snprintf(point->message, sizeof point->message, "%.80s: %.160s", check->scenario,
+                     check->why);
             return;
         }
+    }
 }
 
 static CzStatus evaluate(const Sweeping *sweeping, CzProblem *problem, CzSweepPoint *point,

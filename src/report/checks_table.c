@@ -73,7 +73,7 @@ static bool does_not_apply(const CzCheckResult *check) {
 static bool is_worst_of_name(const CzEvaluation *evaluation, int i, bool of_family) {
     const CzCheckResult *check = evaluation->check;
     for (int k = 0; k < evaluation->n_check; k++) {
-        if (k == i || strcmp(check[k].name, check[i].name) != 0)
+        if (k == i || check[k].is_omitted || strcmp(check[k].name, check[i].name) != 0)
             continue;
         const bool is_sister = check[i].family != NULL && check[k].family != NULL &&
                                strcmp(check[i].family, check[k].family) == 0;
@@ -92,7 +92,7 @@ const char *cz_checks_word(const CzCheckResult *check) {
 
 bool cz_checks_is_shown(const CzEvaluation *evaluation, int i) {
     const bool fails = evaluation->check[i].verdict == CZ_VERDICT_FAIL;
-    return is_worst_of_name(evaluation, i, fails);
+    return !evaluation->check[i].is_omitted && is_worst_of_name(evaluation, i, fails);
 }
 
 static const char *or_empty(const char *text) {
@@ -141,6 +141,24 @@ static void write_count(const CzEvaluation *evaluation, bool colour, FILE *strea
     fputs(".\n", stream);
 }
 
+int cz_checks_n_omitted(const CzEvaluation *evaluation) {
+    int n = 0;
+    for (int i = 0; i < evaluation->n_check; i++)
+        n += evaluation->check[i].is_omitted;
+    return n;
+}
+
+/* What a part of the scenarios leaves open, in one line. */
+static void write_omitted(const CzEvaluation *evaluation, bool colour, FILE *stream) {
+    const int n = cz_checks_n_omitted(evaluation);
+    if (n == 0)
+        return;
+    fprintf(stream, "%d check%s of scenarios that were not run: ", n, n == 1 ? "" : "s");
+    cz_grid_write_text(verdict_words[CZ_VERDICT_NOT_CHECKED],
+                       verdict_styles[CZ_VERDICT_NOT_CHECKED], colour, stream);
+    fputs(".\n", stream);
+}
+
 /* Whom no limit judges, and what the profile asks for and no check is made of. */
 static void write_not_covered(const CzEvaluation *evaluation, bool colour, FILE *stream) {
     for (int i = 0; i < evaluation->n_not_judged; i++) {
@@ -183,11 +201,12 @@ bool cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *b
         cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
-        if (several && !cz_checks_is_shown(evaluation, i))
+        if (check->is_omitted || (several && !cz_checks_is_shown(evaluation, i)))
             continue;
         put_check(&grid, check, with_before ? &before->check[i] : NULL, several);
     }
     is_whole &= cz_grid_write(&grid, colour, stream);
+    write_omitted(evaluation, colour, stream);
     write_count(evaluation, colour, stream);
     write_not_covered(evaluation, colour, stream);
     return is_whole;

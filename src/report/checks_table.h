@@ -8,7 +8,8 @@
 #include "crushzone/report.h"
 
 /* One line per check of a single scenario; of several scenarios the worst line of each check and
- * every failure, of a family of scenarios its worst failure. `before` (NULL for none) is an
+ * every failure, of a family of scenarios its worst failure; of scenarios that were left out one
+ * line in all. `before` (NULL for none) is an
  * evaluation with the same checks. Ends with a line that counts the verdicts. */
 bool cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
                            FILE *stream);
@@ -24,6 +25,9 @@ const char *cz_checks_word(const CzCheckResult *check);
 
 /* Whether a table that is short of room shows check i: it fails, or it is the worst of its name. */
 bool cz_checks_is_shown(const CzEvaluation *evaluation, int i);
+
+/* Number of checks of scenarios that were left out. */
+int cz_checks_n_omitted(const CzEvaluation *evaluation);
 
 /* How a search ended, in capital letters; of a fit, about its tolerances. */
 const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome);

@@ -147,7 +147,8 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
         return;
     char text[128];
     snprintf(text, sizeof text,
-             "%d more checks, each with a better margin than the one of its name above", n_more);
+             "%d more checks, each %swith a better margin than the one of its name above", n_more,
+             cz_checks_n_omitted(evaluation) > 0 ? "of a scenario that was not run, or " : "");
     cz_markup_open(markup, "details");
     cz_markup_element(markup, "summary", text);
     write_table(markup, evaluation, before, true);

@@ -63,7 +63,7 @@ for template in buffer-stop wagon override; do
     [ $template = buffer-stop ] && code=0 || code=1
     check "template $template runs" usable $code
 done
-stroke() { exits 0 "$C" sweep override.yaml --scenario worst --vary 'parts.anti-climber.stages[0].stroke_mm=300:400:2' && grep -q '300   FAIL' out.txt && grep -q '400 .* +.* wheels below' out.txt; }
+stroke() { exits 0 "$C" sweep override.yaml --scenario worst --vary 'parts.anti-climber.stages[0].stroke_mm=200:500:4' && grep -q '200   FAIL' out.txt && grep -q '500 .* +.* wheels below' out.txt && ! says out.txt 'RUN FAILED'; }
 check "a longer anti-climber keeps the cars of the template down, as it says" stroke
 sized() { exits 0 "$C" optimise wagon.yaml -o wagon && says out.txt 'FEASIBLE after' && says out.txt 'verification pass'; }
 check "the wagon's crash buffers can be sized" sized
@@ -132,6 +132,10 @@ one_scenario() { exits 0 "$C" run two.yaml --scenario slow --json && json out.tx
 check "--scenario runs one only" one_scenario
 omitted() { exits 0 "$C" run two.yaml --scenario slow --json && json out.txt verdict 'not checked' || json out.txt verdict fail; }
 check "an omitted scenario is no pass" omitted
+one_line() { exits 0 "$C" run two.yaml --scenario slow && says out.txt 'of scenarios that were not run: NOT CHECKED.' && ! says out.txt 'this scenario was not run'; }
+check "what was not run is one line of the table" one_line
+cut_short() { "$C" sweep two.yaml --scenario slow --vary simulation.longest_s=0.05:0.06:2 --json >out.txt; json out.txt points.0.message 'slow: the run of this scenario did not come to its end within simulation.longest_s'; }
+check "a sweep of one scenario says why that one failed" cut_short
 no_scenario() { exits 2 "$C" run two.yaml --scenario slwo && says err.txt "there is no scenario 'slwo'"; }
 check "an unknown scenario is refused" no_scenario
 near() { exits 2 "$C" show two.yaml --scenario solw && says err.txt "did you mean 'slow'?"; }

@@ -114,6 +114,21 @@ static void several_scenarios_show_the_worst_lines_and_every_failure(void **stat
     free(text);
 }
 
+static void checks_of_scenarios_left_out_are_one_line(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    s.check[1].is_omitted = s.check[2].is_omitted = true;
+    s.check[1].verdict = s.check[2].verdict = CZ_VERDICT_NOT_CHECKED;
+    s.check[2].name = s.check[0].name; /* no worse than the one that was made */
+    char *text = table_text(&s, false);
+    assert_has(text, "2 checks of scenarios that were not run: NOT CHECKED.\n");
+    assert_lacks(text, "mean deceleration");
+    assert_lacks(text, "no stops are declared");
+    assert_has(text, "5 checks: 1 FAIL, 2 NOT CHECKED, 2 pass. Verdict: FAIL.\n");
+    free(text);
+}
+
 static void a_value_that_breaks_its_limit_does_not_read_as_if_it_kept_it(void **state) {
     (void)state;
     StandIn s;
@@ -238,6 +253,7 @@ int main(void) {
         cmocka_unit_test(without_colour_there_is_no_escape_code),
         cmocka_unit_test(names_cannot_send_escape_codes),
         cmocka_unit_test(several_scenarios_show_the_worst_lines_and_every_failure),
+        cmocka_unit_test(checks_of_scenarios_left_out_are_one_line),
         cmocka_unit_test(a_value_that_breaks_its_limit_does_not_read_as_if_it_kept_it),
         cmocka_unit_test(failed_and_incomplete_runs_say_so),
         cmocka_unit_test(without_checks_nothing_is_judged),

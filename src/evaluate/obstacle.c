@@ -4,7 +4,8 @@
  * of a rail vehicle is about it: one rigid vehicle of at most 20 t (the reference obstacles at
  * level crossings have 3 t and 15 t, EN 15227 from memory; the bound is ours) without coupler, side
  * buffers, anti-climber or occupied space, which is never the train behind. A train behind that
- * looks like it is no help to tell them apart, and both are then judged.
+ * looks like it is no help to tell them apart, and both are then judged; so is the partner of one
+ * that is fixed or an obstacle by its role, else nothing would be judged.
  */
 #include "base/error.h"
 #include "evaluate/scene.h"
@@ -33,6 +34,18 @@ static bool looks_like_obstacle(const CzTrain *train) {
     return vehicle->model == CZ_MODEL_RIGID && vehicle->mass <= heaviest;
 }
 
+static bool is_fixed(const CzTrain *train) {
+    for (int i = 0; i < train->n_vehicles; i++)
+        if (train->vehicles[i].model != CZ_MODEL_FIXED)
+            return false;
+    return true;
+}
+
+/* Whether the train behind is one whose partner may go unjudged. */
+static bool is_plainly_train(const CzTrain *behind) {
+    return behind->role != CZ_ROLE_OBSTACLE && !is_fixed(behind) && !looks_like_obstacle(behind);
+}
+
 /* Whether a train without a role is taken for an obstacle. */
 static bool is_taken_for_obstacle(const CzInput *input, int train, int n_scene,
                                   const CzScene *scene) {
@@ -44,7 +57,7 @@ static bool is_taken_for_obstacle(const CzInput *input, int train, int n_scene,
             return false;
         if (scene[s].train[1] != train)
             continue;
-        if (looks_like_obstacle(&input->trains[scene[s].train[0]]))
+        if (!is_plainly_train(&input->trains[scene[s].train[0]]))
             return false;
         is_partner = true;
     }
@@ -63,8 +76,7 @@ static const char *why_not_judged(const CzInput *input, int train, int n_scene,
     }
     return is_taken_for_obstacle(input, train, n_scene, scene)
                ? "taken for an obstacle: one rigid vehicle of at most 20 t that nothing couples "
-                 "to; "
-                 "'role: train' has it judged, 'role: obstacle' confirms it"
+                 "to; 'role: train' has it judged, 'role: obstacle' confirms it"
                : NULL;
 }
 

@@ -145,6 +145,10 @@ nobody() {
     exits 2 "$C" check crossing.yaml --set trains.lorry.role=obstacle --set trains.A.role=obstacle && says err.txt 'nothing would be judged'
 }
 check "two obstacles are refused" nobody
+alone() {
+    judged L FAIL --set trains.A.role=obstacle && says out.txt 'Not judged: A, its role' && ! says out.txt 'Not judged: lorry'
+}
+check "the partner of an obstacle is judged, however light it is" alone
 no_objective() { # what a search would minimise is no matter of a check
     printf 'extends: crossing.yaml\nchecks: {closing_rules: false}\noptimise: {minimise: vehicles.max_wheel_lift_mm, evaluations: 9, variables: [{path: "parts.end.stages[0].force_kN", min: 500, max: 1600}]}\n' >aim.yaml
     agree aim.yaml 0 pass pass false PASS && exits 1 "$C" optimise aim.yaml -o aimed && says out.txt 'what is to be minimised has no value in any design' && json aimed/outcome.json best_is_feasible false

@@ -98,7 +98,8 @@ typedef struct CzFit CzFit;
  * Titles may be missing when the options give columns and units; '#' begins a comment. Strokes grow
  * to their largest and may then go back once, while the force falls: that is the unloading.
  * Statuses: CZ_OK, CZ_STATUS_INPUT with file, line and column of the first mistake,
- * CZ_STATUS_NO_MEMORY. *fit is NULL unless CZ_OK is returned; NULL options are the default ones. */
+ * CZ_STATUS_VIOLATED where no law follows the curve, CZ_STATUS_NO_MEMORY. *fit is NULL unless CZ_OK
+ * is returned; NULL options are the default ones. */
 CZ_MUST_CHECK CZ_API CzStatus cz_fit_read(const char *path, const CzFitOptions *options,
                                           CzFit **fit, CzError *error);
 

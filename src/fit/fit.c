@@ -171,6 +171,20 @@ void cz_fit_let_rise(CzStaged *staged) {
         force = staged->stage[i].force = fmax(staged->stage[i].force, force);
 }
 
+/* A curve that was read well and that no law follows: the same answer as a law that is refused. */
+static CzStatus no_law(const CzFit *fit, CzError *error, const char *why) {
+    const CzStatus status =
+        cz_fail(error, CZ_STATUS_VIOLATED, "no law as %s is like this curve: %s",
+                cz_fit_kind_word(fit->summary.kind), why);
+    if (error == NULL)
+        return status;
+    snprintf(error->file, sizeof error->file, "%s",
+             fit->summary.file != NULL ? fit->summary.file : "");
+    snprintf(error->help, sizeof error->help,
+             "another --as, --from or --to may be; are the units right?");
+    return status;
+}
+
 CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzError *error) {
     const bool must_rise = staged == &fit->buffer;
     round_strokes(staged);
@@ -190,9 +204,7 @@ CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzE
     }
     if (fabs(factor - 1.0) <= FAR_OFF)
         return CZ_OK;
-    return cz_fail(error, CZ_STATUS_INPUT,
-                   "no law as %s is like this curve: stages of its energy are far from its force",
-                   cz_fit_kind_word(fit->summary.kind));
+    return no_law(fit, error, "stages of its energy are far from its force");
 }
 
 /* ---- values ---- */
@@ -297,7 +309,7 @@ static CzRecordId record_of(const CzFit *fit, const char *path) {
 
 /* Every value is one that the problem file takes. */
 static CzStatus check_values(const CzFit *fit, CzError *error) {
-    char number[CZ_NUMBER_TEXT];
+    char number[CZ_NUMBER_TEXT], why[160];
     for (int i = 0; i < fit->n_value; i++) {
         const char *path = fit->value[i].path, *point = strrchr(path, '.');
         const CzUnit *unit = NULL;
@@ -308,11 +320,9 @@ static CzStatus check_values(const CzFit *fit, CzError *error) {
         if (key != NULL && value >= key->lo * (1 - 1e-12) && value <= key->hi * (1 + 1e-12) &&
             !(is_force && value <= 0.0)) /* a stage without force absorbs nothing */
             continue;
-        return cz_fail(error, CZ_STATUS_INPUT,
-                       "no law as %s is like this curve: %s would be %s, which no problem file "
-                       "takes; are the units right?",
-                       cz_fit_kind_word(fit->summary.kind), path,
-                       cz_number_print_short(number, fit->value[i].value));
+        snprintf(why, sizeof why, "%.80s would be %s, which no problem file takes", path,
+                 cz_number_print_short(number, fit->value[i].value));
+        return no_law(fit, error, why);
     }
     return CZ_OK;
 }

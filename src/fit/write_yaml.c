@@ -20,6 +20,11 @@ static const char *percent_of(char text[CZ_NUMBER_TEXT], double share) {
     return cz_number_print_short(text, round(1e3 * share) / 10.0);
 }
 
+/* A force in kN; what rounding left of zero is 0. */
+static const char *force_of(char text[CZ_NUMBER_TEXT], double force, double mean) {
+    return text_of(text, fabs(force) <= 1e-12 * mean ? 0.0 : 1e-3 * force);
+}
+
 static void write_head(const CzFitSummary *summary, FILE *stream) {
     char a[CZ_NUMBER_TEXT], b[CZ_NUMBER_TEXT], c[CZ_NUMBER_TEXT];
     fprintf(stream, "# %s of %d points (%s) as %s\n",
@@ -33,8 +38,9 @@ static void write_head(const CzFitSummary *summary, FILE *stream) {
         fprintf(stream, "#   given back  %s kJ, law %s kJ\n", text_of(a, 1e-3 * summary->returned),
                 text_of(b, 1e-3 * summary->law_returned));
     fprintf(stream, "#   force       differs by at most %s kN, at %s mm; root mean square %s kN\n",
-            text_of(a, 1e-3 * summary->largest_difference), text_of(b, 1e3 * summary->at_stroke),
-            text_of(c, 1e-3 * summary->mean_square));
+            force_of(a, summary->largest_difference, summary->mean_force),
+            text_of(b, 1e3 * summary->at_stroke),
+            force_of(c, summary->mean_square, summary->mean_force));
     fprintf(
         stream,
         "#   quality     %s: root mean square %s %% of the mean force, peak %s %% and energy %s "

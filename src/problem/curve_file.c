@@ -176,8 +176,26 @@ static void refuse_count(const CzCurveReading *reading, int line, int n) {
                         "thousands need quotes around them, or ';' between the columns");
 }
 
+/* Refuses a line in which a quote opens and none closes: where its fields end is then unknown. */
+static bool has_whole_quotes(const CzCurveReading *reading, int line) {
+    const char *text = reading->source.line[line];
+    int n = 0, column = 1, last = 1;
+    for (; *text != '\0'; text++) {
+        n += *text == '"';
+        last = *text == '"' ? column : last;
+        column += ((unsigned char)*text & 0xc0) != 0x80;
+    }
+    if (n % 2 == 0)
+        return true;
+    cz_mistake_at(reading->mistakes, &reading->source, line + 1, last,
+                  "a quotation mark opens here and none closes");
+    return false;
+}
+
 /* Takes one line; an empty one of a table is passed over. */
 static void take_point(CzCurveReading *reading, int line) {
+    if (!has_whole_quotes(reading, line))
+        return;
     CzFieldWalk walk = cz_fields_begin(reading->source.line[line], reading->separator);
     CzField field, wanted[2] = {{.text = "", .column = 1}, {.text = "", .column = 1}};
     int all = 0, filled = 0;

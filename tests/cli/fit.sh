@@ -105,6 +105,15 @@ check "--csv-decimal , alone takes ; between the columns" german_alone
 printf '\357\273\277' | cat - tube.csv | sed 's/$/\r/' >excel.csv
 check "byte order mark and line ends of other systems do no harm" exits 0 "$C" fit excel.csv --as anti-climber --basis static
 
+# A curve that was read well and has no law ends as a law that is refused does, and names its file.
+printf 'stroke_mm,force_kN\n0,0\n1,9000\n2,100\n300,100\n' >spike.csv
+spike() { exits 1 "$C" fit spike.csv --as coupler --basis static && says err.txt 'spike.csv: error: no law as coupler is like this curve' && [ ! -s out.txt ] &&
+    exits 1 "$C" fit spike.csv --as anti-climber --basis static --json && json out.txt error.file spike.csv; }
+check "a curve that no law follows ends with 1 and names its file" spike
+printf 'stroke_mm,force_kN\n37.5,0\n39.5,400\n41.5,600\n87.5,605\n137.5,610\n237.5,620\n337.5,630\n' >exact.csv
+exact() { exits 0 "$C" fit exact.csv --as end --basis static && says out.txt 'differs by at most 0 kN, at 0 mm; root mean square 0 kN'; }
+check "what rounding left of no difference is 0" exact
+
 # What testing machines write: the same tube, out of their files, gives the same law.
 "$C" fit tube.csv --as anti-climber --basis static --json >plain.json
 number() { grep -F "\"$2\":" "$1" | sed 's/.*: //; s/,$//'; }

@@ -297,7 +297,7 @@ static void a_law_beyond_the_ranges_of_a_problem_file_is_refused(void **state) {
     options.kind = CZ_FIT_COUPLER;
     options.n_stage = 0;
     assert_int_equal(cz_fit_points(curve.n, curve.x, curve.f, &options, &fit, &error),
-                     CZ_STATUS_INPUT);
+                     CZ_STATUS_VIOLATED);
     assert_null(fit);
     assert_non_null(strstr(error.message, "buffer.transition_stiffness_MN_m would be"));
 }

@@ -184,19 +184,27 @@ static bool closes_in(const CzBatch *batch, int design) {
     return false;
 }
 
-/* Speed that a car keeps at least: that of rest where it brakes, its own where it rolls. */
+static double rolling_resistance(const CzBatch *batch, int car, int design) {
+    const CzCar *description = &batch->model->car[car];
+    return batch->vehicles[design][description->vehicle].rolling_resistance;
+}
+
+/* Speed that a car keeps at least: that of rest where it brakes or is slowed by rolling more than
+ * the car behind it, its own where it rolls. */
 static double rest_or_speed(const CzBatch *batch, int car, int design) {
     const size_t lane = cz_lane(batch, car, design);
+    const bool is_slowed = car > 0 && rolling_resistance(batch, car, design) >
+                                          rolling_resistance(batch, car - 1, design);
     const double speed = cz_velocity(batch, CZ_DOF_BODY_X, lane);
     const bool brakes = cz_parameter(batch, CZ_P_BRAKE_MOMENT_0, lane) > 0.0 ||
                         cz_parameter(batch, CZ_P_BRAKE_MOMENT_3, lane) > 0.0 ||
                         cz_parameter(batch, CZ_P_DRAG_BRAKE, lane) > 0.0 ||
                         cz_parameter(batch, CZ_P_DRAG_SLIDE, lane) > 0.0;
-    return brakes ? fmin(speed, 0.0) : speed;
+    return brakes || is_slowed ? fmin(speed, 0.0) : speed;
 }
 
 /* Largest speed at which cars that are apart now can still meet: what is ahead may come to rest
- * where it brakes. */
+ * where it is slowed. */
 static double meeting_speed(const CzBatch *batch, int design) {
     double slowest = INFINITY, largest = 0.0;
     for (int car = batch->model->n_car - 1; car >= 0; --car) {
@@ -207,7 +215,8 @@ static double meeting_speed(const CzBatch *batch, int design) {
     return largest;
 }
 
-/* Whether cars that have parted can meet again: what is ahead may come to rest where it brakes. */
+/* Whether cars that have parted can meet again: what is ahead may come to rest where it is slowed.
+ */
 static bool can_meet_again(const CzBatch *batch, int design) {
     static const int forces[] = {CZ_M_COUPLER_FORCE, CZ_M_FACE_FORCE, CZ_M_SIDE_FORCE};
     for (int car = 0; car + 1 < batch->model->n_car; ++car) {

@@ -84,12 +84,38 @@ static void a_train_held_by_its_brakes_is_at_its_end(void **state) {
     collision_free(&collision);
 }
 
+/* 60 t at 1 m/s throw 30 t off at 4/3 m/s and follow at 1/3. Slowed at 0.05 g the light car is met
+ * again after 2 / 0.49 = 4.1 s, pushed on and met until nothing is left to close at 0.1 m/s; where
+ * both are slowed alike, the one behind never comes near. */
+static void cars_meet_again_where_rolling_resistance_slows_the_one_ahead(void **state) {
+    (void)state;
+    static const char *const slowed[][2] = {{"trains.A.vehicles.A1.rolling_resistance_N_kN=0",
+                                             "trains.B.vehicles.B1.rolling_resistance_N_kN=50"},
+                                            {"trains.A.vehicles.A1.rolling_resistance_N_kN=50",
+                                             "trains.B.vehicles.B1.rolling_resistance_N_kN=50"}};
+    for (int both = 0; both < 2; both++) {
+        Collision collision = collide(SPRINGS,
+                                      WITH(devices[0], "trains.A.vehicles.A1.mass_t=60",
+                                           "trains.B.vehicles.B1.mass_t=30", "trains.A.speed_m_s=1",
+                                           slowed[both][0], slowed[both][1]),
+                                      0);
+        assert_completed(&collision);
+        assert_true(collision.summary->ended == CZ_ENDED_BY_RULE);
+        if (both)
+            assert_true(collision.summary->simulated < 1.0);
+        else
+            assert_true(collision.summary->vehicle[0].final_speed <= 0.1);
+        collision_free(&collision);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(elastic_cars_exchange_their_speeds_without_a_duration),
         cmocka_unit_test(references_and_brief_runs_await_the_rebound_too),
         cmocka_unit_test(a_coupled_train_leaves_the_wall),
         cmocka_unit_test(a_train_held_by_its_brakes_is_at_its_end),
+        cmocka_unit_test(cars_meet_again_where_rolling_resistance_slows_the_one_ahead),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -170,6 +170,12 @@ static CzStatus check_target(const char *path, bool replaces_search, CzError *er
     return check_movable(path, &info, error);
 }
 
+/* Whether the last part of a path is the step up. */
+static bool steps_up(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return strcmp(slash != NULL ? slash + 1 : path, "..") == 0;
+}
+
 /* Whether a folder can be made there: one is made and removed in the nearest folder above that is
  * there. */
 static CzStatus check_parents(const char *path, CzError *error) {
@@ -177,6 +183,10 @@ static CzStatus check_parents(const char *path, CzError *error) {
     struct stat info;
     cz_parent_of(path, parent);
     while (stat(parent, &info) != 0 && errno == ENOENT && strcmp(parent, ".") != 0) {
+        if (steps_up(parent)) /* once made, it would lead to what nobody has looked at */
+            return cz_fail(error, CZ_STATUS_OUTPUT,
+                           "%.200s cannot be written: '..' leads out of a folder that is not there",
+                           path);
         cz_parent_of(parent, above);
         memcpy(parent, above, sizeof parent);
     }

@@ -52,6 +52,11 @@ own() {
         exits 4 "$C" optimise over.yaml -o search -q && says err.txt 'search/optimised.yaml, which this problem is read from' && [ -f search/optimised.yaml ]
 }
 check "a folder that holds an input is refused, the file or one that it is built on" own
+out_of_nowhere() {
+    exits 0 "$C" run small.yaml -q -o built && exits 4 "$C" run built/resolved.yaml -o nowhere/../built -q && says err.txt 'leads out of a folder that is not there' &&
+        [ ! -e nowhere ] && mkdir nowhere && exits 4 "$C" run built/resolved.yaml -o nowhere/../built -q && says err.txt 'which this problem is read from'
+}
+check "nor is it reached through a folder that is not there yet" out_of_nowhere
 input_file() {
     cp small.yaml kept.yaml
     exits 4 "$C" plot small.yaml --svg small.yaml && says err.txt 'is read and would be replaced' && exits 4 "$C" report out -o out/resolved.yaml -q &&

@@ -176,7 +176,10 @@ static void check_keys(Curve *curve, const CzNode *node, bool has_file) {
 static void reduce(Curve *curve, const CzNode *node, CzTable *table) {
     char energy[CZ_NUMBER_TEXT], force[CZ_NUMBER_TEXT];
     const int n_before = curve->n_point;
+    double largest = 0.0;
     CzCurveChange change;
+    for (int i = 0; i < n_before; i++)
+        largest = fmax(largest, curve->y[i]);
     if (!cz_reduce_curve(&curve->reader->arena, curve->x, curve->y, &curve->n_point,
                          CZ_MAX_CURVE_POINTS, &change))
         return;
@@ -187,7 +190,9 @@ static void reduce(Curve *curve, const CzNode *node, CzTable *table) {
             "to %s kN",
             curve->key->stem, n_before, curve->n_point,
             cz_number_print_short(energy, change.area / 1e3),
-            cz_number_print_short(force, change.largest_difference / 1e3));
+            cz_number_print_short(force, change.largest_difference <= 1e-12 * largest
+                                             ? 0.0 /* what rounding leaves of it */
+                                             : change.largest_difference / 1e3));
     table->n_point = curve->n_point;
     memcpy(table->x, curve->x, (size_t)curve->n_point * sizeof table->x[0]);
     memcpy(table->y, curve->y, (size_t)curve->n_point * sizeof table->y[0]);

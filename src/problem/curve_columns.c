@@ -198,6 +198,7 @@ typedef struct Units {
     CzField field; /* the title */
     char title[CZ_MOST_FIELD_TEXT];
     const CzCurveUnit *in_title, *in_row;
+    bool has_unknown; /* the row of units has something there that is none */
 } Units;
 
 static Units units_of(const CzCurveReading *reading, int i) {
@@ -209,6 +210,9 @@ static Units units_of(const CzCurveReading *reading, int i) {
         units.in_title = cz_curve_unit_of_title(cz_field_text(&units.field, units.title), NULL);
     if (reading->units != NULL && cz_field_take(reading->units, reading->separator, index, &below))
         units.in_row = cz_curve_unit_alone(&below);
+    else
+        below = (CzField){.text = ""};
+    units.has_unknown = units.in_row == NULL && below.n > 0 && strchr("-1", below.text[0]) == NULL;
     if (units.in_title == NULL && units.in_row == NULL && units.field.n > 1)
         units.in_title = cz_curve_unit_alone(&units.field);
     return units;
@@ -244,6 +248,20 @@ static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *colu
     return false;
 }
 
+/* Whether a title ends in brackets around what can only be a unit: short, no blank and no digit
+ * but an exponent's, unlike "(car 1)" or "(A1)". */
+static bool ends_like_a_unit(const char *title) {
+    const size_t n = strlen(title);
+    if (n < 3 || (title[n - 1] != ']' && title[n - 1] != ')'))
+        return false;
+    const char *open = strrchr(title, title[n - 1] == ']' ? '[' : '(');
+    if (open == NULL)
+        return false;
+    const size_t inside = n - (size_t)(open - title) - 2;
+    const bool has_digit = strcspn(open, "013456789") < strlen(open);
+    return inside > 0 && inside <= 6 && !has_digit && strchr(open, ' ') == NULL;
+}
+
 bool cz_reading_find_unit(CzCurveReading *reading, int i) {
     const CzCurveColumn *column = &reading->request->column[i];
     const Units units = units_of(reading, i);
@@ -262,7 +280,8 @@ bool cz_reading_find_unit(CzCurveReading *reading, int i) {
         return refuse_unit(reading, column, &units);
     if (unit != NULL && unit->dimension == column->dimension)
         si = unit->si;
-    else if (unit != NULL || !(si > 0.0))
+    else if (unit != NULL || !(si > 0.0) ||
+             (column->unit == NULL && (units.has_unknown || ends_like_a_unit(units.title))))
         return refuse_unit(reading, column, &units);
     reading->points->unit[i] = column->in > 0.0 ? si / column->in : si;
     return true;

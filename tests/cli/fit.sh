@@ -113,6 +113,23 @@ check "a curve that no law follows ends with 1 and names its file" spike
 printf 'stroke_mm,force_kN\n37.5,0\n39.5,400\n41.5,600\n87.5,605\n137.5,610\n237.5,620\n337.5,630\n' >exact.csv
 exact() { exits 0 "$C" fit exact.csv --as end --basis static && says out.txt 'differs by at most 0 kN, at 0 mm; root mean square 0 kN'; }
 check "what rounding left of no difference is 0" exact
+{ printf 'stroke_mm,force_kN\n'; awk 'BEGIN { for (i = 0; i <= 300; i++) print i "," (i % 20 < 19 ? 50 * (i % 20) : 900) }'; } >saw.csv
+saw() {
+    printf 'schema: 1\ntitle: saw\ntrains:\n  - {name: A, speed_km_h: 9, vehicles: [{model: rigid, mass_t: 30, front: {face_gap_mm: 0, unloading_stiffness_MN_m: 500, curve: {file: saw.csv, basis: static}}}]}\n  - {name: W, vehicles: [{model: fixed}]}\n' >saw.yaml
+    exits 0 "$C" validate saw.yaml && says err.txt 'was reduced from 301 to 64 points' && says err.txt 'differs by up to 0 kN'
+}
+check "a curve that loses points in line with others differs by 0" saw
+matched() { # matched LINES COLUMN: a problem whose match reads a file of these lines
+    printf '%b' "$1" >matched.csv
+    { grep -v '^catalogue' pasted.yaml && printf 'optimise:\n  variables: [{path: "trains.A.vehicles.A1.front.stages[0].force_kN", min: 900, max: 1500}]\n  match: [{name: v, channel: v_A1_m_s, file: matched.csv, column: "%s", tolerance: 0.1}]\n' "$2"; } >matched.yaml
+}
+unknown_unit() {
+    matched 't_ms,v [foo]\n0,5\n100,4\n' 'v [foo]' && exits 2 "$C" validate matched.yaml && says err.txt "matched.csv:1:6: error: the unit of column 'v [foo]', the speed, is not known" &&
+        matched 'time,v\n(ms),(foo)\n0,5\n100,4\n' v && exits 2 "$C" validate matched.yaml && says err.txt "the unit of column 'v', the speed, is not known" &&
+        matched 'time,v\nms,-\n0,5\n100,4\n' v && exits 0 "$C" validate matched.yaml &&
+        matched 't_ms,v (A1)\n0,5\n100,4\n' 'v (A1)' && exits 0 "$C" validate matched.yaml
+}
+check "a unit that is none is not taken for the channel's" unknown_unit
 
 # What testing machines write: the same tube, out of their files, gives the same law.
 "$C" fit tube.csv --as anti-climber --basis static --json >plain.json

@@ -7,7 +7,7 @@ build() { # build FOLDER OPTION...
     cmake -S "$SOURCE" -B "$folder" -G Ninja -DCZ_BUILD_TESTS=OFF "$@" && cmake --build "$folder"
 }
 # What is compared: two full cars, rigid cars in a search, a wall, two cars on masses that run along with their wheels, and
-# one scenario of two trains of six full cars; wall and trains run on the modes of the track.
+# two seconds of two trains of six full cars; wall and trains run on the modes of the track.
 results() { # results FOLDER PROGRAM OPTION...: what the program writes, into FOLDER, run_info taken out
     folder=$1
     program=$2
@@ -18,8 +18,8 @@ results() { # results FOLDER PROGRAM OPTION...: what the program writes, into FO
         "$program" run "$SOURCE/problems/wall.yaml" --json -o "$folder/wall" "$@" >"$folder/wall.json" &&
         "$program" run "$SOURCE/problems/paper-25kmh.yaml" --json -o "$folder/paper" --set simulation.track=co-running \
             "$@" >"$folder/paper.json" &&
-        "$program" run "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h-partner-high --json -o "$folder/metro" \
-            "$@" >"$folder/metro.json" &&
+        "$program" run "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h-partner-high --set simulation.duration_s=2 \
+            --json -o "$folder/metro" "$@" >"$folder/metro.json" &&
         "$program" optimise search.yaml --evaluations 60 --json -o "$folder/search" "$@" >"$folder/search.json"
     # A search that found nothing feasible in so few evaluations is as good for a comparison as any.
     [ $? -le 1 ] || return 1
@@ -43,7 +43,7 @@ all_scenarios() { # all_scenarios FOLDER OPTION...: every scenario of the two tr
     folder=$1
     shift
     mkdir "$folder"
-    "$PROGRAM" run "$SOURCE/problems/metro-6-car.yaml" --json "$@" >"$folder/summary.json" || return 1
+    "$PROGRAM" run "$SOURCE/problems/metro-6-car.yaml" --set simulation.duration_s=2 --json "$@" >"$folder/summary.json" || return 1
     without_timing "$folder"
 }
 threads_agree() {

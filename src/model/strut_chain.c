@@ -1,11 +1,15 @@
 /* The force at which a chain of cars and coupler struts folds.
  *
- *   bodies         2 k (z^2 + l_c^2 beta^2) / 2         each on the springs k of its two bogies
- *   hinges         K (phi - beta)^2 / 2                 phi = (z_B - z_A) / l of the pivots'
- * heights shortening     l phi^2 / 2                          of a strut that turns by phi a beta^2
- * / 2                         of a body between its middle and a pivot pivot on an    x beta^2 / 2
- * + w beta + p beta_e^2 / 2,   w = z_e - z - x beta end mass       springs k_g w^2 / 2 and k_f
- * (beta_e - beta)^2 / 2
+ *   stored     k (z^2 + l_c^2 beta^2)                     a body on the springs of its bogies
+ *              K (phi - beta)^2 / 2                       a hinge between strut and body
+ *              k_g w^2 / 2 + k_f (beta_e - beta)^2 / 2    an end mass that carries a pivot
+ *
+ *   shortened  l phi^2 / 2                                a strut
+ *              a beta^2 / 2                               a body from its middle to a pivot
+ *              x beta^2 / 2 + w beta + p beta_e^2 / 2     the same with an end mass
+ *
+ * phi = (z_B - z_A) / l is the angle of the line between the pivots, w = z_e - z - x beta the
+ * travel of the end mass across its body.
  *
  *   K u = F G u    with the energies u^T K u / 2 and the shortening u^T G u / 2 under the force F
  *

@@ -34,6 +34,14 @@ static int judge(const CzArguments *arguments, const CzSweep *sweep) {
     return judges && !passes ? cz_status_exit_code(CZ_STATUS_VIOLATED) : 0;
 }
 
+/* Number of points that were run before an interruption. */
+static int count_run(const CzSweep *sweep) {
+    int n = 0;
+    for (int i = 0; i < sweep->n_point; i++)
+        n += sweep->point[i].state != CZ_SWEEP_NOT_RUN;
+    return n;
+}
+
 static int answer(const CzSession *session, const CzSweep *sweep) {
     const CzArguments *arguments = session->arguments;
     const CzReportOptions options = cz_session_report_options(session, sweep->wall_s);
@@ -52,7 +60,11 @@ static int answer(const CzSession *session, const CzSweep *sweep) {
         cz_print_mistake(arguments, "error", NULL, &error);
         return cz_status_exit_code(status);
     }
-    cz_tell(arguments, "%d points in %.3g s%s%s", sweep->n_point, sweep->wall_s,
+    const int n_run = count_run(sweep);
+    char of_all[32] = "";
+    if (n_run < sweep->n_point)
+        snprintf(of_all, sizeof of_all, " of %d", sweep->n_point);
+    cz_tell(arguments, "%d%s points in %.3g s%s%s", n_run, of_all, sweep->wall_s,
             folder != NULL ? ", results in " : "", folder != NULL ? folder : "");
     return judge(arguments, sweep);
 }

@@ -200,7 +200,7 @@ static int list_numbers(const CzEvaluator *evaluator, const CzEvaluation *evalua
         const CzCheckResult *result = check->is_target ? &evaluation->constraint_check[n_constraint]
                                                        : &evaluation->check[n_check++];
         n_constraint += check->is_constraint;
-        if (check->is_rule && check->scale != CZ_FLAG_SCALE)
+        if (result->is_omitted || (check->is_rule && check->scale != CZ_FLAG_SCALE))
             continue; /* no number of a run */
         if (number != NULL)
             number[n] = number_of_check(check, result);

@@ -134,6 +134,8 @@ omitted() { exits 0 "$C" run two.yaml --scenario slow --json && json out.txt ver
 check "an omitted scenario is no pass" omitted
 one_line() { exits 0 "$C" run two.yaml --scenario slow && says out.txt 'of scenarios that were not run: NOT CHECKED.' && ! says out.txt 'this scenario was not run'; }
 check "what was not run is one line of the table" one_line
+no_number() { exits 0 "$C" verify two.yaml --scenario slow && says out.txt slow && ! says out.txt fast; }
+check "nor is it a number that verify counts" no_number
 cut_short() { "$C" sweep two.yaml --scenario slow --vary simulation.longest_s=0.05:0.06:2 --json >out.txt; json out.txt points.0.message 'slow: the run of this scenario did not come to its end within simulation.longest_s'; }
 check "a sweep of one scenario says why that one failed" cut_short
 no_scenario() { exits 2 "$C" run two.yaml --scenario slwo && says err.txt "there is no scenario 'slwo'"; }

@@ -179,7 +179,8 @@ static void write_x_axis(const CzPlot *plot, const Frame *frame, CzMarkup *marku
         cz_markup_attribute(markup, "stroke-opacity", ".13");
         cz_markup_close(markup);
         tick_text(text, i * step, step);
-        cz_svg_text(markup, x, bottom + 17, "middle", text);
+        const double last = CZ_PLOT_WIDTH - 0.5 * FONT_SIZE * cz_text_width(text);
+        cz_svg_text(markup, fmin(x, last), bottom + 17, "middle", text);
     }
     cz_svg_text(markup, LEFT + frame->width / 2, bottom + 33, "middle", plot->x_label);
 }

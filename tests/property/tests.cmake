@@ -1,6 +1,6 @@
 if(CZ_IS_WHOLE)
     cz_program(properties properties.c random_design.c)
     target_link_libraries(properties PRIVATE PkgConfig::JANSSON)
-    cz_script(properties_hold physics property.sh $<TARGET_FILE:properties> 1 200)
+    cz_script(properties_hold runs property.sh $<TARGET_FILE:properties> 1 200)
     cz_long_script(properties_hold_long long property.sh $<TARGET_FILE:properties> 1000 2000)
 endif()

@@ -84,13 +84,17 @@ static void note_bogie(CzBlock *d, int bogie, const double *restrict lift_before
     const double sign = bogie == 0 ? -1.0 : 1.0;
     const double *restrict half = P(BOGIE_X), *restrict compression = S_AT(SECONDARY_REAR, bogie);
     const double *restrict xb = X(BODY_X), *restrict zb = X(BODY_Z);
+    const double *restrict c = S(BODY_COS), *restrict s = S(BODY_SIN);
     const double *restrict xt = X_AT(BOGIE_X_REAR, 3 * bogie), *restrict zt =
                                                                    X_AT(BOGIE_Z_REAR, 3 * bogie);
+    const double *restrict ct = S_AT(BOGIE_COS_REAR, 2 * bogie), *restrict st = S_AT(BOGIE_SIN_REAR,
+                                                                                     2 * bogie);
     const double *restrict bump = P(SECONDARY_BUMP_GAP), *restrict bump_k =
                                                              P(SECONDARY_BUMP_STIFFNESS);
     const double *restrict lift = P(SECONDARY_LIFT_GAP), *restrict lift_k =
                                                              P(SECONDARY_LIFT_STIFFNESS);
-    const double *restrict link_body = P(LINK_BODY_Z), *restrict pull = S_AT(LINK_REAR, bogie);
+    const double *restrict link_body = P(LINK_BODY_Z), *restrict link_bogie = P(LINK_BOGIE_Z);
+    const double *restrict pull = S_AT(LINK_REAR, bogie);
     const double *restrict gz = G(BODY_Z), *restrict gm = G(BODY_PITCH);
     double *restrict link_moment = d->budget->link_moment;
     double *restrict suspension_lift = d->budget->suspension_lift, *restrict suspension_moment =
@@ -102,13 +106,15 @@ static void note_bogie(CzBlock *d, int bogie, const double *restrict lift_before
                                      .bump_stiffness = bump_k[i],
                                      .lift_gap = lift[i],
                                      .lift_stiffness = lift_k[i]};
-        const double arm = sign * half[i] + (xt[i] - xb[i]);
+        const double dx = sign * half[i] + (xt[i] - xb[i]) - link_bogie[i] * st[i];
+        const double dz = link_body[i] - link_bogie[i] + (zt[i] - zb[i]) + link_bogie[i] * ct[i];
+        const double arm = c[i] * dx + s[i] * dz, height = c[i] * dz - s[i] * dx;
         const double stop = cz_suspension_stops(&law, compression[i]);
-        const double of_link = (link_body[i] + (zt[i] - zb[i])) * pull[i];
+        const double of_link = height * pull[i];
         link_moment[i] += of_link;
-        stop_lift[i] += stop;
+        stop_lift[i] += c[i] * stop;
         stop_moment[i] += arm * stop;
-        suspension_lift[i] += gz[i] - lift_before[i] - stop;
+        suspension_lift[i] += gz[i] - lift_before[i] - c[i] * stop;
         suspension_moment[i] += gm[i] - moment_before[i] - of_link - arm * stop;
     }
 }

@@ -159,7 +159,8 @@ static void vehicle_end(CzBlock *d, int end) {
     }
 }
 
-/* Secondary suspension and traction link of one bogie. */
+/* Secondary suspension and traction link of one bogie, in the frame of the body. Strokes and rates
+ * are each other's integrals at any pitch, as those of the axles. */
 static void bogie_to_body(CzBlock *d, int bogie) {
     const size_t n = CZ_LANE_BLOCK;
     const double sign = bogie == 0 ? -1.0 : 1.0;
@@ -169,7 +170,8 @@ static void bogie_to_body(CzBlock *d, int bogie) {
                            *restrict turn = V(BODY_PITCH);
     const double *restrict xt = X_AT(BOGIE_X_REAR, 3 * bogie), *restrict zt =
                                                                    X_AT(BOGIE_Z_REAR, 3 * bogie);
-    const double *restrict pitch_t = X_AT(BOGIE_PITCH_REAR, 3 * bogie);
+    const double *restrict ct = S_AT(BOGIE_COS_REAR, 2 * bogie), *restrict st = S_AT(BOGIE_SIN_REAR,
+                                                                                     2 * bogie);
     const double *restrict vxt = V_AT(BOGIE_X_REAR, 3 * bogie), *restrict vzt =
                                                                     V_AT(BOGIE_Z_REAR, 3 * bogie);
     const double *restrict turn_t = V_AT(BOGIE_PITCH_REAR, 3 * bogie);
@@ -194,32 +196,32 @@ static void bogie_to_body(CzBlock *d, int bogie) {
                                                           POWER(SECONDARY_DAMPING);
     double *restrict link_power = POWER(LINK), *restrict link_lost = POWER(LINK_DAMPING);
     CZ_LANES (i, n) {
-        /* Vertical: at the bogie's centre. */
+        /* The pin of the link on the bogie as the body sees it: spring and link act there. */
         const CzSuspensionLaw law = {k[i],      preload[i], bump[i],     bump_k[i], lift[i],
                                      lift_k[i], damping[i], blow_off[i], beyond[i]};
-        const double arm = sign * half[i] + (xt[i] - xb[i]);
-        const double compression = zt[i] - (zb[i] + sign * half[i] * s[i]);
-        const double rate = vzt[i] - (vzb[i] + arm * turn[i]);
+        const double pin_x = -link_bogie[i] * st[i], pin_z = link_bogie[i] * ct[i];
+        const double dx = sign * half[i] + (xt[i] - xb[i]) + pin_x;
+        const double dz = link_body[i] - link_bogie[i] + (zt[i] - zb[i]) + pin_z;
+        const double vx = vxt[i] - vxb[i] - pin_z * turn_t[i];
+        const double vz = vzt[i] - vzb[i] + pin_x * turn_t[i];
+        const double arm = c[i] * dx + s[i] * dz, height = c[i] * dz - s[i] * dx;
+        const double compression = height - link_body[i];
+        const double rate = c[i] * vz - s[i] * vx - turn[i] * arm;
         const double spring = cz_suspension_spring(&law, compression);
         const double damper = cz_suspension_damper(&law, rate);
         const double lifted = spring + damper;
-
-        /* Longitudinal: at the link's height on the bogie. */
-        const double turned = link_bogie[i] * pitch_t[i];
-        const double body_way = xb[i] + sign * half[i] * (c[i] - 1.0) - link_body[i] * s[i];
-        const double stretch = body_way - (xt[i] - turned);
-        const double height = link_body[i] + (zt[i] - zb[i]);
-        const double stretching =
-            (vxb[i] - height * turn[i]) - (vxt[i] - link_bogie[i] * turn_t[i]);
+        const double stretch = sign * half[i] - arm;
+        const double stretching = -(c[i] * vx + s[i] * vz + turn[i] * height);
         const double held = link_k[i] * stretch, resisted = link_c[i] * stretching;
         const double pull = held + resisted; /* forward on the bogie */
 
-        gzb[i] += lifted;
-        gzt[i] -= lifted;
-        gxb[i] -= pull;
-        gxt[i] += pull;
+        const double fx = c[i] * pull + s[i] * lifted, fz = s[i] * pull - c[i] * lifted;
+        gxb[i] -= fx;
+        gzb[i] -= fz;
+        gxt[i] += fx;
+        gzt[i] += fz;
         gmb[i] += arm * lifted + height * pull;
-        gmt[i] -= link_bogie[i] * pull;
+        gmt[i] += pin_x * fz - pin_z * fx;
         compressed[i] = compression;
         kept[i] = pull;
         way[i] = stretch;

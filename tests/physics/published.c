@@ -48,8 +48,8 @@ void rows_of_coaches(Rows *rows) {
 
 /* 1 MN at 0.8 m from the centre of gravity asks for 0.8 MN m, that is 42.105 kN more on one bogie
  * and less on the other at 19 m; on secondary and primary springs in series the body then pitches
- * by 6.077 mrad. The pitch is imposed on the kernel, each bogie where its springs balance, and the
- * kernel's own forces are read. */
+ * by 6.077 mrad. The pitch is imposed on the kernel, each bogie is put where its link is not
+ * stretched and its springs balance, and the kernel's own forces are read. */
 void rows_of_pitch_by_force(Rows *rows) {
     const double pitch = 6.077e-3, force_wanted = 1e6, height = 0.8;
     Motion motion = motion_open(coaches, AS_WRITTEN);
@@ -63,6 +63,15 @@ void rows_of_pitch_by_force(Rows *rows) {
     for (int bogie = 0; bogie < 2; bogie++) {
         const double lift = (bogie == 0 ? -1.0 : 1.0) * half * pitch;
         *position(&motion, CZ_DOF_BOGIE_Z_REAR + 3 * bogie, 0) = lift * k / (k + primaries);
+        *position(&motion, CZ_DOF_BOGIE_X_REAR + 3 * bogie, 0) =
+            -pitch * *parameter(&motion, CZ_P_LINK_BODY_Z, 0);
+    }
+    /* The springs of a tilted body differ from a level one's by the square of its pitch. */
+    for (int pass = 0; pass < 3; pass++) {
+        motion.kernel->evaluate(motion.dynamics, motion.step);
+        for (int bogie = 0; bogie < 2; bogie++)
+            *position(&motion, CZ_DOF_BOGIE_Z_REAR + 3 * bogie, 0) +=
+                force(&motion, CZ_DOF_BOGIE_Z_REAR + 3 * bogie, 0) / (k + primaries);
     }
     motion.kernel->evaluate(motion.dynamics, motion.step);
     double transfer = 0.0, residual = 0.0, moment = 0.0;

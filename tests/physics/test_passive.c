@@ -48,9 +48,39 @@ static void springs_of_a_bogie_that_turns_give_back_what_they_took(void **state)
     motion_close(&motion);
 }
 
+/* The body turns by up to a fifth of a radian each way while its front bogie moves out of step. */
+static void springs_of_a_body_that_turns_give_back_what_they_took(void **state) {
+    (void)state;
+    static const int rows[] = {CZ_L_SECONDARY, CZ_L_LINK};
+    Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
+    motion_start(&motion);
+    double largest[2] = {0.0}, before[2] = {0.0};
+    for (int i = 0; i <= N_STEP; i++) {
+        motion_advance(&motion);
+        for (int dof = 0; dof < CZ_N_DOF; dof++)
+            *position(&motion, dof, 0) = *velocity(&motion, dof, 0) = 0.0;
+        lead(&motion, CZ_DOF_BODY_PITCH, 0.2, 0.3, i);
+        lead(&motion, CZ_DOF_BODY_X, 0.02, 5.0, i);
+        lead(&motion, CZ_DOF_BOGIE_PITCH_FRONT, 0.1, 2.5, i);
+        lead(&motion, CZ_DOF_BOGIE_X_FRONT, 0.05, 1.9, i);
+        lead(&motion, CZ_DOF_BOGIE_Z_FRONT, 0.1, 4.0, i);
+        motion_evaluate(&motion);
+        for (int k = 0; k < 2; k++) {
+            before[k] = i == 0 ? work_of(&motion, rows[k]) : before[k];
+            largest[k] = fmax(largest[k], fabs(work_of(&motion, rows[k]) - before[k]));
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        assert_true(largest[k] > 1e4);
+        assert_near(work_of(&motion, rows[k]), before[k], 0.0, 1e-5 * largest[k]);
+    }
+    motion_close(&motion);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(springs_of_a_bogie_that_turns_give_back_what_they_took),
+        cmocka_unit_test(springs_of_a_body_that_turns_give_back_what_they_took),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,7 +2,8 @@
  *
  * Ranges are wide on purpose: devices that do nothing, absorbers that run out of stroke, stages
  * that fall, partners without a device to meet, speeds of shunting and far beyond the design. A
- * number is drawn evenly, or evenly in its logarithm where it spans more than a decade.
+ * number is drawn evenly, or evenly in its logarithm where it spans more than a decade. The order
+ * in which arguments are evaluated is the compiler's: no list of arguments holds two draws.
  */
 #include "property/random_design.h"
 
@@ -106,9 +107,12 @@ static void put_coupler(Draw *draw) {
         put_tube(draw, "tube", force);
     if (chance(draw, 0.15))
         put_tube(draw, "second_tube", force * between(draw, 1, 1.4));
-    if (chance(draw, 0.35))
-        fprintf(draw->file, "shear_off: {force_kN: %.4g, retraction_space_mm: %.4g}, ",
-                force * between(draw, 1.1, 1.8), between(draw, 200, 1500));
+    if (chance(draw, 0.35)) {
+        fprintf(draw->file, "shear_off: {");
+        put(draw, "force_kN", force * between(draw, 1.1, 1.8));
+        put(draw, "retraction_space_mm", between(draw, 200, 1500));
+        fprintf(draw->file, "}, ");
+    }
     fprintf(draw->file, "}, ");
 }
 
@@ -117,15 +121,17 @@ static void put_anti_climber(Draw *draw, double behind) {
     fprintf(draw->file, "anti_climber: {");
     put(draw, "gap_mm", between(draw, fmin(50, 0.5 * behind), behind));
     fprintf(draw->file, "count: %d, ", 1 + one_of(draw, 3));
-    put_stages(draw, 3, decades(draw, 100, 900), decades(draw, 150, 1200), false);
+    const double stroke = decades(draw, 100, 900);
+    put_stages(draw, 3, stroke, decades(draw, 150, 1200), false);
     maybe(draw, 0.3, "damping_kN_s_m", decades(draw, 1, 100));
     maybe(draw, 0.3, "speed_factor", between(draw, 0, 0.5));
     maybe(draw, 0.3, "stiffness_MN_m", decades(draw, 20, 2000));
-    if (draw->full)
-        fprintf(draw->file,
-                "height_m: %.4g, face_height_mm: 200, rib_count: 4, rib_depth_mm: 30, "
-                "rib_strength_kN: %.4g, friction: %.4g, ",
-                between(draw, 0.9, 1.0), decades(draw, 5, 100), between(draw, 0, 0.4));
+    if (draw->full) {
+        fprintf(draw->file, "face_height_mm: 200, rib_count: 4, rib_depth_mm: 30, ");
+        put(draw, "height_m", between(draw, 0.9, 1.0));
+        put(draw, "rib_strength_kN", decades(draw, 5, 100));
+        put(draw, "friction", between(draw, 0, 0.4));
+    }
     fprintf(draw->file, "}, ");
 }
 
@@ -149,10 +155,11 @@ static void put_end(Draw *draw, const char *key, bool wall) {
                 "distance_m: 10.6, available_length_m: 4, ");
     const double face_gap = wall ? 0 : between(draw, 0, 900);
     put(draw, "face_gap_mm", face_gap);
-    const double steepest =
-        chance(draw, wall ? 0.1 : 0.85)
-            ? put_stages(draw, 4, decades(draw, 100, 1200), decades(draw, 800, 4000), false)
-            : 1;
+    double steepest = 1;
+    if (chance(draw, wall ? 0.1 : 0.85)) {
+        const double stroke = decades(draw, 100, 1200);
+        steepest = put_stages(draw, 4, stroke, decades(draw, 800, 4000), false);
+    }
     put(draw, "unloading_stiffness_MN_m", decades(draw, 1.1, 50) * fmax(steepest, 100));
     maybe(draw, 0.3, "unloading_share", unit(draw));
     maybe(draw, 0.3, "damping_kN_s_m", decades(draw, 1, 300));
@@ -168,21 +175,24 @@ static void put_end(Draw *draw, const char *key, bool wall) {
 
 static void put_car_part(Draw *draw, const char *name) {
     fprintf(draw->file, "  %s:\n", name);
+    const double mass = draw->full ? between(draw, 32, 50) : decades(draw, 10, 90);
+    fprintf(draw->file, "    mass_t: %.4g\n", mass);
     if (draw->full)
-        fprintf(draw->file, "    use: middle-car\n    mass_t: %.4g\n    pitch_inertia_t_m2: %.4g\n",
-                between(draw, 32, 50), between(draw, 600, 1300));
+        fprintf(draw->file, "    use: middle-car\n    pitch_inertia_t_m2: %.4g\n",
+                between(draw, 600, 1300));
     else
-        fprintf(draw->file, "    model: rigid\n    length_m: 20\n    mass_t: %.4g\n",
-                decades(draw, 10, 90));
+        fprintf(draw->file, "    model: rigid\n    length_m: 20\n");
     put_end(draw, "front", false);
     put_end(draw, "rear", false);
 }
 
 static void put_train(Draw *draw, const char *name, double speed, int n_car, bool reversed) {
     fprintf(draw->file, "  - name: %s\n    speed_km_h: %.4g\n", name, speed);
-    if (draw->full || chance(draw, 0.2))
-        fprintf(draw->file, "    brake: {ratio: %.4g, axle_share: %.4g}\n",
-                chance(draw, 0.5) ? 0 : between(draw, 0, 0.3), chance(draw, 0.7) ? 1 : 0.5);
+    if (draw->full || chance(draw, 0.2)) {
+        const double ratio = chance(draw, 0.5) ? 0 : between(draw, 0, 0.3);
+        fprintf(draw->file, "    brake: {ratio: %.4g, axle_share: %.4g}\n", ratio,
+                chance(draw, 0.7) ? 1 : 0.5);
+    }
     fprintf(draw->file, "    vehicles:\n");
     for (int car = 0; car < n_car; car++)
         fprintf(draw->file, "      - {use: %s%s}\n", one_of(draw, 2) ? "car" : "other",
@@ -195,7 +205,8 @@ static void put_partner(Draw *draw, double speed, int n_car) {
         return;
     }
     const double own[] = {0, 0, -speed, -0.5 * speed};
-    put_train(draw, "B", own[one_of(draw, 4)], 1 + one_of(draw, n_car + 1), true);
+    const double chosen = own[one_of(draw, 4)];
+    put_train(draw, "B", chosen, 1 + one_of(draw, n_car + 1), true);
     if (draw->full && chance(draw, 0.4))
         fprintf(draw->file, "    height_offset_mm: %.4g\n", between(draw, -150, 150));
 }

@@ -1,3 +1,4 @@
+cz_test(test_random_design unit test_random_design.c random_design.c)
 if(CZ_IS_WHOLE)
     cz_program(properties properties.c random_design.c)
     target_link_libraries(properties PRIVATE PkgConfig::JANSSON)

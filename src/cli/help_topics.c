@@ -112,7 +112,7 @@ static void write_units(void) {
     } units[] = {
 #define CZ_DIMENSION(dimension, text) {#dimension, NULL, text},
 #define CZ_UNIT(dimension, suffix, value) {#dimension, suffix, NULL},
-#include "problem/units.def"
+#include "text/units.def"
 #undef CZ_DIMENSION
 #undef CZ_UNIT
     };

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "problem/range.h"
+#include "text/range.h"
 
 CzSweepOptions cz_sweep_options_default(void) {
     return (CzSweepOptions){0};

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "problem/curve_file.h"
+#include "text/curve_file.h"
 
 /* A copy that owns its memory; NULL without. */
 static CzCurve *copy_points(const CzCurvePoints *points) {

@@ -4,6 +4,7 @@
 
 #include "crushzone/fit.h"
 #include "fit/staged.h"
+#include "problem/keys.h"
 #include "problem/trace.h"
 
 enum {

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "problem/range.h"
+#include "text/range.h"
 #include "problem/reader.h"
 
 enum { MOST_MEMBERS = 500, MOST_SCENARIOS = 10000, MOST_SWEPT = 8, LONGEST_MEMBER = 160 };

@@ -5,7 +5,7 @@
 #include "base/suggest.h"
 #include "crushzone/names.h"
 #include "problem/reader.h"
-#include "problem/yaml_document.h"
+#include "text/yaml.h"
 
 enum { DEEPEST_CHAIN = 16 };
 

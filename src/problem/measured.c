@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "problem/curve_file.h"
+#include "text/curve_file.h"
 #include "problem/reader.h"
 
 /* The column of the values, wanted in the unit at the end of the channel's name. */

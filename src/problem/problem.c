@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "problem/reader.h"
-#include "problem/yaml_document.h"
+#include "text/yaml.h"
 
 #ifndef CZ_SHARE_FOLDER
 #define CZ_SHARE_FOLDER NULL

@@ -18,9 +18,9 @@
 #include "crushzone/names.h"
 #include "problem/input.h"
 #include "problem/keys.h"
-#include "problem/mistakes.h"
+#include "text/mistakes.h"
 #include "problem/problem.h"
-#include "problem/source.h"
+#include "text/source.h"
 
 /* ---- trees ---- */
 

@@ -6,25 +6,17 @@ set(CZ_SOURCES_problem
     bind_curve_file.c
     bind_table.c
     bind_value.c
-    curve_columns.c
-    curve_fields.c
-    curve_file.c
-    curve_number.c
-    curve_title.c
     families.c
     find.c
     keys.c
     load.c
     measured.c
     merge.c
-    mistakes.c
-    node.c
     parts.c
     path.c
     places.c
     problem.c
     profile.c
-    range.c
     reduce_curve.c
     rules.c
     rules_design.c
@@ -33,7 +25,6 @@ set(CZ_SOURCES_problem
     rules_names.c
     rules_train.c
     settings.c
-    source.c
     strokes.c
     trace.c
     trains.c
@@ -41,5 +32,4 @@ set(CZ_SOURCES_problem
     write_keys.c
     write_resolved.c
     write_schema.c
-    yaml_document.c
 )

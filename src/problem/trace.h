@@ -8,7 +8,7 @@
 #ifndef CZ_PROBLEM_TRACE_H
 #define CZ_PROBLEM_TRACE_H
 
-#include "problem/curve_file.h"
+#include "text/curve_file.h"
 
 #define CZ_LARGEST_STROKE 10.0 /* that a curve may have, as a stage of the problem file [m] */
 #define CZ_LARGEST_FORCE 1e8   /* [N] */

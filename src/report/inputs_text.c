@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/memory_text.h"
-#include "problem/node.h"
+#include "text/node.h"
 #include "problem/problem.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "problem/keys.h"
-#include "problem/node.h"
+#include "text/node.h"
 #include "problem/problem.h"
 #include "report/figure.h"
 #include "report/inputs_text.h"

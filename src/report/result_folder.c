@@ -2,7 +2,7 @@
 #include "crushzone/report.h"
 
 #include "base/error.h"
-#include "problem/node.h"
+#include "text/node.h"
 #include "problem/problem.h"
 #include "report/csv.h"
 #include "report/folder.h"

@@ -1,7 +1,7 @@
 /* Single files that appear whole or not at all. */
 #include "base/error.h"
 #include "crushzone/report.h"
-#include "problem/node.h"
+#include "text/node.h"
 #include "problem/problem.h"
 #include "report/folder.h"
 #include "report/temporary.h"

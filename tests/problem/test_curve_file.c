@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-#include "problem/curve_file.h"
-#include "problem/curve_number.h"
+#include "text/curve_file.h"
+#include "text/curve_number.h"
 #include "problem/trace.h"
 
 static const CzCurveRequest wanted = {

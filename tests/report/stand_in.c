@@ -2,7 +2,7 @@
 #include "report/stand_in.h"
 
 #include "evaluate/evaluator.h"
-#include "problem/node.h"
+#include "text/node.h"
 #include "problem/problem.h"
 #include "report/page.h"
 

@@ -1,5 +1,5 @@
 /* Ranges of evenly spaced values. */
-#include "problem/range.h"
+#include "text/range.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,10 +4,10 @@
  * in LF, CR LF or CR. Fields are parted by ';', tabs, ',' or runs of blanks; quotes protect a
  * field.
  */
-#ifndef CZ_PROBLEM_CURVE_FIELDS_H
-#define CZ_PROBLEM_CURVE_FIELDS_H
+#ifndef CZ_TEXT_CURVE_FIELDS_H
+#define CZ_TEXT_CURVE_FIELDS_H
 
-#include "problem/source.h"
+#include "text/source.h"
 
 enum { CZ_MOST_FIELD_TEXT = 128 }; /* of a field that is kept as text, with its end [byte] */
 

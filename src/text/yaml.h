@@ -1,8 +1,8 @@
 /* YAML or JSON text to a tree of nodes. */
-#ifndef CZ_PROBLEM_YAML_DOCUMENT_H
-#define CZ_PROBLEM_YAML_DOCUMENT_H
+#ifndef CZ_TEXT_YAML_H
+#define CZ_TEXT_YAML_H
 
-#include "problem/mistakes.h"
+#include "text/mistakes.h"
 
 /* Reads one document whose top is a mapping. Only what JSON and plain YAML share is taken: anchors,
  * aliases, tags, merge keys, duplicate keys and further documents are mistakes. Returns NULL when

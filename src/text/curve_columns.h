@@ -1,9 +1,28 @@
 /* A curve file while it is read: what its titles and units are, shared by the sources that read it.
  */
-#ifndef CZ_PROBLEM_CURVE_READING_H
-#define CZ_PROBLEM_CURVE_READING_H
+#ifndef CZ_TEXT_CURVE_COLUMNS_H
+#define CZ_TEXT_CURVE_COLUMNS_H
 
-#include "problem/curve_file.h"
+#include "text/curve_title.h"
+
+/* What is wanted of a file. Texts are borrowed. */
+typedef struct CzCurveRequest {
+    CzCurveColumn column[2]; /* x and y */
+    char separator;          /* between fields, ' ' for blanks; 0: what the lines show */
+    char decimal;            /* '.' or ','; 0: what the numbers show */
+    /* How a user settles what the file leaves open; NULL: only in the file. */
+    const char *column_help, *unit_help, *decimal_help;
+} CzCurveRequest;
+
+/* The points in the order of the file. */
+typedef struct CzCurvePoints {
+    int n;
+    double *x, *y;                     /* [SI] (n) */
+    int *line;                         /* where each is, counted from 1 (n) */
+    char title[2][CZ_MOST_FIELD_TEXT]; /* of both columns; "" without titles */
+    double unit[2];                    /* SI values of the units */
+    const CzSource *source;
+} CzCurvePoints;
 
 /* Lines are counted from 0. */
 typedef struct CzCurveReading {

@@ -4,11 +4,11 @@
  * "Load (N)", "Kraft in kN", "F [kN]". A column is found by its title or number, else by the name
  * of its quantity, else by a usual word for it, else as the only one in a unit of its dimension.
  */
-#ifndef CZ_PROBLEM_CURVE_TITLE_H
-#define CZ_PROBLEM_CURVE_TITLE_H
+#ifndef CZ_TEXT_CURVE_TITLE_H
+#define CZ_TEXT_CURVE_TITLE_H
 
-#include "problem/curve_fields.h"
-#include "problem/keys.h"
+#include "text/curve_fields.h"
+#include "text/units.h"
 
 typedef struct CzCurveUnit {
     CzDimension dimension;

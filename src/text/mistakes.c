@@ -1,5 +1,5 @@
 /* Mistakes: collecting, sorting, naming the part that they came through. */
-#include "problem/mistakes.h"
+#include "text/mistakes.h"
 
 #include "base/text.h"
 

@@ -1,6 +1,6 @@
 /* Ranges: evenly spaced values that are written as from:to:n. */
-#ifndef CZ_PROBLEM_RANGE_H
-#define CZ_PROBLEM_RANGE_H
+#ifndef CZ_TEXT_RANGE_H
+#define CZ_TEXT_RANGE_H
 
 #include <stdbool.h>
 

@@ -3,11 +3,11 @@
  * A failed read stops at the first syntax error, for what follows is guesswork; refused features
  * and duplicate keys are reported all and reading goes on.
  */
-#include "problem/yaml_document.h"
+#include "text/yaml.h"
 #include "base/index.h"
 #include "base/number.h"
 #include "base/text.h"
-#include "problem/source.h"
+#include "text/source.h"
 
 #include <stdio.h>
 #include <string.h>

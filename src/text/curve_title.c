@@ -1,5 +1,5 @@
 /* Finding columns and their units. */
-#include "problem/curve_title.h"
+#include "text/curve_title.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 
 static const CzCurveUnit units[] = {
 #define CZ_CURVE_UNIT(dimension, spelling, si) {CZ_DIMENSION_##dimension, spelling, si},
-#include "problem/curve_units.def"
+#include "text/curve_units.def"
 #undef CZ_CURVE_UNIT
 };
 

@@ -8,29 +8,10 @@
  * A file without titles is read when columns and units are given. What can be read in two ways is
  * refused with both of them.
  */
-#ifndef CZ_PROBLEM_CURVE_FILE_H
-#define CZ_PROBLEM_CURVE_FILE_H
+#ifndef CZ_TEXT_CURVE_FILE_H
+#define CZ_TEXT_CURVE_FILE_H
 
-#include "problem/curve_title.h"
-
-/* What is wanted of a file. Texts are borrowed. */
-typedef struct CzCurveRequest {
-    CzCurveColumn column[2]; /* x and y */
-    char separator;          /* between fields, ' ' for blanks; 0: what the lines show */
-    char decimal;            /* '.' or ','; 0: what the numbers show */
-    /* How a user settles what the file leaves open; NULL: only in the file. */
-    const char *column_help, *unit_help, *decimal_help;
-} CzCurveRequest;
-
-/* The points in the order of the file. */
-typedef struct CzCurvePoints {
-    int n;
-    double *x, *y;                     /* [SI] (n) */
-    int *line;                         /* where each is, counted from 1 (n) */
-    char title[2][CZ_MOST_FIELD_TEXT]; /* of both columns; "" without titles */
-    double unit[2];                    /* SI values of the units */
-    const CzSource *source;
-} CzCurvePoints;
+#include "text/curve_columns.h"
 
 /* Reads a text that was read from `source`, whose name goes into messages and whose lines become
  * those that are read: UTF-8, whatever the file is written in. False with a mistake, or without

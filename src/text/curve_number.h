@@ -4,8 +4,8 @@
  * three digits behind it, a leading zero, an exponent) or cannot part decimals (it appears twice,
  * or in front of the other sign). What one number leaves open, the others of the file decide.
  */
-#ifndef CZ_PROBLEM_CURVE_NUMBER_H
-#define CZ_PROBLEM_CURVE_NUMBER_H
+#ifndef CZ_TEXT_CURVE_NUMBER_H
+#define CZ_TEXT_CURVE_NUMBER_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,10 +1,10 @@
 /* Files as text: reading with limits, lines for messages, a hash over all that was read. */
-#ifndef CZ_PROBLEM_SOURCE_H
-#define CZ_PROBLEM_SOURCE_H
+#ifndef CZ_TEXT_SOURCE_H
+#define CZ_TEXT_SOURCE_H
 
 #include <stdint.h>
 
-#include "problem/mistakes.h"
+#include "text/mistakes.h"
 
 enum { CZ_MOST_BYTES = 16 * 1024 * 1024 }; /* of one file */
 

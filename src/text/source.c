@@ -1,5 +1,5 @@
 /* Files as text. */
-#include "problem/source.h"
+#include "text/source.h"
 
 #include "base/text.h"
 

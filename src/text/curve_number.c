@@ -1,5 +1,5 @@
 /* The grammar of numbers in curve files. */
-#include "problem/curve_number.h"
+#include "text/curve_number.h"
 
 #include <string.h>
 

@@ -4,8 +4,8 @@
  * were built: merging and settings make new mappings that share what they keep, so one node can
  * hang in several trees. All nodes lie in the reader's arena.
  */
-#ifndef CZ_PROBLEM_NODE_H
-#define CZ_PROBLEM_NODE_H
+#ifndef CZ_TEXT_NODE_H
+#define CZ_TEXT_NODE_H
 
 #include <stdbool.h>
 #include <stddef.h>

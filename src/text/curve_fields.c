@@ -1,11 +1,11 @@
 /* Cutting curve files into lines and fields. */
-#include "problem/curve_fields.h"
+#include "text/curve_fields.h"
 
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "problem/curve_number.h"
+#include "text/curve_number.h"
 
 /* ---- text ---- */
 

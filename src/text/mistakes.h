@@ -1,9 +1,9 @@
 /* All mistakes of a problem file, collected in one pass. */
-#ifndef CZ_PROBLEM_MISTAKES_H
-#define CZ_PROBLEM_MISTAKES_H
+#ifndef CZ_TEXT_MISTAKES_H
+#define CZ_TEXT_MISTAKES_H
 
 #include "crushzone/status.h"
-#include "problem/node.h"
+#include "text/node.h"
 
 enum { CZ_MAX_MISTAKES = 100 }; /* further ones are counted only */
 

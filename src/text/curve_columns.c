@@ -1,10 +1,11 @@
 /* Titles, rows of units and columns of curve files. */
+#include "text/curve_columns.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "base/suggest.h"
-#include "problem/curve_number.h"
-#include "problem/curve_reading.h"
+#include "text/curve_number.h"
 
 enum { MOST_BELOW_TITLES = 3 };
 

@@ -1,5 +1,5 @@
 /* Curve files: the decimal sign, and the points. */
-#include "problem/curve_file.h"
+#include "text/curve_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,8 +8,7 @@
 #include <strings.h>
 
 #include "base/error.h"
-#include "problem/curve_number.h"
-#include "problem/curve_reading.h"
+#include "text/curve_number.h"
 
 enum { MOST_LINES = 1000000 };
 

@@ -1,5 +1,5 @@
 /* Trees of nodes: finding and copying. */
-#include "problem/node.h"
+#include "text/node.h"
 
 #include <string.h>
 

@@ -1,0 +1,14 @@
+# Sources of src/text, one per line.
+set(CZ_SOURCES_text
+    curve_columns.c
+    curve_fields.c
+    curve_file.c
+    curve_number.c
+    curve_title.c
+    mistakes.c
+    node.c
+    range.c
+    source.c
+    units.c
+    yaml.c
+)

@@ -1,0 +1,71 @@
+/* The tables of units, and the stems of keys that end in one. */
+#include "text/units.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define CZ_DIMENSION(dimension, text)
+#define CZ_UNIT(dimension, suffix, si) {CZ_DIMENSION_##dimension, suffix, si},
+const CzUnit cz_units[] = {
+#include "text/units.def"
+};
+#undef CZ_DIMENSION
+#undef CZ_UNIT
+const int cz_n_unit = sizeof cz_units / sizeof cz_units[0];
+
+#define CZ_DIMENSION(dimension, text) text,
+#define CZ_UNIT(dimension, suffix, si)
+const char *const cz_dimension_text[CZ_N_DIMENSION] = {
+#include "text/units.def"
+};
+#undef CZ_DIMENSION
+#undef CZ_UNIT
+
+const CzUnit *cz_unit_si(CzDimension dimension) {
+    int unit = 0;
+    while (cz_units[unit].dimension != dimension)
+        unit++;
+    return &cz_units[unit];
+}
+
+const CzUnit *cz_unit_find(CzDimension dimension, const char *suffix) {
+    for (int i = 0; i < cz_n_unit; i++)
+        if (cz_units[i].dimension == dimension && strcmp(cz_units[i].suffix, suffix) == 0)
+            return &cz_units[i];
+    return NULL;
+}
+
+bool cz_unit_is_suffix(const char *text) {
+    for (int i = 0; i < cz_n_unit; i++)
+        if (cz_units[i].suffix[0] != '\0' && strcmp(cz_units[i].suffix, text) == 0)
+            return true;
+    return false;
+}
+
+size_t cz_key_stem_length(const char *key) {
+    const size_t n = strlen(key);
+    for (const char *at = strchr(key, '_'); at != NULL; at = strchr(at + 1, '_'))
+        if (at > key && cz_unit_is_suffix(at + 1))
+            return (size_t)(at - key); /* the first cut leaves the longest suffix */
+    return n;
+}
+
+bool cz_key_same_stem(const char *a, const char *b) {
+    const size_t n = cz_key_stem_length(a);
+    return n == cz_key_stem_length(b) && memcmp(a, b, n) == 0 && (a[n] == '\0') == (b[n] == '\0');
+}
+
+void cz_key_spellings(char *text, size_t size, const char *stem, CzDimension dimension) {
+    size_t n = 0;
+    text[0] = '\0';
+    for (int i = 0; i < cz_n_unit; i++) {
+        if (cz_units[i].dimension != dimension)
+            continue;
+        const bool is_first = n == 0;
+        const bool is_last = i + 1 == cz_n_unit || cz_units[i + 1].dimension != dimension;
+        const char *before = is_first ? "" : is_last ? " or " : ", ";
+        const int more = snprintf(text + n, size - n, "%s%s%s%s", before, stem,
+                                  cz_units[i].suffix[0] != '\0' ? "_" : "", cz_units[i].suffix);
+        n = n + (size_t)more < size ? n + (size_t)more : size - 1;
+    }
+}

@@ -1,0 +1,39 @@
+/* Dimensions, and the units that end a key: units.def as tables. */
+#ifndef CZ_TEXT_UNITS_H
+#define CZ_TEXT_UNITS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#define CZ_DIMENSION(dimension, text) CZ_DIMENSION_##dimension,
+#define CZ_UNIT(dimension, suffix, si)
+typedef enum CzDimension {
+#include "text/units.def"
+    CZ_N_DIMENSION
+} CzDimension;
+#undef CZ_DIMENSION
+#undef CZ_UNIT
+
+typedef struct CzUnit {
+    CzDimension dimension;
+    const char *suffix; /* "" for none */
+    double si;          /* SI value of one unit */
+} CzUnit;
+
+extern const CzUnit cz_units[]; /* those of one dimension stand together, the SI one first */
+extern const int cz_n_unit;
+extern const char *const cz_dimension_text[CZ_N_DIMENSION];
+
+const CzUnit *cz_unit_si(CzDimension dimension);
+/* Unit of a dimension by its suffix; NULL when it is not one of its units. */
+const CzUnit *cz_unit_find(CzDimension dimension, const char *suffix);
+/* Whether a text is the suffix of any unit. */
+bool cz_unit_is_suffix(const char *text);
+/* Length of a key without the longest unit suffix at its end [byte]. */
+size_t cz_key_stem_length(const char *key);
+/* Whether two keys are one stem, perhaps in two units. */
+bool cz_key_same_stem(const char *a, const char *b);
+/* Writes the spellings of a stem: "stroke_m or stroke_mm". */
+void cz_key_spellings(char *text, size_t size, const char *stem, CzDimension dimension);
+
+#endif

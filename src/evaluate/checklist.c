@@ -1,4 +1,4 @@
-/* Lists the checks of a problem: profile, the user's own limits, closing rules, targets. */
+/* Lists the checks of a problem: profile, the user's own limits, design rules, targets. */
 #include "base/error.h"
 #include "base/suggest.h"
 #include "evaluate/checks.h"
@@ -181,7 +181,7 @@ static CzStatus append_profile(Builder *builder) {
     return CZ_OK;
 }
 
-/* ---- closing rules --------------------------------------------------------------------------- */
+/* ---- design rules --------------------------------------------------------------------------- */
 
 typedef enum Speeds { DESIGN, EVERY, OVERLOAD, BUFFING, SERVICE, CRASH } Speeds;
 typedef enum Needs { NOTHING, TUBE, SHEAR_OFF, FULL, FACE, INNER, N_NEEDS } Needs;
@@ -200,7 +200,7 @@ typedef struct Rule {
 #define CZ_RULE(name, metric, bound, limit, speeds, needs, doc)                                    \
     {name, metric, bound, limit, speeds, needs, doc},
 static const Rule rules[] = {
-#include "evaluate/closing_rules.def"
+#include "evaluate/design_rules.def"
 };
 #undef CZ_RULE
 #undef MAX
@@ -279,7 +279,7 @@ static CzStatus append_rule(Builder *builder, const Rule *rule) {
         is_left_out |= !judges;
     }
     if (is_left_out && !is_judged)
-        return append_missing(builder, rule->name, "no scenario names it among its judges");
+        return append_missing(builder, rule->name, "no scenario lists it in judged_by");
     return CZ_OK;
 }
 
@@ -312,25 +312,26 @@ static bool covers_between(const Builder *builder) {
     return fastest <= 1.1 * service_speed || between > 1.05 * service_speed;
 }
 
-/* What the rules ask for and no scenario shows is said to be unchecked. */
+/* Rules without a scenario that they need are listed as not checked. */
 static CzStatus append_missing_scenarios(Builder *builder, const bool has[N_NEEDS]) {
     if (!covers_overload(builder))
         CZ_TRY(append_missing(builder, "bottoming out under overload",
                               "no scenario has mass_factor 1.1 and 1.1 times the largest speed"));
     if (has[TUBE] && fastest_up_to(builder, buffing_speed) < 0.95 * buffing_speed)
-        CZ_TRY(
-            append_missing(builder, "no tube works when buffing", "no scenario closes at 8 km/h"));
+        CZ_TRY(append_missing(builder, "collapse tubes inactive at 8 km/h (buffing)",
+                              "no scenario closes at 8 km/h"));
     if (!has[SHEAR_OFF])
         return CZ_OK;
     if (fastest_up_to(builder, service_speed) < 0.95 * service_speed)
-        CZ_TRY(append_missing(builder, "no shear-off in service", "no scenario closes at 15 km/h"));
+        CZ_TRY(append_missing(builder, "no shear-off at 15 km/h (service)",
+                              "no scenario closes at 15 km/h"));
     if (!covers_between(builder))
-        CZ_TRY(append_missing(builder, "speeds between service and design",
+        CZ_TRY(append_missing(builder, "scenario between 15 km/h and the design speed",
                               "no scenario lies between 15 km/h and the largest speed"));
     return CZ_OK;
 }
 
-static CzStatus append_closing_rules(Builder *builder) {
+static CzStatus append_design_rules(Builder *builder) {
     bool has[N_NEEDS] = {false};
     note_needs(builder, has);
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
@@ -436,8 +437,8 @@ CzStatus cz_checklist_build(const CzProblem *problem, int n_scene, const CzScene
     CZ_TRY(append_profile(&builder));
     for (int i = 0; i < input->checks.n_limits; i++)
         CZ_TRY(append_limit(&builder, &input->checks.limits[i], NULL, false));
-    if (!input->checks.given || input->checks.closing_rules)
-        CZ_TRY(append_closing_rules(&builder));
+    if (!input->checks.given || input->checks.design_rules)
+        CZ_TRY(append_design_rules(&builder));
     for (int i = 0; input->optimise.given && i < input->optimise.n_targets; i++)
         CZ_TRY(append_limit(&builder, &input->optimise.targets[i], NULL, true));
     if (input->optimise.given && input->optimise.n_variables > 0 && input->optimise.n_match == 0)

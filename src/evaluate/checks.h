@@ -1,4 +1,4 @@
-/* Checks: limits on metrics from the profile, the user, and the closing rules, one per scenario.
+/* Checks: limits on metrics from the profile, the user, and the design rules, one per scenario.
  *
  *   margin     = (limit - value) / max(|limit|, scale), sign turned for a lower limit
  *   constraint = -(margin - required margin)

@@ -6,7 +6,7 @@
 #include "evaluate/compose.h"
 
 /* What climbing is judged by, and the limit where the problem has none on a metric of the group:
- * EN 15227 holds a wheel to 75 % of its flange, the rest is ours, as in the closing rules. */
+ * EN 15227 holds a wheel to 75 % of its flange, the rest is ours, as in the design rules. */
 typedef struct Ground {
     int group;
     const char *metric, *name;
@@ -20,7 +20,7 @@ static const Ground grounds[] = {
     {0, "vehicles.max_wheel_lift_mm", "wheel lift", false, NAN},
     {1, "interfaces.overlap_ribs", "overlap of the anti-climbers", true, 1},
     {1, "interfaces.min_overlap_mm", "overlap of the anti-climbers", true, NAN},
-    {3, "vehicles.wheel_share", "wheels below their flanges", false, 1},
+    {3, "vehicles.wheel_share", "wheel lift / flange height", false, 1},
     {2, "interfaces.vertical_margin_kN", "vertical capacity of the anti-climbers", true, 0},
 };
 enum { N_GROUND = sizeof grounds / sizeof grounds[0], N_GROUP = 4 };

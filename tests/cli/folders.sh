@@ -15,7 +15,7 @@ parts:
 trains:
   - {name: A, speed_km_h: 15, vehicles: [{use: car}]}
   - {name: B, vehicles: [{use: car}]}
-checks: {closing_rules: false, limits: [{name: force, metric: interfaces.peak_force_kN, max: 5000}]}
+checks: {design_rules: false, limits: [{name: force, metric: interfaces.peak_force_kN, max: 5000}]}
 optimise:
   evaluations: 20
   variables: [{path: "parts.end.coupler.tube.stages[0].force_kN", min: 500, max: 900}]

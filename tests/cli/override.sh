@@ -18,12 +18,12 @@ for gap in lift_gap_mm bump_gap_mm; do sed "s/%s/$gap/" pattern >no-$gap.yaml; d
 unchecked() {
     for gap in lift_gap_mm bump_gap_mm; do
         exits 1 "$C" check no-$gap.yaml && line out.txt 'override ' 'NOT CHECKED' 'bump and lift stops' &&
-            line out.txt 'wheels below their flanges' 'NOT CHECKED' || return 1
+            line out.txt 'wheel lift / flange height' 'NOT CHECKED' || return 1
     done
 }
 check "without declared stops override is NOT CHECKED" unchecked
 never_passes() {
-    printf 'extends: no-lift_gap_mm.yaml\ntrains: [{name: A, speed_km_h: 5}]\nchecks: {closing_rules: false, limits: [{name: climbs, metric: override, max: 0}]}\n' >gentle.yaml
+    printf 'extends: no-lift_gap_mm.yaml\ntrains: [{name: A, speed_km_h: 5}]\nchecks: {design_rules: false, limits: [{name: climbs, metric: override, max: 0}]}\n' >gentle.yaml
     exits 1 "$C" check gentle.yaml && says out.txt 'Verdict: NOT CHECKED'
 }
 check "a gentle collision without stops is no pass either" never_passes
@@ -34,12 +34,12 @@ incomplete() {
 check "a run that is cut short is incomplete and no pass" incomplete
 beyond() {
     exits 1 "$C" check "$climbs" && says out.txt OVERRIDE && says out.txt 'beyond model validity' && line out.txt 'override ' FAIL &&
-        line out.txt 'section strength' 'beyond model validity' && says out.txt 'Verdict: FAIL' &&
+        line out.txt 'section force / proof strength' 'beyond model validity' && says out.txt 'Verdict: FAIL' &&
         exits 1 "$C" check "$climbs" --json && json out.txt scenarios.0.beyond_validity true && json out.txt verdict fail
 }
 check "after a loss of engagement it fails and says what is beyond model validity" beyond
 whatever() {
-    printf 'extends: %s\nchecks: {closing_rules: false, limits: [{name: force, metric: interfaces.peak_force_kN, max: 9000}]}\n' "$climbs" >asked.yaml
+    printf 'extends: %s\nchecks: {design_rules: false, limits: [{name: force, metric: interfaces.peak_force_kN, max: 9000}]}\n' "$climbs" >asked.yaml
     exits 1 "$C" check asked.yaml && says out.txt ' pass. Verdict: FAIL' && ! grep -q ' FAIL,' out.txt
 }
 check "a climb fails whatever checks were asked for" whatever

@@ -110,10 +110,10 @@ static void a_rule_that_judges_nowhere_is_not_checked(void **state) {
     if (cz_evaluator_build(made.problem, NULL, &made.evaluator, &error) != CZ_OK)
         fail_msg("%s", error.message);
     assert_int_equal(cz_evaluate(made.evaluator, 1, NULL, false, &made.evaluation, &error), CZ_OK);
-    const CzCheckResult *left_out = find(&made, "energy in occupied space", "design");
+    const CzCheckResult *left_out = find(&made, "energy in survival space", "design");
     assert_non_null(left_out);
     assert_int_equal(left_out->verdict, CZ_VERDICT_NOT_CHECKED);
-    assert_string_equal(left_out->why, "no scenario names it among its judges");
+    assert_string_equal(left_out->why, "no scenario lists it in judged_by");
     assert_non_null(find(&made, "stroke used", "crash"));
     assert_int_not_equal(made.evaluation.verdict, CZ_VERDICT_PASS);
     end(&made);

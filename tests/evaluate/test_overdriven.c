@@ -218,7 +218,7 @@ static void superstructures_that_meet_report_it_and_fail(void **state) {
         has_event |= judged.run->event[i].what == CZ_EVENT_SUPERSTRUCTURE_FLOW &&
                      strcmp(judged.run->event[i].where, "superstructures A1-B1") == 0;
     assert_true(has_event);
-    assert_check_fails(&judged.evaluation, "energy in occupied space");
+    assert_check_fails(&judged.evaluation, "energy in survival space");
     forget(&judged);
 }
 

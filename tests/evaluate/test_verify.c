@@ -43,7 +43,7 @@ static const CzVerifiedValue *value_of(const CzVerification *verification, const
 }
 
 static const char limits[] = "checks:\n"
-                             "  closing_rules: false\n"
+                             "  design_rules: false\n"
                              "  limits:\n"
                              "    - {name: closure, metric: interfaces.shortening_mm, max: 3000}\n";
 
@@ -96,7 +96,7 @@ static void changes_are_relative_to_what_is_allowed(void **state) {
 static void a_limit_exceeded_many_times_changes_by_what_it_is_exceeded_by(void **state) {
     (void)state;
     Case made = begin("checks:\n"
-                      "  closing_rules: false\n"
+                      "  design_rules: false\n"
                       "  limits: [{name: closure, metric: interfaces.shortening_mm, max: 1}]\n");
     CzVerifyOptions options = cz_verify_options_default();
     options.ways = 1u << CZ_WAY_HALF_STEP;
@@ -137,7 +137,7 @@ static void a_verdict_that_flips_does_not_pass(void **state) {
     char closer[512];
     snprintf(closer, sizeof closer,
              "checks:\n"
-             "  closing_rules: false\n"
+             "  design_rules: false\n"
              "  limits:\n"
              "    - {name: closure, metric: interfaces.shortening_mm, max: %.17g}\n",
              between);
@@ -153,7 +153,7 @@ static void a_verdict_that_flips_does_not_pass(void **state) {
 static void a_yes_or_no_counts_by_its_verdict_alone(void **state) {
     (void)state;
     Case made = begin("checks:\n"
-                      "  closing_rules: false\n"
+                      "  design_rules: false\n"
                       "  limits:\n"
                       "    - {name: bottom, metric: elements.bottomed_out, max: 0}\n");
     verify(&made, NULL);

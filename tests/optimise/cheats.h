@@ -65,14 +65,14 @@ typedef struct Cheat {
     const char *limits;  /* list entries of checks.limits that make the cheat visible */
     const char *minimise;
     const char *variables; /* list entries */
-    const char *check;     /* closing rule that must stop it */
+    const char *check;     /* design rule that must stop it */
     const char *scenario;
 } Cheat;
 
 static inline Case run_cheat(const Cheat *cheat, bool with_rules) {
     char more[4096];
     snprintf(more, sizeof more,
-             "checks: {closing_rules: %s, limits: [%s]}\n"
+             "checks: {design_rules: %s, limits: [%s]}\n"
              "optimise:\n"
              "  minimise: %s\n"
              "  subject_to: [%s]\n"
@@ -130,7 +130,7 @@ static inline void optimiser_cannot_win_with_stroke_that_does_not_exist(void **s
         .limits = "{name: visible, metric: ends.length_used, max: 1e9}",
         .minimise = "elements.anti-climber *.stroke_used",
         .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 10, max: 5000}",
-        .check = "room for the devices",
+        .check = "installed length / available length",
         .scenario = "design"});
 }
 
@@ -140,7 +140,7 @@ static inline void optimiser_cannot_win_with_a_coupler_that_has_nowhere_to_go(vo
         .limits = "{name: visible, metric: ends.retraction_used, max: 1e9}",
         .minimise = "elements.anti-climber *.stroke_used",
         .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 10, max: 5000}",
-        .check = "retraction space",
+        .check = "stroke / retraction space",
         .scenario = "design"});
 }
 
@@ -150,7 +150,7 @@ static inline void optimiser_cannot_win_by_forces_above_the_strength_behind(void
         .limits = "{name: visible, metric: sections.force_share, max: 1e9, scenarios: [crash]}",
         .minimise = "elements.anti-climber *.stroke_used",
         .variables = "{path: \"parts.anti-climber.stages[0].force_kN\", min: 10, max: 5000}",
-        .check = "section strength",
+        .check = "section force / proof strength",
         .scenario = "crash"});
 }
 
@@ -160,7 +160,7 @@ static inline void optimiser_cannot_use_the_shear_off_as_a_fuse(void **state) {
         &(Cheat){.limits = "{name: visible, metric: elements.coupler *.shear_load, max: 1e9}",
                  .minimise = "elements.coupler *.peak_force_kN",
                  .variables = "{path: parts.shear-off.force_kN, min: 100, max: 2000}",
-                 .check = "no shear-off in service",
+                 .check = "no shear-off at 15 km/h (service)",
                  .scenario = "service"});
 }
 
@@ -169,7 +169,7 @@ static inline void optimiser_cannot_let_the_coupler_go_before_its_tube_works(voi
     check_cheat(&(Cheat){.limits = "{name: visible, metric: ends.tube_over_shear_off, max: 1e9}",
                          .minimise = "elements.coupler *.peak_force_kN",
                          .variables = "{path: parts.shear-off.force_kN, min: 100, max: 2000}",
-                         .check = "shear-off above the tubes",
+                         .check = "tube force / shear-off force",
                          .scenario = "design"});
 }
 
@@ -179,7 +179,7 @@ static inline void optimiser_cannot_make_the_shear_off_stronger_than_the_car(voi
         &(Cheat){.limits = "{name: visible, metric: ends.shear_off_over_strength, max: 1e9}",
                  .minimise = "ends.tube_over_shear_off",
                  .variables = "{path: parts.shear-off.force_kN, min: 1000, max: 3000}",
-                 .check = "shear-off below the strength",
+                 .check = "shear-off force / proof strength",
                  .scenario = "design"});
 }
 
@@ -189,7 +189,7 @@ static inline void optimiser_cannot_win_with_an_element_that_takes_no_energy(voi
         .limits = "{name: visible, metric: energy.absorbers_share, min: -1e9, scenarios: [crash]}",
         .minimise = "design.installed_length_mm",
         .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 1, max: 900}",
-        .check = "energy in the absorbers",
+        .check = "share of collision energy absorbed",
         .scenario = "crash"});
 }
 

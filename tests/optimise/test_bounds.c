@@ -73,7 +73,7 @@ static void tied_places_of_other_units_share_the_bounds(void **state) {
 /* ---- what does not vary ---------------------------------------------------------------------- */
 
 #define VARIED                                                                                     \
-    "checks: {closing_rules: false,\n"                                                             \
+    "checks: {design_rules: false,\n"                                                              \
     "  limits: [{name: used, metric: elements.stroke_used, max: 0.8}]}\n"                          \
     "optimise:\n"                                                                                  \
     "  minimise: design.installed_length_mm\n"                                                     \
@@ -177,7 +177,7 @@ static CzStatus read_back(const CzEvaluator *evaluator, const char *more, const 
     "  parts.anti-climber.mass_per_stroke_kg_m: 900\n"                                             \
     "  parts.head.coupler.length_m: 0.9\n"                                                         \
     "  parts.head.coupler.buffer.preload_kN: 50\n"                                                 \
-    "checks: {closing_rules: false, limits: [{name: pull, metric: " limit "}]}\n"                  \
+    "checks: {design_rules: false, limits: [{name: pull, metric: " limit "}]}\n"                   \
     "optimise:\n"                                                                                  \
     "  variables:\n"                                                                               \
     "    - {path: \"parts.tube.stages[0].force_kN\", min: 0, max: 1000}\n"                         \

@@ -92,7 +92,7 @@ static void optimiser_cannot_win_by_working_the_running_gear(void **state) {
         .limits = "{name: visible, metric: energy.running_gear_share, max: 1e9}",
         .minimise = "elements.anti-climber *.energy_kJ",
         .variables = "{path: parts.anti-climber.gap_mm, min: 320, max: 700}",
-        .check = "energy in the running gear",
+        .check = "share of energy in the running gear",
         .scenario = "crash"});
 }
 
@@ -109,7 +109,7 @@ static void optimiser_cannot_win_by_crushing_the_occupied_space(void **state) {
         .minimise = "design.installed_length_mm",
         .variables =
             "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 10, max: 600, start: 500}",
-        .check = "energy in occupied space",
+        .check = "energy in survival space",
         .scenario = "crash"});
 }
 
@@ -121,7 +121,7 @@ static Case run_diluted(const char *subject) {
     char more[1024];
     snprintf(more, sizeof more,
              "checks:\n"
-             "  closing_rules: false\n"
+             "  design_rules: false\n"
              "  limits:\n"
              "    - {name: worse, metric: vehicles.mean_deceleration_g, max: 1.6}\n"
              "    - {name: diluted, metric: vehicles.mean_deceleration_contact_g, max: 1.6}\n"
@@ -184,7 +184,7 @@ static void optimiser_cannot_win_with_a_tube_longer_than_its_coupler(void **stat
                  .limits = "{name: visible, metric: ends.coupler_length_used, max: 1e9}",
                  .minimise = "elements.coupler *.stroke_used",
                  .variables = "{path: \"parts.tube.stages[0].stroke_mm\", min: 100, max: 3000}",
-                 .check = "room in the coupler",
+                 .check = "buffer and tubes / coupler length",
                  .scenario = "design"});
 }
 
@@ -196,7 +196,7 @@ static void optimiser_cannot_win_with_a_tube_that_is_spent_in_service(void **sta
                  .limits = "{name: visible, metric: elements.coupler *.tube_energy_kJ, max: 1e9}",
                  .minimise = "interfaces.peak_force_kN",
                  .variables = "{path: \"parts.tube.stages[0].force_kN\", min: 410, max: 1500}",
-                 .check = "no tube works when buffing",
+                 .check = "collapse tubes inactive at 8 km/h (buffing)",
                  .scenario = "crash"});
 }
 
@@ -208,7 +208,7 @@ static void optimiser_cannot_win_by_letting_the_collision_outlast_the_run(void *
                  .limits = "{name: visible, metric: closing_speed_m_s, max: 1e9}",
                  .minimise = "interfaces.peak_force_kN",
                  .variables = "{path: \"parts.tube.stages[0].force_kN\", min: 410, max: 800}",
-                 .check = "closing speed at the end",
+                 .check = "residual closing speed",
                  .scenario = "crash"});
 }
 
@@ -229,7 +229,7 @@ static Case run_failing(const char *problem, const char *minimise, const char *v
                         double winner, CzStatus *status) {
     char more[1024];
     snprintf(more, sizeof more,
-             "checks: {closing_rules: false}\n"
+             "checks: {design_rules: false}\n"
              "optimise: {minimise: %s, evaluations: 60, variables: [%s]}\n",
              minimise, variable);
     Case made = begin_with(problem_of_text(problem, more), 2);

@@ -19,7 +19,7 @@ static const char buffing[] =
     "  - {name: A, vehicles: [{name: A1, model: rigid, mass_t: 40, front: {use: head}}]}\n"
     "  - {name: B, vehicles: [{name: B1, model: rigid, mass_t: 50, rear: {use: wall-head}}]}\n"
     "scenarios: [{name: buff, speed_km_h: 10}, {name: crash, speed_km_h: 20}]\n"
-    "checks: {closing_rules: false}\n";
+    "checks: {design_rules: false}\n";
 
 #define CHOOSE(variables)                                                                          \
     "optimise:\n"                                                                                  \

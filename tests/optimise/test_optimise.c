@@ -11,9 +11,10 @@ static const char sizing[] =
     "checks:\n"
     "  limits: [{name: force, metric: interfaces.peak_force_kN, max: 1400}]\n"
     "optimise:\n"
-    "  subject_to: [force, stroke used, stroke used under overload, retraction space,\n"
-    "               room for the devices, section strength, no shear-off in service,\n"
-    "               shear-off above the tubes, shear-off below the strength]\n"
+    "  subject_to: [force, stroke used, stroke used under overload, stroke / retraction space,\n"
+    "               installed length / available length, section force / proof strength, no "
+    "shear-off at 15 km/h (service),\n"
+    "               tube force / shear-off force, shear-off force / proof strength]\n"
     "  minimise: design.installed_length_mm\n"
     "  evaluations: 600\n"
     "  variables:\n"
@@ -117,7 +118,7 @@ static void nothing_feasible_is_said_and_the_least_violated_design_given(void **
     stand_in_reset();
     Case made =
         begin("checks:\n"
-              "  closing_rules: false\n"
+              "  design_rules: false\n"
               "  limits:\n"
               "    - {name: low, metric: elements.coupler *.peak_force_kN, max: 500}\n"
               "    - {name: high, metric: elements.coupler *.energy_kJ, min: 200,\n"
@@ -143,7 +144,7 @@ static void what_passes_only_between_the_steps_is_given_and_said(void **state) {
     stand_in_reset();
     Case made =
         begin("checks:\n"
-              "  closing_rules: false\n"
+              "  design_rules: false\n"
               "  limits:\n"
               "    - {name: low, metric: elements.anti-climber *.peak_force_kN, max: 1070,\n"
               "       scenarios: [crash]}\n"
@@ -199,7 +200,7 @@ static void what_only_a_full_run_shows_is_never_called_success(void **state) {
     const char *more =
         "optimise:\n"
         "  minimise: elements.anti-climber *.peak_force_kN\n"
-        "  subject_to: [closing speed at the end, section strength]\n"
+        "  subject_to: [residual closing speed, section force / proof strength]\n"
         "  evaluations: 200\n"
         "  variables:\n"
         "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 300, max: 700, "
@@ -265,7 +266,7 @@ static void optimiser_cannot_win_by_crushing_the_occupied_space(void **state) {
         .limits = "{name: visible, metric: energy.occupied_kJ, max: 1e9, scenarios: [crash]}",
         .minimise = "design.installed_length_mm",
         .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 1, max: 900}",
-        .check = "energy in occupied space",
+        .check = "energy in survival space",
         .scenario = "crash"});
 }
 
@@ -274,7 +275,7 @@ static void optimiser_cannot_win_where_the_simulation_fails(void **state) {
     stand_in_reset();
     /* The lowest stroke used lies at the highest tube force, where every run fails. */
     const char *more =
-        "checks: {closing_rules: false}\n"
+        "checks: {design_rules: false}\n"
         "optimise:\n"
         "  minimise: elements.anti-climber *.stroke_used\n"
         "  evaluations: 200\n"
@@ -297,7 +298,7 @@ static void optimiser_cannot_dilute_the_mean_deceleration(void **state) {
      */
     Case made =
         begin("checks:\n"
-              "  closing_rules: false\n"
+              "  design_rules: false\n"
               "  limits:\n"
               "    - {name: worse, metric: vehicles.mean_deceleration_g, max: 2.4}\n"
               "    - {name: diluted, metric: vehicles.mean_deceleration_contact_g, max: 9}\n"

@@ -216,7 +216,7 @@ static void put_limits(Draw *draw) {
     if (chance(draw, 0.5))
         fprintf(draw->file, "  profile: en15227-2020a1\n");
     if (chance(draw, 0.3))
-        fprintf(draw->file, "  closing_rules: false\n");
+        fprintf(draw->file, "  design_rules: false\n");
     fprintf(draw->file,
             "  limits:\n    - {name: force, metric: interfaces.peak_force_kN, max: %.4g}\n",
             decades(draw, 500, 20000));

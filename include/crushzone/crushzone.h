@@ -18,6 +18,7 @@
 #ifndef CRUSHZONE_CRUSHZONE_H
 #define CRUSHZONE_CRUSHZONE_H
 
+#include "crushzone/channel.h"
 #include "crushzone/evaluate.h"
 #include "crushzone/explain.h"
 #include "crushzone/fit.h"

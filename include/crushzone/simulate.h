@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "crushzone/channel.h"
 #include "crushzone/model.h"
 
 #ifdef __cplusplus
@@ -262,12 +263,22 @@ typedef struct CzRest {
  * no equilibrium, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_rest_find(const CzModel *model, CzRest *rest, CzError *error);
 
-/* Recorded channels, names with unit such as "v_A1_m_s"; column 0 is t_ms. Borrowed; n_sample
- * values each. */
-CZ_API int cz_run_n_channel(const CzRun *run);
+/* Recorded channels (channels.def). Values of a channel at a place, one for each sample, in the
+ * unit of the channel's entry; borrowed from the run. NULL when the run did not record it: there is
+ * no such place, the vehicles lack what it is about, or nothing was recorded. Samples are the
+ * output step apart from t = 0 on; CZ_CHANNEL_TIME has their times. A value is NaN where there is
+ * none, such as the overlap of anti-climbers that do not push. */
 CZ_API int cz_run_n_sample(const CzRun *run);
-CZ_API const char *cz_run_channel_name(const CzRun *run, int channel);
-CZ_API const double *cz_run_channel(const CzRun *run, int channel);
+CZ_API const double *cz_run_channel(const CzRun *run, CzChannel channel, int place);
+
+/* The recorded channels one after the other, as the columns of channels.csv; the first is the time.
+ */
+CZ_API int cz_run_n_column(const CzRun *run);
+CZ_API CzColumn cz_run_column(const CzRun *run, int column);
+
+/* Name of the vehicle or the interface that a place belongs to, for cz_channel_name; empty for the
+ * run as a whole. */
+CZ_API const char *cz_run_place_name(const CzRunSummary *run, CzChannelAt at, int place);
 
 /* Version of the SUNDIALS libraries in use, such as "6.4.1". Writes at most n bytes. */
 CZ_API void cz_sundials_version(char *text, size_t n);

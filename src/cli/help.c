@@ -111,6 +111,8 @@ int cz_command_help(const CzArguments *arguments) {
         write_overview();
     else if (is_page && cz_topic_named(topic) == CZ_TOPIC_KEYS)
         cz_keys_write_reference(stdout);
+    else if (is_page && cz_topic_named(topic) == CZ_TOPIC_CHANNELS)
+        cz_help_write_channels_markdown();
     else if (cz_topic_named(topic) != CZ_N_TOPIC)
         cz_help_write_topic(cz_topic_named(topic));
     else if (cz_command_named(topic) != CZ_N_COMMAND)

@@ -36,6 +36,7 @@ void cz_help_write_wrapped(const char *text, int indent);
 
 /* The command line as a page in Markdown, as a manual page for man, and as completion for bash. */
 void cz_help_write_markdown(void);
+void cz_help_write_channels_markdown(void);
 void cz_help_write_man(void);
 void cz_help_write_bash(void);
 

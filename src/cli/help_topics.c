@@ -183,31 +183,52 @@ static void write_profiles(void) {
          "you; what\nsatisfies any other is PROVISIONAL ('crushzone help verdicts').");
 }
 
+/* Example of a channel's name: A1 stands for any vehicle, A4-B1 for any interface. */
+static const char *channel_example(const CzChannelInfo *info, char text[CZ_CHANNEL_ROOM]) {
+    const bool of_end = info->at == CZ_AT_END;
+    return cz_channel_name(info, of_end ? cz_end_place(0, 1) : 0,
+                           info->at == CZ_AT_INTERFACE ? "A4-B1" : "A1", text);
+}
+
+static const char channels_remark[] =
+    "One row every simulation.output_step_ms. Which columns there are depends on the vehicles: A1 "
+    "stands for any of them, A4-B1 for any interface, front for either end, w1 to w4 are wheelsets "
+    "from the rear. A value is blank where there is none.";
+static const char beyond_doc[] =
+    "1 after an override, where the model says nothing; energies are blank there";
+
 static void write_channels(void) {
-    static const Entry channels[] = {
-        {"t_ms", "time; 0 is the first contact of the colliding interface"},
-        {"x_A1_m, v_A1_m_s, a_A1_g", "a body along the track, positive along the way of the train "
-                                     "behind; the acceleration raw"},
-        {"z_A1_mm, pitch_A1_mrad", "body of a full car, up and nose-up"},
-        {"z_A1_w1_mm", "lift of a wheelset above the rail"},
-        {"F_end_front_A1_kN, d_end_front_A1_mm", "force and stroke of a car end"},
-        {"d_anti-climber_front_A1_mm", "stroke of an anti-climber"},
-        {"F_A4-B1_kN, d_A4-B1_mm, E_A4-B1_kJ", "an interface: force, closure, dissipated energy"},
-        {"F_coupler_A4-B1_kN", "its coupler's part of the force; F_anti-climber and F_side-buffers "
-                               "the others'"},
-        {"Fz_anti-climber_A4-B1_kN", "vertical force between the faces"},
-        {"overlap_A4-B1_mm", "overlap of the faces while they push"},
-        {"E_kinetic_kJ, E_stored_kJ", "energies of all; E_taken_up, E_wheel_rail, E_running_gear, "
-                                      "E_track likewise"},
-        {"E_imbalance_kJ", "what the balance is off by"},
-        {"beyond_validity", "1 after an override, where the model says nothing; energies are blank "
-                            "there"}};
-    puts("One row every simulation.output_step_ms. Which columns there are depends on the "
-         "vehicles; A1 "
-         "stands\nfor any car, A4-B1 for any interface, front for either end, w1 to w4 are "
-         "wheelsets "
-         "from the rear:\n");
-    write_entries((int)(sizeof channels / sizeof *channels), channels, 38);
+    cz_help_write_wrapped(channels_remark, 0);
+    putchar('\n');
+    for (CzChannel channel = 0; channel < CZ_N_CHANNEL; channel++) {
+        char name[CZ_CHANNEL_ROOM];
+        const CzChannelInfo *info = cz_channel_info(channel);
+        const Entry entry = {channel_example(info, name), info->doc};
+        write_entries(1, &entry, 30);
+    }
+    const Entry beyond = {"beyond_validity", beyond_doc};
+    write_entries(1, &beyond, 30);
+}
+
+void cz_help_write_channels_markdown(void) {
+    puts("# Channels\n\nThis page is printed by `crushzone help channels --markdown`.\n");
+    puts("A run records the quantities below over time, as the columns of `channels.csv`.");
+    printf("%s\n\n| column | quantity | unit | recorded for | meaning |\n|---|---|---|---|---|\n",
+           channels_remark);
+    static const char *const places[] = {[CZ_AT_RUN] = "the run",
+                                         [CZ_AT_VEHICLE] = "a vehicle",
+                                         [CZ_AT_WHEELSET] = "a wheelset",
+                                         [CZ_AT_END] = "an end of a vehicle",
+                                         [CZ_AT_INTERFACE] = "an interface"};
+    for (CzChannel channel = 0; channel < CZ_N_CHANNEL; channel++) {
+        char name[CZ_CHANNEL_ROOM], unit[16];
+        const CzChannelInfo *info = cz_channel_info(channel);
+        snprintf(unit, sizeof unit, "%s", info->unit);
+        unit[strcspn(unit, "_")] = strchr(unit, '_') != NULL ? '/' : '\0';
+        printf("| `%s` | %s | %s | %s | %s |\n", channel_example(info, name), info->title, unit,
+               places[info->at], info->doc);
+    }
+    printf("| `beyond_validity` | flag | 1 | the run | %s |\n", beyond_doc);
 }
 
 static void write_events(void) {

@@ -32,19 +32,6 @@ static CzStatus find_event(const char *text, CzEventKind *event, CzError *error)
     return status;
 }
 
-/* The unit at the end of a channel's name: v_A1_m_s has m_s, F_A1-B1_kN has kN. */
-static const char *unit_of_channel(const char *channel) {
-    static const char *const units[] = {"m_s", "km_h", "mrad", "kN", "kJ", "mm", "ms", "m", "g"};
-    const size_t n = strlen(channel);
-    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
-        const size_t n_unit = strlen(units[i]);
-        if (n > n_unit && channel[n - n_unit - 1] == '_' &&
-            strcmp(channel + n - n_unit, units[i]) == 0)
-            return units[i];
-    }
-    return "";
-}
-
 /* Gives a failure the place of a field of the problem file. */
 static CzStatus place_failure(const CzProblem *problem, const void *field, CzStatus status,
                               CzError *error) {
@@ -53,8 +40,25 @@ static CzStatus place_failure(const CzProblem *problem, const void *field, CzSta
     return status;
 }
 
+/* Finds the channel that a text names among those of a scenario's vehicles. */
+static CzStatus find_channel(const char *text, const CzScene *scene, CzArena *arena,
+                             CzColumn *column, CzError *error) {
+    char nearest[CZ_CHANNEL_ROOM];
+    const char **name = cz_arena_allocate(arena, (size_t)scene->n_vehicle, sizeof *name);
+    if (name == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the matches");
+    for (int i = 0; i < scene->n_vehicle; i++)
+        name[i] = scene->vehicle[i]->name;
+    if (cz_column_find(text, scene->n_vehicle, name, column, nearest))
+        return CZ_OK;
+    cz_fail(error, CZ_STATUS_INPUT, "there is no channel '%.127s'", text);
+    const CzSuggestion suggestion = {.best = nearest[0] != '\0' ? nearest : NULL};
+    cz_suggest_help(&suggestion, error);
+    return CZ_STATUS_INPUT;
+}
+
 static CzStatus build_item(const CzProblem *problem, int index, int n_scene, const CzScene *scene,
-                           CzMatchItem *item, CzError *error) {
+                           CzArena *arena, CzMatchItem *item, CzError *error) {
     const CzMatch *written = &cz_problem_input(problem)->optimise.match[index];
     *item = (CzMatchItem){.written = written, .unit = "ms"};
     for (int s = 0; written->scenario != NULL && s < n_scene; s++)
@@ -74,7 +78,11 @@ static CzStatus build_item(const CzProblem *problem, int index, int n_scene, con
         CZ_TRY(place_failure(problem, &written->event,
                              find_event(written->event, &item->event, error), error));
     } else {
-        item->unit = unit_of_channel(written->channel);
+        CZ_TRY(place_failure(
+            problem, &written->channel,
+            find_channel(written->channel, &scene[item->scenario], arena, &item->column, error),
+            error));
+        item->unit = cz_channel_info(item->column.channel)->unit;
         if (written->file != NULL)
             item->measured = cz_problem_measured(problem, index);
     }
@@ -91,7 +99,7 @@ CzStatus cz_matches_build(const CzProblem *problem, int n_scene, const CzScene *
     if (list->item == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the matches");
     for (int i = 0; i < optimise->n_match; i++) {
-        CZ_TRY(build_item(problem, i, n_scene, scene, &list->item[i], error));
+        CZ_TRY(build_item(problem, i, n_scene, scene, arena, &list->item[i], error));
         list->needs_record |= list->item[i].metric.kind == NULL;
         list->n_item++;
     }
@@ -100,25 +108,24 @@ CzStatus cz_matches_build(const CzProblem *problem, int n_scene, const CzScene *
 
 /* ---- judging --------------------------------------------------------------------------------- */
 
-static CzStatus find_channel(const CzMatchItem *item, const CzProblem *problem, const CzRun *run,
+static CzStatus take_channel(const CzMatchItem *item, const CzSubject *subject, const CzRun *run,
                              const double **values, CzError *error) {
-    CzSuggestion nearest = {0};
-    for (int i = 0; i < cz_run_n_channel(run); i++) {
-        if (strcmp(cz_run_channel_name(run, i), item->written->channel) == 0) {
-            *values = cz_run_channel(run, i);
-            return CZ_OK;
-        }
-        cz_suggest(&nearest, item->written->channel, cz_run_channel_name(run, i));
-    }
-    cz_fail(error, CZ_STATUS_INPUT, "there is no channel '%.60s'", item->written->channel);
-    cz_suggest_help(&nearest, error);
-    return place_failure(problem, &item->written->channel, CZ_STATUS_INPUT, error);
+    *values = cz_run_channel(run, item->column.channel, item->column.place);
+    if (*values != NULL)
+        return CZ_OK;
+    cz_fail(error, CZ_STATUS_INPUT, "a run of scenario '%s' does not record '%.127s'",
+            subject->scene->name, item->written->channel);
+    if (error != NULL)
+        snprintf(error->help, sizeof error->help,
+                 "vehicles or interface lack what it is about; channels.csv has the columns that "
+                 "are recorded");
+    return place_failure(subject->problem, &item->written->channel, CZ_STATUS_INPUT, error);
 }
 
 /* Value of a channel at a time [s], on the line between its samples; NaN beyond the run. `from` is
  * a sample to begin at and is moved on, for times that rise. */
 static double value_at(const CzRun *run, const double *values, double time, int *from) {
-    const double *t_ms = cz_run_channel(run, 0);
+    const double *t_ms = cz_run_channel(run, CZ_CHANNEL_TIME, 0);
     const int n = cz_run_n_sample(run);
     const double at = 1e3 * time;
     int i = *from;
@@ -202,7 +209,7 @@ CzStatus cz_match_judge(const CzMatchItem *item, const CzSubject *subject, const
     } else {
         const double *values = NULL;
         int from = 0;
-        CZ_TRY(find_channel(item, subject->problem, run, &values, error));
+        CZ_TRY(take_channel(item, subject, run, &values, error));
         if (item->measured != NULL) {
             judge_history(item, run, values, result, detail);
         } else {

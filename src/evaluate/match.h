@@ -19,6 +19,7 @@ typedef struct CzMatchItem {
     int scenario;
     CzMetric metric;            /* kind NULL unless a metric is matched */
     CzEventKind event;          /* when `written->event` is given */
+    CzColumn column;            /* when `written->channel` is */
     const CzMeasured *measured; /* time history; NULL unless one is matched */
     const char *unit;
 } CzMatchItem;

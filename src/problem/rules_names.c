@@ -4,7 +4,7 @@
 
 #include "base/index.h"
 #include "base/text.h"
-#include "crushzone/names.h"
+#include "crushzone/channel.h"
 #include "problem/rules.h"
 
 /* ---- what they hold ---- */
@@ -94,40 +94,27 @@ static void check_trains(const CzRules *rules) {
 
 /* ---- columns ---- */
 
-/* What the columns of a vehicle and of an interface hold beside the name, in the order of
- * src/simulate/channels.c. */
-static const char *const vehicle_columns[][2] = {{"z_", "_mm"},
-                                                 {"z_", "_w1_mm"},
-                                                 {"z_", "_w2_mm"},
-                                                 {"z_", "_w3_mm"},
-                                                 {"z_", "_w4_mm"},
-                                                 {"F_end_rear_", "_kN"},
-                                                 {"F_end_front_", "_kN"},
-                                                 {"d_end_rear_", "_mm"},
-                                                 {"d_end_front_", "_mm"},
-                                                 {"d_anti-climber_front_", "_mm"},
-                                                 {"d_anti-climber_rear_", "_mm"}};
-static const char *const interface_columns[][2] = {{"F_", "_kN"},
-                                                   {"d_", "_mm"},
-                                                   {"F_coupler_", "_kN"},
-                                                   {"F_anti-climber_", "_kN"},
-                                                   {"F_side-buffers_", "_kN"}};
-
-/* Adds the columns of one vehicle or interface, up to the first that is there already. */
-static void add_columns(Names *names, int n_column, const char *const (*column)[2],
-                        const char *name, const char *const *field) {
+/* Adds the columns of channels of a vehicle (0), or of an interface (1), up to the first that is
+ * there already. */
+static void add_columns(Names *names, bool of_interface, const char *name,
+                        const char *const *field) {
     CzArena *arena = names->rules->mistakes->arena;
-    for (int i = 0; i < n_column; i++) {
-        char text[CZ_CHANNEL_ROOM];
-        snprintf(text, sizeof text, "%s%.97s%s", column[i][0], name, column[i][1]);
-        const char *kept = cz_arena_copy_text(arena, text, strlen(text));
-        const int number = names->index.n_entry;
-        if (kept == NULL || add(names, kept, number) == number)
-            continue;
-        cz_rule_broken(names->rules, field,
-                       "the name '%.48s' gives two columns of results one name: %.120s", *field,
-                       text);
-        return;
+    for (CzChannel channel = 0; channel < CZ_N_CHANNEL; channel++) {
+        const CzChannelInfo *info = cz_channel_info(channel);
+        const bool fits = of_interface ? info->at == CZ_AT_INTERFACE
+                                       : info->at != CZ_AT_INTERFACE && info->at != CZ_AT_RUN;
+        for (int place = 0; fits && cz_place_index(info->at, place) == 0; place++) {
+            char text[CZ_CHANNEL_ROOM];
+            cz_channel_name(info, place, name, text);
+            const char *kept = cz_arena_copy_text(arena, text, strlen(text));
+            const int number = names->index.n_entry;
+            if (kept == NULL || add(names, kept, number) == number)
+                continue;
+            cz_rule_broken(names->rules, field,
+                           "the name '%.48s' gives two columns of results one name: %.127s", *field,
+                           text);
+            return;
+        }
     }
 }
 
@@ -137,17 +124,15 @@ static void check_columns(const CzRules *rules) {
     Names names = names_of(rules);
     const CzVehicle *vehicle = rules->problem->vehicle;
     for (int i = 0; i < rules->problem->n_vehicle; i++)
-        if (vehicle[i].name != NULL)
-            add_columns(&names, sizeof vehicle_columns / sizeof *vehicle_columns, vehicle_columns,
-                        vehicle[i].name, &vehicle[i].name);
+        if (vehicle[i].name != NULL && strlen(vehicle[i].name) <= CZ_MOST_NAME)
+            add_columns(&names, false, vehicle[i].name, &vehicle[i].name);
     for (int i = 0; i + 1 < rules->problem->n_vehicle; i++) {
         const char *behind = vehicle[i].name, *ahead = vehicle[i + 1].name;
         char text[CZ_INTERFACE_ROOM];
         if (behind == NULL || ahead == NULL)
             continue;
         snprintf(text, sizeof text, "%.48s-%.48s", behind, ahead);
-        add_columns(&names, sizeof interface_columns / sizeof *interface_columns, interface_columns,
-                    text, &vehicle[i].name);
+        add_columns(&names, true, text, &vehicle[i].name);
     }
 }
 

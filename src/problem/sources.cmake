@@ -6,6 +6,7 @@ set(CZ_SOURCES_problem
     bind_curve_file.c
     bind_table.c
     bind_value.c
+    channel.c
     families.c
     find.c
     keys.c

@@ -10,14 +10,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The panels by how the titles of their columns begin. */
+/* The panels by the channels that they show. */
 static const struct {
     CzChart chart;
-    const char *stem, *what;
-} panels[] = {{CZ_CHART_FORCE, "F_", "force"},
-              {CZ_CHART_VELOCITY, "v_", "speed"},
-              {CZ_CHART_DISPLACEMENT, "x_", "displacement"},
-              {CZ_CHART_SHORTENING, "d_", "shortening"}};
+    CzChannel channel;
+} panels[] = {{CZ_CHART_FORCE, CZ_CHANNEL_INTERFACE_FORCE},
+              {CZ_CHART_VELOCITY, CZ_CHANNEL_BODY_SPEED},
+              {CZ_CHART_DISPLACEMENT, CZ_CHANNEL_BODY_DISPLACEMENT},
+              {CZ_CHART_SHORTENING, CZ_CHANNEL_INTERFACE_CLOSURE}};
 
 /* What is being read. */
 typedef struct Reading {
@@ -32,8 +32,9 @@ typedef struct Reading {
 
 static CzStatus find_panel(const Reading *reading, const char *title, CzChart *chart) {
     for (size_t i = 0; i < sizeof panels / sizeof *panels; i++) {
+        const char *pattern = cz_channel_info(panels[i].channel)->pattern;
         *chart = panels[i].chart;
-        if (strncmp(title, panels[i].stem, strlen(panels[i].stem)) == 0)
+        if (strncmp(title, pattern, strcspn(pattern, "{")) == 0)
             return CZ_OK;
     }
     const CzStatus status =
@@ -188,20 +189,42 @@ CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int 
 
 /* ---- of a fit ---- */
 
-/* The figure that shows channels over time whose names begin so; CZ_N_CHART for none. */
-static CzChart chart_of_channel(const char *channel) {
-    static const struct {
-        const char *stem;
-        CzChart chart;
-    } charts[] = {{"F_", CZ_CHART_FORCE},
-                  {"v_", CZ_CHART_VELOCITY},
-                  {"E_", CZ_CHART_ENERGY},
-                  {"overlap_", CZ_CHART_OVERLAP},
-                  {"pitch_", CZ_CHART_PITCH}};
-    for (size_t i = 0; i < sizeof charts / sizeof *charts; i++)
-        if (strncmp(channel, charts[i].stem, strlen(charts[i].stem)) == 0)
-            return charts[i].chart;
-    return CZ_N_CHART;
+/* The figure of a page that shows a channel over time; CZ_N_CHART for none. */
+static CzChart chart_of(CzChannel channel) {
+    switch (channel) {
+    case CZ_CHANNEL_INTERFACE_FORCE:
+    case CZ_CHANNEL_COUPLER_FORCE:
+    case CZ_CHANNEL_ANTI_CLIMBER_FORCE:
+    case CZ_CHANNEL_SIDE_BUFFER_FORCE:
+    case CZ_CHANNEL_END_FORCE:
+        return CZ_CHART_FORCE;
+    case CZ_CHANNEL_BODY_SPEED:
+        return CZ_CHART_VELOCITY;
+    case CZ_CHANNEL_INTERFACE_ENERGY:
+    case CZ_CHANNEL_KINETIC_ENERGY:
+    case CZ_CHANNEL_ENERGY_TAKEN_UP:
+    case CZ_CHANNEL_WHEEL_RAIL_ENERGY:
+    case CZ_CHANNEL_RUNNING_GEAR_ENERGY:
+    case CZ_CHANNEL_TRACK_ENERGY:
+    case CZ_CHANNEL_STORED_ENERGY:
+    case CZ_CHANNEL_ENERGY_IMBALANCE:
+        return CZ_CHART_ENERGY;
+    case CZ_CHANNEL_ANTI_CLIMBER_OVERLAP:
+        return CZ_CHART_OVERLAP;
+    case CZ_CHANNEL_BODY_PITCH:
+        return CZ_CHART_PITCH;
+    default:
+        return CZ_N_CHART;
+    }
+}
+
+/* The figure of the channel that a match follows in a run; CZ_N_CHART for none. */
+static CzChart chart_of_match(const CzMatch *match, int n_vehicle, const char *const *vehicle) {
+    CzColumn column;
+    if (match->file == NULL || match->channel == NULL ||
+        !cz_column_find(match->channel, n_vehicle, vehicle, &column, NULL))
+        return CZ_N_CHART;
+    return chart_of(column.channel);
 }
 
 /* A copy of a history with times in ms; NULL without memory. */
@@ -224,25 +247,28 @@ static CzCurve *copy_history(const CzMeasured *history) {
     return curve;
 }
 
-CzStatus cz_chart_curves_of_fit(const CzProblem *problem, const char *scenario, int *n,
+CzStatus cz_chart_curves_of_fit(const CzProblem *problem, const CzRunSummary *run, int *n,
                                 CzChartCurve curve[CZ_MOST_CHART_CURVES], CzError *error) {
     const CzOptimise *optimise = &cz_problem_input(problem)->optimise;
+    const char **vehicle = malloc((size_t)run->n_vehicle * sizeof *vehicle);
+    CzStatus status = vehicle != NULL ? CZ_OK : CZ_STATUS_NO_MEMORY;
     *n = 0;
-    for (int i = 0; i < optimise->n_match && *n < CZ_MOST_CHART_CURVES; i++) {
+    for (int i = 0; vehicle != NULL && i < run->n_vehicle; i++)
+        vehicle[i] = run->vehicle[i].name;
+    for (int i = 0; status == CZ_OK && i < optimise->n_match && *n < CZ_MOST_CHART_CURVES; i++) {
         const CzMatch *match = &optimise->match[i];
-        const bool is_here = match->scenario == NULL || strcmp(match->scenario, scenario) == 0;
-        if (match->file == NULL || match->channel == NULL || !is_here ||
-            chart_of_channel(match->channel) == CZ_N_CHART)
+        const bool is_here = match->scenario == NULL || strcmp(match->scenario, run->scenario) == 0;
+        const CzChart chart = chart_of_match(match, run->n_vehicle, vehicle);
+        if (!is_here || chart == CZ_N_CHART)
             continue;
-        CzChartCurve *made = &curve[*n];
-        made->chart = chart_of_channel(match->channel);
-        made->curve = copy_history(cz_problem_measured(problem, i));
-        if (made->curve == NULL)
-            return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a measured curve");
+        CzChartCurve *made = &curve[(*n)++];
+        *made =
+            (CzChartCurve){.chart = chart, .curve = copy_history(cz_problem_measured(problem, i))};
         snprintf(made->label, sizeof made->label, "measured, %s", match->name);
-        ++*n;
+        status = made->curve != NULL ? CZ_OK : CZ_STATUS_NO_MEMORY;
     }
-    return CZ_OK;
+    free(vehicle);
+    return status == CZ_OK ? CZ_OK : cz_fail(error, status, "no memory for a measured curve");
 }
 
 void cz_chart_curves_free(int n, CzChartCurve *measured) {

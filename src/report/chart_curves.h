@@ -19,9 +19,10 @@ typedef struct CzChartCurve {
 CZ_MUST_CHECK CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int *n,
                                             CzChartCurve measured[CZ_MOST_CHART_CURVES],
                                             CzError *error);
-/* The time histories that a fit follows in one scenario, each over the figure of its channel; none
- * of channels that no figure shows. Status: CZ_STATUS_NO_MEMORY; free them in any case. */
-CZ_MUST_CHECK CzStatus cz_chart_curves_of_fit(const CzProblem *problem, const char *scenario,
+/* The time histories that a fit follows in the scenario of a run, each over the figure of its
+ * channel; none of channels that no figure shows. Status: CZ_STATUS_NO_MEMORY; free them in any
+ * case. */
+CZ_MUST_CHECK CzStatus cz_chart_curves_of_fit(const CzProblem *problem, const CzRunSummary *run,
                                               int *n, CzChartCurve curve[CZ_MOST_CHART_CURVES],
                                               CzError *error);
 void cz_chart_curves_free(int n, CzChartCurve *measured);

@@ -8,19 +8,12 @@
 
 #include <string.h>
 
-static bool has_any(const CzPage *page, const char *format_of_car, bool of_interfaces) {
-    const int n = of_interfaces ? page->summary->n_interface : page->summary->n_vehicle;
-    for (int i = 0; i < n; i++) {
-        const char *name =
-            of_interfaces ? page->summary->interface[i].name : page->summary->vehicle[i].name;
-        char channel[CZ_CHANNEL_ROOM];
-        const char *cut = strchr(format_of_car, '*');
-        snprintf(channel, sizeof channel, "%.*s%s%s", (int)(cut - format_of_car), format_of_car,
-                 name, cut + 1);
-        if (cz_page_channel(page, "%s", channel) != NULL)
-            return true;
-    }
-    return false;
+/* Whether something is drawn at any of n places. */
+static int has_any(const CzPage *page, CzDrawn drawn, int n_place) {
+    for (int place = 0; place < n_place; place++)
+        if (cz_page_values(page, drawn, place) != NULL)
+            return 1;
+    return 0;
 }
 
 int cz_chart_hardest_car(const CzRunSummary *run) {
@@ -41,11 +34,11 @@ int cz_chart_count(const CzPage *page, CzChart chart) {
     case CZ_CHART_CAR_ACCELERATION:
         return page->summary->n_vehicle;
     case CZ_CHART_WHEEL_LIFT:
-        return has_any(page, "z_*_w1_mm", false);
+        return has_any(page, CZ_DRAWN_WHEEL_LIFT, 4 * page->summary->n_vehicle);
     case CZ_CHART_OVERLAP:
-        return has_any(page, "overlap_*_mm", true);
+        return has_any(page, CZ_DRAWN_ANTI_CLIMBER_OVERLAP, page->summary->n_interface);
     case CZ_CHART_PITCH:
-        return has_any(page, "pitch_*_mrad", false);
+        return has_any(page, CZ_DRAWN_BODY_PITCH, page->summary->n_vehicle);
     default:
         return 1;
     }
@@ -86,11 +79,11 @@ static CzStatus draw(CzSheet *sheet, CzChart chart, int index, CzError *error) {
         cz_draw_balance(sheet);
         break;
     case CZ_CHART_FORCE:
-        cz_draw_interfaces(sheet, "F", "kN");
+        cz_draw_interfaces(sheet, CZ_DRAWN_INTERFACE_FORCE);
         cz_draw_force_limits(sheet);
         break;
     case CZ_CHART_VELOCITY:
-        cz_draw_cars(sheet, "v", "m_s");
+        cz_draw_cars(sheet, CZ_DRAWN_BODY_SPEED);
         break;
     case CZ_CHART_ACCELERATION:
         cz_draw_accelerations(sheet);
@@ -99,7 +92,7 @@ static CzStatus draw(CzSheet *sheet, CzChart chart, int index, CzError *error) {
         cz_draw_car_acceleration(sheet, index);
         break;
     case CZ_CHART_DISPLACEMENT:
-        cz_draw_cars(sheet, "x", "m");
+        cz_draw_cars(sheet, CZ_DRAWN_BODY_DISPLACEMENT);
         break;
     case CZ_CHART_SHORTENING:
         cz_draw_shortening(sheet, index);
@@ -108,10 +101,10 @@ static CzStatus draw(CzSheet *sheet, CzChart chart, int index, CzError *error) {
         cz_draw_lifts(sheet);
         break;
     case CZ_CHART_OVERLAP:
-        cz_draw_interfaces(sheet, "overlap", "mm");
+        cz_draw_interfaces(sheet, CZ_DRAWN_ANTI_CLIMBER_OVERLAP);
         break;
     default:
-        cz_draw_cars(sheet, "pitch", "mrad");
+        cz_draw_cars(sheet, CZ_DRAWN_BODY_PITCH);
     }
     return CZ_OK;
 }

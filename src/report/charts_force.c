@@ -36,12 +36,14 @@ static double largest(const double *value, int n) {
 }
 
 /* The same interface in the runs beside this one. */
-static void add_other_loops(CzSheet *sheet, const char *interface) {
+static void add_other_loops(CzSheet *sheet, int interface) {
     const CzPage *page = sheet->page;
     for (int i = 0; i < page->n_other; i++) {
         const CzRun *run = page->other[i].run;
-        const double *closure = cz_run_channel_named(run, "d_%s_mm", interface);
-        const double *force = cz_run_channel_named(run, "F_%s_kN", interface);
+        const double *closure =
+            cz_drawn_beside(page->summary, CZ_CHANNEL_INTERFACE_CLOSURE, interface, run);
+        const double *force =
+            cz_drawn_beside(page->summary, CZ_CHANNEL_INTERFACE_FORCE, interface, run);
         if (closure == NULL || force == NULL || sheet->plot.n_series == sheet->room)
             continue;
         sheet->series[sheet->plot.n_series++] = (CzSeries){.name = page->other[i].label,
@@ -55,17 +57,14 @@ static void add_other_loops(CzSheet *sheet, const char *interface) {
 
 CzStatus cz_draw_force_closure(CzSheet *sheet, int interface, CzError *error) {
     const CzPage *page = sheet->page;
-    const char *name = page->summary->interface[interface].name;
-    const double *closure = cz_page_channel(page, "d_%s_mm", name);
-    const double *force = cz_page_channel(page, "F_%s_kN", name);
+    const double *closure = cz_page_values(page, CZ_DRAWN_INTERFACE_CLOSURE, interface);
+    const double *force = cz_page_values(page, CZ_DRAWN_INTERFACE_FORCE, interface);
     if (closure == NULL || force == NULL)
         return CZ_OK;
     const double longest = largest(closure, page->n_sample);
     double *input = cz_arena_allocate(&sheet->arena, 2 * INPUT_POINTS, sizeof *input);
-    char *x_channel = cz_arena_allocate(&sheet->arena, CZ_CHANNEL_ROOM, 1);
-    if (input == NULL || x_channel == NULL)
+    if (input == NULL)
         return CZ_OK; /* told by finish */
-    snprintf(x_channel, CZ_CHANNEL_ROOM, "d_%s_mm", name);
     if (longest > 0) {
         CZ_TRY(cz_input_curve(page->model, interface, longest / CZ_MILLI_PER_UNIT, INPUT_POINTS,
                               input, input + INPUT_POINTS, error));
@@ -82,12 +81,12 @@ CzStatus cz_draw_force_closure(CzSheet *sheet, int interface, CzError *error) {
                                                            .y = input + INPUT_POINTS,
                                                            .colour = CZ_PLOT_QUIET};
     }
-    add_other_loops(sheet, name);
-    CzSeries *series = cz_sheet_add_channel(sheet, "F", name, "kN");
+    add_other_loops(sheet, interface);
+    CzSeries *series = cz_sheet_add(sheet, CZ_DRAWN_INTERFACE_FORCE, interface);
     if (series != NULL) {
         series->name = page->label != NULL ? page->label : "computed, with unloading";
         series->x = closure;
-        series->x_channel = x_channel;
+        series->x_channel = cz_sheet_name(sheet, CZ_DRAWN_INTERFACE_CLOSURE, interface);
         cz_sheet_split_beyond(sheet, series);
     }
     cz_draw_force_limits(sheet);
@@ -95,11 +94,10 @@ CzStatus cz_draw_force_closure(CzSheet *sheet, int interface, CzError *error) {
     return CZ_OK;
 }
 
-void cz_draw_interfaces(CzSheet *sheet, const char *stem, const char *unit) {
+void cz_draw_interfaces(CzSheet *sheet, CzDrawn drawn) {
     const CzPage *page = sheet->page;
     for (int i = 0; i < page->summary->n_interface; i++) {
-        CzSeries *series =
-            cz_sheet_add_channel(sheet, stem, page->summary->interface[i].name, unit);
+        CzSeries *series = cz_sheet_add(sheet, drawn, i);
         if (series != NULL)
             cz_sheet_mark_interface(series, page->model, i);
     }
@@ -108,15 +106,16 @@ void cz_draw_interfaces(CzSheet *sheet, const char *stem, const char *unit) {
 
 void cz_draw_energy(CzSheet *sheet) {
     static const struct {
-        const char *stem, *name;
-    } parts[] = {{"E_kinetic", "kinetic"},
-                 {"E_stored", "stored"},
-                 {"E_wheel_rail", "wheel and rail"},
-                 {"E_running_gear", "running gear"},
-                 {"E_track", "track"},
-                 {"E_interfaces", "interfaces, dissipated"}};
+        CzDrawn drawn;
+        const char *name;
+    } parts[] = {{CZ_DRAWN_KINETIC_ENERGY, "kinetic"},
+                 {CZ_DRAWN_STORED_ENERGY, "stored"},
+                 {CZ_DRAWN_WHEEL_RAIL_ENERGY, "wheel and rail"},
+                 {CZ_DRAWN_RUNNING_GEAR_ENERGY, "running gear"},
+                 {CZ_DRAWN_TRACK_ENERGY, "track"},
+                 {CZ_DRAWN_INTERFACES_ENERGY, "interfaces, dissipated"}};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-        CzSeries *series = cz_sheet_add_channel(sheet, parts[i].stem, "", "kJ");
+        CzSeries *series = cz_sheet_add(sheet, parts[i].drawn, 0);
         if (series == NULL)
             continue;
         series->name = parts[i].name;
@@ -128,7 +127,7 @@ void cz_draw_energy(CzSheet *sheet) {
 }
 
 void cz_draw_balance(CzSheet *sheet) {
-    CzSeries *series = cz_sheet_add_channel(sheet, "imbalance", "", "ppm");
+    CzSeries *series = cz_sheet_add(sheet, CZ_DRAWN_BALANCE_ERROR, 0);
     if (series != NULL)
         series->name = "energy too much";
 }

@@ -6,11 +6,10 @@
 #include <math.h>
 #include <stdio.h>
 
-void cz_draw_cars(CzSheet *sheet, const char *stem, const char *unit) {
+void cz_draw_cars(CzSheet *sheet, CzDrawn drawn) {
     const CzPage *page = sheet->page;
     for (int car = 0; car < page->summary->n_vehicle; car++) {
-        CzSeries *series =
-            cz_sheet_add_channel(sheet, stem, page->summary->vehicle[car].name, unit);
+        CzSeries *series = cz_sheet_add(sheet, drawn, car);
         if (series != NULL)
             cz_sheet_mark_car(series, page->model, car);
     }
@@ -19,20 +18,21 @@ void cz_draw_cars(CzSheet *sheet, const char *stem, const char *unit) {
 /* Closure of an interface, and what gives way at it: side A is the front of the car behind. */
 void cz_draw_shortening(CzSheet *sheet, int interface) {
     const CzRunSummary *run = sheet->page->summary;
-    static const char *const stems[2][2] = {{"d_end_front", "d_anti-climber_front"},
-                                            {"d_end_rear", "d_anti-climber_rear"}};
-    static const char *const names[2] = {"end", "anti-climber"};
-    CzSeries *closure = cz_sheet_add_channel(sheet, "d", run->interface[interface].name, "mm");
+    static const struct {
+        CzDrawn drawn;
+        const char *name;
+    } parts[2] = {{CZ_DRAWN_END_STROKE, "end"}, {CZ_DRAWN_ANTI_CLIMBER_STROKE, "anti-climber"}};
+    CzSeries *closure = cz_sheet_add(sheet, CZ_DRAWN_INTERFACE_CLOSURE, interface);
     if (closure != NULL)
         closure->name = "closure of the interface";
     for (int side = 0; side < 2; side++)
         for (int i = 0; i < 2; i++) {
-            const char *car = run->vehicle[interface + side].name;
-            CzSeries *series = cz_sheet_add_channel(sheet, stems[side][i], car, "mm");
+            const int car = interface + side;
+            CzSeries *series = cz_sheet_add(sheet, parts[i].drawn, cz_end_place(car, side == 0));
             char *name = cz_arena_allocate(&sheet->arena, CZ_WHERE_ROOM, 1);
             if (series == NULL || name == NULL)
                 continue;
-            snprintf(name, CZ_WHERE_ROOM, "%s %s", names[i], car);
+            snprintf(name, CZ_WHERE_ROOM, "%s %s", parts[i].name, run->vehicle[car].name);
             series->name = name;
             series->colour = 1 + i;
             series->dash = side;
@@ -41,21 +41,21 @@ void cz_draw_shortening(CzSheet *sheet, int interface) {
 }
 
 void cz_draw_accelerations(CzSheet *sheet) {
-    cz_draw_cars(sheet, "c", "g");
+    cz_draw_cars(sheet, CZ_DRAWN_FILTERED_ACCELERATION);
     if (sheet->plot.n_series > 0)
         return;
-    cz_draw_cars(sheet, "a", "g");
+    cz_draw_cars(sheet, CZ_DRAWN_BODY_ACCELERATION);
     sheet->plot.y_label = "acceleration, not filtered: samples too far apart [g]";
 }
 
 void cz_draw_car_acceleration(CzSheet *sheet, int car) {
     const CzVehicleResult *vehicle = &sheet->page->summary->vehicle[car];
-    CzSeries *raw = cz_sheet_add_channel(sheet, "a", vehicle->name, "g");
+    CzSeries *raw = cz_sheet_add(sheet, CZ_DRAWN_BODY_ACCELERATION, car);
     if (raw == NULL)
         return;
     raw->name = "raw, as sampled";
     raw->colour = 5;
-    CzSeries *smooth = cz_sheet_add_channel(sheet, "c", vehicle->name, "g");
+    CzSeries *smooth = cz_sheet_add(sheet, CZ_DRAWN_FILTERED_ACCELERATION, car);
     if (smooth != NULL) {
         smooth->name = "CFC 60";
         smooth->colour = 6;
@@ -95,6 +95,16 @@ static int rank_lifts(const CzRunSummary *run, int room, int vehicle[], int axle
     return n;
 }
 
+static CzSeries *add_lift(CzSheet *sheet, int vehicle, int axle) {
+    CzSeries *series = cz_sheet_add(sheet, CZ_DRAWN_WHEEL_LIFT, cz_wheelset_place(vehicle, axle));
+    char *name = cz_arena_allocate(&sheet->arena, CZ_WHERE_ROOM, 1);
+    if (series == NULL || name == NULL)
+        return NULL;
+    snprintf(name, CZ_WHERE_ROOM, "%s_w%d", sheet->page->summary->vehicle[vehicle].name, axle + 1);
+    series->name = name;
+    return series;
+}
+
 void cz_draw_lifts(CzSheet *sheet) {
     const CzPage *page = sheet->page;
     int vehicle[CZ_MOST_LIFTS], axle[CZ_MOST_LIFTS];
@@ -105,26 +115,14 @@ void cz_draw_lifts(CzSheet *sheet) {
             flange =
                 fmin(flange, page->vehicles[page->model->car[car].vehicle].bogie.flange_height);
     for (int i = 0; i < n; i++) {
-        char *name = cz_arena_allocate(&sheet->arena, CZ_WHERE_ROOM, 1);
-        if (name == NULL)
-            return;
-        snprintf(name, CZ_WHERE_ROOM, "%s_w%d", page->summary->vehicle[vehicle[i]].name,
-                 axle[i] + 1);
-        CzSeries *series = cz_sheet_add_channel(sheet, "z", name, "mm");
+        CzSeries *series = add_lift(sheet, vehicle[i], axle[i]);
         if (series == NULL)
             continue;
         series->colour = i;
         series->dash = i / CZ_PLOT_N_COLOUR + 2 * (i % 2);
     }
-    if (n == 0) { /* all wheels stay down: one of them shows it */
-        for (int car = 0; car < page->summary->n_vehicle && sheet->plot.n_series == 0; car++) {
-            char *name = cz_arena_allocate(&sheet->arena, CZ_WHERE_ROOM, 1);
-            if (name == NULL)
-                return;
-            snprintf(name, CZ_WHERE_ROOM, "%s_w1", page->summary->vehicle[car].name);
-            cz_sheet_add_channel(sheet, "z", name, "mm");
-        }
-    }
+    for (int car = 0; n == 0 && car < page->summary->n_vehicle && sheet->plot.n_series == 0; car++)
+        (void)add_lift(sheet, car, 0); /* all wheels stay down: one of them shows it */
     if (isfinite(flange))
         cz_sheet_add_limit(sheet, flange * CZ_MILLI_PER_UNIT, "flange height");
     sheet->plot.from_zero = true;

@@ -189,18 +189,26 @@ void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *opt
 }
 
 void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FILE *stream) {
+    const CzRunSummary *summary = cz_run_summary(run);
     Table table = table_of(options, stream);
-    const int n_channel = cz_run_n_channel(run);
-    const double from = cz_run_summary(run)->beyond_validity_time * CZ_MILLI_PER_UNIT; /* or NaN */
-    for (int channel = 0; channel < n_channel; channel++)
-        put_text(&table, cz_run_channel_name(run, channel));
+    const int n_column = cz_run_n_column(run);
+    const double *time = cz_run_channel(run, CZ_CHANNEL_TIME, 0);
+    const double from = summary->beyond_validity_time * CZ_MILLI_PER_UNIT; /* or NaN */
+    for (int i = 0; i < n_column; i++) {
+        const CzColumn column = cz_run_column(run, i);
+        const CzChannelInfo *info = cz_channel_info(column.channel);
+        const char *place = cz_run_place_name(summary, info->at, column.place);
+        char name[CZ_CHANNEL_ROOM];
+        put_text(&table, cz_channel_name(info, column.place, place, name));
+    }
     put_text(&table, "beyond_validity");
     end_row(&table);
     for (int sample = 0; sample < cz_run_n_sample(run); sample++) {
-        const bool late = cz_run_channel(run, 0)[sample] > from;
-        for (int channel = 0; channel < n_channel; channel++)
-            put_number(&table, cz_run_channel(run, channel)[sample]);
-        put_number(&table, late ? 1 : 0);
+        for (int i = 0; i < n_column; i++) {
+            const CzColumn column = cz_run_column(run, i);
+            put_number(&table, cz_run_channel(run, column.channel, column.place)[sample]);
+        }
+        put_number(&table, time[sample] > from ? 1 : 0);
         end_row(&table);
     }
 }

@@ -9,39 +9,11 @@
 #include "report/sha256.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double *channel_named(const CzRun *run, const char *format, va_list arguments) {
-    char name[CZ_CHANNEL_ROOM];
-    vsnprintf(name, sizeof name, format, arguments);
-    for (int i = 0; run != NULL && i < cz_run_n_channel(run); i++)
-        if (strcmp(cz_run_channel_name(run, i), name) == 0)
-            return cz_run_channel(run, i);
-    return NULL;
-}
-
-const double *cz_run_channel_named(const CzRun *run, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    const double *channel = channel_named(run, format, arguments);
-    va_end(arguments);
-    return channel;
-}
-
-const double *cz_page_channel(const CzPage *page, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    const double *channel = channel_named(page->run, format, arguments);
-    va_end(arguments);
-    char name[CZ_CHANNEL_ROOM];
-    va_start(arguments, format);
-    vsnprintf(name, sizeof name, format, arguments);
-    va_end(arguments);
-    for (int i = 0; i < page->n_made && channel == NULL; i++)
-        channel = strcmp(page->made[i].name, name) == 0 ? page->made[i].value : NULL;
-    return channel;
+const double *cz_page_values(const CzPage *page, CzDrawn drawn, int place) {
+    return cz_drawn_values(page->run, &page->made, drawn, place);
 }
 
 int cz_page_deciding(const CzEvaluation *evaluation) {
@@ -89,10 +61,10 @@ CzStatus cz_page_begin(CzPage *page, const CzProblem *problem, const CzEvaluatio
     int n_vehicle;
     page->vehicles = cz_problem_vehicles(problem, &n_vehicle);
     page->n_sample = cz_run_n_sample(page->run);
-    page->time = cz_page_channel(page, "t_ms");
+    page->time = cz_page_values(page, CZ_DRAWN_TIME, 0);
     if (page->time == NULL)
         page->n_sample = 0;
-    CZ_TRY(cz_page_make_curves(page, error));
+    CZ_TRY(cz_drawn_make(page->run, &page->made, error));
     CZ_TRY(cz_model_build(problem, scenario_named(problem, page->summary->scenario), &page->model,
                           error));
     page->stand = calloc((size_t)page->model->n_car, sizeof *page->stand);
@@ -102,7 +74,7 @@ CzStatus cz_page_begin(CzPage *page, const CzProblem *problem, const CzEvaluatio
 }
 
 void cz_page_free(CzPage *page) {
-    cz_page_free_curves(page);
+    cz_drawn_free(&page->made);
     if (page->markup.stream != NULL)
         fclose(page->markup.stream);
     cz_memory_text_free(&page->text);
@@ -281,8 +253,8 @@ void cz_page_close_table(CzMarkup *markup) {
 /* The figures, with the histories of a fit over them. */
 static CzStatus write_figures(CzPage *page, CzError *error) {
     CzChartCurve curve[CZ_MOST_CHART_CURVES];
-    CzStatus status = cz_chart_curves_of_fit(page->problem, page->summary->scenario,
-                                             &page->n_measured, curve, error);
+    CzStatus status =
+        cz_chart_curves_of_fit(page->problem, page->summary, &page->n_measured, curve, error);
     page->measured = curve;
     if (status == CZ_OK)
         status = cz_page_write_figures(page, error);

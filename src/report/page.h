@@ -11,6 +11,7 @@
 #include "crushzone/names.h"
 #include "model/model.h"
 #include "model/stand.h"
+#include "report/drawn.h"
 #include "report/markup.h"
 
 /* A further run that figures set beside the page's own. */
@@ -18,12 +19,6 @@ typedef struct CzPageOther {
     const char *label; /* such as "before" */
     const CzRun *run;
 } CzPageOther;
-
-/* A curve made of recorded channels, such as a filtered acceleration, named as they are. */
-typedef struct CzPageCurve {
-    char name[CZ_CHANNEL_ROOM];
-    double *value; /* (n_sample) */
-} CzPageCurve;
 
 typedef struct CzPage {
     CzMarkup markup;   /* writes into memory, for a page must know how long it is */
@@ -39,8 +34,7 @@ typedef struct CzPage {
     CzStand *stand;     /* (n_vehicle) */
     const double *time; /* [ms] (n_sample) */
     int n_sample;
-    int n_made; /* curves beside the channels of the run */
-    CzPageCurve *made;
+    CzMadeCurves made;
     const char *label; /* of the page's own run where there are others; NULL otherwise */
     int n_measured;
     const struct CzChartCurve *measured; /* curves laid over figures (n_measured) */
@@ -61,19 +55,8 @@ void cz_page_free(CzPage *page);
  * ran; -1 when none did. */
 int cz_page_deciding(const CzEvaluation *evaluation);
 
-/* A recorded channel by its name as printf would write it, on a page one of the made curves too;
- * NULL when there is none. */
-const double *cz_run_channel_named(const CzRun *run, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-const double *cz_page_channel(const CzPage *page, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-/* Makes the curves that are drawn and are no channels of the run: E_interfaces_kJ, all that was
- * dissipated there; imbalance_ppm of the initial energy; c_NAME_g, a car's acceleration through a
- * filter CFC 60 where the samples are close enough. Status: CZ_STATUS_NO_MEMORY; free them in any
- * case. */
-CZ_MUST_CHECK CzStatus cz_page_make_curves(CzPage *page, CzError *error);
-void cz_page_free_curves(CzPage *page);
+/* Values of what the page draws (n_sample); NULL when there are none. */
+const double *cz_page_values(const CzPage *page, CzDrawn drawn, int place);
 
 /* Writes the whole report of a run: the checks of all scenarios and the figures of one. At the top
  * of a result folder it names the reports of the other scenarios, which stand in their folders.

@@ -96,15 +96,16 @@ static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool 
 
 /* One channel of all runs over time. */
 static void write_overlay(CzMarkup *markup, int n, const CzReportRun *run, const char *title,
-                          const char *y_label, const char *channel) {
+                          const char *y_label, CzChannel channel, int place) {
+    const CzRunSummary *first = cz_compared_run(run, 0);
     CzSeries series[CZ_MOST_COMPARED];
     CzPlotBand band[CZ_MOST_COMPARED];
     int n_series = 0, n_band = 0;
     for (int i = 0; i < n; i++) {
         const int scenario = cz_compared_scenario(run, i);
         const CzRun *own = scenario >= 0 ? run[i].evaluation->run[scenario] : NULL;
-        const double *time = cz_run_channel_named(own, "t_ms");
-        const double *y = cz_run_channel_named(own, "%s", channel);
+        const double *time = own != NULL ? cz_run_channel(own, CZ_CHANNEL_TIME, 0) : NULL;
+        const double *y = own != NULL ? cz_drawn_beside(first, channel, place, own) : NULL;
         if (time != NULL && y != NULL && cz_compared_is_beyond(run, i))
             band[n_band++] = cz_band_beyond(cz_compared_run(run, i), time, cz_run_n_sample(own));
         if (time != NULL && y != NULL)
@@ -154,25 +155,20 @@ static CzStatus write_loops(CzPage *page, CzError *error) {
 
 static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
     static const struct {
-        const char *title, *y_label, *stem, *unit;
-        bool of_interface;
+        const char *title, *y_label;
+        CzChannel channel;
     } overlays[] = {
-        {"Force of the colliding interface", "force [kN]", "F", "kN", true},
-        {"Energy of the colliding interface", "energy [kJ]", "E", "kJ", true},
-        {"Speed of the car behind it", "speed [m/s]", "v", "m_s", false},
-        {"Pitch of the car behind it, nose up", "pitch [mrad]", "pitch", "mrad", false}};
+        {"Force of the colliding interface", "force [kN]", CZ_CHANNEL_INTERFACE_FORCE},
+        {"Energy of the colliding interface", "energy [kJ]", CZ_CHANNEL_INTERFACE_ENERGY},
+        {"Speed of the car behind it", "speed [m/s]", CZ_CHANNEL_BODY_SPEED},
+        {"Pitch of the car behind it, nose up", "pitch [mrad]", CZ_CHANNEL_BODY_PITCH}};
     const int colliding = page->model->colliding;
     cz_page_open_section(&page->markup, "time", "Over time");
     cz_markup_open(&page->markup, "div");
     cz_markup_attribute(&page->markup, "class", "figures");
-    for (size_t i = 0; i < sizeof overlays / sizeof *overlays; i++) {
-        char channel[CZ_CHANNEL_ROOM];
-        snprintf(channel, sizeof channel, "%s_%s_%s", overlays[i].stem,
-                 overlays[i].of_interface ? page->summary->interface[colliding].name
-                                          : page->summary->vehicle[colliding].name,
-                 overlays[i].unit);
-        write_overlay(&page->markup, n, run, overlays[i].title, overlays[i].y_label, channel);
-    }
+    for (size_t i = 0; i < sizeof overlays / sizeof *overlays; i++)
+        write_overlay(&page->markup, n, run, overlays[i].title, overlays[i].y_label,
+                      overlays[i].channel, colliding);
     cz_markup_close(&page->markup);
     cz_page_close_section(&page->markup);
 }

@@ -14,7 +14,6 @@
 #include "report/figure.h"
 #include "report/units.h"
 
-#include <fnmatch.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +21,6 @@
 enum {
     EVEN_SAMPLES = 240,
     DIGITS = 5,
-    MOST_DECIMALS = 3,
     FINEST_TIME = 6, /* decimals of a millisecond */
     BASE = 44,
     SHORTEST_RUN = 3,    /* of bends of nothing; fewer take less room one by one */
@@ -30,21 +28,31 @@ enum {
     FOOT_ROOM = 1000     /* of what follows the numbers, but for the script */
 };
 
-static bool is_shown(const char *name) {
-    static const char *const prefixes[] = {"x_", "v_", "a_", "z_",      "pitch_",
-                                           "F_", "d_", "E_", "overlap_"};
-    static const char *const others[] = {"F_end_",          "F_coupler_",  "F_anti-climber_",
-                                         "F_side-buffers_", "E_taken_up_", "E_imbalance_"};
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (strncmp(name, others[i], strlen(others[i])) == 0)
-            return false;
-    if (strncmp(name, "E_", 2) == 0 && strchr(name, '-') != NULL)
-        return false; /* of one interface */
-    for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; i++)
-        if (strncmp(name, prefixes[i], strlen(prefixes[i])) == 0)
-            return true;
-    return false;
-}
+/* What the page has the numbers of, and the decimals beyond which nobody asks: what only moves the
+ * animation needs no more than its drawing. */
+static const struct {
+    bool is_there;
+    int decimals;
+} shown[CZ_N_DRAWN] = {[CZ_DRAWN_TIME] = {true, FINEST_TIME},
+                       [CZ_DRAWN_BODY_DISPLACEMENT] = {true, 3},
+                       [CZ_DRAWN_BODY_SPEED] = {true, 3},
+                       [CZ_DRAWN_BODY_ACCELERATION] = {true, 3},
+                       [CZ_DRAWN_FILTERED_ACCELERATION] = {true, 3},
+                       [CZ_DRAWN_BODY_RISE] = {true, 1},
+                       [CZ_DRAWN_BODY_PITCH] = {true, 2},
+                       [CZ_DRAWN_WHEEL_LIFT] = {true, 2},
+                       [CZ_DRAWN_END_STROKE] = {true, 1},
+                       [CZ_DRAWN_ANTI_CLIMBER_STROKE] = {true, 1},
+                       [CZ_DRAWN_ANTI_CLIMBER_OVERLAP] = {true, 2},
+                       [CZ_DRAWN_INTERFACE_FORCE] = {true, 1},
+                       [CZ_DRAWN_INTERFACE_CLOSURE] = {true, 2},
+                       [CZ_DRAWN_KINETIC_ENERGY] = {true, 2},
+                       [CZ_DRAWN_STORED_ENERGY] = {true, 2},
+                       [CZ_DRAWN_WHEEL_RAIL_ENERGY] = {true, 2},
+                       [CZ_DRAWN_RUNNING_GEAR_ENERGY] = {true, 2},
+                       [CZ_DRAWN_TRACK_ENERGY] = {true, 2},
+                       [CZ_DRAWN_INTERFACES_ENERGY] = {true, 2},
+                       [CZ_DRAWN_BALANCE_ERROR] = {true, 6}};
 
 /* Adds the sample at which a channel is largest, and the one at which it is smallest. */
 static void take_extremes(const double *value, int n, bool *taken) {
@@ -62,10 +70,11 @@ static void choose(const CzPage *page, bool *taken) {
     const int n = page->n_sample;
     for (int i = 0; i < EVEN_SAMPLES; i++)
         taken[(long)i * (n - 1) / (EVEN_SAMPLES - 1)] = true;
-    for (int channel = 1; channel < cz_run_n_channel(page->run); channel++) {
-        const char *name = cz_run_channel_name(page->run, channel);
-        if (strchr("Fa", name[0]) != NULL && is_shown(name))
-            take_extremes(cz_run_channel(page->run, channel), n, taken);
+    for (int i = 0; i < cz_run_n_column(page->run); i++) {
+        const CzColumn column = cz_run_column(page->run, i);
+        if (column.channel == CZ_CHANNEL_INTERFACE_FORCE ||
+            column.channel == CZ_CHANNEL_BODY_ACCELERATION)
+            take_extremes(cz_run_channel(page->run, column.channel, column.place), n, taken);
     }
     for (int i = 0; i < page->summary->n_event; i++) {
         const double time = page->summary->event[i].time * CZ_MILLI_PER_UNIT;
@@ -74,25 +83,6 @@ static void choose(const CzPage *page, bool *taken) {
             nearest = fabs(page->time[k] - time) < fabs(page->time[nearest] - time) ? k : nearest;
         taken[nearest] = true;
     }
-}
-
-/* Decimals beyond which nobody asks, by how a channel's name begins and ends. What only moves the
- * animation needs no more than its drawing. */
-static int most_decimals(const char *name) {
-    static const struct {
-        const char *stem, *unit;
-        int decimals;
-    } kinds[] = {
-        {"z_", "_w?_mm", 2}, {"z_", "_mm", 1}, {"d_end_", "_mm", 1}, {"d_anti-climber_", "_mm", 1},
-        {"", "_mm", 2},      {"", "_kN", 1},   {"", "_kJ", 2},       {"", "_ppm", 6},
-        {"", "_mrad", 2}};
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        char pattern[64];
-        snprintf(pattern, sizeof pattern, "%s*%s", kinds[i].stem, kinds[i].unit);
-        if (fnmatch(pattern, name, 0) == 0)
-            return kinds[i].decimals;
-    }
-    return MOST_DECIMALS;
 }
 
 /* Fewest decimals that tell every row's time, as far as FINEST_TIME. */
@@ -108,8 +98,8 @@ static int decimals_of_time(const double *time, int n) {
 }
 
 /* Decimals that give the largest value DIGITS digits. */
-static int decimals_for(const char *name, const double *value, int n) {
-    if (strcmp(name, "t_ms") == 0)
+static int decimals_for(CzDrawn drawn, const double *value, int n) {
+    if (drawn == CZ_DRAWN_TIME)
         return decimals_of_time(value, n);
     double most = 0;
     for (int i = 0; i < n; i++)
@@ -118,7 +108,7 @@ static int decimals_for(const char *name, const double *value, int n) {
     double room = 1;
     for (int i = 0; i < DIGITS; i++)
         room *= 10;
-    while (most > 0 && decimals < most_decimals(name) && most * 10 < room) {
+    while (most > 0 && decimals < shown[drawn].decimals && most * 10 < room) {
         most *= 10;
         decimals++;
     }
@@ -190,9 +180,13 @@ typedef struct Rows {
 enum { CHANNEL_ROOM = sizeof ",\n\"\":[0,\"\"]" - 1 };
 
 /* ,"name":[decimals,"letters"] */
-static void put_channel(Letters *letters, const char *name, const double *value, const Rows *rows) {
-    const int decimals = decimals_for(name, value, rows->n);
+static void put_curve(Letters *letters, const CzPage *page, CzDrawn drawn, int place,
+                      const Rows *rows) {
+    const double *value = cz_page_values(page, drawn, place);
+    const int decimals = decimals_for(drawn, value, rows->n);
     double unit = 1;
+    char name[CZ_CHANNEL_ROOM];
+    cz_drawn_name(page->summary, drawn, place, name);
     for (int i = 0; i < decimals; i++)
         unit *= 10;
     if (letters->stream != NULL) {
@@ -230,15 +224,14 @@ static void put_channel(Letters *letters, const char *name, const double *value,
         fputs("\"]", letters->stream);
 }
 
-static void put_channels(Letters *letters, const CzPage *page, const Rows *rows) {
-    put_channel(letters, "t_ms", page->time, rows);
-    for (int channel = 1; channel < cz_run_n_channel(page->run); channel++) {
-        const char *name = cz_run_channel_name(page->run, channel);
-        if (is_shown(name))
-            put_channel(letters, name, cz_run_channel(page->run, channel), rows);
+static void put_curves(Letters *letters, const CzPage *page, const Rows *rows) {
+    for (int i = 0; i < cz_run_n_column(page->run); i++) {
+        const CzColumn column = cz_run_column(page->run, i);
+        if (shown[column.channel].is_there)
+            put_curve(letters, page, (CzDrawn)column.channel, column.place, rows);
     }
-    for (int i = 0; i < page->n_made; i++)
-        put_channel(letters, page->made[i].name, page->made[i].value, rows);
+    for (int i = 0; i < page->made.n; i++)
+        put_curve(letters, page, page->made.curve[i].drawn, page->made.curve[i].place, rows);
 }
 
 /* All rows where they fit into the page, else as many of the first ones as do. */
@@ -248,7 +241,7 @@ static void fill(const CzPage *page, Rows *rows) {
     int most = rows->n + 1, least = 0; /* fit, do not fit */
     for (rows->n_first = rows->n; most - least > fine; rows->n_first = (least + most) / 2) {
         Letters letters = {NULL, 0};
-        put_channels(&letters, page, rows);
+        put_curves(&letters, page, rows);
         if (letters.n <= room)
             least = rows->n_first;
         else
@@ -316,7 +309,7 @@ CzStatus cz_page_write_data(CzPage *page, CzError *error) {
     Rows rows = {.n = page->n_sample, .later = later};
     fill(page, &rows);
     Letters letters = {markup->stream, 0};
-    put_channels(&letters, page, &rows);
+    put_curves(&letters, page, &rows);
     cz_markup_raw(markup, "}");
     cz_markup_close(markup);
     cz_markup_line(markup);

@@ -11,8 +11,7 @@ enum { N_FRAME = 6, WIDTH = 960 };
 
 /* Sample at which an interface is closed most. */
 static int most_closed(const CzPage *page, int interface) {
-    const double *closure =
-        cz_page_channel(page, "d_%s_mm", page->summary->interface[interface].name);
+    const double *closure = cz_page_values(page, CZ_DRAWN_INTERFACE_CLOSURE, interface);
     int found = page->n_sample - 1;
     for (int i = 0; closure != NULL && i < page->n_sample; i++)
         if (closure[i] > closure[found])
@@ -27,8 +26,7 @@ static int sample_of(const CzPage *page, int interface, int frame) {
 
 /* Time and force, as the title of a frame. */
 static void name_frame(const CzPage *page, int interface, int sample, size_t room, char *title) {
-    const double *force =
-        cz_page_channel(page, "F_%s_kN", page->summary->interface[interface].name);
+    const double *force = cz_page_values(page, CZ_DRAWN_INTERFACE_FORCE, interface);
     char time[CZ_FIGURE_ROOM], number[CZ_FIGURE_ROOM];
     const double from = page->summary->beyond_validity_time * CZ_MILLI_PER_UNIT; /* or NaN */
     snprintf(title, room, "%s ms, %s kN%s", cz_figure_fixed(time, 0, page->time[sample]),

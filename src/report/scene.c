@@ -69,28 +69,21 @@ static Outline outline_of(const CzPage *page, int car, int side) {
     return outline;
 }
 
-static double sampled(const CzPage *page, int sample, const char *stem, const char *name,
-                      const char *unit) {
-    const double *channel = cz_page_channel(page, "%s_%s_%s", stem, name, unit);
-    return channel != NULL && isfinite(channel[sample]) ? channel[sample] : 0;
+static double sampled(const CzPage *page, int sample, CzDrawn drawn, int place) {
+    const double *values = cz_page_values(page, drawn, place);
+    return values != NULL && isfinite(values[sample]) ? values[sample] : 0;
 }
 
 static Pose pose_of(const CzPage *page, int car, int sample) {
-    static const char *const sides[] = {"rear", "front"};
-    const char *name = page->model->car[car].name;
-    Pose pose = {.x = sampled(page, sample, "x", name, "m"),
-                 .z = 1e-3 * sampled(page, sample, "z", name, "mm"),
-                 .pitch = 1e-3 * sampled(page, sample, "pitch", name, "mrad")};
-    for (int i = 0; i < 4; i++) {
-        char wheel[CZ_NAME_ROOM + 16];
-        snprintf(wheel, sizeof wheel, "%s_w%d", name, i + 1);
-        pose.lift[i] = 1e-3 * sampled(page, sample, "z", wheel, "mm");
-    }
+    Pose pose = {.x = sampled(page, sample, CZ_DRAWN_BODY_DISPLACEMENT, car),
+                 .z = 1e-3 * sampled(page, sample, CZ_DRAWN_BODY_RISE, car),
+                 .pitch = 1e-3 * sampled(page, sample, CZ_DRAWN_BODY_PITCH, car)};
+    for (int i = 0; i < 4; i++)
+        pose.lift[i] = 1e-3 * sampled(page, sample, CZ_DRAWN_WHEEL_LIFT, cz_wheelset_place(car, i));
     for (int side = REAR; side <= FRONT; side++) {
-        char end[CZ_NAME_ROOM + 8];
-        snprintf(end, sizeof end, "%s_%s", sides[side], name);
-        pose.end[side] = 1e-3 * sampled(page, sample, "d_end", end, "mm");
-        pose.anti_climber[side] = 1e-3 * sampled(page, sample, "d_anti-climber", end, "mm");
+        const int end = cz_end_place(car, side);
+        pose.end[side] = 1e-3 * sampled(page, sample, CZ_DRAWN_END_STROKE, end);
+        pose.anti_climber[side] = 1e-3 * sampled(page, sample, CZ_DRAWN_ANTI_CLIMBER_STROKE, end);
     }
     return pose;
 }
@@ -193,8 +186,8 @@ static double tip_of(const CzPage *page, int car, int side, int sample) {
     const Outline facing = outline_of(page, other, side == FRONT ? REAR : FRONT);
     if (isnan(facing.pivot))
         return own.tip;
-    const double moved = sampled(page, sample, "x", page->model->car[car].name, "m") -
-                         sampled(page, sample, "x", page->model->car[other].name, "m");
+    const double moved = sampled(page, sample, CZ_DRAWN_BODY_DISPLACEMENT, car) -
+                         sampled(page, sample, CZ_DRAWN_BODY_DISPLACEMENT, other);
     const double apart = fabs(page->stand[other].x - page->stand[car].x) - own.pivot -
                          facing.pivot - (side == FRONT ? moved : -moved);
     const double length = own.tip - own.pivot, sum = length + facing.tip - facing.pivot;
@@ -250,7 +243,7 @@ static double meeting_place(const CzPage *page, int interface, int sample) {
     double sum = 0;
     for (int side = 0; side < 2; side++) {
         const int car = interface + side;
-        const double moved = sampled(page, sample, "x", page->model->car[car].name, "m");
+        const double moved = sampled(page, sample, CZ_DRAWN_BODY_DISPLACEMENT, car);
         const Outline outline = outline_of(page, car, side == 0 ? FRONT : REAR);
         sum += page->stand[car].x + moved + (side == 0 ? outline.bare : -outline.bare);
     }

@@ -17,19 +17,22 @@ bool cz_sheet_begin(CzSheet *sheet, const CzPage *page, int room, const char *x_
     return sheet->series != NULL;
 }
 
-CzSeries *cz_sheet_add_channel(CzSheet *sheet, const char *stem, const char *name,
-                               const char *unit) {
-    char channel[CZ_CHANNEL_ROOM];
-    snprintf(channel, sizeof channel, "%s%s%s_%s", stem, name[0] != '\0' ? "_" : "", name, unit);
-    const double *y = cz_page_channel(sheet->page, "%s", channel);
-    char *kept = cz_arena_copy_text(&sheet->arena, channel, strlen(channel));
-    if (y == NULL || kept == NULL || sheet->plot.n_series == sheet->room)
+const char *cz_sheet_name(CzSheet *sheet, CzDrawn drawn, int place) {
+    char name[CZ_CHANNEL_ROOM];
+    cz_drawn_name(sheet->page->summary, drawn, place, name);
+    return cz_arena_copy_text(&sheet->arena, name, strlen(name));
+}
+
+CzSeries *cz_sheet_add(CzSheet *sheet, CzDrawn drawn, int place) {
+    const CzPage *page = sheet->page;
+    const double *y = cz_page_values(page, drawn, place);
+    if (y == NULL || sheet->plot.n_series == sheet->room)
         return NULL;
     CzSeries *series = &sheet->series[sheet->plot.n_series++];
-    *series = (CzSeries){.name = name,
-                         .y_channel = kept,
-                         .n = sheet->page->n_sample,
-                         .x = sheet->page->time,
+    *series = (CzSeries){.name = cz_run_place_name(page->summary, cz_drawn_info(drawn)->at, place),
+                         .y_channel = cz_sheet_name(sheet, drawn, place),
+                         .n = page->n_sample,
+                         .x = page->time,
                          .y = y};
     return series;
 }

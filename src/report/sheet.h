@@ -28,9 +28,10 @@ CzSeries *cz_sheet_split_beyond(CzSheet *sheet, CzSeries *series);
 bool cz_sheet_begin(CzSheet *sheet, const CzPage *page, int room, const char *x_label,
                     const char *y_label);
 
-/* Adds a curve over time of the channel "<stem>_<name>_<unit>"; NULL when it was not recorded. */
-CzSeries *cz_sheet_add_channel(CzSheet *sheet, const char *stem, const char *name,
-                               const char *unit);
+/* Adds a curve over time, named after its place; NULL when there is none. */
+CzSeries *cz_sheet_add(CzSheet *sheet, CzDrawn drawn, int place);
+/* Name of a curve for the cursor of the page, kept with the figure; NULL without memory. */
+const char *cz_sheet_name(CzSheet *sheet, CzDrawn drawn, int place);
 
 /* A car and its mirror image get one colour; the train ahead is dashed. */
 void cz_sheet_mark_car(CzSeries *series, const CzModel *model, int car);
@@ -45,12 +46,12 @@ CZ_MUST_CHECK CzStatus cz_sheet_finish(CzSheet *sheet, CzChart chart, int index,
 /* charts_force.c */
 void cz_draw_force_limits(CzSheet *sheet);
 CZ_MUST_CHECK CzStatus cz_draw_force_closure(CzSheet *sheet, int interface, CzError *error);
-void cz_draw_interfaces(CzSheet *sheet, const char *stem, const char *unit);
+void cz_draw_interfaces(CzSheet *sheet, CzDrawn drawn);
 void cz_draw_energy(CzSheet *sheet);
 void cz_draw_balance(CzSheet *sheet);
 
 /* charts_motion.c */
-void cz_draw_cars(CzSheet *sheet, const char *stem, const char *unit);
+void cz_draw_cars(CzSheet *sheet, CzDrawn drawn);
 void cz_draw_shortening(CzSheet *sheet, int interface);
 void cz_draw_accelerations(CzSheet *sheet);
 void cz_draw_car_acceleration(CzSheet *sheet, int car);

@@ -9,6 +9,7 @@ set(CZ_SOURCES_report
     compare.c
     compare_document.c
     csv.c
+    drawn.c
     elevation.c
     explanation.c
     figure.c
@@ -27,7 +28,6 @@ set(CZ_SOURCES_report
     page_budget.c
     page_checks.c
     page_compare.c
-    page_curves.c
     page_data.c
     page_designs.c
     page_figures.c

@@ -47,18 +47,29 @@ const CzRunSummary *cz_run_summary(const CzRun *run) {
     return &run->summary;
 }
 
-int cz_run_n_channel(const CzRun *run) {
-    return run->channels.n_channel;
-}
-
 int cz_run_n_sample(const CzRun *run) {
     return run->channels.n_sample;
 }
 
-const char *cz_run_channel_name(const CzRun *run, int channel) {
-    return run->channels.name[channel];
+int cz_run_n_column(const CzRun *run) {
+    return run->channels.n_column;
 }
 
-const double *cz_run_channel(const CzRun *run, int channel) {
-    return run->channels.value[channel];
+CzColumn cz_run_column(const CzRun *run, int column) {
+    return run->channels.column[column];
+}
+
+const double *cz_run_channel(const CzRun *run, CzChannel channel, int place) {
+    const CzChannels *channels = &run->channels;
+    for (int i = 0; i < channels->n_column; ++i)
+        if (channels->column[i].channel == channel && channels->column[i].place == place)
+            return channels->value[i];
+    return NULL;
+}
+
+const char *cz_run_place_name(const CzRunSummary *run, CzChannelAt at, int place) {
+    const int index = cz_place_index(at, place);
+    if (at == CZ_AT_RUN)
+        return "";
+    return at == CZ_AT_INTERFACE ? run->interface[index].name : run->vehicle[index].name;
 }

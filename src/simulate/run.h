@@ -8,11 +8,11 @@
 #include "dynamics/stored.h"
 #include "model/model.h"
 
-/* Names and values of the recorded channels. */
+/* Columns of the recorded channels and their values. */
 typedef struct CzChannels {
-    int n_channel, n_sample, capacity;
-    char (*name)[CZ_CHANNEL_ROOM];
-    double **value; /* (n_channel x capacity), each row from malloc */
+    int n_column, n_sample, capacity;
+    CzColumn *column; /* (n_column) */
+    double **value;   /* (n_column x capacity), each row from malloc */
 } CzChannels;
 
 struct CzRun {

@@ -65,7 +65,7 @@ const CzRunSummary *cz_run_summary(const CzRun *run) {
 }
 
 /* No channels. */
-int cz_run_n_channel(const CzRun *run) {
+int cz_run_n_column(const CzRun *run) {
     (void)run;
     return 0;
 }
@@ -75,15 +75,10 @@ int cz_run_n_sample(const CzRun *run) {
     return 0;
 }
 
-const char *cz_run_channel_name(const CzRun *run, int channel) {
+const double *cz_run_channel(const CzRun *run, CzChannel channel, int place) {
     (void)run;
     (void)channel;
-    return "";
-}
-
-const double *cz_run_channel(const CzRun *run, int channel) {
-    (void)run;
-    (void)channel;
+    (void)place;
     return NULL;
 }
 

@@ -81,7 +81,8 @@ static const Plateau plateaus[] = {
 static void rows_of_plateau(Rows *rows, const Collision *collision, const Plateau *plateau,
                             const Step *step) {
     assert_completed(collision);
-    const double *v_a = channel(collision, "v_A1_m_s"), *v_b = channel(collision, "v_B1_m_s");
+    const double *v_a = channel(collision, CZ_CHANNEL_BODY_SPEED, "A1"),
+                 *v_b = channel(collision, CZ_CHANNEL_BODY_SPEED, "B1");
     const CzRunSummary *summary = collision->summary;
     const double after = (plateau->mass[0] * summary->vehicle[0].final_speed +
                           plateau->mass[1] * summary->vehicle[1].final_speed) /
@@ -130,7 +131,7 @@ void rows_of_crush_zones_in_series(Rows *rows, const Step *step) {
 
 /* First time at which a channel reaches a value, on the line between two samples [s]. */
 static double time_of_rise(const Collision *collision, const double *values, double value) {
-    const double *t = channel(collision, "t_ms");
+    const double *t = channel(collision, CZ_CHANNEL_TIME, "");
     for (int i = 1; i < n_sample(collision); i++)
         if (values[i] >= value)
             return 1e-3 * (t[i - 1] + (t[i] - t[i - 1]) * (value - values[i - 1]) /
@@ -151,8 +152,10 @@ void rows_of_spring_and_plateau(Rows *rows) {
         collide("tests/physics/cases/spring-and-plateau.yaml", WITH(STEP_OF_10_US, UNTIL_OPEN), 0);
     assert_completed(&collision);
     const CzRunSummary *summary = collision.summary;
-    const double *v = channel(&collision, "v_A1_m_s"), *x = channel(&collision, "x_A1_m");
-    const double open = time_of_opening(&collision, channel(&collision, "F_A1-wall_kN"));
+    const double *v = channel(&collision, CZ_CHANNEL_BODY_SPEED, "A1"),
+                 *x = channel(&collision, CZ_CHANNEL_BODY_DISPLACEMENT, "A1");
+    const double open =
+        time_of_opening(&collision, channel(&collision, CZ_CHANNEL_INTERFACE_FORCE, "A1-wall"));
     const double rebound = -summary->vehicle[0].final_speed;
     ROW(rows, "s", time_of_rise(&collision, x, 0.075), 0.010907831, 1e-5, 1e-7, "yield");
     ROW(rows, "m", summary->interface[0].shortening, 0.680504115, 1e-5, 0.0, "largest crush");
@@ -172,13 +175,14 @@ void rows_of_four_stages(Rows *rows) {
         collide("tests/physics/cases/four-stages.yaml", WITH(STEP_OF_10_US, UNTIL_OPEN), 0);
     assert_completed(&collision);
     const CzRunSummary *summary = collision.summary;
-    const double *x = channel(&collision, "x_A1_m");
-    const double open = time_of_opening(&collision, channel(&collision, "F_A1-wall_kN"));
+    const double *x = channel(&collision, CZ_CHANNEL_BODY_DISPLACEMENT, "A1");
+    const double open =
+        time_of_opening(&collision, channel(&collision, CZ_CHANNEL_INTERFACE_FORCE, "A1-wall"));
     const double rebound = -summary->vehicle[0].final_speed;
     ROW(rows, "m", largest(&collision, x), 0.573619, 1e-5, 0.0, "largest crush");
     ROW(rows, "kN", 1e-3 * summary->interface[0].peak_force, 4104.289, 1e-5, 0.0, "largest force");
-    ROW(rows, "s", time_of_fall(&collision, channel(&collision, "v_A1_m_s"), NULL), 0.128219, 1e-5,
-        1e-6, "time of the largest crush");
+    ROW(rows, "s", time_of_fall(&collision, channel(&collision, CZ_CHANNEL_BODY_SPEED, "A1"), NULL),
+        0.128219, 1e-5, 1e-6, "time of the largest crush");
     ROW(rows, "m/s", rebound, 2.582225, 1e-5, 0.0, "rebound");
     ROW(rows, "", rebound / (25.0 / 3.6), 0.371840, 1e-5, 5e-7, "restitution");
     ROW(rows, "m", value_at(&collision, x, open), 0.484693, 1e-5, 0.0, "crush that is left");
@@ -203,7 +207,8 @@ void rows_of_sequence(Rows *rows, const Step *step) {
                                           yield_at_once, A_MICROMETRE, step->length);
     assert_completed(&collision);
     const CzRunSummary *summary = collision.summary;
-    const double *v = channel(&collision, "v_A1_m_s"), *x = channel(&collision, "x_A1_m");
+    const double *v = channel(&collision, CZ_CHANNEL_BODY_SPEED, "A1"),
+                 *x = channel(&collision, CZ_CHANNEL_BODY_DISPLACEMENT, "A1");
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
         ROW(rows, "m/s", value_at(&collision, v, ends[i].time), ends[i].speed, step->tolerance, 0.0,
             "%s, %g s: speed, %s", ends[i].name, ends[i].time, step->name);
@@ -236,8 +241,10 @@ static int outcomes_of_rigid_plastic(const char *file, const Step *step, Measure
  * whole, energy before. */
 static int measure_two(const Collision *collision, double *outcome) {
     const CzRunSummary *summary = collision->summary;
-    outcome[0] = time_on_line(collision, channel(collision, "v_A2_m_s"), NULL, 0.05, 0.25);
-    outcome[1] = time_on_line(collision, channel(collision, "v_A1_m_s"), NULL, 0.05, 0.25);
+    outcome[0] =
+        time_on_line(collision, channel(collision, CZ_CHANNEL_BODY_SPEED, "A2"), NULL, 0.05, 0.25);
+    outcome[1] =
+        time_on_line(collision, channel(collision, CZ_CHANNEL_BODY_SPEED, "A1"), NULL, 0.05, 0.25);
     outcome[2] = summary->interface[1].shortening;
     outcome[3] = 1e-3 * summary->interface[1].energy;
     outcome[4] = summary->interface[0].shortening;
@@ -268,10 +275,11 @@ static double *rear_closing_speed(const Collision *collision) {
     double *closing = calloc((size_t)n_sample(collision), sizeof *closing);
     assert_non_null(closing);
     for (int car = 1; car <= 7; car++) {
-        char name[2][24];
-        snprintf(name[0], sizeof name[0], "v_A%d_m_s", car);
-        snprintf(name[1], sizeof name[1], "v_B%d_m_s", car + 1);
-        const double *a = channel(collision, name[0]), *b = channel(collision, name[1]);
+        char name[2][8];
+        snprintf(name[0], sizeof name[0], "A%d", car);
+        snprintf(name[1], sizeof name[1], "B%d", car + 1);
+        const double *a = channel(collision, CZ_CHANNEL_BODY_SPEED, name[0]);
+        const double *b = channel(collision, CZ_CHANNEL_BODY_SPEED, name[1]);
         for (int i = 0; i < n_sample(collision); i++)
             closing[i] += (a[i] - b[i]) / 7.0;
     }
@@ -281,8 +289,8 @@ static double *rear_closing_speed(const Collision *collision) {
 /* When the two front cars and when all reach one speed, all energy, mean speed, the closures. */
 static int measure_sixteen(const Collision *collision, double *outcome) {
     const CzRunSummary *summary = collision->summary;
-    outcome[0] = time_on_line(collision, channel(collision, "v_A8_m_s"),
-                              channel(collision, "v_B1_m_s"), 0.05, 0.19);
+    outcome[0] = time_on_line(collision, channel(collision, CZ_CHANNEL_BODY_SPEED, "A8"),
+                              channel(collision, CZ_CHANNEL_BODY_SPEED, "B1"), 0.05, 0.19);
     double *closing = rear_closing_speed(collision);
     outcome[1] = time_on_line(collision, closing, NULL, 0.05, 1.3);
     free(closing);

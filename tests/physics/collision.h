@@ -97,13 +97,17 @@ static inline void assert_completed(const Collision *collision) {
                  cz_ended_text(summary->ended), summary->simulated, summary->failure);
 }
 
-/* A recorded channel by name. */
-static inline const double *channel(const Collision *collision, const char *name) {
-    for (int i = 0; i < cz_run_n_channel(collision->run); i++) {
-        if (strcmp(cz_run_channel_name(collision->run, i), name) == 0)
-            return cz_run_channel(collision->run, i);
+/* A recorded channel of the vehicle or the interface of that name; "" of the run. */
+static inline const double *channel(const Collision *collision, CzChannel channel,
+                                    const char *name) {
+    for (int i = 0; i < cz_run_n_column(collision->run); i++) {
+        const CzColumn column = cz_run_column(collision->run, i);
+        const CzChannelAt at = cz_channel_info(channel)->at;
+        if (column.channel == channel &&
+            strcmp(cz_run_place_name(collision->summary, at, column.place), name) == 0)
+            return cz_run_channel(collision->run, channel, column.place);
     }
-    fail_msg("no channel %s", name);
+    fail_msg("no channel %s of '%s'", cz_channel_info(channel)->pattern, name);
     return NULL;
 }
 
@@ -114,7 +118,7 @@ static inline int n_sample(const Collision *collision) {
 /* First time at which a falling line through the samples of a - b reaches zero [s]; `a` or `b` may
  * be NULL for zero. */
 static inline double time_of_fall(const Collision *collision, const double *a, const double *b) {
-    const double *t = channel(collision, "t_ms");
+    const double *t = channel(collision, CZ_CHANNEL_TIME, "");
     double last = 1.0;
     for (int i = 0; i < n_sample(collision); i++) {
         const double now = (a != NULL ? a[i] : 0.0) - (b != NULL ? b[i] : 0.0);
@@ -127,7 +131,7 @@ static inline double time_of_fall(const Collision *collision, const double *a, c
 
 /* Value of a channel at a time, linear between the samples. */
 static inline double value_at(const Collision *collision, const double *values, double time) {
-    const double *t = channel(collision, "t_ms");
+    const double *t = channel(collision, CZ_CHANNEL_TIME, "");
     for (int i = 1; i < n_sample(collision); i++) {
         if (t[i] >= 1e3 * time)
             return values[i] +
@@ -150,7 +154,7 @@ static inline double time_on_line(const Collision *collision, const double *a, c
 
 /* Time at which a force opens for the last time, on the line of its last two samples [s]. */
 static inline double time_of_opening(const Collision *collision, const double *force) {
-    const double *t = channel(collision, "t_ms");
+    const double *t = channel(collision, CZ_CHANNEL_TIME, "");
     for (int i = n_sample(collision) - 1; i > 1; i--) {
         if (force[i] > 0.0)
             return 1e-3 * (t[i] - force[i] * (t[i] - t[i - 1]) / (force[i] - force[i - 1]));

@@ -41,7 +41,8 @@ void rows_of_elastic_exchange(Rows *rows) {
         1e-3 * speed * sqrt(stiffness * reduced), 1e-5, 0.0, "elastic collision: largest force");
     ROW(rows, "mm", 1e3 * summary->interface[0].shortening, 1e3 * speed * sqrt(reduced / stiffness),
         1e-5, 0.0, "elastic collision: largest closure");
-    ROW(rows, "ms", 1e3 * time_of_opening(&elastic, channel(&elastic, "F_A1-B1_kN")),
+    ROW(rows, "ms",
+        1e3 * time_of_opening(&elastic, channel(&elastic, CZ_CHANNEL_INTERFACE_FORCE, "A1-B1")),
         1e3 * CZ_PI * sqrt(reduced / stiffness), 1e-4, 0.0, "elastic collision: duration");
     ROW(rows, "m/s", summary->vehicle[0].final_speed, 0.0, 0.0, 1e-4,
         "elastic collision: speed of the car behind");

@@ -18,7 +18,8 @@ static void assert_stops(const char *setting, double share) {
     Collision collision = collide(two_masses, WITH(setting, "trains.B.brake.ratio=0.1"), 0);
     const int last = n_sample(&collision) - 1;
     const double way = 10.0 * 10.0 / (2.0 * share * GRAVITY);
-    const double *x = channel(&collision, "x_A1_m"), *v = channel(&collision, "v_A1_m_s");
+    const double *x = channel(&collision, CZ_CHANNEL_BODY_DISPLACEMENT, "A1"),
+                 *v = channel(&collision, CZ_CHANNEL_BODY_SPEED, "A1");
     assert_near(x[last], way, 1e-4, 0.0);
     assert_near(v[last], 0.0, 0.0, 1e-9);
     assert_near(x[last], x[last - 500], 0.0, 1e-9);
@@ -43,7 +44,7 @@ static void brakes_beyond_the_friction_lock_the_wheels(void **state) {
         (v / sliding + w * (1.0 - peak / sliding) * log(1.0 + sliding * v / (peak * w)) / sliding) /
         GRAVITY;
     Collision collision = collide(two_masses, WITH("trains.A.brake.ratio=1"), 0);
-    const double *speed = channel(&collision, "v_A1_m_s");
+    const double *speed = channel(&collision, CZ_CHANNEL_BODY_SPEED, "A1");
     int i = 0;
     while (speed[i] > 1e-3)
         i++;
@@ -102,7 +103,8 @@ static void what_stands_is_held(void **state) {
                                            "trains.B.vehicles.B1.rolling_resistance_N_kN=50"),
                                       0);
         const int last = n_sample(&collision) - 1;
-        const double *v = channel(&collision, "v_A1_m_s"), *x = channel(&collision, "x_A1_m");
+        const double *v = channel(&collision, CZ_CHANNEL_BODY_SPEED, "A1"),
+                     *x = channel(&collision, CZ_CHANNEL_BODY_DISPLACEMENT, "A1");
         assert_near(v[last], 0.0, 0.0, 1e-4);
         assert_near(x[last], x[last - 1000], 0.0, 1e-5);
         collision_free(&collision);

@@ -98,12 +98,13 @@ static void numbers_past_an_override_are_marked_and_totals_blank(void **state) {
                                  .summary = cz_run_summary(evaluation.run[0])};
     assert_true(collision.summary->beyond_validity);
     assert_true(isnan(cz_run_total(collision.summary, 1.0)));
-    const double *t = channel(&collision, "t_ms");
-    static const char *const energies[] = {"E_stored_kJ", "E_kinetic_kJ", "E_A1-B1_kJ"};
+    const double *t = channel(&collision, CZ_CHANNEL_TIME, "");
+    static const CzChannel energies[] = {CZ_CHANNEL_STORED_ENERGY, CZ_CHANNEL_KINETIC_ENERGY,
+                                         CZ_CHANNEL_INTERFACE_ENERGY};
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < n_sample(&collision); i++) {
             const bool late = 1e-3 * t[i] > collision.summary->beyond_validity_time;
-            assert_true(late == !isfinite(channel(&collision, energies[k])[i]));
+            assert_true(late == !isfinite(cz_run_channel(collision.run, energies[k], 0)[i]));
         }
     cz_evaluation_free(&evaluation);
     cz_evaluator_free(evaluator);

@@ -23,14 +23,6 @@ static void switch_on(CzVehicle *vehicle, double share) {
     }
 }
 
-static const double *channel_of(const Collision *collision, const char *letter, int interface,
-                                const char *unit) {
-    char name[128];
-    snprintf(name, sizeof name, "%s_%s_%s", letter, collision->summary->interface[interface].name,
-             unit);
-    return channel(collision, name);
-}
-
 /* What forces at a height do over what the pitch of both cars adds to the closure there, until it
  * is largest and half of the way back: no line of force of the shipped problems lies further
  * than 1.1 m from the height of a car's middle. */
@@ -44,8 +36,8 @@ static double work_of_pitch(const CzRunSummary *summary, int interface) {
 static void check_interface(const Collision *collision, int interface) {
     const CzRunSummary *summary = collision->summary;
     const CzInterfaceResult *result = &summary->interface[interface];
-    const double *force = channel_of(collision, "F", interface, "kN");
-    const double *closure = channel_of(collision, "d", interface, "mm");
+    const double *force = cz_run_channel(collision->run, CZ_CHANNEL_INTERFACE_FORCE, interface);
+    const double *closure = cz_run_channel(collision->run, CZ_CHANNEL_INTERFACE_CLOSURE, interface);
     const int last = n_sample(collision) - 1;
     double work = 0.0, expected = result->energy; /* [J] */
     for (int i = 1; i <= last; i++)

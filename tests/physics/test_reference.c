@@ -27,12 +27,14 @@ static void every_integrator_follows_the_elastic_and_plastic_spring(void **state
         const CzRunSummary *summary = collision.summary;
         assert_int_equal(summary->integrator, all[i]);
         assert_near(summary->interface[0].shortening, 0.680504115, 1e-5, 0.0);
-        assert_near(time_of_fall(&collision, channel(&collision, "v_A1_m_s"), NULL), 0.190611, 1e-5,
-                    1e-6);
+        assert_near(
+            time_of_fall(&collision, channel(&collision, CZ_CHANNEL_BODY_SPEED, "A1"), NULL),
+            0.190611, 1e-5, 1e-6);
         assert_near(summary->vehicle[0].final_speed, -0.838525492, 1e-5, 0.0);
         assert_near(summary->interface[0].energy, 950.443673e3, 1e-5, 0.0);
-        assert_near(time_of_opening(&collision, channel(&collision, "F_A1-wall_kN")), 0.225736,
-                    1e-5, 0.0);
+        assert_near(
+            time_of_opening(&collision, channel(&collision, CZ_CHANNEL_INTERFACE_FORCE, "A1-wall")),
+            0.225736, 1e-5, 0.0);
         collision_free(&collision);
     }
 }
@@ -60,7 +62,7 @@ static void every_integrator_exchanges_the_speeds_of_equal_masses(void **state) 
         Collision elastic = collide_by(all[i], "tests/physics/cases/elastic.yaml",
                                        WITH("simulation.duration_ms=400", STEP_OF_10_US), 0);
         assert_completed(&elastic);
-        const double *v = channel(&elastic, "v_A1_m_s");
+        const double *v = channel(&elastic, CZ_CHANNEL_BODY_SPEED, "A1");
         const double truth = 5.0 + 5.0 * cos(sqrt(20e6 / 20e3) * 0.05);
         assert_near(value_at(&elastic, v, 0.05), truth, 1e-5, 0.0);
         assert_near(elastic.summary->vehicle[0].final_speed, 0.0, 0.0, 1e-4);
@@ -86,7 +88,7 @@ static void every_integrator_finds_the_time_at_which_a_coupler_shears_off(void *
         assert_completed(&collision);
         assert_near(event_time(&collision, CZ_EVENT_SHEAR_OFF, "coupler A1"),
                     (start - left) / deceleration, 0.0, 2e-5);
-        const double *v = channel(&collision, "v_A1_m_s");
+        const double *v = channel(&collision, CZ_CHANNEL_BODY_SPEED, "A1");
         assert_near(value_at(&collision, v, 0.048), 6.263011, 1e-4, 0.0);
         assert_near(collision.summary->interface[0].energy, 1929.012e3, 1e-4, 0.0);
         collision_free(&collision);

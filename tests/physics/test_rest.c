@@ -128,9 +128,10 @@ static void a_standing_braked_train_holds_against_a_light_touch(void **state) {
     Collision touched = collide("tests/physics/cases/standing.yaml",
                                 WITH("trains.A.speed_m_s=0.05", "simulation.duration_s=3"), 0);
     assert_completed(&touched);
-    const double *x = channel(&touched, "x_B1_m");
+    const double *x = channel(&touched, CZ_CHANNEL_BODY_DISPLACEMENT, "B1");
     assert_true(fabs(last_value(&touched, x)) < 0.01);
-    assert_near(last_value(&touched, channel(&touched, "v_B1_m_s")), 0.0, 0.0, 0.01);
+    assert_near(last_value(&touched, channel(&touched, CZ_CHANNEL_BODY_SPEED, "B1")), 0.0, 0.0,
+                0.01);
     collision_free(&touched);
 }
 

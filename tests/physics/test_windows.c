@@ -6,9 +6,7 @@
 /* All windows up to twice the shortest length, of the recorded speed. */
 static void assert_worst_window(const Collision *collision, int car) {
     const CzVehicleResult *vehicle = &collision->summary->vehicle[car];
-    char name[CZ_CHANNEL_ROOM];
-    snprintf(name, sizeof name, "v_%s_m_s", vehicle->name);
-    const double *speed = channel(collision, name);
+    const double *speed = cz_run_channel(collision->run, CZ_CHANNEL_BODY_SPEED, car);
     const int n = n_sample(collision);
     double worst = 0.0, from = 0.0, to = 0.0;
     for (int length = SHORTEST; length <= 2 * SHORTEST; length++) {

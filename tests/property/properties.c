@@ -270,20 +270,10 @@ static void try_interface(Trial *trial, const CzRunSummary *summary,
     expect(trial, STROKES, largest <= most, interface->name, largest, most);
 }
 
-/* A recorded channel of an interface; NULL when there is none. */
-static const double *channel_of(const CzRun *run, const char *begins, const char *interface) {
-    char name[sizeof((CzInterfaceResult *)NULL)->name + 8];
-    snprintf(name, sizeof name, "%.4s_%s", begins, interface);
-    for (int channel = 0; channel < cz_run_n_channel(run); channel++)
-        if (strncmp(cz_run_channel_name(run, channel), name, strlen(name)) == 0)
-            return cz_run_channel(run, channel);
-    return NULL;
-}
-
 /* Whether the closure of an interface stayed within 0.1 mm of a value for the last 0.2 s: brakes
  * hold what force is left. */
 static bool is_held(const CzRun *run, const double *closure) {
-    const double *t = cz_run_channel(run, 0); /* [ms] */
+    const double *t = cz_run_channel(run, CZ_CHANNEL_TIME, 0); /* [ms] */
     const int last = cz_run_n_sample(run) - 1;
     double low = closure[last], high = closure[last];
     for (int i = last; i >= 0 && t[i] > t[last] - 200.0; i--) {
@@ -301,8 +291,8 @@ static void try_end(Trial *trial, const CzRun *run, const CzRunSummary *summary)
         return;
     for (int i = 0; i < summary->n_interface; i++) {
         const CzInterfaceResult *interface = &summary->interface[i];
-        const double *force = channel_of(run, "F", interface->name); /* [kN] */
-        const double *closure = channel_of(run, "d", interface->name);
+        const double *force = cz_run_channel(run, CZ_CHANNEL_INTERFACE_FORCE, i); /* [kN] */
+        const double *closure = cz_run_channel(run, CZ_CHANNEL_INTERFACE_CLOSURE, i);
         double stored = 0.0;
         bool opens = summary->vehicle[i].name[0] != summary->vehicle[i + 1].name[0];
         for (int k = 0; k < interface->n_element; k++) {

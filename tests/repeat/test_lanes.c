@@ -79,11 +79,16 @@ static void assert_same_run(const CzRun *a, const CzRun *b) {
         if (memcmp(&first[i], &second[i], sizeof first[i]) != 0)
             fail_msg("number %zu: %.17g is not %.17g", i, first[i], second[i]);
     }
-    assert_int_equal(cz_run_n_channel(a), cz_run_n_channel(b));
+    assert_int_equal(cz_run_n_column(a), cz_run_n_column(b));
     assert_int_equal(cz_run_n_sample(a), cz_run_n_sample(b));
-    for (int channel = 0; channel < cz_run_n_channel(a); channel++)
-        assert_memory_equal(cz_run_channel(a, channel), cz_run_channel(b, channel),
+    for (int i = 0; i < cz_run_n_column(a); i++) {
+        const CzColumn column = cz_run_column(a, i);
+        assert_int_equal(column.channel, cz_run_column(b, i).channel);
+        assert_int_equal(column.place, cz_run_column(b, i).place);
+        assert_memory_equal(cz_run_channel(a, column.channel, column.place),
+                            cz_run_channel(b, column.channel, column.place),
                             sizeof(double) * (size_t)cz_run_n_sample(a));
+    }
 }
 
 static CzRun *run_alone(const CzModel *model, const char *isa, bool record) {

@@ -196,19 +196,25 @@ bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator) {
 const CzRunSummary *cz_run_summary(const CzRun *run) {
     return &run->summary;
 }
-int cz_run_n_channel(const CzRun *run) {
+int cz_run_n_column(const CzRun *run) {
     (void)run;
     return 2;
 }
 int cz_run_n_sample(const CzRun *run) {
     return run->n_sample;
 }
-const char *cz_run_channel_name(const CzRun *run, int channel) {
+CzColumn cz_run_column(const CzRun *run, int column) {
     (void)run;
-    return channel == 0 ? "t_ms" : "v_A1_m_s";
+    return (CzColumn){column == 0 ? CZ_CHANNEL_TIME : CZ_CHANNEL_BODY_SPEED, 0};
 }
-const double *cz_run_channel(const CzRun *run, int channel) {
-    return run->channel[channel];
+const double *cz_run_channel(const CzRun *run, CzChannel channel, int place) {
+    (void)place;
+    return channel == CZ_CHANNEL_TIME         ? run->channel[0]
+           : channel == CZ_CHANNEL_BODY_SPEED ? run->channel[1]
+                                              : NULL;
+}
+const char *cz_run_place_name(const CzRunSummary *run, CzChannelAt at, int place) {
+    return at == CZ_AT_RUN ? "" : run->vehicle[place].name;
 }
 const char *cz_isa_name(void) {
     return "baseline";

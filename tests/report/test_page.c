@@ -249,20 +249,28 @@ static int read_channel(const char *page, const char *name, int *decimals, doubl
     return n;
 }
 
+static void name_column(const CzRun *run, CzColumn column, char name[CZ_CHANNEL_ROOM]) {
+    const CzChannelInfo *info = cz_channel_info(column.channel);
+    const CzRunSummary *summary = cz_run_summary(run);
+    cz_channel_name(info, column.place, cz_run_place_name(summary, info->at, column.place), name);
+}
+
 /* Every channel has its recorded value at each row that the page has, to half of its last digit. */
 static void compare_rows(const char *page, const CzRun *run, int n_row) {
     double *time = malloc((size_t)n_row * sizeof *time),
            *value = malloc((size_t)n_row * sizeof *value);
     int decimals, n_channel = 0;
+    const double *at = cz_run_channel(run, CZ_CHANNEL_TIME, 0);
     assert_int_equal(read_channel(page, "t_ms", &decimals, time), n_row);
-    for (int channel = 1; channel < cz_run_n_channel(run); channel++) {
-        char head[96];
-        const double *real = cz_run_channel(run, channel), *at = cz_run_channel(run, 0);
-        snprintf(head, sizeof head, "\"%s\":[", cz_run_channel_name(run, channel));
+    for (int k = 1; k < cz_run_n_column(run); k++) {
+        const CzColumn column = cz_run_column(run, k);
+        const double *real = cz_run_channel(run, column.channel, column.place);
+        char name[CZ_CHANNEL_ROOM], head[CZ_CHANNEL_ROOM + 8];
+        name_column(run, column, name);
+        snprintf(head, sizeof head, "\"%s\":[", name);
         if (strstr(page, head) == NULL)
             continue;
-        assert_int_equal(read_channel(page, cz_run_channel_name(run, channel), &decimals, value),
-                         n_row);
+        assert_int_equal(read_channel(page, name, &decimals, value), n_row);
         for (int i = 0, row = 0; i < n_row; i++, row++) {
             while (fabs(at[row] - time[i]) > 1e-9)
                 row++;

@@ -11,6 +11,8 @@ check "problems/crushzone.schema.json is what 'crushzone schema' prints" \
     same problems/crushzone.schema.json "$PROGRAM" schema
 check "docs/problem-file.md is what 'crushzone help keys --markdown' prints" \
     same docs/problem-file.md "$PROGRAM" help keys --markdown
+check "docs/channels.md is what 'crushzone help channels --markdown' prints" \
+    same docs/channels.md "$PROGRAM" help channels --markdown
 check "docs/command-line.md is what 'crushzone help --markdown' prints" \
     same docs/command-line.md "$PROGRAM" help --markdown
 check "docs/crushzone.1 is what 'crushzone help --man' prints" \

@@ -27,6 +27,9 @@ put tests/model/tests.cmake ''
 put include/crushzone/model.h '/* n */\nsize_t cz_model_size(void);'
 put CMakeLists.txt 'project(crushzone VERSION 2.3.4 LANGUAGES C'
 put CHANGELOG.md '## [2.3.3]'
+put include/crushzone/channels.def '/* n */\nCZ_CHANNEL(A, VEHICLE, PLANE, ANY, "x_{vehicle}_m", "m", "", "")\nCZ_CHANNEL(B, RUN, PLANE, TOTAL, "E_kinetic_kJ", "kJ", "", "")'
+put src/evaluate/curves.c '/* n */\nfind(run, "x_A1_m");\nfind(run, "E_kinetic_kJ");\nfind(run, "length");'
+put src/report/loops.c '/* n */\nif (strcmp(cz_channel_name(info, 0, "", text), wanted) == 0)'
 put demo 'if then'
 awk 'BEGIN { print "/* n */"; for (i = 0; i < 500; i++) print "int a;" }' >src/base/long.c
 
@@ -43,6 +46,10 @@ put src/model/lonely.h '/* n */'
 check "a header that nobody includes is found" finds '^src/model/lonely.h is' unused_headers
 check "a vague name is found" finds 'src/cli/helpers.c' vague_names
 check "a file of 501 lines is found" finds '^src/base/long.c has 501' long_files
+for place in src/evaluate/curves.c:2 src/evaluate/curves.c:3 'src/report/loops.c makes' src/report/loops.c:2; do
+    check "a channel that is looked up by a text is found: $place" finds "^$place" channels_by_text
+done
+check "a text that is no channel is let through" sh -c '! grep -q curves.c:4 found.txt'
 check "printing in the library is found" finds '^src/report/table.c:4:' library_manners
 check "a comparison of floats is found" finds '^tests/model/test_list.c:2:' float_comparisons
 check "a file without a purpose is found" finds '^src/report/other.c:1:' missing_purposes

@@ -16,6 +16,7 @@ include_arrows() {
                     n = split("base text problem model fit dynamics simulate evaluate optimise report cli", order, " ")
                     for (i = 1; i <= n; i++) { rank[order[i]] = i; public[order[i]] = order[i] }
                     public["status"] = public["names"] = "base"
+                    public["channel"] = "problem"
                     public["sweep"] = public["explain"] = public["verify"] = "evaluate"
                     public["crushzone"] = "report"
                 }
@@ -93,6 +94,20 @@ long_files() {
         n=$(wc -l <"$file")
         [ "$n" -le 500 ] || echo "$file has $n lines, 500 are allowed"
     done
+}
+
+# A channel is a quantity at a place: no folder knows one by a text, and names are made where they are written or read.
+channels_by_text() {
+    entries=$(grep '^CZ_CHANNEL(' include/crushzone/channels.def)
+    stems=$(echo "$entries" | cut -d'"' -f2 | sed 's/{.*//' | sort -u | paste -sd'|' -)
+    units=$(echo "$entries" | cut -d'"' -f4 | sort -u | paste -sd'|' -)
+    for folder in $folders; do
+        c_files src/$folder
+    done | xargs grep -HnE "\"($stems)([^\" ]*_($units))?\"" | without_comments | grep -v '^src/report/drawn.def:'
+    grep -rlE '(^|[^_a-z])cz_(channel|drawn)_name\(' src --include='*.c' |
+        grep -vxE 'src/(problem/(channel|rules_names)|report/(csv|drawn|page_data|sheet)|cli/help_topics)\.c' |
+        sed 's/$/ makes names of channels/'
+    grep -rnE '(str(n)?(cmp|str|chr)|fnmatch)\(.*(channel|drawn)_name' src --include='*.c' | grep -v '^src/problem/channel.c:'
 }
 
 # The library returns statuses: it neither prints nor ends the program, and reads no locale and no environment. Text becomes

@@ -10,6 +10,7 @@ nothing "every test is in its folder's list" unlisted_tests
 [ ! -x "$PROGRAM" ] || nothing "every header is included by somebody" unused_headers
 nothing "no file has a vague name" vague_names
 nothing "no file is longer than 500 lines" long_files
+nothing "no channel is looked up by a text" channels_by_text
 nothing "the library does not print, exit, or depend on locale and environment" library_manners
 nothing "doubles are not compared as floats" float_comparisons
 nothing "every file begins with what it is for" missing_purposes

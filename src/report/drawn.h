@@ -1,0 +1,51 @@
+/* What figures draw over time: recorded channels, and curves that are made of them (drawn.def). */
+#ifndef CZ_REPORT_DRAWN_H
+#define CZ_REPORT_DRAWN_H
+
+#include "crushzone/simulate.h"
+
+/* Recorded channels first, with the numbers that they have there. */
+typedef enum CzDrawn {
+#define CZ_CHANNEL(constant, at, dimension, validity, pattern, unit, title, doc)                   \
+    CZ_DRAWN_##constant,
+#include "crushzone/channels.def"
+#include "report/drawn.def"
+#undef CZ_CHANNEL
+    CZ_N_DRAWN
+} CzDrawn;
+
+/* As cz_channel_info. */
+const CzChannelInfo *cz_drawn_info(CzDrawn drawn);
+
+/* A curve that was made. */
+typedef struct CzMadeCurve {
+    CzDrawn drawn;
+    int place;
+    double *value; /* (n_sample) */
+} CzMadeCurve;
+
+typedef struct CzMadeCurves {
+    int n;
+    CzMadeCurve *curve; /* (n) */
+} CzMadeCurves;
+
+/* Makes the curves of a run: all that was dissipated at interfaces; the error of the balance, where
+ * there is energy at the start; accelerations through a filter CFC 60, where samples are close
+ * enough; none of a run that was not recorded. Status: CZ_STATUS_NO_MEMORY; free them in any case.
+ */
+CZ_MUST_CHECK CzStatus cz_drawn_make(const CzRun *run, CzMadeCurves *made, CzError *error);
+void cz_drawn_free(CzMadeCurves *made);
+
+/* Values of a curve at a place (n_sample), recorded or made; NULL where there are none. */
+const double *cz_drawn_values(const CzRun *run, const CzMadeCurves *made, CzDrawn drawn, int place);
+
+/* Values of a channel in another run, of the vehicle or the interface that has the name of the
+ * place in this one, for they may be other trains; NULL when there are none. */
+const double *cz_drawn_beside(const CzRunSummary *run, CzChannel channel, int place,
+                              const CzRun *other);
+
+/* Name of a curve, as of a column of channels.csv; returns it. */
+const char *cz_drawn_name(const CzRunSummary *run, CzDrawn drawn, int place,
+                          char name[CZ_CHANNEL_ROOM]);
+
+#endif

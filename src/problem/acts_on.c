@@ -1,9 +1,8 @@
-/* Warns of keys that are written for a model of vehicle on which they do nothing: a height of what
- * has no height, a mass of what cannot move. */
+/* Which keys act on which models of vehicles. */
+#include "problem/acts_on.h"
+
 #include <stdio.h>
 #include <string.h>
-
-#include "problem/rules.h"
 
 typedef enum { FULL, MOVING } Models;
 
@@ -61,7 +60,7 @@ static const char *idle_record(const CzProblem *problem, const CzPlace *place) {
  * together, up to `end`. */
 static void warn(CzProblem *problem, int first, int end) {
     CzReader *reader = &problem->reader;
-    const CzPlace *place = reader->places.place;
+    const CzPlace *place = problem->places.place;
     const char *record = idle_record(problem, &place[first]);
     char list[LONGEST_LIST] = "";
     for (int i = first; i < end; i++) {
@@ -76,7 +75,7 @@ static void warn(CzProblem *problem, int first, int end) {
 
 /* Warns of the places of one vehicle. */
 static void check_vehicle(CzProblem *problem, int begin, int end) {
-    const CzPlace *place = problem->reader.places.place;
+    const CzPlace *place = problem->places.place;
     for (int i = begin; i < end; i++) {
         const char *record = idle_record(problem, &place[i]);
         bool is_first = record != NULL;
@@ -88,7 +87,7 @@ static void check_vehicle(CzProblem *problem, int begin, int end) {
 }
 
 void cz_acts_on_check(CzProblem *problem) {
-    const CzPlaces *places = &problem->reader.places;
+    const CzPlaces *places = &problem->places;
     int begin = 0;
     while (begin < places->n_place) {
         const CzVehicle *vehicle = vehicle_of(problem, places->place[begin].address);

@@ -1,6 +1,5 @@
 /* A problem once more with further settings, from the tree that was read: no file is opened but
  * those of curves. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -11,7 +10,7 @@ static CzSetting *join_settings(CzProblem *again, const CzProblem *problem, int 
                                 const char *const *path, const char *const *value) {
     CzReader *reader = &again->reader;
     const int n = problem->n_setting;
-    CzSetting *setting = cz_reader_allocate(reader, (size_t)(n + n_more), sizeof *setting);
+    CzSetting *setting = cz_arena_allocate(&reader->arena, (size_t)(n + n_more), sizeof *setting);
     const CzSource *source = cz_sources_add(&reader->sources, "(settings)", ".", "", 0);
     if (setting == NULL || source == NULL)
         return NULL;
@@ -32,19 +31,18 @@ static CzSetting *join_settings(CzProblem *again, const CzProblem *problem, int 
 CzStatus cz_problem_read_again(const CzProblem *problem, int n_more, const char *const *path,
                                const char *const *value, CzProblem **again, CzError *error) {
     *again = NULL;
-    CzProblem *made = calloc(1, sizeof *made);
+    CzProblem *made = cz_problem_create(problem->reader.share_folder);
     if (made == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory to read the problem again");
     CzReader *reader = &made->reader;
-    reader->mistakes.arena = reader->warnings.arena = reader->sources.arena = &reader->arena;
-    reader->share_folder = problem->reader.share_folder;
     made->file = problem->file;
     made->tree = problem->tree;
     made->setting = join_settings(made, problem, n_more, path, value);
     if (made->setting != NULL && !reader->arena.out_of_memory)
         cz_problem_bind(made, &made->tree);
+    const CzRules rules = cz_rules_of(made);
     if (!reader->arena.out_of_memory)
-        cz_rules_check_collision(made);
+        cz_rules_check_collision(&rules);
     CzStatus status = CZ_OK;
     if (reader->arena.out_of_memory) {
         status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory to read the problem again");

@@ -1,20 +1,16 @@
 /* Trees to typed records, driven by the table of keys. */
+#include "problem/bind.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/suggest.h"
-#include "problem/reader.h"
+#include "problem/bind_table.h"
+#include "problem/strokes.h"
+#include "tree/merge.h"
 
 enum { MOST_KEYS = 64 };
-
-/* What a record is read with. */
-typedef struct {
-    CzReader *reader;
-    const CzTree *tree;
-    bool is_full;    /* inside a full vehicle */
-    bool is_partial; /* inside a record whose part is not there */
-} Binder;
 
 /* The record at hand. */
 typedef struct {
@@ -26,8 +22,8 @@ typedef struct {
     bool meant[MOST_KEYS];         /* a mistyped key stands for it (n_key) */
 } Record;
 
-static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const CzTrail *trail,
-                        void *memory);
+static void bind_record(CzBinder binder, const CzRecord *of, const CzNode *node,
+                        const CzTrail *trail, void *memory);
 
 /* ---- records that are absent ---- */
 
@@ -51,9 +47,9 @@ static void fill_absent(const CzKey *key, char *memory) {
     }
 }
 
-void cz_bind_absent(CzRecordId record, void *record_memory) {
-    for (int i = 0; i < cz_records[record].n_key; i++)
-        fill_absent(&cz_records[record].key[i], record_memory);
+void cz_bind_absent(const CzRecord *record, void *record_memory) {
+    for (int i = 0; i < record->n_key; i++)
+        fill_absent(&record->key[i], record_memory);
 }
 
 /* ---- keys that are not what they should be ---- */
@@ -108,8 +104,8 @@ static const CzReuseKey *find_reuse_key(const char *typed) {
     return NULL;
 }
 
-static void report_unit(Binder binder, const Record *record, const CzNode *typed, const CzKey *key,
-                        const CzTrail *trail) {
+static void report_unit(CzBinder binder, const Record *record, const CzNode *typed,
+                        const CzKey *key, const CzTrail *trail) {
     char spellings[200];
     cz_key_spellings(spellings, sizeof spellings, key->stem, key->dimension);
     const char *suffix = typed->text + strlen(key->stem);
@@ -143,7 +139,7 @@ static void help_inwards(CzMistakes *mistakes, const CzRecord *record, const cha
         const CzUnit *unit = NULL;
         const bool is_list = key->kind == CZ_KEY_STAGES || key->kind == CZ_KEY_LIST;
         if ((key->kind != CZ_KEY_CHILD && !is_list) ||
-            cz_record_match(&cz_records[key->child], typed, &unit) == NULL)
+            cz_record_match(key->child, typed, &unit) == NULL)
             continue;
         cz_mistake_help(mistakes, "it belongs to '%s', one level further in: %s: %s{%s: ...}%s",
                         key->stem, key->stem, is_list ? "[" : "", typed, is_list ? "]" : "");
@@ -152,7 +148,7 @@ static void help_inwards(CzMistakes *mistakes, const CzRecord *record, const cha
 }
 
 /* Reports a key that the record does not have; the key that was meant, when that is plain. */
-static const CzKey *report_unknown(Binder binder, const Record *record, const CzNode *typed,
+static const CzKey *report_unknown(CzBinder binder, const Record *record, const CzNode *typed,
                                    const CzTrail *trail) {
     char nearest[96];
     const CzKey *near = nearest_key(record->record, typed->text, nearest, sizeof nearest);
@@ -177,7 +173,7 @@ static const CzKey *report_unknown(Binder binder, const Record *record, const Cz
     return reuse == NULL ? near : NULL;
 }
 
-static void report_missing(Binder binder, const Record *record, const CzKey *key) {
+static void report_missing(CzBinder binder, const Record *record, const CzKey *key) {
     char spellings[200];
     const bool is_vehicle = record->record == &cz_records[CZ_RECORD_CzVehicle];
     const bool is_full = key->presence == CZ_PRESENCE_REQUIRED_FULL;
@@ -190,7 +186,7 @@ static void report_missing(Binder binder, const Record *record, const CzKey *key
     cz_mistake_help(&binder.reader->mistakes, "write %s", spellings);
 }
 
-static bool is_list(Binder binder, const CzNode *key, const CzNode *value, const CzTrail *trail) {
+static bool is_list(CzBinder binder, const CzNode *key, const CzNode *value, const CzTrail *trail) {
     if (value->kind == CZ_NODE_LIST)
         return true;
     cz_mistake(&binder.reader->mistakes, value, trail, "'%s' needs a list, but this is %s",
@@ -202,8 +198,30 @@ static bool is_list(Binder binder, const CzNode *key, const CzNode *value, const
 
 /* ---- values of one key ---- */
 
-static void bind_stages(Binder binder, const Record *record, const CzKey *key, const CzEntry *entry,
-                        const CzTrail *trail) {
+/* One word of a set; a mistyped word is taken for the one that was meant. */
+static bool bind_choice(CzValue value, const CzWordSet *set, int *choice) {
+    char words[160] = "";
+    size_t n = 0;
+    if (!cz_value_is_there(value))
+        return false;
+    const int nearest = cz_word_nearest(set, value.node->text);
+    if (nearest >= 0)
+        *choice = nearest;
+    if (nearest >= 0 && strcmp(set->word[nearest].word, value.node->text) == 0)
+        return true;
+    for (int i = 0; i < set->n_word; i++) {
+        const char *before = i == 0 ? "" : i + 1 < set->n_word ? ", " : " or ";
+        n += (size_t)snprintf(words + n, sizeof words - n, "%s%s", before, set->word[i].word);
+        n = n < sizeof words ? n : sizeof words - 1;
+    }
+    cz_mistake(value.mistakes, value.node, value.trail, "%s: '%.60s' is not %s", value.key,
+               value.node->text, words);
+    cz_mistake_suggest(value.mistakes, nearest >= 0 ? set->word[nearest].word : NULL);
+    return false;
+}
+
+static void bind_stages(CzBinder binder, const Record *record, const CzKey *key,
+                        const CzEntry *entry, const CzTrail *trail) {
     const CzNode *list = entry->value;
     CzStage *stage = (CzStage *)(void *)(record->memory + key->offset);
     if (!is_list(binder, entry->key, list, trail))
@@ -219,15 +237,15 @@ static void bind_stages(Binder binder, const Record *record, const CzKey *key, c
         binder.reader->has_holes = true;
     }
     for (int i = 0; i < list->n_entry; i++)
-        bind_record(binder, CZ_RECORD_CzStage, list->entry[i].value,
+        bind_record(binder, key->child, list->entry[i].value,
                     cz_entry_trail(&list->entry[i], trail), &stage[i]);
     *(int *)(void *)(record->memory + key->n_offset) = list->n_entry;
 }
 
-static void bind_list(Binder binder, const Record *record, const CzKey *key, const CzEntry *entry,
+static void bind_list(CzBinder binder, const Record *record, const CzKey *key, const CzEntry *entry,
                       const CzTrail *trail) {
     const CzNode *list = entry->value;
-    const size_t size = cz_records[key->child].size;
+    const size_t size = key->child->size;
     if (!is_list(binder, entry->key, list, trail))
         return;
     if (list->n_entry == 0 && key->presence == CZ_PRESENCE_REQUIRED)
@@ -239,7 +257,7 @@ static void bind_list(Binder binder, const Record *record, const CzKey *key, con
     int *n_item = (int *)(void *)(record->memory + key->n_offset);
     char **items = (char **)(void *)(record->memory + key->offset);
     if (*items == NULL) /* trains and vehicles have their room already */
-        *items = cz_reader_allocate(binder.reader, (size_t)list->n_entry, size);
+        *items = cz_arena_allocate(&binder.reader->arena, (size_t)list->n_entry, size);
     if (*items == NULL)
         return;
     for (int i = 0; i < list->n_entry; i++)
@@ -248,18 +266,19 @@ static void bind_list(Binder binder, const Record *record, const CzKey *key, con
     *n_item = list->n_entry;
 }
 
-static void bind_texts(Binder binder, const Record *record, const CzKey *key, const CzEntry *entry,
-                       const CzTrail *trail) {
+static void bind_texts(CzBinder binder, const Record *record, const CzKey *key,
+                       const CzEntry *entry, const CzTrail *trail) {
     const CzNode *list = entry->value;
     if (!is_list(binder, entry->key, list, trail))
         return;
-    const char **text = cz_reader_allocate(binder.reader, (size_t)list->n_entry, sizeof *text);
+    const char **text =
+        cz_arena_allocate(&binder.reader->arena, (size_t)list->n_entry, sizeof *text);
     for (int i = 0; text != NULL && i < list->n_entry; i++) {
-        text[i] = cz_bind_text(binder.reader, key->stem, list->entry[i].value,
-                               cz_entry_trail(&list->entry[i], trail));
+        text[i] = cz_value_text(cz_reader_value(binder.reader, key->stem, list->entry[i].value,
+                                                cz_entry_trail(&list->entry[i], trail)));
         if (text[i] == NULL)
             return;
-        cz_places_add(binder.reader, (CzPlace){.address = &text[i],
+        cz_places_add(binder.places, (CzPlace){.address = &text[i],
                                                .node = list->entry[i].value,
                                                .value = list->entry[i].value,
                                                .trail = trail,
@@ -269,30 +288,32 @@ static void bind_texts(Binder binder, const Record *record, const CzKey *key, co
         (CzTexts){text != NULL ? list->n_entry : 0, text};
 }
 
-static void bind_value(Binder binder, const Record *record, const CzKey *key, const CzUnit *unit,
+static void bind_value(CzBinder binder, const Record *record, const CzKey *key, const CzUnit *unit,
                        const CzEntry *entry) {
     CzReader *reader = binder.reader;
     const CzTrail *trail = cz_entry_trail(entry, record->trail);
     void *field = record->memory + key->offset;
+    CzValue value = cz_reader_value(reader, key->stem, entry->value, trail);
     switch (key->kind) {
     case CZ_KEY_NUMBER:
-        cz_bind_number(reader, key, unit, entry->key, entry->value, trail, field);
+        value.key = entry->key->text;
+        cz_value_number(value, unit, key->lo, key->hi, field);
         break;
     case CZ_KEY_COUNT:
-        if (!cz_bind_count(reader, key, entry->value, trail, field) &&
+        if (!cz_value_count(value, key->lo, key->hi, field) &&
             record->record == &cz_records[CZ_RECORD_CzInput])
             cz_mistake_help(&reader->mistakes, "this program reads version %.0f of the format",
                             key->hi);
         break;
     case CZ_KEY_CHOICE:
-        if (!cz_bind_choice(reader, key, entry->value, trail, field))
+        if (!bind_choice(value, key->words, field))
             reader->has_holes = true; /* another word might have asked for less */
         break;
     case CZ_KEY_FLAG:
-        cz_bind_flag(reader, key->stem, entry->value, trail, field);
+        cz_value_flag(value, field);
         break;
     case CZ_KEY_TEXT:
-        *(const char **)field = cz_bind_text(reader, key->stem, entry->value, trail);
+        *(const char **)field = cz_value_text(value);
         break;
     case CZ_KEY_CHILD:
         bind_record(binder, key->child, entry->value, trail, field);
@@ -313,24 +334,23 @@ static void bind_value(Binder binder, const Record *record, const CzKey *key, co
         bind_texts(binder, record, key, entry, trail);
         break;
     }
-    cz_places_add(reader, (CzPlace){.address = field,
-                                    .node = entry->key,
-                                    .value = entry->value,
-                                    .trail = trail,
-                                    .key = key,
-                                    .unit = unit});
+    cz_places_add(binder.places, (CzPlace){.address = field,
+                                           .node = entry->key,
+                                           .value = entry->value,
+                                           .trail = trail,
+                                           .key = key,
+                                           .unit = unit});
 }
 
 /* The word under a mistyped key holds as if the key were right, so that nothing else is blamed. */
 static void take_meant_word(const Record *record, const CzKey *key, const CzNode *value) {
-    const int word =
-        value->kind == CZ_NODE_TEXT ? cz_word_nearest(&cz_word_sets[key->words], value->text) : -1;
+    const int word = value->kind == CZ_NODE_TEXT ? cz_word_nearest(key->words, value->text) : -1;
     if (word >= 0)
         *(int *)(void *)(record->memory + key->offset) = word;
 }
 
 /* Finds the key that an entry names and reads its value. */
-static void bind_entry(Binder binder, Record *record, const CzEntry *entry) {
+static void bind_entry(CzBinder binder, Record *record, const CzEntry *entry) {
     const CzUnit *unit = NULL;
     const CzTrail *trail = cz_entry_trail(entry, record->trail);
     if (entry->key->is_refused)
@@ -346,7 +366,7 @@ static void bind_entry(Binder binder, Record *record, const CzEntry *entry) {
             *(double *)(void *)(record->memory + key->offset) = NAN;
         if (key->kind == CZ_KEY_CHOICE)
             take_meant_word(record, key, entry->value);
-        cz_places_add(binder.reader, (CzPlace){.address = record->memory + key->offset,
+        cz_places_add(binder.places, (CzPlace){.address = record->memory + key->offset,
                                                .node = entry->key,
                                                .value = entry->value,
                                                .trail = trail,
@@ -390,10 +410,10 @@ static bool is_full_vehicle(const CzNode *node) {
     return model == NULL || cz_word_nearest(&cz_word_sets[CZ_WORDS_MODEL], model) == CZ_MODEL_FULL;
 }
 
-static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const CzTrail *trail,
-                        void *memory) {
-    Record record = {.record = &cz_records[id], .trail = trail, .memory = memory};
-    cz_bind_absent(id, memory);
+static void bind_record(CzBinder binder, const CzRecord *of, const CzNode *node,
+                        const CzTrail *trail, void *memory) {
+    Record record = {.record = of, .trail = trail, .memory = memory};
+    cz_bind_absent(of, memory);
     if (node->kind != CZ_NODE_MAPPING) {
         cz_mistake(&binder.reader->mistakes, node, trail,
                    "%s needs keys with values, but this is %s", record.record->name,
@@ -409,10 +429,10 @@ static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const 
         return;
     binder.is_partial |= record.node->is_partial;
     binder.reader->has_holes |= record.node->is_partial;
-    if (id == CZ_RECORD_CzVehicle)
+    if (of == &cz_records[CZ_RECORD_CzVehicle])
         binder.is_full = is_full_vehicle(record.node);
     *(bool *)memory = true; /* `given` is the first member of every record */
-    cz_places_add(binder.reader, (CzPlace){.address = memory,
+    cz_places_add(binder.places, (CzPlace){.address = memory,
                                            .size = record.record->size,
                                            .node = record.node,
                                            .trail = trail});
@@ -425,11 +445,11 @@ static void bind_record(Binder binder, CzRecordId id, const CzNode *node, const 
         if (is_needed && record.seen[i] == NULL && !record.meant[i] && !binder.is_partial)
             report_missing(binder, &record, key);
     }
-    cz_bind_strokes(binder.reader, id, record.node, trail, memory);
+    cz_bind_strokes(binder.reader, of, record.node, trail, memory);
 }
 
-void cz_bind_record(CzReader *reader, const CzTree *tree, CzRecordId record, const CzNode *node,
+void cz_bind_record(CzBinder binder, const CzRecord *record, const CzNode *node,
                     const CzTrail *trail, void *record_memory) {
-    bind_record((Binder){.reader = reader, .tree = tree}, record, node, trail, record_memory);
-    cz_places_sort(reader);
+    bind_record(binder, record, node, trail, record_memory);
+    cz_places_sort(binder.places);
 }

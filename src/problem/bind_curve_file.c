@@ -1,14 +1,14 @@
-/* The curve of a device that is in a file of its own: which columns, which part, which signs, and
- * from there the loading with rising strokes.
- */
+/* Curves of devices in files. */
+#include "problem/bind_curve_file.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
-#include "problem/reader.h"
 #include "problem/trace.h"
+#include "tree/load.h"
 
 #define JUMP 0.01         /* of the energy that points at one stroke may be worth (ours) */
 #define WITHOUT_FORCE 0.2 /* of the mean force: a curve that begins below begins without (ours) */
@@ -36,8 +36,6 @@ bool cz_curve_file_takes(const char *key) {
 /* Reads a number under a stem in one of the units of a dimension; `*number` stays without one. */
 static bool take_number(const Reading *reading, const char *stem, CzDimension dimension,
                         double lowest, double *number) {
-    const CzKey key = {
-        .kind = CZ_KEY_NUMBER, .stem = stem, .dimension = dimension, .lo = lowest, .hi = 1e6};
     const size_t n = strlen(stem);
     for (int i = 0; i < reading->node->n_entry; i++) {
         const CzEntry *entry = &reading->node->entry[i];
@@ -49,8 +47,9 @@ static bool take_number(const Reading *reading, const char *stem, CzDimension di
                              : text[n] == '_' ? cz_unit_find(dimension, text + n + 1)
                                               : NULL;
         if (unit != NULL)
-            return cz_bind_number(reading->reader, &key, unit, entry->key, entry->value,
-                                  reading->trail, number);
+            return cz_value_number(
+                cz_reader_value(reading->reader, text, entry->value, reading->trail), unit, lowest,
+                1e6, number);
     }
     return true;
 }
@@ -171,7 +170,7 @@ static bool keep_loading(const Reading *reading, const CzSource *source, CzTrace
                    "stiffness",
                    reading->key->stem);
     trace->n = trace->n_loading;
-    double *raised = cz_reader_allocate(reading->reader, (size_t)trace->n, sizeof *raised);
+    double *raised = cz_arena_allocate(&reading->reader->arena, (size_t)trace->n, sizeof *raised);
     if (raised == NULL || !cz_trace_raise(&reading->reader->arena, trace->x, trace->n, raised))
         return false;
     trace->x = raised;
@@ -204,7 +203,7 @@ bool cz_bind_curve_file(CzReader *reader, const CzKey *key, const CzNode *node,
                        .trail = trail,
                        .shape = cz_trace_shape_default()};
     const CzNode *named = cz_node_find(node, "file")->value;
-    const char *name = cz_bind_text(reader, "file", named, trail);
+    const char *name = cz_value_text(cz_reader_value(reader, "file", named, trail));
     const char *path = name != NULL ? cz_load_locate(reader, name, named, "catalogue") : NULL;
     CzCurveRequest request;
     CzCurvePoints points;

@@ -1,14 +1,12 @@
-/* Curves by points: {columns, points, basis} in the file, or {file, basis, ...} in a file of its
- * own (bind_curve_file.c).
- *
- * A curve of more points than a table holds loses the points that matter least (reduce_curve.h).
- */
+/* Curves by points. */
+#include "problem/bind_table.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/number.h"
-#include "problem/reader.h"
+#include "problem/bind_curve_file.h"
 #include "problem/reduce_curve.h"
 
 /* A curve while it is read. */
@@ -22,8 +20,8 @@ typedef struct {
 } Curve;
 
 static bool make_room(Curve *curve, int n_point) {
-    curve->x = cz_reader_allocate(curve->reader, (size_t)n_point, sizeof *curve->x);
-    curve->y = cz_reader_allocate(curve->reader, (size_t)n_point, sizeof *curve->y);
+    curve->x = cz_arena_allocate(&curve->reader->arena, (size_t)n_point, sizeof *curve->x);
+    curve->y = cz_arena_allocate(&curve->reader->arena, (size_t)n_point, sizeof *curve->y);
     return curve->x != NULL && curve->y != NULL;
 }
 
@@ -46,17 +44,10 @@ static const CzUnit *column_unit(Curve *curve, const char *name, const CzNode *p
 /* Takes one number of a point. */
 static bool take_number(Curve *curve, const char *stem, const CzUnit *unit, CzDimension dimension,
                         const CzNode *value, double *number) {
-    const CzKey key = {.kind = CZ_KEY_NUMBER,
-                       .stem = stem,
-                       .dimension = dimension,
-                       .lo = 0,
-                       .hi = dimension == CZ_DIMENSION_LENGTH ? 20 : 1e9};
     char name[64];
     snprintf(name, sizeof name, "%s_%s", stem, unit->suffix);
-    const CzNode *key_node = cz_node_text(&curve->reader->arena, name, value);
-    if (key_node == NULL)
-        return false;
-    return cz_bind_number(curve->reader, &key, unit, key_node, value, curve->trail, number);
+    return cz_value_number(cz_reader_value(curve->reader, name, value, curve->trail), unit, 0,
+                           dimension == CZ_DIMENSION_LENGTH ? 20 : 1e9, number);
 }
 
 /* Takes one point; false when it is none. */

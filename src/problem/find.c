@@ -5,7 +5,8 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "problem/reader.h"
+#include "problem/reading.h"
+#include "tree/path.h"
 
 /* The stand-ins take their turn among the settings. */
 static bool put_stand_ins(CzProblem *trial, const CzProblem *problem, const char *path,
@@ -13,7 +14,8 @@ static bool put_stand_ins(CzProblem *trial, const CzProblem *problem, const char
     CzReader *reader = &trial->reader;
     const int own = cz_setting_rank(&problem->tree, path);
     int n = 0, n_before = 0;
-    CzSetting *ordered = cz_reader_allocate(reader, (size_t)problem->n_setting, sizeof *ordered);
+    CzSetting *ordered =
+        cz_arena_allocate(&reader->arena, (size_t)problem->n_setting, sizeof *ordered);
     if (ordered == NULL)
         return false;
     for (int pass = 0; pass < 2; pass++) {
@@ -94,7 +96,7 @@ static int compare_targets(const void *a, const void *b) {
 
 static CzStatus collect(const CzProblem *problem, const CzProblem *trial, const CzMatches *matches,
                         CzTarget **targets, int *n_target, CzError *error) {
-    const CzPlaces *places = &trial->reader.places;
+    const CzPlaces *places = &trial->places;
     *targets = malloc(((size_t)places->n_place + 1) * sizeof **targets);
     if (*targets == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
@@ -139,12 +141,9 @@ CzStatus cz_problem_find(const CzProblem *problem, const char *path, CzTarget **
                          int *n_target, CzError *error) {
     *targets = NULL;
     *n_target = 0;
-    CzProblem *trial = calloc(1, sizeof *trial);
+    CzProblem *trial = cz_problem_create(problem->reader.share_folder);
     if (trial == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
-    CzReader *reader = &trial->reader;
-    reader->mistakes.arena = reader->warnings.arena = reader->sources.arena = &reader->arena;
-    reader->share_folder = problem->reader.share_folder;
     const CzStatus status = find(problem, trial, path, targets, n_target, error);
     cz_problem_free(trial);
     return status;

@@ -2,10 +2,7 @@
 #include "problem/keys.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "base/suggest.h"
 #include "problem/input.h"
 
 /* ---- words ---- */
@@ -46,20 +43,21 @@ const CzWordSet cz_word_sets[CZ_N_WORDS] = {
 #define CZ_COUNT(type, stem, from, to, presence, without, doc)                                     \
     {FIELD(CZ_KEY_COUNT, type, stem, presence, doc), .lo = from, .hi = to, .absent = without},
 #define CZ_CHOICE(type, stem, set, presence, without, doc)                                         \
-    {FIELD(CZ_KEY_CHOICE, type, stem, presence, doc), .words = CZ_WORDS_##set, .absent = without},
+    {FIELD(CZ_KEY_CHOICE, type, stem, presence, doc), .words = &cz_word_sets[CZ_WORDS_##set],      \
+     .absent = without},
 #define CZ_FLAG(type, stem, without, doc)                                                          \
     {FIELD(CZ_KEY_FLAG, type, stem, DEFAULT, doc), .absent = without},
 #define CZ_TEXT(type, stem, presence, doc) {FIELD(CZ_KEY_TEXT, type, stem, presence, doc)},
 #define CZ_CHILD(type, stem, inside, presence, doc)                                                \
-    {FIELD(CZ_KEY_CHILD, type, stem, presence, doc), .child = CZ_RECORD_##inside},
+    {FIELD(CZ_KEY_CHILD, type, stem, presence, doc), .child = &cz_records[CZ_RECORD_##inside]},
 #define CZ_STAGES(type, stem, presence, doc)                                                       \
-    {FIELD(CZ_KEY_STAGES, type, stem, presence, doc), .child = CZ_RECORD_CzStage,                  \
+    {FIELD(CZ_KEY_STAGES, type, stem, presence, doc), .child = &cz_records[CZ_RECORD_CzStage],     \
      .n_offset = offsetof(type, n_##stem)},
 #define CZ_TABLE(type, stem, x_stem, x_dimension, y_stem, of_y, presence, doc)                     \
     {FIELD(CZ_KEY_TABLE, type, stem, presence, doc), .dimension = CZ_DIMENSION_##x_dimension,      \
      .x = #x_stem, .y = #y_stem, .y_dimension = CZ_DIMENSION_##of_y},
 #define CZ_LIST(type, stem, inside, presence, doc)                                                 \
-    {FIELD(CZ_KEY_LIST, type, stem, presence, doc), .child = CZ_RECORD_##inside,                   \
+    {FIELD(CZ_KEY_LIST, type, stem, presence, doc), .child = &cz_records[CZ_RECORD_##inside],      \
      .n_offset = offsetof(type, n_##stem)},
 #define CZ_TEXTS(type, stem, presence, doc) {FIELD(CZ_KEY_TEXTS, type, stem, presence, doc)},
 #define CZ_RECORD_END(type)                                                                        \
@@ -87,40 +85,3 @@ const CzReuseKey cz_reuse_keys[] = {
 };
 #undef CZ_REUSE
 const int cz_n_reuse_key = sizeof cz_reuse_keys / sizeof cz_reuse_keys[0];
-
-/* ---- looking up ---- */
-
-int cz_word_nearest(const CzWordSet *set, const char *typed) {
-    CzSuggestion suggestion = {0};
-    for (int i = 0; i < set->n_word; i++)
-        cz_suggest(&suggestion, typed, set->word[i].word);
-    for (int i = 0; i < set->n_word; i++)
-        if (suggestion.best == set->word[i].word)
-            return i;
-    return -1;
-}
-
-const CzKey *cz_record_key(const CzRecord *record, const char *stem) {
-    for (int i = 0; i < record->n_key; i++)
-        if (strcmp(record->key[i].stem, stem) == 0)
-            return &record->key[i];
-    return NULL;
-}
-
-const CzKey *cz_record_match(const CzRecord *record, const char *typed, const CzUnit **unit) {
-    for (int i = 0; i < record->n_key; i++) {
-        const CzKey *key = &record->key[i];
-        const size_t n = strlen(key->stem);
-        *unit = NULL;
-        if (strncmp(key->stem, typed, n) != 0)
-            continue;
-        if (key->kind == CZ_KEY_NUMBER && typed[n] == '_')
-            *unit = cz_unit_find(key->dimension, typed + n + 1);
-        else if (key->kind == CZ_KEY_NUMBER && typed[n] == '\0')
-            *unit = cz_unit_find(key->dimension, "");
-        if (*unit != NULL || (key->kind != CZ_KEY_NUMBER && typed[n] == '\0'))
-            return key;
-    }
-    *unit = NULL;
-    return NULL;
-}

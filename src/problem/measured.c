@@ -1,15 +1,13 @@
-/* Measured time histories in files, read as curve files are (curve_file.h).
- *
- * Times rise from line to line, so what `run` writes as channels.csv can be read as well. A value
- * without a unit is in that of its channel.
- */
+/* Reading measured time histories. */
+#include "problem/measured.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "text/curve_file.h"
-#include "problem/reader.h"
+#include "tree/load.h"
 
 /* The column of the values, wanted in the unit at the end of the channel's name. */
 static CzCurveColumn column_of(const CzMatch *match) {
@@ -52,7 +50,7 @@ static bool keep_window(CzReader *reader, const CzMatch *match, CzCurvePoints *p
 
 static void read_measured(CzProblem *problem, const CzMatch *match, CzMeasured *measured) {
     CzReader *reader = &problem->reader;
-    const CzPlace *named = cz_places_find(&reader->places, &match->file);
+    const CzPlace *named = cz_places_find(&problem->places, &match->file);
     const char *name = match->column != NULL ? match->column : match->channel;
     const char *path = cz_load_locate(reader, match->file, named->value, NULL);
     if (path == NULL || name == NULL)
@@ -94,8 +92,8 @@ void cz_measured_read(CzProblem *problem) {
     const CzOptimise *optimise = &problem->input.optimise;
     if (!optimise->given || optimise->n_match == 0)
         return;
-    problem->measured =
-        cz_reader_allocate(&problem->reader, (size_t)optimise->n_match, sizeof *problem->measured);
+    problem->measured = cz_arena_allocate(&problem->reader.arena, (size_t)optimise->n_match,
+                                          sizeof *problem->measured);
     for (int i = 0; problem->measured != NULL && i < optimise->n_match; i++)
         if (optimise->match[i].file != NULL)
             read_measured(problem, &optimise->match[i], &problem->measured[i]);

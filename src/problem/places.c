@@ -1,8 +1,7 @@
-/* Where records and their values were written, found by address in a time that hardly depends on
- * how many there are. */
-#include <stdlib.h>
+/* Places of fields in a hash table, those of records sorted by address. */
+#include "problem/places.h"
 
-#include "problem/reader.h"
+#include <stdlib.h>
 
 enum { FEWEST_SLOTS = 1024 };
 
@@ -53,14 +52,13 @@ static int compare_records(const void *a, const void *b) {
     return first->place - second->place;
 }
 
-void cz_places_sort(CzReader *reader) {
-    CzPlaces *places = &reader->places;
+void cz_places_sort(CzPlaces *places) {
     int n_record = 0;
     for (int i = 0; i < places->n_place; i++)
         n_record += places->place[i].size > 0;
     CzPlacedRecord *record = malloc(((size_t)n_record + 1) * sizeof *record);
     if (record == NULL) {
-        reader->arena.out_of_memory = true;
+        places->arena->out_of_memory = true;
         return;
     }
     free(places->record);
@@ -98,20 +96,19 @@ static const CzPlace *innermost(const CzPlaces *places, uintptr_t at) {
 
 /* ---- both ---- */
 
-void cz_places_add(CzReader *reader, CzPlace place) {
-    CzPlaces *places = &reader->places;
+void cz_places_add(CzPlaces *places, CzPlace place) {
     if (places->n_place == places->n_allocated) {
         const int n = places->n_allocated > 0 ? 2 * places->n_allocated : 1024;
         CzPlace *larger = realloc(places->place, (size_t)n * sizeof *larger);
         if (larger == NULL) {
-            reader->arena.out_of_memory = true;
+            places->arena->out_of_memory = true;
             return;
         }
         places->place = larger;
         places->n_allocated = n;
     }
     if (2 * (places->n_place + 1) > places->n_slot && !grow_slots(places)) {
-        reader->arena.out_of_memory = true;
+        places->arena->out_of_memory = true;
         return;
     }
     places->place[places->n_place++] = place;

@@ -1,10 +1,14 @@
-/* Profiles of limits: reading one and keeping what its category asks for. */
+/* Reading profiles of limits. */
+#include "problem/profile.h"
+
 #include <dirent.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/suggest.h"
-#include "problem/reader.h"
+#include "problem/bind.h"
+#include "tree/load.h"
+#include "tree/merge.h"
 
 enum { LONGEST_NAME = 96 };
 
@@ -75,14 +79,15 @@ static void suggest_categories(CzSuggestion *suggestion, const CzProfile *profil
     }
 }
 
-static bool check_category(CzReader *reader, const CzProfile *profile, const CzChecks *checks,
-                           const CzPlace *named) {
+static bool check_category(CzProblem *problem, const CzProfile *profile, const CzPlace *named) {
+    CzReader *reader = &problem->reader;
+    const CzChecks *checks = &problem->input.checks;
     CzSuggestion suggestion = {0};
     bool is_known = false, has_any = false;
     const char *category = checks->category != NULL ? checks->category : "";
     suggest_categories(&suggestion, profile, category, &is_known, &has_any);
     const bool is_good = checks->category != NULL ? is_known || !has_any : !has_any;
-    const CzPlace *place = cz_places_find(&reader->places, &checks->category);
+    const CzPlace *place = cz_places_find(&problem->places, &checks->category);
     if (checks->category == NULL && has_any) {
         cz_mistake(&reader->mistakes, named->value, named->trail,
                    "profile '%.96s' has limits by category; 'checks' must name one",
@@ -126,15 +131,15 @@ static const CzNode *keep_category(CzReader *reader, const CzNode *top, const Cz
 static void bind_profile(CzProblem *problem, const CzNode *top, const CzPlace *named) {
     CzReader *reader = &problem->reader;
     const CzTree no_parts = {0};
-    const CzChecks *checks = &problem->input.checks;
+    const CzBinder binder = {.reader = reader, .places = &problem->places, .tree = &no_parts};
+    const CzRecord *record = &cz_records[CZ_RECORD_CzProfile];
     CzProfile all = {0};
-    cz_bind_record(reader, &no_parts, CZ_RECORD_CzProfile, top, &cz_no_trail, &all);
-    if (!check_category(reader, &all, checks, named))
+    cz_bind_record(binder, record, top, &cz_no_trail, &all);
+    if (!check_category(problem, &all, named))
         return;
-    const CzNode *kept = keep_category(reader, top, &all, checks->category);
+    const CzNode *kept = keep_category(reader, top, &all, problem->input.checks.category);
     if (kept != NULL)
-        cz_bind_record(reader, &no_parts, CZ_RECORD_CzProfile, kept, &cz_no_trail,
-                       &problem->profile);
+        cz_bind_record(binder, record, kept, &cz_no_trail, &problem->profile);
 }
 
 void cz_profile_read(CzProblem *problem) {
@@ -142,7 +147,7 @@ void cz_profile_read(CzProblem *problem) {
     const CzChecks *checks = &problem->input.checks;
     if (!checks->given || checks->profile == NULL)
         return;
-    const CzPlace named = *cz_places_find(&reader->places, &checks->profile);
+    const CzPlace named = *cz_places_find(&problem->places, &checks->profile);
     const char *path = locate(reader, &named);
     const CzNode *top = path != NULL ? cz_load_file(reader, path, named.value) : NULL;
     if (top == NULL)

@@ -1,44 +1,11 @@
-/* Rules between values. Each rule is a small function that looks at one record and tells what does
- * not hold. */
+/* Rules between values, by what they look at; the header of all rules_*.c. Values that could not
+ * be read are NaN and break no rule, so that the rules hold even for a problem with other mistakes.
+ */
 #ifndef CZ_PROBLEM_RULES_H
 #define CZ_PROBLEM_RULES_H
 
-#include "problem/reader.h"
+#include "problem/rule.h"
 
-typedef struct CzRules {
-    const CzProblem *problem;
-    const CzReader *reader;
-    const CzInput *input;
-    const CzVehicle *vehicle;        /* those that are judged: the problem's own or a candidate's */
-    CzMistakes *mistakes, *warnings; /* where to tell; both may be NULL */
-    double *ratio;                   /* how near each rule comes to being broken, the largest so far
-                                        (CZ_N_VALUE_RULE); NULL when nobody asks */
-} CzRules;
-
-/* Notes that a rule limits a number, in SI, to at most another. */
-void cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most);
-
-/* Tells a mistake at the place where a field was written, or at its record when it was not. */
-void cz_rule_broken(const CzRules *rules, const void *field, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-/* The same as a warning. */
-void cz_rule_warning(const CzRules *rules, const void *field, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-/* Tells that something is absent; not told when it may stand in a record that could not be read. */
-void cz_rule_absent(const CzRules *rules, const void *field, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-/* Whether a field was written in a file, rightly or not. */
-bool cz_rule_is_written(const CzRules *rules, const void *field);
-
-/* Number for a sentence in a unit, such as "300 mm"; texts of one call must be different. */
-const char *cz_rule_text(char text[48], double si, const char *unit, double unit_si);
-#define CZ_MM(text, si) cz_rule_text((text), (si), "mm", 1e-3)
-#define CZ_KN(text, si) cz_rule_text((text), (si), "kN", 1e3)
-
-/* Usable stroke of stages or a curve [m]. */
-double cz_rule_stroke(const CzStage *stages, int n_stage, const CzTable *curve);
-
-/* The rules, by what they look at. */
 void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end);
 void cz_rules_check_vehicle(const CzRules *rules, const CzVehicle *vehicle);
 void cz_rules_check_names(const CzRules *rules);
@@ -46,7 +13,8 @@ void cz_rules_check_trains(const CzRules *rules);
 void cz_rules_check_scenarios(const CzRules *rules);
 void cz_rules_check_design(const CzRules *rules);
 void cz_rules_check_fit(const CzRules *rules);
+
 /* All rules but those on limits and variables. */
-void cz_rules_check_collision(CzProblem *problem);
+void cz_rules_check_collision(const CzRules *rules);
 
 #endif

@@ -7,6 +7,7 @@
 #include "base/increment.h"
 #include "base/number.h"
 #include "problem/rules.h"
+#include "problem/strokes.h"
 
 /* ---- limits ---- */
 
@@ -61,7 +62,7 @@ static void check_target(const CzRules *rules, const CzVariable *variable, const
             "'%.120s' cannot vary: the strokes of the curve beside it were made with it; "
             "give the curve in the strokes that its law is over",
             *path);
-    const CzPlace *place = cz_places_find(&rules->reader->places, target->field);
+    const CzPlace *place = cz_places_find(&rules->problem->places, target->field);
     if (place == NULL || place->address != target->field || place->key == NULL)
         return;
     char limit[CZ_NUMBER_TEXT];
@@ -119,11 +120,11 @@ static void check_bounds(const CzRules *rules, const CzVariable *variable) {
 
 /* The buffer that a path of a variable with choices names, by a number that only buffers have. */
 static bool is_buffer(const CzRules *rules, const char *const *path) {
-    char inside[CZ_MAX_PLACE + 16];
+    char inside[CZ_PATH_ROOM + 16];
     CzTarget *target = NULL;
     CzError error = {0};
     int n_target = 0;
-    snprintf(inside, sizeof inside, "%.*s.preload_N", (int)CZ_MAX_PLACE, *path);
+    snprintf(inside, sizeof inside, "%.*s.preload_N", (int)CZ_PATH_ROOM, *path);
     const CzStatus status = cz_problem_find(rules->problem, inside, &target, &n_target, &error);
     free(target);
     if (status == CZ_STATUS_NO_MEMORY)
@@ -137,8 +138,8 @@ static bool is_buffer(const CzRules *rules, const char *const *path) {
 /* Reads the problem with every choice in turn. */
 static void check_each_choice(const CzRules *rules, const CzVariable *variable,
                               const char *const *path) {
-    char use[CZ_MAX_PLACE + 16];
-    snprintf(use, sizeof use, "%.*s.use", (int)CZ_MAX_PLACE, *path);
+    char use[CZ_PATH_ROOM + 16];
+    snprintf(use, sizeof use, "%.*s.use", (int)CZ_PATH_ROOM, *path);
     const char *const uses[] = {use};
     for (int i = 0; i < variable->choices.n_text; i++) {
         CzProblem *chosen = NULL;

@@ -5,30 +5,24 @@ set(CZ_SOURCES_problem
     bind.c
     bind_curve_file.c
     bind_table.c
-    bind_value.c
     channel.c
-    families.c
     find.c
     keys.c
-    load.c
     measured.c
-    merge.c
-    parts.c
-    path.c
     places.c
-    problem.c
     profile.c
+    read.c
+    reading.c
     reduce_curve.c
+    rule.c
     rules.c
     rules_design.c
     rules_end.c
     rules_fit.c
     rules_names.c
     rules_train.c
-    settings.c
     strokes.c
     trace.c
-    trains.c
     usual.c
     write_keys.c
     write_resolved.c

@@ -1,14 +1,10 @@
-/* Strokes of curves: total ones hold the elastic shortening, plastic ones do not.
- *
- *   tube, anti-climber   d = s + F / k            the law is over s, k its stiffness
- *   end                  d = s + c F,  c = (1 - r) / Ku1 + r / Ku2   the law is over d
- *
- * with the unloading stiffnesses Ku1 and Ku2 of the end and the share r between them.
- */
+/* Changing the strokes of curves. */
+#include "problem/strokes.h"
+
 #include <math.h>
 
-#include "base/number.h"
-#include "problem/reader.h"
+#include "problem/keys.h"
+#include "tree/merge.h"
 
 #define APART 1e-6        /* of the stroke: points that are no closer (ours) */
 #define WITHOUT_FORCE 0.2 /* of the mean force: a curve that begins below begins without (ours) */
@@ -60,22 +56,22 @@ static void bind_plastic(CzReader *reader, const CzNode *node, const CzTrail *tr
     curve->strokes = CZ_STROKES_PLASTIC;
 }
 
-void cz_bind_strokes(CzReader *reader, CzRecordId record, const CzNode *node, const CzTrail *trail,
-                     void *memory) {
+void cz_bind_strokes(CzReader *reader, const CzRecord *record, const CzNode *node,
+                     const CzTrail *trail, void *memory) {
     const CzEntry *entry = cz_node_find(node, "curve");
     if (entry != NULL) { /* what is told is told there */
         node = entry->value;
         trail = cz_entry_trail(entry, trail);
     }
-    if (record == CZ_RECORD_CzTube) {
+    if (record == &cz_records[CZ_RECORD_CzTube]) {
         CzTube *tube = memory;
         if (tube->curve.given)
             bind_plastic(reader, node, trail, &tube->curve, tube->stiffness);
-    } else if (record == CZ_RECORD_CzAntiClimber) {
+    } else if (record == &cz_records[CZ_RECORD_CzAntiClimber]) {
         CzAntiClimber *device = memory;
         if (device->curve.given)
             bind_plastic(reader, node, trail, &device->curve, device->stiffness);
-    } else if (record == CZ_RECORD_CzEnd) {
+    } else if (record == &cz_records[CZ_RECORD_CzEnd]) {
         CzEnd *end = memory;
         const double first = end->unloading_stiffness, share = end->unloading_share;
         const double second =

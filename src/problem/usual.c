@@ -1,12 +1,10 @@
-/* Warns of numbers that are allowed and hardly meant: a car of 38 kg, 25 m/s for 25 km/h.
- *
- * Zero and what is absent is never unusual; signs do not count.
- */
+/* Usual ranges of numbers. */
+#include "problem/usual.h"
+
 #include <math.h>
-#include <stdio.h>
 
 #include "base/number.h"
-#include "problem/rules.h"
+#include "problem/keys.h"
 
 typedef struct {
     CzRecordId record;
@@ -32,19 +30,20 @@ static const char *with_unit(char text[CZ_NUMBER_TEXT + 16], double value, const
     return text;
 }
 
-static void warn(CzReader *reader, const CzPlace *place, const Usual *range, const CzUnit *unit) {
+static void warn(CzMistakes *warnings, const CzPlace *place, const Usual *range,
+                 const CzUnit *unit) {
     char own[CZ_NUMBER_TEXT + 16], lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT + 16];
     const double si = *(const double *)place->address;
     const double size = fabs(si) / unit->si, scale = unit->si / place->unit->si;
     if (!(size > 0.0) || (size >= range->lo && size <= range->hi))
         return;
-    cz_mistake(&reader->warnings, place->value, place->trail,
+    cz_mistake(warnings, place->value, place->trail,
                "%s of this %s is unusual: %s, where %s to %s is usual; is it in the right unit?",
                place->key->stem, cz_records[range->record].name,
                with_unit(own, si / place->unit->si, place->unit->suffix),
                cz_number_print_short(lo, range->lo * scale),
                with_unit(hi, range->hi * scale, place->unit->suffix));
-    cz_mistake_help(&reader->warnings,
+    cz_mistake_help(warnings,
                     "it is computed with as written; 'crushzone help keys' has the usual values");
 }
 
@@ -61,16 +60,16 @@ void cz_usual_write(FILE *stream, const CzKey *key) {
     }
 }
 
-void cz_usual_check(CzReader *reader) {
+void cz_usual_check(CzMistakes *warnings, const CzPlaces *places) {
     for (int i = 0; i < N_USUAL; i++) {
         const Usual *range = &usual[i];
         const CzKey *key = cz_record_key(&cz_records[range->record], range->stem);
         const CzUnit *unit = cz_unit_find(key->dimension, range->unit);
-        for (int k = 0; k < reader->places.n_place; k++) {
-            const CzPlace *place = &reader->places.place[k];
+        for (int k = 0; k < places->n_place; k++) {
+            const CzPlace *place = &places->place[k];
             if (place->size == 0 && place->key == key && place->unit != NULL &&
                 place->value->kind == CZ_NODE_TEXT && (!range->is_typed || place->unit == unit))
-                warn(reader, place, range, unit);
+                warn(warnings, place, range, unit);
         }
     }
 }

@@ -4,7 +4,8 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "problem/reader.h"
+#include "problem/acts_on.h"
+#include "problem/usual.h"
 
 /* Writes what may stand for a key: "stroke_m or stroke_mm". */
 static void spell(char *text, size_t size, const CzKey *key) {
@@ -17,7 +18,7 @@ static void spell(char *text, size_t size, const CzKey *key) {
 /* Writes what kind of value a key takes: "number, 0 to 10 m". */
 static void write_kind(FILE *stream, const CzKey *key) {
     char lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT];
-    const CzWordSet *set = &cz_word_sets[key->words];
+    const CzWordSet *set = key->words;
     switch (key->kind) {
     case CZ_KEY_NUMBER:
         fprintf(stream, "%s to %s%s%s", cz_number_print_short(lo, key->lo),
@@ -43,11 +44,11 @@ static void write_kind(FILE *stream, const CzKey *key) {
         fputs("text", stream);
         break;
     case CZ_KEY_CHILD:
-        fprintf(stream, "record: %s", cz_records[key->child].name);
+        fprintf(stream, "record: %s", key->child->name);
         break;
     case CZ_KEY_STAGES:
     case CZ_KEY_LIST:
-        fprintf(stream, "list of %s", cz_records[key->child].name);
+        fprintf(stream, "list of %s", key->child->name);
         break;
     case CZ_KEY_TABLE:
         fputs("points: {columns, points, basis, strokes}, or {file, basis, strokes} with columns, "
@@ -71,7 +72,7 @@ static void write_presence(FILE *stream, const CzKey *key) {
     else if (key->presence == CZ_PRESENCE_OPTIONAL)
         fputs("optional", stream);
     else if (key->kind == CZ_KEY_CHOICE)
-        fprintf(stream, "default %s", cz_word_sets[key->words].word[(int)key->absent].word);
+        fprintf(stream, "default %s", key->words->word[(int)key->absent].word);
     else if (key->kind == CZ_KEY_FLAG)
         fprintf(stream, "default %s", key->absent != 0 ? "true" : "false");
     else

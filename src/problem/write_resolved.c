@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/number.h"
-#include "problem/reader.h"
+#include "problem/acts_on.h"
 
 enum { COMMENT_COLUMN = 44 };
 
@@ -62,7 +62,7 @@ static void write_text(FILE *stream, const char *text) {
 
 /* Where a field was written, or that it is a default. */
 static void write_origin(const Writer *writer, const CzKey *key, const void *field, int column) {
-    const CzPlace *place = cz_places_find(&writer->problem->reader.places, field);
+    const CzPlace *place = cz_places_find(&writer->problem->places, field);
     fprintf(writer->stream, "%*s # ", column < COMMENT_COLUMN ? COMMENT_COLUMN - column : 0, "");
     if (place == NULL || place->address != field || place->key != key) {
         fputs(strstr(key->doc, "(ours") != NULL ? "default (ours)\n" : "default\n", writer->stream);
@@ -102,7 +102,7 @@ static const char *text_of(const Writer *writer, const char *const *field, size_
 /* Writes "key: value # origin" for the keys of one value; false when the key is absent. */
 static bool write_value(const Writer *writer, const CzKey *key, const char *field, int indent,
                         const char *dash) {
-    char number[CZ_NUMBER_TEXT], name[CZ_MAX_PLACE];
+    char number[CZ_NUMBER_TEXT], name[CZ_PATH_ROOM];
     const char *value = number;
     const char *suffix = "";
     if (key->kind == CZ_KEY_NUMBER) {
@@ -117,7 +117,7 @@ static bool write_value(const Writer *writer, const CzKey *key, const char *fiel
             return false;
         snprintf(number, sizeof number, "%d", count);
     } else if (key->kind == CZ_KEY_CHOICE) {
-        value = cz_word_sets[key->words].word[*(const int *)(const void *)field].word;
+        value = key->words->word[*(const int *)(const void *)field].word;
     } else if (key->kind == CZ_KEY_FLAG) {
         value = *(const bool *)field ? "true" : "false";
     } else {
@@ -172,8 +172,8 @@ static void write_table(const Writer *writer, const CzKey *key, const CzTable *t
 static bool write_inner_path(char *text, size_t size, const CzRecord *record, size_t offset) {
     for (int i = 0; i < record->n_key; i++) {
         const CzKey *key = &record->key[i];
-        const CzRecord *inside = &cz_records[key->child];
-        char rest[CZ_MAX_PLACE];
+        const CzRecord *inside = key->child;
+        char rest[CZ_PATH_ROOM];
         const size_t at = offset - key->offset;
         if (key->kind == CZ_KEY_NUMBER && offset == key->offset) {
             return (size_t)snprintf(text, size, ".%s", key->stem) < size;
@@ -195,7 +195,7 @@ static bool write_inner_path(char *text, size_t size, const CzRecord *record, si
 
 static void write_target(const Writer *writer, const CzTarget *target) {
     const CzInput *input = &writer->problem->input;
-    char inner[CZ_MAX_PLACE] = "";
+    char inner[CZ_PATH_ROOM] = "";
     int train = 0, vehicle = target->vehicle;
     if (vehicle < 0) { /* of no vehicle, so of no part */
         fprintf(writer->stream, "\"%s\"", target->place);
@@ -292,23 +292,23 @@ static void write_variables(const Writer *writer, const CzVariable *variable, in
 
 /* Records of a list: stages by value, others by pointer. */
 static void write_list(const Writer *writer, const CzKey *key, const char *memory, int indent) {
-    const CzRecord *record = &cz_records[key->child];
+    const CzRecord *record = key->child;
     const int n_item = *(const int *)(const void *)(memory + key->n_offset);
     const char *item = memory + key->offset;
     if (key->kind == CZ_KEY_LIST)
         item = *(const char *const *)(const void *)item;
     const int column = write_key(writer, key->stem, "", indent, "");
     write_origin(writer, key, memory + key->offset, column);
-    for (int i = 0; i < n_item && key->child == CZ_RECORD_CzVariable; i++)
+    for (int i = 0; i < n_item && key->child == &cz_records[CZ_RECORD_CzVariable]; i++)
         write_variables(writer, (const CzVariable *)(const void *)item + i, indent + 4);
-    for (int i = 0; i < n_item && key->child != CZ_RECORD_CzVariable; i++)
+    for (int i = 0; i < n_item && key->child != &cz_records[CZ_RECORD_CzVariable]; i++)
         write_record(writer, record, item + (size_t)i * record->size, indent + 4, "- ");
 }
 
 /* Whether nothing is left to optimise once the choices of parts are made. */
 static bool has_only_choices(const CzKey *key, const char *field) {
     const CzOptimise *optimise = (const CzOptimise *)(const void *)field;
-    if (key->child != CZ_RECORD_CzOptimise)
+    if (key->child != &cz_records[CZ_RECORD_CzOptimise])
         return false;
     for (int i = 0; i < optimise->n_variables; i++)
         if (optimise->variables[i].choices.n_text == 0)
@@ -317,10 +317,11 @@ static bool has_only_choices(const CzKey *key, const char *field) {
 }
 
 static void write_child(const Writer *writer, const CzKey *key, const char *field, int indent) {
-    const CzRecord *record = &cz_records[key->child];
+    const CzRecord *record = key->child;
     const bool is_given = *(const bool *)field;
     Writer inside = *writer;
-    if (!is_given && key->child != CZ_RECORD_CzSimulation && key->child != CZ_RECORD_CzChecks)
+    if (!is_given && key->child != &cz_records[CZ_RECORD_CzSimulation] &&
+        key->child != &cz_records[CZ_RECORD_CzChecks])
         return;
     if (!is_given || has_only_choices(key, field)) /* these hold without being written */
         inside.lead = "# ";

@@ -7,7 +7,9 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "problem/reader.h"
+#include "crushzone/problem.h"
+#include "problem/input.h"
+#include "problem/keys.h"
 
 static void write_json_text(FILE *stream, const char *text) {
     fputc('"', stream);
@@ -81,14 +83,13 @@ static void write_key(FILE *stream, bool *is_first, const CzKey *key) {
                 key->hi);
         break;
     case CZ_KEY_CHOICE:
-        write_words(stream, &cz_word_sets[key->words]);
+        write_words(stream, key->words);
         break;
     case CZ_KEY_FLAG:
         fputs(", \"type\": \"boolean\"}", stream);
         break;
     case CZ_KEY_CHILD: /* a description beside $ref is not read in draft-07, hence allOf */
-        fprintf(stream, ", \"allOf\": [{\"$ref\": \"#/definitions/%s\"}]}",
-                cz_records[key->child].name);
+        fprintf(stream, ", \"allOf\": [{\"$ref\": \"#/definitions/%s\"}]}", key->child->name);
         break;
     case CZ_KEY_STAGES:
         fprintf(stream,
@@ -99,7 +100,7 @@ static void write_key(FILE *stream, bool *is_first, const CzKey *key) {
         break;
     case CZ_KEY_LIST:
         fprintf(stream, ", \"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/%s\"}}",
-                cz_records[key->child].name);
+                key->child->name);
         break;
     case CZ_KEY_TEXTS:
         fputs(", \"type\": \"array\", \"items\": {\"type\": \"string\"}}", stream);

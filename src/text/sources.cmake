@@ -10,5 +10,6 @@ set(CZ_SOURCES_text
     range.c
     source.c
     units.c
+    value.c
     yaml.c
 )

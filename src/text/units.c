@@ -35,7 +35,8 @@ const CzUnit *cz_unit_find(CzDimension dimension, const char *suffix) {
     return NULL;
 }
 
-bool cz_unit_is_suffix(const char *text) {
+/* Whether a text is the suffix of any unit. */
+static bool is_suffix(const char *text) {
     for (int i = 0; i < cz_n_unit; i++)
         if (cz_units[i].suffix[0] != '\0' && strcmp(cz_units[i].suffix, text) == 0)
             return true;
@@ -45,7 +46,7 @@ bool cz_unit_is_suffix(const char *text) {
 size_t cz_key_stem_length(const char *key) {
     const size_t n = strlen(key);
     for (const char *at = strchr(key, '_'); at != NULL; at = strchr(at + 1, '_'))
-        if (at > key && cz_unit_is_suffix(at + 1))
+        if (at > key && is_suffix(at + 1))
             return (size_t)(at - key); /* the first cut leaves the longest suffix */
     return n;
 }

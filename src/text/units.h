@@ -27,8 +27,6 @@ extern const char *const cz_dimension_text[CZ_N_DIMENSION];
 const CzUnit *cz_unit_si(CzDimension dimension);
 /* Unit of a dimension by its suffix; NULL when it is not one of its units. */
 const CzUnit *cz_unit_find(CzDimension dimension, const char *suffix);
-/* Whether a text is the suffix of any unit. */
-bool cz_unit_is_suffix(const char *text);
 /* Length of a key without the longest unit suffix at its end [byte]. */
 size_t cz_key_stem_length(const char *key);
 /* Whether two keys are one stem, perhaps in two units. */

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 #include "problem/answer.h"
-#include "problem/reader.h"
+#include "problem/acts_on.h"
 
 enum { LONGEST = 32768, MOST_DEPTH = 6 };
 
@@ -167,10 +167,10 @@ static Changes changes_of(CzRecordId id, const CzKey *key, const char *record) {
         snprintf(changes.text[changes.n++], sizeof changes.text[0], "%s: %s", key->stem,
                  *(const bool *)field ? "false" : "true");
     else if (key->kind == CZ_KEY_CHOICE)
-        for (int word = 0; word < cz_word_sets[key->words].n_word; word++)
+        for (int word = 0; word < key->words->n_word; word++)
             if (word != *(const int *)field)
                 snprintf(changes.text[changes.n++], sizeof changes.text[0], "%s: %s", key->stem,
-                         cz_word_sets[key->words].word[word].word);
+                         key->words->word[word].word);
     return changes;
 }
 
@@ -293,7 +293,8 @@ static void look_at_record(Walk *walk, CzRecordId id, const char *memory, const 
         if (key->kind == CZ_KEY_CHILD && cz_key_acts_on(key, walk->setting->model)) {
             inside.name[inside.n++] = key->stem;
             if (*(const bool *)(memory + key->offset)) /* given */
-                look_at_record(walk, key->child, memory + key->offset, &inside);
+                look_at_record(walk, (CzRecordId)(key->child - cz_records), memory + key->offset,
+                               &inside);
             walk->found[id][index][walk->setting->model] = ACTS; /* by the keys inside */
         } else if (key->kind == CZ_KEY_STAGES) {
             look_at_stages(walk, (const CzStage *)(const void *)(memory + key->offset),
@@ -442,7 +443,7 @@ static bool is_of_vehicles(CzRecordId id, CzRecordId in) {
     for (int i = 0; i < cz_records[in].n_key && !is_in; i++) {
         const CzKey *key = &cz_records[in].key[i];
         if (key->kind == CZ_KEY_CHILD || key->kind == CZ_KEY_STAGES)
-            is_in = is_of_vehicles(id, key->child);
+            is_in = is_of_vehicles(id, (CzRecordId)(key->child - cz_records));
     }
     return is_in;
 }

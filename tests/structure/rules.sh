@@ -1,19 +1,19 @@
 # The rules of the tree, each a function that prints the offenders, one a line; run from the project's root.
 
-library_folders="base laws text problem model fit dynamics integrate simulate evaluate optimise report"
+library_folders="base laws text tree problem model fit dynamics integrate simulate evaluate optimise report"
 folders="$library_folders cli"
 c_files() { # c_files FOLDER...: all C sources, headers and lists in them
     find "$@" -type f \( -name '*.c' -o -name '*.h' -o -name '*.def' \) 2>/dev/null | sort
 }
 
-# Arrows between the folders go one way: cli, report, optimise, evaluate, simulate, dynamics, fit, model, problem, text, base.
+# Arrows between the folders go one way: cli, report, optimise, evaluate, simulate, dynamics, fit, model, problem, tree, text, base.
 # The laws are seen by dynamics, model and fit and see nothing; integrate is seen by simulate and dynamics and sees base.
 include_arrows() {
     for folder in $folders; do
         for file in $(c_files src/$folder); do
             awk -v from=$folder '
                 BEGIN {
-                    n = split("base text problem model fit dynamics simulate evaluate optimise report cli", order, " ")
+                    n = split("base text tree problem model fit dynamics simulate evaluate optimise report cli", order, " ")
                     for (i = 1; i <= n; i++) { rank[order[i]] = i; public[order[i]] = order[i] }
                     public["status"] = public["names"] = "base"
                     public["channel"] = "problem"

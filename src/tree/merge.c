@@ -1,8 +1,10 @@
 /* Laying one tree over another. */
+#include "tree/merge.h"
+
 #include <string.h>
 
 #include "base/index.h"
-#include "problem/reader.h"
+#include "text/units.h"
 
 const CzTrail cz_no_trail = {0};
 

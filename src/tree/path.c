@@ -1,15 +1,12 @@
-/* Paths into a problem: trains.A.vehicles.A1.front.stages[0].force_kN, parts.front-zone.gap_mm.
- *
- * Keys and names are parted by points; [2] is an item of a list, counted from 0, [*] or * every
- * item. Putting a value under a path makes new mappings along the path and shares the rest. What a
- * part gives on the way is taken first, so a value can be put beside `use` at any depth. Beyond a *
- * items without the record that the path goes through are passed over.
- */
+/* Walking along paths. */
+#include "tree/path.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "base/suggest.h"
-#include "problem/reader.h"
+#include "tree/merge.h"
+#include "tree/trains.h"
 
 enum { MOST_SEGMENTS = 24, LONGEST_NAME = CZ_LABEL_ROOM, MOST_MATCHES = 10000, MOST_SET = 20000 };
 
@@ -33,7 +30,7 @@ typedef struct {
     int n_found, n_room;
     bool failed;
     const char *train;     /* name of the train on the way, for its vehicles */
-    char at[CZ_MAX_PLACE]; /* concrete path so far */
+    char at[CZ_PATH_ROOM]; /* concrete path so far */
 } Walk;
 
 /* A point on the way: how far the path is worked off. */
@@ -111,6 +108,11 @@ static bool read_path(Walk *walk, const char *path) {
 
 /* ---- walking ---- */
 
+/* Whether a record of the table has a name: trains and their vehicles are named by paths. */
+static bool is_record(const CzRecord *record, const char *name) {
+    return record != NULL && strcmp(record->name, name) == 0;
+}
+
 static const CzNode *walk_on(Walk *walk, const CzNode *node, Step step);
 
 /* Appends to the concrete path; the length before, to cut it again. */
@@ -150,23 +152,23 @@ static const CzNode *value_to_put(Walk *walk) {
     }
     if (matches->n_match == walk->n_room) {
         const int n_room = walk->n_room > 0 ? 2 * walk->n_room : 8;
-        char(*larger)[CZ_MAX_PLACE] =
-            cz_reader_allocate(walk->reader, (size_t)n_room, CZ_MAX_PLACE);
+        char(*larger)[CZ_PATH_ROOM] =
+            cz_arena_allocate(&walk->reader->arena, (size_t)n_room, CZ_PATH_ROOM);
         if (larger == NULL)
             return NULL;
         if (matches->n_match > 0)
-            memcpy(larger, matches->place, (size_t)matches->n_match * CZ_MAX_PLACE);
+            memcpy(larger, matches->place, (size_t)matches->n_match * CZ_PATH_ROOM);
         matches->place = larger;
         walk->n_room = n_room;
     }
-    CzNode *marker = cz_reader_allocate(walk->reader, 1, sizeof *marker);
+    CzNode *marker = cz_arena_allocate(&walk->reader->arena, 1, sizeof *marker);
     if (marker == NULL)
         return NULL;
     *marker = place_of(walk, walk->n_segment - 1);
     marker->kind = CZ_NODE_TEXT;
     marker->text = "0";
     marker->quoted = false;
-    memcpy(matches->place[matches->n_match], walk->at, CZ_MAX_PLACE);
+    memcpy(matches->place[matches->n_match], walk->at, CZ_PATH_ROOM);
     marker->match = ++matches->n_match;
     return marker;
 }
@@ -242,7 +244,7 @@ static void report_unknown(Walk *walk, const CzNode *mapping, Step step) {
 /* A train that copies another has no vehicles of its own to change. */
 static bool is_copied(Walk *walk, const CzNode *mapping, Step step) {
     const char *copied = cz_node_find_text(mapping, "copy");
-    if (step.record != &cz_records[CZ_RECORD_CzTrain] || copied == NULL ||
+    if (!is_record(step.record, "train") || copied == NULL ||
         strcmp(walk->segment[step.level].name, "vehicles") != 0)
         return false;
     if (step.is_open)
@@ -270,10 +272,7 @@ static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) 
     if (is_copied(walk, mapping, step))
         return mapping;
     const CzKey *key = step.record != NULL ? cz_record_key(step.record, segment->name) : NULL;
-    const CzRecord *inside = key != NULL && (key->kind == CZ_KEY_CHILD ||
-                                             key->kind == CZ_KEY_LIST || key->kind == CZ_KEY_STAGES)
-                                 ? &cz_records[key->child]
-                                 : NULL;
+    const CzRecord *inside = key != NULL ? key->child : NULL;
     const CzEntry *entry = cz_node_find(mapping, segment->name);
     const bool is_new = entry == NULL;
     if (is_new && step.is_open)
@@ -294,7 +293,7 @@ static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) 
     if (is_new)
         changed->entry[at] = (CzEntry){cz_node_text(&walk->reader->arena, segment->name, &place),
                                        &empty, &cz_no_trail};
-    if (step.record == &cz_records[CZ_RECORD_CzTrain])
+    if (is_record(step.record, "train"))
         walk->train = cz_node_find_text(mapping, "name");
     const size_t before = enter(walk, "", segment->name, 0);
     const Step next = {inside, cz_entry_trail(&changed->entry[at], step.trail), step.level + 1,
@@ -311,7 +310,7 @@ static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) 
 /* Name that a path gives an item: its own, or for a vehicle the counted one. */
 static const char *name_of_item(Walk *walk, const CzNode *item, const CzRecord *record,
                                 int position, char *text, size_t size) {
-    if (record == &cz_records[CZ_RECORD_CzVehicle] && walk->train != NULL) {
+    if (is_record(record, "vehicle") && walk->train != NULL) {
         cz_vehicle_name(text, size, item, walk->train, position, 0);
         return text;
     }
@@ -332,8 +331,7 @@ static void report_no_item(Walk *walk, const CzNode *list, Step step) {
     char best[LONGEST_NAME] = "", text[LONGEST_NAME];
     for (int i = 0, position = 1; i < list->n_entry; i++) {
         const CzNode *item = list->entry[i].value;
-        const int n_repeat =
-            step.record == &cz_records[CZ_RECORD_CzVehicle] ? cz_vehicle_repeat(item) : 1;
+        const int n_repeat = is_record(step.record, "vehicle") ? cz_vehicle_repeat(item) : 1;
         for (int k = 1; k < n_repeat && walk->train != NULL; k++) {
             cz_vehicle_name(text, sizeof text, item, walk->train, position, k);
             if (strcmp(text, segment->name) == 0) {
@@ -382,7 +380,7 @@ static const CzNode *walk_list(Walk *walk, const CzNode *list, Step step) {
         if (item == NULL)
             return NULL;
         const char *name = name_of_item(walk, item, step.record, position, text, sizeof text);
-        position += step.record == &cz_records[CZ_RECORD_CzVehicle] ? cz_vehicle_repeat(item) : 1;
+        position += is_record(step.record, "vehicle") ? cz_vehicle_repeat(item) : 1;
         if (segment->kind == SEGMENT_NAME && (name == NULL || strcmp(name, segment->name) != 0))
             continue;
         if (segment->kind == SEGMENT_INDEX && segment->index != i)
@@ -425,7 +423,7 @@ static bool put_into_part(Walk *walk, CzTree *tree) {
     const bool names = walk->n_segment > 2 && segment->kind == SEGMENT_NAME;
     CzPart *part = names ? cz_tree_part(tree, segment->name, strlen(segment->name)) : NULL;
     if (part != NULL) {
-        CzTrail *trail = cz_reader_allocate(walk->reader, 1, sizeof *trail);
+        CzTrail *trail = cz_arena_allocate(&walk->reader->arena, 1, sizeof *trail);
         if (trail == NULL)
             return false;
         *trail = (CzTrail){part->name, part->written, NULL, &cz_no_trail};
@@ -461,7 +459,7 @@ bool cz_path_put(CzReader *reader, CzTree *tree, const char *path, const CzNode 
     if (walk.segment[0].kind == SEGMENT_NAME && strcmp(walk.segment[0].name, "parts") == 0) {
         has_memory = put_into_part(&walk, tree);
     } else {
-        const Step top = {&cz_records[CZ_RECORD_CzInput], &cz_no_trail, 0, false};
+        const Step top = {reader->top, &cz_no_trail, 0, false};
         const CzNode *root = walk_on(&walk, tree->root, top);
         has_memory = root != NULL;
         tree->root = has_memory ? root : tree->root;

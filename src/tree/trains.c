@@ -1,18 +1,13 @@
-/* Trains written out: `copy`, `repeat` and `reversed` become plain vehicles with names.
- *
- * Vehicles are listed along +x. A repeated vehicle counts its name on (A2 three times: A2, A3, A4).
- * A train that is reversed has its last vehicle first and every vehicle turned. A copy has the
- * other's vehicles; names that begin with the other train's name are lettered anew along +x, so
- * that the copy of A1 to A6 is B1 to B6 whichever way round; other names get the train's name in
- * front.
- */
+/* Writing trains out. */
+#include "tree/trains.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/suggest.h"
 #include "crushzone/names.h"
-#include "problem/reader.h"
+#include "tree/merge.h"
 
 /* Room for the name of a copy's vehicle, made of two. A longer name is refused like one that is cut
  * to this. */
@@ -133,16 +128,18 @@ static bool read_reversed(CzReader *reader, const CzNode *node, const CzTrail *t
     bool is_reversed = false;
     const CzEntry *entry = cz_node_find(node, "reversed");
     if (entry != NULL)
-        cz_bind_flag(reader, "reversed", entry->value, cz_entry_trail(entry, trail), &is_reversed);
+        cz_value_flag(
+            cz_reader_value(reader, "reversed", entry->value, cz_entry_trail(entry, trail)),
+            &is_reversed);
     return is_reversed;
 }
 
 static int read_repeat(CzReader *reader, const CzNode *node, const CzTrail *trail) {
-    static const CzKey key = {.kind = CZ_KEY_COUNT, .stem = "repeat", .lo = 1, .hi = MOST_REPEATS};
     int n_repeat = 1;
     const CzEntry *entry = cz_node_find(node, "repeat");
-    if (entry != NULL &&
-        !cz_bind_count(reader, &key, entry->value, cz_entry_trail(entry, trail), &n_repeat))
+    if (entry != NULL && !cz_value_count(cz_reader_value(reader, "repeat", entry->value,
+                                                         cz_entry_trail(entry, trail)),
+                                         1, MOST_REPEATS, &n_repeat))
         n_repeat = 1;
     return n_repeat;
 }
@@ -156,7 +153,7 @@ static bool make_room(Trains *trains, Train *train, int n_vehicle, const CzNode 
         return false;
     }
     trains->n_vehicle += n_vehicle;
-    train->vehicle = cz_reader_allocate(trains->reader, (size_t)n_vehicle, sizeof(Vehicle));
+    train->vehicle = cz_arena_allocate(&trains->reader->arena, (size_t)n_vehicle, sizeof(Vehicle));
     return train->vehicle != NULL;
 }
 
@@ -220,7 +217,7 @@ static void letter_anew(Train *train, const Train *original) {
 static Train *find_original(Trains *trains, const Train *train) {
     CzReader *reader = trains->reader;
     const CzTrail *trail = cz_entry_trail(train->copy, train->trail);
-    const char *name = cz_bind_text(reader, "copy", train->copy->value, trail);
+    const char *name = cz_value_text(cz_reader_value(reader, "copy", train->copy->value, trail));
     CzSuggestion suggestion = {0};
     for (int i = 0; name != NULL && i < trains->n_train; i++) {
         Train *other = &trains->train[i];
@@ -324,8 +321,8 @@ static const CzNode *vehicle_node(CzReader *reader, const Vehicle *vehicle) {
 
 /* The list of a train's vehicles, or a node that is passed over when its mistake was told. */
 static const CzNode *vehicles_node(CzReader *reader, const Train *train, const CzNode *place) {
-    CzNode *list = cz_reader_allocate(reader, 1, sizeof *list);
-    CzEntry *entry = cz_reader_allocate(reader, (size_t)train->n_vehicle, sizeof *entry);
+    CzNode *list = cz_arena_allocate(&reader->arena, 1, sizeof *list);
+    CzEntry *entry = cz_arena_allocate(&reader->arena, (size_t)train->n_vehicle, sizeof *entry);
     if (list == NULL || entry == NULL)
         return NULL;
     *list = *place;
@@ -373,7 +370,7 @@ const CzNode *cz_trains_write_out(CzReader *reader, const CzTree *tree) {
     if (entry == NULL || entry->value->kind != CZ_NODE_LIST)
         return tree->root;
     Trains trains = {.reader = reader, .tree = tree, .n_train = entry->value->n_entry};
-    trains.train = cz_reader_allocate(reader, (size_t)trains.n_train, sizeof(Train));
+    trains.train = cz_arena_allocate(&reader->arena, (size_t)trains.n_train, sizeof(Train));
     CzNode *root = cz_node_copy(&reader->arena, tree->root, 0);
     CzNode *list = cz_node_copy(&reader->arena, entry->value, 0);
     if (trains.train == NULL || root == NULL || list == NULL)

@@ -1,26 +1,22 @@
-/* Values put in by path: `set:` of the file and --set of the command line.
- *
- * A setting means what typing the value at that place would mean. So settings of parts come first,
- * those of a part before those of the parts that use it, and what a vehicle says for itself goes
- * before its part, whatever the order of the settings; among settings of one place the later wins.
- */
-#include <stdio.h>
+/* Gathering settings, and putting them in by their rank. */
+#include "tree/settings.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
-#include "problem/reader.h"
+#include "tree/path.h"
 
 /* Text of all settings of the options, one per line. NULL without memory. */
-static char *join_lines(const CzProblemOptions *options, size_t *n_byte) {
+static char *join_lines(int n_set, const char *const *set, size_t *n_byte) {
     size_t n = 1;
-    for (int i = 0; i < options->n_set; i++)
-        n += strlen(options->set[i]) + 1;
+    for (int i = 0; i < n_set; i++)
+        n += strlen(set[i]) + 1;
     char *text = malloc(n);
     *n_byte = 0;
-    for (int i = 0; text != NULL && i < options->n_set; i++) {
-        const size_t n_line = strlen(options->set[i]);
-        memcpy(text + *n_byte, options->set[i], n_line);
+    for (int i = 0; text != NULL && i < n_set; i++) {
+        const size_t n_line = strlen(set[i]);
+        memcpy(text + *n_byte, set[i], n_line);
         for (size_t k = 0; k < n_line; k++)
             if (text[*n_byte + k] == '\n')
                 text[*n_byte + k] = ' ';
@@ -34,7 +30,7 @@ static char *join_lines(const CzProblemOptions *options, size_t *n_byte) {
 static const CzNode *value_of(CzReader *reader, const char *text, const CzNode *place) {
     const size_t n = strlen(text);
     const bool is_quoted = n >= 2 && (text[0] == '"' || text[0] == '\'') && text[n - 1] == text[0];
-    CzNode *node = cz_reader_allocate(reader, 1, sizeof *node);
+    CzNode *node = cz_arena_allocate(&reader->arena, 1, sizeof *node);
     if (node == NULL)
         return NULL;
     *node = *place;
@@ -64,9 +60,9 @@ static bool read_setting(CzReader *reader, const CzSource *source, int line, CzS
     return setting->path != NULL && setting->place != NULL && setting->value != NULL;
 }
 
-static int gather_options(CzReader *reader, const CzProblemOptions *options, CzSetting *setting) {
+static int gather_options(CzReader *reader, int n_set, const char *const *set, CzSetting *setting) {
     size_t n_byte = 0;
-    char *text = join_lines(options, &n_byte);
+    char *text = join_lines(n_set, set, &n_byte);
     const CzSource *source =
         text != NULL
             ? cz_sources_add(&reader->sources, "--set", reader->sources.first->folder, text, n_byte)
@@ -75,27 +71,27 @@ static int gather_options(CzReader *reader, const CzProblemOptions *options, CzS
     if (text == NULL)
         reader->arena.out_of_memory = true;
     if (source != NULL && cz_source_is_text(&reader->mistakes, source, text, n_byte))
-        for (int i = 0; i < options->n_set; i++)
+        for (int i = 0; i < n_set; i++)
             n_setting += read_setting(reader, source, i, &setting[n_setting]);
     free(text);
     return n_setting;
 }
 
-const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root,
-                                    const CzProblemOptions *options, int *n_setting) {
-    const CzEntry *set = cz_node_find(root, "set");
-    const int n_own = set != NULL && set->value->kind == CZ_NODE_MAPPING ? set->value->n_entry : 0;
+const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_set,
+                                    const char *const *set, int *n_setting) {
+    const CzEntry *own = cz_node_find(root, "set");
+    const int n_own = own != NULL && own->value->kind == CZ_NODE_MAPPING ? own->value->n_entry : 0;
     CzSetting *setting =
-        cz_reader_allocate(reader, (size_t)(n_own + options->n_set), sizeof *setting);
+        cz_arena_allocate(&reader->arena, (size_t)(n_own + n_set), sizeof *setting);
     *n_setting = 0;
     if (setting == NULL)
         return NULL;
-    if (set != NULL && set->value->kind != CZ_NODE_MAPPING)
-        cz_mistake(&reader->mistakes, set->value, NULL,
+    if (own != NULL && own->value->kind != CZ_NODE_MAPPING)
+        cz_mistake(&reader->mistakes, own->value, NULL,
                    "'set' needs a mapping of paths to values, but this is %s",
-                   cz_node_what(set->value));
+                   cz_node_what(own->value));
     for (int i = 0; i < n_own; i++) {
-        const CzEntry *entry = &set->value->entry[i];
+        const CzEntry *entry = &own->value->entry[i];
         if (entry->value->kind == CZ_NODE_TEXT)
             setting[(*n_setting)++] = (CzSetting){entry->key->text, entry->key, entry->value};
         else
@@ -103,8 +99,8 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root,
                        "'%s' is set to %s; it needs one value", entry->key->text,
                        cz_node_what(entry->value));
     }
-    if (options->n_set > 0)
-        *n_setting += gather_options(reader, options, &setting[*n_setting]);
+    if (n_set > 0)
+        *n_setting += gather_options(reader, n_set, set, &setting[*n_setting]);
     return setting;
 }
 
@@ -122,14 +118,14 @@ int cz_setting_rank(const CzTree *tree, const char *path) {
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
                          int n_setting) {
     CzTree changed = *tree;
-    changed.part = cz_reader_allocate(reader, (size_t)tree->n_part, sizeof *changed.part);
+    changed.part = cz_arena_allocate(&reader->arena, (size_t)tree->n_part, sizeof *changed.part);
     if (cz_node_find(tree->root, "set") != NULL)
         changed.root = cz_node_without(&reader->arena, tree->root, "set");
     if (changed.part == NULL || changed.root == NULL)
         return *tree;
     if (tree->n_part > 0)
         memcpy(changed.part, tree->part, (size_t)tree->n_part * sizeof *changed.part);
-    int *own = cz_reader_allocate(reader, (size_t)n_setting, sizeof *own);
+    int *own = cz_arena_allocate(&reader->arena, (size_t)n_setting, sizeof *own);
     if (own == NULL)
         return *tree;
     for (int i = 0; i < n_setting; i++)

@@ -1,11 +1,14 @@
 /* Files to one tree: the base files of `extends`, the parts of `catalogue`. */
+#include "tree/load.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/suggest.h"
 #include "crushzone/names.h"
-#include "problem/reader.h"
 #include "text/yaml.h"
+#include "tree/merge.h"
+#include "tree/trains.h"
 
 enum { DEEPEST_CHAIN = 16 };
 
@@ -63,7 +66,7 @@ static CzPart *find_part(const Loader *loader, const char *name) {
 static void add_part(Loader *loader, const CzEntry *entry) {
     if (loader->n_part == loader->n_allocated) {
         const int n = loader->n_allocated > 0 ? 2 * loader->n_allocated : 64;
-        CzPart *larger = cz_reader_allocate(loader->reader, (size_t)n, sizeof *larger);
+        CzPart *larger = cz_arena_allocate(&loader->reader->arena, (size_t)n, sizeof *larger);
         if (larger == NULL)
             return;
         if (loader->n_part > 0)
@@ -159,7 +162,7 @@ static void load_catalogues(Loader *loader, const CzNode *top);
 
 static void load_catalogue(Loader *loader, const CzNode *named) {
     CzReader *reader = loader->reader;
-    const char *name = cz_bind_text(reader, "catalogue", named, NULL);
+    const char *name = cz_value_text(cz_reader_value(reader, "catalogue", named, NULL));
     const char *path = name != NULL ? cz_load_locate(reader, name, named, "catalogue") : NULL;
     loader->lacks_parts |= path == NULL;
     if (path == NULL || is_loaded(loader, path))
@@ -194,8 +197,9 @@ static const CzNode *load_bases(Loader *loader, const CzNode *top, const char **
                                 int n_chain) {
     CzReader *reader = loader->reader;
     const CzEntry *extends = cz_node_find(top, "extends");
-    const char *name =
-        extends != NULL ? cz_bind_text(reader, "extends", extends->value, NULL) : NULL;
+    const char *name = extends != NULL
+                           ? cz_value_text(cz_reader_value(reader, "extends", extends->value, NULL))
+                           : NULL;
     const char *path = name != NULL ? cz_load_locate(reader, name, extends->value, NULL) : NULL;
     for (int i = 0; path != NULL && i < n_chain; i++)
         if (strcmp(chain[i], path) == 0) {

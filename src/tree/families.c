@@ -1,17 +1,12 @@
-/* Families of scenarios written out: a scenario with `sweep` becomes one scenario per combination
- * of the values that are listed there.
- *
- *   {name: climb, sweep: {speed_km_h: [20, 25], height_offset_mm: [-40, 40]}}
- *     -> climb_20km_h_-40mm, climb_20km_h_40mm, climb_25km_h_-40mm, climb_25km_h_40mm
- *
- * Members keep everything else that the family says and name it in `family`.
- */
+/* Writing families out. */
+#include "tree/families.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "base/number.h"
 #include "text/range.h"
-#include "problem/reader.h"
+#include "tree/merge.h"
 
 enum { MOST_MEMBERS = 500, MOST_SCENARIOS = 10000, MOST_SWEPT = 8, LONGEST_MEMBER = 160 };
 
@@ -35,7 +30,8 @@ typedef struct Family {
 
 /* The values of a range as text nodes. */
 static bool spread(Family *family, Swept *swept, const CzRange *range) {
-    swept->value = cz_reader_allocate(family->reader, (size_t)range->n, sizeof(const CzNode *));
+    swept->value =
+        cz_arena_allocate(&family->reader->arena, (size_t)range->n, sizeof(const CzNode *));
     for (int i = 0; swept->value != NULL && i < range->n; i++) {
         char number[CZ_NUMBER_TEXT];
         cz_number_print(number, cz_range_value(range, i));
@@ -59,7 +55,7 @@ static bool list_values(Family *family, Swept *swept) {
         return false;
     }
     swept->value =
-        cz_reader_allocate(family->reader, (size_t)value->n_entry, sizeof(const CzNode *));
+        cz_arena_allocate(&family->reader->arena, (size_t)value->n_entry, sizeof(const CzNode *));
     if (swept->value == NULL)
         return false;
     swept->n_value = value->n_entry;
@@ -191,7 +187,7 @@ static bool make_room(Scenarios *scenarios, int n, const CzNode *place) {
     if (scenarios->n + n <= scenarios->room)
         return true;
     const int room = 2 * (scenarios->n + n);
-    CzEntry *more = cz_reader_allocate(scenarios->reader, (size_t)room, sizeof *more);
+    CzEntry *more = cz_arena_allocate(&scenarios->reader->arena, (size_t)room, sizeof *more);
     if (more == NULL)
         return false;
     if (scenarios->n > 0)

@@ -1,8 +1,10 @@
 /* Parts: finding them, how deep they use one another, and `use` with what is written beside it. */
+#include "tree/parts.h"
+
 #include <string.h>
 
 #include "base/suggest.h"
-#include "problem/reader.h"
+#include "tree/merge.h"
 
 CzPart *cz_tree_part(const CzTree *tree, const char *name, size_t n) {
     const int at = cz_index_find(&tree->by_name, name, n);
@@ -58,7 +60,7 @@ static int measure_part(Measuring *measuring, CzPart *part, int level) {
 void cz_parts_measure(CzReader *reader, CzTree *tree) {
     Measuring measuring = {reader, tree, NULL};
     measuring.progress =
-        cz_reader_allocate(reader, (size_t)tree->n_part, sizeof *measuring.progress);
+        cz_arena_allocate(&reader->arena, (size_t)tree->n_part, sizeof *measuring.progress);
     for (int i = 0; measuring.progress != NULL && i < tree->n_part; i++)
         measure_part(&measuring, &tree->part[i], 0);
 }
@@ -110,10 +112,10 @@ const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *n
         return node;
     const CzTrail *use_trail = cz_entry_trail(use, trail);
     CzNode *rest = cz_node_without(&reader->arena, node, "use");
-    CzTrail *part_trail = cz_reader_allocate(reader, 1, sizeof *part_trail);
+    CzTrail *part_trail = cz_arena_allocate(&reader->arena, 1, sizeof *part_trail);
     if (rest == NULL || part_trail == NULL)
         return NULL;
-    const char *name = cz_bind_text(reader, "use", use->value, use_trail);
+    const char *name = cz_value_text(cz_reader_value(reader, "use", use->value, use_trail));
     const CzPart *part = name != NULL ? find_part(reader, tree, use->value, use_trail) : NULL;
     if (part == NULL || !may_use(reader, part, use->value, use_trail)) {
         rest->is_partial = reader->has_holes = true;

@@ -1,97 +1,40 @@
 /* Reading a problem: the steps one after another, and what the public functions give back. */
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
-#include "problem/reader.h"
+#include "problem/acts_on.h"
+#include "problem/measured.h"
+#include "problem/profile.h"
+#include "problem/rules.h"
+#include "problem/usual.h"
 #include "text/yaml.h"
+#include "tree/load.h"
 
 #ifndef CZ_SHARE_FOLDER
 #define CZ_SHARE_FOLDER NULL
 #endif
 
-void *cz_reader_allocate(CzReader *reader, size_t n, size_t size) {
-    return cz_arena_allocate(&reader->arena, n, size);
-}
-
 CzProblemOptions cz_problem_options_default(void) {
     return (CzProblemOptions){NULL, 0, NULL};
 }
 
-/* ---- the input ---- */
-
-/* Counts the vehicles of all trains and gives each train its part of one array. */
-static bool allocate_vehicles(CzProblem *problem, const CzNode *root) {
-    CzInput *input = &problem->input;
-    const CzEntry *trains = cz_node_find(root, "trains");
-    int n_train =
-        trains != NULL && trains->value->kind == CZ_NODE_LIST ? trains->value->n_entry : 0;
-    problem->n_vehicle = 0;
-    for (int i = 0; i < n_train; i++) {
-        const CzEntry *list = cz_node_find(trains->value->entry[i].value, "vehicles");
-        if (list != NULL && list->value->kind == CZ_NODE_LIST)
-            problem->n_vehicle += list->value->n_entry;
-    }
-    input->trains = cz_reader_allocate(&problem->reader, (size_t)n_train, sizeof(CzTrain));
-    problem->vehicle =
-        cz_reader_allocate(&problem->reader, (size_t)problem->n_vehicle, sizeof(CzVehicle));
-    if (input->trains == NULL || problem->vehicle == NULL)
-        return false;
-    int n_vehicle = 0;
-    for (int i = 0; i < n_train; i++) {
-        const CzEntry *list = cz_node_find(trains->value->entry[i].value, "vehicles");
-        if (list == NULL || list->value->kind != CZ_NODE_LIST)
-            continue;
-        input->trains[i].vehicles = &problem->vehicle[n_vehicle];
-        n_vehicle += list->value->n_entry;
-    }
-    return true;
-}
-
-/* A problem without scenarios has one: the trains as written. */
-static void add_scenario(CzProblem *problem, const CzNode *root) {
-    CzScenario *scenario = cz_reader_allocate(&problem->reader, 1, sizeof *scenario);
-    if (scenario == NULL)
-        return;
-    cz_bind_absent(CZ_RECORD_CzScenario, scenario);
-    scenario->given = true;
-    scenario->name = "collision";
-    problem->input.scenarios = scenario;
-    problem->input.n_scenarios = 1;
-    cz_places_add(&problem->reader,
-                  (CzPlace){.address = scenario, .size = sizeof *scenario, .node = root});
-    cz_places_sort(&problem->reader);
-}
-
-void cz_problem_bind(CzProblem *problem, const CzTree *tree) {
-    CzReader *reader = &problem->reader;
-    CzTree set = cz_settings_apply(reader, tree, problem->setting, problem->n_setting);
-    set.root = cz_trains_write_out(reader, &set);
-    if (set.root != NULL)
-        set.root = cz_families_write_out(reader, &set);
-    if (set.root == NULL || reader->arena.out_of_memory || !allocate_vehicles(problem, set.root))
-        return;
-    cz_bind_record(reader, &set, CZ_RECORD_CzInput, set.root, &cz_no_trail, &problem->input);
-    if (problem->input.n_scenarios == 0 && cz_node_find(set.root, "scenarios") == NULL)
-        add_scenario(problem, set.root);
-}
-
 /* ---- reading ---- */
 
-static CzProblem *problem_create(const CzProblemOptions *options) {
-    CzProblem *problem = calloc(1, sizeof *problem);
-    if (problem == NULL)
-        return NULL;
-    CzReader *reader = &problem->reader;
-    reader->mistakes.arena = reader->warnings.arena = reader->sources.arena = &reader->arena;
-    reader->sources.hash = CZ_HASH_START;
-    reader->share_folder = CZ_SHARE_FOLDER;
+/* Begins a problem that messages name `file`. */
+static CzStatus begin(const CzProblemOptions *options, const char *file, CzProblem **problem,
+                      CzError *error) {
+    CzProblem *begun = cz_problem_create(CZ_SHARE_FOLDER);
+    *problem = begun;
+    if (begun == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to read '%s'", file);
+    CzArena *arena = &begun->reader.arena;
+    begun->file = cz_arena_copy_text(arena, file, strlen(file));
     if (options->share_folder != NULL)
-        reader->share_folder = cz_arena_copy_text(&reader->arena, options->share_folder,
-                                                  strlen(options->share_folder));
-    return problem;
+        begun->reader.share_folder =
+            cz_arena_copy_text(arena, options->share_folder, strlen(options->share_folder));
+    return CZ_OK;
 }
 
 static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOptions *options) {
@@ -99,7 +42,8 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     problem->tree = cz_load_tree(reader, top);
     if (problem->tree.root == NULL || reader->arena.out_of_memory)
         return;
-    problem->setting = cz_settings_gather(reader, problem->tree.root, options, &problem->n_setting);
+    problem->setting = cz_settings_gather(reader, problem->tree.root, options->n_set, options->set,
+                                          &problem->n_setting);
     if (problem->setting == NULL)
         return;
     cz_problem_bind(problem, &problem->tree);
@@ -107,8 +51,11 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
         return;
     cz_profile_read(problem);
     cz_measured_read(problem);
-    cz_rules_check(problem);
-    cz_usual_check(reader);
+    const CzRules rules = cz_rules_of(problem);
+    cz_rules_check_collision(&rules);
+    cz_rules_check_design(&rules);
+    cz_rules_check_fit(&rules);
+    cz_usual_check(&reader->warnings, &problem->places);
     cz_acts_on_check(problem);
 }
 
@@ -132,12 +79,8 @@ CzStatus cz_problem_read(const char *path, const CzProblemOptions *options, CzPr
                          CzError *error) {
     const CzProblemOptions none = cz_problem_options_default();
     const CzProblemOptions *chosen = options != NULL ? options : &none;
-    *problem = problem_create(chosen);
-    if (*problem == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to read '%s'", path);
-    CzReader *reader = &(*problem)->reader;
-    (*problem)->file = cz_arena_copy_text(&reader->arena, path, strlen(path));
-    const CzNode *top = cz_load_file(reader, path, NULL);
+    CZ_TRY(begin(chosen, path, problem, error));
+    const CzNode *top = cz_load_file(&(*problem)->reader, path, NULL);
     if (top != NULL)
         read_tree(*problem, top, chosen);
     return finish(*problem, error);
@@ -148,11 +91,8 @@ CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name,
                               CzError *error) {
     const CzProblemOptions none = cz_problem_options_default();
     const CzProblemOptions *chosen = options != NULL ? options : &none;
-    *problem = problem_create(chosen);
-    if (*problem == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to read '%s'", name);
+    CZ_TRY(begin(chosen, name, problem, error));
     CzReader *reader = &(*problem)->reader;
-    (*problem)->file = cz_arena_copy_text(&reader->arena, name, strlen(name));
     const size_t n_mark = cz_source_mark(text, n_byte);
     text += n_mark;
     n_byte -= n_mark;
@@ -168,14 +108,6 @@ CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name,
     if (top != NULL)
         read_tree(*problem, top, chosen);
     return finish(*problem, error);
-}
-
-void cz_problem_free(CzProblem *problem) {
-    if (problem == NULL)
-        return;
-    cz_places_free(&problem->reader.places);
-    cz_arena_free(&problem->reader.arena);
-    free(problem);
 }
 
 /* ---- what was found ---- */
@@ -225,19 +157,6 @@ int cz_problem_n_scenario(const CzProblem *problem) {
 
 const char *cz_problem_scenario_name(const CzProblem *problem, int scenario) {
     return problem->input.scenarios[scenario].name;
-}
-
-int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest) {
-    for (int i = 0; i < input->n_scenarios; i++) {
-        const char *const known[2] = {input->scenarios[i].name, input->scenarios[i].family};
-        for (int k = 0; k < 2; k++) {
-            if (known[k] != NULL && strcmp(known[k], name) == 0)
-                return i;
-            if (known[k] != NULL)
-                cz_suggest(nearest, name, known[k]);
-        }
-    }
-    return -1;
 }
 
 CzStatus cz_problem_find_scenario(const CzProblem *problem, const char *name, int *scenario,
@@ -296,13 +215,4 @@ CzTrack cz_problem_track(const CzProblem *problem) {
 
 const CzProfile *cz_problem_profile(const CzProblem *problem) {
     return problem->profile.given ? &problem->profile : NULL;
-}
-
-void cz_problem_place(const CzProblem *problem, const void *field, CzError *error) {
-    const CzPlace *place = cz_places_find(&problem->reader.places, field);
-    error->status = CZ_STATUS_INPUT;
-    if (place != NULL)
-        cz_error_place(error, place->node);
-    else
-        snprintf(error->file, sizeof error->file, "%.255s", problem->file);
 }

@@ -1,0 +1,25 @@
+/* Trees to typed records, driven by the table of keys. */
+#ifndef CZ_PROBLEM_BIND_H
+#define CZ_PROBLEM_BIND_H
+
+#include "problem/keys.h"
+#include "problem/places.h"
+#include "tree/parts.h"
+
+/* What records are read with. */
+typedef struct CzBinder {
+    CzReader *reader;
+    CzPlaces *places; /* get the place of every record and value */
+    const CzTree *tree;
+    bool is_full;    /* inside a full vehicle */
+    bool is_partial; /* inside a record whose part is not there */
+} CzBinder;
+
+/* Reads a mapping as a record. `record_memory` was zeroed. */
+void cz_bind_record(CzBinder binder, const CzRecord *record, const CzNode *node,
+                    const CzTrail *trail, void *record_memory);
+
+/* Fills a record that the file does not have. */
+void cz_bind_absent(const CzRecord *record, void *record_memory);
+
+#endif

@@ -1,0 +1,49 @@
+/* Where records and their values were written, found by address in a time that hardly depends on
+ * how many there are. */
+#ifndef CZ_PROBLEM_PLACES_H
+#define CZ_PROBLEM_PLACES_H
+
+#include <stdint.h>
+
+#include "text/node.h"
+#include "tree/record.h"
+
+/* Where a record or one of its values was written. */
+typedef struct CzPlace {
+    const void *address; /* of the record or field in the input */
+    size_t size;         /* of a record [byte]; 0 for a field */
+    const CzNode *node;  /* key of a field, mapping of a record */
+    const CzNode *value; /* value of a field */
+    const CzTrail *trail;
+    const CzKey *key; /* of a field */
+    const CzUnit *unit;
+} CzPlace;
+
+/* A record's memory, from start to before end, and the record around it: -1 for none. */
+typedef struct CzPlacedRecord {
+    uintptr_t start, end;
+    int place, around;
+} CzPlacedRecord;
+
+/* Zero-initialise it and set the arena. */
+typedef struct CzPlaces {
+    CzArena *arena; /* is told when memory is short */
+    int n_place, n_allocated;
+    CzPlace *place;
+    int n_slot; /* fields by address */
+    int *slot;
+    int n_record; /* records by address, as of the last cz_places_sort */
+    CzPlacedRecord *record;
+} CzPlaces;
+
+void cz_places_add(CzPlaces *places, CzPlace place);
+
+/* Makes the records that were added be found; reading a record does it at its end. */
+void cz_places_sort(CzPlaces *places);
+
+void cz_places_free(CzPlaces *places);
+
+/* Place of a field, or of the innermost record about it; NULL when it is not in the input. */
+const CzPlace *cz_places_find(const CzPlaces *places, const void *field);
+
+#endif

@@ -1,0 +1,107 @@
+/* From a tree to records: settings, trains, families, binding. */
+#include "problem/reading.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "problem/bind.h"
+#include "tree/families.h"
+#include "tree/merge.h"
+#include "tree/trains.h"
+
+CzProblem *cz_problem_create(const char *share_folder) {
+    CzProblem *problem = calloc(1, sizeof *problem);
+    if (problem == NULL)
+        return NULL;
+    cz_reader_begin(&problem->reader, &cz_records[CZ_RECORD_CzInput], share_folder);
+    problem->places.arena = &problem->reader.arena;
+    return problem;
+}
+
+void cz_problem_free(CzProblem *problem) {
+    if (problem == NULL)
+        return;
+    cz_places_free(&problem->places);
+    cz_arena_free(&problem->reader.arena);
+    free(problem);
+}
+
+/* Counts the vehicles of all trains and gives each train its part of one array. */
+static bool allocate_vehicles(CzProblem *problem, const CzNode *root) {
+    CzInput *input = &problem->input;
+    const CzEntry *trains = cz_node_find(root, "trains");
+    int n_train =
+        trains != NULL && trains->value->kind == CZ_NODE_LIST ? trains->value->n_entry : 0;
+    problem->n_vehicle = 0;
+    for (int i = 0; i < n_train; i++) {
+        const CzEntry *list = cz_node_find(trains->value->entry[i].value, "vehicles");
+        if (list != NULL && list->value->kind == CZ_NODE_LIST)
+            problem->n_vehicle += list->value->n_entry;
+    }
+    input->trains = cz_arena_allocate(&problem->reader.arena, (size_t)n_train, sizeof(CzTrain));
+    problem->vehicle =
+        cz_arena_allocate(&problem->reader.arena, (size_t)problem->n_vehicle, sizeof(CzVehicle));
+    if (input->trains == NULL || problem->vehicle == NULL)
+        return false;
+    int n_vehicle = 0;
+    for (int i = 0; i < n_train; i++) {
+        const CzEntry *list = cz_node_find(trains->value->entry[i].value, "vehicles");
+        if (list == NULL || list->value->kind != CZ_NODE_LIST)
+            continue;
+        input->trains[i].vehicles = &problem->vehicle[n_vehicle];
+        n_vehicle += list->value->n_entry;
+    }
+    return true;
+}
+
+/* A problem without scenarios has one: the trains as written. */
+static void add_scenario(CzProblem *problem, const CzNode *root) {
+    CzScenario *scenario = cz_arena_allocate(&problem->reader.arena, 1, sizeof *scenario);
+    if (scenario == NULL)
+        return;
+    cz_bind_absent(&cz_records[CZ_RECORD_CzScenario], scenario);
+    scenario->given = true;
+    scenario->name = "collision";
+    problem->input.scenarios = scenario;
+    problem->input.n_scenarios = 1;
+    cz_places_add(&problem->places,
+                  (CzPlace){.address = scenario, .size = sizeof *scenario, .node = root});
+    cz_places_sort(&problem->places);
+}
+
+void cz_problem_bind(CzProblem *problem, const CzTree *tree) {
+    CzReader *reader = &problem->reader;
+    CzTree set = cz_settings_apply(reader, tree, problem->setting, problem->n_setting);
+    set.root = cz_trains_write_out(reader, &set);
+    if (set.root != NULL)
+        set.root = cz_families_write_out(reader, &set);
+    if (set.root == NULL || reader->arena.out_of_memory || !allocate_vehicles(problem, set.root))
+        return;
+    const CzBinder binder = {.reader = reader, .places = &problem->places, .tree = &set};
+    cz_bind_record(binder, reader->top, set.root, &cz_no_trail, &problem->input);
+    if (problem->input.n_scenarios == 0 && cz_node_find(set.root, "scenarios") == NULL)
+        add_scenario(problem, set.root);
+}
+
+int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest) {
+    for (int i = 0; i < input->n_scenarios; i++) {
+        const char *const known[2] = {input->scenarios[i].name, input->scenarios[i].family};
+        for (int k = 0; k < 2; k++) {
+            if (known[k] != NULL && strcmp(known[k], name) == 0)
+                return i;
+            if (known[k] != NULL)
+                cz_suggest(nearest, name, known[k]);
+        }
+    }
+    return -1;
+}
+
+void cz_problem_place(const CzProblem *problem, const void *field, CzError *error) {
+    const CzPlace *place = cz_places_find(&problem->places, field);
+    error->status = CZ_STATUS_INPUT;
+    if (place != NULL)
+        cz_error_place(error, place->node);
+    else
+        snprintf(error->file, sizeof error->file, "%.255s", problem->file);
+}

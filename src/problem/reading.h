@@ -1,0 +1,36 @@
+/* A problem from the inside, and the step from its tree to its records. */
+#ifndef CZ_PROBLEM_READING_H
+#define CZ_PROBLEM_READING_H
+
+#include "base/suggest.h"
+#include "problem/keys.h"
+#include "problem/places.h"
+#include "problem/problem.h"
+#include "tree/settings.h"
+
+struct CzProblem {
+    CzReader reader;
+    CzTree tree; /* as the files say it, before settings */
+    CzPlaces places;
+    const char *file;
+    char hash[17];
+    int n_setting;
+    const CzSetting *setting; /* of the file, then of the options (n_setting) */
+    CzInput input;
+    int n_vehicle;
+    CzVehicle *vehicle; /* those of all trains (n_vehicle) */
+    CzProfile profile;
+    CzMeasured *measured; /* one per match; NULL while they are not read */
+};
+
+/* A problem without anything in it; freed by cz_problem_free. NULL without memory. */
+CzProblem *cz_problem_create(const char *share_folder);
+
+/* Puts settings in and reads the input of a tree. */
+void cz_problem_bind(CzProblem *problem, const CzTree *tree);
+
+/* The scenario of a name, or the first of a family of that name; -1 when there is none, and the
+ * nearest word. */
+int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest);
+
+#endif

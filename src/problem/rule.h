@@ -1,0 +1,44 @@
+/* What a rule between values looks at and tells with. Each rule is a small function that looks at
+ * one record and tells what does not hold. */
+#ifndef CZ_PROBLEM_RULE_H
+#define CZ_PROBLEM_RULE_H
+
+#include "problem/reading.h"
+
+typedef struct CzRules {
+    const CzProblem *problem;
+    const CzReader *reader;
+    const CzInput *input;
+    const CzVehicle *vehicle;        /* those that are judged: the problem's own or a candidate's */
+    CzMistakes *mistakes, *warnings; /* where to tell; both may be NULL */
+    double *ratio;                   /* how near each rule comes to being broken, the largest so far
+                                        (CZ_N_VALUE_RULE); NULL when nobody asks */
+} CzRules;
+
+/* Rules that judge a problem as it is and tell its reader. */
+CzRules cz_rules_of(CzProblem *problem);
+
+/* Notes that a rule limits a number, in SI, to at most another. */
+void cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most);
+
+/* Tells a mistake at the place where a field was written, or at its record when it was not. */
+void cz_rule_broken(const CzRules *rules, const void *field, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* The same as a warning. */
+void cz_rule_warning(const CzRules *rules, const void *field, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Tells that something is absent; not told when it may stand in a record that could not be read. */
+void cz_rule_absent(const CzRules *rules, const void *field, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Whether a field was written in a file, rightly or not. */
+bool cz_rule_is_written(const CzRules *rules, const void *field);
+
+/* Number for a sentence in a unit, such as "300 mm"; texts of one call must be different. */
+const char *cz_rule_text(char text[48], double si, const char *unit, double unit_si);
+#define CZ_MM(text, si) cz_rule_text((text), (si), "mm", 1e-3)
+#define CZ_KN(text, si) cz_rule_text((text), (si), "kN", 1e3)
+
+/* Usable stroke of stages or a curve [m]. */
+double cz_rule_stroke(const CzStage *stages, int n_stage, const CzTable *curve);
+
+#endif

@@ -1,0 +1,22 @@
+/* Strokes of curves: total ones hold the elastic shortening, plastic ones do not.
+ *
+ *   tube, anti-climber   d = s + F / k            the law is over s, k its stiffness
+ *   end                  d = s + c F,  c = (1 - r) / Ku1 + r / Ku2   the law is over d
+ *
+ * with the unloading stiffnesses Ku1 and Ku2 of the end and the share r between them.
+ */
+#ifndef CZ_PROBLEM_STROKES_H
+#define CZ_PROBLEM_STROKES_H
+
+#include "problem/input.h"
+#include "tree/reader.h"
+
+/* Makes the strokes of a device's curve those that its law is over: plastic ones of a tube or
+ * anti-climber, total ones of an end. Other records are left alone. */
+void cz_bind_strokes(CzReader *reader, const CzRecord *record, const CzNode *node,
+                     const CzTrail *trail, void *memory);
+
+/* Whether the strokes of a curve were made with this number, which then cannot vary. */
+bool cz_strokes_depend_on(const CzInput *input, const double *field);
+
+#endif

@@ -1,0 +1,33 @@
+/* Text nodes as numbers, counts, flags and texts. A value stays text until somebody says what it
+ * is, so NO, 012 or 1:30 never turn into something else. */
+#ifndef CZ_TEXT_VALUE_H
+#define CZ_TEXT_VALUE_H
+
+#include "text/mistakes.h"
+#include "text/units.h"
+
+/* A value under its key, which messages name. */
+typedef struct CzValue {
+    CzMistakes *mistakes;
+    const char *key;
+    const CzNode *node;
+    const CzTrail *trail;
+} CzValue;
+
+/* Whether the node holds a value at all; a mistake when not. */
+bool cz_value_is_there(CzValue value);
+
+/* A number in a unit between two limits [SI]; NaN and false with a mistake when it is none. A node
+ * that stands for any number leaves `number` alone. */
+bool cz_value_number(CzValue value, const CzUnit *unit, double lo, double hi, double *number);
+
+/* A whole number between two limits; false with a mistake when it is none. */
+bool cz_value_count(CzValue value, double lo, double hi, int *count);
+
+/* true or false; false with a mistake when it is neither. */
+bool cz_value_flag(CzValue value, bool *flag);
+
+/* A text; NULL with a mistake when there is none. */
+const char *cz_value_text(CzValue value);
+
+#endif

@@ -1,0 +1,19 @@
+/* Files to one tree: the base files of `extends`, the parts of `catalogue`. */
+#ifndef CZ_TREE_LOAD_H
+#define CZ_TREE_LOAD_H
+
+#include "tree/parts.h"
+
+/* Reads one further YAML file that `place` names; NULL when it cannot be read. */
+const CzNode *cz_load_file(CzReader *reader, const char *path, const CzNode *place);
+
+/* Reads what the top file names: base files and catalogues. The tree's root is NULL at a failure.
+ */
+CzTree cz_load_tree(CzReader *reader, const CzNode *top);
+
+/* The file that `name` stands for beside the file of `place`, then in the share folder under
+ * `subfolder` (may be NULL); a mistake and NULL when there is none. */
+const char *cz_load_locate(CzReader *reader, const char *name, const CzNode *place,
+                           const char *subfolder);
+
+#endif

@@ -1,0 +1,16 @@
+/* Laying one tree over another. */
+#ifndef CZ_TREE_MERGE_H
+#define CZ_TREE_MERGE_H
+
+#include "text/node.h"
+
+extern const CzTrail cz_no_trail;
+
+/* The trail of an entry in a mapping or list that has the trail `outer`. */
+const CzTrail *cz_entry_trail(const CzEntry *entry, const CzTrail *outer);
+
+/* `over` laid over `base`. With by_name, lists of named records merge by name. */
+const CzNode *cz_merge(CzArena *arena, const CzNode *base, const CzTrail *base_trail,
+                       const CzNode *over, const CzTrail *over_trail, bool by_name);
+
+#endif

@@ -1,0 +1,37 @@
+/* A tree with its parts: finding them, how deep they use one another, taking them. */
+#ifndef CZ_TREE_PARTS_H
+#define CZ_TREE_PARTS_H
+
+#include "base/index.h"
+#include "tree/reader.h"
+
+enum { CZ_MOST_NESTED = 40 }; /* parts that use one another */
+
+typedef struct CzPart {
+    const char *name;
+    const CzNode *written; /* the part's name where it is written */
+    const CzNode *node;    /* a mapping */
+    int depth;             /* of the parts that it uses: 0 without any */
+} CzPart;
+
+/* What a problem says, in nodes. */
+typedef struct CzTree {
+    const CzNode *root;
+    int n_part;
+    CzPart *part;     /* (n_part) */
+    CzIndex by_name;  /* of the parts */
+    bool lacks_parts; /* a catalogue could not be read: what a part is missing for is told there */
+} CzTree;
+
+/* The part whose name is the first n bytes of a text; NULL when there is none. */
+CzPart *cz_tree_part(const CzTree *tree, const char *name, size_t n);
+
+/* Finds how deep parts use one another, each part once; tells circles and chains that are too deep.
+ */
+void cz_parts_measure(CzReader *reader, CzTree *tree);
+
+/* A mapping with its `use` taken; the node itself when it has none. NULL without memory. */
+const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *node,
+                           const CzTrail *trail);
+
+#endif

@@ -1,0 +1,12 @@
+# Sources of src/tree, one per line.
+set(CZ_SOURCES_tree
+    families.c
+    load.c
+    merge.c
+    parts.c
+    path.c
+    reader.c
+    record.c
+    settings.c
+    trains.c
+)

@@ -99,6 +99,7 @@ static void end_crush(CzBlock *d, int end) {
 static void end_guidance(CzBlock *d, int end) {
     const size_t n = CZ_LANE_BLOCK;
     const double *restrict slip = S(SLIP), *restrict slip_rate = S(SLIP_RATE);
+    double *restrict kept = S_AT(END_ACROSS_REAR, end);
     const double *restrict k = P_AT(GUIDE_STIFFNESS_REAR, end), *restrict c =
                                                                     P_AT(GUIDE_DAMPING_REAR, end);
     const double *restrict fold = P_AT(FOLD_STIFFNESS_REAR, end), *restrict fold_c =
@@ -121,6 +122,7 @@ static void end_guidance(CzBlock *d, int end) {
             cz_slider_of(fold[i], compliance[i], capacity[i], pitch_e[i] - pitch[i], folded[i]);
         const double opening = turn_e[i] - turn[i], resisting = fold_c[i] * opening;
         next[i] = hinge.offset;
+        kept[i] = slip[i];
         across[i] = spring + damper;
         moment[i] = hinge.force + resisting;
         guide[i] += spring * slip_rate[i];

@@ -207,6 +207,11 @@ double cz_wheels_stored(const CzDynamics *dynamics, size_t lane) {
     return stored;
 }
 
+double cz_guide_stored(const CzDynamics *dynamics, size_t lane, int end) {
+    const double across = scratch(dynamics, CZ_S_END_ACROSS_REAR + end, lane);
+    return 0.5 * parameter(dynamics, CZ_P_GUIDE_STIFFNESS_REAR + end, lane) * across * across;
+}
+
 double cz_fold_stored(const CzDynamics *dynamics, size_t lane, int end) {
     const CzBlock *block = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;

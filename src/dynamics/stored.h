@@ -35,7 +35,8 @@ double cz_axle_guidance_stored(const CzDynamics *dynamics, size_t lane);
 /* Contact of the wheels with a rail that does not give way, and their weight. */
 double cz_wheels_stored(const CzDynamics *dynamics, size_t lane);
 
-/* Hinge of an end mass. */
+/* Guidance of an end mass across the axis, and its hinge. */
+double cz_guide_stored(const CzDynamics *dynamics, size_t lane, int end);
 double cz_fold_stored(const CzDynamics *dynamics, size_t lane, int end);
 
 /* In the end stop of a buffer stop that was dragged as far as it goes. */

@@ -130,12 +130,16 @@ CzAccount cz_crush_account(const CzBatch *batch, size_t lane, int end) {
                        cz_end_stored(batch->dynamics, lane, end)};
 }
 
+CzAccount cz_guide_account(const CzBatch *batch, size_t lane, int end) {
+    const double stored = cz_guide_stored(batch->dynamics, lane, end);
+    return (CzAccount){stored, stored};
+}
+
 /* The end mass in its guidance and its hinge, and the damping of the crush zone. */
 CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end) {
-    const double guide = cz_work(batch, CZ_L_GUIDE_REAR + end, lane);
     const CzAccount fold = {cz_work(batch, CZ_L_FOLD_REAR + end, lane),
                             cz_fold_stored(batch->dynamics, lane, end)};
-    const CzAccount springs = sum_of((CzAccount){guide, guide}, fold);
+    const CzAccount springs = sum_of(cz_guide_account(batch, lane, end), fold);
     return sum_of(springs, lost(cz_work(batch, CZ_L_END_DAMPING_REAR + end, lane) +
                                 cz_work(batch, CZ_L_GUIDE_DAMPING_REAR + end, lane) +
                                 cz_work(batch, CZ_L_FOLD_DAMPING_REAR + end, lane)));

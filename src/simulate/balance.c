@@ -50,7 +50,8 @@ double cz_total_work(const CzBatch *batch, int design) {
                 work += cz_work(batch, row, lane);
         work += cz_chains_account(batch, lane).received + cz_gear_account(batch, lane).received;
         for (int end = 0; end < 2; ++end)
-            work += cz_crush_account(batch, lane, end).received;
+            work += cz_crush_account(batch, lane, end).received +
+                    cz_guide_account(batch, lane, end).received;
     }
     return work;
 }

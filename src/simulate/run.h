@@ -123,6 +123,7 @@ CzAccount cz_superstructure_account(const CzBatch *batch, size_t lane); /* of on
 CzAccount cz_bare_faces_account(const CzBatch *batch, size_t lane);
 /* Crush zone of an end with mass, and the rest of that end; crush zone of an end without. */
 CzAccount cz_crush_account(const CzBatch *batch, size_t lane, int end);
+CzAccount cz_guide_account(const CzBatch *batch, size_t lane, int end);
 CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end);
 CzAccount cz_limp_account(const CzBatch *batch, size_t lane, int side);
 /* All series chains of an interface, without regard to whom they belong. */
@@ -145,7 +146,6 @@ double cz_balance_residual(const CzBatch *batch, int design);
 /* Work that the laws have received, all of it; classes as in ledger.def. */
 double cz_total_work(const CzBatch *batch, int design);
 typedef enum CzLedgerClass {
-    CZ_LEDGER_STORED,
     CZ_LEDGER_LOST,
     CZ_LEDGER_MIXED,
     CZ_LEDGER_OUTSIDE,

@@ -25,7 +25,8 @@ static double stored_in_mixed(const CzBatch *batch, int design) {
         stored += cz_chains_account(batch, lane).stored + cz_springs_account(batch, lane).stored +
                   cz_gear_account(batch, lane).stored;
         for (int end = 0; end < 2; ++end)
-            stored += cz_crush_account(batch, lane, end).stored;
+            stored += cz_crush_account(batch, lane, end).stored +
+                      cz_guide_account(batch, lane, end).stored;
     }
     return stored;
 }
@@ -36,9 +37,6 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
     CzEnergy energy = {0};
     const double work = cz_total_work(batch, design);
     double in_track = 0.0;
-    for (int row = 0; row < CZ_N_LEDGER; ++row)
-        if (cz_ledger_class(row) == CZ_LEDGER_STORED)
-            energy.stored += work_of(batch, design, row);
     energy.initial = batch->design[design].initial_energy;
     energy.final_kinetic = cz_kinetic_energy(batch, design);
     for (int car = 0; car < batch->model->n_car; ++car)

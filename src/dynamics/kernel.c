@@ -17,6 +17,7 @@
 #include "dynamics/kernel_face.h"
 #include "dynamics/kernel_neighbours.h"
 #include "dynamics/kernel_rows.h"
+#include "dynamics/kernel_snap.h"
 #include "dynamics/kernel_superstructure.h"
 #include "dynamics/kernel_track.h"
 #include "dynamics/kernel_wheel.h"
@@ -124,12 +125,17 @@ static void divide_by_masses(CzBlock *d) {
 }
 
 /* Interfaces of a block. */
-static void evaluate_interfaces(const CzLanes *lanes, CzBlock *d, double step) {
+static void evaluate_interfaces(const CzDynamics *dynamics, int index, double step) {
+    const CzLanes *lanes = dynamics->lanes;
+    CzBlock *d = &dynamics->block[index];
     const int notes = d->budget != NULL;
     if (lanes->has_couplers && couplers(d, step) && notes)
         note_couplers(d);
-    if (faces(d, step) && notes)
-        note_faces(d);
+    if (faces(d, step)) {
+        settle_snaps(dynamics, index);
+        if (notes)
+            note_faces(d);
+    }
     if (lanes->has_side_buffers)
         side_buffers(d, step);
     if (lanes->has_superstructures)
@@ -190,7 +196,7 @@ static void end_block(const CzDynamics *dynamics, int index, double step) {
 static void all_interfaces(const CzDynamics *dynamics, double step) {
     for (int i = 0; i < dynamics->n_block; ++i) {
         look_ahead(dynamics, i);
-        evaluate_interfaces(dynamics->lanes, &dynamics->block[i], step);
+        evaluate_interfaces(dynamics, i, step);
     }
 }
 

@@ -317,13 +317,18 @@ static double of_end(const CzDynamics *dynamics, size_t lane, int end, OfCrush *
                     memory(dynamics, CZ_M_END_PEAK_REAR + end, lane));
 }
 
-static double of_limp(const CzDynamics *dynamics, size_t lane, int side, OfCrush *function) {
+static double of_limp_at(const CzDynamics *dynamics, size_t lane, int side, OfCrush *function,
+                         double x, double largest) {
     if (parameter(dynamics, CZ_P_LIMP_END_A + side, lane) < 0.5)
         return 0.0;
     const CzVehicleEndLaw law = limp_law(dynamics, lane, side);
     return function(&dynamics->lanes->curve[CZ_CURVE_LIMP_END_A + side], dynamics->lanes->stride,
-                    lane, &law, memory(dynamics, CZ_M_LIMP_A + side, lane),
-                    memory(dynamics, CZ_M_LIMP_PEAK_A + side, lane));
+                    lane, &law, x, largest);
+}
+
+static double of_limp(const CzDynamics *dynamics, size_t lane, int side, OfCrush *function) {
+    return of_limp_at(dynamics, lane, side, function, memory(dynamics, CZ_M_LIMP_A + side, lane),
+                      memory(dynamics, CZ_M_LIMP_PEAK_A + side, lane));
 }
 
 double cz_end_stored(const CzDynamics *dynamics, size_t lane, int end) {
@@ -340,6 +345,11 @@ double cz_limp_stored(const CzDynamics *dynamics, size_t lane, int side) {
 
 double cz_limp_received(const CzDynamics *dynamics, size_t lane, int side) {
     return of_limp(dynamics, lane, side, crush_received);
+}
+
+double cz_limp_received_at(const CzDynamics *dynamics, size_t lane, int side, double x,
+                           double largest) {
+    return of_limp_at(dynamics, lane, side, crush_received, x, largest);
 }
 
 double cz_slide_stored(const CzDynamics *dynamics, size_t lane) {

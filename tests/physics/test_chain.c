@@ -128,12 +128,63 @@ static void members_of_chains_keep_their_laws_within_a_newton(void **state) {
     }
 }
 
+/* A crush zone whose force falls faster than the anti-climber in front of it can follow, against a
+ * wall: along the elastic line through (x_1, F_1) it snaps to where its last stage meets that line.
+ * What lies between the line and its backbone is dissipated by it; what is known of F_1 is known to
+ * what the force rises by in a step. */
+static void a_zone_that_snaps_dissipates_what_the_elasticity_released(void **state) {
+    (void)state;
+    static const char text[] =
+        "schema: 1\n"
+        "title: a zone that snaps\n"
+        "simulation: {track: rigid}\n"
+        "trains:\n"
+        "  - name: A\n"
+        "    speed_m_s: 10\n"
+        "    vehicles:\n"
+        "      - model: rigid\n"
+        "        mass_t: 30\n"
+        "        front:\n"
+        "          face_gap_mm: 300\n"
+        "          unloading_stiffness_MN_m: 200\n"
+        "          stages: [{stroke_mm: 20, force_kN: 2000}, {stroke_mm: 20, force_kN: 1000}, "
+        "{stroke_mm: 500, force_kN: 3000}]\n"
+        "          anti_climber: {gap_mm: 0, stiffness_MN_m: 10, stages: [{stroke_mm: 100, "
+        "force_kN: 9000}]}\n"
+        "  - {name: W, vehicles: [{model: fixed}]}\n";
+    const CzProblemOptions options = cz_problem_options_default();
+    const CzSimulateOptions how = cz_simulate_options_default();
+    Collision collision = {0};
+    CzError error = {0};
+    if (cz_problem_read_text(text, sizeof text - 1, "snap", ".", &options, &collision.problem,
+                             &error) != CZ_OK ||
+        cz_model_build(collision.problem, 0, &collision.model, &error) != CZ_OK ||
+        cz_simulate(collision.model, &how, &collision.run, &error) != CZ_OK)
+        fail_msg("%s:%d: %s", error.file, error.line, error.message);
+    collision.summary = cz_run_summary(collision.run);
+    assert_completed(&collision);
+    assert_true(collision.summary->energy.balance_error < 1e-4);
+    const double elastic = 10e6, rise = 2000e3 / 0.5, fall_end = 0.04, top = 2000e3;
+    const double landed = (top + elastic * 0.02 - 1000e3 + rise * fall_end) / (rise + elastic);
+    const double force = top - elastic * (landed - 0.02);
+    const double line = 0.5 * (top + force) * (landed - 0.02);
+    const double backbone = 1500e3 * 0.02 + 0.5 * (1000e3 + force) * (landed - fall_end);
+    const double of_step = elastic * 10.0 * collision.summary->time_step;
+    const CzElementResult *element = collision.summary->interface[0].element;
+    while (element->kind != CZ_ELEMENT_END)
+        element++;
+    assert_near(element->energy - element->tube_energy, line - backbone, 0.0,
+                of_step * (landed - 0.02));
+    collision_free(&collision);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(of_two_ends_in_series_the_one_that_falls_deeper_is_crushed),
         cmocka_unit_test(the_same_end_is_crushed_on_the_other_side),
         cmocka_unit_test(the_end_that_is_crushed_does_not_depend_on_the_step),
         cmocka_unit_test(members_of_chains_keep_their_laws_within_a_newton),
+        cmocka_unit_test(a_zone_that_snaps_dissipates_what_the_elasticity_released),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,7 +16,7 @@ typedef struct CzVariableInfo {
     const char *unit; /* as in the file, such as "kN" */
     double min, max;  /* in that unit */
     double start;     /* in that unit */
-    double step;      /* catalogue step in that unit; 0 when none */
+    double increment; /* catalogue increment in that unit; 0 when none */
     bool is_fixed;    /* its bounds hold one value only, as a single increment or min = max */
     double fixed_at;  /* that value, in that unit; 0 when it can vary */
     int n_choice;     /* parts that it chooses from; the variable is then the number of one, counted

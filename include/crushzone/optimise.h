@@ -55,9 +55,9 @@ typedef struct CzOutcome {
     char why_stopped[160];
     long n_evaluation;
     int n_variable;
-    double *start, *best; /* in the variables' units; best is snapped to the catalogue steps unless
-                             the search ended before that or only designs between them pass, which
-                             why_stopped then says (n_variable) */
+    double *start, *best; /* in the variables' units; best is snapped to the catalogue increments
+                             unless the search ended before that or only designs between them pass,
+                             which why_stopped then says (n_variable) */
     bool *at_bound;       /* (n_variable) */
     CzEvaluation start_evaluation, best_evaluation; /* with runs kept */
     int n_alternative;   /* of a fit: further parameter sets that fit about as well */
@@ -65,11 +65,11 @@ typedef struct CzOutcome {
     double *alternative_objective; /* (n_alternative) */
     CzVerification *verification;  /* of the best design; NULL when it does not pass or the search
                                       was interrupted */
-    double *sensitivity_step;  /* change of one variable that was tried at the best design, in its
-                                  unit: below 0 where there is no room upwards, 0 when none was
-                                  tried; NULL after an interruption (n_variable) */
-    double *objective_change;  /* of the objective by each; NaN when not known (n_variable) */
-    double *constraint_change; /* likewise of each constraint (n_variable x n_constraint) */
+    double *sensitivity_increment; /* change of one variable that was tried at the best design, in
+                                 its unit: below 0 where there is no room upwards, 0 when none was
+                                 tried; NULL after an interruption (n_variable) */
+    double *objective_change;      /* of the objective by each; NaN when not known (n_variable) */
+    double *constraint_change;     /* likewise of each constraint (n_variable x n_constraint) */
     long n_trial;
     CzTrial *trial;  /* history in order (n_trial) */
     double *trial_x; /* its designs, in the variables' units (n_trial x n_variable) */

@@ -71,7 +71,7 @@ typedef struct CzElementResult {
                            it for the others */
     bool sheared;       /* coupler: shear-off has let go */
     bool bottomed_out;  /* a device used its whole stroke, and no other of the element took over */
-    double zone_energy[3]; /* plastic energy by zone: crush, temporary, occupied [J] */
+    double zone_energy[3]; /* plastic energy by zone: crush, temporary, survival [J] */
 } CzElementResult;
 
 enum { CZ_MAX_ELEMENTS = 12 };
@@ -123,8 +123,8 @@ typedef struct CzVehicleResult {
     double max_pitch;   /* largest |pitch| of the body [rad] */
     double link_force;  /* largest traction link force [N] */
     double link_travel; /* largest way of a bogie against the body at its traction link [m] */
-    double survival_shortening; /* stroke of occupied zones, both ends [m]; NaN when no end declares
-                                   an occupied zone */
+    double survival_shortening; /* stroke of survival zones, both ends [m]; NaN when no end declares
+                                   a survival zone */
     bool checks_override;       /* bump and lift stops are declared, so override can be judged */
 } CzVehicleResult;
 
@@ -167,7 +167,7 @@ typedef struct CzEnergy {
     double running_gear; /* part of `dissipated` in links, stops, suspensions and dampers */
     double track;        /* part of `dissipated` in pads, ballast and subgrade */
     double absorbers; /* part of `dissipated` in couplers, anti-climbers, ends and side buffers */
-    double occupied;  /* part of `absorbers` in occupied zones */
+    double survival;  /* part of `absorbers` in survival zones */
     double balance_error; /* |residual| over the initial energy [-], the largest over the run */
 } CzEnergy;
 

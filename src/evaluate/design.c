@@ -291,10 +291,10 @@ static const char *name_variable(const Builder *builder, const CzVariable *writt
 static void settle_fixed(CzVariableInfo *info) {
     const bool by_bounds = info->min == info->max;
     const bool by_step =
-        info->step > 0 && cz_increment_count(info->step, info->min, info->max) == 1;
+        info->increment > 0 && cz_increment_count(info->increment, info->min, info->max) == 1;
     info->is_fixed = info->n_choice == 0 && (by_bounds || by_step);
     if (info->is_fixed)
-        info->fixed_at = by_bounds ? info->min : cz_increment_not_below(info->step, info->min);
+        info->fixed_at = by_bounds ? info->min : cz_increment_not_below(info->increment, info->min);
 }
 
 /* A start that misses a bound by what the conversion of units leaves stands on it. */
@@ -324,7 +324,7 @@ static CzStatus settle_choice(const Builder *builder, const CzVariable *written,
     info->choice = written->choices.text;
     info->min = 0;
     info->max = n - 1;
-    info->step = 1;
+    info->increment = 1;
     int own = 0;
     const CzStatus status = cz_choice_settle(builder->problem, variable, &own, builder->error);
     if (status == CZ_STATUS_INPUT && builder->error != NULL)
@@ -348,7 +348,7 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
             CZ_TRY(add_target(builder, written, &target[i], variable));
     variable->info.min = written->min;
     variable->info.max = written->max;
-    variable->info.step = isnan(written->step) ? 0 : written->step;
+    variable->info.increment = isnan(written->increment) ? 0 : written->increment;
     if (!isnan(written->start))
         variable->info.start = written->start;
     variable->start_field = isnan(written->start) ? &written->min : &written->start;

@@ -55,7 +55,7 @@ double cz_end_stroke(const CzEnd *end) {
         return table_stroke(&end->curve);
     double stroke = 0;
     for (int i = 0; i < end->n_stages; i++)
-        if (end->stages[i].zone != CZ_ZONE_OCCUPIED)
+        if (end->stages[i].zone != CZ_ZONE_SURVIVAL)
             stroke += end->stages[i].stroke;
     return stroke;
 }

@@ -3,7 +3,7 @@
  * `role: obstacle` says so. Where no role is given, a partner is taken for an obstacle when nothing
  * of a rail vehicle is about it: one rigid vehicle of at most 20 t (the reference obstacles at
  * level crossings have 3 t and 15 t, EN 15227 from memory; the bound is ours) without coupler, side
- * buffers, anti-climber or occupied space, which is never the train behind. A train behind that
+ * buffers, anti-climber or survival space, which is never the train behind. A train behind that
  * looks like it is no help to tell them apart, and both are then judged; so is the partner of one
  * that is fixed or an obstacle by its role, else nothing would be judged.
  */
@@ -16,9 +16,9 @@ static bool couples(const CzEnd *end) {
     return end->given && (end->coupler.given || end->side_buffers.given || end->anti_climber.given);
 }
 
-static bool has_occupied_space(const CzEnd *end) {
+static bool has_survival_space(const CzEnd *end) {
     for (int i = 0; end->given && i < end->n_stages; i++)
-        if (end->stages[i].zone == CZ_ZONE_OCCUPIED)
+        if (end->stages[i].zone == CZ_ZONE_SURVIVAL)
             return true;
     return false;
 }
@@ -29,7 +29,7 @@ static bool looks_like_obstacle(const CzTrain *train) {
     const CzVehicle *vehicle = &train->vehicles[0];
     const CzEnd *ends[2] = {&vehicle->rear, &vehicle->front};
     for (int i = 0; i < 2; i++)
-        if (couples(ends[i]) || has_occupied_space(ends[i]))
+        if (couples(ends[i]) || has_survival_space(ends[i]))
             return false;
     return vehicle->model == CZ_MODEL_RIGID && vehicle->mass <= heaviest;
 }

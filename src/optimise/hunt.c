@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The best on the catalogue steps when there are any. A search that ended before it came to them
- * gives the best it has seen, and so does one whose only designs that pass, or can be written down,
- * lie between them. */
+/* The best on the catalogue increments when there are any. A search that ended before it came to
+ * them gives the best it has seen, and so does one whose only designs that pass, or can be written
+ * down, lie between them. */
 static long best_record(const CzSearch *search) {
     const long best = search->best, on_grid = search->best_on_grid;
     if (!cz_search_has_steps(search) || !search->is_snapped || on_grid < 0)

@@ -21,8 +21,8 @@ CZ_MUST_CHECK CzStatus cz_hunt(CzEvaluator *evaluator, const CzOptimiseOptions *
                                CzHunt *hunt, CzError *error);
 void cz_hunt_free(CzHunt *hunt);
 
-/* The record of a search that counts: the best on the catalogue steps when there are any. -1 when
- * no design that a file may hold was seen without a failure. */
+/* The record of a search that counts: the best on the catalogue increments when there are any. -1
+ * when no design that a file may hold was seen without a failure. */
 long cz_hunt_record(const CzSearch *search);
 
 #endif

@@ -206,7 +206,7 @@ static CzStatus confirm(CzEvaluator *evaluator, const CzHunt *hunt, CzOutcome *o
     return status;
 }
 
-/* Whether the best design misses a catalogue step. */
+/* Whether the best design misses a catalogue increment. */
 static bool is_between_steps(const CzHunt *hunt, const CzOutcome *outcome) {
     const CzSubspace *subspace = &hunt->subspace[hunt->chosen];
     const CzSearch *search = &hunt->search[hunt->chosen];
@@ -253,7 +253,7 @@ static void conclude(const CzHunt *hunt, long limit, CzOutcome *outcome) {
         outcome->status = CZ_OUTCOME_INTERRUPTED;
     tell_end(hunt, limit, outcome, sizeof end, end);
     snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%.100s%s", end,
-             is_between_steps(hunt, outcome) ? "; the best lies between catalogue steps" : "");
+             is_between_steps(hunt, outcome) ? "; the best lies between catalogue increments" : "");
 }
 
 CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
@@ -356,7 +356,7 @@ void cz_outcome_free(CzOutcome *outcome) {
     free(outcome->alternative);
     free(outcome->alternative_objective);
     cz_verification_free(outcome->verification);
-    free(outcome->sensitivity_step);
+    free(outcome->sensitivity_increment);
     free(outcome->objective_change);
     free(outcome->constraint_change);
     free(outcome->trial_x);

@@ -16,7 +16,7 @@
 typedef struct CzFunction {
     int n_variable, n_constraint;
     const double *min, *max, *start; /* in the variables' units (n_variable) */
-    const double *step;              /* catalogue steps, 0 for none (n_variable) */
+    const double *step;              /* catalogue increments, 0 for none (n_variable) */
     const bool *is_flag; /* constraints that are a mere yes or no (n_constraint), NULL for none:
                             they count in what is kept, but no algorithm is shown such a step */
     const bool *is_rule; /* constraints without which a design could not be written down and read
@@ -43,7 +43,7 @@ typedef struct CzRecord {
     double penalty;   /* sum of the compressed positive constraints, of a fit beside the sum of
                          squares: what infeasible designs are ranked by */
     const char *phase;
-    bool on_grid;   /* every variable lies on its catalogue step */
+    bool on_grid;   /* every variable lies on its catalogue increment */
     bool is_barred; /* a rule of files is broken */
     double missed;  /* largest positive constraint that is no yes or no; 0 when there is none */
 } CzRecord;
@@ -62,13 +62,13 @@ typedef struct CzSearch {
     CzRecord *record;  /* history in order (n_record) */
     double *x;         /* (n_record x n_variable) */
     long best;         /* record of the best design so far, -1 when none */
-    long best_on_grid; /* likewise among those on the catalogue steps */
+    long best_on_grid; /* likewise among those on the catalogue increments */
     long last_gain;    /* number of evaluations when the best last improved by more than 0.1 % */
 
     double worst_objective, worst_constraint; /* over the designs that did not fail */
     bool is_over;         /* nothing more may be evaluated; `status` and `why` say why */
-    bool is_snapped;      /* the catalogue steps around the best design have been evaluated */
-    bool is_spent;        /* all evaluations but those for the catalogue steps were used */
+    bool is_snapped;      /* the catalogue increments around the best design have been evaluated */
+    bool is_spent;        /* all evaluations but those for the catalogue increments were used */
     bool is_paused;       /* most of the latest designs failed: looking on from there is no use */
     long n_before_window; /* records that the watch on failures does not count any more */
     CzStatus status;
@@ -131,7 +131,7 @@ bool cz_search_is_better(const CzSearch *search, long record, long other);
 /* Record with exactly these variables, -1 when there is none. */
 long cz_search_find(const CzSearch *search, const double *x);
 
-/* Nearest design on the catalogue steps within the bounds. */
+/* Nearest design on the catalogue increments within the bounds. */
 void cz_search_round(const CzSearch *search, const double *x, double *rounded);
 bool cz_search_has_steps(const CzSearch *search);
 

@@ -2,10 +2,10 @@
  *
  *   change_ij = c_i(x + h_j e_j) - c_i(x)
  *
- * where h_j is one catalogue step or more, at least 2 % of the range, and goes down where there is
- * no room upwards.
- * A step of this size sees what a person would change; a derivative would see the rattle of a long
- * train. Both designs are run as in a search, so that their difference is that of the design alone.
+ * where h_j is one catalogue increment or more, at least 2 % of the range, and goes down where
+ * there is no room upwards. A step of this size sees what a person would change; a derivative would
+ * see the rattle of a long train. Both designs are run as in a search, so that their difference is
+ * that of the design alone.
  */
 #include "optimise/sensitivity.h"
 
@@ -24,8 +24,8 @@ static double step_of(const CzVariableInfo *variable, double value) {
     if (variable->n_choice > 0 || variable->is_fixed || !(range > 0))
         return 0;
     double step = SMALLEST_SHARE * range;
-    if (variable->step > 0)
-        step = variable->step * fmax(ceil(step / variable->step - 1e-9), 1);
+    if (variable->increment > 0)
+        step = variable->increment * fmax(ceil(step / variable->increment - 1e-9), 1);
     if (value + step <= variable->max)
         return step;
     return value - step >= variable->min ? -step : 0;
@@ -42,7 +42,7 @@ static void keep_changes(CzOutcome *outcome, int variable, const CzEvaluation *b
 
 static CzStatus evaluate(CzEvaluator *evaluator, CzOutcome *outcome, CzError *error) {
     const int n = outcome->n_variable;
-    const double *h = outcome->sensitivity_step;
+    const double *h = outcome->sensitivity_increment;
     double *x = malloc((size_t)(n + 1) * (size_t)n * sizeof *x);
     CzEvaluation *evaluation = calloc((size_t)n + 1, sizeof *evaluation);
     CzStatus status = CZ_STATUS_NO_MEMORY;
@@ -67,10 +67,10 @@ static CzStatus evaluate(CzEvaluator *evaluator, CzOutcome *outcome, CzError *er
 }
 
 static void forget(CzOutcome *outcome) {
-    free(outcome->sensitivity_step);
+    free(outcome->sensitivity_increment);
     free(outcome->objective_change);
     free(outcome->constraint_change);
-    outcome->sensitivity_step = outcome->objective_change = outcome->constraint_change = NULL;
+    outcome->sensitivity_increment = outcome->objective_change = outcome->constraint_change = NULL;
 }
 
 CzStatus cz_sensitivity_take(CzEvaluator *evaluator, const volatile sig_atomic_t *stop,
@@ -79,17 +79,17 @@ CzStatus cz_sensitivity_take(CzEvaluator *evaluator, const volatile sig_atomic_t
     const size_t n_constraint = (size_t)outcome->best_evaluation.n_constraint;
     if (stop != NULL && *stop != 0)
         return CZ_OK;
-    outcome->sensitivity_step = calloc(n + 1, sizeof(double));
+    outcome->sensitivity_increment = calloc(n + 1, sizeof(double));
     outcome->objective_change = calloc(n + 1, sizeof(double));
     outcome->constraint_change = calloc(n * n_constraint + 1, sizeof(double));
     CzStatus status = CZ_STATUS_NO_MEMORY;
-    if (outcome->sensitivity_step == NULL || outcome->objective_change == NULL ||
+    if (outcome->sensitivity_increment == NULL || outcome->objective_change == NULL ||
         outcome->constraint_change == NULL) {
         cz_fail(error, status, "no memory for the sensitivities");
     } else {
         for (size_t i = 0; i < n; i++) {
             const CzVariableInfo *variable = cz_evaluator_variable(evaluator, (int)i);
-            outcome->sensitivity_step[i] = step_of(variable, outcome->best[i]);
+            outcome->sensitivity_increment[i] = step_of(variable, outcome->best[i]);
             outcome->objective_change[i] = NAN;
         }
         for (size_t i = 0; i < n * n_constraint; i++)

@@ -1,4 +1,5 @@
-/* From the best design to the best one that can be bought: every variable on its catalogue step.
+/* From the best design to the best one that can be bought: every variable on its catalogue
+ * increment.
  *
  * The response surface says which of many designs on the steps are worth a simulation: first the
  * corners of the cell of steps around the best design, then what lies one step, or one step in each

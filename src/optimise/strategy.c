@@ -3,7 +3,7 @@
  *   screen    the start, then points that fill the box and a smaller one around the start
  *   descend   response surfaces from the best points that lie apart
  *   polish    COBYLA and elastic SLSQP by turns from the best, with smaller and smaller steps
- *   snap      to the catalogue steps
+ *   snap      to the catalogue increments
  *
  * A fit goes another way: its objective is a sum of squares of residuals that change smoothly, so
  * planes of the residuals lead further than planes of the objective; BOBYQA, Sbplx and COBYLA take
@@ -156,7 +156,7 @@ static CzStatus polish(CzSearch *search, long reserve, CzError *error) {
     return CZ_OK;
 }
 
-/* Screen, descend, polish; what is set aside for the catalogue steps stays. */
+/* Screen, descend, polish; what is set aside for the catalogue increments stays. */
 static CzStatus lead(CzSurface *surface, unsigned long seed, CzError *error) {
     CzSearch *search = surface->search;
     const long reserve = cz_snap_reserve(search);

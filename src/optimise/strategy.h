@@ -1,4 +1,5 @@
-/* How a search is led: the usual strategy, one algorithm by name, and the way to catalogue steps.
+/* How a search is led: the usual strategy, one algorithm by name, and the way to catalogue
+ * increments.
  */
 #ifndef CZ_OPTIMISE_STRATEGY_H
 #define CZ_OPTIMISE_STRATEGY_H
@@ -19,13 +20,13 @@ CZ_MUST_CHECK CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, Cz
 CZ_MUST_CHECK CzStatus cz_strategy_named(CzSearch *search, const char *algorithm,
                                          unsigned long seed, CzError *error);
 
-/* Moves from the best design to the best one on the catalogue steps, with at most this many
+/* Moves from the best design to the best one on the catalogue increments, with at most this many
  * evaluations, until nothing gains. The surface is begun anew there when
  * that can be afforded.
  */
 void cz_snap(CzSurface *surface, long evaluations);
 
-/* Evaluations that a strategy sets aside for the catalogue steps. */
+/* Evaluations that a strategy sets aside for the catalogue increments. */
 long cz_snap_reserve(const CzSearch *search);
 
 /* Point of a sequence that fills the unit cube evenly (Roberts' additive recurrence), shifted by

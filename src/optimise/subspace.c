@@ -63,7 +63,7 @@ bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *s
         min[n] = info->min;
         max[n] = info->max;
         first[n] = start != NULL ? start[n] : info->start;
-        step[n] = info->step;
+        step[n] = info->increment;
         number[n++] = i;
     }
     int m = 0;

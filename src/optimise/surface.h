@@ -40,8 +40,8 @@ bool cz_surface_refresh(CzSurface *surface, const char *phase, double secant);
 bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const double *u,
                     int *moved_to);
 
-/* The same with designs given in the variables' units, so that a catalogue step stays one to the
- * last bit. */
+/* The same with designs given in the variables' units, so that a catalogue increment stays one to
+ * the last bit. */
 bool cz_surface_try_exact(CzSurface *surface, const char *phase, int n_point, const double *x,
                           int *moved_to);
 

@@ -110,10 +110,11 @@ static void check_bounds(const CzRules *rules, const CzVariable *variable) {
     else if (variable->start < variable->min || variable->start > variable->max)
         cz_rule_broken(rules, &variable->start, "start %s must lie within %s to %s",
                        cz_number_print(first, variable->start), min, max);
-    else if (variable->min < variable->max && variable->step > 0 &&
-             cz_increment_count(variable->step, variable->min, variable->max) == 0)
-        cz_rule_broken(rules, &variable->step, "no multiple of the step %s lies within %s to %s",
-                       cz_number_print(first, variable->step), min, max);
+    else if (variable->min < variable->max && variable->increment > 0 &&
+             cz_increment_count(variable->increment, variable->min, variable->max) == 0)
+        cz_rule_broken(rules, &variable->increment,
+                       "no multiple of the increment %s lies within %s to %s",
+                       cz_number_print(first, variable->increment), min, max);
 }
 
 /* ---- choices ---- */
@@ -165,7 +166,7 @@ static void check_choices(const CzRules *rules, const CzVariable *variable) {
     } bounds[] = {{&variable->min, "min"},
                   {&variable->max, "max"},
                   {&variable->start, "start"},
-                  {&variable->step, "step"}};
+                  {&variable->increment, "increment"}};
     for (int i = 0; i < 4; i++)
         if (cz_rule_is_written(rules, bounds[i].field))
             cz_rule_broken(rules, bounds[i].field, "a variable with choices has no '%s'",

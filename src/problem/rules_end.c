@@ -178,13 +178,13 @@ static void check_unloading(const CzRules *rules, const CzEnd *end) {
             cz_rule_text(rise, steepest, "MN/m", 1e6));
 }
 
-/* Stroke in front of the occupied space [m]. */
+/* Stroke in front of the survival space [m]. */
 static double free_stroke(const CzEnd *end) {
     double stroke = 0;
     if (end->curve.given)
         return end->curve.x[end->curve.n_point - 1];
     for (int i = 0; i < end->n_stages; i++)
-        stroke += end->stages[i].zone == CZ_ZONE_OCCUPIED ? 0 : end->stages[i].stroke;
+        stroke += end->stages[i].zone == CZ_ZONE_SURVIVAL ? 0 : end->stages[i].stroke;
     return stroke;
 }
 
@@ -198,7 +198,7 @@ static void check_available(const CzRules *rules, const CzEnd *end) {
     if (stroke > end->available_length * (1 + 1e-12))
         cz_rule_broken(
             rules, &end->available_length,
-            "anti-climber and end crush %s in front of the occupied space, but only %s are there",
+            "anti-climber and end crush %s in front of the survival space, but only %s are there",
             CZ_MM(stroke_text, stroke), CZ_MM(available, end->available_length));
 }
 

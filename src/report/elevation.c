@@ -253,7 +253,7 @@ static void write_chains(CzMarkup *markup, const Side *side) {
                            1},
                           {"end", end_stroke(end), 4}};
     write_chain(markup, side, 1, face->given ? "anti-climber and end" : "end", 3, chain);
-    const Link room[] = {{"in front of occupied space", end->available_length, 2}};
+    const Link room[] = {{"in front of the survival space", end->available_length, 2}};
     write_chain(markup, side, 2, "room", 1, room);
 }
 

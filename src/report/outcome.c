@@ -96,17 +96,18 @@ static void put_constraint(CzJson *json, const CzEvaluator *evaluator, const CzO
     cz_json_close(json);
 }
 
-/* What a step of each variable changes at the best design: the objective and each margin. */
+/* Sensitivities: change per increment of each variable at the best design: the objective and each
+ * margin. */
 static void put_sensitivities(CzJson *json, const CzEvaluator *evaluator,
                               const CzOutcome *outcome) {
     const int n_constraint = outcome->best_evaluation.n_constraint;
     cz_json_open_list(json, "sensitivities");
     for (int i = 0; i < outcome->n_variable; i++) {
-        if (outcome->sensitivity_step[i] == 0)
+        if (outcome->sensitivity_increment[i] == 0)
             continue;
         cz_json_open_object(json, NULL);
         cz_json_text(json, "variable", cz_evaluator_variable(evaluator, i)->name);
-        cz_json_exact(json, "step", outcome->sensitivity_step[i]);
+        cz_json_exact(json, "increment", outcome->sensitivity_increment[i]);
         cz_json_real(json, "objective_change", outcome->objective_change[i]);
         cz_json_open_object(json, "margin_changes");
         for (int k = 0; k < n_constraint; k++)
@@ -168,7 +169,7 @@ CzStatus cz_report_write_outcome(const CzProblem *problem, const CzEvaluator *ev
         put_constraint(json, evaluator, outcome, i);
     cz_json_close(json);
 
-    if (outcome->sensitivity_step != NULL)
+    if (outcome->sensitivity_increment != NULL)
         put_sensitivities(json, evaluator, outcome);
     put_verification(json, outcome->verification);
     return cz_json_finish(json, stream, error);

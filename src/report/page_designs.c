@@ -1,4 +1,4 @@
-/* Designs of a search as parallel coordinates, and what a step of each variable changes at the
+/* Designs of a search as parallel coordinates, and the change per increment of each variable at the
  * best.
  */
 #include "report/page_outcome.h"
@@ -220,8 +220,9 @@ static void write_sensitivity(CzMarkup *markup, const CzEvaluator *evaluator,
     char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 40];
     cz_markup_open(markup, "tr");
     cz_markup_element(markup, "td", info->name);
-    snprintf(text, sizeof text, "%s%s %.30s", outcome->sensitivity_step[variable] > 0 ? "+" : "",
-             cz_figure_digits(number, 4, outcome->sensitivity_step[variable]),
+    snprintf(text, sizeof text, "%s%s %.30s",
+             outcome->sensitivity_increment[variable] > 0 ? "+" : "",
+             cz_figure_digits(number, 4, outcome->sensitivity_increment[variable]),
              info->unit != NULL ? info->unit : "");
     cz_markup_classed(markup, "td", "number", text);
     const double change = outcome->objective_change[variable];
@@ -238,7 +239,7 @@ static void write_sensitivity(CzMarkup *markup, const CzEvaluator *evaluator,
 
 void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
                                  const CzOutcome *outcome) {
-    if (outcome->sensitivity_step == NULL)
+    if (outcome->sensitivity_increment == NULL)
         return;
     int column[MOST_COLUMNS], n_column = 0;
     while (n_column < MOST_COLUMNS) {
@@ -247,15 +248,16 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
             break;
         n_column++;
     }
-    cz_page_open_section(markup, "sensitivities", "What a step of each variable changes");
-    cz_markup_element(markup, "p",
-                      "One variable at a time, by the step that stands beside it, downwards where "
-                      "there is no room upwards; the others stay as in the best design. Margins "
-                      "are those of the constraints with least left: what grows eases, what falls "
-                      "binds. From runs as the search makes them.");
+    cz_page_open_section(markup, "sensitivities",
+                         "Sensitivities: change per increment of each variable");
+    cz_markup_element(
+        markup, "p",
+        "One variable at a time is changed by its increment, at least 2 % of its range, downwards "
+        "at its upper bound; all others keep the values of the best design. Margins are "
+        "those of the most critical constraints, computed as in the search.");
     cz_page_begin_heads(markup, "sensitivities");
     cz_markup_element(markup, "th", "variable");
-    cz_markup_classed(markup, "th", "number", "step");
+    cz_markup_classed(markup, "th", "number", "increment");
     cz_markup_classed(markup, "th", "number",
                       cz_evaluator_maximises_margin(evaluator)
                           ? "smallest margin"
@@ -265,7 +267,7 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
                           cz_evaluator_constraint_name(evaluator, column[i]));
     cz_page_end_heads(markup);
     for (int i = 0; i < outcome->n_variable; i++)
-        if (outcome->sensitivity_step[i] != 0)
+        if (outcome->sensitivity_increment[i] != 0)
             write_sensitivity(markup, evaluator, outcome, i, n_column, column);
     cz_page_close_table(markup);
     cz_page_close_section(markup);

@@ -11,7 +11,7 @@ int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const in
  * than two variables. */
 CZ_MUST_CHECK CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
                                              const CzOutcome *outcome, CzError *error);
-/* What a step of each variable would change (page_designs.c). */
+/* Sensitivities per increment of each variable would change (page_designs.c). */
 void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
                                  const CzOutcome *outcome);
 

@@ -117,7 +117,7 @@ static void put_energy(CzJson *json, const CzRunSummary *run) {
     put_total(json, run, "track_kJ", energy->track);
     put_total(json, run, "moving_load_kJ", energy->moving_load);
     put_total(json, run, "absorbers_kJ", energy->absorbers);
-    put_total(json, run, "occupied_kJ", energy->occupied);
+    put_total(json, run, "survival_kJ", energy->survival);
     cz_json_exact(json, "balance_error", energy->balance_error);
     cz_json_close(json);
 }
@@ -137,7 +137,7 @@ static void put_element(CzJson *json, const CzRunSummary *run, const CzElementRe
     cz_json_open_object(json, "zone_energy_kJ");
     put_total(json, run, "crush", element->zone_energy[0]);
     put_total(json, run, "temporary", element->zone_energy[1]);
-    put_total(json, run, "occupied", element->zone_energy[2]);
+    put_total(json, run, "survival", element->zone_energy[2]);
     cz_json_close(json);
     cz_json_flag(json, "beyond_validity", run->beyond_validity);
     cz_json_close(json);

@@ -82,7 +82,7 @@ static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
     result->vehicle = car;
     take(result, cz_superstructure_account(batch, lane));
     result->tube_energy = result->energy;
-    result->zone_energy[CZ_ZONE_OCCUPIED] = fmax(result->energy, 0.0);
+    result->zone_energy[CZ_ZONE_SURVIVAL] = fmax(result->energy, 0.0);
     result->stroke = 0.5 * cz_memory(batch, CZ_M_SUPERSTRUCTURE_SET, lane);
     result->peak_force = cz_extreme(batch, CZ_E_SUPERSTRUCTURE_FORCE, lane);
     return true;
@@ -101,7 +101,7 @@ static double area(const CzBatch *batch, int curve, size_t lane, double from, do
 }
 
 /* Splits the plastic energy of a crush zone among the zones of its stages, in proportion to the
- * areas; what lies beyond the last stage is occupied space. */
+ * areas; what lies beyond the last stage is survival space. */
 static void split_zones(const CzBatch *batch, const CzEnd *end, int curve, size_t lane,
                         double largest, double energy, double zone_energy[3]) {
     double areas[3] = {0.0, 0.0, 0.0}, from = 0.0;
@@ -114,7 +114,7 @@ static void split_zones(const CzBatch *batch, const CzEnd *end, int curve, size_
         from = to;
     }
     if (isfinite(whole))
-        areas[CZ_ZONE_OCCUPIED] += area(batch, curve, lane, whole, largest);
+        areas[CZ_ZONE_SURVIVAL] += area(batch, curve, lane, whole, largest);
     const double sum = areas[0] + areas[1] + areas[2];
     for (int zone = 0; zone < 3; ++zone)
         zone_energy[zone] = sum > 0.0 ? fmax(energy, 0.0) * areas[zone] / sum : 0.0;
@@ -311,7 +311,7 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
     }
 }
 
-/* Stroke that the ends took from occupied space; NaN when none declares such a zone and none went
+/* Stroke that the ends took from survival space; NaN when none declares such a zone and none went
  * beyond its stages. */
 static double survival_shortening(const CzBatch *batch, int car, int design) {
     double lost = NAN;
@@ -327,7 +327,7 @@ static double survival_shortening(const CzBatch *batch, int car, int design) {
         bool declares = result.bottomed_out;
         for (int k = 0; k < end->n_stages; ++k) {
             const double to = from + end->stages[k].stroke;
-            if (end->stages[k].zone == CZ_ZONE_OCCUPIED) {
+            if (end->stages[k].zone == CZ_ZONE_SURVIVAL) {
                 declares = true;
                 taken += fmax(fmin(result.stroke, to) - from, 0.0);
             }

@@ -190,7 +190,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
         cz_interface_fill(batch, i, design, &interface[i]);
         interface[i].energy_share = share_of(interface[i].energy, summary->energy.dissipated);
         for (int k = 0; k < interface[i].n_element; ++k)
-            summary->energy.occupied += interface[i].element[k].zone_energy[CZ_ZONE_OCCUPIED];
+            summary->energy.survival += interface[i].element[k].zone_energy[CZ_ZONE_SURVIVAL];
         if (failed)
             blank_interface(&interface[i]);
     }

@@ -69,33 +69,34 @@ static void watch_devices(CzWatch *list, const CzBatch *batch, int interface, in
     const int n = cz_devices_list(batch, interface, 0, side, device);
     for (int i = 0; i < n; ++i)
         if (!device[i].is_reversible || !device[i].is_followed)
-            watch(
-                list, batch, device[i].is_followed ? CZ_EVENT_TUBE_USED_UP : CZ_EVENT_BOTTOMED_OUT,
-                device[i].from_extremes ? FROM_EXTREME : FROM_MEMORY, device[i].row, device[i].lane,
-                device[i].usable, device[i].text, batch->model->car[interface + side].name);
+            watch(list, batch,
+                  device[i].is_followed ? CZ_EVENT_TUBE_EXHAUSTED : CZ_EVENT_BOTTOMED_OUT,
+                  device[i].from_extremes ? FROM_EXTREME : FROM_MEMORY, device[i].row,
+                  device[i].lane, device[i].usable, device[i].text,
+                  batch->model->car[interface + side].name);
 }
 
 static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int side) {
     const size_t lane = cz_lane(batch, interface, 0), own = cz_lane(batch, interface + side, 0);
     const char *name = batch->model->car[interface + side].name;
     const int which = side == 0 ? 1 : 0;
-    watch(list, batch, CZ_EVENT_TUBE_FLOW, FROM_MEMORY, CZ_M_TUBE_A + side, lane, FLOWED, "coupler",
-          name);
+    watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY, CZ_M_TUBE_A + side, lane, FLOWED,
+          "coupler", name);
     watch(list, batch, CZ_EVENT_SHEAR_OFF, FROM_MEMORY, CZ_M_SHEAR_A + side, lane, FLOWED,
           "coupler", name);
-    watch(list, batch, CZ_EVENT_ANTI_CLIMBER_FLOW, FROM_MEMORY, CZ_M_FACE_A + side, lane, FLOWED,
-          "anti-climber", name);
-    watch(list, batch, CZ_EVENT_TUBE_FLOW, FROM_MEMORY, CZ_M_SIDE_TUBE_A + side, lane, FLOWED,
+    watch(list, batch, CZ_EVENT_ANTI_CLIMBER_ACTIVATION, FROM_MEMORY, CZ_M_FACE_A + side, lane,
+          FLOWED, "anti-climber", name);
+    watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY, CZ_M_SIDE_TUBE_A + side, lane, FLOWED,
           "side buffers", name);
     watch_devices(list, batch, interface, side);
     if (cz_parameter(batch, CZ_P_LIMP_END_A + side, lane) > 0.5) {
         const int limp = CZ_CURVE_LIMP_END_A + side;
-        watch(list, batch, CZ_EVENT_END_FLOW, FROM_MEMORY, CZ_M_LIMP_PEAK_A + side, lane,
+        watch(list, batch, CZ_EVENT_END_CRUSH, FROM_MEMORY, CZ_M_LIMP_PEAK_A + side, lane,
               first_stage(batch, limp, lane), "end", name);
     }
     if (batch->model->car[interface + side].model == CZ_MODEL_FULL) {
         const int end = CZ_CURVE_END_REAR + which;
-        watch(list, batch, CZ_EVENT_END_FLOW, FROM_MEMORY, CZ_M_END_PEAK_REAR + which, own,
+        watch(list, batch, CZ_EVENT_END_CRUSH, FROM_MEMORY, CZ_M_END_PEAK_REAR + which, own,
               first_stage(batch, end, own), "end", name);
     }
     if (cz_parameter(batch, CZ_P_COUPLER, lane) > 0.5)
@@ -110,7 +111,7 @@ static void watch_interface(CzWatch *list, const CzBatch *batch, int interface) 
     watch(list, batch, CZ_EVENT_ANTI_CLIMBER_CONTACT, FROM_MEMORY, CZ_M_FACE_SPEED, lane, 0.0, "",
           name);
     watch(list, batch, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_E_FACE_CLIMBED, lane, 0.0, "", name);
-    watch(list, batch, CZ_EVENT_SUPERSTRUCTURE_FLOW, FROM_MEMORY, CZ_M_SUPERSTRUCTURE_SET, lane,
+    watch(list, batch, CZ_EVENT_SUPERSTRUCTURE_CRUSH, FROM_MEMORY, CZ_M_SUPERSTRUCTURE_SET, lane,
           FLOWED, "superstructures", name);
     for (int side = 0; side < 2; ++side)
         watch_side(list, batch, interface, side);

@@ -32,7 +32,7 @@ cat >longer.yaml <<END
 schema: 1
 extends: $SOURCE/problems/two-cars-25kmh.yaml
 optimise:
-  variables: [{path: "parts.anti-climber.stages[0].stroke_mm", min: 300, max: 450, step: 50}]
+  variables: [{path: "parts.anti-climber.stages[0].stroke_mm", min: 300, max: 450, increment: 50}]
   evaluations: 4
 END
 longer() {
@@ -103,9 +103,9 @@ trains:
   - {name: B, vehicles: [{use: car}]}
 optimise:
   variables:
-    - {path: "parts.end.coupler.tube.stages[0].stroke_mm", min: 200, max: 900, step: 10}
-    - {path: "parts.end.coupler.tube.stages[0].force_kN", min: 600, max: 3000, step: 10}
-    - {path: "parts.end.coupler.tube.trigger_kN", min: 690, max: 720, step: 700}
+    - {path: "parts.end.coupler.tube.stages[0].stroke_mm", min: 200, max: 900, increment: 10}
+    - {path: "parts.end.coupler.tube.stages[0].force_kN", min: 600, max: 3000, increment: 10}
+    - {path: "parts.end.coupler.tube.trigger_kN", min: 690, max: 720, increment: 700}
   evaluations: 60
 END
 unbound() {

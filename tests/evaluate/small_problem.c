@@ -12,7 +12,7 @@ static const char base[] =
     "  head:\n"
     "    face_gap_mm: 900\n"
     "    unloading_stiffness_MN_m: 600\n"
-    "    stages: [{stroke_mm: 5, force_MN: 3, zone: occupied}]\n"
+    "    stages: [{stroke_mm: 5, force_MN: 3, zone: survival}]\n"
     "    proof_strength_kN: 1650\n"
     "    available_length_m: 2.5\n"
     "    coupler:\n"

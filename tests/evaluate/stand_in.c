@@ -157,11 +157,11 @@ static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles, bool bri
         vehicle->mean_deceleration_120ms = 1.1 * interface->peak_force / mass;
         vehicle->survival_shortening = NAN;
     }
-    double occupied = 0;
+    double survival = 0;
     for (int i = 0; i < interface->n_element; i++) {
         interface->energy += interface->element[i].energy;
         interface->bottomed_out |= interface->element[i].bottomed_out;
-        occupied += interface->element[i].zone_energy[CZ_ZONE_OCCUPIED];
+        survival += interface->element[i].zone_energy[CZ_ZONE_SURVIVAL];
     }
     run->summary = (CzRunSummary){.scenario = scenario->name,
                                   .ended = CZ_ENDED_BY_RULE,
@@ -173,7 +173,7 @@ static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles, bool bri
                                   .plastic_energy = energy};
     run->summary.energy =
         (CzEnergy){.initial = 2 * energy, .dissipated = energy, .absorbers = interface->energy};
-    run->summary.energy.occupied = occupied;
+    run->summary.energy.survival = survival;
     if (!brief && vehicles[0].front.anti_climber.stages[0].force < stand_in.late_below) {
         run->summary.ended = CZ_ENDED_DURATION;
         run->summary.closing_speed = 1;

@@ -9,7 +9,7 @@ static const char variables[] =
     "optimise:\n"
     "  variables:\n"
     "    - {path: \"parts.tube.stages[0].force_kN\", min: 400, max: 1500}\n"
-    "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 100, max: 900, step: 50}\n";
+    "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 100, max: 900, increment: 50}\n";
 
 typedef struct Case {
     CzProblem *problem;
@@ -397,7 +397,7 @@ static void variables_have_names_units_bounds_and_places(void **state) {
     assert_string_equal(force->name, "parts.tube.stages[0].force_kN");
     assert_string_equal(force->unit, "kN");
     assert_near(force->start, 800, 1e-12, 0);
-    assert_near(cz_evaluator_variable(made.evaluator, 1)->step, 50, 0, 0);
+    assert_near(cz_evaluator_variable(made.evaluator, 1)->increment, 50, 0, 0);
     assert_int_equal(cz_evaluator_n_place(made.evaluator, 0), 1); /* one part, both trains */
     assert_string_equal(cz_evaluator_place(made.evaluator, 0, 0).path,
                         "parts.tube.stages[0].force_kN");

@@ -215,7 +215,7 @@ static void superstructures_that_meet_report_it_and_fail(void **state) {
     Judged judged = judge(&class, CAR_BEHIND, true);
     bool has_event = false;
     for (int i = 0; i < judged.run->n_event; i++)
-        has_event |= judged.run->event[i].what == CZ_EVENT_SUPERSTRUCTURE_FLOW &&
+        has_event |= judged.run->event[i].what == CZ_EVENT_SUPERSTRUCTURE_CRUSH &&
                      strcmp(judged.run->event[i].where, "superstructures A1-B1") == 0;
     assert_true(has_event);
     assert_check_fails(&judged.evaluation, "energy in survival space");

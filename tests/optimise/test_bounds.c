@@ -79,7 +79,8 @@ static void tied_places_of_other_units_share_the_bounds(void **state) {
     "  minimise: design.installed_length_mm\n"                                                     \
     "  evaluations: 80\n"                                                                          \
     "  variables:\n"                                                                               \
-    "    - {path: \"parts.anti-climber.stages[0].stroke_mm\", min: 100, max: 700, step: 10}\n"
+    "    - {path: \"parts.anti-climber.stages[0].stroke_mm\", min: 100, max: 700, increment: "     \
+    "10}\n"
 
 static void fixed_variables_cost_nothing_and_are_told(void **state) {
     (void)state;
@@ -88,7 +89,7 @@ static void fixed_variables_cost_nothing_and_are_told(void **state) {
     optimise(&alone, NULL);
     Case made =
         begin(VARIED "    - {path: \"parts.tube.stages[0].stroke_mm\", min: 230, max: 290,"
-                     " step: 250}\n"
+                     " increment: 250}\n"
                      "    - {path: \"parts.tube.stages[0].force_kN\", min: 800, max: 800}\n",
               1);
     optimise(&made, NULL);
@@ -110,10 +111,10 @@ static void fixed_variables_cost_nothing_and_are_told(void **state) {
 static void a_search_without_anything_to_vary_says_so(void **state) {
     (void)state;
     stand_in_reset();
-    Case made =
-        begin("optimise:\n  evaluations: 60\n  variables:\n"
-              "    - {path: \"parts.tube.stages[0].stroke_mm\", min: 240, max: 270, step: 250}\n",
-              1);
+    Case made = begin(
+        "optimise:\n  evaluations: 60\n  variables:\n"
+        "    - {path: \"parts.tube.stages[0].stroke_mm\", min: 240, max: 270, increment: 250}\n",
+        1);
     optimise(&made, NULL);
     assert_int_equal(made.outcome->n_evaluation, 1);
     assert_string_equal(made.outcome->why_stopped,

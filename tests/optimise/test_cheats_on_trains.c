@@ -97,15 +97,15 @@ static void optimiser_cannot_win_by_working_the_running_gear(void **state) {
 }
 
 /* A short anti-climber leaves the rest to the end, first to its crush zone and then to the cab. */
-static void optimiser_cannot_win_by_crushing_the_occupied_space(void **state) {
+static void optimiser_cannot_win_by_crushing_the_survival_space(void **state) {
     (void)state;
     check_cheat(&(Cheat){
         .problem = TWO_AND_TWO("speed_km_h: 28, duration_ms: 600",
                                "    stages:\n" /* of the front end */
                                "      - {stroke_mm: 20, force_MN: 1.2}\n"
                                "      - {stroke_mm: 100, force_MN: 1.5}\n"
-                               "      - {stroke_mm: 400, force_MN: 2.5, zone: occupied}\n"),
-        .limits = "{name: visible, metric: energy.occupied_kJ, max: 1e9}",
+                               "      - {stroke_mm: 400, force_MN: 2.5, zone: survival}\n"),
+        .limits = "{name: visible, metric: energy.survival_kJ, max: 1e9}",
         .minimise = "design.installed_length_mm",
         .variables =
             "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 10, max: 600, start: 500}",
@@ -282,7 +282,7 @@ int main(void) {
         cmocka_unit_test(optimiser_cannot_win_by_losing_the_overlap_of_the_anti_climbers),
         cmocka_unit_test(optimiser_cannot_win_with_anti_climbers_that_slip),
         cmocka_unit_test(optimiser_cannot_win_by_working_the_running_gear),
-        cmocka_unit_test(optimiser_cannot_win_by_crushing_the_occupied_space),
+        cmocka_unit_test(optimiser_cannot_win_by_crushing_the_survival_space),
         cmocka_unit_test(optimiser_cannot_dilute_the_mean_deceleration),
         cmocka_unit_test(optimiser_cannot_win_with_a_tube_longer_than_its_coupler),
         cmocka_unit_test(optimiser_cannot_win_with_a_tube_that_is_spent_in_service),

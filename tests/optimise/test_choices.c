@@ -28,7 +28,7 @@ static const char buffing[] =
     "  variables: [" variables "]\n"
 
 #define HEAD "{path: parts.head.coupler.buffer, choices: [two-stage, short, long]}"
-#define TUBE ", {path: \"parts.tube.stages[0].force_kN\", min: 510, max: 900, step: 10}"
+#define TUBE ", {path: \"parts.tube.stages[0].force_kN\", min: 510, max: 900, increment: 10}"
 
 static double objective_of(const Case *made, const double *x) {
     CzEvaluation evaluation;
@@ -118,8 +118,9 @@ static void choice_and_number_are_found_together(void **state) {
     static const char *const names[] = {"two-stage", "short", "long"};
     for (int choice = 0; choice < 3; choice++) {
         char more[512];
-        snprintf(more, sizeof more, "set: {parts.head.coupler.buffer.use: %s}\n%s", names[choice],
-                 CHOOSE("{path: \"parts.tube.stages[0].force_kN\", min: 510, max: 900, step: 10}"));
+        snprintf(
+            more, sizeof more, "set: {parts.head.coupler.buffer.use: %s}\n%s", names[choice],
+            CHOOSE("{path: \"parts.tube.stages[0].force_kN\", min: 510, max: 900, increment: 10}"));
         Case typed = begin_with(problem_of_text(buffing, more), 2);
         optimise(&typed, NULL);
         least = fmin(least, typed.outcome->best_evaluation.objective);

@@ -18,10 +18,10 @@ static const char sizing[] =
     "  minimise: design.installed_length_mm\n"
     "  evaluations: 600\n"
     "  variables:\n"
-    "    - {path: \"parts.tube.stages[0].stroke_mm\", min: 100, max: 500, step: 10}\n"
-    "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 100, max: 900, step: 50}\n"
-    "    - {path: \"parts.anti-climber.stages[0].stroke_mm\", min: 100, max: 700, step: 10}\n"
-    "    - {path: parts.shear-off.force_kN, min: 900, max: 1500, step: 50}\n";
+    "    - {path: \"parts.tube.stages[0].stroke_mm\", min: 100, max: 500, increment: 10}\n"
+    "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 100, max: 900, increment: 50}\n"
+    "    - {path: \"parts.anti-climber.stages[0].stroke_mm\", min: 100, max: 700, increment: 10}\n"
+    "    - {path: parts.shear-off.force_kN, min: 900, max: 1500, increment: 50}\n";
 
 static void design_that_passes_is_found_on_the_catalogue_steps(void **state) {
     (void)state;
@@ -34,7 +34,8 @@ static void design_that_passes_is_found_on_the_catalogue_steps(void **state) {
     assert_int_equal(outcome->n_trial, outcome->n_evaluation);
     for (int i = 0; i < outcome->n_variable; i++) {
         const CzVariableInfo *info = cz_evaluator_variable(made.evaluator, i);
-        assert_near(outcome->best[i] / info->step, round(outcome->best[i] / info->step), 0, 1e-9);
+        assert_near(outcome->best[i] / info->increment, round(outcome->best[i] / info->increment),
+                    0, 1e-9);
         assert_true(outcome->best[i] >= info->min && outcome->best[i] <= info->max);
         assert_near(outcome->start[i], info->start, 0, 0);
     }
@@ -60,8 +61,9 @@ static void sensitivities_are_differences_of_designs(void **state) {
         CzEvaluation changed;
         double x[8];
         memcpy(x, outcome->best, (size_t)outcome->n_variable * sizeof *x);
-        x[i] += outcome->sensitivity_step[i];
-        assert_true(outcome->sensitivity_step[i] != 0 && x[i] >= info->min && x[i] <= info->max);
+        x[i] += outcome->sensitivity_increment[i];
+        assert_true(outcome->sensitivity_increment[i] != 0 && x[i] >= info->min &&
+                    x[i] <= info->max);
         assert_int_equal(cz_evaluate(made.evaluator, 1, x, false, &changed, &error), CZ_OK);
         assert_near(outcome->objective_change[i],
                     changed.objective - outcome->best_evaluation.objective, 0, 1e-9);
@@ -126,7 +128,7 @@ static void nothing_feasible_is_said_and_the_least_violated_design_given(void **
               "optimise:\n"
               "  evaluations: 200\n"
               "  variables:\n"
-              "    - {path: \"parts.tube.stages[0].force_kN\", min: 100, max: 900, step: 10}\n"
+              "    - {path: \"parts.tube.stages[0].force_kN\", min: 100, max: 900, increment: 10}\n"
               "    - {path: parts.shear-off.force_kN, min: 950, max: 1500}\n",
               2);
     optimise(&made, NULL);
@@ -154,7 +156,7 @@ static void what_passes_only_between_the_steps_is_given_and_said(void **state) {
               "  evaluations: 200\n"
               "  variables:\n"
               "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 300, max: 700, "
-              "step: 50}\n"
+              "increment: 50}\n"
               "    - {path: parts.shear-off.force_kN, min: 950, max: 1500}\n",
               2);
     optimise(&made, NULL);
@@ -162,7 +164,7 @@ static void what_passes_only_between_the_steps_is_given_and_said(void **state) {
     assert_int_equal(outcome->status, CZ_OUTCOME_FEASIBLE);
     assert_true(outcome->best_evaluation.violation <= 0);
     assert_true(fabs(outcome->best[0] / 50 - round(outcome->best[0] / 50)) > 1e-6);
-    assert_non_null(strstr(outcome->why_stopped, "the best lies between catalogue steps"));
+    assert_non_null(strstr(outcome->why_stopped, "the best lies between catalogue increments"));
     end(&made);
 }
 
@@ -183,7 +185,8 @@ static void interruption_gives_the_best_so_far(void **state) {
     optimise(&made, &options);
     const CzOutcome *outcome = made.outcome;
     assert_int_equal(outcome->status, CZ_OUTCOME_INTERRUPTED);
-    assert_string_equal(outcome->why_stopped, "interrupted; the best lies between catalogue steps");
+    assert_string_equal(outcome->why_stopped,
+                        "interrupted; the best lies between catalogue increments");
     assert_true(outcome->n_evaluation < 150);
     double least = INFINITY;
     for (long i = 0; i < outcome->n_trial; i++)
@@ -204,7 +207,7 @@ static void what_only_a_full_run_shows_is_never_called_success(void **state) {
         "  evaluations: 200\n"
         "  variables:\n"
         "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 300, max: 700, "
-        "step: 10}\n";
+        "increment: 10}\n";
     Case made = begin(more, 2);
     stand_in.late_below = 305e3; /* the best design of the search and no other */
     optimise(&made, NULL);
@@ -259,11 +262,11 @@ static void search_in_which_most_designs_fail_ends_as_failed(void **state) {
 
 /* ---- cheats that need a simulator that can be told what to answer --------------------------- */
 
-static void optimiser_cannot_win_by_crushing_the_occupied_space(void **state) {
+static void optimiser_cannot_win_by_crushing_the_survival_space(void **state) {
     (void)state;
     stand_in_reset();
     check_cheat(&(Cheat){
-        .limits = "{name: visible, metric: energy.occupied_kJ, max: 1e9, scenarios: [crash]}",
+        .limits = "{name: visible, metric: energy.survival_kJ, max: 1e9, scenarios: [crash]}",
         .minimise = "design.installed_length_mm",
         .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 1, max: 900}",
         .check = "energy in survival space",
@@ -274,12 +277,12 @@ static void optimiser_cannot_win_where_the_simulation_fails(void **state) {
     (void)state;
     stand_in_reset();
     /* The lowest stroke used lies at the highest tube force, where every run fails. */
-    const char *more =
-        "checks: {design_rules: false}\n"
-        "optimise:\n"
-        "  minimise: elements.anti-climber *.stroke_used\n"
-        "  evaluations: 200\n"
-        "  variables: [{path: \"parts.tube.stages[0].force_kN\", min: 300, max: 1100, step: 10}]\n";
+    const char *more = "checks: {design_rules: false}\n"
+                       "optimise:\n"
+                       "  minimise: elements.anti-climber *.stroke_used\n"
+                       "  evaluations: 200\n"
+                       "  variables: [{path: \"parts.tube.stages[0].force_kN\", min: 300, max: "
+                       "1100, increment: 10}]\n";
     for (int incomplete = 0; incomplete < 2; incomplete++) {
         stand_in_reset();
         Case made = begin(more, 2);
@@ -330,7 +333,7 @@ int main(void) {
         cmocka_unit_test(problem_without_variables_is_refused),
         cmocka_unit_test(unknown_algorithm_is_refused_before_anything_runs),
         cmocka_unit_test(search_in_which_most_designs_fail_ends_as_failed),
-        cmocka_unit_test(optimiser_cannot_win_by_crushing_the_occupied_space),
+        cmocka_unit_test(optimiser_cannot_win_by_crushing_the_survival_space),
         cmocka_unit_test(optimiser_cannot_win_where_the_simulation_fails),
         cmocka_unit_test(optimiser_cannot_dilute_the_mean_deceleration),
     };

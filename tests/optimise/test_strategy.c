@@ -244,7 +244,8 @@ static void unknown_and_absent_algorithms_are_refused_with_a_sentence(void **sta
     assert_null(cz_algorithm_name(cz_n_algorithm()));
 }
 
-/* ---- catalogue steps ------------------------------------------------------------------------- */
+/* ---- catalogue increments
+ * ------------------------------------------------------------------------- */
 
 /* Best design of HS43 on steps of 0.25, by trying all. */
 static double best_on_steps(void) {

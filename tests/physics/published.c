@@ -205,7 +205,8 @@ void rows_of_coupling_speeds(Rows *rows) {
         snprintf(set[0], sizeof set[0], "trains.A.speed_m_s=%.6f", speeds[i] * MPH);
         Collision collision = collide("tests/physics/cases/coupling.yaml", WITH(set[0], set[1]), 0);
         assert_completed(&collision);
-        const double flows = isfinite(event_time(&collision, CZ_EVENT_TUBE_FLOW, "")) ? 1.0 : 0.0;
+        const double flows =
+            isfinite(event_time(&collision, CZ_EVENT_TUBE_ACTIVATION, "")) ? 1.0 : 0.0;
         ROW(rows, "", flows, i == 5 ? 1.0 : 0.0, 0.0, 0.0,
             "%g mph: the device gives way (1) or not (0)", speeds[i]);
         collision_free(&collision);

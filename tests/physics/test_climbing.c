@@ -250,7 +250,7 @@ static void what_climbed_is_marked_and_slides_on_to_the_end_walls(void **state) 
     /* Anti-climbers that lost each other absorb nothing worth having: climbing does not pay. */
     assert_true(walls > 100e3);
     assert_true(faces < 0.1 * walls);
-    assert_true(summary->energy.occupied > 0.9 * walls);
+    assert_true(summary->energy.survival > 0.9 * walls);
     assert_near(summary->energy.balance_error, 0.0, 0.0, 1e-3);
     collision_free(&run);
 }

@@ -95,7 +95,7 @@ static bool has_number(const char *key) {
                                        "track_kJ",
                                        "moving_load_kJ",
                                        "absorbers_kJ",
-                                       "occupied_kJ",
+                                       "survival_kJ",
                                        "balance_error",
                                        "momentum_error",
                                        "simulated_s",
@@ -113,7 +113,7 @@ static bool has_number(const char *key) {
                                        "tube_energy_kJ",
                                        "plastic_energy_kJ",
                                        "crush",
-                                       "occupied",
+                                       "survival",
                                        "temporary",
                                        "final_speed_km_h",
                                        "peak_deceleration_g",
@@ -129,8 +129,8 @@ static bool has_number(const char *key) {
 static bool is_total(const char *key) {
     static const char *const keys[] = {
         "final_kinetic_kJ", "dissipated_kJ", "stored_kJ",      "wheel_rail_kJ", "running_gear_kJ",
-        "track_kJ",         "absorbers_kJ",  "moving_load_kJ", "occupied_kJ",   "energy_kJ",
-        "energy_share",     "crush",         "tube_energy_kJ", "occupied",      "temporary"};
+        "track_kJ",         "absorbers_kJ",  "moving_load_kJ", "survival_kJ",   "energy_kJ",
+        "energy_share",     "crush",         "tube_energy_kJ", "survival",      "temporary"};
     for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++)
         if (strcmp(keys[k], key) == 0)
             return true;

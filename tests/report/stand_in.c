@@ -22,7 +22,7 @@ const CzEvaluator *stand_in_evaluator = &the_evaluator;
 const char *stand_in_file = "two \"trains\".yaml";
 
 static const CzVariableInfo variables[STAND_IN_VARIABLES] = {
-    {.name = "tube force", .unit = "kN", .min = 500, .max = 900, .start = 700, .step = 50},
+    {.name = "tube force", .unit = "kN", .min = 500, .max = 900, .start = 700, .increment = 50},
     {.name = "tube stroke", .unit = "mm", .min = 100, .max = 300, .start = 250}};
 static const CzVariablePlace places[STAND_IN_VARIABLES] = {
     {"trains.A.vehicles.A1.front.coupler.tube.stages[0].force_kN", 1, NAN},

@@ -45,7 +45,7 @@ static void what_climbed_is_marked_and_its_totals_are_blank(void **state) {
         "scenarios.0.energy.final_kinetic_kJ",
         "scenarios.0.energy.absorbers_kJ",
         "scenarios.0.energy.wheel_rail_kJ",
-        "scenarios.0.energy.occupied_kJ",
+        "scenarios.0.energy.survival_kJ",
         "scenarios.0.interfaces.0.energy_kJ",
         "scenarios.0.interfaces.0.energy_share",
         "scenarios.0.interfaces.0.elements.0.energy_kJ",

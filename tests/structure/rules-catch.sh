@@ -37,6 +37,22 @@ for file in src/base/number.c:2 src/laws/tube.h:2 src/report/table.c:2 src/integ
     check "an include against the arrows is found: $file" finds "^$file:" include_arrows
 done
 check "includes along the arrows are let through" sh -c '! grep -qE "src/(model|cli)/" found.txt'
+put src/base/ring.h '/* n */\n#include "base/chain.h"'
+put src/base/chain.c '/* n */\n#include "base/link.h"'
+put src/base/chain.h '/* n */'
+put src/base/link.h '/* n */\n#include "base/ring.h"\n#include "base/chain.h"'
+put src/base/lock.h '/* n */\n#include "base/ring.h"'
+put src/tree/oak.c '/* n */\nint cz_oak(int a,\n           int b) {\n    return cz_elm(a);\n}'
+put src/tree/elm.c '/* n */\nint cz_elm(int a) {\n    return cz_oak(a, 1) + cz_ash(a);\n}'
+put src/tree/ash.c '/* n */\nint cz_ash(int a) {\n    return a;\n}'
+for name in ring chain link; do
+    check "a header on a circle is found: $name.h" finds "^src/base/$name includes" header_circles
+done
+check "a header that only leads to a circle is let through" sh -c '! grep -q lock found.txt'
+for name in oak elm; do
+    check "a source that calls what calls it is found: $name.c" finds "^src/tree/$name.c calls" call_circles
+done
+check "a source that only is called is let through" sh -c '! grep -q ash found.txt'
 check "a third-party header in two files is found" finds 'nlopt.h in src/' third_party_headers
 check "a source outside its list is found" finds '^src/base/number.c is not in' unlisted_sources
 check "a listed source that is gone is found" finds 'names gone.c' unlisted_sources

@@ -41,6 +41,56 @@ include_arrows() {
     done
 }
 
+# names_on_circles: of "from to" lines, the names that lead back to themselves, sorted.
+names_on_circles() {
+    awk '{ next_of[$1] = next_of[$1] " " $2 }
+        function follow(name, part, n, i) {
+            n = split(next_of[name], part, " ")
+            for (i = 1; i <= n; i++)
+                if (!(part[i] in seen)) { seen[part[i]]; follow(part[i]) }
+        }
+        END { for (name in next_of) { split("", seen); follow(name); if (name in seen) print name } }' | sort
+}
+
+# Within a folder, headers include one another without a circle; a header and the source of its name are one. What is
+# left of earlier circles stands in known_circles, and nothing may join it.
+known_circles="dynamics/track dynamics/track_motion evaluate/choices evaluate/design evaluate/evaluator
+evaluate/evaluator_parts evaluate/metric evaluate/place model/lanes model/model report/chart_curves report/charts
+report/page report/sheet"
+header_circles() {
+    for folder in $folders; do
+        c_files src/$folder | grep '\.[ch]$' | xargs awk -v folder=$folder '
+            /^[ \t]*#[ \t]*include[ \t]*"/ {
+                split($0, part, "\""); split(part[2], path, "/")
+                n = split(FILENAME, own, "/"); from = own[n]
+                sub(/\.[ch]$/, "", from)
+                if (path[1] == folder && sub(/\.h$/, "", path[2]) && path[2] != from) print from, path[2]
+            }' /dev/null | names_on_circles | while read -r name; do
+            case " $(echo $known_circles) " in *" $folder/$name "*) ;; *) echo "src/$folder/$name includes what includes it" ;; esac
+        done
+    done
+}
+
+# The sources of the reader do not call one another in a circle either, through whatever header.
+call_circles() {
+    for folder in text tree problem; do
+        list=$(c_files src/$folder | grep '\.c$')
+        [ -n "$list" ] || continue
+        awk '
+            FNR == 1 { n = split(FILENAME, own, "/"); from = own[n]; sub(/\.c$/, "", from); pass += FILENAME == ARGV[1] }
+            pass == 1 && /^[A-Za-z].*cz_[a-z0-9_]*\(/ && !/^static/ { name = $0; sub(/\(.*/, "", name); sub(/.*[^a-z0-9_]/, "", name) }
+            pass == 1 && name != "" && /[{;]$/ { if (/\{$/) home[name] = from; name = "" }
+            pass == 2 {
+                line = $0
+                while (match(line, /cz_[a-z0-9_]*/)) {
+                    used = substr(line, RSTART, RLENGTH)
+                    if (used in home && home[used] != from) print from, home[used]
+                    line = substr(line, RSTART + RLENGTH)
+                }
+            }' $list $list | names_on_circles | sed "s,.*,src/$folder/&.c calls what calls it,"
+    done
+}
+
 # A third-party library is named in one file, so that it can be replaced.
 third_party_headers() {
     for header in nlopt.h yaml.h jansson.h 'cvode/' 'arkode/' 'kinsol/' 'sundials/' pthread.h getopt.h; do

@@ -4,6 +4,8 @@
 cd "$SOURCE"
 
 nothing "include arrows go one way" include_arrows
+nothing "headers of a folder do not include one another in a circle" header_circles
+nothing "sources of the reader do not call one another in a circle" call_circles
 nothing "each third-party header is named in one file" third_party_headers
 nothing "every source is in its folder's list and every listed source exists" unlisted_sources
 nothing "every test is in its folder's list" unlisted_tests

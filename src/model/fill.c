@@ -37,13 +37,13 @@ CzStatus cz_fill_curve(const CzFill *fill, CzPartName part, const void *field, C
     curve->start[lane] = kinks->start;
     curve->usable[lane] = kinks->usable;
 
-    /* The last kink stays last; spare ones come before it. */
-    for (int i = 0; i < curve->n_kink; i++) {
+    /* The last kink stays last; spare ones stand at its place before it, so kinks are in order. */
+    const int last = kinks->n - 1;
+    for (int i = 0; i < curve->n_kink && last >= 0; i++) {
         const size_t slot = (size_t)i * stride + lane;
-        const bool is_last = i == curve->n_kink - 1 && kinks->n > 0;
-        const int k = is_last ? kinks->n - 1 : i;
-        const bool is_used = is_last || i < kinks->n - 1;
-        curve->at[slot] = is_used ? kinks->at[k] : 0.0;
+        const int k = i < last ? i : last;
+        const bool is_used = i < last || i == curve->n_kink - 1;
+        curve->at[slot] = kinks->at[k];
         curve->slope_change[slot] = is_used ? kinks->slope_change[k] : 0.0;
     }
     return CZ_OK;

@@ -146,6 +146,22 @@ static void the_last_kink_is_where_the_stroke_is_used_up(void **state) {
     free_model(&built);
 }
 
+/* Whatever the other lanes have: a lane with fewer stages has spare kinks. */
+static void kinks_of_a_lane_are_in_order_of_stroke(void **state) {
+    (void)state;
+    make_problem();
+    Built built = build_model(&problem);
+    for (int id = 0; id < CZ_N_CURVE; id++) {
+        const CzCurveLanes *curve = &built.lanes->curve[id];
+        for (size_t lane = 0; lane < (size_t)built.lanes->n_car; lane++)
+            for (int k = 1; k < curve->n_kink; k++) {
+                const double *at = curve->at + (size_t)k * built.lanes->stride + lane;
+                assert_true(at[0] >= *(at - built.lanes->stride));
+            }
+    }
+    free_model(&built);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_design_does_not_see_its_neighbours),
@@ -153,6 +169,7 @@ int main(void) {
         cmocka_unit_test(a_longer_anti_climber_lengthens_its_end_of_the_car),
         cmocka_unit_test(a_trigger_given_later_still_fits),
         cmocka_unit_test(the_last_kink_is_where_the_stroke_is_used_up),
+        cmocka_unit_test(kinks_of_a_lane_are_in_order_of_stroke),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

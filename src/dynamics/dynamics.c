@@ -147,6 +147,17 @@ static int falls_below(const double *row, double value) {
     return 0;
 }
 
+/* Notes whether a curve falls in some lane. */
+static void note_falling(CzBlockCurve *curve) {
+    CzRow slope = {0.0};
+    curve->falls = 0;
+    for (int k = 0; k < curve->n_kink; ++k) {
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+            slope[i] += curve->kink[2 * k + 1][i];
+        curve->falls |= falls_below(slope, CZ_FALLING);
+    }
+}
+
 static int copy_curve(CzBlockCurve *to, const CzCurveLanes *from, size_t stride, size_t base,
                       CzArena *arena) {
     memcpy(to->start, from->start + base, sizeof(CzRow));
@@ -165,6 +176,7 @@ static int copy_curve(CzBlockCurve *to, const CzCurveLanes *from, size_t stride,
         memcpy(kink[2 * to->n_kink + 1], change, sizeof(CzRow));
         ++to->n_kink;
     }
+    note_falling(to);
     return 1;
 }
 

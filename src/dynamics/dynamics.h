@@ -62,11 +62,14 @@ typedef enum CzScratch {
 /* One quantity in the lanes of a block. */
 typedef double CzRow[CZ_LANE_BLOCK];
 
+#define CZ_FALLING (-1.0) /* slope below which a curve falls, others are level [N/m] (ours) */
+
 /* A curve in the lanes of a block, without the kinks that change no lane. */
 typedef struct CzBlockCurve {
     _Alignas(64) CzRow start; /* value at 0 [N] */
     CzRow usable;             /* stroke at which it bottoms out [m] */
     int n_kink;
+    int falls;         /* some lane has a falling part */
     int is_there;      /* some lane's value is below CZ_NEVER: a plastic member can flow */
     const CzRow *kink; /* place [m] and change of slope [N/m], in turn (2 n_kink) */
 } CzBlockCurve;

@@ -43,15 +43,16 @@ typedef double Linearise(CzBlock *d, int side, double step, int again);
 /* Force of the spring of one side at a stroke, in one lane: the law that Linearise linearises. */
 typedef double ForceAt(const CzBlock *d, int side, size_t lane, double stroke, double step);
 
-/* Stroke at which the law of that spring begins to fall, from the committed state on; infinite
- * where it never does. */
-typedef double FallsAt(const CzBlock *d, int side, size_t lane, double step);
+/* First stroke from `from` on at which the law of that spring, being loaded, begins to fall, or to
+ * rise again (`rises`); infinite where there is none. */
+typedef double TurnsAt(const CzBlock *d, int side, size_t lane, double from, int rises,
+                       double step);
 
 /* The springs of a chain. */
 typedef struct {
     Linearise *linearise;
     ForceAt *force_at;
-    FallsAt *falls_at; /* NULL: none ever falls */
+    TurnsAt *turns_at; /* NULL: none ever falls */
 } Springs;
 
 /* Buffers as the springs of a chain. */
@@ -354,6 +355,7 @@ static double relinearise_plastic(CzBlock *d, const Chain *chain, int member, do
     double *restrict curve = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
     if (trial_of_plastic(d, chain, member, stroke) == 0.0)
         return 0.0;
+    count_turns(d, chain->curve + member, d->memory[chain->plastic + member], stroke, S(LAW_FALLS));
     evaluate_curve(d, chain->curve + member, stroke, curve, slope);
     CZ_LANES (i, n) {
         curve[i] *= 1.0 + rise[i];

@@ -6,9 +6,11 @@
  *   sum over members of x_j(F) + C F = closure
  *
  * found within a bracket that only shrinks. Where the closure asks for more, the member that begins
- * to fall first goes on: F is its law at its own stroke y, the others follow back along their
- * rising parts, and the first y > 0 that makes up the closure is the answer. That is the branch on
- * which the chain would move if it were closed slowly. Members that are alike go on together.
+ * to fall first is shortened further: F is its law at its own stroke, the others follow back along
+ * their rising parts, until the closure is made up or its law rises again. From there on all laws
+ * rise once more, up to the smallest force at which one begins to fall, and so on. That is the
+ * branch on which the chain would move if it were closed slowly. Members that are alike move
+ * together.
  *
  * A lane's answer depends on nothing but the lane. Few steps come here, so it need not be fast.
  */
@@ -21,8 +23,9 @@
 #include "model/kinks.h"
 
 enum {
-    SEARCH_MEMBERS = 8,     /* two springs and up to six plastic members */
-    SEARCH_ITERATIONS = 200 /* of a bracket that is halved at least every other time */
+    SEARCH_MEMBERS = 8,      /* two springs and up to six plastic members */
+    SEARCH_ITERATIONS = 200, /* of a bracket that is halved at least every other time */
+    SEARCH_TURNS = 100       /* falling parts that one step may pass (ours) */
 };
 #define SEARCH_STIFFNESS 1.0 /* so that level parts have one answer [N/m] (ours) */
 #define SEARCH_CLOSURE 1e-14 /* closure that may be left open [m] */
@@ -40,8 +43,9 @@ typedef struct Search {
     int holds; /* shear-offs keep the strength that they have */
     int n_member;
     double start[SEARCH_MEMBERS];     /* committed stroke [m] */
+    double from[SEARCH_MEMBERS];      /* stroke from which the law rises: start, or a valley [m] */
     double force[SEARCH_MEMBERS];     /* of the law there, if it moved no further [N] */
-    double fall[SEARCH_MEMBERS];      /* stroke at which the law begins to fall [m] */
+    double fall[SEARCH_MEMBERS];      /* stroke at which it begins to fall [m] */
     double strongest[SEARCH_MEMBERS]; /* its force there [N] */
     int is_there[SEARCH_MEMBERS];     /* neither missing nor rigid */
     double reach;                     /* no member moves further than this [m] */
@@ -49,24 +53,31 @@ typedef struct Search {
     double last; /* force at the beginning of the step [N] */
 } Search;
 
-/* Where a strength s(x) (1 + e (x - from)) + r (x - from) begins to fall from a stroke on, e being
- * what the strength gains by the rate of the step per way and r a resistance; infinite where it
- * never does. Along a falling part its slope falls, too, so one root tells. */
-static double curve_falls_at(const CzBlock *d, int id, size_t lane, double from, double gain,
-                             double resistance) {
+/* What the step adds to a strength s(x): s(x) (1 + gain (x - start)) + stiffness (x - start). */
+typedef struct Resistance {
+    double start, gain, stiffness;
+} Resistance;
+
+/* First stroke from `from` on at which a strength with what the step adds begins to fall, or where
+ * it does not fall any more (`rises`); infinite where there is none. The slope of the sum falls
+ * along a falling part of the curve, so one root says where. */
+static double curve_turns_at(const CzBlock *d, int id, size_t lane, double from, int rises,
+                             const Resistance *added) {
     const CzBlockCurve *curve = &d->curve[id];
     double slope = 0.0, value = curve->start[lane], begin = 0.0;
     for (int kink = 0; kink <= curve->n_kink; ++kink) {
         const int is_last = kink == curve->n_kink;
         const double end = is_last ? INFINITY : curve->kink[2 * kink][lane];
-        if (slope < 0.0 && end > from) {
-            const double first = cz_larger(begin, from), way = first - from;
+        if (end > from) {
+            const double gain = added->gain, first = cz_larger(begin, from);
             const double at_first = value + slope * (first - begin);
-            const double rises = slope * (1.0 + gain * way) + at_first * gain + resistance;
-            const double root = gain > 0.0 ? first - rises / (2.0 * slope * gain) : INFINITY;
-            if (rises < 0.0)
+            const double sum =
+                slope * (1.0 + gain * (first - added->start)) + at_first * gain + added->stiffness;
+            if (rises ? sum >= 0.0 : sum < 0.0)
                 return first;
-            if (root < end)
+            const double root =
+                slope < 0.0 && gain > 0.0 ? first - sum / (2.0 * slope * gain) : INFINITY;
+            if (!rises && root < end)
                 return root;
         }
         if (!is_last && end < CZ_NEVER) {
@@ -108,17 +119,27 @@ static double law_at(const Search *s, int member, double stroke) {
     return force + SEARCH_STIFFNESS * moved;
 }
 
-/* Where the law of a plastic member begins to fall. */
-static double plastic_falls_at(const Search *s, int member) {
+/* Where the law of a plastic member turns, as TurnsAt. */
+static double plastic_turns_at(const Search *s, int member, double from, int rises) {
     const CzBlock *d = s->d;
-    const double stroke = s->start[2 + member];
     if (member < s->chain->n_curve) {
         const double gain = d->parameter[s->chain->rate + member][s->lane] / s->step;
-        return curve_falls_at(d, s->chain->curve + member, s->lane, stroke, gain,
-                              CZ_SMALLEST_RESISTANCE);
+        const Resistance added = {s->start[2 + member], gain, CZ_SMALLEST_RESISTANCE};
+        return curve_turns_at(d, s->chain->curve + member, s->lane, from, rises, &added);
     }
     const double softening = P_AT(SHEAR_SOFTENING_A, member % 2)[s->lane];
-    return s->holds || stroke >= softening ? INFINITY : stroke;
+    const int is_falling = !s->holds && from < softening;
+    if (rises)
+        return is_falling ? softening : from;
+    return is_falling ? from : INFINITY;
+}
+
+static double turns_at(const Search *s, int member, double from, int rises) {
+    if (member >= 2)
+        return plastic_turns_at(s, member - 2, from, rises);
+    if (s->springs->turns_at == NULL)
+        return rises ? from : INFINITY;
+    return s->springs->turns_at(s->d, member, s->lane, from, rises, s->step);
 }
 
 /* ---- one unknown in a bracket ---------------------------------------------------------------- */
@@ -166,21 +187,23 @@ static int is_shut(const Bracket *b) {
 
 /* ---- strokes at a force ---------------------------------------------------------------------- */
 
-/* Stroke of a member at a force, on the part of its law that rises from where it was. */
+/* Stroke of a member at a force, on the part of its law that rises. Springs follow back from where
+ * they were at the beginning of the step, plastic members and what has passed a valley do not. */
 static double stroke_at(const Search *s, int member, double force) {
-    const double start = s->start[member];
+    const double from = s->from[member];
     const int goes_on = force > s->force[member];
-    if (!s->is_there[member] || force == s->force[member] || (member >= 2 && !goes_on))
-        return start;
+    const int stays = member >= 2 || from > s->start[member];
+    if (!s->is_there[member] || force == s->force[member] || (stays && !goes_on))
+        return from;
     if (force >= s->strongest[member])
         return s->fall[member];
-    const double far = goes_on ? cz_smaller(s->fall[member], start + s->reach) : start - s->reach;
-    const double at_start = s->force[member] - force, at_far = law_at(s, member, far) - force;
+    const double far = goes_on ? cz_smaller(s->fall[member], from + s->reach) : from - s->reach;
+    const double at_from = s->force[member] - force, at_far = law_at(s, member, far) - force;
     if (goes_on ? at_far < 0.0 : at_far > 0.0)
         return far;
-    Bracket b = goes_on ? bracket_of(start, far, at_start, at_far)
-                        : bracket_of(far, start, at_far, at_start);
-    double stroke = start;
+    Bracket b =
+        goes_on ? bracket_of(from, far, at_from, at_far) : bracket_of(far, from, at_far, at_from);
+    double stroke = from;
     for (int k = 0; k < SEARCH_ITERATIONS && !is_shut(&b); ++k) {
         stroke = guess_in(&b, k);
         const double missed = law_at(s, member, stroke) - force;
@@ -240,12 +263,20 @@ static int find_falling(const Search *s, int *goes_on) {
 
 /* ---- the search ------------------------------------------------------------------------------ */
 
-static void list_member(Search *s, int member, double stroke, int is_there, double falls_at) {
+/* Lets a member's law rise from a stroke on. */
+static void rise_from(Search *s, int member, double from) {
+    const int is_there = s->is_there[member];
+    s->from[member] = from;
+    s->force[member] = is_there ? law_at(s, member, from) : 0.0;
+    s->fall[member] = is_there ? turns_at(s, member, from, 0) : INFINITY;
+    s->strongest[member] =
+        isfinite(s->fall[member]) ? law_at(s, member, s->fall[member]) : INFINITY;
+}
+
+static void list_member(Search *s, int member, double stroke, int is_there) {
     s->start[member] = stroke;
     s->is_there[member] = is_there;
-    s->force[member] = is_there ? law_at(s, member, stroke) : 0.0;
-    s->fall[member] = falls_at;
-    s->strongest[member] = is_there && isfinite(falls_at) ? law_at(s, member, falls_at) : INFINITY;
+    rise_from(s, member, stroke);
 }
 
 /* The chain of a lane at its committed state. */
@@ -266,9 +297,7 @@ static Search search_of(const CzBlock *d, const Chain *chain, const Springs *spr
     for (int side = 0; side < 2; ++side) {
         const double stroke = d->memory[chain->spring + side][lane];
         const int gives = S_AT(SPRING_UP_A, side)[lane] > 1.0 / RIGID;
-        const int falls = gives && springs->falls_at != NULL;
-        list_member(&s, side, stroke, gives,
-                    falls ? springs->falls_at(d, side, lane, step) : INFINITY);
+        list_member(&s, side, stroke, gives);
         sum += stroke;
         size += fabs(stroke);
     }
@@ -276,21 +305,19 @@ static Search search_of(const CzBlock *d, const Chain *chain, const Springs *spr
         const double stroke = d->memory[chain->plastic + member][lane];
         const int is_there =
             !is_missing(d, chain, member) && S_AT(STRENGTH_0, member)[lane] < RIGID;
-        s.start[2 + member] = stroke;
-        list_member(&s, 2 + member, stroke, is_there,
-                    is_there ? plastic_falls_at(&s, member) : INFINITY);
+        list_member(&s, 2 + member, stroke, is_there);
         sum += stroke;
     }
     s.reach = fabs(s.closure - sum) + size + 1e-3;
     return s;
 }
 
-/* The answer up to the force at which the first member falls; false where the closure asks for
- * more. */
-static int search_rising(const Search *s, double most, double *force, double *stroke) {
-    *force = s->lowest;
-    const double at_lowest = open_at(s, s->lowest, stroke);
-    if (at_lowest >= 0.0)
+/* The answer between two forces, all laws rising; false where the closure asks for more. */
+static int search_rising(const Search *s, double least, double most, double *force,
+                         double *stroke) {
+    *force = least;
+    const double at_least = open_at(s, least, stroke);
+    if (at_least >= 0.0)
         return 1; /* slack */
     double high = cz_smaller(most, cz_larger(2.0 * fabs(s->last), 1e6));
     double at_high = open_at(s, high, stroke);
@@ -301,7 +328,7 @@ static int search_rising(const Search *s, double most, double *force, double *st
     *force = high;
     if (at_high < 0.0)
         return 0;
-    Bracket b = bracket_of(s->lowest, high, at_lowest, at_high);
+    Bracket b = bracket_of(least, high, at_least, at_high);
     for (int k = 0; k < SEARCH_ITERATIONS && !is_shut(&b); ++k) {
         *force = guess_in(&b, k);
         const double left = open_at(s, *force, stroke);
@@ -312,18 +339,21 @@ static int search_rising(const Search *s, double most, double *force, double *st
     return 1;
 }
 
-/* The answer beyond it. Doubling strokes find the first one that closes the chain. */
-static void search_falling(const Search *s, const int *goes_on, int first, double *force,
-                           double *stroke) {
-    double low = 0.0, high = 1e-6 * s->reach;
+/* The answer while the first member falls, up to `most` beyond where it begins to; false where the
+ * closure asks for more. Doubling strokes bracket the first one that closes the chain. */
+static int search_falling(const Search *s, const int *goes_on, int first, double most,
+                          double *force, double *stroke) {
+    double low = 0.0, high = cz_smaller(most, 1e-6 * s->reach);
     double at_low = open_beyond(s, goes_on, first, low, force, stroke);
     double at_high = open_beyond(s, goes_on, first, high, force, stroke);
-    while (at_high < 0.0 && high < s->reach) {
+    while (at_high < 0.0 && high < most) {
         low = high;
         at_low = at_high;
-        high *= 2.0;
+        high = cz_smaller(most, 2.0 * high);
         at_high = open_beyond(s, goes_on, first, high, force, stroke);
     }
+    if (at_high < 0.0)
+        return 0;
     Bracket b = bracket_of(low, high, at_low, at_high);
     for (int k = 0; k < SEARCH_ITERATIONS && !is_shut(&b); ++k) {
         const double beyond = guess_in(&b, k);
@@ -331,6 +361,35 @@ static void search_falling(const Search *s, const int *goes_on, int first, doubl
         if (fabs(left) <= SEARCH_CLOSURE)
             break;
         shrink(&b, beyond, left);
+    }
+    return 1;
+}
+
+/* How far the members that go on fall before one of them rises again. */
+static double falling_length(const Search *s, const int *goes_on) {
+    double length = s->reach;
+    for (int member = 0; member < s->n_member; ++member)
+        if (goes_on[member])
+            length = cz_smaller(length, turns_at(s, member, s->fall[member], 1) - s->fall[member]);
+    return length;
+}
+
+/* Follows the chain's branch, rising and falling in turn, up to its closure. */
+static void search_branch(Search *s, double *force, double *stroke) {
+    double least = s->lowest;
+    for (int turn = 0; turn < SEARCH_TURNS; ++turn) {
+        int goes_on[SEARCH_MEMBERS];
+        const int first = find_falling(s, goes_on);
+        const double most = first < 0 ? INFINITY : cz_larger(s->strongest[first], least);
+        if (search_rising(s, least, most, force, stroke) || first < 0)
+            return;
+        const double length = falling_length(s, goes_on);
+        if (search_falling(s, goes_on, first, length, force, stroke))
+            return;
+        for (int member = 0; member < s->n_member; ++member)
+            if (goes_on[member])
+                rise_from(s, member, s->fall[member] + length);
+        least = *force;
     }
 }
 
@@ -392,7 +451,7 @@ static void keep_answer(CzBlock *d, const Search *s, const double *stroke, doubl
  * what is left open, for the run to judge. */
 static void search_lane(CzBlock *d, const Chain *chain, const Springs *springs, int holds,
                         size_t lane, double step, int always) {
-    const Search s = search_of(d, chain, springs, holds, lane, step);
+    Search s = search_of(d, chain, springs, holds, lane, step);
     double stroke[SEARCH_MEMBERS], force = S(CHAIN_FORCE)[lane];
     strokes_of(&s, stroke);
     double sum = s.compliance * force - s.closure;
@@ -402,11 +461,7 @@ static void search_lane(CzBlock *d, const Chain *chain, const Springs *springs, 
     const int is_open = force <= s.lowest ? sum < -tolerance : fabs(sum) > tolerance;
     double distance = distance_of(&s, stroke, force);
     if (always || is_open || !(distance <= LAW_TOLERANCE)) {
-        int goes_on[SEARCH_MEMBERS];
-        const int first = find_falling(&s, goes_on);
-        const double most = first < 0 ? INFINITY : cz_larger(s.strongest[first], s.lowest);
-        if (!search_rising(&s, most, &force, stroke) && first >= 0)
-            search_falling(&s, goes_on, first, &force, stroke);
+        search_branch(&s, &force, stroke);
         keep_answer(d, &s, stroke, force);
         distance = distance_of(&s, stroke, force);
         S(SEARCHED)[lane] += 1.0;

@@ -3,7 +3,7 @@
  *
  * The members are linearised about their committed strokes, and again about where the force takes
  * them where that misses a law. What has not settled after some passes, and every lane in which a
- * spring's law begins to fall, is searched for lane by lane: that search has an answer always.
+ * law begins or ends to fall, is searched for lane by lane: that search has an answer always.
  */
 #ifndef CZ_DYNAMICS_KERNEL_CHAIN_SOLVE_H
 #define CZ_DYNAMICS_KERNEL_CHAIN_SOLVE_H

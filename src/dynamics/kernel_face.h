@@ -63,8 +63,8 @@ static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
     double *restrict curve = S(CURVE_VALUE), *restrict slope = S(CURVE_SLOPE);
     double *restrict peak = S(CURVE_PEAK), *restrict largest = S(LARGEST);
     largest_of_stages(d, CZ_CURVE_LIMP_END_A + side, M_AT(LIMP_PEAK_A, side), largest);
-    double *restrict peak_slope = S(PEAK_SLOPE), *restrict falls = S(LAW_FALLS);
-    evaluate_curve(d, CZ_CURVE_LIMP_END_A + side, largest, peak, peak_slope);
+    double *restrict falls = S(LAW_FALLS);
+    evaluate_curve(d, CZ_CURVE_LIMP_END_A + side, largest, peak, S(UNUSED));
     evaluate_curve(d, CZ_CURVE_LIMP_END_A + side, shortening, curve, slope);
     const double *restrict unloading = P_AT(LIMP_UNLOADING_A, side), *restrict share =
                                                                          P_AT(LIMP_SHARE_A, side);
@@ -87,8 +87,7 @@ static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
         const double damper = limp_damper(damping[i], committed[i], step);
         const double resists = response.force + damper * (shortening[i] - committed[i]);
         const double off = fabs(resists - wanted[i]);
-        const double begins = peak_slope[i] < 0.0 ? 0.0 : is_again;
-        const double drops = off > LARGE_DROP * fabs(wanted[i]) ? is_again : begins;
+        const double drops = off > LARGE_DROP * fabs(wanted[i]) ? is_again : 0.0;
         const double falling = slope[i] + damper < 0.0 ? exists[i] * drops : 0.0;
         const double back = cz_larger(shortening[i] > 0.0 ? stop : slope[i], CZ_SMALLEST_STIFFNESS);
         falls[i] += shortening[i] > largest[i] ? falling : 0.0;
@@ -96,6 +95,8 @@ static double linearise_limp_end(CzBlock *d, int side, double step, int again) {
         up[i] = exists[i] / (damper + (shortening[i] >= largest[i] ? loading : back));
         down[i] = exists[i] / (damper + back);
     }
+    if (again)
+        count_turns(d, CZ_CURVE_LIMP_END_A + side, largest, shortening, falls);
     return accept(d, side, again, shortening, force, up, down);
 }
 
@@ -115,15 +116,16 @@ static double limp_end_force(const CzBlock *d, int side, size_t i, double shorte
            damper * (shortening - committed);
 }
 
-static double limp_end_falls(const CzBlock *d, int side, size_t i, double step) {
+static double limp_end_turns(const CzBlock *d, int side, size_t i, double from, int rises,
+                             double step) {
     const double committed = M_AT(LIMP_A, side)[i];
     const double damper = limp_damper(P_AT(LIMP_DAMPING_A, side)[i], committed, step);
-    return curve_falls_at(d, CZ_CURVE_LIMP_END_A + side, i,
-                          cz_larger(committed, M_AT(LIMP_PEAK_A, side)[i]), 0.0,
-                          SEARCH_STIFFNESS + damper);
+    const double loaded = cz_larger(from, cz_larger(committed, M_AT(LIMP_PEAK_A, side)[i]));
+    const Resistance added = {committed, 0.0, SEARCH_STIFFNESS + damper};
+    return curve_turns_at(d, CZ_CURVE_LIMP_END_A + side, i, loaded, rises, &added);
 }
 
-static const Springs face_springs = {linearise_limp_end, limp_end_force, limp_end_falls};
+static const Springs face_springs = {linearise_limp_end, limp_end_force, limp_end_turns};
 
 /* The closing speed at first contact is frozen; the rise of one side's strength follows from it. */
 static void speed_factor(CzBlock *d, int side) {

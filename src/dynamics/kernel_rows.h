@@ -109,6 +109,25 @@ static void curve_at(const CzBlock *d, int id, size_t lane, double x, double *va
     }
 }
 
+/* Adds to `count` in the lanes that pass the begin or the end of a falling part of a curve. */
+static void count_turns(const CzBlock *d, int id, const double *restrict from,
+                        const double *restrict to, double *restrict count) {
+    const CzBlockCurve *curve = &d->curve[id];
+    const size_t n = CZ_LANE_BLOCK;
+    CzRow slope = {0.0};
+    for (int kink = 0; curve->falls && kink < curve->n_kink; ++kink) {
+        const double *restrict at = curve->kink[2 * kink];
+        const double *restrict change = curve->kink[2 * kink + 1];
+        CZ_LANES (i, n) {
+            const double after = slope[i] + change[i];
+            const double turns = cz_smaller(slope[i], after) < CZ_FALLING ? 1.0 : 0.0;
+            const double reached = at[i] < to[i] ? turns : 0.0;
+            count[i] += at[i] >= from[i] ? reached : 0.0;
+            slope[i] = after;
+        }
+    }
+}
+
 /* Largest shortening within the stages of a crush zone: beyond the last one it stands on its stop.
  */
 static void largest_of_stages(const CzBlock *d, int curve, const double *restrict largest,

@@ -108,6 +108,30 @@ static void the_end_that_is_crushed_does_not_depend_on_the_step(void **state) {
         check_weaker_is_crushed(&(Ends){9.0, 1600.0, 1.0, {1100.0, 1250.0}, steps[i]});
 }
 
+/* The weaker end falls up to its stop; the other one then begins to fall in the same step. Until
+ * then the stronger end has taken up its first stage at most; the stop gives way by some 0.1 mm. */
+static void once_the_weaker_end_has_bottomed_out_the_other_one_is_crushed(void **state) {
+    (void)state;
+    const Ends ends = {8.0, 450.0, 1.0, {340.0, 260.0}, 2e-4};
+    const double total = 1e-3 * (ends.stroke + SECOND_STROKE);
+    for (double speed = 8.0; speed < 9.0; speed += 0.1) {
+        Ends faster = ends;
+        faster.speed = speed;
+        Collision collision = meet(&faster);
+        const CzInterfaceResult *interface = &collision.summary->interface[0];
+        const double energy = 0.25 * 1e3 * MASS_T * speed * speed;
+        const double of_stop = 500.0 * (ends.first + ends.last[1]) * 1e-3 * SECOND_STROKE;
+        assert_string_equal(collision.summary->failure, "");
+        assert_near(interface->element[1].stroke, total, 0.0, 2e-3);
+        const double left = energy - of_stop, of_stage = ends.first * ends.stroke;
+        assert_true(interface->element[0].stroke <=
+                    stroke_for(&faster, ends.last[0], left + of_stage) + 3e-4);
+        assert_true(interface->element[0].stroke >=
+                    stroke_for(&faster, ends.last[0], left - of_stage) - 2e-3);
+        collision_free(&collision);
+    }
+}
+
 /* A chain is solved until each member is within 1 N of its law. */
 static void members_of_chains_keep_their_laws_within_a_newton(void **state) {
     (void)state;
@@ -183,6 +207,7 @@ int main(void) {
         cmocka_unit_test(of_two_ends_in_series_the_one_that_falls_deeper_is_crushed),
         cmocka_unit_test(the_same_end_is_crushed_on_the_other_side),
         cmocka_unit_test(the_end_that_is_crushed_does_not_depend_on_the_step),
+        cmocka_unit_test(once_the_weaker_end_has_bottomed_out_the_other_one_is_crushed),
         cmocka_unit_test(members_of_chains_keep_their_laws_within_a_newton),
         cmocka_unit_test(a_zone_that_snaps_dissipates_what_the_elasticity_released),
     };

@@ -273,10 +273,10 @@ static void split_selector(const char *text, char *name, size_t n_name, char *se
 }
 
 CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzError *error) {
-    char copy[192], name[192];
-    if (strlen(text) >= 90)
-        return cz_fail(error, CZ_STATUS_INPUT, "the metric '%.40s...' is longer than 90 letters",
-                       text);
+    char copy[CZ_PATH_ROOM], name[CZ_PATH_ROOM];
+    if (strlen(text) >= sizeof copy)
+        return cz_fail(error, CZ_STATUS_INPUT, "the metric '%.40s...' is longer than %d letters",
+                       text, CZ_PATH_ROOM - 1);
     snprintf(copy, sizeof copy, "%s", text);
     metric->aggregate = CZ_AGGREGATE_WORST;
     CzAggregate aggregate;

@@ -67,7 +67,7 @@ typedef enum CzAggregate {
 typedef struct CzMetric {
     const CzMetricKind *kind;
     CzAggregate aggregate;
-    char selector[96]; /* "*" for all */
+    char selector[CZ_PATH_ROOM]; /* "*" for all */
 } CzMetric;
 
 /* What a metric is read from: one run of a scenario, or the design alone. */

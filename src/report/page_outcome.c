@@ -167,7 +167,7 @@ static void write_course(CzMarkup *markup, const CzPlot *plot) {
 static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
                              const CzOutcome *outcome, CzError *error) {
     Course course;
-    char label[160];
+    char label[CZ_PATH_ROOM + 24];
     if (outcome->n_trial < 2)
         return CZ_OK;
     if (!course_begin(&course, evaluator, outcome))
@@ -176,7 +176,7 @@ static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
     if (cz_evaluator_maximises_margin(evaluator))
         snprintf(label, sizeof label, "smallest margin [%%]");
     else
-        snprintf(label, sizeof label, "%.100s [%.20s]", cz_evaluator_objective_name(evaluator),
+        snprintf(label, sizeof label, "%s [%.20s]", cz_evaluator_objective_name(evaluator),
                  unit != NULL && unit[0] != '\0' ? unit : "-");
     const CzSeries objective[] = {{.name = "each evaluation",
                                    .n = course.n,

@@ -29,7 +29,7 @@ trains:
   - {name: $train_b, speed_km_h: -25, brake: {ratio: 0, axle_share: 0}, vehicles: [{name: $car_b, use: $part, reversed: true}]}
 scenarios: [{name: $scenario}, {name: $other, speed_km_h: 20}]
 checks:
-  limits: [{name: $check, metric: interfaces.peak_force_kN, max: 4000, scenarios: [$other]}]
+  limits: [{name: $check, metric: interfaces.$car_a-$car_b.peak_force_kN, max: 4000, scenarios: [$other]}]
 optimise:
   variables: [{name: $variable, path: "parts.front-end.stages[0].force_kN", min: 1000, max: 2000}]
 EOF
@@ -113,7 +113,7 @@ check "plot finds an interface of long names" plotted
 words() { # names that look like something else are names, in what is written too
     cp short.yaml words.yaml
     for name in null true 12 1e3 no; do
-        sed "s/qca/\"$name\"/;s/name: qsc/name: \"$name\"/" short.yaml >words.yaml
+        sed "s/name: qca/name: \"$name\"/;s/interfaces.qca/interfaces.$name/;s/name: qsc/name: \"$name\"/" short.yaml >words.yaml
         exits 0 "$C" run words.yaml -q -o words && exits 0 "$C" run words/resolved.yaml -q -o again && cmp words/channels.csv again/channels.csv 2>/dev/null ||
             cmp "words/$name/channels.csv" "again/$name/channels.csv" || return 1
     done

@@ -39,7 +39,6 @@ set(CZ_SOURCES_report
     plot.c
     result_folder.c
     scene.c
-    sha256.c
     shares.c
     sheet.c
     single_file.c

@@ -21,8 +21,11 @@ no_times() { ! grep -qiE 'wall|computed in|[0-9]{4}-[0-9]{2}-[0-9]{2}T' first/re
 check "no time and no host stands in the report" no_times
 small_script() { [ "$(wc -c <"$SOURCE/src/report/report.js")" -le 10240 ]; }
 check "the script has at most 10 KB" small_script
+hash_of() { sha256sum "$SOURCE/src/report/report.$1" | cut -c1-64 | tr a-f A-F | basenc --base16 -d | base64; }
+hashes() { grep -qF "script-src 'sha256-$(hash_of js)'; style-src 'sha256-$(hash_of css)'" first/report.html; }
 policy() { grep -q "default-src 'none'; script-src 'sha256-" first/report.html && ! grep -qE '(src|href)="?https?:' first/report.html && ! grep -q ' style="' first/report.html; }
 check "the report has a policy that allows no request" policy
+check "the policy knows script and style by the SHA-256 of their files" hashes
 
 anew() {
     cp first/report.html kept.html && rm first/report.html && exits 0 "$C" report first &&

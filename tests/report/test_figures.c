@@ -5,7 +5,6 @@
 
 #include "report/markup.h"
 #include "report/plot.h"
-#include "report/sha256.h"
 #include "report/thin.h"
 #include "report/well_formed.h"
 
@@ -234,17 +233,6 @@ static void steps_of_axes_are_round(void **state) {
     assert_near(cz_plot_round_step(5354, 7), 1000, 1e-12, 0);
 }
 
-/* Digests from FIPS 180-4's examples, in base 64. */
-static void sha256_gives_the_published_digests(void **state) {
-    (void)state;
-    char text[CZ_SHA256_ROOM];
-    assert_string_equal(cz_sha256_base64("abc", 3, text),
-                        "ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=");
-    const char *two_blocks = "abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq";
-    assert_string_equal(cz_sha256_base64(two_blocks, strlen(two_blocks), text),
-                        "JI1qYdIGOLjlwCaTDD5gOaM85Flk/yFn9uzt1BnbBsE=");
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_and_attributes_cannot_break_out),
@@ -257,7 +245,6 @@ int main(void) {
         cmocka_unit_test(the_axes_show_the_whole_loop),
         cmocka_unit_test(a_plot_of_nothing_is_still_a_figure),
         cmocka_unit_test(steps_of_axes_are_round),
-        cmocka_unit_test(sha256_gives_the_published_digests),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Style sheet and script of the report, report.css and report.js, made texts by the build, and their
- * SHA-256 in base 64, by which a content security policy knows them. */
+/* Style sheet and script of the report, report.css and report.js, made texts by the build, and
+ * their SHA-256 in base 64, by which a content security policy knows them. */
 #ifndef CZ_REPORT_ASSETS_H
 #define CZ_REPORT_ASSETS_H
 

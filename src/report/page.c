@@ -267,7 +267,8 @@ CzStatus cz_page_write_parts(CzPage *page, CzError *error) {
     cz_page_write_animation(page);
     cz_page_write_events(page);
     CZ_TRY(cz_page_write_inputs(page, error));
-    return cz_page_write_data(page, error);
+    cz_page_write_data(page);
+    return CZ_OK;
 }
 
 CzStatus cz_page_finish(CzPage *page, CzError *error) {

@@ -116,7 +116,7 @@ void cz_page_write_budget(CzPage *page); /* page_budget.c; nothing where no car 
 void cz_page_write_animation(CzPage *page);
 void cz_page_write_events(CzPage *page);
 CZ_MUST_CHECK CzStatus cz_page_write_inputs(CzPage *page, CzError *error);
-CZ_MUST_CHECK CzStatus cz_page_write_data(CzPage *page, CzError *error);
+void cz_page_write_data(CzPage *page);
 
 /* What happened, in words such as "anti-climber contact". */
 void cz_page_event_words(CzEventKind kind, char words[48]);

@@ -1,15 +1,13 @@
 /* The numbers behind the cursor and the animation: rows of the recorded channels, as whole numbers
- * of a decimal unit. Each is told by its bend, how far it leaves the line through the two before
- * it, which for most rows of most channels is one letter or none.
+ * of a decimal unit. Each is given by its second difference, how far it leaves the line through the
+ * two before it:
  *
- *   number   digits to base 44, the last one as it is, those before it 44 higher
- *   letter   of a digit: printable, but for what HTML, XML or JSON would take for their own
- *   bend b   the number 2 b for b >= 0, 2 |b| + 1 for b < 0
- *   1, m     m / 2 bends of nothing when m is even, (m - 1) / 2 values that are no number when odd
+ *   +3, -12   a second difference
+ *   z, z5     one that is zero, five of them
+ *   n, n5     a value that is no number, five of them
  */
 #include "report/page.h"
 
-#include "base/error.h"
 #include "report/assets.h"
 #include "report/figure.h"
 #include "report/units.h"
@@ -21,9 +19,7 @@
 enum {
     EVEN_SAMPLES = 240,
     DIGITS = 5,
-    FINEST_TIME = 6, /* decimals of a millisecond */
-    BASE = 44,
-    SHORTEST_RUN = 3,    /* of bends of nothing; fewer take less room one by one */
+    FINEST_TIME = 6,     /* decimals of a millisecond */
     PAGE_ROOM = 1000000, /* bytes that a page may have where all rows do not fit; ours */
     FOOT_ROOM = 1000     /* of what follows the numbers, but for the script */
 };
@@ -128,88 +124,40 @@ static void write_json_text(FILE *stream, const char *text) {
     fputc('"', stream);
 }
 
-/* Where letters go: a stream, or NULL to count them only. */
-typedef struct Letters {
-    FILE *stream;
-    long n;
-} Letters;
-
-static void put_letter(Letters *letters, int digit) {
-    int c = '#' + digit;
-    c += c >= '&';
-    c += c >= '<';
-    c += c >= '>';
-    c += c >= '\\';
-    if (letters->stream != NULL)
-        fputc(c, letters->stream);
-    letters->n++;
-}
-
-static void put_number(Letters *letters, unsigned long long number) {
-    int digit[16], n = 0;
-    do {
-        digit[n++] = (int)(number % BASE);
-        number /= BASE;
-    } while (number > 0);
-    while (n-- > 0)
-        put_letter(letters, digit[n] + (n > 0 ? BASE : 0));
-}
-
-static void put_bend(Letters *letters, long long bend) {
-    put_number(letters,
-               bend >= 0 ? 2 * (unsigned long long)bend : 2 * (unsigned long long)-bend + 1);
-}
-
-static void put_run(Letters *letters, int n, bool is_gap) {
-    if (!is_gap && n < SHORTEST_RUN) {
-        while (n-- > 0)
-            put_bend(letters, 0);
-        return;
-    }
-    put_number(letters, 1);
-    put_number(letters, 2 * (unsigned long long)n + is_gap);
-}
-
-/* Rows that are taken: the first ones, and some of those after them. */
+/* Rows that are written: the first ones, and some of those after them. */
 typedef struct Rows {
     int n, n_first;
     const bool *later; /* (n) */
 } Rows;
 
-/* What a channel takes beside its name and its letters. */
-enum { CHANNEL_ROOM = sizeof ",\n\"\":[0,\"\"]" - 1 };
+/* Ends a run of zeros or of values that are no numbers. */
+static void write_run(FILE *stream, int n, bool is_gap) {
+    if (n > 0)
+        fputc(is_gap ? 'n' : 'z', stream);
+    if (n > 1)
+        fprintf(stream, "%d", n);
+}
 
-/* ,"name":[decimals,"letters"] */
-static void put_curve(Letters *letters, const CzPage *page, CzDrawn drawn, int place,
-                      const Rows *rows) {
-    const double *value = cz_page_values(page, drawn, place);
-    const int decimals = decimals_for(drawn, value, rows->n);
-    double unit = 1;
-    char name[CZ_CHANNEL_ROOM];
-    cz_drawn_name(page->summary, drawn, place, name);
-    for (int i = 0; i < decimals; i++)
-        unit *= 10;
-    if (letters->stream != NULL) {
-        fputs(",\n", letters->stream);
-        write_json_text(letters->stream, name);
-        fprintf(letters->stream, ":[%d,\"", decimals);
-    }
-    letters->n += (long)strlen(name) + CHANNEL_ROOM;
+/* The second differences of the rows, in 10^-decimals of the unit. */
+static void write_differences(FILE *stream, const double *value, int decimals, const Rows *rows) {
     long long last = 0, step = 0;
+    double unit = 1;
     int n_run = 0;
     bool is_gap = false; /* what the run is of */
+    for (int i = 0; i < decimals; i++)
+        unit *= 10;
     for (int i = 0; i < rows->n; i++) {
         if (i >= rows->n_first && !rows->later[i])
             continue;
         const bool is_number = isfinite(value[i]);
-        const long long whole = is_number ? llround(value[i] * unit) : 0;
-        const long long bend = is_number ? whole - last - step : 0;
-        if (n_run > 0 && (bend != 0 || is_gap == is_number)) {
-            put_run(letters, n_run, is_gap);
+        const long long whole = is_number ? llround(value[i] * unit) : last + step;
+        const long long difference = whole - last - step;
+        if (n_run > 0 && (difference != 0 || is_gap == is_number)) {
+            write_run(stream, n_run, is_gap);
             n_run = 0;
         }
-        if (bend != 0)
-            put_bend(letters, bend);
+        if (difference != 0)
+            fprintf(stream, "%+lld", difference);
         else
             n_run++;
         is_gap = !is_number;
@@ -218,36 +166,60 @@ static void put_curve(Letters *letters, const CzPage *page, CzDrawn drawn, int p
             last = whole;
         }
     }
-    if (n_run > 0)
-        put_run(letters, n_run, is_gap);
-    if (letters->stream != NULL)
-        fputs("\"]", letters->stream);
+    write_run(stream, n_run, is_gap);
 }
 
-static void put_curves(Letters *letters, const CzPage *page, const Rows *rows) {
+/* ,"name":[decimals,"differences"] */
+static void write_curve(FILE *stream, const CzPage *page, CzDrawn drawn, int place,
+                        const Rows *rows) {
+    const double *value = cz_page_values(page, drawn, place);
+    const int decimals = decimals_for(drawn, value, rows->n);
+    char name[CZ_CHANNEL_ROOM];
+    fputs(",\n", stream);
+    write_json_text(stream, cz_drawn_name(page->summary, drawn, place, name));
+    fprintf(stream, ":[%d,\"", decimals);
+    write_differences(stream, value, decimals, rows);
+    fputs("\"]", stream);
+}
+
+static void write_curves(FILE *stream, const CzPage *page, const Rows *rows) {
     for (int i = 0; i < cz_run_n_column(page->run); i++) {
         const CzColumn column = cz_run_column(page->run, i);
         if (shown[column.channel].is_there)
-            put_curve(letters, page, (CzDrawn)column.channel, column.place, rows);
+            write_curve(stream, page, (CzDrawn)column.channel, column.place, rows);
     }
     for (int i = 0; i < page->made.n; i++)
-        put_curve(letters, page, page->made.curve[i].drawn, page->made.curve[i].place, rows);
+        write_curve(stream, page, page->made.curve[i].drawn, page->made.curve[i].place, rows);
 }
 
-/* All rows where they fit into the page, else as many of the first ones as do. */
-static void fill(const CzPage *page, Rows *rows) {
-    const long room = PAGE_ROOM - FOOT_ROOM - (long)strlen(cz_report_js) - (long)page->text.n;
+/* The curves as a text of their own; false without memory. */
+static bool make_text(const CzPage *page, const Rows *rows, CzMemoryText *text) {
+    *text = (CzMemoryText){0};
+    FILE *stream = cz_memory_text_open(text);
+    if (stream != NULL)
+        write_curves(stream, page, rows);
+    return stream != NULL && fclose(stream) == 0 && !text->failed;
+}
+
+/* Chooses all rows where they fit into the page, else as many of the first ones as do, and makes
+ * their text. False without memory. */
+static bool fill(const CzPage *page, Rows *rows, CzMemoryText *text) {
+    const size_t taken = FOOT_ROOM + strlen(cz_report_js) + page->text.n;
     const int fine = rows->n / 64 + 1;
-    int most = rows->n + 1, least = 0; /* fit, do not fit */
-    for (rows->n_first = rows->n; most - least > fine; rows->n_first = (least + most) / 2) {
-        Letters letters = {NULL, 0};
-        put_curves(&letters, page, rows);
-        if (letters.n <= room)
+    int most = rows->n + 1, least = 0; /* do not fit, fit */
+    bool is_whole = true;
+    for (rows->n_first = rows->n; is_whole && most - least > fine;
+         rows->n_first = (least + most) / 2) {
+        cz_memory_text_free(text);
+        is_whole = make_text(page, rows, text);
+        if (taken + text->n <= PAGE_ROOM)
             least = rows->n_first;
         else
             most = rows->n_first;
     }
     rows->n_first = least;
+    cz_memory_text_free(text);
+    return is_whole && make_text(page, rows, text);
 }
 
 /* Which rows the cursor stands at; for people, at the end of the page. */
@@ -291,29 +263,28 @@ static void write_events(const CzPage *page, FILE *stream) {
     fputc(']', stream);
 }
 
-CzStatus cz_page_write_data(CzPage *page, CzError *error) {
+void cz_page_write_data(CzPage *page) {
     CzMarkup *markup = &page->markup;
     if (page->n_sample < 2)
-        return CZ_OK;
+        return;
+    bool *later = calloc((size_t)page->n_sample, sizeof *later);
+    Rows rows = {.n = page->n_sample, .later = later};
+    CzMemoryText text = {0};
     cz_markup_open(markup, "script");
     cz_markup_attribute(markup, "type", "application/json");
     cz_markup_attribute(markup, "id", "data");
     cz_markup_raw(markup, "{");
     write_events(page, markup->stream);
-    bool *later = calloc((size_t)page->n_sample, sizeof *later);
-    if (later == NULL || fflush(markup->stream) != 0) { /* which tells how long the page is */
-        free(later);
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
-    }
-    choose(page, later);
-    Rows rows = {.n = page->n_sample, .later = later};
-    fill(page, &rows);
-    Letters letters = {markup->stream, 0};
-    put_curves(&letters, page, &rows);
+    fflush(markup->stream); /* which tells how long the page is */
+    if (later != NULL)
+        choose(page, later);
+    if (later == NULL || !fill(page, &rows, &text))
+        markup->failed = true;
+    cz_markup_raw(markup, text.text != NULL ? text.text : "");
     cz_markup_raw(markup, "}");
     cz_markup_close(markup);
     cz_markup_line(markup);
     write_rows(page, &rows);
+    cz_memory_text_free(&text);
     free(later);
-    return CZ_OK;
 }

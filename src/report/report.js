@@ -5,22 +5,18 @@
   if (!source) return;
   var raw = JSON.parse(source.textContent), data = {}, decimals = {};
 
-  /* Channels are whole numbers of a decimal unit, each told by how far it leaves the line through the two before it. */
+  /* Channels are whole numbers of a decimal unit, each given by how far it leaves the line through the two before it:
+     +3, -12; z5 for five zeros, n5 for five values that are no numbers. */
   function unpack(text, unit) {
-    var values = [], last = 0, step = 0, n = 0, run = false;
-    function bend(by) { step += by; last += step; values.push(last / unit); }
-    for (var i = 0; text.length > i; i++) {
-      var c = text.charCodeAt(i);
-      c -= 35 + (c > 38) + (c > 60) + (c > 62) + (c > 92);
-      n = n * 44 + c % 44;
-      if (c > 43) continue;
-      if (run) {
-        for (var k = n; k > 1; k -= 2) if (n % 2) values.push(NaN); else bend(0);
-        run = false;
-      } else if (n === 1) run = true;
-      else bend(n % 2 ? (1 - n) / 2 : n / 2);
-      n = 0;
-    }
+    var values = [], last = 0, step = 0;
+    text.replace(/([zn])(\d*)|[-+]\d+/g, function (word, run, times) {
+      for (var k = run ? Number(times || 1) : 1; k > 0; k--) {
+        if (run === 'n') { values.push(NaN); continue; }
+        step += run ? 0 : Number(word);
+        last += step;
+        values.push(last / unit);
+      }
+    });
     return values;
   }
   Object.keys(raw).forEach(function (name) {

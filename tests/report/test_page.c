@@ -5,8 +5,6 @@
 #include "report/well_formed.h"
 #include "simulate/input_curve.h"
 
-enum { BASE = 44 }; /* of the numbers behind the cursor */
-
 static int n_request;    /* so far */
 static int failing = -1; /* number of the request that fails; -1: none */
 
@@ -200,25 +198,6 @@ static void a_wall_does_not_hold_a_coupler_that_has_sheared_off(void **state) {
 
 /* ---- the numbers behind the cursor ---- */
 
-/* Value of a letter. */
-static int digit_of(char letter) {
-    static const char reserved[] = "&<>\\";
-    int digit = letter - '#';
-    assert_true(letter >= '#' && letter <= '~' && strchr(reserved, letter) == NULL);
-    for (size_t i = 0; reserved[i] != '\0'; i++)
-        digit -= letter > reserved[i];
-    return digit;
-}
-
-static long long read_number(const char **text) {
-    long long number = 0;
-    for (int digit = BASE; digit >= BASE;) {
-        digit = digit_of(*(*text)++);
-        number = number * BASE + digit % BASE;
-    }
-    return number;
-}
-
 /* Reads a channel from the page: how many values. Those of a NULL `value` are counted only. */
 static int read_channel(const char *page, const char *name, int *decimals, double *value) {
     char head[96];
@@ -229,22 +208,21 @@ static int read_channel(const char *page, const char *name, int *decimals, doubl
     assert_non_null(at);
     *decimals = atoi(at + strlen(head));
     for (at = strchr(at + strlen(head), '"') + 1; *at != '"';) {
-        long long number = read_number(&at), n_more = 1;
-        bool is_gap = false;
-        if (number == 1) {
-            number = read_number(&at);
-            is_gap = number % 2 == 1;
-            n_more = number / 2;
-            number = 0;
-        }
-        for (; n_more > 0; n_more--, n++) {
+        const bool is_run = *at == 'z' || *at == 'n', is_gap = *at == 'n';
+        const bool has_number = !is_run || (at[1] >= '0' && at[1] <= '9');
+        char *end = (char *)at + 1;
+        const long number = has_number ? strtol(at + is_run, &end, 10) : 1;
+        const long n_more = is_run ? number : 1;
+        assert_true(end > at);
+        for (long k = 0; k < n_more; k++, n++) {
             if (!is_gap) {
-                step += number % 2 == 1 ? -(double)(number / 2) : (double)(number / 2);
+                step += is_run ? 0 : (double)number;
                 last += step;
             }
             if (value != NULL)
                 value[n] = is_gap ? NAN : last / pow(10, *decimals);
         }
+        at = end;
     }
     return n;
 }

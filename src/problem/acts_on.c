@@ -34,8 +34,7 @@ void cz_acts_on_write(FILE *stream, const CzKey *key) {
         fputs("; not of fixed vehicles", stream);
 }
 
-/* The vehicle that a field belongs to; NULL for one that lies elsewhere. */
-static const CzVehicle *vehicle_of(const CzProblem *problem, const void *address) {
+const CzVehicle *cz_vehicle_of(const CzProblem *problem, const void *address) {
     const uintptr_t at = (uintptr_t)address, start = (uintptr_t)problem->vehicle;
     const size_t n_byte = (size_t)problem->n_vehicle * sizeof(CzVehicle);
     return at >= start && at - start < n_byte ? &problem->vehicle[(at - start) / sizeof(CzVehicle)]
@@ -43,7 +42,7 @@ static const CzVehicle *vehicle_of(const CzProblem *problem, const void *address
 }
 
 bool cz_field_acts(const CzProblem *problem, const CzKey *key, const void *field) {
-    const CzVehicle *vehicle = vehicle_of(problem, field);
+    const CzVehicle *vehicle = cz_vehicle_of(problem, field);
     return vehicle == NULL || !vehicle->given ||
            cz_key_acts_on(key, (CzVehicleModel)vehicle->model);
 }
@@ -68,7 +67,7 @@ static void warn(CzProblem *problem, int first, int end) {
         if (idle_record(problem, &place[i]) == record)
             snprintf(list + n, sizeof list - n, "%s%s", n > 0 ? ", " : "", place[i].key->stem);
     }
-    const int model = vehicle_of(problem, record)->model;
+    const int model = cz_vehicle_of(problem, record)->model;
     cz_mistake(&reader->warnings, place[first].node, place[first].trail,
                "no effect on model: %s: %s", cz_word_sets[CZ_WORDS_MODEL].word[model].word, list);
 }
@@ -90,9 +89,10 @@ void cz_acts_on_check(CzProblem *problem) {
     const CzPlaces *places = &problem->places;
     int begin = 0;
     while (begin < places->n_place) {
-        const CzVehicle *vehicle = vehicle_of(problem, places->place[begin].address);
+        const CzVehicle *vehicle = cz_vehicle_of(problem, places->place[begin].address);
         int end = begin + 1;
-        while (end < places->n_place && vehicle_of(problem, places->place[end].address) == vehicle)
+        while (end < places->n_place &&
+               cz_vehicle_of(problem, places->place[end].address) == vehicle)
             end++;
         if (vehicle != NULL && vehicle->given && vehicle->model != CZ_MODEL_FULL)
             check_vehicle(problem, begin, end);

@@ -8,6 +8,9 @@
 /* Whether a key does anything on a model of vehicle. */
 bool cz_key_acts_on(const CzKey *key, CzVehicleModel model);
 
+/* The vehicle that a field belongs to; NULL for one that lies elsewhere. */
+const CzVehicle *cz_vehicle_of(const CzProblem *problem, const void *address);
+
 /* Whether the field of a key does anything on the vehicle that it belongs to; one that belongs to
  * none does. */
 bool cz_field_acts(const CzProblem *problem, const CzKey *key, const void *field);

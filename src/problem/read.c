@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "problem/acts_on.h"
+#include "problem/acts_with.h"
 #include "problem/measured.h"
 #include "problem/profile.h"
 #include "problem/rules.h"
@@ -57,6 +58,7 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     cz_rules_check_fit(&rules);
     cz_usual_check(&reader->warnings, &problem->places);
     cz_acts_on_check(problem);
+    cz_acts_with_check(problem);
 }
 
 /* Sorts what was found and tells the first mistake. */

@@ -168,6 +168,11 @@ static double steepest_rise(const CzEnd *end) {
 static void check_unloading(const CzRules *rules, const CzEnd *end) {
     char stiffness[48], rise[48];
     const double steepest = steepest_rise(end);
+    const bool crushes = is_there(rules, end->stages) || is_there(rules, &end->curve);
+    if (crushes && !is_there(rules, &end->unloading_stiffness))
+        cz_rule_absent(rules, end,
+                       "an end that crushes needs its unloading_stiffness: unloading_stiffness_N_m "
+                       "or unloading_stiffness_MN_m");
     cz_rule_note(rules, CZ_VALUE_RULE_UNLOADING, steepest, end->unloading_stiffness);
     if (end->unloading_stiffness < steepest * (1 - 1e-12))
         cz_rule_broken(

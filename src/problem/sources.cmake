@@ -1,6 +1,7 @@
 # Sources of src/problem, one per line.
 set(CZ_SOURCES_problem
     acts_on.c
+    acts_with.c
     again.c
     bind.c
     bind_curve_file.c

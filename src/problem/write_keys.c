@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "problem/acts_on.h"
+#include "problem/acts_with.h"
 #include "problem/usual.h"
 
 /* Writes what may stand for a key: "stroke_m or stroke_mm". */
@@ -60,6 +61,7 @@ static void write_kind(FILE *stream, const CzKey *key) {
         break;
     }
     cz_acts_on_write(stream, key);
+    cz_acts_with_write(stream, key);
 }
 
 /* Writes whether a key must be there, or what holds without it. */

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "problem/acts_on.h"
+#include "problem/acts_with.h"
 
 enum { COMMENT_COLUMN = 44 };
 
@@ -330,13 +331,19 @@ static void write_child(const Writer *writer, const CzKey *key, const char *fiel
     write_record(&inside, record, field, indent + 2, "");
 }
 
+/* Whether a number is its default and does nothing: written down it would be warned of. */
+static bool is_idle_default(const Writer *writer, const CzKey *key, const char *field) {
+    return key->kind == CZ_KEY_NUMBER && *(const double *)(const void *)field == key->absent &&
+           !cz_acts_with(writer->problem, key, field);
+}
+
 /* Writes the keys of a record that do something; `dash` goes before the first. */
 static void write_record(const Writer *writer, const CzRecord *record, const char *memory,
                          int indent, const char *dash) {
     for (int i = 0; i < record->n_key; i++) {
         const CzKey *key = &record->key[i];
         const char *field = memory + key->offset;
-        if (!cz_field_acts(writer->problem, key, field))
+        if (!cz_field_acts(writer->problem, key, field) || is_idle_default(writer, key, field))
             continue;
         switch (key->kind) {
         case CZ_KEY_CHILD:

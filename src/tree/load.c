@@ -177,6 +177,8 @@ static void load_catalogue(Loader *loader, const CzNode *named) {
     loader->lacks_parts |= top == NULL;
     if (top == NULL)
         return;
+    for (CzSource *source = reader->sources.first; source != NULL; source = source->next)
+        source->is_catalogue |= source == top->source;
     check_catalogue_keys(reader, top);
     load_catalogues(loader, top);
     const CzNode *parts = expect(reader, top, "parts", CZ_NODE_MAPPING);

@@ -1,0 +1,134 @@
+/* Keys that lack what they act with are warned of at their place, once, and only where they act in
+ * no place. What each of them needs is in acts_with.def, which problem-every-key goes through. */
+#include "problem/read_problem.h"
+
+#include <dirent.h>
+
+/* The first warning of something without effect that names `word`; NULL for none. */
+static const CzError *warning_of(const CzProblem *problem, const char *word) {
+    for (int i = 0; i < cz_problem_n_warning(problem); i++) {
+        const CzError *warning = cz_problem_warning(problem, i);
+        if (strncmp(warning->message, "no effect", 9) == 0 &&
+            strstr(warning->message, word) != NULL)
+            return warning;
+    }
+    return NULL;
+}
+
+static void a_key_that_lacks_its_sibling_is_warned_of_at_its_place(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text("schema: 1\n"
+                                        "title: lone\n"
+                                        "extends: rigid.yaml\n"
+                                        "parts:\n"
+                                        "  bumper:\n"
+                                        "    anti_climber:\n"
+                                        "      speed_reference_m_s: 8\n"
+                                        "      trigger_length_mm: 5\n");
+    const CzError *speed = warning_of(problem, "speed_reference");
+    assert_non_null(speed);
+    assert_int_equal(speed->line, 7);
+    assert_int_equal(speed->column, 7);
+    assert_non_null(strstr(speed->message, "no effect without speed_factor: speed_reference"));
+    assert_non_null(strstr(speed->help, "take out"));
+    assert_non_null(warning_of(problem, "without trigger: trigger_length"));
+    cz_problem_free(problem);
+}
+
+static void a_key_beside_its_sibling_is_not_warned_of(void **state) {
+    (void)state;
+    static const char *const set[] = {"parts.bumper.anti_climber.speed_reference_m_s=8",
+                                      "parts.bumper.anti_climber.speed_factor=0.1"};
+    CzProblem *problem = read_good("rigid.yaml", 2, set);
+    assert_null(warning_of(problem, ""));
+    cz_problem_free(problem);
+}
+
+static void friction_falls_only_to_a_sliding_friction(void **state) {
+    (void)state;
+    static const char *const set[] = {"simulation.adhesion.fall_speed_m_s=2",
+                                      "simulation.adhesion.sliding_friction=0.1"};
+    CzProblem *problem = read_good("full.yaml", 1, set);
+    assert_non_null(warning_of(problem, "without sliding_friction: fall_speed"));
+    cz_problem_free(problem);
+    problem = read_good("full.yaml", 2, set);
+    assert_null(warning_of(problem, "fall_speed"));
+    cz_problem_free(problem);
+}
+
+#define RIGID_TRAINS                                                                               \
+    "schema: 1\n"                                                                                  \
+    "title: couplers\n"                                                                            \
+    "parts:\n"                                                                                     \
+    "  gear: {draw_slack_mm: 5, stages: [{stroke_mm: 60, force_kN: 900}]}\n"                       \
+    "  end: {face_gap_m: 1, coupler: {buffer: {use: gear}}}\n"                                     \
+    "  car: {model: rigid, mass_t: 40, front: {use: end}, rear: {use: end}}\n"
+
+static void what_acts_in_one_place_is_not_warned_of_in_others(void **state) {
+    (void)state;
+    CzProblem *two =
+        read_good_text(RIGID_TRAINS "trains:\n"
+                                    "  - {name: A, speed_m_s: 2, vehicles: [{use: car}]}\n"
+                                    "  - {name: B, vehicles: [{use: car}]}\n");
+    const CzError *slack = warning_of(two, "draw_slack");
+    assert_non_null(slack);
+    assert_int_equal(slack->line, 4);
+    cz_problem_free(two);
+    CzProblem *three =
+        read_good_text(RIGID_TRAINS "trains:\n"
+                                    "  - {name: A, speed_m_s: 2, vehicles: [{use: car}]}\n"
+                                    "  - {name: B, vehicles: [{use: car, repeat: 2}]}\n");
+    assert_null(warning_of(three, "draw_slack"));
+    cz_problem_free(three);
+}
+
+static void a_rigid_end_needs_no_unloading_and_is_warned_of_one(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text(
+        RIGID_TRAINS
+        "  hard: {face_gap_m: 1, unloading_stiffness_MN_m: 100}\n"
+        "trains:\n"
+        "  - {name: A, speed_m_s: 2, vehicles: [{use: car}]}\n"
+        "  - {name: B, vehicles: [{use: car, rear: {unloading_stiffness_MN_m: 9}}]}\n");
+    const CzError *warning = warning_of(problem, "unloading_stiffness");
+    assert_non_null(warning);
+    assert_int_equal(warning->line, 10);
+    assert_int_equal(cz_problem_n_mistake(problem), 0);
+    cz_problem_free(problem);
+}
+
+/* Parts of a catalogue are for any problem. */
+static void shipped_problems_have_no_key_without_effect(void **state) {
+    (void)state;
+    static const char *const folder = CZ_SOURCE_FOLDER "/problems";
+    int n = 0;
+    DIR *all = opendir(folder);
+    assert_non_null(all);
+    for (struct dirent *entry = readdir(all); entry != NULL; entry = readdir(all)) {
+        char path[600];
+        CzProblem *problem = NULL;
+        if (strstr(entry->d_name, ".yaml") == NULL)
+            continue;
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        assert_int_equal(cz_problem_read(path, NULL, &problem, NULL), CZ_OK);
+        const CzError *warning = warning_of(problem, "");
+        if (warning != NULL)
+            fail_msg("%s:%d: %s", warning->file, warning->line, warning->message);
+        cz_problem_free(problem);
+        n++;
+    }
+    closedir(all);
+    assert_true(n >= 10);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_key_that_lacks_its_sibling_is_warned_of_at_its_place),
+        cmocka_unit_test(a_key_beside_its_sibling_is_not_warned_of),
+        cmocka_unit_test(friction_falls_only_to_a_sliding_friction),
+        cmocka_unit_test(what_acts_in_one_place_is_not_warned_of_in_others),
+        cmocka_unit_test(a_rigid_end_needs_no_unloading_and_is_warned_of_one),
+        cmocka_unit_test(shipped_problems_have_no_key_without_effect),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

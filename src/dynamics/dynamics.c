@@ -57,79 +57,90 @@ const CzKernel *cz_kernel(const char *isa) {
 }
 
 /* Extremes start below anything that a run can reach. */
-static void start_extremes(CzBlock *block) {
+static void start_extremes(CzExtremes *extreme) {
     static const double start[CZ_N_EXTREME] = {
-#define CZ_EXTREME(name, start, doc) start,
+#define CZ_EXTREME_ENTRY(row, start, doc) [CZ_EXTREME(row)] = start,
 #include "dynamics/extremes.def"
-#undef CZ_EXTREME
+#undef CZ_EXTREME_ENTRY
     };
     for (int row = 0; row < CZ_N_EXTREME; ++row)
         for (int i = 0; i < CZ_LANE_BLOCK; ++i)
-            block->extreme[row][i] = start[row];
+            cz_row_of(extreme, row)[i] = start[row];
 }
+
+/* Each list has every row of its struct, and all are those of the plane. */
+enum {
+    PLANE = 1,
+#define CZ_EXTREME_ENTRY(row, start, doc) +1
+    N_EXTREMES_LISTED = 0
+#include "dynamics/extremes.def"
+#undef CZ_EXTREME_ENTRY
+    ,
+#define CZ_LEDGER_ENTRY(row, class, dimension, doc) +dimension
+    N_LEDGER_LISTED = 0
+#include "dynamics/ledger.def"
+#undef CZ_LEDGER_ENTRY
+    ,
+#define CZ_DOF_ENTRY(row, axis, dimension, what) +dimension
+    N_DOF_LISTED = 0
+#include "model/dof.def"
+#undef CZ_DOF_ENTRY
+};
+_Static_assert((int)N_EXTREMES_LISTED == (int)CZ_N_EXTREME, "extremes.def lists CzExtremes");
+_Static_assert((int)N_LEDGER_LISTED == (int)CZ_N_LEDGER, "ledger.def lists CzPower");
+_Static_assert((int)N_DOF_LISTED == (int)CZ_N_DOF, "dof.def lists CzState");
 
 /* One over a row of parameters, 0 where the parameter is 0. */
-static void invert(CzBlock *block, int parameter, int constant) {
-    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
-        const double value = block->parameter[parameter][i];
-        block->constant[constant][i] = value > 0.0 ? 1.0 / value : 0.0;
+static void invert(const double *parameter, double *inverse) {
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+        inverse[i] = parameter[i] > 0.0 ? 1.0 / parameter[i] : 0.0;
+}
+
+/* One over a stiffness, which laws take from 1 N/m on. */
+static void invert_stiffness(const double *stiffness, double *compliance) {
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+        compliance[i] = 1.0 / fmax(stiffness[i], 1.0);
+}
+
+/* Constants of both ends of a car, and of both sides of an interface. */
+static void derive_pairs(const CzParameters *parameter, CzConstants *constant) {
+    for (int k = 0; k < 2; ++k) {
+        invert(parameter->coupler.side[k].hinge_vertical.stiffness, constant->hinge_compliance[k]);
+        invert(parameter->end[k].fold_pitch.stiffness, constant->fold_compliance[k]);
+        invert_stiffness(parameter->coupler.side[k].buffer.transition,
+                         constant->buffer_compliance[k]);
+        invert_stiffness(parameter->side_buffers.side[k].buffer.transition,
+                         constant->side_compliance[k]);
+        invert_stiffness(parameter->end[k].crush.unloading, constant->end_compliance[k]);
+        invert_stiffness(parameter->end[k].crush.second_unloading,
+                         constant->end_second_compliance[k]);
     }
 }
 
-static void derive_constants(CzBlock *block) {
-    static const int inverses[][2] = {{CZ_P_INVERSE_BODY_MASS, CZ_C_BODY_MASS},
-                                      {CZ_P_INVERSE_WHEELSET_INERTIA, CZ_C_WHEELSET_INERTIA},
-                                      {CZ_P_CREEP_STIFFNESS, CZ_C_CREEP_COMPLIANCE},
-                                      {CZ_P_BRAKE_STIFFNESS, CZ_C_BRAKE_COMPLIANCE},
-                                      {CZ_P_HINGE_STIFFNESS_A, CZ_C_HINGE_COMPLIANCE_A},
-                                      {CZ_P_HINGE_STIFFNESS_B, CZ_C_HINGE_COMPLIANCE_B},
-                                      {CZ_P_FOLD_STIFFNESS_REAR, CZ_C_FOLD_COMPLIANCE_REAR},
-                                      {CZ_P_FOLD_STIFFNESS_FRONT, CZ_C_FOLD_COMPLIANCE_FRONT},
-                                      {CZ_P_FACE_VERTICAL_STIFFNESS, CZ_C_GRIP_COMPLIANCE}};
-    /* Laws take these from 1 N/m on. */
-    static const int compliances[][2] = {
-        {CZ_P_BUFFER_TRANSITION_A, CZ_C_BUFFER_COMPLIANCE_A},
-        {CZ_P_BUFFER_TRANSITION_B, CZ_C_BUFFER_COMPLIANCE_B},
-        {CZ_P_SIDE_TRANSITION_A, CZ_C_SIDE_COMPLIANCE_A},
-        {CZ_P_SIDE_TRANSITION_B, CZ_C_SIDE_COMPLIANCE_B},
-        {CZ_P_END_UNLOADING_REAR, CZ_C_END_COMPLIANCE_REAR},
-        {CZ_P_END_UNLOADING_FRONT, CZ_C_END_COMPLIANCE_FRONT},
-        {CZ_P_END_SECOND_UNLOADING_REAR, CZ_C_END_SECOND_COMPLIANCE_REAR},
-        {CZ_P_END_SECOND_UNLOADING_FRONT, CZ_C_END_SECOND_COMPLIANCE_FRONT}};
-    for (size_t k = 0; k < sizeof inverses / sizeof inverses[0]; ++k)
-        invert(block, inverses[k][0], inverses[k][1]);
-    for (size_t k = 0; k < sizeof compliances / sizeof compliances[0]; ++k)
-        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
-            block->constant[compliances[k][1]][i] =
-                1.0 / fmax(block->parameter[compliances[k][0]][i], 1.0);
+static void derive_constants(const CzParameters *parameter, CzConstants *constant) {
+    derive_pairs(parameter, constant);
+    invert(parameter->inverse.body.mass, constant->body_mass);
+    invert(parameter->inverse.wheelset.inertia_pitch, constant->wheelset_inertia);
+    invert(parameter->wheel.creep_stiffness, constant->creep_compliance);
+    invert(parameter->wheel.brake_stiffness, constant->brake_compliance);
+    invert(parameter->face.stiffness_vertical, constant->grip_compliance);
     for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
-        const double distance = block->parameter[CZ_P_PIVOT_DISTANCE][i];
-        const double rise =
-            block->parameter[CZ_P_COUPLED][i] * block->parameter[CZ_P_PIVOT_RISE][i];
-        block->constant[CZ_C_HINGE_REST][i] = distance > 0.0 ? rise / distance : 0.0;
+        const double distance = parameter->coupler.pivot.distance[i];
+        const double rise = parameter->coupler.coupled[i] * parameter->coupler.pivot.rise[i];
+        constant->rest_angle_vertical[i] = distance > 0.0 ? rise / distance : 0.0;
     }
-    for (int axle = 0; axle < 4; ++axle)
-        memcpy(block->constant[CZ_C_WHEEL_REST_0 + axle],
-               block->parameter[CZ_P_INDENTATION_0 + axle], sizeof(CzRow));
+    memcpy(constant->wheel_rest, parameter->wheel.indentation, sizeof constant->wheel_rest);
     for (int axle = 0; axle < 4; ++axle)
         for (int i = 0; i < CZ_LANE_BLOCK; ++i)
-            block->constant[CZ_C_STATIC_LOAD_0 + axle][i] = cz_wheel_normal_force(
-                block->parameter[CZ_P_HERTZ][i], block->parameter[CZ_P_INDENTATION_0 + axle][i]);
+            constant->static_load[axle][i] = cz_wheel_normal_force(
+                parameter->wheel.hertz[i], parameter->wheel.indentation[axle][i]);
 }
 
-/* Constants that follow from the car of a lane and the one ahead. */
-static void derive_pairs(const CzLanes *lanes, CzBlock *block, size_t base) {
-    const double *slaved = cz_row(lanes->parameter, lanes->stride, CZ_P_SLAVED_ENDS);
-    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
-        const size_t ahead = base + i + (size_t)lanes->n_design;
-        block->constant[CZ_C_SLAVED_ENDS_AHEAD][i] = slaved[ahead];
-    }
-}
-
-/* Rows of a block out of rows of the lanes. */
-static void copy_rows(CzRow *row, int n_row, const double *array, size_t stride, size_t base) {
-    for (int k = 0; k < n_row; ++k)
-        memcpy(row[k], cz_row((double *)array, stride, k) + base, sizeof(CzRow));
+/* What follows from the car ahead of each lane. */
+static void derive_ahead(const CzLanes *lanes, CzConstants *constant, size_t base) {
+    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
+        constant->slaved_ends_ahead[i] = *cz_lane_parameter(lanes, CZ_PARAMETER(slaved_ends),
+                                                            base + i + (size_t)lanes->n_design);
 }
 
 static int changes_a_lane(const double *slope_change) {
@@ -180,26 +191,33 @@ static int copy_curve(CzBlockCurve *to, const CzCurveLanes *from, size_t stride,
     return 1;
 }
 
+/* Curves of a block; 0 when there is no memory. */
+static int copy_curves(CzBlockCurves *to, const CzLanes *lanes, size_t base, CzArena *arena) {
+    CzBlockCurve *curve = to->end; /* one after the other, in the order of CzCurveNames */
+    for (int id = 0; id < CZ_N_CURVE; ++id)
+        if (!copy_curve(&curve[id], &lanes->curve[id], lanes->stride, base, arena))
+            return 0;
+    return 1;
+}
+
 /* A block at t = 0; 0 when there is no memory. */
 static int start_block(CzBlock *block, const CzLanes *lanes, size_t base, CzArena *arena) {
-    copy_rows(block->parameter, CZ_N_PARAMETER, lanes->parameter, lanes->stride, base);
-    copy_rows(block->velocity, CZ_N_DOF, lanes->velocity, lanes->stride, base);
-    for (int id = 0; id < CZ_N_CURVE; ++id)
-        if (!copy_curve(&block->curve[id], &lanes->curve[id], lanes->stride, base, arena))
-            return 0;
+    block->parameter = lanes->block[base / CZ_LANE_BLOCK].parameter;
+    block->velocity = lanes->block[base / CZ_LANE_BLOCK].velocity;
+    if (!copy_curves(&block->curve, lanes, base, arena))
+        return 0;
     for (int side = 0; side < 2; ++side)
-        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
-            block->has_limp_end[side] |= block->parameter[CZ_P_LIMP_END_A + side][i] > 0.5;
-    for (int end = 0; end < 2; ++end)
-        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
-            block->end_peak_at[end][i] = NAN;
-    derive_constants(block);
-    derive_pairs(lanes, block, base);
-    start_extremes(block);
-    block->memory = block->memories[0];
-    block->next_memory = block->memories[1];
-    block->power = block->powers[0];
-    block->last_power = block->powers[1];
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+            block->has_massless[side] |= block->parameter.face.side[side].has_massless[i] > 0.5;
+            block->end_peak[side].at[i] = NAN;
+        }
+    derive_constants(&block->parameter, &block->constant);
+    derive_ahead(lanes, &block->constant, base);
+    start_extremes(&block->extreme);
+    block->memory = &block->memories[0];
+    block->next_memory = &block->memories[1];
+    block->power = &block->powers[0];
+    block->last_power = &block->powers[1];
     return 1;
 }
 

@@ -12,55 +12,70 @@
 
 #include "base/arena.h"
 #include "dynamics/budget.h"
+#include "dynamics/ledger.h"
+#include "dynamics/memory.h"
+#include "dynamics/published.h"
 #include "dynamics/track.h"
 #include "dynamics/track_elements.h"
 #include "model/co_running.h"
 #include "model/lanes.h"
 
-typedef enum CzMemory {
-#define CZ_MEMORY(name, unit, doc) CZ_M_##name,
-#include "dynamics/memory.def"
-#undef CZ_MEMORY
-    CZ_N_MEMORY
-} CzMemory;
-
-typedef enum CzLedger {
-#define CZ_LEDGER(name, class, doc) CZ_L_##name,
-#include "dynamics/ledger.def"
-#undef CZ_LEDGER
-    CZ_N_LEDGER
-} CzLedger;
-
-typedef enum CzExtreme {
-#define CZ_EXTREME(name, start, doc) CZ_E_##name,
-#include "dynamics/extremes.def"
-#undef CZ_EXTREME
-    CZ_N_EXTREME
-} CzExtreme;
-
 /* Numbers derived from the parameters once: divisions and roots that would cost as much as a law.
  */
-typedef enum CzConstant {
-#define CZ_CONSTANT(name, doc) CZ_C_##name,
-#include "dynamics/constants.def"
-#undef CZ_CONSTANT
-    CZ_N_CONSTANT
-} CzConstant;
+typedef struct CzConstants {
+    CzRow static_load[4];   /* normal force of the wheelset at rest, by the law itself [N] */
+    CzRow wheel_rest[4];    /* approach of wheel and rail at rest less the deflection of the rail's
+                               modes there [m] */
+    CzRow creep_compliance; /* 1 / tangential contact stiffness; 0 without wheels [m/N] */
+    CzRow brake_compliance; /* 1 / stiffness of a held axle [rad/(N m)] */
+    CzRow hinge_compliance[2];  /* 1 / hinge stiffness; 0 for a free pivot [rad/(N m)] */
+    CzRow rest_angle_vertical;  /* of the line between the pivots of coupled couplers; 0 for others
+                                   [rad] */
+    CzRow buffer_compliance[2]; /* 1 / stiffness of the buffer between its curves [m/N] */
+    CzRow side_compliance[2];   /* the same of the side buffers */
+    CzRow end_compliance[2];    /* 1 / first unloading stiffness of the crush zone [m/N] */
+    CzRow end_second_compliance[2]; /* 1 / its second one */
+    CzRow fold_compliance[2];       /* 1 / pitch guidance stiffness [rad/(N m)] */
+    CzRow grip_compliance;          /* 1 / vertical stiffness of engaged faces [m/N] */
+    CzRow body_mass;                /* 0 of a vehicle that cannot move [kg] */
+    CzRow wheelset_inertia;         /* about its axle; 0 without wheels [kg m2] */
+    CzRow slaved_ends_ahead; /* 1 where the ends of the car ahead have no mass of their own */
+} CzConstants;
+#define CZ_CONSTANT(member) CZ_ROW_OF(CzConstants, member)
 
-/* Rows of the state: the degrees of freedom, and one row whose velocity is the impulse of external
- * forces [N s]. */
-enum { CZ_ROW_IMPULSE = CZ_N_DOF, CZ_N_ROW };
+/* Cosine and sine of a pitch. */
+typedef struct CzTurned {
+    CzRow cosine, sine;
+} CzTurned;
 
-/* Values between the passes that others may look at after an evaluation. */
-typedef enum CzScratch {
-#define CZ_SCRATCH(name, doc) CZ_S_##name,
-#include "dynamics/scratch.def"
-#undef CZ_SCRATCH
-    CZ_N_SCRATCH
-} CzScratch;
+/* Where a body is and how it moves. */
+typedef struct CzMotion {
+    CzPlane displacement, rate;
+    CzTurned turned;
+} CzMotion;
 
-/* One quantity in the lanes of a block. */
-typedef double CzRow[CZ_LANE_BLOCK];
+/* What an interface sees of the car ahead, and what it gives it. */
+typedef struct CzSeen {
+    CzMotion body, end; /* its rear end */
+} CzSeen;
+typedef struct CzPushed {
+    CzPlane body, end; /* force and moment */
+    CzRow section;     /* force through the section behind the end [N] */
+} CzPushed;
+
+/* Impulse of external forces, advanced beside the state. */
+typedef struct CzImpulse {
+    CzRow position, velocity, force, last_force; /* [N s2, N s, N, N] */
+} CzImpulse;
+
+/* The rail under a wheelset; all 0 on a rigid track. */
+typedef struct CzRailRows {
+    CzRow z;                 /* deflection of its modes, upwards [m] */
+    CzRow past;              /* the same half a step ago at the same place [m] */
+    CzRow slope;             /* change of the deflection along the track [-] */
+    CzRow flexibility;       /* what it deflects at once [m/N] */
+    CzRow flexibility_slope; /* change of that along the track [1/N] */
+} CzRailRows;
 
 #define CZ_FALLING (-1.0) /* slope below which a curve falls, others are level [N/m] (ours) */
 
@@ -74,40 +89,58 @@ typedef struct CzBlockCurve {
     const CzRow *kink; /* place [m] and change of slope [N/m], in turn (2 n_kink) */
 } CzBlockCurve;
 
+/* The curves of a block, named as in CzCurveNames. */
+typedef struct CzBlockCurves {
+    CzBlockCurve end[2], buffer[2], tube[2], second_tube[2], face[2], massless[2], side_buffer[2],
+        side_tube[2];
+} CzBlockCurves;
+_Static_assert(sizeof(CzBlockCurves) == CZ_N_CURVE * sizeof(CzBlockCurve), "one for each name");
+
+/* Backbone force of a crush zone at its largest shortening, kept while that stays. */
+typedef struct CzPeak {
+    CzRow at;    /* NaN at the start [m] */
+    CzRow force; /* [N] */
+} CzPeak;
+
 /* Everything that a step reads and writes in CZ_LANE_BLOCK neighbouring lanes. One piece of memory,
  * so that a row's address is the block's plus a constant and a block stays in the first cache. */
 typedef struct CzBlock {
-    _Alignas(64) CzRow position[CZ_N_ROW]; /* displacement from rest [m, rad]; the integrator's */
-    CzRow velocity[CZ_N_ROW];              /* [m/s, rad/s]; the integrator's */
-    CzRow acceleration[CZ_N_ROW];          /* [m/s2, rad/s2]; of the last evaluation */
-    CzRow last_acceleration[CZ_N_ROW];     /* of the evaluation before; the integrator's */
-    CzRow force[CZ_N_DOF];                 /* generalised forces of the last evaluation */
-    CzRow scratch[CZ_N_SCRATCH];           /* values between the passes of an evaluation */
-    CzRow work[CZ_N_LEDGER];               /* committed [J] */
-    CzRow extreme[CZ_N_EXTREME];           /* committed */
-    CzRow parameter[CZ_N_PARAMETER];       /* the lanes' own */
-    CzRow constant[CZ_N_CONSTANT];         /* numbers derived from the parameters once */
-    CzRow rail[8];                         /* co-running track: its mode under each axle */
-    CzRow rail_rest_energy;                /* of the track under each car at t = 0 [J] */
-    CzRow memories[2][CZ_N_MEMORY];        /* for `memory` and `next_memory` to swap */
-    CzRow powers[2][CZ_N_LEDGER];          /* for `power` and `last_power` to swap */
-    CzBlockCurve curve[CZ_N_CURVE];
-    int has_limp_end[2];    /* some lane's side A, B has a crush zone without end mass */
-    CzRow end_peak_at[2];   /* shortening at which `end_peak` was taken, NaN at the start */
-    CzRow end_peak[2];      /* backbone force of the rear and front crush zone there [N] */
+    _Alignas(64) CzState position; /* displacement from rest [m, rad]; the integrator's */
+    CzState velocity;              /* [m/s, rad/s]; the integrator's */
+    CzState acceleration;          /* [m/s2, rad/s2]; of the last evaluation */
+    CzState last_acceleration;     /* of the evaluation before; the integrator's */
+    CzImpulse impulse;             /* of external forces */
+    CzState force;                 /* generalised forces of the last evaluation */
+    CzPublished published;         /* by the last evaluation */
+    struct {
+        CzTurned body, end[2], bogie[2];
+    } turned;
+    CzSeen ahead;           /* the car ahead */
+    CzPushed pushed;        /* what the interface gives it */
+    CzPlane from_behind;    /* what the interface behind gives the body */
+    CzRailRows rail[4];     /* under each wheelset */
+    CzPower work;           /* committed [J] */
+    CzExtremes extreme;     /* committed */
+    CzParameters parameter; /* the lanes' own */
+    CzConstants constant;   /* numbers derived from the parameters once */
+    CzRow rail_mode[4][2];  /* co-running track: its mode under each axle, real and imaginary */
+    CzRow rail_rest_energy; /* of the track under each car at t = 0 [J] */
+    CzMemory memories[2];   /* for `memory` and `next_memory` to swap */
+    CzPower powers[2];      /* for `power` and `last_power` to swap */
+    CzBlockCurves curve;
+    int has_massless[2];    /* some lane's side A, B has a crush zone without end mass */
+    CzPeak end_peak[2];     /* of the rear and front crush zone */
     CzRow coupler_reach;    /* closure up to which resting couplers do nothing [m] */
     CzRow face_reach;       /* the same of the faces */
-    int releases;           /* a shear-off let go in the last evaluation */
-    int falls;              /* a strength fell in the step of the chain at hand */
     int couplers_rest;      /* the last evaluation of the couplers changed nothing */
     int faces_rest;         /* so did that of the faces */
     int leaves_nothing_out; /* evaluates couplers and faces even where that changes nothing: tests
                                compare with it */
     CzBudgetRows *budget;   /* notes of where forces come from; NULL when nobody asks */
-    CzRow *memory;          /* committed (CZ_N_MEMORY) */
-    CzRow *next_memory;     /* of the last evaluation (CZ_N_MEMORY) */
-    CzRow *power;           /* of the last evaluation [W] (CZ_N_LEDGER) */
-    CzRow *last_power;      /* committed (CZ_N_LEDGER) */
+    CzMemory *memory;       /* committed */
+    CzMemory *next_memory;  /* of the last evaluation */
+    CzPower *power;         /* of the last evaluation [W] */
+    CzPower *last_power;    /* committed */
 } CzBlock;
 
 /* The co-running track's one mode for a step size; the forces of steps as in track_motion.h. */
@@ -179,7 +212,7 @@ static inline CzBlock *cz_block_of(const CzDynamics *dynamics, size_t lane) {
     return &dynamics->block[lane / CZ_LANE_BLOCK];
 }
 
-/* A row of the model's lanes. */
+/* A row of a curve's array of lanes. */
 static inline double *cz_row(double *array, size_t stride, int row) {
     return array + (size_t)row * stride;
 }

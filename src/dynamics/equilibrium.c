@@ -37,11 +37,11 @@ typedef struct Car {
 } Car;
 
 static double value(const CzLanes *lanes, CzParameter parameter, size_t lane) {
-    return lanes->parameter[(size_t)parameter * lanes->stride + lane];
+    return *cz_lane_parameter(lanes, parameter, lane);
 }
 
-static double mass(const CzLanes *lanes, CzDof dof, size_t lane) {
-    return lanes->mass[(size_t)dof * lanes->stride + lane];
+static double mass(const CzLanes *lanes, int dof, size_t lane) {
+    return *cz_lane_mass(lanes, dof, lane);
 }
 
 /* A spring from its unloaded length on, without the stops that it does not reach at rest. */
@@ -54,18 +54,20 @@ static CzSuspensionLaw unloaded_spring(double stiffness, bool pulls) {
 
 static Car car_of(const CzLanes *lanes, size_t lane) {
     Car car = {
-        .bogie_x = value(lanes, CZ_P_BOGIE_X, lane),
-        .axle_x = value(lanes, CZ_P_AXLE_X, lane),
-        .end_x = {value(lanes, CZ_P_END_X_REAR, lane), value(lanes, CZ_P_END_X_FRONT, lane)},
-        .end_mass = {mass(lanes, CZ_DOF_END_X_REAR, lane), mass(lanes, CZ_DOF_END_X_FRONT, lane)},
-        .body_mass = mass(lanes, CZ_DOF_BODY_Z, lane),
-        .bogie_mass = mass(lanes, CZ_DOF_BOGIE_Z_REAR, lane),
-        .wheelset_mass = mass(lanes, CZ_DOF_WHEEL_Z_0, lane),
-        .hertz = value(lanes, CZ_P_HERTZ, lane)};
-    car.secondary = unloaded_spring(value(lanes, CZ_P_SECONDARY_STIFFNESS, lane),
-                                    value(lanes, CZ_P_SECONDARY_PRELOAD_REAR, lane) >= CZ_NEVER);
-    car.primary = unloaded_spring(value(lanes, CZ_P_PRIMARY_STIFFNESS, lane),
-                                  value(lanes, CZ_P_PRIMARY_PRELOAD_0, lane) >= CZ_NEVER);
+        .bogie_x = value(lanes, CZ_PARAMETER(bogie_x), lane),
+        .axle_x = value(lanes, CZ_PARAMETER(axle_x), lane),
+        .end_x = {value(lanes, CZ_PARAMETER(end[0].x), lane),
+                  value(lanes, CZ_PARAMETER(end[1].x), lane)},
+        .end_mass = {mass(lanes, CZ_DOF(end[0].x), lane), mass(lanes, CZ_DOF(end[1].x), lane)},
+        .body_mass = mass(lanes, CZ_DOF(body.z), lane),
+        .bogie_mass = mass(lanes, CZ_DOF(bogie[0].z), lane),
+        .wheelset_mass = mass(lanes, CZ_DOF(wheelset[0].z), lane),
+        .hertz = value(lanes, CZ_PARAMETER(wheel.hertz), lane)};
+    car.secondary =
+        unloaded_spring(value(lanes, CZ_PARAMETER(secondary.stiffness), lane),
+                        value(lanes, CZ_PARAMETER(secondary_preload[0]), lane) >= CZ_NEVER);
+    car.primary = unloaded_spring(value(lanes, CZ_PARAMETER(primary.stiffness), lane),
+                                  value(lanes, CZ_PARAMETER(primary_preload[0]), lane) >= CZ_NEVER);
     return car;
 }
 

@@ -34,12 +34,14 @@ enum {
 #define ALIKE 1e-9           /* relative difference of members that are alike */
 #define BEYOND_FALL 1e-4     /* stroke beyond the fall at which they are compared [m] (ours) */
 
+static inline CzShearOffLaw shear_off_law(const CzShearOffRows *rows, size_t i) {
+    return (CzShearOffLaw){rows->force[i], rows->residual[i], cz_larger(rows->softening[i], 1e-6),
+                           rows->space[i], rows->bottom[i]};
+}
+
 typedef struct Search {
-    const CzBlock *d;
     const Chain *chain;
-    const Springs *springs;
     size_t lane;
-    double step;
     int holds; /* shear-offs keep the strength that they have */
     int n_member;
     double start[SEARCH_MEMBERS];     /* committed stroke [m] */
@@ -61,9 +63,8 @@ typedef struct Resistance {
 /* First stroke from `from` on at which a strength with what the step adds begins to fall, or where
  * it does not fall any more (`rises`); infinite where there is none. The slope of the sum falls
  * along a falling part of the curve, so one root says where. */
-static double curve_turns_at(const CzBlock *d, int id, size_t lane, double from, int rises,
+static double curve_turns_at(const CzBlockCurve *curve, size_t lane, double from, int rises,
                              const Resistance *added) {
-    const CzBlockCurve *curve = &d->curve[id];
     double slope = 0.0, value = curve->start[lane], begin = 0.0;
     for (int kink = 0; kink <= curve->n_kink; ++kink) {
         const int is_last = kink == curve->n_kink;
@@ -89,45 +90,41 @@ static double curve_turns_at(const CzBlock *d, int id, size_t lane, double from,
     return INFINITY;
 }
 
-/* Force of a plastic member that has flowed by `way` in the step. */
-static double plastic_force(const Search *s, int member, double stroke) {
-    const CzBlock *d = s->d;
+/* Force of a plastic member that has yielded by `way` in the step. */
+static double plastic_force(const Search *s, int number, double stroke) {
+    const Plastic *member = &s->chain->plastic[number];
     const size_t i = s->lane;
-    const double way = stroke - s->start[2 + member];
-    if (member < s->chain->n_curve) {
-        const double rise = s->chain->rise < 0 ? 0.0 : d->scratch[s->chain->rise + member % 2][i];
+    const double way = stroke - s->start[2 + number];
+    if (number < s->chain->n_curve) {
         double value, slope;
-        curve_at(d, s->chain->curve + member, i, stroke, &value, &slope);
-        const double strength = value * (1.0 + rise);
-        const double rate = d->parameter[s->chain->rate + member][i];
-        return strength + way / cz_plastic_compliance(strength, 0.0, rate, s->step);
+        curve_at(member->curve, i, stroke, &value, &slope);
+        const double strength = value * (1.0 + member->rise[i]);
+        return strength +
+               way / cz_plastic_compliance(strength, 0.0, member->rate[i], s->chain->step);
     }
-    const int side = member % 2;
+    const PlasticState *plastic = &s->chain->now.plastic[number];
     if (s->holds)
-        return S_AT(STRENGTH_0, member)[i] + way / S_AT(FLOW_0, member)[i];
-    const CzShearOffLaw law = {P_AT(SHEAR_FORCE_A, side)[i], P_AT(SHEAR_RESIDUAL_A, side)[i],
-                               cz_larger(P_AT(SHEAR_SOFTENING_A, side)[i], 1e-6),
-                               P_AT(SHEAR_SPACE_A, side)[i], P_AT(SHEAR_BOTTOM_A, side)[i]};
-    const CzShearOffResponse response = cz_shear_off(&law, stroke);
-    return response.strength + CZ_SMALLEST_RESISTANCE * way;
+        return plastic->strength[i] + way / plastic->flow[i];
+    const CzShearOffLaw law = shear_off_law(member->shear, i);
+    return cz_shear_off(&law, stroke).strength + CZ_SMALLEST_RESISTANCE * way;
 }
 
 static double law_at(const Search *s, int member, double stroke) {
     const double moved = stroke - s->start[member];
-    const double force = member < 2 ? s->springs->force_at(s->d, member, s->lane, stroke, s->step)
+    const double force = member < 2 ? s->chain->force_at(s->chain, member, s->lane, stroke)
                                     : plastic_force(s, member - 2, stroke);
     return force + SEARCH_STIFFNESS * moved;
 }
 
 /* Where the law of a plastic member turns, as TurnsAt. */
-static double plastic_turns_at(const Search *s, int member, double from, int rises) {
-    const CzBlock *d = s->d;
-    if (member < s->chain->n_curve) {
-        const double gain = d->parameter[s->chain->rate + member][s->lane] / s->step;
-        const Resistance added = {s->start[2 + member], gain, CZ_SMALLEST_RESISTANCE};
-        return curve_turns_at(d, s->chain->curve + member, s->lane, from, rises, &added);
+static double plastic_turns_at(const Search *s, int number, double from, int rises) {
+    const Plastic *member = &s->chain->plastic[number];
+    if (number < s->chain->n_curve) {
+        const Resistance added = {s->start[2 + number], member->rate[s->lane] / s->chain->step,
+                                  CZ_SMALLEST_RESISTANCE};
+        return curve_turns_at(member->curve, s->lane, from, rises, &added);
     }
-    const double softening = P_AT(SHEAR_SOFTENING_A, member % 2)[s->lane];
+    const double softening = member->shear->softening[s->lane];
     const int is_falling = !s->holds && from < softening;
     if (rises)
         return is_falling ? softening : from;
@@ -137,9 +134,9 @@ static double plastic_turns_at(const Search *s, int member, double from, int ris
 static double turns_at(const Search *s, int member, double from, int rises) {
     if (member >= 2)
         return plastic_turns_at(s, member - 2, from, rises);
-    if (s->springs->turns_at == NULL)
+    if (s->chain->turns_at == NULL)
         return rises ? from : INFINITY;
-    return s->springs->turns_at(s->d, member, s->lane, from, rises, s->step);
+    return s->chain->turns_at(s->chain, member, s->lane, from, rises);
 }
 
 /* ---- one unknown in a bracket ---------------------------------------------------------------- */
@@ -280,31 +277,24 @@ static void list_member(Search *s, int member, double stroke, int is_there) {
 }
 
 /* The chain of a lane at its committed state. */
-static Search search_of(const CzBlock *d, const Chain *chain, const Springs *springs, int holds,
-                        size_t lane, double step) {
-    Search s = {.d = d,
-                .chain = chain,
-                .springs = springs,
-                .lane = lane,
-                .step = step,
-                .holds = holds,
-                .n_member = 2 + chain->n_plastic};
-    s.compliance = d->parameter[chain->compliance][lane];
-    s.closure = S(CLOSURE)[lane];
-    s.lowest = S(CHAIN_LOWEST)[lane];
-    s.last = d->memory[chain->force][lane];
+static Search search_of(const Chain *chain, int holds, size_t lane) {
+    Search s = {.chain = chain, .lane = lane, .holds = holds, .n_member = 2 + chain->n_plastic};
+    s.compliance = chain->compliance[lane];
+    s.closure = chain->closure[lane];
+    s.lowest = chain->now.lowest[lane];
+    s.last = chain->last[lane];
     double sum = s.compliance * s.last, size = fabs(sum);
     for (int side = 0; side < 2; ++side) {
-        const double stroke = d->memory[chain->spring + side][lane];
-        const int gives = S_AT(SPRING_UP_A, side)[lane] > 1.0 / RIGID;
+        const double stroke = chain->spring[side].stroke[lane];
+        const int gives = chain->now.spring[side].up[lane] > 1.0 / RIGID;
         list_member(&s, side, stroke, gives);
         sum += stroke;
         size += fabs(stroke);
     }
     for (int member = 0; member < chain->n_plastic; ++member) {
-        const double stroke = d->memory[chain->plastic + member][lane];
-        const int is_there =
-            !is_missing(d, chain, member) && S_AT(STRENGTH_0, member)[lane] < RIGID;
+        const double stroke = chain->plastic[member].stroke[lane];
+        const int is_there = !is_missing(&chain->plastic[member]) &&
+                             chain->now.plastic[member].strength[lane] < RIGID;
         list_member(&s, 2 + member, stroke, is_there);
         sum += stroke;
     }
@@ -410,68 +400,71 @@ static double distance_of(const Search *s, const double *stroke, double force) {
 
 /* Strokes to which the linearised members of a lane go at the chain's force. */
 static void strokes_of(const Search *s, double *stroke) {
-    const CzBlock *d = s->d;
+    const ChainState *now = &s->chain->now;
     const size_t i = s->lane;
-    const double force = S(CHAIN_FORCE)[i];
+    const double force = now->force[i];
     for (int side = 0; side < 2; ++side) {
-        const double excess = force - S_AT(SPRING_FORCE_A, side)[i];
-        stroke[side] =
-            S_AT(SPRING_AT_A, side)[i] +
-            excess * (excess > 0.0 ? S_AT(SPRING_UP_A, side) : S_AT(SPRING_DOWN_A, side))[i];
+        const SpringState *spring = &now->spring[side];
+        const double excess = force - spring->force[i];
+        stroke[side] = spring->at[i] + excess * (excess > 0.0 ? spring->up : spring->down)[i];
     }
     for (int member = 0; member < s->chain->n_plastic; ++member)
         stroke[2 + member] =
-            s->start[2 + member] +
-            (s->is_there[2 + member]
-                 ? cz_plastic_flow(force, S_AT(STRENGTH_0, member)[i], S_AT(FLOW_0, member)[i])
-                 : 0.0);
+            s->start[2 + member] + (s->is_there[2 + member]
+                                        ? cz_plastic_flow(force, now->plastic[member].strength[i],
+                                                          now->plastic[member].flow[i])
+                                        : 0.0);
 }
 
 /* Leaves the answer as a linearisation that gives it exactly. */
-static void keep_answer(CzBlock *d, const Search *s, const double *stroke, double force) {
+static void keep_answer(ChainState *now, const Search *s, const double *stroke, double force) {
     const size_t i = s->lane;
-    S(CHAIN_FORCE)[i] = force;
+    now->force[i] = force;
     for (int side = 0; side < 2; ++side) {
-        S_AT(SPRING_AT_A, side)[i] = stroke[side];
-        S_AT(SPRING_FORCE_A, side)[i] = force;
+        now->spring[side].at[i] = stroke[side];
+        now->spring[side].force[i] = force;
     }
     for (int member = 0; member < s->chain->n_plastic; ++member) {
+        PlasticState *plastic = &now->plastic[member];
         const double way = stroke[2 + member] - s->start[2 + member];
         if (!s->is_there[2 + member])
             continue;
         if (way > 0.0) {
-            S_AT(STRENGTH_0, member)[i] = force - CZ_SMALLEST_RESISTANCE * way;
-            S_AT(FLOW_0, member)[i] = 1.0 / CZ_SMALLEST_RESISTANCE;
+            plastic->strength[i] = force - CZ_SMALLEST_RESISTANCE * way;
+            plastic->flow[i] = 1.0 / CZ_SMALLEST_RESISTANCE;
         } else
-            S_AT(STRENGTH_0, member)[i] = cz_larger(S_AT(STRENGTH_0, member)[i], force);
+            plastic->strength[i] = cz_larger(plastic->strength[i], force);
     }
+}
+
+/* What the strokes of a lane and its compliance miss of the closure. */
+static double open_by(const Search *s, double force, const double *stroke) {
+    double sum = s->compliance * force - s->closure;
+    for (int member = 0; member < s->n_member; ++member)
+        sum += stroke[member];
+    return sum;
 }
 
 /* Finds the force of the chain in one lane anew where a member misses its law or `always`; notes
  * what is left open, for the run to judge. */
-static void search_lane(CzBlock *d, const Chain *chain, const Springs *springs, int holds,
-                        size_t lane, double step, int always) {
-    Search s = search_of(d, chain, springs, holds, lane, step);
-    double stroke[SEARCH_MEMBERS], force = S(CHAIN_FORCE)[lane];
+static void search_lane(Chain *chain, CzPublished *published, int holds, size_t lane, int always) {
+    Search s = search_of(chain, holds, lane);
+    double stroke[SEARCH_MEMBERS], force = chain->now.force[lane];
     strokes_of(&s, stroke);
-    double sum = s.compliance * force - s.closure;
-    for (int member = 0; member < s.n_member; ++member)
-        sum += stroke[member];
+    double sum = open_by(&s, force, stroke);
     const double tolerance = CHAIN_TOLERANCE;
     const int is_open = force <= s.lowest ? sum < -tolerance : fabs(sum) > tolerance;
     double distance = distance_of(&s, stroke, force);
     if (always || is_open || !(distance <= LAW_TOLERANCE)) {
         search_branch(&s, &force, stroke);
-        keep_answer(d, &s, stroke, force);
+        keep_answer(&chain->now, &s, stroke, force);
         distance = distance_of(&s, stroke, force);
-        S(SEARCHED)[lane] += 1.0;
-        sum = s.compliance * force - s.closure;
-        for (int member = 0; member < s.n_member; ++member)
-            sum += stroke[member];
+        published->chain.searched[lane] += 1.0;
+        sum = open_by(&s, force, stroke);
     }
     const double left = force <= s.lowest ? cz_positive_part(-sum) : fabs(sum);
-    S(LAW_DISTANCE)[lane] = distance;
-    S(RESIDUAL)[lane] = cz_larger(S(RESIDUAL)[lane], left);
+    chain->now.distance[lane] = distance;
+    published->chain.residual[lane] = cz_larger(published->chain.residual[lane], left);
 }
 
 #endif

@@ -1,116 +1,102 @@
 /* Contact of two faces: geometry, and forces put on their carriers. Part of kernel.c only.
  *
  * n is the mean normal of the faces, t is normal to it, r_A and r_B are the face centres, P is
- * midway between them: closure = n . (r_A - r_B),   slip = t . (r_A - r_B) Both are exact integrals
- * of the relative velocity of the material points at P, where both forces act: power and moment
- * balance to rounding.
+ * midway between them: closure = n . (r_A - r_B),   slip = t . (r_A - r_B). Both are exact
+ * integrals of the relative velocity of the material points at P, where both forces act: power and
+ * moment balance to rounding.
  */
 #ifndef CZ_DYNAMICS_KERNEL_CONTACT_H
 #define CZ_DYNAMICS_KERNEL_CONTACT_H
 
-#include "dynamics/kernel_rows.h"
+#include "dynamics/kernel_carrier.h"
+#include "dynamics/kernel_chain_solve.h"
 
-/* Parameter rows of a contact: face centres, gap and rise at t = 0. */
+/* A contact lined up. */
 typedef struct {
-    int x_a, z_a, x_b, z_b, gap, rise; /* CzParameter */
-} ContactRows;
+    _Alignas(64) CzRow closure;
+    CzRow rate;
+    CzRow slip_vertical; /* displacement of side A over side B across the normal */
+    CzRow slip_rate;
+    CzRow normal_x, normal_z; /* from side A to side B */
+    CzRow arm_x[2], arm_z[2]; /* point of action from the carriers' centres of gravity */
+    CzRow force_x, force_z;   /* put on side B */
+} Contact;
 
-static void contact_geometry(CzBlock *d, const Carrier *a, const Carrier *b,
-                             const ContactRows *rows) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict x_a = d->parameter[rows->x_a];
-    const double *restrict z_a = d->parameter[rows->z_a];
-    const double *restrict x_b = d->parameter[rows->x_b];
-    const double *restrict z_b = d->parameter[rows->z_b];
-    const double *restrict gap = d->parameter[rows->gap];
-    const double *restrict rise = d->parameter[rows->rise];
-    const double *restrict tilts = P(TILTS);
-    const Carrier ca = *a, cb = *b;
-    double *restrict closure = S(CLOSURE), *restrict rate = S(RATE);
-    double *restrict slip = S(SLIP), *restrict slip_rate = S(SLIP_RATE);
-    double *restrict normal_x = S(NORMAL_X), *restrict normal_z = S(NORMAL_Z);
-    double *restrict arm_x_a = S(ARM_X_A), *restrict arm_z_a = S(ARM_Z_A);
-    double *restrict arm_x_b = S(ARM_X_B), *restrict arm_z_b = S(ARM_Z_B);
-    CZ_LANES (i, n) {
-        /* Face centres from their carriers' centres of gravity, and from each other. */
-        const double ax = x_a[i] * ca.cosine[i] - z_a[i] * ca.sine[i];
-        const double az = x_a[i] * ca.sine[i] + z_a[i] * ca.cosine[i];
-        const double bx = x_b[i] * cb.cosine[i] - z_b[i] * cb.sine[i];
-        const double bz = x_b[i] * cb.sine[i] + z_b[i] * cb.cosine[i];
-        const double dx = gap[i] + (cb.x[i] - ca.x[i]) + (bx - x_b[i]) - (ax - x_a[i]);
-        const double dz =
-            tilts[i] * (rise[i] + (cb.z[i] - ca.z[i]) + (bz - z_b[i]) - (az - z_a[i]));
+/* ---- line up ---- */
+
+static void line_up_contact(CzCarrier a, CzCarrier b, const CzPairRows *at,
+                            const double *restrict tilts, Contact *restrict contact) {
+    CZ_LANES (i) {
+        CzPair pair = cz_pair_of(a, b, at, i);
+        pair.z = tilts[i] * pair.z;
 
         /* Mean normal: it turns at the mean rate of both carriers. */
-        const double sum_x = ca.cosine[i] + cb.cosine[i];
-        const double sum_z = tilts[i] * (ca.sine[i] + cb.sine[i]);
+        const double sum_x = a.turned->cosine[i] + b.turned->cosine[i];
+        const double sum_z = tilts[i] * (a.turned->sine[i] + b.turned->sine[i]);
         const double size = sqrt(sum_x * sum_x + sum_z * sum_z);
         const double nx = sum_x / size, nz = sum_z / size;
 
-        /* Point of action and relative velocity there. */
-        const double pax = ax + 0.5 * dx, paz = az + 0.5 * dz;
-        const double pbx = bx - 0.5 * dx, pbz = bz - 0.5 * dz;
-        const double vx = (ca.vx[i] - paz * ca.turn[i]) - (cb.vx[i] - pbz * cb.turn[i]);
-        const double vz = (ca.vz[i] + pax * ca.turn[i]) - (cb.vz[i] + pbx * cb.turn[i]);
-        closure[i] = -(nx * dx + nz * dz);
-        rate[i] = nx * vx + nz * vz;
-        slip[i] = nz * dx - nx * dz;
-        slip_rate[i] = nx * vz - nz * vx;
-        normal_x[i] = nx;
-        normal_z[i] = nz;
-        arm_x_a[i] = pax;
-        arm_z_a[i] = paz;
-        arm_x_b[i] = pbx;
-        arm_z_b[i] = pbz;
+        const CzPair met = cz_met_midway(a, b, pair, i);
+        const double vx = met.a.velocity_x - met.b.velocity_x;
+        const double vz = met.a.velocity_z - met.b.velocity_z;
+        contact->closure[i] = -(nx * pair.x + nz * pair.z);
+        contact->rate[i] = nx * vx + nz * vz;
+        contact->slip_vertical[i] = nz * pair.x - nx * pair.z;
+        contact->slip_rate[i] = nx * vz - nz * vx;
+        contact->normal_x[i] = nx;
+        contact->normal_z[i] = nz;
+        contact->arm_x[0][i] = met.a.arm_x;
+        contact->arm_z[0][i] = met.a.arm_z;
+        contact->arm_x[1][i] = met.b.arm_x;
+        contact->arm_z[1][i] = met.b.arm_z;
     }
 }
 
-/* Generalised force rows of a carrier. */
-typedef struct {
-    double *x, *z, *pitch;
-} CarrierForce;
+/* ---- put ---- */
 
-static CarrierForce three_rows(CzRow *row) {
-    return (CarrierForce){row[0], row[1], row[2]};
-}
-
-/* The body or end mass at side A or B of an interface. What an interface pushes on the car ahead
- * has rows of its own, which that car takes over once all interfaces are done. */
-static CarrierForce body_force(CzBlock *d, int side) {
-    return three_rows(side == 0 ? &d->force[CZ_DOF_BODY_X] : &d->scratch[CZ_S_PUSHED_X]);
-}
-
-static CarrierForce end_force(CzBlock *d, int side) {
-    return three_rows(side == 0 ? &d->force[CZ_DOF_END_X_FRONT] : &d->scratch[CZ_S_PUSHED_END_X]);
-}
-
-/* Puts a force (fx, fz) at an arm on a carrier; sign turns it round for side B. */
-static inline void put_force(size_t n, const CarrierForce *on, double sign,
-                             const double *restrict fx, const double *restrict fz,
-                             const double *restrict arm_x, const double *restrict arm_z) {
-    double *restrict gx = on->x, *restrict gz = on->z, *restrict moment = on->pitch;
-    CZ_LANES (i, n) {
-        gx[i] += sign * fx[i];
-        gz[i] += sign * fz[i];
-        moment[i] += sign * (arm_x[i] * fz[i] - arm_z[i] * fx[i]);
+/* Puts normal force and vertical force of the contact on both carriers. */
+static void put_contact(CzPlane *on_a, CzPlane *on_b, Contact *restrict contact,
+                        const double *restrict normal, const double *restrict tangential,
+                        double *restrict total) {
+    CZ_LANES (i) {
+        const double nx = contact->normal_x[i], nz = contact->normal_z[i];
+        const double fx = normal[i] * nx - tangential[i] * nz;
+        const double fz = normal[i] * nz + tangential[i] * nx;
+        const CzPoint a = {.arm_x = contact->arm_x[0][i], .arm_z = contact->arm_z[0][i]};
+        const CzPoint b = {.arm_x = contact->arm_x[1][i], .arm_z = contact->arm_z[1][i]};
+        cz_put_force(on_a, i, a, (CzPush){-fx, -fz, 0.0});
+        cz_put_force(on_b, i, b, (CzPush){fx, fz, 0.0});
+        contact->force_x[i] = fx;
+        contact->force_z[i] = fz;
+        total[i] += fx;
     }
 }
 
-/* Puts normal force and slip force of the contact on both carriers. The components are left in
- * CURVE_VALUE (x) and CURVE_SLOPE (z) as they act on side B. */
-static void contact_forces(CzBlock *d, const CarrierForce *on_a, const CarrierForce *on_b,
-                           const double *restrict normal, const double *restrict tangential) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict nx = S(NORMAL_X), *restrict nz = S(NORMAL_Z);
-    double *restrict fx = S(CURVE_VALUE), *restrict fz = S(CURVE_SLOPE);
-    double *restrict total = S(INTERFACE_FORCE);
-    CZ_LANES (i, n) {
-        fx[i] = normal[i] * nx[i] - tangential[i] * nz[i];
-        fz[i] = normal[i] * nz[i] + tangential[i] * nx[i];
-        total[i] += fx[i];
+/* Where ends have no mass, what is put on them goes straight into the body's section. */
+static void put_into_sections(CzBlock *d, const Contact *contact) {
+    add(d->published.section[1], d->parameter.slaved_ends, contact->force_x);
+    add(d->pushed.section, d->constant.slaved_ends_ahead, contact->force_x);
+}
+
+/* What the interface and sections without end mass lost in a step in which the force of a chain
+ * fell: its largest force `most` against `force` at the end; `normal` is the element's. */
+static void put_drop(CzBlock *d, const Contact *restrict contact, const ChainState *restrict now,
+                     const double *restrict normal, double *restrict top) {
+    const double *restrict slaved = d->parameter.slaved_ends, *restrict slaved_ahead =
+                                                                  d->constant.slaved_ends_ahead;
+    double *restrict drop = d->published.interface.drop,
+                     *restrict section = d->published.section[1],
+                     *restrict pushed = d->pushed.section;
+    CZ_LANES (i) {
+        const double held =
+            normal[i] / cz_larger(now->force[i], 1.0); /* damped, on what overlaps */
+        const double more = held * cz_positive_part(now->top[i] - now->force[i]);
+        const double lost = more * contact->normal_x[i];
+        top[i] = normal[i] + more;
+        drop[i] += lost;
+        section[i] += slaved[i] * lost;
+        pushed[i] += slaved_ahead[i] * lost;
     }
-    put_force(n, on_a, -1.0, fx, fz, S(ARM_X_A), S(ARM_Z_A));
-    put_force(n, on_b, 1.0, fx, fz, S(ARM_X_B), S(ARM_Z_B));
 }
 
 #endif

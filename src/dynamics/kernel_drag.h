@@ -3,39 +3,36 @@
 #ifndef CZ_DYNAMICS_KERNEL_DRAG_H
 #define CZ_DYNAMICS_KERNEL_DRAG_H
 
-#include "dynamics/kernel_rows.h"
+#include "dynamics/kernel_lanes.h"
 #include "laws/drag.h"
 #include "laws/slider.h"
 
 /* After all other forces: a car at rest is held against their sum. */
 static void drag(CzBlock *d) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict mass = C(BODY_MASS), *restrict slaved = P(SLAVED_ENDS);
-    const double *restrict rolling_brake = P(DRAG_BRAKE), *restrict sliding_brake =
-                                                              P(DRAG_BRAKE_SLIDING);
-    const double *restrict fall = P(FRICTION_FALL_SPEED), *restrict rolls = P(DRAG_ROLLING);
-    const double *restrict slides = P(DRAG_SLIDE), *restrict length = P(SLIDE_LENGTH);
-    const double *restrict stiffness = P(SLIDE_STIFFNESS);
-    const double *restrict x = X(BODY_X), *restrict v = V(BODY_X);
-    const double *restrict rear = G(END_X_REAR), *restrict front = G(END_X_FRONT);
-    double *restrict body = G(BODY_X), *restrict adhesion = S(ADHESION);
-    double *restrict kept = S(SLIDE_FORCE);
-    double *restrict brake_power = POWER(BRAKE), *restrict rolling_power = POWER(ROLLING);
-    double *restrict slide_power = POWER(SLIDE);
-    CZ_LANES (i, n) {
-        const double stop = cz_stop(stiffness[i], length[i], x[i]);
+    const CzDragRows *restrict rows = &d->parameter.drag;
+    const double *restrict mass = d->constant.body_mass, *restrict slaved =
+                                                             d->parameter.slaved_ends;
+    const double *restrict fall = d->parameter.wheel.friction_fall_speed;
+    const double *restrict x = d->position.body.x, *restrict v = d->velocity.body.x;
+    const double *restrict rear = d->force.end[0].x, *restrict front = d->force.end[1].x;
+    double *restrict body = d->force.body.x, *restrict adhesion = d->published.adhesion;
+    double *restrict kept = d->published.slide_force;
+    CzPower *restrict power = d->power;
+    CZ_LANES (i) {
+        const double stop = cz_stop(rows->slide_stiffness[i], rows->slide_length[i], x[i]);
         const double pushed = body[i] + slaved[i] * (rear[i] + front[i]) - stop;
-        const double brakes = cz_brake_capacity(rolling_brake[i], sliding_brake[i], fall[i], v[i]);
-        const double capacity = brakes + rolls[i] + slides[i];
+        const double brakes =
+            cz_brake_capacity(rows->brake[i], rows->brake_sliding[i], fall[i], v[i]);
+        const double capacity = brakes + rows->rolling[i] + rows->slide[i];
         const double force = cz_drag(mass[i], capacity, v[i], pushed);
         const double per_newton = 1.0 / cz_larger(capacity, 1e-9);
-        const double power = -force * v[i] * per_newton;
+        const double lost = -force * v[i] * per_newton;
         body[i] += force - stop;
         adhesion[i] += force - stop;
-        brake_power[i] += power * brakes;
-        rolling_power[i] += power * rolls[i];
-        slide_power[i] += power * slides[i] + stop * v[i];
-        kept[i] = fabs(force) * per_newton * slides[i] + fabs(stop);
+        power->brake[i] += lost * brakes;
+        power->rolling[i] += lost * rows->rolling[i];
+        power->slide[i] += lost * rows->slide[i] + stop * v[i];
+        kept[i] = fabs(force) * per_newton * rows->slide[i] + fabs(stop);
     }
 }
 

@@ -7,7 +7,7 @@
 #ifndef CZ_DYNAMICS_KERNEL_NEIGHBOURS_H
 #define CZ_DYNAMICS_KERNEL_NEIGHBOURS_H
 
-#include "dynamics/kernel_rows.h"
+#include "dynamics/kernel_lanes.h"
 
 /* CZ_LANE_BLOCK lanes that lie across two blocks. */
 typedef struct {
@@ -30,73 +30,79 @@ static Window window(const CzDynamics *dynamics, int index, int shift) {
 /* A row of both blocks side by side. */
 typedef double Pair[2 * CZ_LANE_BLOCK];
 
-static inline void lay(const double *restrict low, const double *restrict high,
-                       double *restrict pair) {
-    const size_t n = CZ_LANE_BLOCK;
-    CZ_LANES (i, n) {
-        pair[i] = low[i];
-        pair[n + i] = high[i];
-    }
+/* Lays n rows that follow each other in both blocks. All are laid before the first is picked: a
+ * load across two stores waits for both. */
+static inline void lay(const void *low, const void *high, Pair *restrict pair, int n) {
+    const CzRow *restrict lower = low, *restrict upper = high;
+    for (int k = 0; k < n; ++k)
+        CZ_LANES (i) {
+            pair[k][i] = lower[k][i];
+            pair[k][CZ_LANE_BLOCK + i] = upper[k][i];
+        }
 }
 
-/* The row that is seen through a window. All rows are laid before the first is picked: a load
- * across two stores waits for both. */
-static inline void pick(const Window *w, const double *restrict pair, double *restrict row) {
-    const size_t n = CZ_LANE_BLOCK, offset = w->offset;
-    CZ_LANES (i, n) {
-        row[i] = pair[offset + i];
-    }
+/* The rows that are seen through a window. Cars may lie on a curve one day: then what is seen is
+ * turned and shifted here. */
+static inline void pick(const Window *w, const Pair *restrict pair, void *rows, int n) {
+    const size_t offset = w->offset;
+    CzRow *restrict row = rows;
+    for (int k = 0; k < n; ++k)
+        CZ_LANES (i) {
+            row[k][i] = pair[k][offset + i];
+        }
 }
 
-/* Lays position, velocity and rotation of a body or an end. */
-static void lay_motion(const Window *w, int dof, int rotation, Pair *pair) {
-    for (int k = 0; k < 3; ++k) {
-        lay(w->low->position[dof + k], w->high->position[dof + k], pair[k]);
-        lay(w->low->velocity[dof + k], w->high->velocity[dof + k], pair[3 + k]);
-    }
-    for (int k = 0; k < 2; ++k)
-        lay(w->low->scratch[rotation + k], w->high->scratch[rotation + k], pair[6 + k]);
+enum {
+    ROWS_OF_PLANE = CZ_ROWS_IN(CzPlane),
+    ROWS_OF_TURNED = CZ_ROWS_IN(CzTurned),
+    ROWS_OF_MOTION = CZ_ROWS_IN(CzMotion),
+    ROWS_PUSHED = CZ_ROWS_IN(CzPushed)
+};
+
+/* Lays a motion as the rows of a CzMotion. */
+static inline void lay_motion(const Window *w, size_t plane, size_t turned, Pair *pair) {
+    const char *low = (const char *)w->low, *high = (const char *)w->high;
+    const size_t at = offsetof(CzBlock, position), moves = offsetof(CzBlock, velocity);
+    lay(low + at + plane, high + at + plane, pair, ROWS_OF_PLANE);
+    lay(low + moves + plane, high + moves + plane, pair + ROWS_OF_PLANE, ROWS_OF_PLANE);
+    lay(low + turned, high + turned, pair + 2 * ROWS_OF_PLANE, ROWS_OF_TURNED);
 }
 
 /* Where the body and the rear end of the car ahead are, and how they move. */
 static void look_ahead(const CzDynamics *dynamics, int index) {
     CzBlock *d = &dynamics->block[index];
     const Window ahead = window(dynamics, index, dynamics->lanes->n_design);
-    Pair pair[16];
-    lay_motion(&ahead, CZ_DOF_BODY_X, CZ_S_BODY_COS, pair);
-    lay_motion(&ahead, CZ_DOF_END_X_REAR, CZ_S_END_COS_REAR, pair + 8);
-    for (int k = 0; k < 8; ++k) {
-        pick(&ahead, pair[k], S_AT(BODY_AHEAD_X, k));
-        pick(&ahead, pair[8 + k], S_AT(END_AHEAD_X, k));
-    }
+    Pair pair[2 * ROWS_OF_MOTION];
+    lay_motion(&ahead, offsetof(CzState, body), offsetof(CzBlock, turned.body), pair);
+    lay_motion(&ahead, offsetof(CzState, end[0]), offsetof(CzBlock, turned.end[0]),
+               pair + ROWS_OF_MOTION);
+    pick(&ahead, (const Pair *)pair, &d->ahead, 2 * ROWS_OF_MOTION);
 }
 
 /* What the interfaces behind the cars push: rear ends and their sections start from it. */
 static void take_over(const CzDynamics *dynamics, int index) {
     CzBlock *d = &dynamics->block[index];
     const Window behind = window(dynamics, index, -dynamics->lanes->n_design);
-    Pair pair[7];
-    for (int k = 0; k < 7; ++k)
-        lay(behind.low->scratch[CZ_S_PUSHED_X + k], behind.high->scratch[CZ_S_PUSHED_X + k],
-            pair[k]);
-    for (int k = 0; k < 3; ++k) {
-        pick(&behind, pair[k], S_AT(FROM_BEHIND_X, k));
-        pick(&behind, pair[3 + k], G_AT(END_X_REAR, k));
-    }
-    pick(&behind, pair[6], S(SECTION_REAR));
+    Pair pair[ROWS_PUSHED];
+    lay(&behind.low->pushed, &behind.high->pushed, pair, ROWS_PUSHED);
+    pick(&behind, (const Pair *)pair, &d->from_behind, ROWS_OF_PLANE);
+    pick(&behind, (const Pair *)pair + ROWS_OF_PLANE, &d->force.end[0], ROWS_OF_PLANE);
+    pick(&behind, (const Pair *)pair + 2 * ROWS_OF_PLANE, d->published.section[0], 1);
 }
 
 /* Bodies get it on top of everything else, so that the sum does not depend on how lanes are
  * grouped. */
-static void push_bodies(CzBlock *d) {
-    const size_t n = CZ_LANE_BLOCK;
-    for (int k = 0; k < 3; ++k) {
-        double *restrict body = G_AT(BODY_X, k);
-        const double *restrict pushed = S_AT(FROM_BEHIND_X, k);
-        CZ_LANES (i, n) {
-            body[i] += pushed[i];
-        }
+static void push_bodies(CzPlane *restrict body, const CzPlane *restrict pushed) {
+    CZ_LANES (i) {
+        body->x[i] += pushed->x[i];
+        body->z[i] += pushed->z[i];
+        body->pitch[i] += pushed->pitch[i];
     }
 }
+
+_Static_assert(offsetof(CzSeen, end) == ROWS_OF_MOTION * sizeof(CzRow) &&
+                   offsetof(CzMotion, turned) == 2 * ROWS_OF_PLANE * sizeof(CzRow) &&
+                   offsetof(CzPushed, end) == ROWS_OF_PLANE * sizeof(CzRow),
+               "messages are rows in this order");
 
 #endif

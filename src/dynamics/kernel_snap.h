@@ -15,46 +15,55 @@
 #ifndef CZ_DYNAMICS_KERNEL_SNAP_H
 #define CZ_DYNAMICS_KERNEL_SNAP_H
 
-#include "dynamics/kernel_face.h"
+#include "dynamics/kernel_massless.h"
+#include "dynamics/stored.h"
+
+/* Memory of the faces of a block before and after a step. */
+typedef struct {
+    const CzFaceMemory *memory;
+    CzFaceMemory *next;
+} FaceStep;
 
 /* Whether a member of the chain of faces snaps in a lane: it went on while the force fell. */
-static int snaps(const CzBlock *d, size_t i) {
-    const double last = M(FACE_FORCE)[i], force = NEXT(FACE_FORCE)[i];
-    return S(LAW_FALLS)[i] > 0.0 || force < (1.0 - LARGE_DROP) * last;
+static int snaps(const FaceChain *of, size_t i) {
+    return of->chain.now.falls[i] > 0.0 ||
+           of->chain.next[i] < (1.0 - LARGE_DROP) * of->chain.last[i];
 }
 
 /* Of one lane, whose number among all is `lane`. */
-static void settle_snap(const CzDynamics *dynamics, CzBlock *d, size_t i, size_t lane) {
-    const double mean = 0.5 * (M(FACE_FORCE)[i] + NEXT(FACE_FORCE)[i]);
+static void settle_snap(const CzDynamics *dynamics, const FaceChain *of, FaceStep faces, size_t i,
+                        size_t lane) {
+    const double mean = 0.5 * (of->chain.last[i] + of->chain.next[i]);
     double released = 0.0, zone[2], face[2];
     for (int side = 0; side < 2; ++side) {
-        const double stroke = M_AT(LIMP_A, side)[i], next = NEXT_AT(LIMP_A, side)[i];
-        const double peak = M_AT(LIMP_PEAK_A, side)[i], next_peak = NEXT_AT(LIMP_PEAK_A, side)[i];
-        zone[side] = next_peak - peak;
-        face[side] = NEXT_AT(FACE_A, side)[i] - M_AT(FACE_A, side)[i];
-        if (P_AT(LIMP_END_A, side)[i] < 0.5)
+        const CzMasslessMemory *before = of->massless[side].memory,
+                               *after = of->massless[side].next;
+        zone[side] = after->peak[i] - before->peak[i];
+        face[side] = faces.next->side[side].stroke[i] - faces.memory->side[side].stroke[i];
+        if (of->massless[side].exists[i] < 0.5)
             continue;
-        released += mean * (next - stroke) -
-                    (NEXT_AT(LIMP_DAMPED_A, side)[i] - M_AT(LIMP_DAMPED_A, side)[i]) -
-                    (cz_limp_received_at(dynamics, lane, side, next, next_peak) -
-                     cz_limp_received_at(dynamics, lane, side, stroke, peak));
+        released += mean * (after->stroke[i] - before->stroke[i]) -
+                    (after->damped[i] - before->damped[i]) -
+                    (cz_limp_received_at(dynamics, lane, side, after->stroke[i], after->peak[i]) -
+                     cz_limp_received_at(dynamics, lane, side, before->stroke[i], before->peak[i]));
     }
     const double zones = zone[0] + zone[1], faces_went = face[0] + face[1];
     for (int side = 0; side < 2; ++side)
         if (zones > 0.0)
-            NEXT_AT(LIMP_DAMPED_A, side)[i] += released * zone[side] / zones;
+            of->massless[side].next->damped[i] += released * zone[side] / zones;
         else if (faces_went > 0.0)
-            NEXT_AT(FACE_ENERGY_A, side)[i] += released * face[side] / faces_went;
+            faces.next->side[side].energy[i] += released * face[side] / faces_went;
 }
 
 /* After the faces of a block were evaluated. Faces that lose their overlap have no work at all. */
-static void settle_snaps(const CzDynamics *dynamics, int index) {
-    CzBlock *d = &dynamics->block[index];
-    if (!d->has_limp_end[0] && !d->has_limp_end[1])
+static void settle_snaps(const CzDynamics *dynamics, int index, const FaceChain *of) {
+    const CzBlock *d = &dynamics->block[index];
+    const FaceStep faces = {&d->memory->face, &d->next_memory->face};
+    if (!d->has_massless[0] && !d->has_massless[1])
         return;
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
-        if (snaps(d, i) && NEXT(FACE_LOST)[i] == 0.0)
-            settle_snap(dynamics, d, i, (size_t)index * CZ_LANE_BLOCK + i);
+        if (snaps(of, i) && faces.next->lost[i] == 0.0)
+            settle_snap(dynamics, of, faces, i, (size_t)index * CZ_LANE_BLOCK + i);
 }
 
 #endif

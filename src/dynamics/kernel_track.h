@@ -3,7 +3,8 @@
 #ifndef CZ_DYNAMICS_KERNEL_TRACK_H
 #define CZ_DYNAMICS_KERNEL_TRACK_H
 
-#include "dynamics/kernel_rows.h"
+#include "base/complex.h"
+#include "dynamics/kernel_lanes.h"
 #include "dynamics/track_motion.h"
 
 /* The rails under the four wheelsets of one car, at their places now. Ring and bay are turned in
@@ -12,12 +13,14 @@ static void look_under(const CzTrackMotion *track, const CzTrackUnder *under, Cz
                        int lane) {
     double turns[8], cosine[8], sine[8];
     for (int axle = 0; axle < 4; ++axle) {
-        const double place = cz_wheel_place(P(BOGIE_X)[lane], P(AXLE_X)[lane], axle) +
-                             X_AT(WHEEL_X_0, 3 * axle)[lane];
+        const double place =
+            cz_wheel_place(d->parameter.bogie_x[lane], d->parameter.axle_x[lane], axle) +
+            d->position.wheelset[axle].x[lane];
         turns[axle] = place * track->per_length;
         turns[4 + axle] = place * track->per_spacing;
     }
-    CZ_LANES (i, 8) {
+    _Static_assert(CZ_LANE_BLOCK == 8, "two of each axle");
+    CZ_LANES (i) {
         const CzComplex turned = cz_turned(turns[i]);
         cosine[i] = turned.re;
         sine[i] = turned.im;
@@ -28,11 +31,11 @@ static void look_under(const CzTrackMotion *track, const CzTrackUnder *under, Cz
         cz_track_shape(track, ring, seat, under->shape + 4 * axle * track->modes->n_vector);
         const CzTrackPoint point = cz_track_at(track, under, axle);
         const CzTrackSpring spring = cz_track_spring(track, seat);
-        S_AT(RAIL_Z_0, axle)[lane] = point.z;
-        S_AT(RAIL_PAST_0, axle)[lane] = point.past;
-        S_AT(RAIL_SLOPE_0, axle)[lane] = point.slope;
-        S_AT(RAIL_FLEXIBILITY_0, axle)[lane] = spring.flexibility;
-        S_AT(RAIL_FLEXIBILITY_SLOPE_0, axle)[lane] = spring.slope;
+        d->rail[axle].z[lane] = point.z;
+        d->rail[axle].past[lane] = point.past;
+        d->rail[axle].slope[lane] = point.slope;
+        d->rail[axle].flexibility[lane] = spring.flexibility;
+        d->rail[axle].flexibility_slope[lane] = spring.slope;
     }
 }
 
@@ -53,27 +56,26 @@ static void look_at_elements(CzElements *elements, CzBlock *d, int block) {
         double place[4];
         CzElementsPoint point[4];
         for (int axle = 0; axle < 4; ++axle)
-            place[axle] =
-                cz_wheel_place(P(BOGIE_X)[i], P(AXLE_X)[i], axle) + X_AT(WHEEL_X_0, 3 * axle)[i];
+            place[axle] = cz_wheel_place(d->parameter.bogie_x[i], d->parameter.axle_x[i], axle) +
+                          d->position.wheelset[axle].x[i];
         cz_elements_look(elements, index, place, point);
         for (int axle = 0; axle < 4; ++axle) {
-            S_AT(RAIL_Z_0, axle)[i] = point[axle].z;
-            S_AT(RAIL_PAST_0, axle)[i] = point[axle].past;
-            S_AT(RAIL_SLOPE_0, axle)[i] = point[axle].slope;
-            S_AT(RAIL_FLEXIBILITY_0, axle)[i] = point[axle].flexibility;
-            S_AT(RAIL_FLEXIBILITY_SLOPE_0, axle)[i] = point[axle].flexibility_slope;
+            d->rail[axle].z[i] = point[axle].z;
+            d->rail[axle].past[i] = point[axle].past;
+            d->rail[axle].slope[i] = point[axle].slope;
+            d->rail[axle].flexibility[i] = point[axle].flexibility;
+            d->rail[axle].flexibility_slope[i] = point[axle].flexibility_slope;
         }
     }
 }
 
 /* What runs along has no slope. */
 static void look_at_co_running(const CzCoRunningStep *track, CzBlock *d) {
-    const size_t n = CZ_LANE_BLOCK;
     for (int axle = 0; axle < 4; ++axle) {
-        const double *restrict re = d->rail[2 * axle], *restrict im = d->rail[2 * axle + 1];
-        double *restrict z = S_AT(RAIL_Z_0, axle), *restrict past = S_AT(RAIL_PAST_0, axle);
-        double *restrict flexibility = S_AT(RAIL_FLEXIBILITY_0, axle);
-        CZ_LANES (i, n) {
+        const double *restrict re = d->rail_mode[axle][0], *restrict im = d->rail_mode[axle][1];
+        double *restrict z = d->rail[axle].z, *restrict past = d->rail[axle].past;
+        double *restrict flexibility = d->rail[axle].flexibility;
+        CZ_LANES (i) {
             z[i] = track->now.re * re[i] - track->now.im * im[i];
             past[i] = track->past.re * re[i] - track->past.im * im[i];
             flexibility[i] = track->flexibility;
@@ -99,14 +101,14 @@ static void advance_modes(const CzTrackMotion *track, CzBlock *d, int block) {
         if (under->state == NULL)
             continue;
         for (int axle = 0; axle < 4; ++axle)
-            under->force[axle] = -S_AT(WHEEL_FORCE_0, axle)[i];
+            under->force[axle] = -d->published.wheel[axle].force[i];
         cz_track_step(track, under, under->force);
         double work = 0.0;
         for (int axle = 0; axle < 4; ++axle)
-            work += under->force[axle] *
-                    (cz_track_at(track, under, axle).past - S_AT(RAIL_PAST_0, axle)[i]);
-        d->work[CZ_L_TRACK][i] += work;
-        d->work[CZ_L_WHEEL_NORMAL][i] -= work;
+            work +=
+                under->force[axle] * (cz_track_at(track, under, axle).past - d->rail[axle].past[i]);
+        d->work.track[i] += work;
+        d->work.wheel_normal[i] -= work;
     }
 }
 
@@ -117,7 +119,7 @@ static void advance_elements(CzElements *elements, CzBlock *d, int block) {
     for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
         double force[4];
         for (int axle = 0; axle < 4; ++axle)
-            force[axle] = -S_AT(WHEEL_FORCE_0, axle)[i];
+            force[axle] = -d->published.wheel[axle].force[i];
         cz_elements_press(elements, first + (size_t)i, force);
     }
     cz_elements_step(elements, (size_t)block);
@@ -128,20 +130,19 @@ static void advance_elements(CzElements *elements, CzBlock *d, int block) {
             continue;
         for (int axle = 0; axle < 4; ++axle)
             work += elements->under[lane].force[axle] *
-                    (cz_elements_past(elements, lane, axle) - S_AT(RAIL_PAST_0, axle)[i]);
-        d->work[CZ_L_TRACK][i] += work;
-        d->work[CZ_L_WHEEL_NORMAL][i] -= work;
+                    (cz_elements_past(elements, lane, axle) - d->rail[axle].past[i]);
+        d->work.track[i] += work;
+        d->work.wheel_normal[i] -= work;
     }
 }
 
 static void advance_co_running(const CzCoRunningStep *track, CzBlock *d) {
-    const size_t n = CZ_LANE_BLOCK;
-    double *restrict taken = d->work[CZ_L_TRACK], *restrict given = d->work[CZ_L_WHEEL_NORMAL];
+    double *restrict taken = d->work.track, *restrict given = d->work.wheel_normal;
     for (int axle = 0; axle < 4; ++axle) {
-        const double *restrict force = S_AT(WHEEL_FORCE_0, axle), *restrict past =
-                                                                      S_AT(RAIL_PAST_0, axle);
-        double *restrict re = d->rail[2 * axle], *restrict im = d->rail[2 * axle + 1];
-        CZ_LANES (i, n) {
+        const double *restrict force = d->published.wheel[axle].force, *restrict past =
+                                                                           d->rail[axle].past;
+        double *restrict re = d->rail_mode[axle][0], *restrict im = d->rail_mode[axle][1];
+        CZ_LANES (i) {
             const double kicked_re = re[i] - track->kick.re * force[i];
             const double kicked_im = im[i] - track->kick.im * force[i];
             const double next_re = track->flight.re * kicked_re - track->flight.im * kicked_im;

@@ -2,41 +2,41 @@
 #ifndef CZ_DYNAMICS_KERNEL_WHEEL_H
 #define CZ_DYNAMICS_KERNEL_WHEEL_H
 
-#include "dynamics/kernel_rows.h"
+#include "dynamics/kernel_carrier.h"
 #include "laws/drag.h"
 #include "laws/slider.h"
 #include "laws/wheel_rail.h"
 
-/* Normal force of one axle on a rail that does not give way. */
+/* Normal force of one axle on a rigid rail. */
 static void press_on_rigid(CzBlock *d, int axle) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict hertz = P(HERTZ), *restrict rest = C_AT(WHEEL_REST_0, axle);
-    const double *restrict z = X_AT(WHEEL_Z_0, 3 * axle);
-    double *restrict approach = S_AT(WHEEL_APPROACH_0, axle), *restrict force =
-                                                                  S_AT(WHEEL_FORCE_0, axle);
-    CZ_LANES (i, n) {
+    const double *restrict hertz = d->parameter.wheel.hertz;
+    const double *restrict rest = d->constant.wheel_rest[axle];
+    const double *restrict z = d->position.wheelset[axle].z;
+    double *restrict approach = d->published.wheel[axle].approach;
+    double *restrict force = d->published.wheel[axle].force;
+    CZ_LANES (i) {
         approach[i] = rest[i] - z[i];
         force[i] = cz_wheel_normal_force(hertz[i], approach[i]);
     }
 }
 
-/* Normal force of one axle on a rail that does. The wheels are kept on their way along the track,
+/* Normal force of one axle on an elastic rail. The wheels are kept on their way along the track,
  * and the force is vertical: what the slope of the rail would push is the moving load's power. */
 static void press_on_elastic(CzBlock *d, int axle) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict hertz = P(HERTZ), *restrict rest = C_AT(WHEEL_REST_0, axle);
-    const double *restrict z = X_AT(WHEEL_Z_0, 3 * axle), *restrict speed =
-                                                              V_AT(WHEEL_X_0, 3 * axle);
-    const double *restrict rail = S_AT(RAIL_Z_0, axle), *restrict slope = S_AT(RAIL_SLOPE_0, axle);
-    const double *restrict flexibility = S_AT(RAIL_FLEXIBILITY_0, axle),
-                           *restrict change = S_AT(RAIL_FLEXIBILITY_SLOPE_0, axle);
-    double *restrict approach = S_AT(WHEEL_APPROACH_0, axle), *restrict force =
-                                                                  S_AT(WHEEL_FORCE_0, axle);
-    double *restrict normal_power = POWER(WHEEL_NORMAL), *restrict moving = POWER(MOVING_LOAD);
-    CZ_LANES (i, n) {
-        const double now = rest[i] + rail[i] - z[i];
-        const double normal = cz_wheel_force_on_spring(hertz[i], flexibility[i], now);
-        const double pushed = normal * speed[i] * (0.5 * normal * change[i] - slope[i]);
+    const double *restrict hertz = d->parameter.wheel.hertz;
+    const double *restrict rest = d->constant.wheel_rest[axle];
+    const double *restrict z = d->position.wheelset[axle].z;
+    const double *restrict speed = d->velocity.wheelset[axle].x;
+    const CzRailRows *restrict rail = &d->rail[axle];
+    double *restrict approach = d->published.wheel[axle].approach;
+    double *restrict force = d->published.wheel[axle].force;
+    double *restrict normal_power = d->power->wheel_normal, *restrict moving =
+                                                                d->power->moving_load;
+    CZ_LANES (i) {
+        const double now = rest[i] + rail->z[i] - z[i];
+        const double normal = cz_wheel_force_on_spring(hertz[i], rail->flexibility[i], now);
+        const double pushed =
+            normal * speed[i] * (0.5 * normal * rail->flexibility_slope[i] - rail->slope[i]);
         approach[i] = now;
         force[i] = normal;
         moving[i] += pushed;
@@ -44,72 +44,64 @@ static void press_on_elastic(CzBlock *d, int axle) {
     }
 }
 
-/* Creepage and the brake of one axle. */
+/* Creepage and the brake of one axle. The brake holds the wheelset against the bogie frame, which
+ * turns the other way round. */
 static void wheel(CzBlock *d, int axle, double step) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict rest = C_AT(STATIC_LOAD_0, axle), *restrict creep_c =
-                                                                 C(CREEP_COMPLIANCE);
-    const double *restrict brake_c = C(BRAKE_COMPLIANCE);
-    const double *restrict pressing = S_AT(WHEEL_FORCE_0, axle);
-    const double *restrict radius = P(WHEEL_RADIUS), *restrict k = P(CREEP_STIFFNESS),
-                           *restrict length = P(CREEP_LENGTH);
-    const double *restrict peak = P(FRICTION_PEAK), *restrict sliding = P(FRICTION_SLIDING);
-    const double *restrict fall = P(FRICTION_FALL_SPEED);
-    const double *restrict brake_k = P(BRAKE_STIFFNESS), *restrict brake =
-                                                             P_AT(BRAKE_MOMENT_0, axle);
-    const double *restrict vzw = V_AT(WHEEL_Z_0, 3 * axle);
-    const double *restrict vxw = V_AT(WHEEL_X_0, 3 * axle);
-    const double *restrict angle = X_AT(WHEEL_SPIN_0, 3 * axle), *restrict spin =
-                                                                     V_AT(WHEEL_SPIN_0, 3 * axle);
-    /* The brake holds the wheelset against the bogie frame, which turns the other way round. */
-    const double *restrict pitch_t = X_AT(BOGIE_PITCH_REAR, 3 * (axle / 2)),
-                           *restrict turn_t = V_AT(BOGIE_PITCH_REAR, 3 * (axle / 2));
-    const double *restrict deflection = M_AT(CREEP_0, axle), *restrict slipped =
-                                                                 M_AT(BRAKE_0, axle);
-    double *restrict next_deflection = NEXT_AT(CREEP_0, axle), *restrict next_slipped =
-                                                                   NEXT_AT(BRAKE_0, axle);
-    double *restrict gxw = G_AT(WHEEL_X_0, 3 * axle), *restrict gzw = G_AT(WHEEL_Z_0, 3 * axle);
-    double *restrict torque = G_AT(WHEEL_SPIN_0, 3 * axle), *restrict gmt = G_AT(BOGIE_PITCH_REAR,
-                                                                                 3 * (axle / 2));
-    double *restrict adhesion = S(ADHESION);
-    double *restrict normal_power = POWER(WHEEL_NORMAL), *restrict creep_power = POWER(WHEEL_CREEP);
-    double *restrict brake_power = POWER(BRAKE);
-    CZ_LANES (i, n) {
+    const int bogie = axle / 2;
+    const CzWheelRows *restrict rows = &d->parameter.wheel;
+    const CzConstants *restrict constant = &d->constant;
+    const double *restrict rest = constant->static_load[axle];
+    const double *restrict brake = rows->brake_moment[axle];
+    const double *restrict pressing = d->published.wheel[axle].force;
+    const CzWheelset *restrict at = &d->position.wheelset[axle];
+    const CzWheelset *restrict rate = &d->velocity.wheelset[axle];
+    const double *restrict pitch = d->position.bogie[bogie].pitch;
+    const double *restrict turn = d->velocity.bogie[bogie].pitch;
+    const CzWheelMemory *restrict memory = &d->memory->wheel[axle];
+    CzWheelMemory *restrict next = &d->next_memory->wheel[axle];
+    CzWheelset *restrict on = &d->force.wheelset[axle];
+    double *restrict on_bogie = d->force.bogie[bogie].pitch;
+    double *restrict adhesion = d->published.adhesion;
+    CzPower *restrict power = d->power;
+    CZ_LANES (i) {
         const double normal = pressing[i];
         const double more = normal - rest[i];
-        const CzCreepLaw law = {k[i], cz_larger(length[i], 1e-6), peak[i], sliding[i],
-                                cz_larger(fall[i], 1e-6)};
-        const double slip = vxw[i] - radius[i] * spin[i];
-        next_deflection[i] =
-            cz_creep_deflection(&law, creep_c[i], deflection[i], slip, vxw[i], normal, step);
-        const double tangential = -k[i] * next_deflection[i];
+        const double radius = rows->radius[i];
+        const CzCreepLaw law = {rows->creep_stiffness[i], cz_larger(rows->creep_length[i], 1e-6),
+                                rows->friction_peak[i], rows->friction_sliding[i],
+                                cz_larger(rows->friction_fall_speed[i], 1e-6)};
+        const double slip = rate->x[i] - radius * rate->spin[i];
+        const double deflection = cz_creep_deflection(
+            &law, constant->creep_compliance[i], memory->creep[i], slip, rate->x[i], normal, step);
+        const double tangential = -law.stiffness * deflection;
         const CzSliderResponse held =
-            cz_slider_of(brake_k[i], brake_c[i], brake[i], angle[i] + pitch_t[i], slipped[i]);
-        next_slipped[i] = held.offset;
-        gxw[i] += tangential;
-        gzw[i] += more;
-        torque[i] -= radius[i] * tangential + held.force;
-        gmt[i] -= held.force;
+            cz_slider_of(rows->brake_stiffness[i], constant->brake_compliance[i], brake[i],
+                         at->spin[i] + pitch[i], memory->brake[i]);
+        next->creep[i] = deflection;
+        next->brake[i] = held.offset;
+        on->x[i] += tangential;
+        on->z[i] += more;
+        on->spin[i] -= radius * tangential + held.force;
+        cz_put_moment(on_bogie, i, -held.force);
         adhesion[i] += tangential;
-        normal_power[i] -= more * vzw[i];
-        creep_power[i] -= tangential * slip;
-        brake_power[i] += held.force * (spin[i] + turn_t[i]);
+        power->wheel_normal[i] -= more * rate->z[i];
+        power->wheel_creep[i] -= tangential * slip;
+        power->brake[i] += held.force * (rate->spin[i] + turn[i]);
     }
 }
 
 /* Rolling resistance of one axle: a moment of the rail against the turning, after all others on the
  * wheelset; what it costs the car comes through the creepage. */
 static void roll(CzBlock *d, int axle) {
-    const size_t n = CZ_LANE_BLOCK;
-    const double *restrict inertia = C(WHEELSET_INERTIA), *restrict radius = P(WHEEL_RADIUS);
-    const double *restrict resistance = P(ROLLING_RESISTANCE), *restrict normal =
-                                                                   S_AT(WHEEL_FORCE_0, axle);
-    const double *restrict spin = V_AT(WHEEL_SPIN_0, 3 * axle);
-    double *restrict torque = G_AT(WHEEL_SPIN_0, 3 * axle), *restrict power = POWER(ROLLING);
-    CZ_LANES (i, n) {
-        const double capacity = resistance[i] * normal[i] * radius[i];
+    const double *restrict inertia = d->constant.wheelset_inertia;
+    const CzWheelRows *restrict rows = &d->parameter.wheel;
+    const double *restrict normal = d->published.wheel[axle].force;
+    const double *restrict spin = d->velocity.wheelset[axle].spin;
+    double *restrict torque = d->force.wheelset[axle].spin, *restrict power = d->power->rolling;
+    CZ_LANES (i) {
+        const double capacity = rows->rolling_resistance[i] * normal[i] * rows->radius[i];
         const double moment = cz_drag(inertia[i], capacity, spin[i], torque[i]);
-        torque[i] += moment;
+        cz_put_moment(torque, i, moment);
         power[i] -= moment * spin[i];
     }
 }

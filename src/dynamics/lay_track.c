@@ -7,15 +7,15 @@ typedef struct Standing {
 } Standing;
 
 static bool has_wheels(const CzBlock *block, size_t i) {
-    return block->parameter[CZ_P_HERTZ][i] > 0.0;
+    return block->parameter.wheel.hertz[i] > 0.0;
 }
 
 static Standing standing_of(const CzBlock *block, size_t i) {
     Standing standing;
     for (int axle = 0; axle < 4; ++axle) {
-        standing.place[axle] = cz_wheel_place(block->parameter[CZ_P_BOGIE_X][i],
-                                              block->parameter[CZ_P_AXLE_X][i], axle);
-        standing.load[axle] = block->constant[CZ_C_STATIC_LOAD_0 + axle][i];
+        standing.place[axle] =
+            cz_wheel_place(block->parameter.bogie_x[i], block->parameter.axle_x[i], axle);
+        standing.load[axle] = block->constant.static_load[axle][i];
     }
     return standing;
 }
@@ -46,8 +46,8 @@ static void lay_co_running(CzDynamics *dynamics, size_t lane, Standing *standing
     const CzCoRunningStep *track = dynamics->co_running;
     for (int axle = 0; axle < 4; ++axle) {
         const CzComplex y = cz_complex_scaled(-standing->load[axle], track->rest);
-        block->rail[2 * axle][i] = y.re;
-        block->rail[2 * axle + 1][i] = y.im;
+        block->rail_mode[axle][0][i] = y.re;
+        block->rail_mode[axle][1][i] = y.im;
         standing->deflection[axle] = track->now.re * y.re - track->now.im * y.im;
         standing->flexibility[axle] = track->flexibility;
     }
@@ -66,9 +66,9 @@ static bool lay_under(CzDynamics *dynamics, size_t lane, CzArena *arena) {
     if (dynamics->co_running != NULL)
         lay_co_running(dynamics, lane, &standing);
     for (int axle = 0; axle < 4; ++axle)
-        block->constant[CZ_C_WHEEL_REST_0 + axle][i] =
-            block->parameter[CZ_P_INDENTATION_0 + axle][i] +
-            standing.flexibility[axle] * standing.load[axle] - standing.deflection[axle];
+        block->constant.wheel_rest[axle][i] = block->parameter.wheel.indentation[axle][i] +
+                                              standing.flexibility[axle] * standing.load[axle] -
+                                              standing.deflection[axle];
     return true;
 }
 
@@ -135,7 +135,7 @@ bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTr
 static double co_running_energy(const CzCoRunningStep *track, const CzBlock *block, size_t i) {
     double energy = 0.0;
     for (int axle = 0; axle < 4; ++axle) {
-        const CzComplex y = {block->rail[2 * axle][i], block->rail[2 * axle + 1][i]};
+        const CzComplex y = {block->rail_mode[axle][0][i], block->rail_mode[axle][1][i]};
         const double z = cz_complex_product(track->past, y).re;
         const double rate = cz_complex_product(track->past_rate, y).re;
         energy += 0.5 * (track->part.stiffness * z * z + track->part.mass * rate * rate);
@@ -161,10 +161,10 @@ void cz_dynamics_track_rate(CzDynamics *dynamics, size_t lane, double *rate) {
     const size_t i = lane % CZ_LANE_BLOCK;
     double force[4], rail_rate[4], power = 0.0;
     for (int axle = 0; axle < 4; ++axle)
-        force[axle] = -block->scratch[CZ_S_WHEEL_FORCE_0 + axle][i];
+        force[axle] = -block->published.wheel[axle].force[i];
     cz_track_rate(dynamics->track, lane, force, rate, rail_rate);
     for (int axle = 0; axle < 4; ++axle)
         power += force[axle] * rail_rate[axle];
-    block->power[CZ_L_TRACK][i] += power;
-    block->power[CZ_L_WHEEL_NORMAL][i] -= power;
+    block->power->track[i] += power;
+    block->power->wheel_normal[i] -= power;
 }

@@ -10,15 +10,15 @@
 #define SMALL_STROKE 1e-7 /* of a buffer, within its first stage [m] */
 
 static double parameter(const CzDynamics *dynamics, int row, size_t lane) {
-    return cz_row(dynamics->lanes->parameter, dynamics->lanes->stride, row)[lane];
+    return *cz_lane_parameter(dynamics->lanes, row, lane);
 }
 
 static double memory(const CzDynamics *dynamics, int row, size_t lane) {
-    return cz_block_of(dynamics, lane)->memory[row][lane % CZ_LANE_BLOCK];
+    return cz_row_of(cz_block_of(dynamics, lane)->memory, row)[lane % CZ_LANE_BLOCK];
 }
 
-static double scratch(const CzDynamics *dynamics, int row, size_t lane) {
-    return cz_block_of(dynamics, lane)->scratch[row][lane % CZ_LANE_BLOCK];
+static double published(const CzDynamics *dynamics, int row, size_t lane) {
+    return cz_row_of(&cz_block_of(dynamics, lane)->published, row)[lane % CZ_LANE_BLOCK];
 }
 
 double cz_curve_value(const CzCurveLanes *curve, size_t stride, size_t lane, double x) {
@@ -38,41 +38,27 @@ double cz_curve_integral(const CzCurveLanes *curve, size_t stride, size_t lane, 
     return integral;
 }
 
-/* A buffer of one side of a chain. */
-typedef struct BufferPlace {
-    int curve, stroke, offset;                         /* CzCurveId and CzMemory of side A */
-    int transition, share, draw_stiffness, draw_slack; /* CzParameter of side A; draw -1: none */
-} BufferPlace;
-
-static const BufferPlace coupler_buffer = {CZ_CURVE_BUFFER_A,       CZ_M_BUFFER_A,
-                                           CZ_M_BUFFER_OFFSET_A,    CZ_P_BUFFER_TRANSITION_A,
-                                           CZ_P_BUFFER_SHARE_A,     CZ_P_BUFFER_DRAW_STIFFNESS_A,
-                                           CZ_P_BUFFER_DRAW_SLACK_A};
-static const BufferPlace side_buffer = {CZ_CURVE_SIDE_BUFFER_A,
-                                        CZ_M_SIDE_BUFFER_A,
-                                        CZ_M_SIDE_OFFSET_A,
-                                        CZ_P_SIDE_TRANSITION_A,
-                                        CZ_P_SIDE_SHARE_A,
-                                        -1,
-                                        -1};
+/* A buffer of one side of a chain in a lane. */
+typedef struct BufferAt {
+    const CzBufferRows *rows;
+    const CzBufferMemory *memory;
+    const CzCurveLanes *curve;
+} BufferAt;
 
 /* Area under the unloading path of a buffer: down the transition to the lower curve, along it to
  * zero, and its stop; or of its draw spring. The lower curve rises nowhere faster than the
  * transition, so the triangle above it is at least h^2 / 2 k_t. */
-static double buffer_stored(const CzDynamics *dynamics, size_t lane, const BufferPlace *place,
-                            int side) {
-    const double stroke = memory(dynamics, place->stroke + side, lane);
+static double buffer_stored(const BufferAt *buffer, size_t stride, size_t lane) {
+    const size_t i = lane % CZ_LANE_BLOCK;
+    const CzBufferRows *rows = buffer->rows;
+    const CzCurveLanes *curve = buffer->curve;
+    const double stroke = buffer->memory->stroke[i];
     if (stroke < 0.0) {
-        if (place->draw_stiffness < 0)
-            return 0.0;
-        const double slack = parameter(dynamics, place->draw_slack + side, lane);
-        const double drawn = cz_larger(-stroke - slack, 0.0);
-        return 0.5 * parameter(dynamics, place->draw_stiffness + side, lane) * drawn * drawn;
+        const double drawn = cz_larger(-stroke - rows->draw_slack[i], 0.0);
+        return 0.5 * rows->draw_stiffness[i] * drawn * drawn;
     }
-    const CzCurveLanes *curve = &dynamics->lanes->curve[place->curve + side];
-    const size_t stride = dynamics->lanes->stride;
-    const double share = parameter(dynamics, place->share + side, lane);
-    const double transition = cz_larger(parameter(dynamics, place->transition + side, lane), 1.0);
+    const double share = rows->share[i];
+    const double transition = cz_larger(rows->transition[i], 1.0);
     const double usable = curve->usable[lane], inside = cz_smaller(stroke, usable);
     const double beyond = stroke - inside;
     const double upper_curve = beyond > 0.0 ? cz_curve_value(curve, stride, lane, usable)
@@ -80,8 +66,7 @@ static double buffer_stored(const CzDynamics *dynamics, size_t lane, const Buffe
     const double line = transition * stroke;
     const double upper = cz_smaller(upper_curve, line);
     const double lower = cz_smaller(share * upper_curve, line);
-    const double force = cz_clamp(
-        transition * (stroke - memory(dynamics, place->offset + side, lane)), lower, upper);
+    const double force = cz_clamp(transition * (stroke - buffer->memory->offset[i]), lower, upper);
     const double over = force - lower;
     /* Close to zero the lower curve is the transition itself: less the triangle above that. */
     const double first = share * cz_curve_value(curve, stride, lane, 0.0);
@@ -97,16 +82,28 @@ static double buffer_stored(const CzDynamics *dynamics, size_t lane, const Buffe
     return below + 0.5 * over * over / transition + stop;
 }
 
+static size_t block_of(size_t lane) {
+    return lane / CZ_LANE_BLOCK;
+}
+
 double cz_coupler_stored(const CzDynamics *dynamics, size_t lane, int side) {
-    if (parameter(dynamics, CZ_P_COUPLER, lane) < 0.5)
+    const CzLanes *lanes = dynamics->lanes;
+    const BufferAt buffer = {&lanes->block[block_of(lane)].parameter.coupler.side[side].buffer,
+                             &cz_block_of(dynamics, lane)->memory->coupler.side[side].buffer,
+                             &lanes->curve[CZ_CURVE(buffer[side])]};
+    if (parameter(dynamics, CZ_PARAMETER(coupler.exists), lane) < 0.5)
         return 0.0;
-    return buffer_stored(dynamics, lane, &coupler_buffer, side);
+    return buffer_stored(&buffer, lanes->stride, lane);
 }
 
 double cz_side_stored(const CzDynamics *dynamics, size_t lane, int side) {
-    if (parameter(dynamics, CZ_P_SIDE_BUFFERS, lane) < 0.5)
+    const CzLanes *lanes = dynamics->lanes;
+    const BufferAt buffer = {&lanes->block[block_of(lane)].parameter.side_buffers.side[side].buffer,
+                             &cz_block_of(dynamics, lane)->memory->side_buffers.side[side].buffer,
+                             &lanes->curve[CZ_CURVE(side_buffer[side])]};
+    if (parameter(dynamics, CZ_PARAMETER(side_buffers.exists), lane) < 0.5)
         return 0.0;
-    return buffer_stored(dynamics, lane, &side_buffer, side);
+    return buffer_stored(&buffer, lanes->stride, lane);
 }
 
 static double squared(double force, double stiffness) {
@@ -114,45 +111,53 @@ static double squared(double force, double stiffness) {
 }
 
 double cz_hinge_stored(const CzDynamics *dynamics, size_t lane, int side) {
-    const double engaged = scratch(dynamics, CZ_S_ENGAGED, lane);
-    if (parameter(dynamics, CZ_P_COUPLER, lane) < 0.5 || !(engaged > 0.0))
+    const double engaged = published(dynamics, CZ_PUBLISHED(coupler.engaged), lane);
+    if (parameter(dynamics, CZ_PARAMETER(coupler.exists), lane) < 0.5 || !(engaged > 0.0))
         return 0.0;
-    const double swing = scratch(dynamics, CZ_S_SWING_A + side, lane) / engaged;
-    const double stiffness = parameter(dynamics, CZ_P_HINGE_STIFFNESS_A + side, lane);
-    const double capacity = parameter(dynamics, CZ_P_HINGE_MOMENT_A + side, lane);
+    const double swing =
+        published(dynamics, CZ_PUBLISHED(coupler.swing_vertical[side]), lane) / engaged;
+    const double stiffness =
+        parameter(dynamics, CZ_PARAMETER(coupler.side[side].hinge_vertical.stiffness), lane);
+    const double capacity =
+        parameter(dynamics, CZ_PARAMETER(coupler.side[side].hinge_vertical.moment), lane);
     const double moment = cz_clamp(
-        stiffness * (swing - memory(dynamics, CZ_M_HINGE_A + side, lane)), -capacity, capacity);
-    const double stop = parameter(dynamics, CZ_P_SWING_STIFFNESS_A + side, lane);
-    const double range = parameter(dynamics, CZ_P_SWING_STOP_A + side, lane);
+        stiffness * (swing - memory(dynamics, CZ_MEMORY(coupler.side[side].hinge_vertical), lane)),
+        -capacity, capacity);
+    const double stop =
+        parameter(dynamics, CZ_PARAMETER(coupler.side[side].hinge_vertical.stop_stiffness), lane);
+    const double range =
+        parameter(dynamics, CZ_PARAMETER(coupler.side[side].hinge_vertical.stop), lane);
     return engaged * (squared(moment, stiffness) + squared(cz_stop(stop, range, swing), stop));
 }
 
 double cz_face_stored(const CzDynamics *dynamics, size_t lane) {
-    const double held = 1.0 - memory(dynamics, CZ_M_FACE_LOST, lane);
-    const double force = memory(dynamics, CZ_M_FACE_FORCE, lane);
-    return held * 0.5 * parameter(dynamics, CZ_P_FACE_COMPLIANCE, lane) * force * force;
+    const double held = 1.0 - memory(dynamics, CZ_MEMORY(face.lost), lane);
+    const double force = memory(dynamics, CZ_MEMORY(face.force), lane);
+    return held * 0.5 * parameter(dynamics, CZ_PARAMETER(face.compliance), lane) * force * force;
 }
 
 double cz_face_sliding_stored(const CzDynamics *dynamics, size_t lane) {
-    return squared(scratch(dynamics, CZ_S_FACE_DEMAND, lane),
-                   parameter(dynamics, CZ_P_FACE_VERTICAL_STIFFNESS, lane));
+    return squared(published(dynamics, CZ_PUBLISHED(face.demand_vertical), lane),
+                   parameter(dynamics, CZ_PARAMETER(face.stiffness_vertical), lane));
 }
 
 double cz_side_sliding_stored(const CzDynamics *dynamics, size_t lane) {
-    return squared(scratch(dynamics, CZ_S_SIDE_SLIDING, lane), CZ_PLATE_STIFFNESS);
+    return squared(published(dynamics, CZ_PUBLISHED(side_buffers.sliding_vertical), lane),
+                   CZ_PLATE_STIFFNESS);
 }
 
 double cz_secondary_stored(const CzDynamics *dynamics, size_t lane) {
     double stored = 0.0;
     for (int bogie = 0; bogie < 2; ++bogie) {
         const CzSuspensionLaw law = {
-            .stiffness = parameter(dynamics, CZ_P_SECONDARY_STIFFNESS, lane),
-            .preload = parameter(dynamics, CZ_P_SECONDARY_PRELOAD_REAR + bogie, lane),
-            .bump_gap = parameter(dynamics, CZ_P_SECONDARY_BUMP_GAP, lane),
-            .bump_stiffness = parameter(dynamics, CZ_P_SECONDARY_BUMP_STIFFNESS, lane),
-            .lift_gap = parameter(dynamics, CZ_P_SECONDARY_LIFT_GAP, lane),
-            .lift_stiffness = parameter(dynamics, CZ_P_SECONDARY_LIFT_STIFFNESS, lane)};
-        stored += cz_suspension_stored(&law, scratch(dynamics, CZ_S_SECONDARY_REAR + bogie, lane));
+            .stiffness = parameter(dynamics, CZ_PARAMETER(secondary.stiffness), lane),
+            .preload = parameter(dynamics, CZ_PARAMETER(secondary_preload[bogie]), lane),
+            .bump_gap = parameter(dynamics, CZ_PARAMETER(secondary.bump_gap), lane),
+            .bump_stiffness = parameter(dynamics, CZ_PARAMETER(secondary.bump_stiffness), lane),
+            .lift_gap = parameter(dynamics, CZ_PARAMETER(secondary.lift_gap), lane),
+            .lift_stiffness = parameter(dynamics, CZ_PARAMETER(secondary.lift_stiffness), lane)};
+        stored += cz_suspension_stored(
+            &law, published(dynamics, CZ_PUBLISHED(secondary[bogie].compression), lane));
     }
     return stored;
 }
@@ -161,13 +166,14 @@ double cz_primary_stored(const CzDynamics *dynamics, size_t lane) {
     double stored = 0.0;
     for (int axle = 0; axle < 4; ++axle) {
         const CzSuspensionLaw law = {
-            .stiffness = parameter(dynamics, CZ_P_PRIMARY_STIFFNESS, lane),
-            .preload = parameter(dynamics, CZ_P_PRIMARY_PRELOAD_0 + axle, lane),
-            .bump_gap = parameter(dynamics, CZ_P_PRIMARY_BUMP_GAP, lane),
-            .bump_stiffness = parameter(dynamics, CZ_P_PRIMARY_BUMP_STIFFNESS, lane),
-            .lift_gap = parameter(dynamics, CZ_P_PRIMARY_LIFT_GAP, lane),
-            .lift_stiffness = parameter(dynamics, CZ_P_PRIMARY_LIFT_STIFFNESS, lane)};
-        stored += cz_suspension_stored(&law, scratch(dynamics, CZ_S_PRIMARY_0 + axle, lane));
+            .stiffness = parameter(dynamics, CZ_PARAMETER(primary.stiffness), lane),
+            .preload = parameter(dynamics, CZ_PARAMETER(primary_preload[axle]), lane),
+            .bump_gap = parameter(dynamics, CZ_PARAMETER(primary.bump_gap), lane),
+            .bump_stiffness = parameter(dynamics, CZ_PARAMETER(primary.bump_stiffness), lane),
+            .lift_gap = parameter(dynamics, CZ_PARAMETER(primary.lift_gap), lane),
+            .lift_stiffness = parameter(dynamics, CZ_PARAMETER(primary.lift_stiffness), lane)};
+        stored += cz_suspension_stored(
+            &law, published(dynamics, CZ_PUBLISHED(primary[axle].compression), lane));
     }
     return stored;
 }
@@ -175,8 +181,9 @@ double cz_primary_stored(const CzDynamics *dynamics, size_t lane) {
 double cz_link_stored(const CzDynamics *dynamics, size_t lane) {
     double stored = 0.0;
     for (int bogie = 0; bogie < 2; ++bogie) {
-        const double stretch = scratch(dynamics, CZ_S_LINK_TRAVEL_REAR + bogie, lane);
-        stored += 0.5 * parameter(dynamics, CZ_P_LINK_STIFFNESS, lane) * stretch * stretch;
+        const double stretch = published(dynamics, CZ_PUBLISHED(link[bogie].travel), lane);
+        stored +=
+            0.5 * parameter(dynamics, CZ_PARAMETER(link.strut.stiffness), lane) * stretch * stretch;
     }
     return stored;
 }
@@ -184,8 +191,9 @@ double cz_link_stored(const CzDynamics *dynamics, size_t lane) {
 double cz_axle_guidance_stored(const CzDynamics *dynamics, size_t lane) {
     double stored = 0.0;
     for (int axle = 0; axle < 4; ++axle) {
-        const double stretch = scratch(dynamics, CZ_S_AXLE_GUIDANCE_0 + axle, lane);
-        stored += 0.5 * parameter(dynamics, CZ_P_AXLE_GUIDANCE_STIFFNESS, lane) * stretch * stretch;
+        const double stretch = published(dynamics, CZ_PUBLISHED(axle_guidance[axle].travel), lane);
+        stored += 0.5 * parameter(dynamics, CZ_PARAMETER(axle_guidance.stiffness), lane) * stretch *
+                  stretch;
     }
     return stored;
 }
@@ -194,13 +202,13 @@ double cz_axle_guidance_stored(const CzDynamics *dynamics, size_t lane) {
 double cz_wheels_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *block = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
-    const double hertz = parameter(dynamics, CZ_P_HERTZ, lane);
+    const double hertz = parameter(dynamics, CZ_PARAMETER(wheel.hertz), lane);
     double stored = 0.0;
     for (int axle = 0; axle < 4 && hertz > 0.0; ++axle) {
-        const double rest = parameter(dynamics, CZ_P_INDENTATION_0 + axle, lane);
-        const double approach = rest - block->position[CZ_DOF_WHEEL_Z_0 + 3 * axle][i];
+        const double rest = parameter(dynamics, CZ_PARAMETER(wheel.indentation[axle]), lane);
+        const double approach = rest - block->position.wheelset[axle].z[i];
         const double pressed = cz_larger(approach, 0.0);
-        const double load = block->constant[CZ_C_STATIC_LOAD_0 + axle][i];
+        const double load = block->constant.static_load[axle][i];
         stored += 0.4 * hertz * (pressed * pressed * sqrt(pressed) - rest * rest * sqrt(rest)) -
                   load * (approach - rest);
     }
@@ -208,17 +216,18 @@ double cz_wheels_stored(const CzDynamics *dynamics, size_t lane) {
 }
 
 double cz_guide_stored(const CzDynamics *dynamics, size_t lane, int end) {
-    const double across = scratch(dynamics, CZ_S_END_ACROSS_REAR + end, lane);
-    return 0.5 * parameter(dynamics, CZ_P_GUIDE_STIFFNESS_REAR + end, lane) * across * across;
+    const double across = published(dynamics, CZ_PUBLISHED(end[end].slip_vertical), lane);
+    return 0.5 * parameter(dynamics, CZ_PARAMETER(end[end].guide_vertical.stiffness), lane) *
+           across * across;
 }
 
 double cz_fold_stored(const CzDynamics *dynamics, size_t lane, int end) {
     const CzBlock *block = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
-    const double angle = block->position[CZ_DOF_END_PITCH_REAR + 3 * end][i] -
-                         block->position[CZ_DOF_BODY_PITCH][i] -
-                         memory(dynamics, CZ_M_FOLD_REAR + end, lane);
-    return 0.5 * parameter(dynamics, CZ_P_FOLD_STIFFNESS_REAR + end, lane) * angle * angle;
+    const double angle = block->position.end[end].pitch[i] - block->position.body.pitch[i] -
+                         memory(dynamics, CZ_MEMORY(end[end].fold_pitch), lane);
+    return 0.5 * parameter(dynamics, CZ_PARAMETER(end[end].fold_pitch.stiffness), lane) * angle *
+           angle;
 }
 
 /* Area under the smaller of two straight lines that go from a to b over a length. */
@@ -292,43 +301,47 @@ static double crush_received(const CzCurveLanes *curve, size_t stride, size_t la
 
 static CzVehicleEndLaw end_law(const CzDynamics *dynamics, size_t lane, int end) {
     return (CzVehicleEndLaw){
-        cz_larger(parameter(dynamics, CZ_P_END_UNLOADING_REAR + end, lane), 1.0),
-        parameter(dynamics, CZ_P_END_SHARE_REAR + end, lane),
-        cz_larger(parameter(dynamics, CZ_P_END_SECOND_UNLOADING_REAR + end, lane), 1.0),
-        parameter(dynamics, CZ_P_END_TENSION_REAR + end, lane)};
+        cz_larger(parameter(dynamics, CZ_PARAMETER(end[end].crush.unloading), lane), 1.0),
+        parameter(dynamics, CZ_PARAMETER(end[end].crush.share), lane),
+        cz_larger(parameter(dynamics, CZ_PARAMETER(end[end].crush.second_unloading), lane), 1.0),
+        parameter(dynamics, CZ_PARAMETER(end[end].crush.tension), lane)};
 }
 
 static CzVehicleEndLaw limp_law(const CzDynamics *dynamics, size_t lane, int side) {
     return (CzVehicleEndLaw){
-        cz_larger(parameter(dynamics, CZ_P_LIMP_UNLOADING_A + side, lane), 1.0),
-        parameter(dynamics, CZ_P_LIMP_SHARE_A + side, lane),
-        cz_larger(parameter(dynamics, CZ_P_LIMP_SECOND_UNLOADING_A + side, lane), 1.0), 0.0};
+        cz_larger(parameter(dynamics, CZ_PARAMETER(face.side[side].massless.unloading), lane), 1.0),
+        parameter(dynamics, CZ_PARAMETER(face.side[side].massless.share), lane),
+        cz_larger(
+            parameter(dynamics, CZ_PARAMETER(face.side[side].massless.second_unloading), lane),
+            1.0),
+        0.0};
 }
 
 typedef double OfCrush(const CzCurveLanes *curve, size_t stride, size_t lane,
                        const CzVehicleEndLaw *law, double x, double largest);
 
 static double of_end(const CzDynamics *dynamics, size_t lane, int end, OfCrush *function) {
-    if (parameter(dynamics, CZ_P_SLAVED_ENDS, lane) > 0.5)
+    if (parameter(dynamics, CZ_PARAMETER(slaved_ends), lane) > 0.5)
         return 0.0;
     const CzVehicleEndLaw law = end_law(dynamics, lane, end);
-    return function(&dynamics->lanes->curve[CZ_CURVE_END_REAR + end], dynamics->lanes->stride, lane,
-                    &law, scratch(dynamics, CZ_S_END_STROKE_REAR + end, lane),
-                    memory(dynamics, CZ_M_END_PEAK_REAR + end, lane));
+    return function(&dynamics->lanes->curve[CZ_CURVE(end[end])], dynamics->lanes->stride, lane,
+                    &law, published(dynamics, CZ_PUBLISHED(end[end].stroke), lane),
+                    memory(dynamics, CZ_MEMORY(end[end].peak), lane));
 }
 
 static double of_limp_at(const CzDynamics *dynamics, size_t lane, int side, OfCrush *function,
                          double x, double largest) {
-    if (parameter(dynamics, CZ_P_LIMP_END_A + side, lane) < 0.5)
+    if (parameter(dynamics, CZ_PARAMETER(face.side[side].has_massless), lane) < 0.5)
         return 0.0;
     const CzVehicleEndLaw law = limp_law(dynamics, lane, side);
-    return function(&dynamics->lanes->curve[CZ_CURVE_LIMP_END_A + side], dynamics->lanes->stride,
+    return function(&dynamics->lanes->curve[CZ_CURVE(massless[side])], dynamics->lanes->stride,
                     lane, &law, x, largest);
 }
 
 static double of_limp(const CzDynamics *dynamics, size_t lane, int side, OfCrush *function) {
-    return of_limp_at(dynamics, lane, side, function, memory(dynamics, CZ_M_LIMP_A + side, lane),
-                      memory(dynamics, CZ_M_LIMP_PEAK_A + side, lane));
+    return of_limp_at(dynamics, lane, side, function,
+                      memory(dynamics, CZ_MEMORY(face.side[side].massless.stroke), lane),
+                      memory(dynamics, CZ_MEMORY(face.side[side].massless.peak), lane));
 }
 
 double cz_end_stored(const CzDynamics *dynamics, size_t lane, int end) {
@@ -353,9 +366,10 @@ double cz_limp_received_at(const CzDynamics *dynamics, size_t lane, int side, do
 }
 
 double cz_slide_stored(const CzDynamics *dynamics, size_t lane) {
-    const double x = cz_block_of(dynamics, lane)->position[CZ_DOF_BODY_X][lane % CZ_LANE_BLOCK];
-    const double over = cz_larger(fabs(x) - parameter(dynamics, CZ_P_SLIDE_LENGTH, lane), 0.0);
-    return 0.5 * parameter(dynamics, CZ_P_SLIDE_STIFFNESS, lane) * over * over;
+    const double x = cz_block_of(dynamics, lane)->position.body.x[lane % CZ_LANE_BLOCK];
+    const double over =
+        cz_larger(fabs(x) - parameter(dynamics, CZ_PARAMETER(drag.slide_length), lane), 0.0);
+    return 0.5 * parameter(dynamics, CZ_PARAMETER(drag.slide_stiffness), lane) * over * over;
 }
 
 double cz_track_stored(const CzDynamics *dynamics, size_t lane) {

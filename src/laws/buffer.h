@@ -28,7 +28,6 @@
 
 #define CZ_SMALLEST_STIFFNESS                                                                      \
     1e4 /* stiffness inside the slack, so that the chain has one answer [N/m] (ours) */
-#define CZ_FADE_LENGTH 0.01 /* stroke over which damping sets in [m] (ours) */
 
 typedef struct {
     double transition;     /* k_t, stiffness between the curves [N/m] */

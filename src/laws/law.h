@@ -10,6 +10,8 @@
 
 #include <math.h>
 
+#define CZ_FADE_LENGTH 0.01 /* stroke over which damping sets in [m] (ours) */
+
 static inline double cz_larger(double a, double b) {
     return a > b ? a : b;
 }

@@ -11,6 +11,8 @@
  * what it took. The unloading path is never above backbone(x), and x_res never below zero, so that
  * the elastic part of the backbone gives back no more than it took. For the same reason no stage
  * may rise faster than cz_vehicle_end_steepest says.
+ *
+ * A damper lies beside it, scaled in over the shortening: c fade(x) x'.
  */
 #ifndef CZ_LAWS_VEHICLE_END_H
 #define CZ_LAWS_VEHICLE_END_H
@@ -58,6 +60,17 @@ static inline CzVehicleEndResponse cz_vehicle_end(const CzVehicleEndLaw *law, do
                                                   double peak, double shortening, double largest) {
     return cz_vehicle_end_of(law, 1.0 / law->unloading, 1.0 / law->second_unloading, backbone, peak,
                              shortening, largest);
+}
+
+/* Force of the damper beside it [N]. */
+static inline double cz_vehicle_end_damping(double damping, double shortening, double rate) {
+    return damping * rate * cz_fade_in(shortening, CZ_FADE_LENGTH);
+}
+
+/* The same inside a series chain: force per travel of a step, scaled in over the shortening that
+ * was there before it [N/m]. */
+static inline double cz_vehicle_end_damper(double damping, double committed, double step) {
+    return damping * cz_fade_in(committed, CZ_FADE_LENGTH) / step;
 }
 
 /* Energy that unloading to zero gives back [J]: (1 - r^2) F^2 / (2 Ku1) + (r F)^2 / (2 Ku2), for a

@@ -18,34 +18,36 @@ static double value(const Design *design, int car, CzParameter parameter) {
 static CzChainCar chain_car(const Design *design, int car) {
     if (design->model->car[car].model != CZ_MODEL_FULL)
         return (CzChainCar){0};
-    const double secondary = value(design, car, CZ_P_SECONDARY_STIFFNESS);
-    const double primaries = 2.0 * value(design, car, CZ_P_PRIMARY_STIFFNESS);
+    const double secondary = value(design, car, CZ_PARAMETER(secondary.stiffness));
+    const double primaries = 2.0 * value(design, car, CZ_PARAMETER(primary.stiffness));
     return (CzChainCar){.spring = secondary * primaries / (secondary + primaries),
-                        .half_spacing = value(design, car, CZ_P_BOGIE_X)};
+                        .half_spacing = value(design, car, CZ_PARAMETER(bogie_x))};
 }
 
 static CzChainPivot chain_pivot(const Design *design, int interface, int side) {
     const bool is_front = side == CZ_SIDE_A; /* of its car */
     const int car = interface + side, end = is_front ? CZ_FRONT : CZ_REAR;
     const double outwards = is_front ? 1.0 : -1.0;
-    const double arm =
-        outwards * value(design, interface, is_front ? CZ_P_PIVOT_X_A : CZ_P_PIVOT_X_B);
-    CzChainPivot pivot = {.hinge = value(design, interface, CZ_OF_SIDE(CZ_P_HINGE_STIFFNESS, side)),
+    const double arm = outwards * value(design, interface,
+                                        is_front ? CZ_PARAMETER(coupler.pivot.x[0])
+                                                 : CZ_PARAMETER(coupler.pivot.x[1]));
+    CzChainPivot pivot = {.hinge = value(design, interface,
+                                         CZ_PARAMETER(coupler.side[side].hinge_vertical.stiffness)),
                           .body_arm = arm};
-    if (value(design, interface, CZ_OF_SIDE(CZ_P_COUPLER_ON_END, side)) > 0.0) {
-        pivot.body_arm = outwards * value(design, car, CZ_OF_END(CZ_P_END_X, end));
+    if (value(design, interface, CZ_PARAMETER(coupler.side[side].on_end)) > 0.0) {
+        pivot.body_arm = outwards * value(design, car, CZ_PARAMETER(end[end].x));
         pivot.end_arm = arm;
-        pivot.end_guide = value(design, car, CZ_OF_END(CZ_P_GUIDE_STIFFNESS, end));
-        pivot.end_fold = value(design, car, CZ_OF_END(CZ_P_FOLD_STIFFNESS, end));
+        pivot.end_guide = value(design, car, CZ_PARAMETER(end[end].guide_vertical.stiffness));
+        pivot.end_fold = value(design, car, CZ_PARAMETER(end[end].fold_pitch.stiffness));
     }
     return pivot;
 }
 
 static CzChainStrut chain_strut(const Design *design, int interface) {
-    if (!(value(design, interface, CZ_P_COUPLER) > 0.0))
+    if (!(value(design, interface, CZ_PARAMETER(coupler.exists)) > 0.0))
         return (CzChainStrut){0};
-    return (CzChainStrut){.length = value(design, interface, CZ_P_COUPLER_LENGTH),
-                          .tilts = value(design, interface, CZ_P_TILTS) > 0.0,
+    return (CzChainStrut){.length = value(design, interface, CZ_PARAMETER(coupler.length)),
+                          .tilts = value(design, interface, CZ_PARAMETER(tilts)) > 0.0,
                           .pivot = {chain_pivot(design, interface, CZ_SIDE_A),
                                     chain_pivot(design, interface, CZ_SIDE_B)}};
 }

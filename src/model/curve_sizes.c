@@ -20,17 +20,17 @@ static int in_buffer(const CzBuffer *buffer) {
 static void size_side(CzModel *model, const CzEnd *end, int side) {
     const CzCoupler *coupler = &end->coupler;
     if (coupler->given) {
-        need(model, CZ_OF_SIDE(CZ_CURVE_BUFFER, side), in_buffer(&coupler->buffer));
-        need(model, CZ_OF_SIDE(CZ_CURVE_TUBE, side), in_tube(&coupler->tube));
-        need(model, CZ_OF_SIDE(CZ_CURVE_SECOND_TUBE, side), in_tube(&coupler->second_tube));
+        need(model, CZ_CURVE(buffer[side]), in_buffer(&coupler->buffer));
+        need(model, CZ_CURVE(tube[side]), in_tube(&coupler->tube));
+        need(model, CZ_CURVE(second_tube[side]), in_tube(&coupler->second_tube));
     }
     const CzAntiClimber *anti_climber = &end->anti_climber;
     if (anti_climber->given)
-        need(model, CZ_OF_SIDE(CZ_CURVE_FACE, side),
+        need(model, CZ_CURVE(face[side]),
              cz_kinks_in_strength(anti_climber->n_stages, &anti_climber->curve));
     if (end->side_buffers.given) {
-        need(model, CZ_OF_SIDE(CZ_CURVE_SIDE_BUFFER, side), in_buffer(&end->side_buffers.buffer));
-        need(model, CZ_OF_SIDE(CZ_CURVE_SIDE_TUBE, side), in_tube(&end->side_buffers.tube));
+        need(model, CZ_CURVE(side_buffer[side]), in_buffer(&end->side_buffers.buffer));
+        need(model, CZ_CURVE(side_tube[side]), in_tube(&end->side_buffers.tube));
     }
 }
 
@@ -39,14 +39,14 @@ static void size_end(CzModel *model, const CzEnd *end, int which, bool is_full) 
         return;
     const int side = which == CZ_FRONT ? CZ_SIDE_A : CZ_SIDE_B;
     const int n_kink = cz_kinks_in_loading(end->n_stages, &end->curve);
-    need(model, is_full ? CZ_OF_END(CZ_CURVE_END, which) : CZ_OF_SIDE(CZ_CURVE_LIMP_END, side),
-         n_kink);
+    need(model, is_full ? CZ_CURVE(end[which]) : CZ_CURVE(massless[side]), n_kink);
 }
 
 void cz_model_size_curves(CzModel *model, const CzVehicle *vehicles) {
     static const CzCurveId springs[] = {
-        CZ_CURVE_END_REAR,   CZ_CURVE_END_FRONT,  CZ_CURVE_BUFFER_A,      CZ_CURVE_BUFFER_B,
-        CZ_CURVE_LIMP_END_A, CZ_CURVE_LIMP_END_B, CZ_CURVE_SIDE_BUFFER_A, CZ_CURVE_SIDE_BUFFER_B,
+        CZ_CURVE(end[0]),         CZ_CURVE(end[1]),         CZ_CURVE(buffer[0]),
+        CZ_CURVE(buffer[1]),      CZ_CURVE(massless[0]),    CZ_CURVE(massless[1]),
+        CZ_CURVE(side_buffer[0]), CZ_CURVE(side_buffer[1]),
     };
     for (size_t i = 0; i < sizeof springs / sizeof springs[0]; i++)
         need(model, springs[i], 1);

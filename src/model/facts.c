@@ -57,10 +57,10 @@ static double largest_strength(const CzLanes *lanes, CzCurveId id, int lane) {
 
 /* Largest plastic force of one side before it shears off; NaN without tubes. */
 static double tube_force(const CzLanes *lanes, int interface, int side) {
-    const double first = largest_strength(lanes, CZ_OF_SIDE(CZ_CURVE_TUBE, side), interface);
-    const double second =
-        largest_strength(lanes, CZ_OF_SIDE(CZ_CURVE_SECOND_TUBE, side), interface);
-    const double shear = cz_lane_value(lanes, interface, CZ_OF_SIDE(CZ_P_SHEAR_FORCE, side));
+    const double first = largest_strength(lanes, CZ_CURVE(tube[side]), interface);
+    const double second = largest_strength(lanes, CZ_CURVE(second_tube[side]), interface);
+    const double shear =
+        cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].shear.force));
     if (first >= CZ_NEVER && second >= CZ_NEVER)
         return NAN;
     const double largest = first >= CZ_NEVER    ? second
@@ -76,16 +76,17 @@ static CzInterfaceFacts interface_facts(const CzModel *model, const CzLanes *lan
                               .critical_force = critical_force,
                               .tube_force = NAN,
                               .anti_climber_gap = NAN};
-    if (cz_lane_value(lanes, interface, CZ_P_COUPLER) > 0.0) {
-        if (cz_lane_value(lanes, interface, CZ_P_TILTS) > 0.0)
-            facts.strut_length = cz_lane_value(lanes, interface, CZ_P_COUPLER_LENGTH);
+    if (cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.exists)) > 0.0) {
+        if (cz_lane_value(lanes, interface, CZ_PARAMETER(tilts)) > 0.0)
+            facts.strut_length = cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.length));
         facts.tube_force = smaller(tube_force(lanes, interface, CZ_SIDE_A),
                                    tube_force(lanes, interface, CZ_SIDE_B));
     }
     const CzEnd *a = &vehicles[model->car[interface].vehicle].front;
     const CzEnd *b = &vehicles[model->car[interface + 1].vehicle].rear;
     if ((a->given && a->anti_climber.given) || (b->given && b->anti_climber.given))
-        facts.anti_climber_gap = cz_lane_value(lanes, interface, CZ_P_FACE_GAP);
+        facts.anti_climber_gap =
+            cz_lane_value(lanes, interface, CZ_PARAMETER(face.contact.distance));
     return facts;
 }
 

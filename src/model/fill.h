@@ -10,10 +10,6 @@
 enum { CZ_REAR, CZ_FRONT };
 enum { CZ_SIDE_A, CZ_SIDE_B };
 
-/* Parameter or curve of one end or of one side. */
-#define CZ_OF_END(what, end) ((end) == CZ_REAR ? what##_REAR : what##_FRONT)
-#define CZ_OF_SIDE(what, side) ((side) == CZ_SIDE_A ? what##_A : what##_B)
-
 static inline const CzEnd *cz_end_of(const CzVehicle *vehicle, int end) {
     return end == CZ_REAR ? &vehicle->rear : &vehicle->front;
 }
@@ -57,8 +53,7 @@ static inline size_t cz_fill_lane(const CzFill *fill, int car) {
 }
 
 static inline void cz_put(const CzFill *fill, int car, CzParameter parameter, double value) {
-    fill->lanes->parameter[(size_t)parameter * fill->lanes->stride + cz_fill_lane(fill, car)] =
-        value;
+    *cz_lane_parameter(fill->lanes, parameter, cz_fill_lane(fill, car)) = value;
 }
 
 /* Writes "<part>: <sentence>" with the place of `field`, an address inside the vehicle array. */

@@ -38,10 +38,10 @@ static double inverse(double value) {
     return value > 0.0 ? 1.0 / value : 0.0;
 }
 
-static void put_dof(const CzFill *fill, int car, CzDof dof, double mass, double velocity) {
-    const size_t slot = (size_t)dof * fill->lanes->stride + cz_fill_lane(fill, car);
-    fill->lanes->mass[slot] = mass;
-    fill->lanes->velocity[slot] = velocity;
+static void put_dof(const CzFill *fill, int car, int dof, double mass, double velocity) {
+    const size_t lane = cz_fill_lane(fill, car);
+    *cz_lane_mass(fill->lanes, dof, lane) = mass;
+    *cz_lane_velocity(fill->lanes, dof, lane) = velocity;
 }
 
 /* ---- crush zones ---- */
@@ -52,31 +52,29 @@ static CzStatus fill_crush_zone(const CzFill *fill, int car, int which) {
     const double speed = fill->model->car[car].speed;
     const bool is_rear = which == CZ_REAR;
 
-    cz_put(fill, car, CZ_OF_END(CZ_P_INVERSE_END_MASS, which), 1.0 / end->mass);
-    cz_put(fill, car, CZ_OF_END(CZ_P_INVERSE_END_INERTIA, which), inverse(end->pitch_inertia));
-    cz_put(fill, car, CZ_OF_END(CZ_P_END_X, which), is_rear ? -end->distance : end->distance);
-    cz_put(fill, car, CZ_OF_END(CZ_P_END_BODY_Z, which), end->crush_height - vehicle->cg_height);
-    cz_put(fill, car, CZ_OF_END(CZ_P_END_MASS_Z, which), end->crush_height - end->cg_height);
-    put_dof(fill, car, is_rear ? CZ_DOF_END_X_REAR : CZ_DOF_END_X_FRONT, end->mass, speed);
-    put_dof(fill, car, is_rear ? CZ_DOF_END_Z_REAR : CZ_DOF_END_Z_FRONT, end->mass, 0.0);
-    put_dof(fill, car, is_rear ? CZ_DOF_END_PITCH_REAR : CZ_DOF_END_PITCH_FRONT, end->pitch_inertia,
-            0.0);
+    cz_put(fill, car, CZ_PARAMETER(inverse.end[which].mass), 1.0 / end->mass);
+    cz_put(fill, car, CZ_PARAMETER(inverse.end[which].inertia_pitch), inverse(end->pitch_inertia));
+    cz_put(fill, car, CZ_PARAMETER(end[which].x), is_rear ? -end->distance : end->distance);
+    cz_put(fill, car, CZ_PARAMETER(end[which].body_z), end->crush_height - vehicle->cg_height);
+    cz_put(fill, car, CZ_PARAMETER(end[which].mass_z), end->crush_height - end->cg_height);
+    put_dof(fill, car, CZ_DOF(end[which].x), end->mass, speed);
+    put_dof(fill, car, CZ_DOF(end[which].z), end->mass, 0.0);
+    put_dof(fill, car, CZ_DOF(end[which].pitch), end->pitch_inertia, 0.0);
 
     /* Along the car. */
-    CZ_TRY(cz_fill_end(fill, (CzPartName){car, which, car, "end"}, end,
-                       CZ_OF_END(CZ_CURVE_END, which)));
-    const CzCurveLanes *curve = &fill->lanes->curve[CZ_OF_END(CZ_CURVE_END, which)];
+    CZ_TRY(cz_fill_end(fill, (CzPartName){car, which, car, "end"}, end, CZ_CURVE(end[which])));
+    const CzCurveLanes *curve = &fill->lanes->curve[CZ_CURVE(end[which])];
     const size_t lane = cz_fill_lane(fill, car);
     double first_slope = 0.0;
     for (int i = 0; i < curve->n_kink; i++) {
         const size_t slot = (size_t)i * fill->lanes->stride + lane;
         first_slope += curve->at[slot] == 0.0 ? curve->slope_change[slot] : 0.0;
     }
-    cz_put(fill, car, CZ_OF_END(CZ_P_END_UNLOADING, which), end->unloading_stiffness);
-    cz_put(fill, car, CZ_OF_END(CZ_P_END_SHARE, which), end->unloading_share);
-    cz_put(fill, car, CZ_OF_END(CZ_P_END_SECOND_UNLOADING, which), cz_second_unloading(end));
-    cz_put(fill, car, CZ_OF_END(CZ_P_END_DAMPING, which), end->damping);
-    cz_put(fill, car, CZ_OF_END(CZ_P_END_TENSION, which), first_slope);
+    cz_put(fill, car, CZ_PARAMETER(end[which].crush.unloading), end->unloading_stiffness);
+    cz_put(fill, car, CZ_PARAMETER(end[which].crush.share), end->unloading_share);
+    cz_put(fill, car, CZ_PARAMETER(end[which].crush.second_unloading), cz_second_unloading(end));
+    cz_put(fill, car, CZ_PARAMETER(end[which].crush.damping), end->damping);
+    cz_put(fill, car, CZ_PARAMETER(end[which].crush.tension), first_slope);
 
     /* Across it. */
     const bool z_locked = end->vertical == CZ_GUIDANCE_LOCKED;
@@ -86,12 +84,12 @@ static CzStatus fill_crush_zone(const CzFill *fill, int car, int which) {
     const double fold = pitch_locked ? end->pitch_inertia * square : end->pitch_stiffness;
     const double fold_damping =
         pitch_locked ? 2.0 * GUIDE_DAMPING * sqrt(fold * end->pitch_inertia) : end->pitch_damping;
-    cz_put(fill, car, CZ_OF_END(CZ_P_GUIDE_STIFFNESS, which), guide);
-    cz_put(fill, car, CZ_OF_END(CZ_P_GUIDE_DAMPING, which),
+    cz_put(fill, car, CZ_PARAMETER(end[which].guide_vertical.stiffness), guide);
+    cz_put(fill, car, CZ_PARAMETER(end[which].guide_vertical.damping),
            2.0 * GUIDE_DAMPING * sqrt(guide * end->mass));
-    cz_put(fill, car, CZ_OF_END(CZ_P_FOLD_STIFFNESS, which), fold);
-    cz_put(fill, car, CZ_OF_END(CZ_P_FOLD_DAMPING, which), fold_damping);
-    cz_put(fill, car, CZ_OF_END(CZ_P_FOLD_MOMENT, which),
+    cz_put(fill, car, CZ_PARAMETER(end[which].fold_pitch.stiffness), fold);
+    cz_put(fill, car, CZ_PARAMETER(end[which].fold_pitch.damping), fold_damping);
+    cz_put(fill, car, CZ_PARAMETER(end[which].fold_pitch.moment),
            pitch_locked ? CZ_NEVER : end->hinge_moment);
     return CZ_OK;
 }
@@ -112,51 +110,51 @@ static double gap_or_never(double gap) {
 static void fill_suspensions(const CzFill *fill, int car, const CzBogie *bogie,
                              const CzStatics *statics) {
     const CzSuspension *secondary = &bogie->secondary, *primary = &bogie->primary;
-    cz_put(fill, car, CZ_P_SECONDARY_STIFFNESS, secondary->stiffness);
-    cz_put(fill, car, CZ_P_SECONDARY_PRELOAD_REAR,
+    cz_put(fill, car, CZ_PARAMETER(secondary.stiffness), secondary->stiffness);
+    cz_put(fill, car, CZ_PARAMETER(secondary_preload[0]),
            secondary->carries_tension ? CZ_NEVER : statics->secondary_load[CZ_REAR]);
-    cz_put(fill, car, CZ_P_SECONDARY_PRELOAD_FRONT,
+    cz_put(fill, car, CZ_PARAMETER(secondary_preload[1]),
            secondary->carries_tension ? CZ_NEVER : statics->secondary_load[CZ_FRONT]);
-    cz_put(fill, car, CZ_P_SECONDARY_DAMPING, secondary->damping);
-    cz_put(fill, car, CZ_P_SECONDARY_BLOW_OFF_RATE, blow_off_rate(secondary));
-    cz_put(fill, car, CZ_P_SECONDARY_DAMPING_BEYOND, secondary->damping_beyond);
-    cz_put(fill, car, CZ_P_SECONDARY_BUMP_GAP, gap_or_never(secondary->bump_gap));
-    cz_put(fill, car, CZ_P_SECONDARY_BUMP_STIFFNESS, secondary->bump_stiffness);
-    cz_put(fill, car, CZ_P_SECONDARY_LIFT_GAP, gap_or_never(secondary->lift_gap));
-    cz_put(fill, car, CZ_P_SECONDARY_LIFT_STIFFNESS, secondary->lift_stiffness);
+    cz_put(fill, car, CZ_PARAMETER(secondary.damping), secondary->damping);
+    cz_put(fill, car, CZ_PARAMETER(secondary.blow_off_rate), blow_off_rate(secondary));
+    cz_put(fill, car, CZ_PARAMETER(secondary.damping_beyond), secondary->damping_beyond);
+    cz_put(fill, car, CZ_PARAMETER(secondary.bump_gap), gap_or_never(secondary->bump_gap));
+    cz_put(fill, car, CZ_PARAMETER(secondary.bump_stiffness), secondary->bump_stiffness);
+    cz_put(fill, car, CZ_PARAMETER(secondary.lift_gap), gap_or_never(secondary->lift_gap));
+    cz_put(fill, car, CZ_PARAMETER(secondary.lift_stiffness), secondary->lift_stiffness);
 
-    cz_put(fill, car, CZ_P_PRIMARY_STIFFNESS, primary->stiffness);
+    cz_put(fill, car, CZ_PARAMETER(primary.stiffness), primary->stiffness);
     for (int axle = 0; axle < 4; axle++)
-        cz_put(fill, car, (CzParameter)(CZ_P_PRIMARY_PRELOAD_0 + axle),
+        cz_put(fill, car, CZ_PARAMETER(primary_preload[axle]),
                primary->carries_tension ? CZ_NEVER : statics->primary_load[axle]);
-    cz_put(fill, car, CZ_P_PRIMARY_DAMPING, primary->damping);
-    cz_put(fill, car, CZ_P_PRIMARY_BLOW_OFF_RATE, blow_off_rate(primary));
-    cz_put(fill, car, CZ_P_PRIMARY_DAMPING_BEYOND, primary->damping_beyond);
-    cz_put(fill, car, CZ_P_PRIMARY_BUMP_GAP, gap_or_never(primary->bump_gap));
-    cz_put(fill, car, CZ_P_PRIMARY_BUMP_STIFFNESS, primary->bump_stiffness);
-    cz_put(fill, car, CZ_P_PRIMARY_LIFT_GAP, gap_or_never(primary->lift_gap));
-    cz_put(fill, car, CZ_P_PRIMARY_LIFT_STIFFNESS, primary->lift_stiffness);
+    cz_put(fill, car, CZ_PARAMETER(primary.damping), primary->damping);
+    cz_put(fill, car, CZ_PARAMETER(primary.blow_off_rate), blow_off_rate(primary));
+    cz_put(fill, car, CZ_PARAMETER(primary.damping_beyond), primary->damping_beyond);
+    cz_put(fill, car, CZ_PARAMETER(primary.bump_gap), gap_or_never(primary->bump_gap));
+    cz_put(fill, car, CZ_PARAMETER(primary.bump_stiffness), primary->bump_stiffness);
+    cz_put(fill, car, CZ_PARAMETER(primary.lift_gap), gap_or_never(primary->lift_gap));
+    cz_put(fill, car, CZ_PARAMETER(primary.lift_stiffness), primary->lift_stiffness);
 }
 
 static void fill_bogies(const CzFill *fill, int car) {
     const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
     const CzBogie *bogie = &vehicle->bogie;
     const double speed = fill->model->car[car].speed;
-    cz_put(fill, car, CZ_P_INVERSE_BOGIE_MASS, 1.0 / bogie->mass);
-    cz_put(fill, car, CZ_P_INVERSE_BOGIE_INERTIA, 1.0 / bogie->pitch_inertia);
-    cz_put(fill, car, CZ_P_BOGIE_X, vehicle->bogie_spacing / 2.0);
-    cz_put(fill, car, CZ_P_LINK_BODY_Z, bogie->link.height - vehicle->cg_height);
-    cz_put(fill, car, CZ_P_LINK_BOGIE_Z, bogie->link.height - bogie->cg_height);
-    cz_put(fill, car, CZ_P_LINK_STIFFNESS, bogie->link.stiffness);
-    cz_put(fill, car, CZ_P_LINK_DAMPING, bogie->link.damping);
-    cz_put(fill, car, CZ_P_AXLE_X, bogie->axle_spacing / 2.0);
-    cz_put(fill, car, CZ_P_AXLE_Z, bogie->wheel_radius - bogie->cg_height);
-    cz_put(fill, car, CZ_P_AXLE_GUIDANCE_STIFFNESS, bogie->guidance_stiffness);
-    cz_put(fill, car, CZ_P_AXLE_GUIDANCE_DAMPING, bogie->guidance_damping);
-    for (int dof = CZ_DOF_BOGIE_X_REAR; dof <= CZ_DOF_BOGIE_PITCH_FRONT; dof += 3) {
-        put_dof(fill, car, (CzDof)dof, bogie->mass, speed);
-        put_dof(fill, car, (CzDof)(dof + 1), bogie->mass, 0.0);
-        put_dof(fill, car, (CzDof)(dof + 2), bogie->pitch_inertia, 0.0);
+    cz_put(fill, car, CZ_PARAMETER(inverse.bogie.mass), 1.0 / bogie->mass);
+    cz_put(fill, car, CZ_PARAMETER(inverse.bogie.inertia_pitch), 1.0 / bogie->pitch_inertia);
+    cz_put(fill, car, CZ_PARAMETER(bogie_x), vehicle->bogie_spacing / 2.0);
+    cz_put(fill, car, CZ_PARAMETER(link.body_z), bogie->link.height - vehicle->cg_height);
+    cz_put(fill, car, CZ_PARAMETER(link.bogie_z), bogie->link.height - bogie->cg_height);
+    cz_put(fill, car, CZ_PARAMETER(link.strut.stiffness), bogie->link.stiffness);
+    cz_put(fill, car, CZ_PARAMETER(link.strut.damping), bogie->link.damping);
+    cz_put(fill, car, CZ_PARAMETER(axle_x), bogie->axle_spacing / 2.0);
+    cz_put(fill, car, CZ_PARAMETER(axle_z), bogie->wheel_radius - bogie->cg_height);
+    cz_put(fill, car, CZ_PARAMETER(axle_guidance.stiffness), bogie->guidance_stiffness);
+    cz_put(fill, car, CZ_PARAMETER(axle_guidance.damping), bogie->guidance_damping);
+    for (int dof = CZ_DOF(bogie[0].x); dof <= CZ_DOF(bogie[1].pitch); dof += 3) {
+        put_dof(fill, car, dof, bogie->mass, speed);
+        put_dof(fill, car, (int)(dof + 1), bogie->mass, 0.0);
+        put_dof(fill, car, (int)(dof + 2), bogie->pitch_inertia, 0.0);
     }
 }
 
@@ -187,34 +185,33 @@ static void fill_wheels(const CzFill *fill, int car, const CzStatics *statics) {
     const int first_braked = 4 - n_braked_axle(place->brake);
     double load = 0.0;
 
-    cz_put(fill, car, CZ_P_INVERSE_WHEELSET_MASS, 1.0 / bogie->wheelset_mass);
-    cz_put(fill, car, CZ_P_INVERSE_WHEELSET_INERTIA, 1.0 / bogie->wheelset_inertia);
-    cz_put(fill, car, CZ_P_WHEEL_RADIUS, radius);
-    cz_put(fill, car, CZ_P_HERTZ, hertz);
+    cz_put(fill, car, CZ_PARAMETER(inverse.wheelset.mass), 1.0 / bogie->wheelset_mass);
+    cz_put(fill, car, CZ_PARAMETER(inverse.wheelset.inertia_pitch), 1.0 / bogie->wheelset_inertia);
+    cz_put(fill, car, CZ_PARAMETER(wheel.radius), radius);
+    cz_put(fill, car, CZ_PARAMETER(wheel.hertz), hertz);
     for (int axle = 0; axle < 4; axle++) {
         const double indentation = cbrt(statics->wheel_load[axle] / hertz);
         const double moment = place->brake_ratio * statics->wheel_load[axle] * radius;
-        cz_put(fill, car, (CzParameter)(CZ_P_INDENTATION_0 + axle), indentation * indentation);
-        cz_put(fill, car, (CzParameter)(CZ_P_BRAKE_MOMENT_0 + axle),
+        cz_put(fill, car, CZ_PARAMETER(wheel.indentation[axle]), indentation * indentation);
+        cz_put(fill, car, CZ_PARAMETER(wheel.brake_moment[axle]),
                axle >= first_braked ? moment : 0.0);
-        put_dof(fill, car, (CzDof)(CZ_DOF_WHEEL_X_0 + 3 * axle), bogie->wheelset_mass,
-                place->speed);
-        put_dof(fill, car, (CzDof)(CZ_DOF_WHEEL_Z_0 + 3 * axle), bogie->wheelset_mass, 0.0);
-        put_dof(fill, car, (CzDof)(CZ_DOF_WHEEL_SPIN_0 + 3 * axle), bogie->wheelset_inertia,
+        put_dof(fill, car, (int)(CZ_DOF(wheelset[axle].x)), bogie->wheelset_mass, place->speed);
+        put_dof(fill, car, (int)(CZ_DOF(wheelset[axle].z)), bogie->wheelset_mass, 0.0);
+        put_dof(fill, car, (int)(CZ_DOF(wheelset[axle].spin)), bogie->wheelset_inertia,
                 place->speed / radius);
         load += statics->wheel_load[axle] / 4.0;
     }
-    cz_put(fill, car, CZ_P_BRAKE_STIFFNESS,
+    cz_put(fill, car, CZ_PARAMETER(wheel.brake_stiffness),
            bogie->wheelset_inertia * HELD_AXLE_FREQUENCY * HELD_AXLE_FREQUENCY);
 
     const Friction friction = friction_of(fill->model);
-    cz_put(fill, car, CZ_P_CREEP_STIFFNESS,
+    cz_put(fill, car, CZ_PARAMETER(wheel.creep_stiffness),
            friction.peak * load / (adhesion->peak_creepage * CONTACT_LENGTH));
-    cz_put(fill, car, CZ_P_CREEP_LENGTH, CONTACT_LENGTH);
-    cz_put(fill, car, CZ_P_FRICTION_PEAK, friction.peak);
-    cz_put(fill, car, CZ_P_FRICTION_SLIDING, friction.sliding);
-    cz_put(fill, car, CZ_P_FRICTION_FALL_SPEED, adhesion->fall_speed);
-    cz_put(fill, car, CZ_P_ROLLING_RESISTANCE, vehicle->rolling_resistance);
+    cz_put(fill, car, CZ_PARAMETER(wheel.creep_length), CONTACT_LENGTH);
+    cz_put(fill, car, CZ_PARAMETER(wheel.friction_peak), friction.peak);
+    cz_put(fill, car, CZ_PARAMETER(wheel.friction_sliding), friction.sliding);
+    cz_put(fill, car, CZ_PARAMETER(wheel.friction_fall_speed), adhesion->fall_speed);
+    cz_put(fill, car, CZ_PARAMETER(wheel.rolling_resistance), vehicle->rolling_resistance);
     fill->lanes->has_rolling |= vehicle->rolling_resistance > 0.0;
 }
 
@@ -229,30 +226,32 @@ static void fill_drag(const CzFill *fill, int car, const CzStatics *statics) {
     const double ratio = fmin(place->brake_ratio, friction.peak);
     const bool locks = place->brake_ratio > friction.peak;
     const double rolling = vehicle->rolling_resistance * statics->weight;
-    cz_put(fill, car, CZ_P_DRAG_BRAKE, ratio * braked);
-    cz_put(fill, car, CZ_P_DRAG_BRAKE_SLIDING, (locks ? friction.sliding : ratio) * braked);
-    cz_put(fill, car, CZ_P_FRICTION_FALL_SPEED, fill->model->simulation->adhesion.fall_speed);
-    cz_put(fill, car, CZ_P_DRAG_ROLLING, rolling);
+    cz_put(fill, car, CZ_PARAMETER(drag.brake), ratio * braked);
+    cz_put(fill, car, CZ_PARAMETER(drag.brake_sliding),
+           (locks ? friction.sliding : ratio) * braked);
+    cz_put(fill, car, CZ_PARAMETER(wheel.friction_fall_speed),
+           fill->model->simulation->adhesion.fall_speed);
+    cz_put(fill, car, CZ_PARAMETER(drag.rolling), rolling);
     fill->lanes->has_drag |= ratio * braked + rolling > 0.0;
 }
 
 static void fill_slide(const CzFill *fill, int car, const CzSlide *slide) {
     if (slide == NULL)
         return;
-    cz_put(fill, car, CZ_P_DRAG_SLIDE, slide->force);
-    cz_put(fill, car, CZ_P_SLIDE_LENGTH, slide->length);
-    cz_put(fill, car, CZ_P_SLIDE_STIFFNESS, slide->bottom_stiffness);
+    cz_put(fill, car, CZ_PARAMETER(drag.slide), slide->force);
+    cz_put(fill, car, CZ_PARAMETER(drag.slide_length), slide->length);
+    cz_put(fill, car, CZ_PARAMETER(drag.slide_stiffness), slide->bottom_stiffness);
     fill->lanes->has_drag = 1;
 }
 
 CzStatus cz_fill_car(const CzFill *fill, int car, const CzStatics *statics) {
     const CzCar *place = &fill->model->car[car];
-    cz_put(fill, car, CZ_P_INVERSE_BODY_MASS, inverse(statics->body_mass));
-    cz_put(fill, car, CZ_P_INVERSE_BODY_INERTIA, inverse(statics->body_inertia));
-    put_dof(fill, car, CZ_DOF_BODY_X, statics->body_mass, place->speed);
+    cz_put(fill, car, CZ_PARAMETER(inverse.body.mass), inverse(statics->body_mass));
+    cz_put(fill, car, CZ_PARAMETER(inverse.body.inertia_pitch), inverse(statics->body_inertia));
+    put_dof(fill, car, CZ_DOF(body.x), statics->body_mass, place->speed);
     if (place->model != CZ_MODEL_FULL) {
-        put_dof(fill, car, CZ_DOF_END_X_REAR, 0.0, place->speed);
-        put_dof(fill, car, CZ_DOF_END_X_FRONT, 0.0, place->speed);
+        put_dof(fill, car, CZ_DOF(end[0].x), 0.0, place->speed);
+        put_dof(fill, car, CZ_DOF(end[1].x), 0.0, place->speed);
         if (place->model == CZ_MODEL_RIGID)
             fill_drag(fill, car, statics);
         else
@@ -260,9 +259,9 @@ CzStatus cz_fill_car(const CzFill *fill, int car, const CzStatics *statics) {
         return CZ_OK;
     }
     fill->lanes->has_full_cars = 1;
-    cz_put(fill, car, CZ_P_SLAVED_ENDS, 0.0);
-    put_dof(fill, car, CZ_DOF_BODY_Z, statics->body_mass, 0.0);
-    put_dof(fill, car, CZ_DOF_BODY_PITCH, statics->body_inertia, 0.0);
+    cz_put(fill, car, CZ_PARAMETER(slaved_ends), 0.0);
+    put_dof(fill, car, CZ_DOF(body.z), statics->body_mass, 0.0);
+    put_dof(fill, car, CZ_DOF(body.pitch), statics->body_inertia, 0.0);
     CZ_TRY(fill_crush_zone(fill, car, CZ_REAR));
     CZ_TRY(fill_crush_zone(fill, car, CZ_FRONT));
     fill_suspensions(fill, car, &cz_fill_vehicle(fill, car)->bogie, statics);

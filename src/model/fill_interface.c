@@ -187,15 +187,15 @@ static CzStatus fill_tubes(const Pair *pair, int which, double *compliance) {
     const CzTube *first = coupler == NULL ? NULL : &coupler->tube;
     const CzTube *second = coupler == NULL ? NULL : &coupler->second_tube;
     CZ_TRY(cz_fill_tube(pair->fill, part_name(pair, which, "coupler tube"), first, 1,
-                        CZ_OF_SIDE(CZ_CURVE_TUBE, which)));
+                        CZ_CURVE(tube[which])));
     CZ_TRY(cz_fill_tube(pair->fill, part_name(pair, which, "second coupler tube"), second, 1,
-                        CZ_OF_SIDE(CZ_CURVE_SECOND_TUBE, which)));
+                        CZ_CURVE(second_tube[which])));
     if (first != NULL && first->given) {
-        put(pair, CZ_OF_SIDE(CZ_P_TUBE_RATE, which), first->rate_factor);
+        put(pair, CZ_PARAMETER(coupler.side[which].tube_rate), first->rate_factor);
         *compliance += 1.0 / (first->stiffness * first->count);
     }
     if (second != NULL && second->given) {
-        put(pair, CZ_OF_SIDE(CZ_P_SECOND_TUBE_RATE, which), second->rate_factor);
+        put(pair, CZ_PARAMETER(coupler.side[which].second_tube_rate), second->rate_factor);
         *compliance += 1.0 / (second->stiffness * second->count);
     }
     return CZ_OK;
@@ -208,27 +208,29 @@ static void fill_coupler_pivot(const Pair *pair, int which, double height) {
         side->is_full && has_coupler(side) && side->end->coupler.anchor == CZ_ANCHOR_END;
     const double carrier = on_end ? side->end->cg_height : side->vehicle->cg_height;
     const double arm = side->plane - behind - (on_end ? side->end->distance : 0.0);
-    put(pair, CZ_OF_SIDE(CZ_P_COUPLER_ON_END, which), on_end);
-    put(pair, which == CZ_SIDE_A ? CZ_P_PIVOT_X_A : CZ_P_PIVOT_X_B,
+    put(pair, CZ_PARAMETER(coupler.side[which].on_end), on_end);
+    put(pair,
+        which == CZ_SIDE_A ? CZ_PARAMETER(coupler.pivot.x[0]) : CZ_PARAMETER(coupler.pivot.x[1]),
         side->sign * (side->is_full ? arm : 0.0));
-    put(pair, which == CZ_SIDE_A ? CZ_P_PIVOT_Z_A : CZ_P_PIVOT_Z_B,
+    put(pair,
+        which == CZ_SIDE_A ? CZ_PARAMETER(coupler.pivot.z[0]) : CZ_PARAMETER(coupler.pivot.z[1]),
         side->is_full ? height - carrier : 0.0);
     if (length > 0.0)
-        put(pair, CZ_OF_SIDE(CZ_P_STRUT_LENGTH, which), length);
+        put(pair, CZ_PARAMETER(coupler.side[which].strut_length), length);
 }
 
 static void fill_shear_off(const Pair *pair, int which, const CzShearOff *shear_off) {
-    put(pair, CZ_OF_SIDE(CZ_P_SHEAR_FORCE, which), shear_off->force);
-    put(pair, CZ_OF_SIDE(CZ_P_SHEAR_RESIDUAL, which), shear_off->residual_force);
-    put(pair, CZ_OF_SIDE(CZ_P_SHEAR_SOFTENING, which), shear_off->softening_length);
-    put(pair, CZ_OF_SIDE(CZ_P_SHEAR_SPACE, which),
+    put(pair, CZ_PARAMETER(coupler.side[which].shear.force), shear_off->force);
+    put(pair, CZ_PARAMETER(coupler.side[which].shear.residual), shear_off->residual_force);
+    put(pair, CZ_PARAMETER(coupler.side[which].shear.softening), shear_off->softening_length);
+    put(pair, CZ_PARAMETER(coupler.side[which].shear.space),
         shear_off->softening_length + shear_off->retraction_space);
-    put(pair, CZ_OF_SIDE(CZ_P_SHEAR_BOTTOM, which), shear_off->bottom_stiffness);
+    put(pair, CZ_PARAMETER(coupler.side[which].shear.bottom), shear_off->bottom_stiffness);
 }
 
 static CzStatus fill_coupler_side(const Pair *pair, int which) {
     const Side *side = &pair->side[which];
-    const CzCurveId curve = CZ_OF_SIDE(CZ_CURVE_BUFFER, which);
+    const CzCurveId curve = CZ_CURVE(buffer[which]);
     const CzPartName name = part_name(pair, which, "coupler buffer");
     if (!has_coupler(side))
         return cz_fill_buffer(pair->fill, name, NULL, 1, curve);
@@ -236,20 +238,21 @@ static CzStatus fill_coupler_side(const Pair *pair, int which) {
     const CzCoupler *coupler = &side->end->coupler;
     const CzBuffer *buffer = &coupler->buffer;
     CZ_TRY(cz_fill_buffer(pair->fill, name, buffer, 1, curve));
-    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_TRANSITION, which), buffer->transition_stiffness);
-    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_SHARE, which), buffer->unloading_share);
-    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_DAMPING, which), buffer->damping);
-    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_QUADRATIC, which), buffer->quadratic_damping);
-    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_DRAW_STIFFNESS, which), buffer->draw_stiffness);
-    put(pair, CZ_OF_SIDE(CZ_P_BUFFER_DRAW_SLACK, which), buffer->draw_slack);
+    put(pair, CZ_PARAMETER(coupler.side[which].buffer.transition), buffer->transition_stiffness);
+    put(pair, CZ_PARAMETER(coupler.side[which].buffer.share), buffer->unloading_share);
+    put(pair, CZ_PARAMETER(coupler.side[which].buffer.damping), buffer->damping);
+    put(pair, CZ_PARAMETER(coupler.side[which].buffer.quadratic), buffer->quadratic_damping);
+    put(pair, CZ_PARAMETER(coupler.side[which].buffer.draw_stiffness), buffer->draw_stiffness);
+    put(pair, CZ_PARAMETER(coupler.side[which].buffer.draw_slack), buffer->draw_slack);
     if (coupler->shear_off.given)
         fill_shear_off(pair, which, &coupler->shear_off);
     if (coupler->hinge.given) {
         const CzHinge *hinge = &coupler->hinge;
-        put(pair, CZ_OF_SIDE(CZ_P_HINGE_STIFFNESS, which), hinge->stiffness);
-        put(pair, CZ_OF_SIDE(CZ_P_HINGE_MOMENT, which), hinge->moment_capacity);
-        put(pair, CZ_OF_SIDE(CZ_P_SWING_STOP, which), hinge->swing_stop);
-        put(pair, CZ_OF_SIDE(CZ_P_SWING_STIFFNESS, which), hinge->stop_stiffness);
+        put(pair, CZ_PARAMETER(coupler.side[which].hinge_vertical.stiffness), hinge->stiffness);
+        put(pair, CZ_PARAMETER(coupler.side[which].hinge_vertical.moment), hinge->moment_capacity);
+        put(pair, CZ_PARAMETER(coupler.side[which].hinge_vertical.stop), hinge->swing_stop);
+        put(pair, CZ_PARAMETER(coupler.side[which].hinge_vertical.stop_stiffness),
+            hinge->stop_stiffness);
     }
     return CZ_OK;
 }
@@ -268,13 +271,14 @@ static CzStatus fill_couplers(const Pair *pair) {
         CZ_TRY(fill_tubes(pair, which, &compliance));
     }
     const bool is_inner = pair->lane != pair->fill->model->colliding;
-    put(pair, CZ_P_COUPLER, 1.0);
-    put(pair, CZ_P_COUPLED, is_inner && has_coupler(a) && has_coupler(b));
-    put(pair, CZ_P_PIVOT_DISTANCE, pair->distance + coupler_gap(a) + coupler_gap(b) + length);
-    put(pair, CZ_P_PIVOT_RISE, rise);
-    put(pair, CZ_P_COUPLER_LENGTH, sqrt(length * length + rise * rise));
-    put(pair, CZ_P_COUPLER_ALONG, length);
-    put(pair, CZ_P_COUPLER_COMPLIANCE, compliance);
+    put(pair, CZ_PARAMETER(coupler.exists), 1.0);
+    put(pair, CZ_PARAMETER(coupler.coupled), is_inner && has_coupler(a) && has_coupler(b));
+    put(pair, CZ_PARAMETER(coupler.pivot.distance),
+        pair->distance + coupler_gap(a) + coupler_gap(b) + length);
+    put(pair, CZ_PARAMETER(coupler.pivot.rise), rise);
+    put(pair, CZ_PARAMETER(coupler.length), sqrt(length * length + rise * rise));
+    put(pair, CZ_PARAMETER(coupler.along), length);
+    put(pair, CZ_PARAMETER(coupler.compliance), compliance);
     pair->fill->lanes->has_couplers = 1;
     return CZ_OK;
 }
@@ -296,13 +300,12 @@ static CzStatus fill_limp_end(const Pair *pair, int which) {
     const CzEnd *end = side->end;
     if (side->is_full || !cz_end_crushes(end))
         return CZ_OK;
-    CZ_TRY(cz_fill_end(pair->fill, part_name(pair, which, "end"), end,
-                       CZ_OF_SIDE(CZ_CURVE_LIMP_END, which)));
-    put(pair, CZ_OF_SIDE(CZ_P_LIMP_END, which), 1.0);
-    put(pair, CZ_OF_SIDE(CZ_P_LIMP_UNLOADING, which), end->unloading_stiffness);
-    put(pair, CZ_OF_SIDE(CZ_P_LIMP_SHARE, which), end->unloading_share);
-    put(pair, CZ_OF_SIDE(CZ_P_LIMP_DAMPING, which), end->damping);
-    put(pair, CZ_OF_SIDE(CZ_P_LIMP_SECOND_UNLOADING, which), cz_second_unloading(end));
+    CZ_TRY(cz_fill_end(pair->fill, part_name(pair, which, "end"), end, CZ_CURVE(massless[which])));
+    put(pair, CZ_PARAMETER(face.side[which].has_massless), 1.0);
+    put(pair, CZ_PARAMETER(face.side[which].massless.unloading), end->unloading_stiffness);
+    put(pair, CZ_PARAMETER(face.side[which].massless.share), end->unloading_share);
+    put(pair, CZ_PARAMETER(face.side[which].massless.damping), end->damping);
+    put(pair, CZ_PARAMETER(face.side[which].massless.second_unloading), cz_second_unloading(end));
     return CZ_OK;
 }
 
@@ -310,17 +313,20 @@ static CzStatus fill_face_side(const Pair *pair, int which, double height, doubl
     const Side *side = &pair->side[which];
     const double carrier = side->is_full ? side->end->distance : 0.0;
     const double arm = side->plane - face_gap(side) - carrier;
-    put(pair, which == CZ_SIDE_A ? CZ_P_FACE_X_A : CZ_P_FACE_X_B, side->sign * arm);
-    put(pair, which == CZ_SIDE_A ? CZ_P_FACE_Z_A : CZ_P_FACE_Z_B,
+    put(pair,
+        which == CZ_SIDE_A ? CZ_PARAMETER(face.contact.x[0]) : CZ_PARAMETER(face.contact.x[1]),
+        side->sign * arm);
+    put(pair,
+        which == CZ_SIDE_A ? CZ_PARAMETER(face.contact.z[0]) : CZ_PARAMETER(face.contact.z[1]),
         side->is_full ? height - side->end->cg_height : 0.0);
     const CzAntiClimber *anti_climber = has_anti_climber(side) ? &side->end->anti_climber : NULL;
     CZ_TRY(cz_fill_anti_climber(pair->fill, part_name(pair, which, "anti-climber"), anti_climber,
-                                CZ_OF_SIDE(CZ_CURVE_FACE, which)));
+                                CZ_CURVE(face[which])));
     CZ_TRY(fill_limp_end(pair, which));
     if (anti_climber == NULL)
         return CZ_OK;
-    put(pair, CZ_OF_SIDE(CZ_P_FACE_RATE, which), anti_climber->rate_factor);
-    put(pair, CZ_OF_SIDE(CZ_P_SPEED_FACTOR, which),
+    put(pair, CZ_PARAMETER(face.side[which].rate), anti_climber->rate_factor);
+    put(pair, CZ_PARAMETER(face.side[which].speed_factor),
         anti_climber->speed_factor / anti_climber->speed_reference);
     *compliance += 1.0 / (anti_climber->stiffness * anti_climber->count);
     return CZ_OK;
@@ -333,17 +339,19 @@ static void fill_ribs(const Pair *pair) {
     const double capacity_a = a->rib_count * a->count * value_or_zero(a->rib_strength);
     const double capacity_b = b->rib_count * b->count * value_or_zero(b->rib_strength);
     const double capacity = fmin(capacity_a, capacity_b);
-    put(pair, CZ_P_FACE_FRICTION, fmin(value_or_zero(a->friction), value_or_zero(b->friction)));
-    put(pair, CZ_P_FACE_VERTICAL_STIFFNESS,
+    put(pair, CZ_PARAMETER(face.friction),
+        fmin(value_or_zero(a->friction), value_or_zero(b->friction)));
+    put(pair, CZ_PARAMETER(face.stiffness_vertical),
         in_series(a->vertical_stiffness, b->vertical_stiffness));
-    put(pair, CZ_P_RIB_CAPACITY, capacity);
+    put(pair, CZ_PARAMETER(face.rib_capacity), capacity);
     if (capacity > 0.0)
-        put(pair, CZ_P_RIB_DEPTH, fmax(a->rib_depth, b->rib_depth));
+        put(pair, CZ_PARAMETER(face.rib_depth), fmax(a->rib_depth, b->rib_depth));
     if (!pair->side[CZ_SIDE_A].is_full || !pair->side[CZ_SIDE_B].is_full)
         return;
     /* The faces let go over one pitch as their overlap runs out, whatever their ribs carry. */
-    put(pair, CZ_P_RIB_PITCH, fmax(a->face_height / a->rib_count, b->face_height / b->rib_count));
-    put(pair, CZ_P_FACE_OVERLAP, (a->face_height + b->face_height) / 2.0);
+    put(pair, CZ_PARAMETER(face.rib_pitch),
+        fmax(a->face_height / a->rib_count, b->face_height / b->rib_count));
+    put(pair, CZ_PARAMETER(face.overlap), (a->face_height + b->face_height) / 2.0);
 }
 
 static CzStatus fill_faces(const Pair *pair) {
@@ -356,16 +364,16 @@ static CzStatus fill_faces(const Pair *pair) {
     const bool b_limps = !b->is_full && cz_end_crushes(b->end);
     if (compliance == 0.0)
         compliance = a_limps || b_limps ? SMALLEST_COMPLIANCE : BARE_COMPLIANCE;
-    put(pair, CZ_P_FACE_GAP, pair->distance + face_gap(a) + face_gap(b));
-    put(pair, CZ_P_FACE_RISE, heights.rise);
-    put(pair, CZ_P_FACE_COMPLIANCE, compliance);
+    put(pair, CZ_PARAMETER(face.contact.distance), pair->distance + face_gap(a) + face_gap(b));
+    put(pair, CZ_PARAMETER(face.contact.rise), heights.rise);
+    put(pair, CZ_PARAMETER(face.compliance), compliance);
 
     const bool a_has = has_anti_climber(a), b_has = has_anti_climber(b);
     const double damping_a =
         a_has ? a->end->anti_climber.damping * a->end->anti_climber.count : 0.0;
     const double damping_b =
         b_has ? b->end->anti_climber.damping * b->end->anti_climber.count : 0.0;
-    put(pair, CZ_P_FACE_DAMPING,
+    put(pair, CZ_PARAMETER(face.damping),
         a_has && b_has ? in_series(damping_a, damping_b) : damping_a + damping_b);
     if (a_has && b_has)
         fill_ribs(pair);
@@ -378,14 +386,18 @@ static CzStatus fill_side_buffer_side(const Pair *pair, int which, double height
                                       double *compliance) {
     const Side *side = &pair->side[which];
     const CzSideBuffers *set = has_side_buffers(side) ? &side->end->side_buffers : NULL;
-    const CzCurveId curve = CZ_OF_SIDE(CZ_CURVE_SIDE_BUFFER, which);
-    const CzCurveId tube_curve = CZ_OF_SIDE(CZ_CURVE_SIDE_TUBE, which);
+    const CzCurveId curve = CZ_CURVE(side_buffer[which]);
+    const CzCurveId tube_curve = CZ_CURVE(side_tube[which]);
     const CzPartName name = part_name(pair, which, "side buffer");
     const CzPartName tube_name = part_name(pair, which, "side buffer tube");
     const double carrier = side->is_full ? side->end->distance : 0.0;
-    put(pair, which == CZ_SIDE_A ? CZ_P_SIDE_X_A : CZ_P_SIDE_X_B,
+    put(pair,
+        which == CZ_SIDE_A ? CZ_PARAMETER(side_buffers.contact.x[0])
+                           : CZ_PARAMETER(side_buffers.contact.x[1]),
         side->sign * (side->plane - side_buffer_gap(side) - carrier));
-    put(pair, which == CZ_SIDE_A ? CZ_P_SIDE_Z_A : CZ_P_SIDE_Z_B,
+    put(pair,
+        which == CZ_SIDE_A ? CZ_PARAMETER(side_buffers.contact.z[0])
+                           : CZ_PARAMETER(side_buffers.contact.z[1]),
         side->is_full ? height - side->end->cg_height : 0.0);
     if (set == NULL) {
         CZ_TRY(cz_fill_buffer(pair->fill, name, NULL, 1, curve));
@@ -394,12 +406,14 @@ static CzStatus fill_side_buffer_side(const Pair *pair, int which, double height
     const CzBuffer *buffer = &set->buffer;
     CZ_TRY(cz_fill_buffer(pair->fill, name, buffer, set->count, curve));
     CZ_TRY(cz_fill_tube(pair->fill, tube_name, &set->tube, set->count, tube_curve));
-    put(pair, CZ_OF_SIDE(CZ_P_SIDE_TRANSITION, which), buffer->transition_stiffness * set->count);
-    put(pair, CZ_OF_SIDE(CZ_P_SIDE_SHARE, which), buffer->unloading_share);
-    put(pair, CZ_OF_SIDE(CZ_P_SIDE_DAMPING, which), buffer->damping * set->count);
-    put(pair, CZ_OF_SIDE(CZ_P_SIDE_QUADRATIC, which), buffer->quadratic_damping * set->count);
+    put(pair, CZ_PARAMETER(side_buffers.side[which].buffer.transition),
+        buffer->transition_stiffness * set->count);
+    put(pair, CZ_PARAMETER(side_buffers.side[which].buffer.share), buffer->unloading_share);
+    put(pair, CZ_PARAMETER(side_buffers.side[which].buffer.damping), buffer->damping * set->count);
+    put(pair, CZ_PARAMETER(side_buffers.side[which].buffer.quadratic),
+        buffer->quadratic_damping * set->count);
     if (set->tube.given) {
-        put(pair, CZ_OF_SIDE(CZ_P_SIDE_RATE, which), set->tube.rate_factor);
+        put(pair, CZ_PARAMETER(side_buffers.side[which].tube_rate), set->tube.rate_factor);
         *compliance += 1.0 / (set->tube.stiffness * set->tube.count * set->count);
     }
     return CZ_OK;
@@ -413,12 +427,13 @@ static CzStatus fill_side_buffers(const Pair *pair) {
     double compliance = 0.0;
     CZ_TRY(fill_side_buffer_side(pair, CZ_SIDE_A, heights.side[CZ_SIDE_A], &compliance));
     CZ_TRY(fill_side_buffer_side(pair, CZ_SIDE_B, heights.side[CZ_SIDE_B], &compliance));
-    put(pair, CZ_P_SIDE_BUFFERS, 1.0);
-    put(pair, CZ_P_SIDE_GAP, pair->distance + side_buffer_gap(a) + side_buffer_gap(b));
-    put(pair, CZ_P_SIDE_RISE, heights.rise);
-    put(pair, CZ_P_SIDE_COMPLIANCE, compliance);
+    put(pair, CZ_PARAMETER(side_buffers.exists), 1.0);
+    put(pair, CZ_PARAMETER(side_buffers.contact.distance),
+        pair->distance + side_buffer_gap(a) + side_buffer_gap(b));
+    put(pair, CZ_PARAMETER(side_buffers.contact.rise), heights.rise);
+    put(pair, CZ_PARAMETER(side_buffers.compliance), compliance);
     if (has_side_buffers(a) && has_side_buffers(b))
-        put(pair, CZ_P_SIDE_FRICTION,
+        put(pair, CZ_PARAMETER(side_buffers.friction),
             fmin(value_or_zero(a->end->side_buffers.friction),
                  value_or_zero(b->end->side_buffers.friction)));
     pair->fill->lanes->has_side_buffers = 1;
@@ -428,8 +443,10 @@ static CzStatus fill_side_buffers(const Pair *pair) {
 /* ---- superstructures ---- */
 
 static void fill_superstructures(const Pair *pair) {
-    static const CzParameter x[] = {CZ_P_SUPERSTRUCTURE_X_A, CZ_P_SUPERSTRUCTURE_X_B};
-    static const CzParameter z[] = {CZ_P_SUPERSTRUCTURE_Z_A, CZ_P_SUPERSTRUCTURE_Z_B};
+    static const CzParameter x[] = {CZ_PARAMETER(superstructure.contact.x[0]),
+                                    CZ_PARAMETER(superstructure.contact.x[1])};
+    static const CzParameter z[] = {CZ_PARAMETER(superstructure.contact.z[0]),
+                                    CZ_PARAMETER(superstructure.contact.z[1])};
     const CzSuperstructure *a = &pair->side[CZ_SIDE_A].end->superstructure;
     const CzSuperstructure *b = &pair->side[CZ_SIDE_B].end->superstructure;
     if (!has_superstructure(&pair->side[CZ_SIDE_A]) || !has_superstructure(&pair->side[CZ_SIDE_B]))
@@ -441,10 +458,10 @@ static void fill_superstructures(const Pair *pair) {
         put(pair, x[which], side->sign * (side->plane - end->superstructure.gap - end->distance));
         put(pair, z[which], heights.side[which] - end->cg_height);
     }
-    put(pair, CZ_P_SUPERSTRUCTURE_GAP, pair->distance + a->gap + b->gap);
-    put(pair, CZ_P_SUPERSTRUCTURE_RISE, heights.rise);
-    put(pair, CZ_P_SUPERSTRUCTURE_STIFFNESS, in_series(a->stiffness, b->stiffness));
-    put(pair, CZ_P_SUPERSTRUCTURE_STRENGTH, fmin(a->strength, b->strength));
+    put(pair, CZ_PARAMETER(superstructure.contact.distance), pair->distance + a->gap + b->gap);
+    put(pair, CZ_PARAMETER(superstructure.contact.rise), heights.rise);
+    put(pair, CZ_PARAMETER(superstructure.stiffness), in_series(a->stiffness, b->stiffness));
+    put(pair, CZ_PARAMETER(superstructure.strength), fmin(a->strength, b->strength));
     pair->fill->lanes->has_superstructures = 1;
 }
 
@@ -456,7 +473,7 @@ CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *b
                           make_side(fill, interface + 1, CZ_REAR, ahead)}};
     const Side *a = &pair.side[CZ_SIDE_A], *b = &pair.side[CZ_SIDE_B];
     pair.tilts = (a->is_full || b->is_full) && !a->is_fixed && !b->is_fixed;
-    put(&pair, CZ_P_TILTS, pair.tilts);
+    put(&pair, CZ_PARAMETER(tilts), pair.tilts);
     pair.has_couplers = pairs(pair.side, has_coupler);
     pair.has_side_buffers = pairs(pair.side, has_side_buffers);
     set_offsets(&pair);

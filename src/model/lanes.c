@@ -7,69 +7,58 @@ static const struct {
     CzParameter parameter;
     double value;
 } neutral[] = {
-    {CZ_P_SLAVED_ENDS, 1.0},
-    {CZ_P_FOLD_MOMENT_REAR, CZ_NEVER},
-    {CZ_P_FOLD_MOMENT_FRONT, CZ_NEVER},
-    {CZ_P_END_UNLOADING_REAR, CZ_NEVER},
-    {CZ_P_END_UNLOADING_FRONT, CZ_NEVER},
-    {CZ_P_END_SECOND_UNLOADING_REAR, CZ_NEVER},
-    {CZ_P_END_SECOND_UNLOADING_FRONT, CZ_NEVER},
-    {CZ_P_SECONDARY_BLOW_OFF_RATE, CZ_NEVER},
-    {CZ_P_SECONDARY_BUMP_GAP, CZ_NEVER},
-    {CZ_P_SECONDARY_LIFT_GAP, CZ_NEVER},
-    {CZ_P_PRIMARY_BLOW_OFF_RATE, CZ_NEVER},
-    {CZ_P_PRIMARY_BUMP_GAP, CZ_NEVER},
-    {CZ_P_PRIMARY_LIFT_GAP, CZ_NEVER},
-    {CZ_P_WHEEL_RADIUS, 1.0},
-    {CZ_P_CREEP_LENGTH, 1.0},
-    {CZ_P_FRICTION_FALL_SPEED, 1.0},
-    {CZ_P_BRAKE_STIFFNESS, 1.0},
-    {CZ_P_SLIDE_LENGTH, CZ_NEVER},
-    {CZ_P_PIVOT_DISTANCE, 1.0},
-    {CZ_P_COUPLER_LENGTH, 1.0},
-    {CZ_P_STRUT_LENGTH_A, CZ_NEVER},
-    {CZ_P_STRUT_LENGTH_B, CZ_NEVER},
-    {CZ_P_BUFFER_TRANSITION_A, CZ_NEVER},
-    {CZ_P_BUFFER_TRANSITION_B, CZ_NEVER},
-    {CZ_P_SHEAR_FORCE_A, CZ_NEVER},
-    {CZ_P_SHEAR_FORCE_B, CZ_NEVER},
-    {CZ_P_SHEAR_SOFTENING_A, 1.0},
-    {CZ_P_SHEAR_SOFTENING_B, 1.0},
-    {CZ_P_SHEAR_SPACE_A, CZ_NEVER},
-    {CZ_P_SHEAR_SPACE_B, CZ_NEVER},
-    {CZ_P_SWING_STOP_A, CZ_NEVER},
-    {CZ_P_SWING_STOP_B, CZ_NEVER},
-    {CZ_P_FACE_GAP, CZ_NEVER},
-    {CZ_P_FACE_COMPLIANCE, 1e-9},
-    {CZ_P_FACE_OVERLAP, CZ_NEVER},
-    {CZ_P_RIB_PITCH, 1.0},
-    {CZ_P_RIB_DEPTH, 1.0},
-    {CZ_P_FACE_VERTICAL_STIFFNESS, 1.0},
-    {CZ_P_LIMP_UNLOADING_A, CZ_NEVER},
-    {CZ_P_LIMP_UNLOADING_B, CZ_NEVER},
-    {CZ_P_LIMP_SECOND_UNLOADING_A, CZ_NEVER},
-    {CZ_P_LIMP_SECOND_UNLOADING_B, CZ_NEVER},
-    {CZ_P_SIDE_GAP, CZ_NEVER},
-    {CZ_P_SUPERSTRUCTURE_GAP, CZ_NEVER},
-    {CZ_P_SUPERSTRUCTURE_STIFFNESS, 1.0},
-    {CZ_P_SIDE_TRANSITION_A, CZ_NEVER},
-    {CZ_P_SIDE_TRANSITION_B, CZ_NEVER},
+    {CZ_PARAMETER(slaved_ends), 1.0},
+    {CZ_PARAMETER(end[0].fold_pitch.moment), CZ_NEVER},
+    {CZ_PARAMETER(end[1].fold_pitch.moment), CZ_NEVER},
+    {CZ_PARAMETER(end[0].crush.unloading), CZ_NEVER},
+    {CZ_PARAMETER(end[1].crush.unloading), CZ_NEVER},
+    {CZ_PARAMETER(end[0].crush.second_unloading), CZ_NEVER},
+    {CZ_PARAMETER(end[1].crush.second_unloading), CZ_NEVER},
+    {CZ_PARAMETER(secondary.blow_off_rate), CZ_NEVER},
+    {CZ_PARAMETER(secondary.bump_gap), CZ_NEVER},
+    {CZ_PARAMETER(secondary.lift_gap), CZ_NEVER},
+    {CZ_PARAMETER(primary.blow_off_rate), CZ_NEVER},
+    {CZ_PARAMETER(primary.bump_gap), CZ_NEVER},
+    {CZ_PARAMETER(primary.lift_gap), CZ_NEVER},
+    {CZ_PARAMETER(wheel.radius), 1.0},
+    {CZ_PARAMETER(wheel.creep_length), 1.0},
+    {CZ_PARAMETER(wheel.friction_fall_speed), 1.0},
+    {CZ_PARAMETER(wheel.brake_stiffness), 1.0},
+    {CZ_PARAMETER(drag.slide_length), CZ_NEVER},
+    {CZ_PARAMETER(coupler.pivot.distance), 1.0},
+    {CZ_PARAMETER(coupler.length), 1.0},
+    {CZ_PARAMETER(coupler.side[0].strut_length), CZ_NEVER},
+    {CZ_PARAMETER(coupler.side[1].strut_length), CZ_NEVER},
+    {CZ_PARAMETER(coupler.side[0].buffer.transition), CZ_NEVER},
+    {CZ_PARAMETER(coupler.side[1].buffer.transition), CZ_NEVER},
+    {CZ_PARAMETER(coupler.side[0].shear.force), CZ_NEVER},
+    {CZ_PARAMETER(coupler.side[1].shear.force), CZ_NEVER},
+    {CZ_PARAMETER(coupler.side[0].shear.softening), 1.0},
+    {CZ_PARAMETER(coupler.side[1].shear.softening), 1.0},
+    {CZ_PARAMETER(coupler.side[0].shear.space), CZ_NEVER},
+    {CZ_PARAMETER(coupler.side[1].shear.space), CZ_NEVER},
+    {CZ_PARAMETER(coupler.side[0].hinge_vertical.stop), CZ_NEVER},
+    {CZ_PARAMETER(coupler.side[1].hinge_vertical.stop), CZ_NEVER},
+    {CZ_PARAMETER(face.contact.distance), CZ_NEVER},
+    {CZ_PARAMETER(face.compliance), 1e-9},
+    {CZ_PARAMETER(face.overlap), CZ_NEVER},
+    {CZ_PARAMETER(face.rib_pitch), 1.0},
+    {CZ_PARAMETER(face.rib_depth), 1.0},
+    {CZ_PARAMETER(face.stiffness_vertical), 1.0},
+    {CZ_PARAMETER(face.side[0].massless.unloading), CZ_NEVER},
+    {CZ_PARAMETER(face.side[1].massless.unloading), CZ_NEVER},
+    {CZ_PARAMETER(face.side[0].massless.second_unloading), CZ_NEVER},
+    {CZ_PARAMETER(face.side[1].massless.second_unloading), CZ_NEVER},
+    {CZ_PARAMETER(side_buffers.contact.distance), CZ_NEVER},
+    {CZ_PARAMETER(superstructure.contact.distance), CZ_NEVER},
+    {CZ_PARAMETER(superstructure.stiffness), 1.0},
+    {CZ_PARAMETER(side_buffers.side[0].buffer.transition), CZ_NEVER},
+    {CZ_PARAMETER(side_buffers.side[1].buffer.transition), CZ_NEVER},
 };
 
+/* Springs are rigid where they are missing, plastic members never yield. */
 static bool is_spring(CzCurveId id) {
-    switch (id) {
-    case CZ_CURVE_TUBE_A:
-    case CZ_CURVE_TUBE_B:
-    case CZ_CURVE_SECOND_TUBE_A:
-    case CZ_CURVE_SECOND_TUBE_B:
-    case CZ_CURVE_FACE_A:
-    case CZ_CURVE_FACE_B:
-    case CZ_CURVE_SIDE_TUBE_A:
-    case CZ_CURVE_SIDE_TUBE_B:
-        return false;
-    default:
-        return true;
-    }
+    return id < CZ_CURVE(tube[0]) || (id >= CZ_CURVE(massless[0]) && id < CZ_CURVE(side_tube[0]));
 }
 
 static void set_row(double *row, size_t n, double value) {
@@ -108,17 +97,17 @@ CzLanes *cz_lanes_create(const CzModel *model, int n_design, CzArena *arena) {
     lanes->n_design = n_design;
     lanes->n_lane = blocks((size_t)model->n_car * (size_t)n_design);
     lanes->stride = blocks(lanes->n_lane + (size_t)n_design);
-    lanes->parameter = cz_arena_allocate(arena, CZ_N_PARAMETER * lanes->stride, sizeof(double));
-    lanes->mass = cz_arena_allocate(arena, CZ_N_DOF * lanes->stride, sizeof(double));
-    lanes->velocity = cz_arena_allocate(arena, CZ_N_DOF * lanes->stride, sizeof(double));
-    if (lanes->parameter == NULL || lanes->mass == NULL || lanes->velocity == NULL)
+    const size_t n_block = lanes->stride / CZ_LANE_BLOCK;
+    lanes->block = cz_arena_allocate(arena, n_block, sizeof *lanes->block);
+    if (lanes->block == NULL)
         return NULL;
     for (int id = 0; id < CZ_N_CURVE; id++)
         if (!create_curve(&lanes->curve[id], (CzCurveId)id, model->n_kink[id], lanes->stride,
                           arena))
             return NULL;
     for (size_t i = 0; i < sizeof neutral / sizeof neutral[0]; i++)
-        set_row(lanes->parameter + (size_t)neutral[i].parameter * lanes->stride, lanes->stride,
-                neutral[i].value);
+        for (size_t k = 0; k < n_block; k++)
+            set_row(cz_row_of(&lanes->block[k].parameter, neutral[i].parameter), CZ_LANE_BLOCK,
+                    neutral[i].value);
     return lanes;
 }

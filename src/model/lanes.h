@@ -1,36 +1,35 @@
 /* The numbers that a step reads: law parameters, curves, masses and start velocities, in lanes.
  *
- * Lane of car c of design d is c * n_design + d. Arrays are [quantity][lane] with a row length
- * `stride` that is a multiple of CZ_LANE_BLOCK and leaves room for reading one car beyond the last.
- * The interface of a design's last car does not exist: its parameters are neutral.
+ * Lane of car c of design d is c * n_design + d. Lanes are in blocks of CZ_LANE_BLOCK, and there
+ * are blocks enough for reading one car beyond the last; arrays of curves are [quantity][lane] with
+ * a row length `stride` of all their lanes. The interface of a design's last car does not exist:
+ * its parameters are neutral.
  */
 #ifndef CZ_MODEL_LANES_H
 #define CZ_MODEL_LANES_H
 
-#include <stddef.h>
+#include "model/parameters.h"
 
-enum { CZ_LANE_BLOCK = 8 };
-
-typedef enum CzParameter {
-#define CZ_PARAMETER(name, unit, doc) CZ_P_##name,
-#include "model/parameters.def"
-#undef CZ_PARAMETER
-    CZ_N_PARAMETER
-} CzParameter;
-
-typedef enum CzCurveId {
-#define CZ_CURVE(name, doc) CZ_CURVE_##name,
-#include "model/curves.def"
-#undef CZ_CURVE
-    CZ_N_CURVE
-} CzCurveId;
-
-typedef enum CzDof {
-#define CZ_DOF(name, what) CZ_DOF_##name,
-#include "model/dof.def"
-#undef CZ_DOF
-    CZ_N_DOF
-} CzDof;
+/* Force-stroke curves of a lane, by name, such as CZ_CURVE(tube[0]).
+ *
+ * A curve is y(x) = start + sum over its kinks of slope_change * max(x - at, 0). The last kink is
+ * where the element bottoms out and the slope becomes the bottom stiffness. Forces are of all
+ * devices of the side together. For a missing member: start CZ_NEVER for plastic members (they
+ * never yield) and no kinks; start 0 and one kink at 0 of slope CZ_NEVER for springs.
+ */
+typedef struct CzCurveNames {
+    char end[2];         /* backbone of the rear and the front crush zone over its shortening */
+    char buffer[2];      /* loading curve of the coupler's buffer over its stroke, side A and B */
+    char tube[2];        /* strength of the tube over its plastic stroke, trigger included */
+    char second_tube[2]; /* the same */
+    char face[2];        /* strength of the anti-climber; missing: plastic */
+    char massless[2];    /* backbone of a crush zone without end mass; missing: spring */
+    char side_buffer[2]; /* loading curve of the side buffers of one side */
+    char side_tube[2];   /* strength of the crash elements behind them */
+} CzCurveNames;
+typedef int CzCurveId;
+#define CZ_CURVE(member) ((int)offsetof(CzCurveNames, member))
+enum { CZ_N_CURVE = sizeof(CzCurveNames) };
 
 /* One curve in all lanes. */
 typedef struct CzCurveLanes {
@@ -41,16 +40,20 @@ typedef struct CzCurveLanes {
     double *usable;       /* stroke at which it bottoms out [m] (stride) */
 } CzCurveLanes;
 
+/* The numbers of CZ_LANE_BLOCK neighbouring lanes. */
+typedef struct CzLaneBlock {
+    CzParameters parameter;
+    CzState mass;     /* mass or inertia of each degree of freedom; 0 where none [kg, kg m2] */
+    CzState velocity; /* at t = 0 [m/s, rad/s] */
+} CzLaneBlock;
+
 typedef struct CzLanes {
     int n_car;
     int n_design;
-    size_t n_lane;     /* n_car * n_design, rounded up to CZ_LANE_BLOCK */
-    size_t stride;     /* row length of every array */
-    double *parameter; /* (CZ_N_PARAMETER x stride) */
+    size_t n_lane;      /* n_car * n_design, rounded up to CZ_LANE_BLOCK */
+    size_t stride;      /* row length of every array */
+    CzLaneBlock *block; /* (stride / CZ_LANE_BLOCK) */
     CzCurveLanes curve[CZ_N_CURVE];
-    double *mass; /* mass or inertia of each degree of freedom; 0 where none [kg, kg m2] (CZ_N_DOF x
-                     stride) */
-    double *velocity;        /* at t = 0 [m/s, rad/s] (CZ_N_DOF x stride) */
     int has_side_buffers;    /* any interface has them */
     int has_superstructures; /* likewise */
     int has_couplers;        /* any interface has them */
@@ -58,5 +61,16 @@ typedef struct CzLanes {
     int has_rolling;         /* any wheelset has rolling resistance */
     int has_drag;            /* the track holds back some car without running gear */
 } CzLanes;
+
+/* The number in a lane by the name of its row: CZ_PARAMETER(...), CZ_DOF(...). */
+static inline double *cz_lane_parameter(const CzLanes *lanes, CzParameter row, size_t lane) {
+    return cz_row_of(&lanes->block[lane / CZ_LANE_BLOCK].parameter, row) + lane % CZ_LANE_BLOCK;
+}
+static inline double *cz_lane_mass(const CzLanes *lanes, int dof, size_t lane) {
+    return cz_row_of(&lanes->block[lane / CZ_LANE_BLOCK].mass, dof) + lane % CZ_LANE_BLOCK;
+}
+static inline double *cz_lane_velocity(const CzLanes *lanes, int dof, size_t lane) {
+    return cz_row_of(&lanes->block[lane / CZ_LANE_BLOCK].velocity, dof) + lane % CZ_LANE_BLOCK;
+}
 
 #endif

@@ -7,7 +7,7 @@
 
 /* Parameter in a lane; in lanes of one design that is the car's number. */
 static inline double cz_lane_value(const CzLanes *lanes, int lane, CzParameter parameter) {
-    return lanes->parameter[(size_t)parameter * lanes->stride + (size_t)lane];
+    return *cz_lane_parameter(lanes, parameter, (size_t)lane);
 }
 
 /* Writes F_crit of the interfaces of one design of filled lanes (n_car - 1), as

@@ -22,8 +22,9 @@ static double face(const CzModel *model, const CzVehicle *vehicles, const CzLane
     const CzCar *car = &model->car[place];
     const CzVehicle *vehicle = &vehicles[car->vehicle];
     const CzEnd *end = cz_end_of(vehicle, side == CZ_SIDE_A ? CZ_FRONT : CZ_REAR);
-    const double arm = side == CZ_SIDE_A ? cz_lane_value(lanes, interface, CZ_P_FACE_X_A)
-                                         : -cz_lane_value(lanes, interface, CZ_P_FACE_X_B);
+    const double arm = side == CZ_SIDE_A
+                           ? cz_lane_value(lanes, interface, CZ_PARAMETER(face.contact.x[0]))
+                           : -cz_lane_value(lanes, interface, CZ_PARAMETER(face.contact.x[1]));
     return arm + (car->model == CZ_MODEL_FULL ? end->distance : 0.0) +
            (isnan(vehicle->length) ? drawn_half(model, place) : 0.0);
 }
@@ -43,10 +44,10 @@ CzStatus cz_model_stand(const CzModel *model, CzStand *stand, CzError *error) {
         if (car == 0)
             continue;
         stand[car].x = stand[car - 1].x + face(model, vehicles, lanes, car - 1, CZ_SIDE_A) +
-                       cz_lane_value(lanes, car - 1, CZ_P_FACE_GAP) +
+                       cz_lane_value(lanes, car - 1, CZ_PARAMETER(face.contact.distance)) +
                        face(model, vehicles, lanes, car - 1, CZ_SIDE_B);
         if (car - 1 == model->colliding || car - 1 == model->perturbed)
-            stand[car].rise = cz_lane_value(lanes, car - 1, CZ_P_FACE_RISE);
+            stand[car].rise = cz_lane_value(lanes, car - 1, CZ_PARAMETER(face.contact.rise));
     }
     cz_arena_free(&arena);
     return status;

@@ -81,7 +81,7 @@ static double steepest(const CzLanes *lanes, CzCurveId id, int lane) {
 
 /* Cars that are alike share a bound that is searched for. */
 static void note_elastic_track(const Car *car, const char *name, double contact, double primary) {
-    const double wheelset = value(car, CZ_P_INVERSE_WHEELSET_MASS);
+    const double wheelset = value(car, CZ_PARAMETER(inverse.wheelset.mass));
     OnRails *last = car->on_rails;
     if (last->bound == 0.0 || last->contact != contact || last->wheelset != wheelset ||
         last->primary != primary)
@@ -92,90 +92,97 @@ static void note_elastic_track(const Car *car, const char *name, double contact,
 }
 
 static void note_wheels(const Car *car, const char *name) {
-    const double wheelset = value(car, CZ_P_INVERSE_WHEELSET_MASS);
-    const double spin = value(car, CZ_P_INVERSE_WHEELSET_INERTIA);
-    const double radius = value(car, CZ_P_WHEEL_RADIUS);
+    const double wheelset = value(car, CZ_PARAMETER(inverse.wheelset.mass));
+    const double spin = value(car, CZ_PARAMETER(inverse.wheelset.inertia_pitch));
+    const double radius = value(car, CZ_PARAMETER(wheel.radius));
     double indentation = 0.0;
     for (int axle = 0; axle < 4; axle++)
-        indentation = fmax(indentation, value(car, (CzParameter)(CZ_P_INDENTATION_0 + axle)));
-    const double contact = 1.5 * value(car, CZ_P_HERTZ) * sqrt(FOURFOLD_LOAD * indentation);
-    const double stop =
-        fmax(value(car, CZ_P_PRIMARY_BUMP_STIFFNESS), value(car, CZ_P_PRIMARY_LIFT_STIFFNESS));
-    const double primary = value(car, CZ_P_PRIMARY_STIFFNESS) + stop;
+        indentation = fmax(indentation, value(car, CZ_PARAMETER(wheel.indentation[axle])));
+    const double contact =
+        1.5 * value(car, CZ_PARAMETER(wheel.hertz)) * sqrt(FOURFOLD_LOAD * indentation);
+    const double stop = fmax(value(car, CZ_PARAMETER(primary.bump_stiffness)),
+                             value(car, CZ_PARAMETER(primary.lift_stiffness)));
+    const double primary = value(car, CZ_PARAMETER(primary.stiffness)) + stop;
     if (car->model->track == NULL)
         note(car->model, "wheel-rail contact", name, contact + primary,
-             value(car, CZ_P_PRIMARY_DAMPING), wheelset);
+             value(car, CZ_PARAMETER(primary.damping)), wheelset);
     else
         note_elastic_track(car, name, contact, primary);
-    note(car->model, "creep", name, value(car, CZ_P_CREEP_STIFFNESS), 0.0,
+    note(car->model, "creep", name, value(car, CZ_PARAMETER(wheel.creep_stiffness)), 0.0,
          wheelset + radius * radius * spin);
-    note(car->model, "brake", name, value(car, CZ_P_BRAKE_STIFFNESS), 0.0, spin);
-    if (value(car, CZ_P_ROLLING_RESISTANCE) > 0.0)
+    note(car->model, "brake", name, value(car, CZ_PARAMETER(wheel.brake_stiffness)), 0.0, spin);
+    if (value(car, CZ_PARAMETER(wheel.rolling_resistance)) > 0.0)
         note_bound(car->model, "rolling resistance", "", name, CZ_DRAG_TIME);
 }
 
 /* Of a car without running gear. */
 static void note_drag(const Car *car, const char *name) {
-    if (value(car, CZ_P_DRAG_BRAKE) + value(car, CZ_P_DRAG_ROLLING) + value(car, CZ_P_DRAG_SLIDE) >
+    if (value(car, CZ_PARAMETER(drag.brake)) + value(car, CZ_PARAMETER(drag.rolling)) +
+            value(car, CZ_PARAMETER(drag.slide)) >
         0.0)
         note_bound(car->model, "drag of the track", "", name, CZ_DRAG_TIME);
-    note(car->model, "end of the slide", name, value(car, CZ_P_SLIDE_STIFFNESS), 0.0,
-         value(car, CZ_P_INVERSE_BODY_MASS));
+    note(car->model, "end of the slide", name, value(car, CZ_PARAMETER(drag.slide_stiffness)), 0.0,
+         value(car, CZ_PARAMETER(inverse.body.mass)));
 }
 
 static void note_bogies(const Car *car, const char *name) {
-    const double bogie = value(car, CZ_P_INVERSE_BOGIE_MASS);
-    const double bogie_spin = value(car, CZ_P_INVERSE_BOGIE_INERTIA);
-    const double body = value(car, CZ_P_INVERSE_BODY_MASS);
-    const double body_spin = value(car, CZ_P_INVERSE_BODY_INERTIA);
-    const double wheelset = value(car, CZ_P_INVERSE_WHEELSET_MASS);
-    const double axle_x = value(car, CZ_P_AXLE_X), axle_z = value(car, CZ_P_AXLE_Z);
-    const double bogie_x = value(car, CZ_P_BOGIE_X);
-    const double link_body = value(car, CZ_P_LINK_BODY_Z);
-    const double link_bogie = value(car, CZ_P_LINK_BOGIE_Z);
+    const double bogie = value(car, CZ_PARAMETER(inverse.bogie.mass));
+    const double bogie_spin = value(car, CZ_PARAMETER(inverse.bogie.inertia_pitch));
+    const double body = value(car, CZ_PARAMETER(inverse.body.mass));
+    const double body_spin = value(car, CZ_PARAMETER(inverse.body.inertia_pitch));
+    const double wheelset = value(car, CZ_PARAMETER(inverse.wheelset.mass));
+    const double axle_x = value(car, CZ_PARAMETER(axle_x)),
+                 axle_z = value(car, CZ_PARAMETER(axle_z));
+    const double bogie_x = value(car, CZ_PARAMETER(bogie_x));
+    const double link_body = value(car, CZ_PARAMETER(link.body_z));
+    const double link_bogie = value(car, CZ_PARAMETER(link.bogie_z));
 
-    const double primary_stop =
-        fmax(value(car, CZ_P_PRIMARY_BUMP_STIFFNESS), value(car, CZ_P_PRIMARY_LIFT_STIFFNESS));
-    note(car->model, "primary suspension", name, value(car, CZ_P_PRIMARY_STIFFNESS) + primary_stop,
-         fmax(value(car, CZ_P_PRIMARY_DAMPING), value(car, CZ_P_PRIMARY_DAMPING_BEYOND)),
+    const double primary_stop = fmax(value(car, CZ_PARAMETER(primary.bump_stiffness)),
+                                     value(car, CZ_PARAMETER(primary.lift_stiffness)));
+    note(car->model, "primary suspension", name,
+         value(car, CZ_PARAMETER(primary.stiffness)) + primary_stop,
+         fmax(value(car, CZ_PARAMETER(primary.damping)),
+              value(car, CZ_PARAMETER(primary.damping_beyond))),
          wheelset + 2.0 * fmax(bogie, axle_x * axle_x * bogie_spin));
-    const double secondary_stop =
-        fmax(value(car, CZ_P_SECONDARY_BUMP_STIFFNESS), value(car, CZ_P_SECONDARY_LIFT_STIFFNESS));
+    const double secondary_stop = fmax(value(car, CZ_PARAMETER(secondary.bump_stiffness)),
+                                       value(car, CZ_PARAMETER(secondary.lift_stiffness)));
     note(car->model, "secondary suspension", name,
-         value(car, CZ_P_SECONDARY_STIFFNESS) + secondary_stop,
-         fmax(value(car, CZ_P_SECONDARY_DAMPING), value(car, CZ_P_SECONDARY_DAMPING_BEYOND)),
+         value(car, CZ_PARAMETER(secondary.stiffness)) + secondary_stop,
+         fmax(value(car, CZ_PARAMETER(secondary.damping)),
+              value(car, CZ_PARAMETER(secondary.damping_beyond))),
          bogie + 2.0 * fmax(body, bogie_x * bogie_x * body_spin));
-    note(car->model, "traction link", name, value(car, CZ_P_LINK_STIFFNESS),
-         value(car, CZ_P_LINK_DAMPING),
+    note(car->model, "traction link", name, value(car, CZ_PARAMETER(link.strut.stiffness)),
+         value(car, CZ_PARAMETER(link.strut.damping)),
          bogie + link_bogie * link_bogie * bogie_spin +
              2.0 * (body + link_body * link_body * body_spin));
-    note(car->model, "axle guidance", name, value(car, CZ_P_AXLE_GUIDANCE_STIFFNESS),
-         value(car, CZ_P_AXLE_GUIDANCE_DAMPING),
+    note(car->model, "axle guidance", name, value(car, CZ_PARAMETER(axle_guidance.stiffness)),
+         value(car, CZ_PARAMETER(axle_guidance.damping)),
          wheelset + 2.0 * (bogie + axle_z * axle_z * bogie_spin));
 }
 
 static void note_end(const Car *car, const char *name, int which) {
-    const double end = value(car, CZ_OF_END(CZ_P_INVERSE_END_MASS, which));
-    const double end_spin = value(car, CZ_OF_END(CZ_P_INVERSE_END_INERTIA, which));
-    const double body = value(car, CZ_P_INVERSE_BODY_MASS);
-    const double body_spin = value(car, CZ_P_INVERSE_BODY_INERTIA);
-    const double x = value(car, CZ_OF_END(CZ_P_END_X, which));
-    const double body_z = value(car, CZ_OF_END(CZ_P_END_BODY_Z, which));
-    const double mass_z = value(car, CZ_OF_END(CZ_P_END_MASS_Z, which));
+    const double end = value(car, CZ_PARAMETER(inverse.end[which].mass));
+    const double end_spin = value(car, CZ_PARAMETER(inverse.end[which].inertia_pitch));
+    const double body = value(car, CZ_PARAMETER(inverse.body.mass));
+    const double body_spin = value(car, CZ_PARAMETER(inverse.body.inertia_pitch));
+    const double x = value(car, CZ_PARAMETER(end[which].x));
+    const double body_z = value(car, CZ_PARAMETER(end[which].body_z));
+    const double mass_z = value(car, CZ_PARAMETER(end[which].mass_z));
     const bool is_rear = which == CZ_REAR;
 
-    const double backbone = steepest(car->lanes, CZ_OF_END(CZ_CURVE_END, which), car->car);
-    const double unloading = fmax(value(car, CZ_OF_END(CZ_P_END_UNLOADING, which)),
-                                  value(car, CZ_OF_END(CZ_P_END_SECOND_UNLOADING, which)));
+    const double backbone = steepest(car->lanes, CZ_CURVE(end[which]), car->car);
+    const double unloading = fmax(value(car, CZ_PARAMETER(end[which].crush.unloading)),
+                                  value(car, CZ_PARAMETER(end[which].crush.second_unloading)));
     note(car->model, is_rear ? "crush zone rear end" : "crush zone front end", name,
-         fmax(backbone, unloading), value(car, CZ_OF_END(CZ_P_END_DAMPING, which)),
+         fmax(backbone, unloading), value(car, CZ_PARAMETER(end[which].crush.damping)),
          end + mass_z * mass_z * end_spin + body + body_z * body_z * body_spin);
     note(car->model, is_rear ? "rear end guidance" : "front end guidance", name,
-         value(car, CZ_OF_END(CZ_P_GUIDE_STIFFNESS, which)),
-         value(car, CZ_OF_END(CZ_P_GUIDE_DAMPING, which)), end + body + x * x * body_spin);
+         value(car, CZ_PARAMETER(end[which].guide_vertical.stiffness)),
+         value(car, CZ_PARAMETER(end[which].guide_vertical.damping)),
+         end + body + x * x * body_spin);
     note(car->model, is_rear ? "rear end hinge" : "front end hinge", name,
-         value(car, CZ_OF_END(CZ_P_FOLD_STIFFNESS, which)),
-         value(car, CZ_OF_END(CZ_P_FOLD_DAMPING, which)), end_spin + body_spin);
+         value(car, CZ_PARAMETER(end[which].fold_pitch.stiffness)),
+         value(car, CZ_PARAMETER(end[which].fold_pitch.damping)), end_spin + body_spin);
 }
 
 /* ---- one interface; `car` is the one behind ---- */
@@ -188,10 +195,11 @@ typedef struct Carrier {
 static Carrier carrier_of(const Car *car, int side, bool on_end) {
     const Car own = {car->model, car->lanes, car->car + side, car->on_rails};
     const int which = side == CZ_SIDE_A ? CZ_FRONT : CZ_REAR;
-    if (on_end && value(&own, CZ_P_SLAVED_ENDS) == 0.0)
-        return (Carrier){value(&own, CZ_OF_END(CZ_P_INVERSE_END_MASS, which)),
-                         value(&own, CZ_OF_END(CZ_P_INVERSE_END_INERTIA, which))};
-    return (Carrier){value(&own, CZ_P_INVERSE_BODY_MASS), value(&own, CZ_P_INVERSE_BODY_INERTIA)};
+    if (on_end && value(&own, CZ_PARAMETER(slaved_ends)) == 0.0)
+        return (Carrier){value(&own, CZ_PARAMETER(inverse.end[which].mass)),
+                         value(&own, CZ_PARAMETER(inverse.end[which].inertia_pitch))};
+    return (Carrier){value(&own, CZ_PARAMETER(inverse.body.mass)),
+                     value(&own, CZ_PARAMETER(inverse.body.inertia_pitch))};
 }
 
 /* Mobility of two points of arms a and b across the direction of the force. */
@@ -207,32 +215,37 @@ static double chain_stiffness(double a, double b, double compliance) {
 }
 
 static double limp_stiffness(const Car *car, int side) {
-    if (value(car, CZ_OF_SIDE(CZ_P_LIMP_END, side)) == 0.0)
+    if (value(car, CZ_PARAMETER(face.side[side].has_massless)) == 0.0)
         return CZ_NEVER;
-    return fmax(steepest(car->lanes, CZ_OF_SIDE(CZ_CURVE_LIMP_END, side), car->car),
-                fmax(value(car, CZ_OF_SIDE(CZ_P_LIMP_UNLOADING, side)),
-                     value(car, CZ_OF_SIDE(CZ_P_LIMP_SECOND_UNLOADING, side))));
+    return fmax(steepest(car->lanes, CZ_CURVE(massless[side]), car->car),
+                fmax(value(car, CZ_PARAMETER(face.side[side].massless.unloading)),
+                     value(car, CZ_PARAMETER(face.side[side].massless.second_unloading))));
 }
 
 static void note_faces(const Car *car, const char *name) {
     const Carrier carrier[2] = {carrier_of(car, CZ_SIDE_A, true), carrier_of(car, CZ_SIDE_B, true)};
     note(car->model, "anti-climber", name,
          chain_stiffness(limp_stiffness(car, CZ_SIDE_A), limp_stiffness(car, CZ_SIDE_B),
-                         value(car, CZ_P_FACE_COMPLIANCE)),
-         value(car, CZ_P_FACE_DAMPING) +
-             fmax(value(car, CZ_P_LIMP_DAMPING_A), value(car, CZ_P_LIMP_DAMPING_B)),
-         mobility(carrier, value(car, CZ_P_FACE_Z_A), value(car, CZ_P_FACE_Z_B)));
-    if (value(car, CZ_P_RIB_CAPACITY) + value(car, CZ_P_FACE_FRICTION) > 0.0)
-        note(car->model, "anti-climber ribs", name, value(car, CZ_P_FACE_VERTICAL_STIFFNESS), 0.0,
-             mobility(carrier, value(car, CZ_P_FACE_X_A), value(car, CZ_P_FACE_X_B)));
+                         value(car, CZ_PARAMETER(face.compliance))),
+         value(car, CZ_PARAMETER(face.damping)) +
+             fmax(value(car, CZ_PARAMETER(face.side[0].massless.damping)),
+                  value(car, CZ_PARAMETER(face.side[1].massless.damping))),
+         mobility(carrier, value(car, CZ_PARAMETER(face.contact.z[0])),
+                  value(car, CZ_PARAMETER(face.contact.z[1]))));
+    if (value(car, CZ_PARAMETER(face.rib_capacity)) + value(car, CZ_PARAMETER(face.friction)) > 0.0)
+        note(car->model, "anti-climber ribs", name,
+             value(car, CZ_PARAMETER(face.stiffness_vertical)), 0.0,
+             mobility(carrier, value(car, CZ_PARAMETER(face.contact.x[0])),
+                      value(car, CZ_PARAMETER(face.contact.x[1]))));
 }
 
 static void note_superstructures(const Car *car, const char *name) {
     const Carrier carrier[2] = {carrier_of(car, CZ_SIDE_A, true), carrier_of(car, CZ_SIDE_B, true)};
-    if (value(car, CZ_P_SUPERSTRUCTURE_STRENGTH) > 0.0)
-        note(car->model, "superstructure", name, value(car, CZ_P_SUPERSTRUCTURE_STIFFNESS), 0.0,
-             mobility(carrier, value(car, CZ_P_SUPERSTRUCTURE_Z_A),
-                      value(car, CZ_P_SUPERSTRUCTURE_Z_B)));
+    if (value(car, CZ_PARAMETER(superstructure.strength)) > 0.0)
+        note(car->model, "superstructure", name, value(car, CZ_PARAMETER(superstructure.stiffness)),
+             0.0,
+             mobility(carrier, value(car, CZ_PARAMETER(superstructure.contact.z[0])),
+                      value(car, CZ_PARAMETER(superstructure.contact.z[1]))));
 }
 
 static double buffer_stiffness(const Car *car, CzCurveId curve, CzParameter transition) {
@@ -249,12 +262,12 @@ static double closing_speed(const Car *car) {
 /* Both members of a chain damp; the stiffer side may be held, so the stronger damper counts. The
  * rate at which hydraulic damping acts is no larger than the closing speed, nor than what the
  * weakest plastic member of the chain lets it be: c2 rate^2 <= weakest. */
-static double buffer_damping(const Car *car, CzParameter linear_a, CzParameter quadratic_a,
-                             double weakest) {
+static double buffer_damping(const Car *car, const CzParameter linear_of[2],
+                             const CzParameter quadratic_of[2], double weakest) {
     double strongest = 0.0;
     for (int side = CZ_SIDE_A; side <= CZ_SIDE_B; side++) {
-        const double linear = value(car, (CzParameter)(linear_a + side));
-        const double quadratic = value(car, (CzParameter)(quadratic_a + side));
+        const double linear = value(car, linear_of[side]);
+        const double quadratic = value(car, quadratic_of[side]);
         const double force = quadratic * closing_speed(car) * closing_speed(car);
         const double rate_slope = 2.0 * sqrt(quadratic * fmin(force, weakest));
         strongest = fmax(strongest, linear + rate_slope);
@@ -264,10 +277,10 @@ static double buffer_damping(const Car *car, CzParameter linear_a, CzParameter q
 
 /* Length of the strut once all strokes are used [m]. */
 static double shortest_strut(const Car *car) {
-    static const CzCurveId strokes[] = {CZ_CURVE_BUFFER_A,      CZ_CURVE_BUFFER_B,
-                                        CZ_CURVE_TUBE_A,        CZ_CURVE_TUBE_B,
-                                        CZ_CURVE_SECOND_TUBE_A, CZ_CURVE_SECOND_TUBE_B};
-    const double full = value(car, CZ_P_COUPLER_LENGTH);
+    static const CzCurveId strokes[] = {CZ_CURVE(buffer[0]),      CZ_CURVE(buffer[1]),
+                                        CZ_CURVE(tube[0]),        CZ_CURVE(tube[1]),
+                                        CZ_CURVE(second_tube[0]), CZ_CURVE(second_tube[1])};
+    const double full = value(car, CZ_PARAMETER(coupler.length));
     double length = full;
     for (size_t i = 0; i < sizeof strokes / sizeof strokes[0]; i++) {
         const double usable = car->lanes->curve[strokes[i]].usable[car->car];
@@ -279,52 +292,70 @@ static double shortest_strut(const Car *car) {
 /* Rotation of the strut against its carriers: (z_B - z_A) / l - pitch; of a line along the track,
  * -pitch. */
 static void note_swing(const Car *car, const char *name, const Carrier carrier[2]) {
-    const double per_length = value(car, CZ_P_TILTS) > 0.0 ? 1.0 / shortest_strut(car) : 0.0;
-    const double a = value(car, CZ_P_PIVOT_X_A) * per_length + 1.0;
-    const double b = value(car, CZ_P_PIVOT_X_B) * per_length - 1.0;
+    const double per_length =
+        value(car, CZ_PARAMETER(tilts)) > 0.0 ? 1.0 / shortest_strut(car) : 0.0;
+    const double a = value(car, CZ_PARAMETER(coupler.pivot.x[0])) * per_length + 1.0;
+    const double b = value(car, CZ_PARAMETER(coupler.pivot.x[1])) * per_length - 1.0;
     const double across =
         (carrier[0].inverse_mass + carrier[1].inverse_mass) * per_length * per_length +
         a * a * carrier[0].inverse_inertia + b * b * carrier[1].inverse_inertia;
     const double stop =
-        fmax(value(car, CZ_P_SWING_STIFFNESS_A), value(car, CZ_P_SWING_STIFFNESS_B));
-    const double hinge =
-        fmax(value(car, CZ_P_HINGE_STIFFNESS_A), value(car, CZ_P_HINGE_STIFFNESS_B));
+        fmax(value(car, CZ_PARAMETER(coupler.side[0].hinge_vertical.stop_stiffness)),
+             value(car, CZ_PARAMETER(coupler.side[1].hinge_vertical.stop_stiffness)));
+    const double hinge = fmax(value(car, CZ_PARAMETER(coupler.side[0].hinge_vertical.stiffness)),
+                              value(car, CZ_PARAMETER(coupler.side[1].hinge_vertical.stiffness)));
     note(car->model, "swing stop", name, stop + hinge, 0.0, 2.0 * across);
 }
 
 /* Force that the coupler's tubes and shear-offs let through. */
 static double weakest_member(const Car *car) {
     const double tubes = car->model->interface_facts[car->car].tube_force;
-    const double shear = fmin(value(car, CZ_P_SHEAR_FORCE_A), value(car, CZ_P_SHEAR_FORCE_B));
+    const double shear = fmin(value(car, CZ_PARAMETER(coupler.side[0].shear.force)),
+                              value(car, CZ_PARAMETER(coupler.side[1].shear.force)));
     return isnan(tubes) ? shear : fmin(tubes, shear);
 }
 
 static void note_coupler(const Car *car, const char *name) {
-    if (value(car, CZ_P_COUPLER) == 0.0)
+    static const CzParameter damping[] = {CZ_PARAMETER(coupler.side[0].buffer.damping),
+                                          CZ_PARAMETER(coupler.side[1].buffer.damping)};
+    static const CzParameter quadratic[] = {CZ_PARAMETER(coupler.side[0].buffer.quadratic),
+                                            CZ_PARAMETER(coupler.side[1].buffer.quadratic)};
+    if (value(car, CZ_PARAMETER(coupler.exists)) == 0.0)
         return;
     const Carrier carrier[2] = {
-        carrier_of(car, CZ_SIDE_A, value(car, CZ_P_COUPLER_ON_END_A) > 0.0),
-        carrier_of(car, CZ_SIDE_B, value(car, CZ_P_COUPLER_ON_END_B) > 0.0)};
-    const double a = fmax(buffer_stiffness(car, CZ_CURVE_BUFFER_A, CZ_P_BUFFER_TRANSITION_A),
-                          value(car, CZ_P_BUFFER_DRAW_STIFFNESS_A));
-    const double b = fmax(buffer_stiffness(car, CZ_CURVE_BUFFER_B, CZ_P_BUFFER_TRANSITION_B),
-                          value(car, CZ_P_BUFFER_DRAW_STIFFNESS_B));
+        carrier_of(car, CZ_SIDE_A, value(car, CZ_PARAMETER(coupler.side[0].on_end)) > 0.0),
+        carrier_of(car, CZ_SIDE_B, value(car, CZ_PARAMETER(coupler.side[1].on_end)) > 0.0)};
+    const double a = fmax(
+        buffer_stiffness(car, CZ_CURVE(buffer[0]), CZ_PARAMETER(coupler.side[0].buffer.transition)),
+        value(car, CZ_PARAMETER(coupler.side[0].buffer.draw_stiffness)));
+    const double b = fmax(
+        buffer_stiffness(car, CZ_CURVE(buffer[1]), CZ_PARAMETER(coupler.side[1].buffer.transition)),
+        value(car, CZ_PARAMETER(coupler.side[1].buffer.draw_stiffness)));
     note(car->model, "coupler buffer", name,
-         chain_stiffness(a, b, value(car, CZ_P_COUPLER_COMPLIANCE)),
-         buffer_damping(car, CZ_P_BUFFER_DAMPING_A, CZ_P_BUFFER_QUADRATIC_A, weakest_member(car)),
-         mobility(carrier, value(car, CZ_P_PIVOT_Z_A), value(car, CZ_P_PIVOT_Z_B)));
+         chain_stiffness(a, b, value(car, CZ_PARAMETER(coupler.compliance))),
+         buffer_damping(car, damping, quadratic, weakest_member(car)),
+         mobility(carrier, value(car, CZ_PARAMETER(coupler.pivot.z[0])),
+                  value(car, CZ_PARAMETER(coupler.pivot.z[1]))));
     note_swing(car, name, carrier);
 }
 
 static void note_side_buffers(const Car *car, const char *name) {
-    if (value(car, CZ_P_SIDE_BUFFERS) == 0.0)
+    static const CzParameter damping[] = {CZ_PARAMETER(side_buffers.side[0].buffer.damping),
+                                          CZ_PARAMETER(side_buffers.side[1].buffer.damping)};
+    static const CzParameter quadratic[] = {CZ_PARAMETER(side_buffers.side[0].buffer.quadratic),
+                                            CZ_PARAMETER(side_buffers.side[1].buffer.quadratic)};
+    if (value(car, CZ_PARAMETER(side_buffers.exists)) == 0.0)
         return;
     const Carrier carrier[2] = {carrier_of(car, CZ_SIDE_A, true), carrier_of(car, CZ_SIDE_B, true)};
-    const double a = buffer_stiffness(car, CZ_CURVE_SIDE_BUFFER_A, CZ_P_SIDE_TRANSITION_A);
-    const double b = buffer_stiffness(car, CZ_CURVE_SIDE_BUFFER_B, CZ_P_SIDE_TRANSITION_B);
-    note(car->model, "side buffers", name, chain_stiffness(a, b, value(car, CZ_P_SIDE_COMPLIANCE)),
-         buffer_damping(car, CZ_P_SIDE_DAMPING_A, CZ_P_SIDE_QUADRATIC_A, CZ_NEVER),
-         mobility(carrier, value(car, CZ_P_SIDE_Z_A), value(car, CZ_P_SIDE_Z_B)));
+    const double a = buffer_stiffness(car, CZ_CURVE(side_buffer[0]),
+                                      CZ_PARAMETER(side_buffers.side[0].buffer.transition));
+    const double b = buffer_stiffness(car, CZ_CURVE(side_buffer[1]),
+                                      CZ_PARAMETER(side_buffers.side[1].buffer.transition));
+    note(car->model, "side buffers", name,
+         chain_stiffness(a, b, value(car, CZ_PARAMETER(side_buffers.compliance))),
+         buffer_damping(car, damping, quadratic, CZ_NEVER),
+         mobility(carrier, value(car, CZ_PARAMETER(side_buffers.contact.z[0])),
+                  value(car, CZ_PARAMETER(side_buffers.contact.z[1]))));
 }
 
 CzStatus cz_model_find_bounds(CzModel *model, const CzLanes *lanes, CzError *error) {

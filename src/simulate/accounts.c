@@ -28,17 +28,18 @@ static CzAccount share_of(double share, CzAccount a) {
 }
 
 static bool has_coupler(const CzBatch *batch, size_t lane, int side) {
-    return cz_parameter(batch, CZ_P_COUPLER, lane) >= 0.5 &&
-           cz_parameter(batch, CZ_P_BUFFER_TRANSITION_A + side, lane) <= MISSING;
+    return cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) >= 0.5 &&
+           cz_parameter(batch, CZ_PARAMETER(coupler.side[side].buffer.transition), lane) <= MISSING;
 }
 
 static bool has_side_buffers(const CzBatch *batch, size_t lane, int side) {
-    return cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) >= 0.5 &&
-           cz_parameter(batch, CZ_P_SIDE_TRANSITION_A + side, lane) <= MISSING;
+    return cz_parameter(batch, CZ_PARAMETER(side_buffers.exists), lane) >= 0.5 &&
+           cz_parameter(batch, CZ_PARAMETER(side_buffers.side[side].buffer.transition), lane) <=
+               MISSING;
 }
 
 static bool has_anti_climber(const CzBatch *batch, size_t lane, int side) {
-    return batch->lanes->curve[CZ_CURVE_FACE_A + side].start[lane] <= MISSING;
+    return batch->lanes->curve[CZ_CURVE(face[side])].start[lane] <= MISSING;
 }
 
 bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind kind) {
@@ -50,7 +51,7 @@ bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind k
     case CZ_ELEMENT_SIDE_BUFFERS:
         return has_side_buffers(batch, lane, side);
     case CZ_ELEMENT_SUPERSTRUCTURE:
-        return cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STRENGTH, lane) > 0.0;
+        return cz_parameter(batch, CZ_PARAMETER(superstructure.strength), lane) > 0.0;
     default:
         return false;
     }
@@ -71,28 +72,30 @@ static CzAccount compliance(const CzBatch *batch, size_t lane, int parameter, in
 /* Faces that meet at an angle are flattened by the push; the model does not count that work, so
  * what their hinges store is counted where they were coupled before. */
 static double stored_in_hinge(const CzBatch *batch, size_t lane, int side) {
-    const bool coupled = cz_parameter(batch, CZ_P_COUPLED, lane) > 0.5;
+    const bool coupled = cz_parameter(batch, CZ_PARAMETER(coupler.coupled), lane) > 0.5;
     return coupled ? cz_hinge_stored(batch->dynamics, lane, side) : 0.0;
 }
 
 CzAccount cz_coupler_account(const CzBatch *batch, size_t lane, int side) {
     const CzDynamics *dynamics = batch->dynamics;
-    const CzAccount members = {cz_memory(batch, CZ_M_COUPLER_ENERGY_A + side, lane),
+    const CzAccount members = {cz_memory(batch, CZ_MEMORY(coupler.side[side].energy), lane),
                                cz_coupler_stored(dynamics, lane, side)};
-    const CzAccount hinge = {cz_work(batch, CZ_L_HINGE_A + side, lane),
+    const CzAccount hinge = {cz_work(batch, CZ_LEDGER(hinge[side]), lane),
                              stored_in_hinge(batch, lane, side)};
-    const CzAccount elastic = compliance(batch, lane, CZ_P_COUPLER_COMPLIANCE, CZ_M_COUPLER_FORCE);
+    const CzAccount elastic =
+        compliance(batch, lane, CZ_PARAMETER(coupler.compliance), CZ_MEMORY(coupler.force));
     const double share = half_of(batch, lane, side, CZ_ELEMENT_COUPLER);
     return sum_of(sum_of(members, hinge), share_of(share, elastic));
 }
 
 CzAccount cz_side_account(const CzBatch *batch, size_t lane, int side) {
     const CzDynamics *dynamics = batch->dynamics;
-    const CzAccount members = {cz_memory(batch, CZ_M_SIDE_ENERGY_A + side, lane),
+    const CzAccount members = {cz_memory(batch, CZ_MEMORY(side_buffers.side[side].energy), lane),
                                cz_side_stored(dynamics, lane, side)};
-    const CzAccount sliding = {cz_work(batch, CZ_L_SIDE_SLIDING, lane),
+    const CzAccount sliding = {cz_work(batch, CZ_LEDGER(side_sliding), lane),
                                cz_side_sliding_stored(dynamics, lane)};
-    const CzAccount elastic = compliance(batch, lane, CZ_P_SIDE_COMPLIANCE, CZ_M_SIDE_FORCE);
+    const CzAccount elastic = compliance(batch, lane, CZ_PARAMETER(side_buffers.compliance),
+                                         CZ_MEMORY(side_buffers.force));
     const double share = half_of(batch, lane, side, CZ_ELEMENT_SIDE_BUFFERS);
     return sum_of(members, share_of(share, sum_of(sliding, elastic)));
 }
@@ -100,16 +103,16 @@ CzAccount cz_side_account(const CzBatch *batch, size_t lane, int side) {
 /* What both faces of an interface are one element for: compliance, damping, ribs and friction. */
 static CzAccount faces_account(const CzBatch *batch, size_t lane) {
     const CzDynamics *dynamics = batch->dynamics;
-    const CzAccount elastic = {cz_memory(batch, CZ_M_FACE_STRAIN, lane),
+    const CzAccount elastic = {cz_memory(batch, CZ_MEMORY(face.strain), lane),
                                cz_face_stored(dynamics, lane)};
-    const CzAccount sliding = {cz_work(batch, CZ_L_FACE_SLIDING, lane),
+    const CzAccount sliding = {cz_work(batch, CZ_LEDGER(face_sliding), lane),
                                cz_face_sliding_stored(dynamics, lane)};
-    return sum_of(sum_of(elastic, sliding), lost(cz_work(batch, CZ_L_FACE_DAMPING, lane)));
+    return sum_of(sum_of(elastic, sliding), lost(cz_work(batch, CZ_LEDGER(face_damping), lane)));
 }
 
 CzAccount cz_anti_climber_account(const CzBatch *batch, size_t lane, int side) {
     const double share = half_of(batch, lane, side, CZ_ELEMENT_ANTI_CLIMBER);
-    return sum_of(lost(cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane)),
+    return sum_of(lost(cz_memory(batch, CZ_MEMORY(face.side[side].energy), lane)),
                   share_of(share, faces_account(batch, lane)));
 }
 
@@ -119,10 +122,10 @@ CzAccount cz_bare_faces_account(const CzBatch *batch, size_t lane) {
 }
 
 CzAccount cz_superstructure_account(const CzBatch *batch, size_t lane) {
-    const double force = cz_scratch(batch, CZ_S_SUPERSTRUCTURE_FORCE, lane);
+    const double force = cz_published(batch, CZ_PUBLISHED(superstructure.force), lane);
     const double stored =
-        0.5 * force * force / cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STIFFNESS, lane);
-    return share_of(0.5, (CzAccount){cz_work(batch, CZ_L_SUPERSTRUCTURE, lane), stored});
+        0.5 * force * force / cz_parameter(batch, CZ_PARAMETER(superstructure.stiffness), lane);
+    return share_of(0.5, (CzAccount){cz_work(batch, CZ_LEDGER(superstructure), lane), stored});
 }
 
 CzAccount cz_crush_account(const CzBatch *batch, size_t lane, int end) {
@@ -137,12 +140,12 @@ CzAccount cz_guide_account(const CzBatch *batch, size_t lane, int end) {
 
 /* The end mass in its guidance and its hinge, and the damping of the crush zone. */
 CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end) {
-    const CzAccount fold = {cz_work(batch, CZ_L_FOLD_REAR + end, lane),
+    const CzAccount fold = {cz_work(batch, CZ_LEDGER(fold[end]), lane),
                             cz_fold_stored(batch->dynamics, lane, end)};
     const CzAccount springs = sum_of(cz_guide_account(batch, lane, end), fold);
-    return sum_of(springs, lost(cz_work(batch, CZ_L_END_DAMPING_REAR + end, lane) +
-                                cz_work(batch, CZ_L_GUIDE_DAMPING_REAR + end, lane) +
-                                cz_work(batch, CZ_L_FOLD_DAMPING_REAR + end, lane)));
+    return sum_of(springs, lost(cz_work(batch, CZ_LEDGER(end_damping[end]), lane) +
+                                cz_work(batch, CZ_LEDGER(guide_damping[end]), lane) +
+                                cz_work(batch, CZ_LEDGER(fold_damping[end]), lane)));
 }
 
 CzAccount cz_limp_account(const CzBatch *batch, size_t lane, int side) {
@@ -152,18 +155,20 @@ CzAccount cz_limp_account(const CzBatch *batch, size_t lane, int side) {
 
 CzAccount cz_chains_account(const CzBatch *batch, size_t lane) {
     const CzDynamics *dynamics = batch->dynamics;
-    CzAccount sum = sum_of(compliance(batch, lane, CZ_P_COUPLER_COMPLIANCE, CZ_M_COUPLER_FORCE),
-                           compliance(batch, lane, CZ_P_SIDE_COMPLIANCE, CZ_M_SIDE_FORCE));
-    sum = sum_of(
-        sum, (CzAccount){cz_memory(batch, CZ_M_FACE_STRAIN, lane), cz_face_stored(dynamics, lane)});
+    CzAccount sum =
+        sum_of(compliance(batch, lane, CZ_PARAMETER(coupler.compliance), CZ_MEMORY(coupler.force)),
+               compliance(batch, lane, CZ_PARAMETER(side_buffers.compliance),
+                          CZ_MEMORY(side_buffers.force)));
+    sum = sum_of(sum, (CzAccount){cz_memory(batch, CZ_MEMORY(face.strain), lane),
+                                  cz_face_stored(dynamics, lane)});
     for (int side = 0; side < 2; ++side) {
-        const double members = cz_memory(batch, CZ_M_COUPLER_ENERGY_A + side, lane) +
-                               cz_memory(batch, CZ_M_SIDE_ENERGY_A + side, lane);
+        const double members = cz_memory(batch, CZ_MEMORY(coupler.side[side].energy), lane) +
+                               cz_memory(batch, CZ_MEMORY(side_buffers.side[side].energy), lane);
         const double buffers =
             cz_coupler_stored(dynamics, lane, side) + cz_side_stored(dynamics, lane, side);
         sum = sum_of(sum, (CzAccount){members, buffers});
-        sum = sum_of(sum, lost(cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane) +
-                               cz_memory(batch, CZ_M_LIMP_DAMPED_A + side, lane)));
+        sum = sum_of(sum, lost(cz_memory(batch, CZ_MEMORY(face.side[side].energy), lane) +
+                               cz_memory(batch, CZ_MEMORY(face.side[side].massless.damped), lane)));
         sum = sum_of(sum, cz_limp_account(batch, lane, side));
     }
     return sum;
@@ -174,7 +179,7 @@ CzAccount cz_gear_account(const CzBatch *batch, size_t lane) {
     const bool is_rigid =
         dynamics->track == NULL && dynamics->elements == NULL && dynamics->co_running == NULL;
     const double contact =
-        is_rigid ? cz_wheels_stored(dynamics, lane) : cz_work(batch, CZ_L_WHEEL_NORMAL, lane);
+        is_rigid ? cz_wheels_stored(dynamics, lane) : cz_work(batch, CZ_LEDGER(wheel_normal), lane);
     const double stored = cz_secondary_stored(dynamics, lane) + cz_primary_stored(dynamics, lane) +
                           cz_link_stored(dynamics, lane) + cz_axle_guidance_stored(dynamics, lane) +
                           contact;
@@ -185,7 +190,7 @@ CzAccount cz_springs_account(const CzBatch *batch, size_t lane) {
     const CzDynamics *dynamics = batch->dynamics;
     double stored = cz_face_sliding_stored(dynamics, lane) +
                     cz_side_sliding_stored(dynamics, lane) + cz_slide_stored(dynamics, lane);
-    if (cz_parameter(batch, CZ_P_SUPERSTRUCTURE_STRENGTH, lane) > 0.0)
+    if (cz_parameter(batch, CZ_PARAMETER(superstructure.strength), lane) > 0.0)
         stored += 2.0 * cz_superstructure_account(batch, lane).stored;
     for (int side = 0; side < 2; ++side)
         stored += stored_in_hinge(batch, lane, side) + cz_fold_stored(dynamics, lane, side);

@@ -15,8 +15,8 @@ static double settled_velocity(const CzBatch *batch, int dof, size_t lane) {
     if (batch->n_step == 0 || batch->reference != NULL)
         return v;
     const CzBlock *block = cz_block_of(batch->dynamics, lane);
-    const double now = block->acceleration[dof][lane % CZ_LANE_BLOCK];
-    const double last = block->last_acceleration[dof][lane % CZ_LANE_BLOCK];
+    const double now = cz_const_row_of(&block->acceleration, dof)[lane % CZ_LANE_BLOCK];
+    const double last = cz_const_row_of(&block->last_acceleration, dof)[lane % CZ_LANE_BLOCK];
     return v + 0.5 * batch->step * (now - last);
 }
 
@@ -26,7 +26,7 @@ double cz_kinetic_energy(const CzBatch *batch, int design) {
         const size_t lane = cz_lane(batch, car, design);
         for (int dof = 0; dof < CZ_N_DOF; ++dof) {
             const double v = settled_velocity(batch, dof, lane);
-            energy += 0.5 * cz_row(batch->lanes->mass, batch->lanes->stride, dof)[lane] * v * v;
+            energy += 0.5 * *cz_lane_mass(batch->lanes, dof, lane) * v * v;
         }
     }
     return energy;
@@ -34,9 +34,9 @@ double cz_kinetic_energy(const CzBatch *batch, int design) {
 
 CzLedgerClass cz_ledger_class(int row) {
     static const CzLedgerClass of_row[CZ_N_LEDGER] = {
-#define CZ_LEDGER(name, class, doc) CZ_LEDGER_##class,
+#define CZ_LEDGER_ENTRY(row, class, dimension, doc) [CZ_LEDGER(row)] = CZ_LEDGER_##class,
 #include "dynamics/ledger.def"
-#undef CZ_LEDGER
+#undef CZ_LEDGER_ENTRY
     };
     return of_row[row];
 }
@@ -61,21 +61,29 @@ double cz_balance_residual(const CzBatch *batch, int design) {
            batch->design[design].initial_energy;
 }
 
+bool cz_is_along(int dof) {
+    enum { ALONG, UP, TURN };
+    static const char axis_of[CZ_N_DOF] = {
+#define CZ_DOF_ENTRY(row, axis, dimension, what) [CZ_DOF(row)] = axis,
+#include "model/dof.def"
+#undef CZ_DOF_ENTRY
+    };
+    return axis_of[dof] == ALONG;
+}
+
 double cz_momentum_error(const CzBatch *batch, int design) {
-    static const int along[] = {CZ_DOF_BODY_X,       CZ_DOF_END_X_REAR,    CZ_DOF_END_X_FRONT,
-                                CZ_DOF_BOGIE_X_REAR, CZ_DOF_BOGIE_X_FRONT, CZ_DOF_WHEEL_X_0,
-                                CZ_DOF_WHEEL_X_1,    CZ_DOF_WHEEL_X_2,     CZ_DOF_WHEEL_X_3};
     double change = 0.0, scale = 0.0;
     for (int car = 0; car < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        for (size_t k = 0; k < sizeof along / sizeof along[0]; ++k) {
-            const double mass = cz_row(batch->lanes->mass, batch->lanes->stride, along[k])[lane];
-            const double before =
-                cz_row(batch->lanes->velocity, batch->lanes->stride, along[k])[lane];
-            change += mass * (cz_velocity(batch, along[k], lane) - before);
+        for (int dof = 0; dof < CZ_N_DOF; ++dof) {
+            if (!cz_is_along(dof))
+                continue;
+            const double mass = *cz_lane_mass(batch->lanes, dof, lane);
+            const double before = *cz_lane_velocity(batch->lanes, dof, lane);
+            change += mass * (cz_velocity(batch, dof, lane) - before);
             scale += mass * fabs(before);
         }
-        change -= cz_velocity(batch, CZ_ROW_IMPULSE, lane);
+        change -= cz_block_of(batch->dynamics, lane)->impulse.velocity[lane % CZ_LANE_BLOCK];
     }
     return scale > 0.0 ? fabs(change) / scale : 0.0;
 }
@@ -84,8 +92,8 @@ double cz_wheel_rail_work(const CzBatch *batch, int design) {
     double work = 0.0;
     for (int car = 0; car < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        work += cz_work(batch, CZ_L_WHEEL_CREEP, lane) + cz_work(batch, CZ_L_BRAKE, lane) +
-                cz_work(batch, CZ_L_ROLLING, lane);
+        work += cz_work(batch, CZ_LEDGER(wheel_creep), lane) +
+                cz_work(batch, CZ_LEDGER(brake), lane) + cz_work(batch, CZ_LEDGER(rolling), lane);
     }
     return work;
 }
@@ -96,14 +104,14 @@ double cz_train_speed(const CzBatch *batch, int train, int design) {
         if (batch->model->car[car].train != train)
             continue;
         const size_t lane = cz_lane(batch, car, design);
-        const double m = cz_row(batch->lanes->mass, batch->lanes->stride, CZ_DOF_BODY_X)[lane];
+        const double m = *cz_lane_mass(batch->lanes, CZ_DOF(body.x), lane);
         mass += m;
-        momentum += m * cz_velocity(batch, CZ_DOF_BODY_X, lane);
+        momentum += m * cz_velocity(batch, CZ_DOF(body.x), lane);
     }
     return mass > 0.0 ? momentum / mass : 0.0;
 }
 
 double cz_law_error(const CzBatch *batch, size_t lane) {
-    return cz_extreme(batch, CZ_E_CHAIN_DISTANCE, lane) /
-           fmax(cz_extreme(batch, CZ_E_INTERFACE_FORCE, lane), SMALLEST_FORCE);
+    return cz_extreme(batch, CZ_EXTREME(chain_distance), lane) /
+           fmax(cz_extreme(batch, CZ_EXTREME(interface_force), lane), SMALLEST_FORCE);
 }

@@ -111,8 +111,8 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
                                track_step, &batch->arena))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the track");
     batch->closing_speed =
-        cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, model->colliding, 0)) -
-        cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, model->colliding + 1, 0));
+        cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, model->colliding, 0)) -
+        cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, model->colliding + 1, 0));
     const double samples = fmax(1.0, round(SAMPLING / batch->step));
     batch->history.stride = batch->lanes->n_lane;
     batch->history.step = samples * batch->step;

@@ -27,8 +27,9 @@ typedef struct Fault {
  * count.
  */
 static double given_by_hinges(const CzBatch *batch, size_t lane) {
-    const double work = cz_work(batch, CZ_L_HINGE_A, lane) + cz_work(batch, CZ_L_HINGE_B, lane);
-    const bool coupled = cz_parameter(batch, CZ_P_COUPLED, lane) > 0.5;
+    const double work =
+        cz_work(batch, CZ_LEDGER(hinge[0]), lane) + cz_work(batch, CZ_LEDGER(hinge[1]), lane);
+    const bool coupled = cz_parameter(batch, CZ_PARAMETER(coupler.coupled), lane) > 0.5;
     return coupled ? 0.0 : fmax(-work, 0.0);
 }
 
@@ -70,10 +71,10 @@ static bool running_gear_gives(const CzBatch *batch, int design, double allowed,
         const char *what;
         int row;
         double (*stored)(const CzDynamics *dynamics, size_t lane);
-    } springs[] = {{"secondary suspension", CZ_L_SECONDARY, cz_secondary_stored},
-                   {"primary suspension", CZ_L_PRIMARY, cz_primary_stored},
-                   {"traction links", CZ_L_LINK, cz_link_stored},
-                   {"axle guidance", CZ_L_AXLE_GUIDANCE, cz_axle_guidance_stored}};
+    } springs[] = {{"secondary suspension", CZ_LEDGER(secondary), cz_secondary_stored},
+                   {"primary suspension", CZ_LEDGER(primary), cz_primary_stored},
+                   {"traction links", CZ_LEDGER(link), cz_link_stored},
+                   {"axle guidance", CZ_LEDGER(axle_guidance), cz_axle_guidance_stored}};
     for (int car = 0; car < batch->model->n_car; ++car) {
         if (batch->model->car[car].model != CZ_MODEL_FULL)
             continue;
@@ -108,15 +109,16 @@ static bool bodies_differ(const CzBatch *batch, int design, double allowed, Faul
     const CzModel *model = batch->model;
     for (int car = 0; car < model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        const double given = cz_work(batch, CZ_L_COUPLER, lane) + cz_work(batch, CZ_L_FACE, lane) +
-                             cz_work(batch, CZ_L_SIDE, lane);
+        const double given = cz_work(batch, CZ_LEDGER(coupler), lane) +
+                             cz_work(batch, CZ_LEDGER(face), lane) +
+                             cz_work(batch, CZ_LEDGER(side_buffers), lane);
         if (car + 1 < model->n_car &&
             differs(model->interface_name[car], "chains", given,
                     cz_chains_account(batch, lane).received, allowed, fault))
             return true;
         for (int end = 0; end < 2; ++end)
             if (differs(model->car[car].name, end == 0 ? "rear end" : "front end",
-                        cz_work(batch, CZ_L_END_REAR + end, lane),
+                        cz_work(batch, CZ_LEDGER(end[end]), lane),
                         cz_crush_account(batch, lane, end).received, allowed, fault))
                 return true;
     }

@@ -84,13 +84,13 @@ static void face_of(const CzBatch *batch, int car, int side, double *lift, doubl
         return; /* most of the time; both are zero as they came */
     const size_t own = cz_lane(batch, car, 0);
     const double sign = side == 0 ? -1.0 : 1.0;
-    const double x = cz_parameter(batch, CZ_P_END_X_REAR + end, own);
-    const double z = cz_parameter(batch, CZ_P_END_BODY_Z_REAR + end, own) -
-                     cz_parameter(batch, CZ_P_END_MASS_Z_REAR + end, own);
-    const double moved_x = cz_position(batch, CZ_DOF_END_X_REAR + 3 * end, own) -
-                           cz_position(batch, CZ_DOF_BODY_X, own);
-    const double moved_z = cz_position(batch, CZ_DOF_END_Z_REAR + 3 * end, own) -
-                           cz_position(batch, CZ_DOF_BODY_Z, own);
+    const double x = cz_parameter(batch, CZ_PARAMETER(end[end].x), own);
+    const double z = cz_parameter(batch, CZ_PARAMETER(end[end].body_z), own) -
+                     cz_parameter(batch, CZ_PARAMETER(end[end].mass_z), own);
+    const double moved_x =
+        cz_position(batch, CZ_DOF(end[end].x), own) - cz_position(batch, CZ_DOF(body.x), own);
+    const double moved_z =
+        cz_position(batch, CZ_DOF(end[end].z), own) - cz_position(batch, CZ_DOF(body.z), own);
     const double arm_x = x + moved_x + rows->face_arm_x[side][i];
     const double arm_z = z + moved_z + rows->face_arm_z[side][i];
     *lift = sign * rows->face_z[i];
@@ -132,19 +132,19 @@ static void look(const CzBatch *batch, int car, double lift[CZ_N_BUDGET],
 static double lift_of_wheels(const CzBatch *batch, size_t lane) {
     double largest = 0.0;
     for (int axle = 0; axle < 4; ++axle)
-        largest = fmax(largest, -cz_scratch(batch, CZ_S_WHEEL_APPROACH_0 + axle, lane));
+        largest = fmax(largest, -cz_published(batch, CZ_PUBLISHED(wheel[axle].approach), lane));
     return largest;
 }
 
 static double mass_of(const CzBatch *batch, int dof, size_t lane) {
-    return cz_row(batch->lanes->mass, batch->lanes->stride, dof)[lane];
+    return *cz_lane_mass(batch->lanes, dof, lane);
 }
 
 /* Keeps the budget of a car where its lift, or its pitch before any lift, is the largest so far. */
 static void keep(CzBudgetBook *book, const CzBatch *batch, int car) {
     const size_t lane = cz_lane(batch, car, 0);
     const double lift = lift_of_wheels(batch, lane);
-    const double pitch = fabs(cz_position(batch, CZ_DOF_BODY_PITCH, lane));
+    const double pitch = fabs(cz_position(batch, CZ_DOF(body.pitch), lane));
     const bool lifts = lift > SMALLEST_LIFT && lift > book->lift[car];
     const bool pitches = book->lift[car] == 0.0 && pitch > book->pitch[car];
     if (!lifts && !pitches)
@@ -155,9 +155,9 @@ static void keep(CzBudgetBook *book, const CzBatch *batch, int car) {
     book->kept[car].of_lift = lifts;
     book->kept[car].time = batch->time;
     book->kept[car].spin =
-        mass_of(batch, CZ_DOF_BODY_PITCH, lane) * cz_velocity(batch, CZ_DOF_BODY_PITCH, lane);
+        mass_of(batch, CZ_DOF(body.pitch), lane) * cz_velocity(batch, CZ_DOF(body.pitch), lane);
     book->kept[car].rise =
-        mass_of(batch, CZ_DOF_BODY_Z, lane) * cz_velocity(batch, CZ_DOF_BODY_Z, lane);
+        mass_of(batch, CZ_DOF(body.z), lane) * cz_velocity(batch, CZ_DOF(body.z), lane);
 }
 
 void cz_budget_add(CzBudgetBook *book, const CzBatch *batch) {

@@ -32,24 +32,24 @@ static void put_car(Writer *writer, int car) {
     const CzCar *description = &batch->model->car[car];
     const size_t lane = cz_lane(batch, car, 0);
     const double acceleration =
-        cz_block_of(batch->dynamics, lane)->acceleration[CZ_DOF_BODY_X][lane % CZ_LANE_BLOCK];
-    put(writer, CZ_CHANNEL_BODY_DISPLACEMENT, car, cz_position(batch, CZ_DOF_BODY_X, lane));
-    put(writer, CZ_CHANNEL_BODY_SPEED, car, cz_velocity(batch, CZ_DOF_BODY_X, lane));
+        cz_block_of(batch->dynamics, lane)->acceleration.body.x[lane % CZ_LANE_BLOCK];
+    put(writer, CZ_CHANNEL_BODY_DISPLACEMENT, car, cz_position(batch, CZ_DOF(body.x), lane));
+    put(writer, CZ_CHANNEL_BODY_SPEED, car, cz_velocity(batch, CZ_DOF(body.x), lane));
     put(writer, CZ_CHANNEL_BODY_ACCELERATION, car, acceleration / 9.80665);
     if (description->model != CZ_MODEL_FULL)
         return;
-    put(writer, CZ_CHANNEL_BODY_RISE, car, 1e3 * cz_position(batch, CZ_DOF_BODY_Z, lane));
-    put(writer, CZ_CHANNEL_BODY_PITCH, car, 1e3 * cz_position(batch, CZ_DOF_BODY_PITCH, lane));
+    put(writer, CZ_CHANNEL_BODY_RISE, car, 1e3 * cz_position(batch, CZ_DOF(body.z), lane));
+    put(writer, CZ_CHANNEL_BODY_PITCH, car, 1e3 * cz_position(batch, CZ_DOF(body.pitch), lane));
     for (int axle = 0; axle < 4; ++axle) {
-        const double lift = -cz_scratch(batch, CZ_S_WHEEL_APPROACH_0 + axle, lane);
+        const double lift = -cz_published(batch, CZ_PUBLISHED(wheel[axle].approach), lane);
         put(writer, CZ_CHANNEL_WHEEL_LIFT, cz_wheelset_place(car, axle), 1e3 * lift);
     }
     for (int end = 0; end < 2; ++end) {
         const int place = cz_end_place(car, end);
         put(writer, CZ_CHANNEL_END_FORCE, place,
-            1e-3 * cz_scratch(batch, CZ_S_END_REAR + end, lane));
+            1e-3 * cz_published(batch, CZ_PUBLISHED(end[end].force), lane));
         put(writer, CZ_CHANNEL_END_STROKE, place,
-            1e3 * cz_scratch(batch, CZ_S_END_STROKE_REAR + end, lane));
+            1e3 * cz_published(batch, CZ_PUBLISHED(end[end].stroke), lane));
     }
 }
 
@@ -58,33 +58,34 @@ static void put_face(Writer *writer, int interface) {
     const CzBatch *batch = writer->batch;
     const size_t lane = cz_lane(batch, interface, 0);
     for (int side = 0; side < 2; ++side)
-        if (batch->lanes->curve[CZ_CURVE_FACE_A + side].start[lane] < NEVER)
+        if (batch->lanes->curve[CZ_CURVE(face[side])].start[lane] < NEVER)
             put(writer, CZ_CHANNEL_ANTI_CLIMBER_STROKE, cz_end_place(interface + side, side == 0),
-                1e3 * cz_memory(batch, CZ_M_FACE_A + side, lane));
-    const bool pushes = cz_scratch(batch, CZ_S_FACE_FORCE, lane) > 0.0;
-    if (cz_parameter(batch, CZ_P_FACE_OVERLAP, lane) < NEVER) /* there is none until they meet */
+                1e3 * cz_memory(batch, CZ_MEMORY(face.side[side].stroke), lane));
+    const bool pushes = cz_published(batch, CZ_PUBLISHED(face.force), lane) > 0.0;
+    if (cz_parameter(batch, CZ_PARAMETER(face.overlap), lane) <
+        NEVER) /* there is none until they meet */
         put(writer, CZ_CHANNEL_ANTI_CLIMBER_OVERLAP, interface,
-            pushes ? 1e3 * cz_scratch(batch, CZ_S_FACE_REMAINING, lane) : NAN);
+            pushes ? 1e3 * cz_published(batch, CZ_PUBLISHED(face.remaining), lane) : NAN);
 }
 
 static void put_interface(Writer *writer, int interface) {
     const CzBatch *batch = writer->batch;
     const size_t lane = cz_lane(batch, interface, 0), ahead = cz_lane(batch, interface + 1, 0);
     const double closure =
-        cz_position(batch, CZ_DOF_BODY_X, lane) - cz_position(batch, CZ_DOF_BODY_X, ahead);
+        cz_position(batch, CZ_DOF(body.x), lane) - cz_position(batch, CZ_DOF(body.x), ahead);
     put(writer, CZ_CHANNEL_INTERFACE_FORCE, interface,
-        1e-3 * cz_scratch(batch, CZ_S_INTERFACE_FORCE, lane));
+        1e-3 * cz_published(batch, CZ_PUBLISHED(interface.force), lane));
     put(writer, CZ_CHANNEL_INTERFACE_CLOSURE, interface, 1e3 * closure);
-    if (cz_parameter(batch, CZ_P_COUPLER, lane) > 0.5)
+    if (cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) > 0.5)
         put(writer, CZ_CHANNEL_COUPLER_FORCE, interface,
-            1e-3 * cz_scratch(batch, CZ_S_COUPLER_FORCE, lane));
+            1e-3 * cz_published(batch, CZ_PUBLISHED(coupler.force), lane));
     put(writer, CZ_CHANNEL_ANTI_CLIMBER_FORCE, interface,
-        1e-3 * cz_scratch(batch, CZ_S_FACE_FORCE, lane));
+        1e-3 * cz_published(batch, CZ_PUBLISHED(face.force), lane));
     put(writer, CZ_CHANNEL_ANTI_CLIMBER_VERTICAL, interface,
-        1e-3 * cz_scratch(batch, CZ_S_FACE_DEMAND, lane));
-    if (cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) > 0.5)
+        1e-3 * cz_published(batch, CZ_PUBLISHED(face.demand_vertical), lane));
+    if (cz_parameter(batch, CZ_PARAMETER(side_buffers.exists), lane) > 0.5)
         put(writer, CZ_CHANNEL_SIDE_BUFFER_FORCE, interface,
-            1e-3 * cz_scratch(batch, CZ_S_SIDE_FORCE, lane));
+            1e-3 * cz_published(batch, CZ_PUBLISHED(side_buffers.force), lane));
     put_face(writer, interface);
     put(writer, CZ_CHANNEL_INTERFACE_ENERGY, interface,
         1e-3 * cz_interface_energy(batch, interface, 0));

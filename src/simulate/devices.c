@@ -13,9 +13,9 @@ typedef struct {
     CzElementKind element;
     const char *text;
     Source source;
-    int row;
+    int row[2];
     Limit limit;
-    int of; /* CzCurveId or CzParameter */
+    int of[2]; /* CzCurveId or CzParameter */
     CzDeviceClass follower;
     Kind kind;
 } Class;
@@ -30,12 +30,12 @@ static const Class classes[CZ_N_DEVICE] = {
 /* Whether the interface has the connection that the element belongs to; a bare wall has no own. */
 static bool has_element(const CzBatch *batch, size_t lane, int car, CzDeviceClass class) {
     const bool full = batch->model->car[car].model == CZ_MODEL_FULL;
-    if (class == CZ_DEVICE_END || class == CZ_DEVICE_LIMP_END)
+    if (class == CZ_DEVICE_END || class == CZ_DEVICE_MASSLESS_END)
         return full == (class == CZ_DEVICE_END);
     if (classes[class].element == CZ_ELEMENT_COUPLER)
-        return cz_parameter(batch, CZ_P_COUPLER, lane) > 0.5;
+        return cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) > 0.5;
     if (classes[class].element == CZ_ELEMENT_SIDE_BUFFERS)
-        return cz_parameter(batch, CZ_P_SIDE_BUFFERS, lane) > 0.5;
+        return cz_parameter(batch, CZ_PARAMETER(side_buffers.exists), lane) > 0.5;
     return true;
 }
 
@@ -55,8 +55,8 @@ static CzDevice device_of(const CzBatch *batch, int interface, int design, int s
     const bool of_car = kind->source == OF_CAR || slides;
     const int which = slides ? 0 : of_car ? 1 - side : side; /* side A is a front end */
     const size_t own = cz_lane(batch, of_car ? car : interface, design);
-    const double usable = kind->limit == CURVE ? batch->lanes->curve[kind->of + which].usable[own]
-                                               : cz_parameter(batch, kind->of + which, own);
+    const double usable = kind->limit == CURVE ? batch->lanes->curve[kind->of[which]].usable[own]
+                                               : cz_parameter(batch, kind->of[which], own);
     const bool is_there = usable < MISSING &&
                           has_element(batch, cz_lane(batch, interface, design), car, class) &&
                           (!slides || has_slide(batch, car, design, side));
@@ -64,7 +64,7 @@ static CzDevice device_of(const CzBatch *batch, int interface, int design, int s
                       .element = kind->element,
                       .text = kind->text,
                       .from_extremes = kind->source == EXTREME || slides,
-                      .row = kind->row + which,
+                      .row = kind->row[which],
                       .lane = own,
                       .usable = is_there ? usable : INFINITY,
                       .is_reversible = kind->kind == REVERSIBLE};

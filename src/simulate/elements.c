@@ -33,15 +33,16 @@ static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
         return false;
     result->kind = CZ_ELEMENT_COUPLER;
     result->vehicle = car;
-    const double tube = cz_memory(batch, CZ_M_TUBE_A + side, lane);
-    const double second = cz_memory(batch, CZ_M_SECOND_TUBE_A + side, lane);
-    const double travel = cz_memory(batch, CZ_M_SHEAR_A + side, lane);
+    const double tube = cz_memory(batch, CZ_MEMORY(coupler.side[side].tube), lane);
+    const double second = cz_memory(batch, CZ_MEMORY(coupler.side[side].second_tube), lane);
+    const double travel = cz_memory(batch, CZ_MEMORY(coupler.side[side].shear), lane);
     take(result, cz_coupler_account(batch, lane, side));
-    result->tube_energy = cz_memory(batch, CZ_M_TUBE_ENERGY_A + side, lane);
+    result->tube_energy = cz_memory(batch, CZ_MEMORY(coupler.side[side].tube_energy), lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
     result->stroke = tube + second;
-    result->peak_force = cz_extreme(batch, CZ_E_COUPLER_FORCE, lane);
-    result->sheared = travel >= cz_parameter(batch, CZ_P_SHEAR_SOFTENING_A + side, lane);
+    result->peak_force = cz_extreme(batch, CZ_EXTREME(coupler_force), lane);
+    result->sheared =
+        travel >= cz_parameter(batch, CZ_PARAMETER(coupler.side[side].shear.softening), lane);
     return true;
 }
 
@@ -52,10 +53,10 @@ static bool fill_anti_climber(const CzBatch *batch, size_t lane, int side, int c
     result->kind = CZ_ELEMENT_ANTI_CLIMBER;
     result->vehicle = car;
     take(result, cz_anti_climber_account(batch, lane, side));
-    result->tube_energy = cz_memory(batch, CZ_M_FACE_ENERGY_A + side, lane);
+    result->tube_energy = cz_memory(batch, CZ_MEMORY(face.side[side].energy), lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
-    result->stroke = cz_memory(batch, CZ_M_FACE_A + side, lane);
-    result->peak_force = cz_extreme(batch, CZ_E_FACE_FORCE, lane);
+    result->stroke = cz_memory(batch, CZ_MEMORY(face.side[side].stroke), lane);
+    result->peak_force = cz_extreme(batch, CZ_EXTREME(face_force), lane);
     return true;
 }
 
@@ -66,10 +67,10 @@ static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int c
     result->kind = CZ_ELEMENT_SIDE_BUFFERS;
     result->vehicle = car;
     take(result, cz_side_account(batch, lane, side));
-    result->tube_energy = cz_memory(batch, CZ_M_SIDE_TUBE_ENERGY_A + side, lane);
+    result->tube_energy = cz_memory(batch, CZ_MEMORY(side_buffers.side[side].tube_energy), lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
-    result->stroke = cz_memory(batch, CZ_M_SIDE_TUBE_A + side, lane);
-    result->peak_force = cz_extreme(batch, CZ_E_SIDE_FORCE, lane);
+    result->stroke = cz_memory(batch, CZ_MEMORY(side_buffers.side[side].tube), lane);
+    result->peak_force = cz_extreme(batch, CZ_EXTREME(side_force), lane);
     return true;
 }
 
@@ -83,8 +84,8 @@ static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
     take(result, cz_superstructure_account(batch, lane));
     result->tube_energy = result->energy;
     result->zone_energy[CZ_ZONE_SURVIVAL] = fmax(result->energy, 0.0);
-    result->stroke = 0.5 * cz_memory(batch, CZ_M_SUPERSTRUCTURE_SET, lane);
-    result->peak_force = cz_extreme(batch, CZ_E_SUPERSTRUCTURE_FORCE, lane);
+    result->stroke = 0.5 * cz_memory(batch, CZ_MEMORY(superstructure.set), lane);
+    result->peak_force = cz_extreme(batch, CZ_EXTREME(superstructure_force), lane);
     return true;
 }
 
@@ -145,8 +146,8 @@ static void fill_end_mass(const CzBatch *batch, size_t own, int which, CzElement
     take(result, cz_crush_account(batch, own, which));
     result->tube_energy = result->energy;
     take(result, cz_end_mass_account(batch, own, which));
-    result->stroke = cz_memory(batch, CZ_M_END_PEAK_REAR + which, own);
-    result->peak_force = cz_extreme(batch, CZ_E_END_FORCE_REAR + which, own);
+    result->stroke = cz_memory(batch, CZ_MEMORY(end[which].peak), own);
+    result->peak_force = cz_extreme(batch, CZ_EXTREME(end_force[which]), own);
 }
 
 /* Crush zone of the end at side A (0) or B (1); `lane` is the interface's, `car` the owner. */
@@ -160,9 +161,9 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
         result->kind = CZ_ELEMENT_END;
         take(result, cz_limp_account(batch, lane, side));
         result->tube_energy = result->energy;
-        result->energy += cz_memory(batch, CZ_M_LIMP_DAMPED_A + side, lane);
-        result->stroke = cz_memory(batch, CZ_M_LIMP_PEAK_A + side, lane);
-        result->peak_force = cz_extreme(batch, CZ_E_FACE_FORCE, lane);
+        result->energy += cz_memory(batch, CZ_MEMORY(face.side[side].massless.damped), lane);
+        result->stroke = cz_memory(batch, CZ_MEMORY(face.side[side].massless.peak), lane);
+        result->peak_force = cz_extreme(batch, CZ_EXTREME(face_force), lane);
     }
     result->vehicle = car;
     take_faces(batch, lane, share_of_faces(batch, car, design, side), result);
@@ -187,7 +188,7 @@ static void fill_zones(const CzBatch *batch, size_t lane, int side, int design,
     const bool slaved = batch->model->car[car].model != CZ_MODEL_FULL;
     const int which = side == 0 ? 1 : 0; /* front or rear end of the car */
     split_zones(batch, end_of(batch, car, design, side),
-                slaved ? CZ_CURVE_LIMP_END_A + side : CZ_CURVE_END_REAR + which,
+                slaved ? CZ_CURVE(massless[side]) : CZ_CURVE(end[which]),
                 slaved ? lane : cz_lane(batch, car, design), result->stroke, result->tube_energy,
                 result->zone_energy);
 }
@@ -202,10 +203,10 @@ static bool fill_slide(const CzBatch *batch, int side, int car, int design,
     result->kind = CZ_ELEMENT_SLIDE;
     result->vehicle = car;
     result->stored = cz_slide_stored(batch->dynamics, lane);
-    result->energy = cz_work(batch, CZ_L_SLIDE, lane) - result->stored;
+    result->energy = cz_work(batch, CZ_LEDGER(slide), lane) - result->stored;
     result->tube_energy = result->energy;
-    result->stroke = cz_extreme(batch, CZ_E_SLIDE_TRAVEL, lane);
-    result->peak_force = cz_extreme(batch, CZ_E_SLIDE_FORCE, lane);
+    result->stroke = cz_extreme(batch, CZ_EXTREME(slide_travel), lane);
+    result->peak_force = cz_extreme(batch, CZ_EXTREME(slide_force), lane);
     return true;
 }
 
@@ -258,20 +259,23 @@ static void fill_climbing(const CzBatch *batch, int interface, int design,
                           CzInterfaceResult *result) {
     const size_t lane = cz_lane(batch, interface, design);
     const bool pushed = !isnan(result->min_overlap);
-    const bool has_couplers = cz_parameter(batch, CZ_P_COUPLER, lane) > 0.5;
-    const bool on_ends = cz_parameter(batch, CZ_P_COUPLER_ON_END_A, lane) +
-                             cz_parameter(batch, CZ_P_COUPLER_ON_END_B, lane) >
+    const bool has_couplers = cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) > 0.5;
+    const bool on_ends = cz_parameter(batch, CZ_PARAMETER(coupler.side[0].on_end), lane) +
+                             cz_parameter(batch, CZ_PARAMETER(coupler.side[1].on_end), lane) >
                          0.5;
-    result->overlap_time = pushed ? cz_extreme(batch, CZ_E_FACE_OVERLAP_TIME, lane) : NAN;
-    result->margin_time =
-        isnan(result->vertical_margin) ? NAN : cz_extreme(batch, CZ_E_FACE_MARGIN_TIME, lane);
-    result->ramp = pushed ? cz_extreme(batch, CZ_E_FACE_RAMP, lane) : NAN;
-    result->friction = pushed ? cz_parameter(batch, CZ_P_FACE_FRICTION, lane) : NAN;
+    result->overlap_time = pushed ? cz_extreme(batch, CZ_EXTREME(face_overlap_time), lane) : NAN;
+    result->margin_time = isnan(result->vertical_margin)
+                              ? NAN
+                              : cz_extreme(batch, CZ_EXTREME(face_margin_time), lane);
+    result->ramp = pushed ? cz_extreme(batch, CZ_EXTREME(face_ramp), lane) : NAN;
+    result->friction = pushed ? cz_parameter(batch, CZ_PARAMETER(face.friction), lane) : NAN;
     result->underframe_rise =
-        has_couplers && !on_ends ? cz_extreme(batch, CZ_E_UNDERFRAME_RISE, lane) : NAN;
+        has_couplers && !on_ends ? cz_extreme(batch, CZ_EXTREME(underframe_rise), lane) : NAN;
     for (int side = 0; side < 2; ++side) {
-        const double stop = cz_parameter(batch, CZ_P_SWING_STOP_A + side, lane);
-        result->swing[side] = has_couplers ? cz_extreme(batch, CZ_E_SWING_A + side, lane) : NAN;
+        const double stop =
+            cz_parameter(batch, CZ_PARAMETER(coupler.side[side].hinge_vertical.stop), lane);
+        result->swing[side] =
+            has_couplers ? cz_extreme(batch, CZ_EXTREME(swing_vertical[side]), lane) : NAN;
         result->swing_stop[side] = has_couplers && stop < MISSING ? stop : NAN;
     }
 }
@@ -280,18 +284,18 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
     const CzModel *model = batch->model;
     const size_t lane = cz_lane(batch, interface, design);
     snprintf(result->name, sizeof result->name, "%s", model->interface_name[interface]);
-    result->peak_force = cz_extreme(batch, CZ_E_INTERFACE_FORCE, lane);
-    result->peak_time = cz_extreme(batch, CZ_E_INTERFACE_TIME, lane);
-    result->shortening = cz_extreme(batch, CZ_E_INTERFACE_SHORTENING, lane);
-    result->section_force[0] = cz_extreme(batch, CZ_E_SECTION_FRONT, lane);
+    result->peak_force = cz_extreme(batch, CZ_EXTREME(interface_force), lane);
+    result->peak_time = cz_extreme(batch, CZ_EXTREME(interface_time), lane);
+    result->shortening = cz_extreme(batch, CZ_EXTREME(interface_shortening), lane);
+    result->section_force[0] = cz_extreme(batch, CZ_EXTREME(section[1]), lane);
     result->section_force[1] =
-        cz_extreme(batch, CZ_E_SECTION_REAR, cz_lane(batch, interface + 1, design));
-    const double lost_overlap = cz_extreme(batch, CZ_E_FACE_LOST_OVERLAP, lane);
-    const double lost_margin = cz_extreme(batch, CZ_E_FACE_LOST_MARGIN, lane);
-    const bool can_climb = cz_parameter(batch, CZ_P_FACE_OVERLAP, lane) < MISSING;
+        cz_extreme(batch, CZ_EXTREME(section[0]), cz_lane(batch, interface + 1, design));
+    const double lost_overlap = cz_extreme(batch, CZ_EXTREME(face_lost_overlap), lane);
+    const double lost_margin = cz_extreme(batch, CZ_EXTREME(face_lost_margin), lane);
+    const bool can_climb = cz_parameter(batch, CZ_PARAMETER(face.overlap), lane) < MISSING;
     result->min_overlap = can_climb && lost_overlap > -1e299 ? -lost_overlap : NAN;
     result->vertical_margin = can_climb && lost_margin > -1e299 ? -lost_margin : NAN;
-    result->vertical_demand = cz_extreme(batch, CZ_E_FACE_DEMAND, lane);
+    result->vertical_demand = cz_extreme(batch, CZ_EXTREME(face_demand_vertical), lane);
     fill_climbing(batch, interface, design, result);
     result->n_element = 0;
     for (int side = 0; side < 2; ++side) {
@@ -345,24 +349,24 @@ CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleRes
     const CzCar *description = &batch->model->car[car];
     const size_t lane = cz_lane(batch, car, design);
     snprintf(result->name, sizeof result->name, "%s", description->name);
-    result->final_speed = cz_velocity(batch, CZ_DOF_BODY_X, lane);
-    result->peak_deceleration = cz_extreme(batch, CZ_E_BODY_ACCELERATION, lane);
+    result->final_speed = cz_velocity(batch, CZ_DOF(body.x), lane);
+    result->peak_deceleration = cz_extreme(batch, CZ_EXTREME(body_acceleration), lane);
     CZ_TRY(cz_history_decelerations(batch, car, design, result));
     const bool full = description->model == CZ_MODEL_FULL;
     for (int axle = 0; axle < 4; ++axle) {
-        result->wheel_lift[axle] = full ? cz_extreme(batch, CZ_E_LIFT_0 + axle, lane) : NAN;
+        result->wheel_lift[axle] = full ? cz_extreme(batch, CZ_EXTREME(lift[axle]), lane) : NAN;
         result->wheel_lift_time[axle] =
-            full ? cz_extreme(batch, CZ_E_LIFT_TIME_0 + axle, lane) : NAN;
+            full ? cz_extreme(batch, CZ_EXTREME(lift_time[axle]), lane) : NAN;
     }
-    const double of_rear = cz_extreme(batch, CZ_E_BOGIE_LIFT_REAR, lane);
-    const double of_front = cz_extreme(batch, CZ_E_BOGIE_LIFT_FRONT, lane);
+    const double of_rear = cz_extreme(batch, CZ_EXTREME(bogie_lift[0]), lane);
+    const double of_front = cz_extreme(batch, CZ_EXTREME(bogie_lift[1]), lane);
     result->lifted_bogie = of_front > of_rear;
     result->bogie_lift = full ? fmax(of_rear, of_front) : NAN;
     result->bogie_lift_time =
-        full ? cz_extreme(batch, CZ_E_BOGIE_LIFT_TIME_REAR + result->lifted_bogie, lane) : NAN;
-    result->max_pitch = full ? cz_extreme(batch, CZ_E_BODY_PITCH, lane) : NAN;
-    result->link_force = full ? cz_extreme(batch, CZ_E_LINK_FORCE, lane) : NAN;
-    result->link_travel = full ? cz_extreme(batch, CZ_E_LINK_TRAVEL, lane) : NAN;
+        full ? cz_extreme(batch, CZ_EXTREME(bogie_lift_time[result->lifted_bogie]), lane) : NAN;
+    result->max_pitch = full ? cz_extreme(batch, CZ_EXTREME(body_pitch), lane) : NAN;
+    result->link_force = full ? cz_extreme(batch, CZ_EXTREME(link_force), lane) : NAN;
+    result->link_travel = full ? cz_extreme(batch, CZ_EXTREME(link_travel), lane) : NAN;
     result->survival_shortening = survival_shortening(batch, car, design);
     result->checks_override = full && description->has_stops;
     return CZ_OK;

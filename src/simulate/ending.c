@@ -23,15 +23,15 @@ enum { LOOKS_BETWEEN_BOOKS = 64 }; /* looks at the end between two at the books 
             force that is off by a share does work that is off by no more */
 
 static const char *const dof_text[CZ_N_DOF] = {
-#define CZ_DOF(name, what) what,
+#define CZ_DOF_ENTRY(row, axis, dimension, what) [CZ_DOF(row)] = what,
 #include "model/dof.def"
-#undef CZ_DOF
+#undef CZ_DOF_ENTRY
 };
 
 static const char *const ledger_text[CZ_N_LEDGER] = {
-#define CZ_LEDGER(name, class, doc) doc,
+#define CZ_LEDGER_ENTRY(row, class, dimension, doc) [CZ_LEDGER(row)] = doc,
 #include "dynamics/ledger.def"
-#undef CZ_LEDGER
+#undef CZ_LEDGER_ENTRY
 };
 
 static void fail(CzBatch *batch, int design, const char *car, const char *element,
@@ -93,7 +93,7 @@ static void fail_its_books(CzBatch *batch, int design) {
 static bool fails_to_solve(CzBatch *batch, int design) {
     for (int car = 0; car + 1 < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        const double open = cz_extreme(batch, CZ_E_CHAIN_RESIDUAL, lane);
+        const double open = cz_extreme(batch, CZ_EXTREME(chain_residual), lane);
         const double off = cz_law_error(batch, lane);
         char what[96];
         if (!(open <= LARGEST_RESIDUAL))
@@ -113,18 +113,21 @@ static bool fails_to_solve(CzBatch *batch, int design) {
 static bool fails_to_fit(CzBatch *batch, int design) {
     static const struct {
         const char *chain;
-        int first, n; /* plastic strokes, CzMemory */
-        int closure;  /* CzExtreme */
-    } chains[] = {{"coupler", CZ_M_TUBE_A, 6, CZ_E_COUPLER_CLOSURE},
-                  {"anti-climbers", CZ_M_FACE_A, 2, CZ_E_FACE_CLOSURE},
-                  {"ends", CZ_M_LIMP_PEAK_A, 2, CZ_E_FACE_CLOSURE},
-                  {"side buffers", CZ_M_SIDE_TUBE_A, 2, CZ_E_SIDE_CLOSURE}};
+        int stroke[2]; /* a plastic stroke in the memory, both sides */
+        int closure;   /* an extreme */
+    } chains[] = {
+        {"coupler", CZ_MEMORY_PAIR(coupler.side, tube), CZ_EXTREME(coupler_closure)},
+        {"coupler", CZ_MEMORY_PAIR(coupler.side, second_tube), CZ_EXTREME(coupler_closure)},
+        {"coupler", CZ_MEMORY_PAIR(coupler.side, shear), CZ_EXTREME(coupler_closure)},
+        {"anti-climbers", CZ_MEMORY_PAIR(face.side, stroke), CZ_EXTREME(face_closure)},
+        {"ends", CZ_MEMORY_PAIR(face.side, massless.peak), CZ_EXTREME(face_closure)},
+        {"side buffers", CZ_MEMORY_PAIR(side_buffers.side, tube), CZ_EXTREME(side_closure)}};
     for (int car = 0; car + 1 < batch->model->n_car; ++car)
         for (size_t k = 0; k < sizeof chains / sizeof chains[0]; ++k) {
             const size_t lane = cz_lane(batch, car, design);
             double largest = 0.0;
-            for (int member = 0; member < chains[k].n; ++member)
-                largest = fmax(largest, cz_memory(batch, chains[k].first + member, lane));
+            for (int side = 0; side < 2; ++side)
+                largest = fmax(largest, cz_memory(batch, chains[k].stroke[side], lane));
             if (largest <= fmax(cz_extreme(batch, chains[k].closure, lane), 0.0) + LARGEST_RESIDUAL)
                 continue;
             fail(batch, design, batch->model->interface_name[car], chains[k].chain,
@@ -138,16 +141,19 @@ static bool fails_to_fit(CzBatch *batch, int design) {
  * there is no line between two pivots that have met. Cars that climbed before that slide on over
  * each other, which is beyond the model's validity anyway. */
 static bool fails_to_keep_apart(CzBatch *batch, int design) {
-    static const int rows[] = {CZ_M_BUFFER_A, CZ_M_TUBE_A, CZ_M_SECOND_TUBE_A, CZ_M_SHEAR_A};
+    static const int rows[][2] = {
+        CZ_MEMORY_PAIR(coupler.side, buffer.stroke), CZ_MEMORY_PAIR(coupler.side, tube),
+        CZ_MEMORY_PAIR(coupler.side, second_tube), CZ_MEMORY_PAIR(coupler.side, shear)};
     char what[160];
     for (int car = 0; car + 1 < batch->model->n_car && isnan(batch->design[design].override_time);
          ++car)
         for (int side = 0; side < 2; ++side) {
             const size_t lane = cz_lane(batch, car, design);
-            const double length = cz_parameter(batch, CZ_P_STRUT_LENGTH_A + side, lane);
+            const double length =
+                cz_parameter(batch, CZ_PARAMETER(coupler.side[side].strut_length), lane);
             double shortened = 0.0;
             for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k)
-                shortened += cz_memory(batch, rows[k] + side, lane);
+                shortened += cz_memory(batch, rows[k][side], lane);
             if (shortened < length)
                 continue;
             snprintf(what, sizeof what,
@@ -162,11 +168,21 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
 
 /* Sum of all plastic strokes: it grows while anything flows. */
 static double plastic_strokes(const CzBatch *batch, int design) {
-    static const int rows[] = {CZ_M_TUBE_A,        CZ_M_TUBE_B,         CZ_M_SECOND_TUBE_A,
-                               CZ_M_SECOND_TUBE_B, CZ_M_SHEAR_A,        CZ_M_SHEAR_B,
-                               CZ_M_FACE_A,        CZ_M_FACE_B,         CZ_M_LIMP_PEAK_A,
-                               CZ_M_LIMP_PEAK_B,   CZ_M_SIDE_TUBE_A,    CZ_M_SIDE_TUBE_B,
-                               CZ_M_END_PEAK_REAR, CZ_M_END_PEAK_FRONT, CZ_M_SUPERSTRUCTURE_SET};
+    static const int rows[] = {CZ_MEMORY(coupler.side[0].tube),
+                               CZ_MEMORY(coupler.side[1].tube),
+                               CZ_MEMORY(coupler.side[0].second_tube),
+                               CZ_MEMORY(coupler.side[1].second_tube),
+                               CZ_MEMORY(coupler.side[0].shear),
+                               CZ_MEMORY(coupler.side[1].shear),
+                               CZ_MEMORY(face.side[0].stroke),
+                               CZ_MEMORY(face.side[1].stroke),
+                               CZ_MEMORY(face.side[0].massless.peak),
+                               CZ_MEMORY(face.side[1].massless.peak),
+                               CZ_MEMORY(side_buffers.side[0].tube),
+                               CZ_MEMORY(side_buffers.side[1].tube),
+                               CZ_MEMORY(end[0].peak),
+                               CZ_MEMORY(end[1].peak),
+                               CZ_MEMORY(superstructure.set)};
     double sum = 0.0;
     for (int car = 0; car < batch->model->n_car; ++car)
         for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k)
@@ -176,8 +192,8 @@ static double plastic_strokes(const CzBatch *batch, int design) {
 
 static bool closes_in(const CzBatch *batch, int design) {
     for (int car = 0; car + 1 < batch->model->n_car; ++car) {
-        const double behind = cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, car, design));
-        const double ahead = cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, car + 1, design));
+        const double behind = cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, car, design));
+        const double ahead = cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, car + 1, design));
         if (behind - ahead > CLOSING_SPEED)
             return true;
     }
@@ -195,11 +211,11 @@ static double rest_or_speed(const CzBatch *batch, int car, int design) {
     const size_t lane = cz_lane(batch, car, design);
     const bool is_slowed = car > 0 && rolling_resistance(batch, car, design) >
                                           rolling_resistance(batch, car - 1, design);
-    const double speed = cz_velocity(batch, CZ_DOF_BODY_X, lane);
-    const bool brakes = cz_parameter(batch, CZ_P_BRAKE_MOMENT_0, lane) > 0.0 ||
-                        cz_parameter(batch, CZ_P_BRAKE_MOMENT_3, lane) > 0.0 ||
-                        cz_parameter(batch, CZ_P_DRAG_BRAKE, lane) > 0.0 ||
-                        cz_parameter(batch, CZ_P_DRAG_SLIDE, lane) > 0.0;
+    const double speed = cz_velocity(batch, CZ_DOF(body.x), lane);
+    const bool brakes = cz_parameter(batch, CZ_PARAMETER(wheel.brake_moment[0]), lane) > 0.0 ||
+                        cz_parameter(batch, CZ_PARAMETER(wheel.brake_moment[3]), lane) > 0.0 ||
+                        cz_parameter(batch, CZ_PARAMETER(drag.brake), lane) > 0.0 ||
+                        cz_parameter(batch, CZ_PARAMETER(drag.slide), lane) > 0.0;
     return brakes || is_slowed ? fmin(speed, 0.0) : speed;
 }
 
@@ -208,7 +224,7 @@ static double rest_or_speed(const CzBatch *batch, int car, int design) {
 static double meeting_speed(const CzBatch *batch, int design) {
     double slowest = INFINITY, largest = 0.0;
     for (int car = batch->model->n_car - 1; car >= 0; --car) {
-        const double speed = cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, car, design));
+        const double speed = cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, car, design));
         largest = fmax(largest, speed - slowest);
         slowest = fmin(slowest, rest_or_speed(batch, car, design));
     }
@@ -218,13 +234,14 @@ static double meeting_speed(const CzBatch *batch, int design) {
 /* Whether cars that have parted can meet again: what is ahead may come to rest where it is slowed.
  */
 static bool can_meet_again(const CzBatch *batch, int design) {
-    static const int forces[] = {CZ_M_COUPLER_FORCE, CZ_M_FACE_FORCE, CZ_M_SIDE_FORCE};
+    static const int forces[] = {CZ_MEMORY(coupler.force), CZ_MEMORY(face.force),
+                                 CZ_MEMORY(side_buffers.force)};
     for (int car = 0; car + 1 < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        bool together = cz_parameter(batch, CZ_P_COUPLED, lane) > 0.5;
+        bool together = cz_parameter(batch, CZ_PARAMETER(coupler.coupled), lane) > 0.5;
         for (size_t k = 0; k < sizeof forces / sizeof forces[0]; ++k)
             together |= cz_memory(batch, forces[k], lane) > 0.0;
-        const double behind = cz_velocity(batch, CZ_DOF_BODY_X, lane);
+        const double behind = cz_velocity(batch, CZ_DOF(body.x), lane);
         if (!together && behind - rest_or_speed(batch, car + 1, design) > CLOSING_SPEED)
             return true;
     }
@@ -248,10 +265,10 @@ static bool wheels_are_off(CzBatch *batch, int design) {
         const size_t lane = cz_lane(batch, car, design);
         const double flange = batch->vehicles[design][description->vehicle].bogie.flange_height;
         for (int axle = 0; axle < 4; ++axle) {
-            const double lift = -cz_scratch(batch, CZ_S_WHEEL_APPROACH_0 + axle, lane);
+            const double lift = -cz_published(batch, CZ_PUBLISHED(wheel[axle].approach), lane);
             off |= lift > 0.0;
             if (isnan(progress->override_time) && description->has_stops &&
-                cz_extreme(batch, CZ_E_LIFT_0 + axle, lane) > flange)
+                cz_extreme(batch, CZ_EXTREME(lift[axle]), lane) > flange)
                 progress->override_time = batch->time;
         }
     }
@@ -262,10 +279,10 @@ static void look_for_climbing(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
     for (int car = 0; car + 1 < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        if (cz_extreme(batch, CZ_E_FACE_CLIMBED, lane) > 0.0)
+        if (cz_extreme(batch, CZ_EXTREME(face_climbed), lane) > 0.0)
             progress->override_time =
                 fmin(isnan(progress->override_time) ? INFINITY : progress->override_time,
-                     -cz_extreme(batch, CZ_E_CLIMB_TIME, lane));
+                     -cz_extreme(batch, CZ_EXTREME(climb_time), lane));
     }
 }
 

@@ -28,8 +28,8 @@ CzStatus cz_history_add(CzHistory *history, const CzBatch *batch) {
         history->chunk[history->n_chunk - 1] + (size_t)(history->n_sample % CZ_CHUNK) * 2 * row;
     for (int i = 0; i < dynamics->n_block; ++i, sample += CZ_LANE_BLOCK) {
         const CzBlock *block = &dynamics->block[i];
-        memcpy(sample, block->velocity[CZ_DOF_BODY_X], sizeof(CzRow));
-        memcpy(sample + row, block->scratch[CZ_S_INTERFACE_FORCE], sizeof(CzRow));
+        memcpy(sample, block->velocity.body.x, sizeof(CzRow));
+        memcpy(sample + row, block->published.interface.force, sizeof(CzRow));
     }
     ++history->n_sample;
     return CZ_OK;

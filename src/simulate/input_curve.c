@@ -65,22 +65,25 @@ static double advance(Path *path, double closure, double step) {
 static Path coupler_path(const CzLanes *lanes, int interface) {
     Path path = {.lanes = lanes, .let_go = NAN, .shear_off = INFINITY};
     const size_t lane = (size_t)interface;
-    if (cz_lane_value(lanes, interface, CZ_P_COUPLER) < 0.5)
+    if (cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.exists)) < 0.5)
         return path;
-    path.starts_at = cz_lane_value(lanes, interface, CZ_P_PIVOT_DISTANCE) -
-                     cz_lane_value(lanes, interface, CZ_P_COUPLER_LENGTH);
+    path.starts_at = cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.pivot.distance)) -
+                     cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.length));
     for (int side = 0; side < 2; side++) {
         const int car = interface + side;
-        add(&path, CZ_CURVE_BUFFER_A + side, lane);
-        add(&path, CZ_CURVE_TUBE_A + side, lane);
-        add(&path, CZ_CURVE_SECOND_TUBE_A + side, lane);
-        if (cz_lane_value(lanes, interface, CZ_P_COUPLER_ON_END_A + side) > 0.5)
-            add(&path, side == 0 ? CZ_CURVE_END_FRONT : CZ_CURVE_END_REAR, (size_t)car);
-        const double force = cz_lane_value(lanes, interface, CZ_P_SHEAR_FORCE_A + side);
-        const double softening = cz_lane_value(lanes, interface, CZ_P_SHEAR_SOFTENING_A + side);
+        add(&path, CZ_CURVE(buffer[side]), lane);
+        add(&path, CZ_CURVE(tube[side]), lane);
+        add(&path, CZ_CURVE(second_tube[side]), lane);
+        if (cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].on_end)) > 0.5)
+            add(&path, side == 0 ? CZ_CURVE(end[1]) : CZ_CURVE(end[0]), (size_t)car);
+        const double force =
+            cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].shear.force));
+        const double softening =
+            cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].shear.softening));
         if (force < path.shear_off || (force == path.shear_off && softening > path.softening)) {
             path.softening = softening; /* of the weaker one: a wall has none that counts */
-            path.residual = cz_lane_value(lanes, interface, CZ_P_SHEAR_RESIDUAL_A + side);
+            path.residual =
+                cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].shear.residual));
         }
         path.shear_off = fmin(path.shear_off, force);
     }
@@ -92,16 +95,16 @@ static void add_ends(Path *path, const CzModel *model, int interface) {
     for (int side = 0; side < 2; side++) {
         const int car = interface + side;
         if (model->car[car].model == CZ_MODEL_FULL)
-            add(path, side == 0 ? CZ_CURVE_END_FRONT : CZ_CURVE_END_REAR, (size_t)car);
+            add(path, side == 0 ? CZ_CURVE(end[1]) : CZ_CURVE(end[0]), (size_t)car);
     }
 }
 
 static Path face_path(const CzModel *model, const CzLanes *lanes, int interface) {
     Path path = {.lanes = lanes, .let_go = NAN, .shear_off = INFINITY};
-    path.starts_at = cz_lane_value(lanes, interface, CZ_P_FACE_GAP);
+    path.starts_at = cz_lane_value(lanes, interface, CZ_PARAMETER(face.contact.distance));
     for (int side = 0; side < 2; side++) {
-        add(&path, CZ_CURVE_FACE_A + side, (size_t)interface);
-        add(&path, CZ_CURVE_LIMP_END_A + side, (size_t)interface);
+        add(&path, CZ_CURVE(face[side]), (size_t)interface);
+        add(&path, CZ_CURVE(massless[side]), (size_t)interface);
     }
     add_ends(&path, model, interface);
     return path;
@@ -109,12 +112,12 @@ static Path face_path(const CzModel *model, const CzLanes *lanes, int interface)
 
 static Path side_path(const CzModel *model, const CzLanes *lanes, int interface) {
     Path path = {.lanes = lanes, .let_go = NAN, .shear_off = INFINITY};
-    if (cz_lane_value(lanes, interface, CZ_P_SIDE_BUFFERS) < 0.5)
+    if (cz_lane_value(lanes, interface, CZ_PARAMETER(side_buffers.exists)) < 0.5)
         return path;
-    path.starts_at = cz_lane_value(lanes, interface, CZ_P_SIDE_GAP);
+    path.starts_at = cz_lane_value(lanes, interface, CZ_PARAMETER(side_buffers.contact.distance));
     for (int side = 0; side < 2; side++) {
-        add(&path, CZ_CURVE_SIDE_BUFFER_A + side, (size_t)interface);
-        add(&path, CZ_CURVE_SIDE_TUBE_A + side, (size_t)interface);
+        add(&path, CZ_CURVE(side_buffer[side]), (size_t)interface);
+        add(&path, CZ_CURVE(side_tube[side]), (size_t)interface);
     }
     add_ends(&path, model, interface);
     return path;

@@ -35,10 +35,10 @@ CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena) 
 
 /* Whether nothing keeps the two sides from parting. */
 static bool can_open(const CzBatch *batch, size_t lane) {
-    bool whole = cz_parameter(batch, CZ_P_COUPLED, lane) > 0.5;
+    bool whole = cz_parameter(batch, CZ_PARAMETER(coupler.coupled), lane) > 0.5;
     for (int side = 0; side < 2; ++side)
-        whole &= cz_memory(batch, CZ_M_SHEAR_A + side, lane) <
-                 cz_parameter(batch, CZ_P_SHEAR_SOFTENING_A + side, lane);
+        whole &= cz_memory(batch, CZ_MEMORY(coupler.side[side].shear), lane) <
+                 cz_parameter(batch, CZ_PARAMETER(coupler.side[side].shear.softening), lane);
     return !whole;
 }
 
@@ -63,10 +63,10 @@ static bool is_to_be_unloaded(CzInterfaceLoad *load, double largest, bool stores
 
 /* Kinetic energy of two cars about their common motion. */
 static double relative_energy(const CzBatch *batch, size_t lane, size_t ahead) {
-    const double inverse = cz_parameter(batch, CZ_P_INVERSE_BODY_MASS, lane) +
-                           cz_parameter(batch, CZ_P_INVERSE_BODY_MASS, ahead);
+    const double inverse = cz_parameter(batch, CZ_PARAMETER(inverse.body.mass), lane) +
+                           cz_parameter(batch, CZ_PARAMETER(inverse.body.mass), ahead);
     const double rate =
-        cz_velocity(batch, CZ_DOF_BODY_X, lane) - cz_velocity(batch, CZ_DOF_BODY_X, ahead);
+        cz_velocity(batch, CZ_DOF(body.x), lane) - cz_velocity(batch, CZ_DOF(body.x), ahead);
     return inverse > 0.0 ? 0.5 * rate * rate / inverse : 0.0;
 }
 
@@ -90,9 +90,9 @@ CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design) {
         const size_t ahead = cz_lane(batch, interface + 1, design);
         CzInterfaceLoad *load = &batch->load[lane];
         const double closure =
-            cz_position(batch, CZ_DOF_BODY_X, lane) - cz_position(batch, CZ_DOF_BODY_X, ahead);
-        const double largest = cz_extreme(batch, CZ_E_INTERFACE_SHORTENING, lane);
-        const double force = cz_scratch(batch, CZ_S_INTERFACE_FORCE, lane);
+            cz_position(batch, CZ_DOF(body.x), lane) - cz_position(batch, CZ_DOF(body.x), ahead);
+        const double largest = cz_extreme(batch, CZ_EXTREME(interface_shortening), lane);
+        const double force = cz_published(batch, CZ_PUBLISHED(interface.force), lane);
         const double energy = cz_interface_stored(batch, interface, design);
         const bool opens = can_open(batch, lane);
         const bool unloads = is_to_be_unloaded(load, largest, energy > least);

@@ -26,7 +26,7 @@ typedef struct Place {
 /* A shear-off that has not let go yet. */
 typedef struct Drop {
     const CzBlock *block;
-    int row;     /* CzMemory of its travel */
+    int side;    /* of the interface */
     size_t lane; /* within the block */
     bool over;   /* it has let go: its function is masked, or it would fire for ever */
 } Drop;
@@ -52,31 +52,36 @@ struct CzReference {
 
 static bool moves(const CzBatch *batch, int row, size_t lane) {
     const CzLanes *lanes = batch->lanes;
-    if (row == CZ_ROW_IMPULSE)
-        return true;
-    const bool is_end = row == CZ_DOF_END_X_REAR || row == CZ_DOF_END_X_FRONT;
-    return cz_row(lanes->mass, lanes->stride, row)[lane] > 0.0 ||
-           (is_end && cz_parameter(batch, CZ_P_SLAVED_ENDS, lane) > 0.5);
+    const bool is_end = row == CZ_DOF(end[0].x) || row == CZ_DOF(end[1].x);
+    return *cz_lane_mass(lanes, row, lane) > 0.0 ||
+           (is_end && cz_parameter(batch, CZ_PARAMETER(slaved_ends), lane) > 0.5);
 }
 
-/* Fills the places of all rows that move, or only counts them. */
+/* Fills the places of all that moves, and of the impulse of each car, or only counts them. */
 static size_t list_places(const CzBatch *batch, Place *place, double *allowed, double tolerance) {
     size_t n = 0;
-    for (int car = 0; car < batch->model->n_car; car++)
-        for (int row = 0; row < CZ_N_ROW; row++) {
-            const size_t lane = cz_lane(batch, car, 0), i = lane % CZ_LANE_BLOCK;
-            CzBlock *block = cz_block_of(batch->dynamics, lane);
+    for (int car = 0; car < batch->model->n_car; car++) {
+        const size_t lane = cz_lane(batch, car, 0), i = lane % CZ_LANE_BLOCK;
+        CzBlock *block = cz_block_of(batch->dynamics, lane);
+        for (int row = 0; row < CZ_N_DOF; row++) {
             if (!moves(batch, row, lane))
                 continue;
             if (place != NULL) {
-                const bool is_impulse = row == CZ_ROW_IMPULSE;
-                place[n] = (Place){&block->position[row][i], &block->velocity[row][i],
-                                   &block->acceleration[row][i]};
-                allowed[2 * n] = tolerance * (is_impulse ? IMPULSE_SCALE : DISPLACEMENT_SCALE);
-                allowed[2 * n + 1] = tolerance * (is_impulse ? IMPULSE_SCALE : VELOCITY_SCALE);
+                place[n] = (Place){cz_row_of(&block->position, row) + i,
+                                   cz_row_of(&block->velocity, row) + i,
+                                   cz_row_of(&block->acceleration, row) + i};
+                allowed[2 * n] = tolerance * DISPLACEMENT_SCALE;
+                allowed[2 * n + 1] = tolerance * VELOCITY_SCALE;
             }
             n++;
         }
+        if (place != NULL) {
+            CzImpulse *impulse = &block->impulse;
+            place[n] = (Place){&impulse->position[i], &impulse->velocity[i], &impulse->force[i]};
+            allowed[2 * n] = allowed[2 * n + 1] = tolerance * IMPULSE_SCALE;
+        }
+        n++;
+    }
     return n;
 }
 
@@ -149,7 +154,7 @@ static bool rates(CzOde *ode, double time, const double *state, double *rate) {
 }
 
 static double travel(const Drop *drop) {
-    return drop->block->next_memory[drop->row][drop->lane];
+    return drop->block->next_memory->coupler.side[drop->side].shear[drop->lane];
 }
 
 static void drops(CzOde *ode, double time, const double *state, double *value) {
@@ -165,12 +170,12 @@ static int list_drops(const CzBatch *batch, Drop *drop) {
     for (int car = 0; car + 1 < batch->model->n_car; car++)
         for (int side = 0; side < 2; side++) {
             const size_t lane = cz_lane(batch, car, 0);
-            if (cz_parameter(batch, CZ_P_COUPLER, lane) < 0.5 ||
-                cz_parameter(batch, CZ_P_SHEAR_FORCE_A + side, lane) >= CZ_NEVER)
+            if (cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) < 0.5 ||
+                cz_parameter(batch, CZ_PARAMETER(coupler.side[side].shear.force), lane) >= CZ_NEVER)
                 continue;
             if (drop != NULL)
-                drop[n] = (Drop){cz_block_of(batch->dynamics, lane), CZ_M_SHEAR_A + side,
-                                 lane % CZ_LANE_BLOCK, false};
+                drop[n] =
+                    (Drop){cz_block_of(batch->dynamics, lane), side, lane % CZ_LANE_BLOCK, false};
             n++;
         }
     return n;
@@ -263,7 +268,8 @@ CzStatus cz_reference_step(CzReference *reference, double until, CzError *error)
     for (int i = 0; i < reference->ode.n_drop; i++) {
         Drop *drop = &reference->drop[i];
         drop->over =
-            drop->over || drop->block->memory[drop->row][drop->lane] >= SHEARED * (1.0 - 1e-9);
+            drop->over || drop->block->memory->coupler.side[drop->side].shear[drop->lane] >=
+                              SHEARED * (1.0 - 1e-9);
     }
     return cz_solver_restart(reference->solver, error);
 }

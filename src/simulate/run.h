@@ -76,26 +76,36 @@ static inline size_t cz_lane(const CzBatch *batch, int car, int design) {
 
 /* Values in a lane. */
 static inline double cz_position(const CzBatch *batch, int dof, size_t lane) {
-    return cz_block_of(batch->dynamics, lane)->position[dof][lane % CZ_LANE_BLOCK];
+    return cz_row_of(&cz_block_of(batch->dynamics, lane)->position, dof)[lane % CZ_LANE_BLOCK];
 }
 static inline double cz_velocity(const CzBatch *batch, int dof, size_t lane) {
-    return cz_block_of(batch->dynamics, lane)->velocity[dof][lane % CZ_LANE_BLOCK];
+    return cz_row_of(&cz_block_of(batch->dynamics, lane)->velocity, dof)[lane % CZ_LANE_BLOCK];
 }
 static inline double cz_memory(const CzBatch *batch, int row, size_t lane) {
-    return cz_block_of(batch->dynamics, lane)->memory[row][lane % CZ_LANE_BLOCK];
+    return cz_row_of(cz_block_of(batch->dynamics, lane)->memory, row)[lane % CZ_LANE_BLOCK];
 }
 static inline double cz_extreme(const CzBatch *batch, int row, size_t lane) {
-    return cz_block_of(batch->dynamics, lane)->extreme[row][lane % CZ_LANE_BLOCK];
+    return cz_row_of(&cz_block_of(batch->dynamics, lane)->extreme, row)[lane % CZ_LANE_BLOCK];
 }
 static inline double cz_work(const CzBatch *batch, int row, size_t lane) {
-    return cz_block_of(batch->dynamics, lane)->work[row][lane % CZ_LANE_BLOCK];
+    return cz_row_of(&cz_block_of(batch->dynamics, lane)->work, row)[lane % CZ_LANE_BLOCK];
 }
-static inline double cz_parameter(const CzBatch *batch, int row, size_t lane) {
-    return cz_row(batch->lanes->parameter, batch->lanes->stride, row)[lane];
+static inline double cz_parameter(const CzBatch *batch, CzParameter row, size_t lane) {
+    return *cz_lane_parameter(batch->lanes, row, lane);
 }
-static inline double cz_scratch(const CzBatch *batch, int row, size_t lane) {
-    return cz_block_of(batch->dynamics, lane)->scratch[row][lane % CZ_LANE_BLOCK];
+static inline double cz_published(const CzBatch *batch, int row, size_t lane) {
+    return cz_row_of(&cz_block_of(batch->dynamics, lane)->published, row)[lane % CZ_LANE_BLOCK];
 }
+
+/* Rows of both ends of a car, or both sides of an interface. */
+#define CZ_MEMORY_PAIR(pair, member)                                                               \
+    { CZ_MEMORY(pair[0].member), CZ_MEMORY(pair[1].member) }
+#define CZ_PARAMETER_PAIR(pair, member)                                                            \
+    { CZ_PARAMETER(pair[0].member), CZ_PARAMETER(pair[1].member) }
+#define CZ_EXTREME_PAIR(pair)                                                                      \
+    { CZ_EXTREME(pair[0]), CZ_EXTREME(pair[1]) }
+#define CZ_CURVE_PAIR(pair)                                                                        \
+    { CZ_CURVE(pair[0]), CZ_CURVE(pair[1]) }
 
 /* history.c */
 CZ_MUST_CHECK CzStatus cz_history_add(CzHistory *history, const CzBatch *batch);
@@ -155,6 +165,8 @@ CzLedgerClass cz_ledger_class(int row);
 double cz_wheel_rail_work(const CzBatch *batch, int design);
 /* Mean speed of the vehicles of a train that can move, by mass. */
 double cz_train_speed(const CzBatch *batch, int train, int design);
+/* Whether a degree of freedom is one along the track. */
+bool cz_is_along(int dof);
 double cz_momentum_error(const CzBatch *batch, int design);
 /* Largest distance of a member of the interface's series chains from its law, over the largest
  * force of the interface. */

@@ -32,8 +32,8 @@ static double stored_in_mixed(const CzBatch *batch, int design) {
 }
 
 CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
-    static const int running_gear[] = {CZ_L_SECONDARY_DAMPING, CZ_L_PRIMARY_DAMPING,
-                                       CZ_L_LINK_DAMPING, CZ_L_AXLE_GUIDANCE_DAMPING};
+    static const int running_gear[] = {CZ_LEDGER(secondary_damping), CZ_LEDGER(primary_damping),
+                                       CZ_LEDGER(link_damping), CZ_LEDGER(axle_guidance_damping)};
     CzEnergy energy = {0};
     const double work = cz_total_work(batch, design);
     double in_track = 0.0;
@@ -42,12 +42,12 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
     for (int car = 0; car < batch->model->n_car; ++car)
         in_track += cz_track_stored(batch->dynamics, cz_lane(batch, car, design));
     energy.stored += stored_in_mixed(batch, design) + in_track;
-    energy.moving_load = work_of(batch, design, CZ_L_MOVING_LOAD);
+    energy.moving_load = work_of(batch, design, CZ_LEDGER(moving_load));
     energy.dissipated = work - energy.stored - energy.moving_load;
     energy.wheel_rail = cz_wheel_rail_work(batch, design);
     for (size_t k = 0; k < sizeof running_gear / sizeof running_gear[0]; ++k)
         energy.running_gear += work_of(batch, design, running_gear[k]);
-    energy.track = work_of(batch, design, CZ_L_TRACK) - in_track;
+    energy.track = work_of(batch, design, CZ_LEDGER(track)) - in_track;
     energy.absorbers = energy.dissipated - energy.wheel_rail - energy.running_gear - energy.track;
     energy.balance_error =
         energy.initial > 0.0 ? batch->design[design].balance / energy.initial : 0.0;
@@ -59,8 +59,8 @@ static double closing_speed(const CzBatch *batch, int design) {
     double largest = 0.0;
     for (int car = 0; car + 1 < batch->model->n_car; ++car)
         largest =
-            fmax(largest, cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, car, design)) -
-                              cz_velocity(batch, CZ_DOF_BODY_X, cz_lane(batch, car + 1, design)));
+            fmax(largest, cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, car, design)) -
+                              cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, car + 1, design)));
     return largest;
 }
 
@@ -72,14 +72,10 @@ static double plastic_energy(const CzBatch *batch, int design) {
         const int train = batch->model->car[car].train;
         const size_t lane = cz_lane(batch, car, design);
         for (int dof = 0; dof < CZ_N_DOF; ++dof) {
-            const double m = cz_row(batch->lanes->mass, batch->lanes->stride, dof)[lane];
-            const bool along = dof == CZ_DOF_BODY_X || dof == CZ_DOF_END_X_REAR ||
-                               dof == CZ_DOF_END_X_FRONT || dof == CZ_DOF_BOGIE_X_REAR ||
-                               dof == CZ_DOF_BOGIE_X_FRONT ||
-                               (dof >= CZ_DOF_WHEEL_X_0 && (dof - CZ_DOF_WHEEL_X_0) % 3 == 0);
-            mass[train] += along ? m : 0.0;
+            const double m = *cz_lane_mass(batch->lanes, dof, lane);
+            mass[train] += cz_is_along(dof) ? m : 0.0;
         }
-        speed[train] = cz_row(batch->lanes->velocity, batch->lanes->stride, CZ_DOF_BODY_X)[lane];
+        speed[train] = *cz_lane_velocity(batch->lanes, CZ_DOF(body.x), lane);
         fixed[train] |= batch->model->car[car].model == CZ_MODEL_FIXED;
     }
     const double dv = speed[0] - speed[1];
@@ -102,7 +98,7 @@ static void fill_chains(const CzBatch *batch, int design, CzRunSummary *summary)
     for (int car = 0; car + 1 < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         summary->law_error = fmax(summary->law_error, cz_law_error(batch, lane));
-        searched += cz_extreme(batch, CZ_E_SEARCHED, lane);
+        searched += cz_extreme(batch, CZ_EXTREME(searched), lane);
     }
     summary->n_searched = lround(searched);
 }

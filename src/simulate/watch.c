@@ -11,7 +11,7 @@ typedef enum { FROM_MEMORY, FROM_EXTREME, FROM_LIFT_STOP, FROM_BUMP_STOP } Sourc
 
 typedef struct {
     Source source;
-    int row; /* of the source; bogie or side for stops */
+    int row; /* of the source; bogie for stops */
     size_t lane;
     const CzBlock *block; /* of the lane */
     double threshold;     /* passed when the value is larger */
@@ -43,7 +43,8 @@ enum { MOST_PER_CAR = 64 };
 /* Whether a value can pass its threshold only while couplers, faces or side buffers push. Crush
  * zones behind an end mass also flow by its inertia. */
 static When when_it_moves(const CzWatch *list, Source source, int row) {
-    const bool is_end = source == FROM_MEMORY && row >= CZ_M_END_PEAK_REAR;
+    const bool is_end =
+        source == FROM_MEMORY && (row == CZ_MEMORY(end[0].peak) || row == CZ_MEMORY(end[1].peak));
     return list->interface >= 0 && !is_end ? WHILE_PUSHED : GUARDED;
 }
 
@@ -80,39 +81,43 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
     const size_t lane = cz_lane(batch, interface, 0), own = cz_lane(batch, interface + side, 0);
     const char *name = batch->model->car[interface + side].name;
     const int which = side == 0 ? 1 : 0;
-    watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY, CZ_M_TUBE_A + side, lane, FLOWED,
-          "coupler", name);
-    watch(list, batch, CZ_EVENT_SHEAR_OFF, FROM_MEMORY, CZ_M_SHEAR_A + side, lane, FLOWED,
-          "coupler", name);
-    watch(list, batch, CZ_EVENT_ANTI_CLIMBER_ACTIVATION, FROM_MEMORY, CZ_M_FACE_A + side, lane,
-          FLOWED, "anti-climber", name);
-    watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY, CZ_M_SIDE_TUBE_A + side, lane, FLOWED,
-          "side buffers", name);
+    watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY, CZ_MEMORY(coupler.side[side].tube),
+          lane, FLOWED, "coupler", name);
+    watch(list, batch, CZ_EVENT_SHEAR_OFF, FROM_MEMORY, CZ_MEMORY(coupler.side[side].shear), lane,
+          FLOWED, "coupler", name);
+    watch(list, batch, CZ_EVENT_ANTI_CLIMBER_ACTIVATION, FROM_MEMORY,
+          CZ_MEMORY(face.side[side].stroke), lane, FLOWED, "anti-climber", name);
+    watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY,
+          CZ_MEMORY(side_buffers.side[side].tube), lane, FLOWED, "side buffers", name);
     watch_devices(list, batch, interface, side);
-    if (cz_parameter(batch, CZ_P_LIMP_END_A + side, lane) > 0.5) {
-        const int limp = CZ_CURVE_LIMP_END_A + side;
-        watch(list, batch, CZ_EVENT_END_CRUSH, FROM_MEMORY, CZ_M_LIMP_PEAK_A + side, lane,
-              first_stage(batch, limp, lane), "end", name);
+    if (cz_parameter(batch, CZ_PARAMETER(face.side[side].has_massless), lane) > 0.5) {
+        const int limp = CZ_CURVE(massless[side]);
+        watch(list, batch, CZ_EVENT_END_CRUSH, FROM_MEMORY,
+              CZ_MEMORY(face.side[side].massless.peak), lane, first_stage(batch, limp, lane), "end",
+              name);
     }
     if (batch->model->car[interface + side].model == CZ_MODEL_FULL) {
-        const int end = CZ_CURVE_END_REAR + which;
-        watch(list, batch, CZ_EVENT_END_CRUSH, FROM_MEMORY, CZ_M_END_PEAK_REAR + which, own,
+        const int end = CZ_CURVE(end[which]);
+        watch(list, batch, CZ_EVENT_END_CRUSH, FROM_MEMORY, CZ_MEMORY(end[which].peak), own,
               first_stage(batch, end, own), "end", name);
     }
-    if (cz_parameter(batch, CZ_P_COUPLER, lane) > 0.5)
-        watch(list, batch, CZ_EVENT_SWING_STOP, FROM_EXTREME, CZ_E_SWING_A + side, lane,
-              cz_parameter(batch, CZ_P_SWING_STOP_A + side, lane), "coupler", name);
+    if (cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) > 0.5)
+        watch(list, batch, CZ_EVENT_SWING_STOP, FROM_EXTREME, CZ_EXTREME(swing_vertical[side]),
+              lane, cz_parameter(batch, CZ_PARAMETER(coupler.side[side].hinge_vertical.stop), lane),
+              "coupler", name);
 }
 
 static void watch_interface(CzWatch *list, const CzBatch *batch, int interface) {
     const size_t lane = cz_lane(batch, interface, 0);
     const char *name = batch->model->interface_name[interface];
-    watch(list, batch, CZ_EVENT_CONTACT, FROM_EXTREME, CZ_E_INTERFACE_FORCE, lane, 1e3, "", name);
-    watch(list, batch, CZ_EVENT_ANTI_CLIMBER_CONTACT, FROM_MEMORY, CZ_M_FACE_SPEED, lane, 0.0, "",
+    watch(list, batch, CZ_EVENT_CONTACT, FROM_EXTREME, CZ_EXTREME(interface_force), lane, 1e3, "",
           name);
-    watch(list, batch, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_E_FACE_CLIMBED, lane, 0.0, "", name);
-    watch(list, batch, CZ_EVENT_SUPERSTRUCTURE_CRUSH, FROM_MEMORY, CZ_M_SUPERSTRUCTURE_SET, lane,
-          FLOWED, "superstructures", name);
+    watch(list, batch, CZ_EVENT_ANTI_CLIMBER_CONTACT, FROM_MEMORY, CZ_MEMORY(face.speed), lane, 0.0,
+          "", name);
+    watch(list, batch, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_EXTREME(face_climbed), lane, 0.0, "",
+          name);
+    watch(list, batch, CZ_EVENT_SUPERSTRUCTURE_CRUSH, FROM_MEMORY, CZ_MEMORY(superstructure.set),
+          lane, FLOWED, "superstructures", name);
     for (int side = 0; side < 2; ++side)
         watch_side(list, batch, interface, side);
 }
@@ -126,19 +131,19 @@ static void watch_car(CzWatch *list, const CzBatch *batch, int car) {
     for (int axle = 0; axle < 4; ++axle) {
         char kind[24];
         snprintf(kind, sizeof kind, "wheelset %d", axle + 1);
-        watch(list, batch, CZ_EVENT_WHEEL_LIFT, FROM_EXTREME, CZ_E_LIFT_0 + axle, lane, 1e-3, kind,
-              description->name);
+        watch(list, batch, CZ_EVENT_WHEEL_LIFT, FROM_EXTREME, CZ_EXTREME(lift[axle]), lane, 1e-3,
+              kind, description->name);
         if (description->has_stops)
-            watch(list, batch, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_E_LIFT_0 + axle, lane,
+            watch(list, batch, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_EXTREME(lift[axle]), lane,
                   batch->vehicles[0][description->vehicle].bogie.flange_height, kind,
                   description->name);
     }
     for (int bogie = 0; bogie < 2; ++bogie) {
         watch(list, batch, CZ_EVENT_LIFT_STOP, FROM_LIFT_STOP, bogie, lane,
-              cz_parameter(batch, CZ_P_SECONDARY_LIFT_GAP, lane), bogie_name[bogie],
+              cz_parameter(batch, CZ_PARAMETER(secondary.lift_gap), lane), bogie_name[bogie],
               description->name);
         watch(list, batch, CZ_EVENT_BUMP_STOP, FROM_BUMP_STOP, bogie, lane,
-              cz_parameter(batch, CZ_P_SECONDARY_BUMP_GAP, lane), bogie_name[bogie],
+              cz_parameter(batch, CZ_PARAMETER(secondary.bump_gap), lane), bogie_name[bogie],
               description->name);
     }
 }
@@ -147,7 +152,7 @@ static void watch_car(CzWatch *list, const CzBatch *batch, int car) {
 static double *limit_row(Limits *limits, const Watched *watched) {
     switch (watched->source) {
     case FROM_EXTREME:
-        return limits->lift[watched->row - CZ_E_LIFT_0];
+        return cz_row_of(limits->lift, watched->row - CZ_EXTREME(lift));
     case FROM_LIFT_STOP:
         return limits->raised[watched->row];
     case FROM_BUMP_STOP:
@@ -155,7 +160,7 @@ static double *limit_row(Limits *limits, const Watched *watched) {
     case FROM_MEMORY:
         break;
     }
-    return limits->end[watched->row - CZ_M_END_PEAK_REAR];
+    return limits->end[watched->row == CZ_MEMORY(end[1].peak)];
 }
 
 static void set_limits(CzWatch *list, const CzBatch *batch) {
@@ -201,13 +206,13 @@ static double value_of(const Watched *watched) {
     const size_t i = watched->lane % CZ_LANE_BLOCK;
     switch (watched->source) {
     case FROM_MEMORY:
-        return watched->block->memory[watched->row][i];
+        return cz_const_row_of(watched->block->memory, watched->row)[i];
     case FROM_EXTREME:
-        return watched->block->extreme[watched->row][i];
+        return cz_const_row_of(&watched->block->extreme, watched->row)[i];
     case FROM_LIFT_STOP:
-        return -watched->block->scratch[CZ_S_SECONDARY_REAR + watched->row][i];
+        return -watched->block->published.secondary[watched->row].compression[i];
     case FROM_BUMP_STOP:
-        return watched->block->scratch[CZ_S_SECONDARY_REAR + watched->row][i];
+        return watched->block->published.secondary[watched->row].compression[i];
     }
     return 0.0;
 }
@@ -235,7 +240,7 @@ static void look_at_list(CzWatch *list, const CzBatch *batch, When when) {
 static bool superstructures_push(const CzBlock *block) {
     double force = 0.0;
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
-        force += block->scratch[CZ_S_SUPERSTRUCTURE_FORCE][i];
+        force += block->published.superstructure.force[i];
     return force != 0.0;
 }
 
@@ -254,10 +259,10 @@ static bool nothing_pushes(const CzBatch *batch) {
 /* Whether some lane of a block, of the first n, is beyond one of its limits: all of them at once
  * cost little more than one value by its own. */
 static bool is_beyond(const CzBlock *block, const Limits *limits, size_t n) {
-    const CzRow *lift = &block->extreme[CZ_E_LIFT_0];
-    const CzRow *end = (const CzRow *)&block->memory[CZ_M_END_PEAK_REAR];
-    const double *restrict rear = block->scratch[CZ_S_SECONDARY_REAR],
-                           *restrict front = block->scratch[CZ_S_SECONDARY_FRONT];
+    const CzRow *lift = (const CzRow *)block->extreme.lift;
+    const CzEndMemory *end = block->memory->end;
+    const double *restrict rear = block->published.secondary[0].compression,
+                           *restrict front = block->published.secondary[1].compression;
     double n_beyond = 0.0;
 #pragma omp simd reduction(+ : n_beyond)
     for (size_t i = 0; i < n; ++i) {
@@ -266,8 +271,8 @@ static bool is_beyond(const CzBlock *block, const Limits *limits, size_t n) {
         beyond += lift[1][i] > limits->lift[1][i] ? 1.0 : 0.0;
         beyond += lift[2][i] > limits->lift[2][i] ? 1.0 : 0.0;
         beyond += lift[3][i] > limits->lift[3][i] ? 1.0 : 0.0;
-        beyond += end[0][i] > limits->end[0][i] ? 1.0 : 0.0;
-        beyond += end[1][i] > limits->end[1][i] ? 1.0 : 0.0;
+        beyond += end[0].peak[i] > limits->end[0][i] ? 1.0 : 0.0;
+        beyond += end[1].peak[i] > limits->end[1][i] ? 1.0 : 0.0;
         beyond += -rear[i] > limits->raised[0][i] ? 1.0 : 0.0;
         beyond += -front[i] > limits->raised[1][i] ? 1.0 : 0.0;
         beyond += rear[i] > limits->pressed[0][i] ? 1.0 : 0.0;

@@ -11,7 +11,9 @@
 
 #include "drive.h"
 #include "laws/buffer.h"
+#include "laws/coupler.h"
 #include "laws/drag.h"
+#include "laws/face.h"
 #include "laws/plastic_member.h"
 #include "laws/ribs.h"
 #include "laws/shear_off.h"
@@ -44,6 +46,19 @@ static void cz_buffer_at(const double *input, double *output) {
                                                 input[1], input[2], input[3], input[4]);
     output[0] = response.force;
     output[1] = response.offset;
+}
+
+/* Closure, damage. */
+static void cz_coupler_engagement_at(const double *input, double *output) {
+    output[0] = cz_coupler_engagement(1.0, 0.0, input[0], input[1]);
+}
+
+/* Chain's force, closure, rate, slip, share that was released. */
+static void cz_face_at(const double *input, double *output) {
+    const CzFaceLaw law = {2e4, 0.1, 0.02};
+    const CzFaceResponse response = cz_face(&law, input[0], input[1], input[2], input[3], input[4]);
+    output[0] = response.normal;
+    output[1] = response.remaining;
 }
 
 /* Force, strength, slope, rate factor, step. */
@@ -202,6 +217,21 @@ static const Law range_cz_creep_deflection = {
     .high = {1e-4, 5, 30, 3e5, 1e-3},
     .n_output = 1,
     .scale = {1e-4},
+};
+
+static const Law range_cz_coupler_engagement = {
+    .n_input = 2,
+    .low = {-0.01, 0},
+    .high = {0.02, 1},
+    .n_output = 1,
+    .scale = {1},
+};
+static const Law range_cz_face = {
+    .n_input = 5,
+    .low = {0, -0.01, -5, -0.15, 0},
+    .high = {3e6, 0.3, 20, 0.15, 1},
+    .n_output = 2,
+    .scale = {1e6, 0.1},
 };
 
 static Law law_named(const char *name, const char *header, Law law,

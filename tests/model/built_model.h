@@ -36,12 +36,12 @@ static inline double parameter(const Built *built, int car, CzParameter which) {
     return cz_lane_value(built->lanes, car, which);
 }
 
-static inline double mass_of(const Built *built, int car, CzDof dof) {
-    return built->lanes->mass[(size_t)dof * built->lanes->stride + (size_t)car];
+static inline double mass_of(const Built *built, int car, int dof) {
+    return *cz_lane_mass(built->lanes, dof, (size_t)car);
 }
 
-static inline double velocity_of(const Built *built, int car, CzDof dof) {
-    return built->lanes->velocity[(size_t)dof * built->lanes->stride + (size_t)car];
+static inline double velocity_of(const Built *built, int car, int dof) {
+    return *cz_lane_velocity(built->lanes, dof, (size_t)car);
 }
 
 static inline double curve_at(const CzLanes *lanes, size_t lane, CzCurveId id, double x) {

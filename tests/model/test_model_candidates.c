@@ -27,11 +27,11 @@ static void assert_same_design(const CzLanes *a, int in_a, const CzLanes *b, int
     for (int car = 0; car < a->n_car; car++) {
         const size_t la = (size_t)(car * a->n_design + in_a);
         const size_t lb = (size_t)(car * b->n_design + in_b);
-        for (size_t p = 0; p < CZ_N_PARAMETER; p++)
-            assert_true(a->parameter[p * a->stride + la] == b->parameter[p * b->stride + lb]);
-        for (size_t dof = 0; dof < CZ_N_DOF; dof++) {
-            assert_true(a->mass[dof * a->stride + la] == b->mass[dof * b->stride + lb]);
-            assert_true(a->velocity[dof * a->stride + la] == b->velocity[dof * b->stride + lb]);
+        for (CzParameter p = 0; p < CZ_N_PARAMETER; p++)
+            assert_true(*cz_lane_parameter(a, p, la) == *cz_lane_parameter(b, p, lb));
+        for (int dof = 0; dof < CZ_N_DOF; dof++) {
+            assert_true(*cz_lane_mass(a, dof, la) == *cz_lane_mass(b, dof, lb));
+            assert_true(*cz_lane_velocity(a, dof, la) == *cz_lane_velocity(b, dof, lb));
         }
         for (int id = 0; id < CZ_N_CURVE; id++) {
             const CzCurveLanes *ca = &a->curve[id], *cb = &b->curve[id];
@@ -82,7 +82,7 @@ static void filling_again_forgets_the_last_candidate(void **state) {
     const CzLanes *fresh = filled(built.model, 1, &own, &arena);
     CzLanes *used = cz_lanes_create(built.model, 1, &arena);
     assert_int_equal(cz_model_fill(built.model, other, 0, used, NULL), CZ_OK);
-    assert_true(used->parameter[CZ_P_SHEAR_FORCE_A * used->stride + 1] == 1.2e6);
+    assert_true(*cz_lane_parameter(used, CZ_PARAMETER(coupler.side[0].shear.force), 1) == 1.2e6);
     other[0].front.coupler.tube.stages[0].stroke = -1.0; /* fails half way */
     assert_int_equal(cz_model_fill(built.model, other, 0, used, NULL), CZ_STATUS_INPUT);
     assert_int_equal(cz_model_fill(built.model, problem.vehicle, 0, used, NULL), CZ_OK);
@@ -102,15 +102,15 @@ static void a_longer_anti_climber_lengthens_its_end_of_the_car(void **state) {
     const CzVehicle *design = other;
     const CzLanes *lanes = filled(built.model, 1, &design, &arena);
     const Built candidate = {.model = built.model, .lanes = (CzLanes *)lanes};
-    assert_near(parameter(&candidate, 1, CZ_P_PIVOT_X_A),
-                parameter(&built, 1, CZ_P_PIVOT_X_A) + 0.2, 1e-14, 0.0);
-    assert_near(parameter(&candidate, 1, CZ_P_FACE_X_A), parameter(&built, 1, CZ_P_FACE_X_A) + 0.2,
-                1e-13, 0.0);
+    assert_near(parameter(&candidate, 1, CZ_PARAMETER(coupler.pivot.x[0])),
+                parameter(&built, 1, CZ_PARAMETER(coupler.pivot.x[0])) + 0.2, 1e-14, 0.0);
+    assert_near(parameter(&candidate, 1, CZ_PARAMETER(face.contact.x[0])),
+                parameter(&built, 1, CZ_PARAMETER(face.contact.x[0])) + 0.2, 1e-13, 0.0);
     /* The other end and the gaps stay. */
-    assert_near(parameter(&candidate, 0, CZ_P_PIVOT_X_B), parameter(&built, 0, CZ_P_PIVOT_X_B), 0.0,
-                0.0);
-    assert_near(parameter(&candidate, 1, CZ_P_FACE_GAP), parameter(&built, 1, CZ_P_FACE_GAP), 0.0,
-                0.0);
+    assert_near(parameter(&candidate, 0, CZ_PARAMETER(coupler.pivot.x[1])),
+                parameter(&built, 0, CZ_PARAMETER(coupler.pivot.x[1])), 0.0, 0.0);
+    assert_near(parameter(&candidate, 1, CZ_PARAMETER(face.contact.distance)),
+                parameter(&built, 1, CZ_PARAMETER(face.contact.distance)), 0.0, 0.0);
     cz_arena_free(&arena);
     free_model(&built);
 }
@@ -126,8 +126,8 @@ static void a_trigger_given_later_still_fits(void **state) {
     CzArena arena = {0};
     const CzVehicle *design = other;
     const CzLanes *lanes = filled(built.model, 1, &design, &arena);
-    assert_near(curve_at(lanes, 1, CZ_CURVE_TUBE_A, 0.0), 8e5, 1e-14, 0.0);
-    assert_near(curve_at(lanes, 1, CZ_CURVE_TUBE_A, 0.25), 7e5, 1e-12, 0.0);
+    assert_near(curve_at(lanes, 1, CZ_CURVE(tube[0]), 0.0), 8e5, 1e-14, 0.0);
+    assert_near(curve_at(lanes, 1, CZ_CURVE(tube[0]), 0.25), 7e5, 1e-12, 0.0);
     cz_arena_free(&arena);
     free_model(&built);
 }

@@ -34,9 +34,9 @@ static void a_scenario_picks_its_trains_and_speeds(void **state) {
     problem.scenario[0].partner_speed = -2.0;
     Built built = build_model(&problem);
     assert_string_equal(cz_model_interface_name(built.model, 0), "B1-A1");
-    assert_near(mass_of(&built, 0, CZ_DOF_BODY_X), 50e3, 0.0, 0.0);
-    assert_near(velocity_of(&built, 0, CZ_DOF_BODY_X), 7.0, 0.0, 0.0);
-    assert_near(velocity_of(&built, 1, CZ_DOF_BODY_X), -2.0, 0.0, 0.0);
+    assert_near(mass_of(&built, 0, CZ_DOF(body.x)), 50e3, 0.0, 0.0);
+    assert_near(velocity_of(&built, 0, CZ_DOF(body.x)), 7.0, 0.0, 0.0);
+    assert_near(velocity_of(&built, 1, CZ_DOF(body.x)), -2.0, 0.0, 0.0);
     free_model(&built);
 }
 
@@ -46,14 +46,14 @@ static void a_rigid_car_has_one_coordinate(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &wall, 10.0);
     Built built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_INVERSE_BODY_MASS), 1.0 / 40e3, 1e-15, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_INVERSE_BODY_INERTIA), 0.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_SLAVED_ENDS), 1.0, 0.0, 0.0);
-    assert_near(parameter(&built, 1, CZ_P_INVERSE_BODY_MASS), 0.0, 0.0, 0.0);
-    assert_near(parameter(&built, 1, CZ_P_SLAVED_ENDS), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(inverse.body.mass)), 1.0 / 40e3, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(inverse.body.inertia_pitch)), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(slaved_ends)), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 1, CZ_PARAMETER(inverse.body.mass)), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 1, CZ_PARAMETER(slaved_ends)), 1.0, 0.0, 0.0);
     for (int dof = 0; dof < CZ_N_DOF; dof++) {
-        assert_near(mass_of(&built, 0, (CzDof)dof), dof == CZ_DOF_BODY_X ? 40e3 : 0.0, 0.0, 0.0);
-        assert_near(mass_of(&built, 1, (CzDof)dof), 0.0, 0.0, 0.0);
+        assert_near(mass_of(&built, 0, dof), dof == CZ_DOF(body.x) ? 40e3 : 0.0, 0.0, 0.0);
+        assert_near(mass_of(&built, 1, dof), 0.0, 0.0, 0.0);
     }
     assert_false(built.lanes->has_full_cars);
     free_model(&built);
@@ -67,18 +67,18 @@ static void all_masses_of_a_full_car_move_at_its_speed_and_add_up(void **state) 
     Built built = build_model(&problem);
     double mass = 0.0, momentum = 0.0;
     for (int dof = 0; dof < CZ_N_DOF; dof++) {
-        const bool along = dof == CZ_DOF_BODY_X || dof == CZ_DOF_END_X_REAR ||
-                           dof == CZ_DOF_END_X_FRONT || dof == CZ_DOF_BOGIE_X_REAR ||
-                           dof == CZ_DOF_BOGIE_X_FRONT ||
-                           (dof >= CZ_DOF_WHEEL_X_0 && (dof - CZ_DOF_WHEEL_X_0) % 3 == 0);
-        mass += along ? mass_of(&built, 0, (CzDof)dof) : 0.0;
-        momentum +=
-            along ? mass_of(&built, 0, (CzDof)dof) * velocity_of(&built, 0, (CzDof)dof) : 0.0;
+        const bool along = dof == CZ_DOF(body.x) || dof == CZ_DOF(end[0].x) ||
+                           dof == CZ_DOF(end[1].x) || dof == CZ_DOF(bogie[0].x) ||
+                           dof == CZ_DOF(bogie[1].x) ||
+                           (dof >= CZ_DOF(wheelset[0].x) && (dof - CZ_DOF(wheelset[0].x)) % 3 == 0);
+        mass += along ? mass_of(&built, 0, dof) : 0.0;
+        momentum += along ? mass_of(&built, 0, dof) * velocity_of(&built, 0, dof) : 0.0;
     }
     assert_near(mass, car.mass, 1e-14, 0.0);
     assert_near(momentum, car.mass * 10.0, 1e-14, 0.0);
-    assert_near(velocity_of(&built, 0, CZ_DOF_WHEEL_SPIN_2), 10.0 / 0.43, 1e-15, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_INVERSE_BODY_MASS), 1.0 / (32000.0 - 2000.0), 1e-14, 0.0);
+    assert_near(velocity_of(&built, 0, CZ_DOF(wheelset[2].spin)), 10.0 / 0.43, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(inverse.body.mass)), 1.0 / (32000.0 - 2000.0),
+                1e-14, 0.0);
     assert_true(built.lanes->has_full_cars);
     free_model(&built);
 }
@@ -96,8 +96,8 @@ static void load_absorbers_and_mass_factor_go_into_the_body(void **state) {
     problem.scenario[0].payload_share = 0.5;
     Built built = build_model(&problem);
     const double body = 30000.0 * 1.1 + 4000.0 + 120.0 * 2 * 0.3 + 60.0 * 0.25;
-    assert_near(mass_of(&built, 0, CZ_DOF_BODY_X), body, 1e-14, 0.0);
-    assert_near(mass_of(&built, 0, CZ_DOF_BODY_PITCH), car.pitch_inertia * 1.1, 1e-14, 0.0);
+    assert_near(mass_of(&built, 0, CZ_DOF(body.x)), body, 1e-14, 0.0);
+    assert_near(mass_of(&built, 0, CZ_DOF(body.pitch)), car.pitch_inertia * 1.1, 1e-14, 0.0);
     assert_near(cz_model_vehicle_facts(built.model, 0).mass, body + car.mass - 30000.0, 1e-14, 0.0);
     free_model(&built);
 }
@@ -116,11 +116,11 @@ static void loads_at_rest_carry_the_weight_and_its_moment(void **state) {
         sum += facts.axle_load[axle];
     assert_near(sum, car.mass * GRAVITY, 1e-14, 0.0);
     const double moment = (2500.0 * 10.0 - 1000.0 * 10.6) * GRAVITY;
-    const double front = parameter(&built, 0, CZ_P_SECONDARY_PRELOAD_FRONT);
-    const double rear = parameter(&built, 0, CZ_P_SECONDARY_PRELOAD_REAR);
+    const double front = parameter(&built, 0, CZ_PARAMETER(secondary_preload[1]));
+    const double rear = parameter(&built, 0, CZ_PARAMETER(secondary_preload[0]));
     assert_near((front - rear) * 9.5, moment, 1e-12, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_PRIMARY_PRELOAD_3), (front + 2615.0 * GRAVITY) / 2.0,
-                1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(primary_preload[3])),
+                (front + 2615.0 * GRAVITY) / 2.0, 1e-14, 0.0);
     assert_near(facts.secondary_deflection[1], front / 8.6e5, 1e-14, 0.0);
     assert_near(facts.primary_deflection[0], (rear + 2615.0 * GRAVITY) / 2.0 / 2.4e6, 1e-14, 0.0);
     free_model(&built);
@@ -132,12 +132,12 @@ static void the_wheels_stand_on_the_rails_with_their_load(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
     Built built = build_model(&problem);
-    const double hertz = parameter(&built, 0, CZ_P_HERTZ);
+    const double hertz = parameter(&built, 0, CZ_PARAMETER(wheel.hertz));
     /* K_H of one wheel of 0.43 m, worn: 1.140e11 N/m^1.5. */
     assert_near(hertz, 2.0 * pow(3.86e-8 * pow(0.43, -0.115), -1.5), 1e-13, 0.0);
     assert_near(hertz / 2.0, 1.140e11, 1e-3, 0.0);
     for (int axle = 0; axle < 4; axle++) {
-        const double d = parameter(&built, 0, (CzParameter)(CZ_P_INDENTATION_0 + axle));
+        const double d = parameter(&built, 0, CZ_PARAMETER(wheel.indentation[axle]));
         const double load = cz_model_vehicle_facts(built.model, 0).axle_load[axle];
         assert_near(hertz * d * sqrt(d), load, 1e-14, 0.0);
     }
@@ -145,8 +145,8 @@ static void the_wheels_stand_on_the_rails_with_their_load(void **state) {
 
     problem.vehicle[0].bogie.tread = CZ_TREAD_CONICAL;
     built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_HERTZ), 2.0 * pow(4.57e-8 * pow(0.43, -0.149), -1.5),
-                1e-13, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(wheel.hertz)),
+                2.0 * pow(4.57e-8 * pow(0.43, -0.149), -1.5), 1e-13, 0.0);
     free_model(&built);
 }
 
@@ -163,7 +163,7 @@ static void brakes_hold_the_axles_from_the_front_on(void **state) {
     Built built = build_model(&problem);
     const double load = cz_model_vehicle_facts(built.model, 0).axle_load[0];
     for (int axle = 0; axle < 4; axle++) {
-        const CzParameter moment = (CzParameter)(CZ_P_BRAKE_MOMENT_0 + axle);
+        const CzParameter moment = CZ_PARAMETER(wheel.brake_moment[axle]);
         assert_near(parameter(&built, 0, moment), 0.2 * load * 0.43, 1e-14, 0.0);
         assert_near(parameter(&built, 1, moment), axle >= 2 ? 0.1 * load * 0.43 : 0.0, 1e-14, 0.0);
     }
@@ -178,17 +178,17 @@ static void a_scenarios_friction_keeps_the_share_left_in_sliding(void **state) {
     problem.input.simulation.adhesion.sliding_friction = 0.15;
     problem.input.n_scenarios = 1;
     Built built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_FRICTION_PEAK), 0.3, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FRICTION_SLIDING), 0.15, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(wheel.friction_peak)), 0.3, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(wheel.friction_sliding)), 0.15, 1e-15, 0.0);
     const double load = cz_model_vehicle_facts(built.model, 0).axle_load[0];
-    assert_near(parameter(&built, 0, CZ_P_CREEP_STIFFNESS), 0.3 * load / (0.01 * 0.006), 1e-14,
-                0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(wheel.creep_stiffness)),
+                0.3 * load / (0.01 * 0.006), 1e-14, 0.0);
     free_model(&built);
 
     problem.scenario[0].friction = 0.1;
     built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_FRICTION_PEAK), 0.1, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FRICTION_SLIDING), 0.05, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(wheel.friction_peak)), 0.1, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(wheel.friction_sliding)), 0.05, 1e-15, 0.0);
     free_model(&built);
 }
 
@@ -200,12 +200,12 @@ static void springs_that_carry_tension_never_go_slack(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
     Built built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_SECONDARY_PRELOAD_REAR), 1e30, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_PRIMARY_LIFT_GAP), 1e30, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_SECONDARY_BLOW_OFF_RATE), 2e4 / 4e4, 1e-15, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_PRIMARY_BLOW_OFF_RATE), 1e30, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(secondary_preload[0])), 1e30, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(primary.lift_gap)), 1e30, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(secondary.blow_off_rate)), 2e4 / 4e4, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(primary.blow_off_rate)), 1e30, 0.0, 0.0);
     assert_false(built.model->car[0].has_stops);
-    assert_near(parameter(&built, 1, CZ_P_PRIMARY_STIFFNESS), 2.4e6, 0.0, 0.0);
+    assert_near(parameter(&built, 1, CZ_PARAMETER(primary.stiffness)), 2.4e6, 0.0, 0.0);
     free_model(&built);
 }
 
@@ -217,12 +217,14 @@ static void locked_ends_are_stiff_and_free_ones_as_given(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
     Built built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_GUIDE_STIFFNESS_FRONT), 1e8, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_GUIDE_STIFFNESS_REAR), 1000.0 * 600.0 * 600.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FOLD_STIFFNESS_FRONT), 1e8, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FOLD_MOMENT_FRONT), 2e6, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FOLD_STIFFNESS_REAR), 600.0 * 600.0 * 600.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FOLD_MOMENT_REAR), 1e30, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(end[1].guide_vertical.stiffness)), 1e8, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(end[0].guide_vertical.stiffness)),
+                1000.0 * 600.0 * 600.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(end[1].fold_pitch.stiffness)), 1e8, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(end[1].fold_pitch.moment)), 2e6, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(end[0].fold_pitch.stiffness)),
+                600.0 * 600.0 * 600.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(end[0].fold_pitch.moment)), 1e30, 0.0, 0.0);
     free_model(&built);
 }
 
@@ -233,13 +235,13 @@ static void crush_zones_follow_their_stages(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
     Built built = build_model(&problem);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_END_FRONT, 0.02), 1.2e6, 1e-12, 0.0);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_END_FRONT, 0.08), 1.0e6, 1e-12, 0.0);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_END_FRONT, 0.40), 1.5e6, 1e-12, 0.0);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_END_FRONT, 0.60), 4.5e6, 1e-12, 0.0);
-    assert_near(built.lanes->curve[CZ_CURVE_END_FRONT].usable[0], 0.60, 1e-15, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_END_TENSION_FRONT), 1.2e6 / 0.02, 1e-12, 0.0);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_END_REAR, 0.001), 1e6, 1e-12, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(end[1]), 0.02), 1.2e6, 1e-12, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(end[1]), 0.08), 1.0e6, 1e-12, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(end[1]), 0.40), 1.5e6, 1e-12, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(end[1]), 0.60), 4.5e6, 1e-12, 0.0);
+    assert_near(built.lanes->curve[CZ_CURVE(end[1])].usable[0], 0.60, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(end[1].crush.tension)), 1.2e6 / 0.02, 1e-12, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(end[0]), 0.001), 1e6, 1e-12, 0.0);
     free_model(&built);
 }
 

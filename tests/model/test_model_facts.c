@@ -70,11 +70,12 @@ static void the_critical_forces_are_those_of_the_chain_of_both_trains(void **sta
     /* A pivot on an end mass, which its guidance and its folding hold. */
     problem.vehicle[2].rear.coupler.anchor = CZ_ANCHOR_END;
     built = build_model(&problem);
-    strut[1].pivot[1] = (CzChainPivot){.hinge = 2e5,
-                                       .body_arm = 10.6,
-                                       .end_arm = arm - 10.6,
-                                       .end_guide = parameter(&built, 2, CZ_P_GUIDE_STIFFNESS_REAR),
-                                       .end_fold = parameter(&built, 2, CZ_P_FOLD_STIFFNESS_REAR)};
+    strut[1].pivot[1] = (CzChainPivot){
+        .hinge = 2e5,
+        .body_arm = 10.6,
+        .end_arm = arm - 10.6,
+        .end_guide = parameter(&built, 2, CZ_PARAMETER(end[0].guide_vertical.stiffness)),
+        .end_fold = parameter(&built, 2, CZ_PARAMETER(end[0].fold_pitch.stiffness))};
     assert_folds_as(&built, 3, chain_car, strut);
     free_model(&built);
 

@@ -7,18 +7,19 @@ static void the_nearest_pair_of_the_colliding_ends_touches(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
     Built built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_PIVOT_DISTANCE), 2.8, 1e-15, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_COUPLER_LENGTH), 2.8, 1e-15, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.64, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.distance)), 2.8, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.length)), 2.8, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.64, 1e-15, 0.0);
     assert_near(cz_model_interface_facts(built.model, 0).anti_climber_gap, 0.64, 1e-15, 0.0);
     free_model(&built);
 
     problem.vehicle[0].front.coupler.gap = 0.5; /* now the anti-climbers are nearer */
     problem.vehicle[1].rear.coupler.gap = 0.5;
     built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.0, 0.0, 1e-15);
-    assert_near(parameter(&built, 0, CZ_P_PIVOT_DISTANCE), 2.8 + 1.0 - 0.64, 1e-15, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_COUPLER_LENGTH), 2.8, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.0, 0.0, 1e-15);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.distance)), 2.8 + 1.0 - 0.64, 1e-15,
+                0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.length)), 2.8, 1e-15, 0.0);
     free_model(&built);
 }
 
@@ -29,15 +30,18 @@ static void arms_reach_from_the_carriers_to_the_parts(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
     Built built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_PIVOT_X_A), 11.4 - 1.4, 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_PIVOT_Z_A), 0.7 - 1.6, 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_COUPLER_ON_END_A), 0.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_PIVOT_X_B), -(11.4 - 1.4 - 10.6), 1e-13, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_PIVOT_Z_B), 0.7 - 1.2, 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_COUPLER_ON_END_B), 1.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_X_A), 11.4 - 0.32 - 10.6, 1e-13, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_X_B), -(11.4 - 0.32 - 10.6), 1e-13, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_Z_A), 0.95 - 1.2, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.x[0])), 11.4 - 1.4, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.z[0])), 0.7 - 1.6, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.side[0].on_end)), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.x[1])), -(11.4 - 1.4 - 10.6), 1e-13,
+                0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.z[1])), 0.7 - 1.2, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.side[1].on_end)), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.x[0])), 11.4 - 0.32 - 10.6, 1e-13,
+                0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.x[1])), -(11.4 - 0.32 - 10.6), 1e-13,
+                0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.z[0])), 0.95 - 1.2, 1e-14, 0.0);
     free_model(&built);
 }
 
@@ -48,18 +52,18 @@ static void inner_couplers_are_coupled_face_to_face(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 2, car, 1, car, 10.0);
     Built built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_COUPLED), 1.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_PIVOT_DISTANCE), 2.8, 1e-15, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.64 - 0.1, 1e-14, 0.0);
-    assert_near(parameter(&built, 1, CZ_P_COUPLED), 0.0, 0.0, 0.0);
-    assert_near(parameter(&built, 1, CZ_P_COUPLER), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.coupled)), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.distance)), 2.8, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.64 - 0.1, 1e-14, 0.0);
+    assert_near(parameter(&built, 1, CZ_PARAMETER(coupler.coupled)), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 1, CZ_PARAMETER(coupler.exists)), 1.0, 0.0, 0.0);
     free_model(&built);
 
     problem.vehicle[0].front.coupler.given = false;
     built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_COUPLER), 0.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_COUPLED), 0.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.64, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.exists)), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.coupled)), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.64, 1e-14, 0.0);
     assert_true(isnan(cz_model_interface_facts(built.model, 0).strut_length));
     free_model(&built);
 }
@@ -73,11 +77,12 @@ static void height_offsets_raise_the_parts_ahead(void **state) {
     problem.train[0].height_offset = 0.01;
     problem.train[1].height_offset = 0.04;
     Built built = build_model(&problem);
-    assert_near(parameter(&built, 1, CZ_P_FACE_RISE), 0.05 + 0.04 - 0.01, 1e-12, 0.0);
-    assert_near(parameter(&built, 1, CZ_P_PIVOT_RISE), 0.03, 1e-12, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_RISE), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 1, CZ_PARAMETER(face.contact.rise)), 0.05 + 0.04 - 0.01, 1e-12,
+                0.0);
+    assert_near(parameter(&built, 1, CZ_PARAMETER(coupler.pivot.rise)), 0.03, 1e-12, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.rise)), 0.0, 0.0, 0.0);
     /* A strut between unequal heights rests without force. */
-    assert_near(parameter(&built, 1, CZ_P_COUPLER_LENGTH), hypot(2.8, 0.03), 1e-14, 0.0);
+    assert_near(parameter(&built, 1, CZ_PARAMETER(coupler.length)), hypot(2.8, 0.03), 1e-14, 0.0);
     free_model(&built);
 
     problem.input.n_scenarios = 1;
@@ -85,27 +90,28 @@ static void height_offsets_raise_the_parts_ahead(void **state) {
     problem.scenario[0].perturbed_interface = "A1-A2";
     problem.scenario[0].perturbation = 0.02;
     built = build_model(&problem);
-    assert_near(parameter(&built, 1, CZ_P_PIVOT_RISE), -0.05, 1e-12, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_PIVOT_RISE), 0.02, 1e-12, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_RISE), 0.02, 1e-12, 0.0);
+    assert_near(parameter(&built, 1, CZ_PARAMETER(coupler.pivot.rise)), -0.05, 1e-12, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.rise)), 0.02, 1e-12, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.rise)), 0.02, 1e-12, 0.0);
     free_model(&built);
 }
 
 /* What a wall looks like from either side. */
 static void check_wall_side(const Built *built, int side) {
-    const CzParameter transition = side == 1 ? CZ_P_BUFFER_TRANSITION_B : CZ_P_BUFFER_TRANSITION_A;
-    const CzCurveId buffer = side == 1 ? CZ_CURVE_BUFFER_B : CZ_CURVE_BUFFER_A;
-    const CzCurveId tube = side == 1 ? CZ_CURVE_TUBE_B : CZ_CURVE_TUBE_A;
-    const CzCurveId face = side == 1 ? CZ_CURVE_FACE_B : CZ_CURVE_FACE_A;
-    assert_near(parameter(built, 0, CZ_P_COUPLER), 1.0, 0.0, 0.0);
-    assert_near(parameter(built, 0, CZ_P_COUPLED), 0.0, 0.0, 0.0);
-    assert_near(parameter(built, 0, CZ_P_PIVOT_DISTANCE), 1.4, 1e-14, 0.0);
-    assert_near(parameter(built, 0, CZ_P_COUPLER_LENGTH), 1.4, 1e-14, 0.0);
-    assert_near(parameter(built, 0, CZ_P_PIVOT_RISE), 0.0, 0.0, 0.0);
-    assert_near(parameter(built, 0, CZ_P_FACE_GAP), 0.32, 1e-14, 0.0);
-    assert_near(parameter(built, 0, CZ_P_FACE_RISE), 0.0, 0.0, 0.0);
-    assert_near(parameter(built, 0, CZ_P_FACE_COMPLIANCE), 1.0 / 4e8, 1e-15, 0.0);
-    assert_near(parameter(built, 0, CZ_P_FACE_OVERLAP), 1e30, 0.0, 0.0);
+    const CzParameter transition = side == 1 ? CZ_PARAMETER(coupler.side[1].buffer.transition)
+                                             : CZ_PARAMETER(coupler.side[0].buffer.transition);
+    const CzCurveId buffer = side == 1 ? CZ_CURVE(buffer[1]) : CZ_CURVE(buffer[0]);
+    const CzCurveId tube = side == 1 ? CZ_CURVE(tube[1]) : CZ_CURVE(tube[0]);
+    const CzCurveId face = side == 1 ? CZ_CURVE(face[1]) : CZ_CURVE(face[0]);
+    assert_near(parameter(built, 0, CZ_PARAMETER(coupler.exists)), 1.0, 0.0, 0.0);
+    assert_near(parameter(built, 0, CZ_PARAMETER(coupler.coupled)), 0.0, 0.0, 0.0);
+    assert_near(parameter(built, 0, CZ_PARAMETER(coupler.pivot.distance)), 1.4, 1e-14, 0.0);
+    assert_near(parameter(built, 0, CZ_PARAMETER(coupler.length)), 1.4, 1e-14, 0.0);
+    assert_near(parameter(built, 0, CZ_PARAMETER(coupler.pivot.rise)), 0.0, 0.0, 0.0);
+    assert_near(parameter(built, 0, CZ_PARAMETER(face.contact.distance)), 0.32, 1e-14, 0.0);
+    assert_near(parameter(built, 0, CZ_PARAMETER(face.contact.rise)), 0.0, 0.0, 0.0);
+    assert_near(parameter(built, 0, CZ_PARAMETER(face.compliance)), 1.0 / 4e8, 1e-15, 0.0);
+    assert_near(parameter(built, 0, CZ_PARAMETER(face.overlap)), 1e30, 0.0, 0.0);
     assert_near(parameter(built, 0, transition), 1e30, 0.0, 0.0);
     assert_near(curve_at(built->lanes, 0, buffer, 0.0), 0.0, 0.0, 0.0);
     assert_near(curve_at(built->lanes, 0, buffer, 1.0), 1e30, 1e-15, 0.0);
@@ -135,8 +141,8 @@ static void couplers_of_one_moving_side_alone_do_nothing(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &wagon, 10.0);
     Built built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_COUPLER), 0.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.0, 0.0, 1e-15);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.exists)), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.0, 0.0, 1e-15);
     free_model(&built);
 }
 
@@ -147,9 +153,9 @@ static void crush_zones_without_end_mass_lie_in_series_with_the_face(void **stat
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &wall, 10.0);
     Built built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_LIMP_END_A), 0.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_COMPLIANCE), 1e-9, 0.0, 0.0);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_LIMP_END_A, 1.0), 1e30, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.side[0].has_massless)), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.compliance)), 1e-9, 0.0, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(massless[0]), 1.0), 1e30, 1e-15, 0.0);
     free_model(&built);
 
     CzEnd *end = &problem.vehicle[0].front;
@@ -158,12 +164,13 @@ static void crush_zones_without_end_mass_lie_in_series_with_the_face(void **stat
     end->stages[0].force = 1e6;
     end->unloading_stiffness = 8e7;
     built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_P_LIMP_END_A), 1.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_LIMP_UNLOADING_A), 8e7, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_LIMP_SECOND_UNLOADING_A), 8e7, 0.0, 0.0);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_LIMP_END_A, 0.25), 5e5, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.side[0].has_massless)), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.side[0].massless.unloading)), 8e7, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.side[0].massless.second_unloading)), 8e7,
+                0.0, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(massless[0]), 0.25), 5e5, 1e-14, 0.0);
     /* The face is so stiff then that the stated loading curve is what one gets. */
-    assert_true(parameter(&built, 0, CZ_P_FACE_COMPLIANCE) < 1e-6 / 2e6);
+    assert_true(parameter(&built, 0, CZ_PARAMETER(face.compliance)) < 1e-6 / 2e6);
     free_model(&built);
 }
 
@@ -177,19 +184,21 @@ static void devices_side_by_side_multiply_forces_and_stiffness(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
     Built built = build_model(&problem);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_TUBE_A, 0.1), 1.2e6, 1e-14, 0.0);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_TUBE_B, 0.1), 6e5, 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_COUPLER_COMPLIANCE), 1.0 / 4e8 + 1.0 / 2e8, 1e-14, 0.0);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_FACE_A, 0.1), 1e6, 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_COMPLIANCE), 2.0 / 4e8, 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_DAMPING), 2.0 * (1e5 * 3e5 / 4e5), 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_SPEED_FACTOR_A), 0.02, 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_SPEED_FACTOR_B), 0.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_RIB_CAPACITY), 4 * 2 * 32e3, 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_RIB_PITCH), 0.05, 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_OVERLAP), 0.2, 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_FACE_VERTICAL_STIFFNESS), 1e7, 1e-14, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_SHEAR_SPACE_A), 1.01, 1e-14, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(tube[0]), 0.1), 1.2e6, 1e-14, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(tube[1]), 0.1), 6e5, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.compliance)), 1.0 / 4e8 + 1.0 / 2e8,
+                1e-14, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(face[0]), 0.1), 1e6, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.compliance)), 2.0 / 4e8, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.damping)), 2.0 * (1e5 * 3e5 / 4e5), 1e-14,
+                0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.side[0].speed_factor)), 0.02, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.side[1].speed_factor)), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.rib_capacity)), 4 * 2 * 32e3, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.rib_pitch)), 0.05, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.overlap)), 0.2, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.stiffness_vertical)), 1e7, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.side[0].shear.space)), 1.01, 1e-14, 0.0);
     free_model(&built);
 }
 
@@ -217,15 +226,17 @@ static void side_buffers_push_in_pairs(void **state) {
     Built built = build_model(&problem);
     assert_true(built.lanes->has_side_buffers);
     assert_false(built.lanes->has_couplers);
-    assert_near(parameter(&built, 0, CZ_P_SIDE_BUFFERS), 1.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_SIDE_GAP), 0.0, 0.0, 1e-15);
-    assert_near(parameter(&built, 0, CZ_P_FACE_GAP), 0.32 - 0.05, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(side_buffers.exists)), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(side_buffers.contact.distance)), 0.0, 0.0, 1e-15);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.32 - 0.05, 1e-14, 0.0);
     const CzEnd *end = &car.front; /* whose mass carries the buffers */
-    assert_near(parameter(&built, 0, CZ_P_SIDE_X_A), 11.35 - end->distance, 1e-13, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_SIDE_Z_A), 1.05 - end->cg_height, 1e-13, 0.0);
-    assert_near(parameter(&built, 0, CZ_P_SIDE_FRICTION), 0.0, 0.0, 0.0);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_SIDE_BUFFER_A, 0.105), 1.18e6, 1e-14, 0.0);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE_SIDE_TUBE_A, 0.1), 1e30, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(side_buffers.contact.x[0])),
+                11.35 - end->distance, 1e-13, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(side_buffers.contact.z[0])),
+                1.05 - end->cg_height, 1e-13, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(side_buffers.friction)), 0.0, 0.0, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(side_buffer[0]), 0.105), 1.18e6, 1e-14, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(side_tube[0]), 0.1), 1e30, 1e-14, 0.0);
     free_model(&built);
 }
 
@@ -237,13 +248,13 @@ static void the_interface_behind_the_last_car_is_neutral(void **state) {
     Built built = build_model(&problem);
     for (size_t lane = 1; lane < built.lanes->stride; lane++) {
         const int last = (int)lane;
-        assert_near(parameter(&built, last, CZ_P_COUPLER), 0.0, 0.0, 0.0);
-        assert_near(parameter(&built, last, CZ_P_FACE_GAP), 1e30, 0.0, 0.0);
-        assert_near(parameter(&built, last, CZ_P_COUPLER_LENGTH), 1.0, 0.0, 0.0);
-        for (int id = CZ_CURVE_BUFFER_A; id < CZ_N_CURVE; id++)
+        assert_near(parameter(&built, last, CZ_PARAMETER(coupler.exists)), 0.0, 0.0, 0.0);
+        assert_near(parameter(&built, last, CZ_PARAMETER(face.contact.distance)), 1e30, 0.0, 0.0);
+        assert_near(parameter(&built, last, CZ_PARAMETER(coupler.length)), 1.0, 0.0, 0.0);
+        for (int id = CZ_CURVE(buffer[0]); id < CZ_N_CURVE; id++)
             assert_near(curve_at(built.lanes, lane, (CzCurveId)id, 1.0), 1e30, 1e-15, 0.0);
         if (last > 1)
-            assert_near(parameter(&built, last, CZ_P_INVERSE_BODY_MASS), 0.0, 0.0, 0.0);
+            assert_near(parameter(&built, last, CZ_PARAMETER(inverse.body.mass)), 0.0, 0.0, 0.0);
     }
     assert_true(built.lanes->stride % CZ_LANE_BLOCK == 0);
     assert_true(built.lanes->stride >= built.lanes->n_lane + 1);

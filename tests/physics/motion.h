@@ -66,23 +66,30 @@ static inline void motion_close(Motion *motion) {
 }
 
 static inline double *parameter(const Motion *motion, CzParameter which, int car) {
-    return motion->lanes->parameter + (size_t)which * motion->lanes->stride + car;
+    return cz_lane_parameter(motion->lanes, which, (size_t)car);
 }
 
 static inline double *position(const Motion *motion, int dof, int car) {
-    return cz_block_of(motion->dynamics, (size_t)car)->position[dof] + car % CZ_LANE_BLOCK;
+    return cz_row_of(&cz_block_of(motion->dynamics, (size_t)car)->position, dof) +
+           car % CZ_LANE_BLOCK;
 }
 
 static inline double *velocity(const Motion *motion, int dof, int car) {
-    return cz_block_of(motion->dynamics, (size_t)car)->velocity[dof] + car % CZ_LANE_BLOCK;
+    return cz_row_of(&cz_block_of(motion->dynamics, (size_t)car)->velocity, dof) +
+           car % CZ_LANE_BLOCK;
 }
 
 static inline double force(const Motion *motion, int dof, int car) {
-    return cz_block_of(motion->dynamics, (size_t)car)->force[dof][car % CZ_LANE_BLOCK];
+    return cz_row_of(&cz_block_of(motion->dynamics, (size_t)car)->force, dof)[car % CZ_LANE_BLOCK];
 }
 
 static inline double mass(const Motion *motion, int dof, int car) {
-    return motion->lanes->mass[(size_t)dof * motion->lanes->stride + (size_t)car];
+    return *cz_lane_mass(motion->lanes, dof, (size_t)car);
+}
+
+/* Work that a kind of element has received in the lane of a car [J]. */
+static inline double work_at(const Motion *motion, int row, int car) {
+    return cz_row_of(&cz_block_of(motion->dynamics, (size_t)car)->work, row)[car % CZ_LANE_BLOCK];
 }
 
 static inline double motion_kinetic_energy(const Motion *motion) {

@@ -54,31 +54,31 @@ void rows_of_pitch_by_force(Rows *rows) {
     const double pitch = 6.077e-3, force_wanted = 1e6, height = 0.8;
     Motion motion = motion_open(coaches, AS_WRITTEN);
     motion_start(&motion);
-    const double k = *parameter(&motion, CZ_P_SECONDARY_STIFFNESS, 0);
-    const double primaries = 2.0 * *parameter(&motion, CZ_P_PRIMARY_STIFFNESS, 0);
-    const double half = *parameter(&motion, CZ_P_BOGIE_X, 0);
-    *position(&motion, CZ_DOF_BODY_PITCH, 0) = pitch;
-    *position(&motion, CZ_DOF_END_PITCH_REAR, 0) = pitch;
-    *position(&motion, CZ_DOF_END_PITCH_FRONT, 0) = pitch;
+    const double k = *parameter(&motion, CZ_PARAMETER(secondary.stiffness), 0);
+    const double primaries = 2.0 * *parameter(&motion, CZ_PARAMETER(primary.stiffness), 0);
+    const double half = *parameter(&motion, CZ_PARAMETER(bogie_x), 0);
+    *position(&motion, CZ_DOF(body.pitch), 0) = pitch;
+    *position(&motion, CZ_DOF(end[0].pitch), 0) = pitch;
+    *position(&motion, CZ_DOF(end[1].pitch), 0) = pitch;
     for (int bogie = 0; bogie < 2; bogie++) {
         const double lift = (bogie == 0 ? -1.0 : 1.0) * half * pitch;
-        *position(&motion, CZ_DOF_BOGIE_Z_REAR + 3 * bogie, 0) = lift * k / (k + primaries);
-        *position(&motion, CZ_DOF_BOGIE_X_REAR + 3 * bogie, 0) =
-            -pitch * *parameter(&motion, CZ_P_LINK_BODY_Z, 0);
+        *position(&motion, CZ_DOF(bogie[bogie].z), 0) = lift * k / (k + primaries);
+        *position(&motion, CZ_DOF(bogie[bogie].x), 0) =
+            -pitch * *parameter(&motion, CZ_PARAMETER(link.body_z), 0);
     }
     /* The springs of a tilted body differ from a level one's by the square of its pitch. */
     for (int pass = 0; pass < 3; pass++) {
         motion.kernel->evaluate(motion.dynamics, motion.step);
         for (int bogie = 0; bogie < 2; bogie++)
-            *position(&motion, CZ_DOF_BOGIE_Z_REAR + 3 * bogie, 0) +=
-                force(&motion, CZ_DOF_BOGIE_Z_REAR + 3 * bogie, 0) / (k + primaries);
+            *position(&motion, CZ_DOF(bogie[bogie].z), 0) +=
+                force(&motion, CZ_DOF(bogie[bogie].z), 0) / (k + primaries);
     }
     motion.kernel->evaluate(motion.dynamics, motion.step);
     double transfer = 0.0, residual = 0.0, moment = 0.0;
     for (int axle = 0; axle < 4; axle++)
-        transfer += (axle < 2 ? -0.5 : 0.5) * force(&motion, CZ_DOF_WHEEL_Z_0 + 3 * axle, 0);
+        transfer += (axle < 2 ? -0.5 : 0.5) * force(&motion, CZ_DOF(wheelset[axle].z), 0);
     for (int bogie = 0; bogie < 2; bogie++)
-        residual = fmax(residual, fabs(force(&motion, CZ_DOF_BOGIE_Z_REAR + 3 * bogie, 0)));
+        residual = fmax(residual, fabs(force(&motion, CZ_DOF(bogie[bogie].z), 0)));
     moment = transfer * 2.0 * half;
     ROW(rows, "kN", 1e-3 * transfer, 1e-3 * force_wanted * height / (2.0 * half), 2e-4, 0.0,
         "pitched by 6.077 mrad: load shifted from bogie to bogie"); /* the pitch has four digits */
@@ -96,26 +96,27 @@ void rows_of_step_force(Rows *rows) {
     const double pitch = 6.077e-3;
     Motion motion = motion_open(coaches, AS_WRITTEN);
     /* The links would pull at bogies that stand where they stood. */
-    static const CzParameter none[] = {CZ_P_LINK_STIFFNESS, CZ_P_LINK_DAMPING,
-                                       CZ_P_SECONDARY_DAMPING, CZ_P_PRIMARY_DAMPING};
+    static const CzParameter none[] = {
+        CZ_PARAMETER(link.strut.stiffness), CZ_PARAMETER(link.strut.damping),
+        CZ_PARAMETER(secondary.damping), CZ_PARAMETER(primary.damping)};
     for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
         *parameter(&motion, none[i], 0) = 0.0;
     motion_start(&motion);
-    const double k = *parameter(&motion, CZ_P_SECONDARY_STIFFNESS, 0);
-    const double primaries = 2.0 * *parameter(&motion, CZ_P_PRIMARY_STIFFNESS, 0);
-    const double half = *parameter(&motion, CZ_P_BOGIE_X, 0);
-    static const int pitches[] = {CZ_DOF_BODY_PITCH, CZ_DOF_END_PITCH_REAR, CZ_DOF_END_PITCH_FRONT};
+    const double k = *parameter(&motion, CZ_PARAMETER(secondary.stiffness), 0);
+    const double primaries = 2.0 * *parameter(&motion, CZ_PARAMETER(primary.stiffness), 0);
+    const double half = *parameter(&motion, CZ_PARAMETER(bogie_x), 0);
+    static const int pitches[] = {CZ_DOF(body.pitch), CZ_DOF(end[0].pitch), CZ_DOF(end[1].pitch)};
     for (int i = 0; i < 3; i++)
         *position(&motion, pitches[i], 0) = pitch;
     for (int bogie = 0; bogie < 2; bogie++)
-        *position(&motion, CZ_DOF_BOGIE_Z_REAR + 3 * bogie, 0) =
+        *position(&motion, CZ_DOF(bogie[bogie].z), 0) =
             (bogie == 0 ? -1.0 : 1.0) * half * pitch * k / (k + primaries);
     motion_evaluate(&motion);
     double lowest = 0.0;
     while ((double)motion.n_step * motion.step < 0.6) {
         motion_advance(&motion);
         motion_evaluate(&motion);
-        lowest = fmin(lowest, *position(&motion, CZ_DOF_BODY_PITCH, 0));
+        lowest = fmin(lowest, *position(&motion, CZ_DOF(body.pitch), 0));
     }
     ROW(rows, "", 1.0 - lowest / pitch, 2.0, 1e-2, 0.0,
         "1 MN at 0.8 m switched on at once, undamped: largest pitch over the static one");

@@ -65,7 +65,7 @@ static void an_elastic_track_takes_the_wheels_down(void **state) {
     assert_true(
         cz_dynamics_lay_track(motion.dynamics, model->track, CZ_TRACK_MODAL, 0.0, &motion.arena));
     for (int axle = 0; axle < 4; axle++) {
-        const double approach = motion.dynamics->block[0].constant[CZ_C_WHEEL_REST_0 + axle][0];
+        const double approach = motion.dynamics->block[0].constant.wheel_rest[axle][0];
         assert_near(rest.axle_load[axle], cz_model_vehicle_facts(model, 0).axle_load[axle], 1e-9,
                     0.0);
         assert_true(rest.rail_deflection[axle] > 1e-4);
@@ -83,10 +83,10 @@ static void the_kernel_moves_nothing_at_rest(void **state) {
         Motion motion = motion_open(file, WITH(tracks[t]));
         for (int dof = 0; dof < CZ_N_DOF; dof++)
             for (int car = 0; car < 2; car++)
-                motion.lanes->velocity[(size_t)dof * motion.lanes->stride + (size_t)car] = 0.0;
+                *cz_lane_velocity(motion.lanes, dof, (size_t)car) = 0.0;
         motion_start(&motion);
         const double weight = cz_model_vehicle_facts(motion.collision.model, 0).mass * 9.80665;
-        for (int dof = CZ_DOF_BODY_Z; dof < CZ_N_DOF; dof++)
+        for (int dof = CZ_DOF(body.z); dof < CZ_N_DOF; dof++)
             assert_near(force(&motion, dof, 0), 0.0, 0.0, 1e-9 * weight);
         motion_close(&motion);
     }

@@ -22,28 +22,29 @@ static double value(const Motion *motion, CzParameter which, int car) {
 /* Places seen from the body of the car at (x, z), all from the parameters of the model. */
 static void place_bodies(const Motion *motion, int car, double x, double z, Body *body) {
     int n = 0;
-    body[n++] = (Body){CZ_DOF_BODY_X, false, x, z};
+    body[n++] = (Body){CZ_DOF(body.x), false, x, z};
     for (int end = 0; end < 2; end++)
-        body[n++] = (Body){CZ_DOF_END_X_REAR + 3 * end, false,
-                           x + value(motion, CZ_P_END_X_REAR + end, car),
-                           z + value(motion, CZ_P_END_BODY_Z_REAR + end, car) -
-                               value(motion, CZ_P_END_MASS_Z_REAR + end, car)};
+        body[n++] =
+            (Body){CZ_DOF(end[end].x), false, x + value(motion, CZ_PARAMETER(end[end].x), car),
+                   z + value(motion, CZ_PARAMETER(end[end].body_z), car) -
+                       value(motion, CZ_PARAMETER(end[end].mass_z), car)};
     for (int bogie = 0; bogie < 2; bogie++) {
-        const double at = x + (2 * bogie - 1) * value(motion, CZ_P_BOGIE_X, car);
-        const double height =
-            z + value(motion, CZ_P_LINK_BODY_Z, car) - value(motion, CZ_P_LINK_BOGIE_Z, car);
-        body[n++] = (Body){CZ_DOF_BOGIE_X_REAR + 3 * bogie, false, at, height};
+        const double at = x + (2 * bogie - 1) * value(motion, CZ_PARAMETER(bogie_x), car);
+        const double height = z + value(motion, CZ_PARAMETER(link.body_z), car) -
+                              value(motion, CZ_PARAMETER(link.bogie_z), car);
+        body[n++] = (Body){CZ_DOF(bogie[bogie].x), false, at, height};
         for (int axle = 0; axle < 2; axle++)
-            body[n++] = (Body){CZ_DOF_WHEEL_X_0 + 3 * (2 * bogie + axle), true,
-                               at + (2 * axle - 1) * value(motion, CZ_P_AXLE_X, car),
-                               height + value(motion, CZ_P_AXLE_Z, car)};
+            body[n++] = (Body){CZ_DOF(wheelset[2 * bogie + axle].x), true,
+                               at + (2 * axle - 1) * value(motion, CZ_PARAMETER(axle_x), car),
+                               height + value(motion, CZ_PARAMETER(axle_z), car)};
     }
     assert_int_equal(n, N_BODY);
 }
 
 /* What carries a pivot, end 0 the rear and 1 the front: the body, or the end mass. */
 static const Body *carrier(const Motion *motion, int interface, int end, const Body *body) {
-    const CzParameter on_end = end == 1 ? CZ_P_COUPLER_ON_END_A : CZ_P_COUPLER_ON_END_B;
+    const CzParameter on_end =
+        end == 1 ? CZ_PARAMETER(coupler.side[0].on_end) : CZ_PARAMETER(coupler.side[1].on_end);
     return &body[value(motion, on_end, interface) > 0.5 ? 1 + end : 0];
 }
 
@@ -58,19 +59,21 @@ static void place_train(const Motion *motion, Body body[N_CAR][N_BODY]) {
         place_bodies(motion, car + 1, 0.0, 0.0, next);
         const Body *a = carrier(motion, car, 1, body[car]);
         const Body *b = carrier(motion, car, 0, next);
-        x = a->x + value(motion, CZ_P_PIVOT_X_A, car) + value(motion, CZ_P_PIVOT_DISTANCE, car) -
-            value(motion, CZ_P_PIVOT_X_B, car) - b->x;
-        z = a->z + value(motion, CZ_P_PIVOT_Z_A, car) + value(motion, CZ_P_PIVOT_RISE, car) -
-            value(motion, CZ_P_PIVOT_Z_B, car) - b->z;
+        x = a->x + value(motion, CZ_PARAMETER(coupler.pivot.x[0]), car) +
+            value(motion, CZ_PARAMETER(coupler.pivot.distance), car) -
+            value(motion, CZ_PARAMETER(coupler.pivot.x[1]), car) - b->x;
+        z = a->z + value(motion, CZ_PARAMETER(coupler.pivot.z[0]), car) +
+            value(motion, CZ_PARAMETER(coupler.pivot.rise), car) -
+            value(motion, CZ_PARAMETER(coupler.pivot.z[1]), car) - b->z;
     }
     for (int car = 0; car + 1 < N_CAR; car++) {
         const Body *a = &body[car][2], *b = &body[car + 1][1];
-        assert_near(b->x + value(motion, CZ_P_FACE_X_B, car) - a->x -
-                        value(motion, CZ_P_FACE_X_A, car),
-                    value(motion, CZ_P_FACE_GAP, car), 0.0, 1e-12);
-        assert_near(b->z + value(motion, CZ_P_FACE_Z_B, car) - a->z -
-                        value(motion, CZ_P_FACE_Z_A, car),
-                    value(motion, CZ_P_FACE_RISE, car), 0.0, 1e-12);
+        assert_near(b->x + value(motion, CZ_PARAMETER(face.contact.x[1]), car) - a->x -
+                        value(motion, CZ_PARAMETER(face.contact.x[0]), car),
+                    value(motion, CZ_PARAMETER(face.contact.distance), car), 0.0, 1e-12);
+        assert_near(b->z + value(motion, CZ_PARAMETER(face.contact.z[1]), car) - a->z -
+                        value(motion, CZ_PARAMETER(face.contact.z[0]), car),
+                    value(motion, CZ_PARAMETER(face.contact.rise), car), 0.0, 1e-12);
     }
 }
 
@@ -119,7 +122,7 @@ static void sum_momenta(const Motion *motion, Body body[N_CAR][N_BODY], Sum *x, 
 static Motion collision_of(const char *const *set) {
     Motion motion = motion_open("tests/physics/cases/offset-collision.yaml", set);
     for (int car = 0; car < N_CAR; car++)
-        *parameter(&motion, CZ_P_HERTZ, car) = 0.0;
+        *parameter(&motion, CZ_PARAMETER(wheel.hertz), car) = 0.0;
     motion_start(&motion);
     return motion;
 }
@@ -167,9 +170,9 @@ static void they_do_with_couplers_on_the_end_masses_too(void **state) {
 static void every_element_took_part(void **state) {
     (void)state;
     static const char *const names[] = {
-#define CZ_LEDGER(name, class, doc) #name,
+#define CZ_LEDGER_ENTRY(row, class, dimension, doc) [CZ_LEDGER(row)] = #row,
 #include "dynamics/ledger.def"
-#undef CZ_LEDGER
+#undef CZ_LEDGER_ENTRY
     };
     Motion motion = collision_in_space("simulation.time_step_ms=0.05");
     for (int i = 0; i < 8000; i++) {
@@ -177,14 +180,13 @@ static void every_element_took_part(void **state) {
         motion_evaluate(&motion);
     }
     for (int row = 0; row < CZ_N_LEDGER; row++) {
-        if (row == CZ_L_WHEEL_NORMAL || row == CZ_L_WHEEL_CREEP || row == CZ_L_TRACK ||
-            row == CZ_L_MOVING_LOAD || row == CZ_L_ROLLING || row == CZ_L_SLIDE)
+        if (row == CZ_LEDGER(wheel_normal) || row == CZ_LEDGER(wheel_creep) ||
+            row == CZ_LEDGER(track) || row == CZ_LEDGER(moving_load) || row == CZ_LEDGER(rolling) ||
+            row == CZ_LEDGER(slide))
             continue; /* no rail */
         double work = 0.0;
         for (int car = 0; car < N_CAR; car++)
-            work = fmax(
-                work,
-                fabs(cz_block_of(motion.dynamics, (size_t)car)->work[row][car % CZ_LANE_BLOCK]));
+            work = fmax(work, fabs(work_at(&motion, row, car)));
         if (!(work > 1e-4)) /* in springs of 20 MN/m: 60 N, where the sums see a millinewton */
             fail_msg("%s did %g J", names[row], work);
     }
@@ -228,7 +230,7 @@ static double missing_energy(const char *step, int n_step) {
     double taken = 0.0;
     for (int row = 0; row < CZ_N_LEDGER; row++)
         for (int car = 0; car < N_CAR; car++)
-            taken += cz_block_of(motion.dynamics, (size_t)car)->work[row][car % CZ_LANE_BLOCK];
+            taken += work_at(&motion, row, car);
     const double missing = fabs(motion_kinetic_energy(&motion) + taken - before) / before;
     motion_close(&motion);
     return missing;

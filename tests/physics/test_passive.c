@@ -8,7 +8,7 @@
 enum { N_STEP = 20000 };
 
 static double work_of(const Motion *motion, int row) {
-    return cz_block_of(motion->dynamics, 0)->work[row][0];
+    return work_at(motion, row, 0);
 }
 
 /* Leads a degree of freedom of the first car along size * sin(phase + shift). */
@@ -24,7 +24,7 @@ static void lead(const Motion *motion, int dof, double size, double shift, int i
  * out, the springs' kinks by a little more. */
 static void springs_of_a_bogie_that_turns_give_back_what_they_took(void **state) {
     (void)state;
-    static const int rows[] = {CZ_L_PRIMARY, CZ_L_AXLE_GUIDANCE};
+    static const int rows[] = {CZ_LEDGER(primary), CZ_LEDGER(axle_guidance)};
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
     motion_start(&motion);
     double largest[2] = {0.0}, before[2] = {0.0};
@@ -32,11 +32,11 @@ static void springs_of_a_bogie_that_turns_give_back_what_they_took(void **state)
         motion_advance(&motion);
         for (int dof = 0; dof < CZ_N_DOF; dof++)
             *position(&motion, dof, 0) = *velocity(&motion, dof, 0) = 0.0;
-        lead(&motion, CZ_DOF_BOGIE_PITCH_FRONT, 1.0, 0.3, i);
-        lead(&motion, CZ_DOF_BOGIE_X_FRONT, 0.02, 1.9, i);
-        lead(&motion, CZ_DOF_BOGIE_Z_FRONT, 0.03, 4.0, i);
-        lead(&motion, CZ_DOF_WHEEL_Z_2, 0.04, 2.5, i);
-        lead(&motion, CZ_DOF_WHEEL_X_3, 0.02, 5.0, i);
+        lead(&motion, CZ_DOF(bogie[1].pitch), 1.0, 0.3, i);
+        lead(&motion, CZ_DOF(bogie[1].x), 0.02, 1.9, i);
+        lead(&motion, CZ_DOF(bogie[1].z), 0.03, 4.0, i);
+        lead(&motion, CZ_DOF(wheelset[2].z), 0.04, 2.5, i);
+        lead(&motion, CZ_DOF(wheelset[3].x), 0.02, 5.0, i);
         motion_evaluate(&motion);
         for (int k = 0; k < 2; k++) {
             before[k] = i == 0 ? work_of(&motion, rows[k]) : before[k];
@@ -53,7 +53,7 @@ static void springs_of_a_bogie_that_turns_give_back_what_they_took(void **state)
 /* The body turns by up to a fifth of a radian each way while its front bogie moves out of step. */
 static void springs_of_a_body_that_turns_give_back_what_they_took(void **state) {
     (void)state;
-    static const int rows[] = {CZ_L_SECONDARY, CZ_L_LINK};
+    static const int rows[] = {CZ_LEDGER(secondary), CZ_LEDGER(link)};
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
     motion_start(&motion);
     double largest[2] = {0.0}, before[2] = {0.0};
@@ -61,11 +61,11 @@ static void springs_of_a_body_that_turns_give_back_what_they_took(void **state) 
         motion_advance(&motion);
         for (int dof = 0; dof < CZ_N_DOF; dof++)
             *position(&motion, dof, 0) = *velocity(&motion, dof, 0) = 0.0;
-        lead(&motion, CZ_DOF_BODY_PITCH, 0.2, 0.3, i);
-        lead(&motion, CZ_DOF_BODY_X, 0.02, 5.0, i);
-        lead(&motion, CZ_DOF_BOGIE_PITCH_FRONT, 0.1, 2.5, i);
-        lead(&motion, CZ_DOF_BOGIE_X_FRONT, 0.05, 1.9, i);
-        lead(&motion, CZ_DOF_BOGIE_Z_FRONT, 0.1, 4.0, i);
+        lead(&motion, CZ_DOF(body.pitch), 0.2, 0.3, i);
+        lead(&motion, CZ_DOF(body.x), 0.02, 5.0, i);
+        lead(&motion, CZ_DOF(bogie[1].pitch), 0.1, 2.5, i);
+        lead(&motion, CZ_DOF(bogie[1].x), 0.05, 1.9, i);
+        lead(&motion, CZ_DOF(bogie[1].z), 0.1, 4.0, i);
         motion_evaluate(&motion);
         for (int k = 0; k < 2; k++) {
             before[k] = i == 0 ? work_of(&motion, rows[k]) : before[k];
@@ -85,14 +85,14 @@ static void guidance_of_an_end_mass_stores_what_its_displacement_says(void **sta
     (void)state;
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
     motion_start(&motion);
-    const double stiffness = *parameter(&motion, CZ_P_GUIDE_STIFFNESS_FRONT, 0);
+    const double stiffness = *parameter(&motion, CZ_PARAMETER(end[1].guide_vertical.stiffness), 0);
     for (int i = 0; i <= N_STEP; i++) {
         motion_advance(&motion);
         for (int dof = 0; dof < CZ_N_DOF; dof++)
             *position(&motion, dof, 0) = *velocity(&motion, dof, 0) = 0.0;
-        lead(&motion, CZ_DOF_END_Z_FRONT, 0.01, 1.0, i);
+        lead(&motion, CZ_DOF(end[1].z), 0.01, 1.0, i);
         motion_evaluate(&motion);
-        const double across = *position(&motion, CZ_DOF_END_Z_FRONT, 0);
+        const double across = *position(&motion, CZ_DOF(end[1].z), 0);
         const double stored = 0.5 * stiffness * across * across;
         assert_near(cz_guide_stored(motion.dynamics, 0, 1), stored, 1e-12, 1e-12 * stored);
     }

@@ -18,14 +18,14 @@ static Motion faces_apart(void) {
 
 /* Turns the front end of car A and the rear end of car B, nose-up for a car that faces +x. */
 static void turn(Motion *motion, double a, double b) {
-    *position(motion, CZ_DOF_END_PITCH_FRONT, 0) = a;
-    *position(motion, CZ_DOF_END_PITCH_REAR, 1) = b;
+    *position(motion, CZ_DOF(end[1].pitch), 0) = a;
+    *position(motion, CZ_DOF(end[0].pitch), 1) = b;
 }
 
 static void move(Motion *motion, int axis, double way) {
-    *position(motion, CZ_DOF_BODY_X + axis, 0) += way;
-    *position(motion, CZ_DOF_END_X_REAR + axis, 0) += way;
-    *position(motion, CZ_DOF_END_X_FRONT + axis, 0) += way;
+    *position(motion, (axis == 0 ? CZ_DOF(body.x) : CZ_DOF(body.z)), 0) += way;
+    *position(motion, (axis == 0 ? CZ_DOF(end[0].x) : CZ_DOF(end[0].z)), 0) += way;
+    *position(motion, (axis == 0 ? CZ_DOF(end[1].x) : CZ_DOF(end[1].z)), 0) += way;
     motion_evaluate(motion);
 }
 
@@ -37,11 +37,11 @@ static double slope_of_push(double a, double b, double slide) {
         Motion motion = faces_apart();
         turn(&motion, a, b);
         /* Couplers are out of the way: nothing of theirs acts on an end mass. */
-        const double gap = *parameter(&motion, CZ_P_FACE_GAP, 0);
+        const double gap = *parameter(&motion, CZ_PARAMETER(face.contact.distance), 0);
         move(&motion, 0, touch ? gap + 0.05 : gap - 0.05);
         move(&motion, 1, slide);
-        fx[touch] = force(&motion, CZ_DOF_END_X_FRONT, 0);
-        fz[touch] = force(&motion, CZ_DOF_END_Z_FRONT, 0);
+        fx[touch] = force(&motion, CZ_DOF(end[1].x), 0);
+        fz[touch] = force(&motion, CZ_DOF(end[1].z), 0);
         motion_close(&motion);
     }
     return (fz[1] - fz[0]) / (fx[1] - fx[0]);
@@ -50,8 +50,8 @@ static double slope_of_push(double a, double b, double slide) {
 static double ramp_of(double a, double b) {
     Motion motion = faces_apart();
     turn(&motion, a, b);
-    move(&motion, 0, *parameter(&motion, CZ_P_FACE_GAP, 0) + 0.05);
-    const double ramp = cz_block_of(motion.dynamics, 0)->scratch[CZ_S_FACE_RAMP][0];
+    move(&motion, 0, *parameter(&motion, CZ_PARAMETER(face.contact.distance), 0) + 0.05);
+    const double ramp = cz_block_of(motion.dynamics, 0)->published.face.ramp[0];
     motion_close(&motion);
     return ramp;
 }

@@ -11,16 +11,17 @@ static Motion all_on(const char *track, double speed, const char *brake_a, const
     Motion motion = motion_open("tests/physics/cases/standing.yaml", WITH(track, brake_a, brake_b));
     for (int car = 0; car < N_CAR; car++)
         for (int dof = 0; dof < CZ_N_DOF; dof++) {
-            const bool along = dof == CZ_DOF_BODY_X || dof == CZ_DOF_END_X_REAR ||
-                               dof == CZ_DOF_END_X_FRONT || dof == CZ_DOF_BOGIE_X_REAR ||
-                               dof == CZ_DOF_BOGIE_X_FRONT;
-            const bool wheel = dof >= CZ_DOF_WHEEL_X_0 && (dof - CZ_DOF_WHEEL_X_0) % 3 == 0;
-            const bool spin = dof >= CZ_DOF_WHEEL_X_0 && (dof - CZ_DOF_WHEEL_X_0) % 3 == 2;
-            const double radius = *parameter(&motion, CZ_P_WHEEL_RADIUS, car);
-            motion.lanes->velocity[(size_t)dof * motion.lanes->stride + (size_t)car] =
-                along || wheel ? speed
-                : spin         ? speed / radius
-                               : 0.0;
+            const bool along = dof == CZ_DOF(body.x) || dof == CZ_DOF(end[0].x) ||
+                               dof == CZ_DOF(end[1].x) || dof == CZ_DOF(bogie[0].x) ||
+                               dof == CZ_DOF(bogie[1].x);
+            const bool wheel =
+                dof >= CZ_DOF(wheelset[0].x) && (dof - CZ_DOF(wheelset[0].x)) % 3 == 0;
+            const bool spin =
+                dof >= CZ_DOF(wheelset[0].x) && (dof - CZ_DOF(wheelset[0].x)) % 3 == 2;
+            const double radius = *parameter(&motion, CZ_PARAMETER(wheel.radius), car);
+            *cz_lane_velocity(motion.lanes, dof, (size_t)car) = along || wheel ? speed
+                                                                : spin         ? speed / radius
+                                                                               : 0.0;
         }
     motion_start(&motion);
     return motion;
@@ -57,13 +58,13 @@ static void rolling_trains_roll_on(void **state) {
     Motion motion = all_at(10.0, "trains.A.brake.ratio=0", "trains.B.brake.ratio=0");
     go(&motion, 2.0);
     for (int car = 0; car < N_CAR; car++) {
-        const double radius = *parameter(&motion, CZ_P_WHEEL_RADIUS, car);
-        assert_near(*position(&motion, CZ_DOF_BODY_X, car), 20.0, 1e-9, 0.0);
-        assert_near(*velocity(&motion, CZ_DOF_BODY_X, car), 10.0, 1e-9, 0.0);
-        assert_near(*velocity(&motion, CZ_DOF_BODY_PITCH, car), 0.0, 0.0, 1e-9);
+        const double radius = *parameter(&motion, CZ_PARAMETER(wheel.radius), car);
+        assert_near(*position(&motion, CZ_DOF(body.x), car), 20.0, 1e-9, 0.0);
+        assert_near(*velocity(&motion, CZ_DOF(body.x), car), 10.0, 1e-9, 0.0);
+        assert_near(*velocity(&motion, CZ_DOF(body.pitch), car), 0.0, 0.0, 1e-9);
         for (int axle = 0; axle < 4; axle++)
-            assert_near(*velocity(&motion, CZ_DOF_WHEEL_SPIN_0 + 3 * axle, car) * radius, 10.0,
-                        1e-9, 0.0);
+            assert_near(*velocity(&motion, CZ_DOF(wheelset[axle].spin), car) * radius, 10.0, 1e-9,
+                        0.0);
     }
     motion_close(&motion);
 }
@@ -72,7 +73,7 @@ static void rolling_trains_roll_on(void **state) {
 static double work_of(const Motion *motion, int row) {
     double work = 0.0;
     for (int car = 0; car < N_CAR; car++)
-        work += cz_block_of(motion->dynamics, (size_t)car)->work[row][car % CZ_LANE_BLOCK];
+        work += work_at(motion, row, car);
     return work;
 }
 
@@ -89,14 +90,15 @@ static void rails_that_give_way_brake_nobody_and_the_moving_load_pays_for_them(v
         const double before = motion_kinetic_energy(&motion);
         go(&motion, 1.0);
         for (int car = 0; car < N_CAR; car++)
-            assert_near(*velocity(&motion, CZ_DOF_BODY_X, car), 30.0, 1e-8, 0.0);
+            assert_near(*velocity(&motion, CZ_DOF(body.x), car), 30.0, 1e-8, 0.0);
         double sum = 0.0;
         for (int row = 0; row < CZ_N_LEDGER; row++)
             sum += work_of(&motion, row);
-        const double paid = -work_of(&motion, CZ_L_MOVING_LOAD);
+        const double paid = -work_of(&motion, CZ_LEDGER(moving_load));
         assert_true(paid > 100.0); /* [J] */
         /* The flexibility under a wheel beside the modes counts with the contact. */
-        const double taken = work_of(&motion, CZ_L_TRACK) + work_of(&motion, CZ_L_WHEEL_NORMAL);
+        const double taken =
+            work_of(&motion, CZ_LEDGER(track)) + work_of(&motion, CZ_LEDGER(wheel_normal));
         assert_near(taken, paid, 2e-3, 0.0);
         assert_near(sum, before - motion_kinetic_energy(&motion), 0.0, 1e-3 * paid);
         motion_close(&motion);
@@ -113,10 +115,10 @@ static void braked_trains_slow_down_by_their_brake_ratio(void **state) {
     double mean[2] = {0.0};
     go(&motion, 0.5);
     for (int car = 0; car < N_CAR; car++)
-        mean[0] += *velocity(&motion, CZ_DOF_BODY_X, car) / N_CAR;
+        mean[0] += *velocity(&motion, CZ_DOF(body.x), car) / N_CAR;
     go(&motion, 2.0);
     for (int car = 0; car < N_CAR; car++)
-        mean[1] += *velocity(&motion, CZ_DOF_BODY_X, car) / N_CAR;
+        mean[1] += *velocity(&motion, CZ_DOF(body.x), car) / N_CAR;
     assert_near((mean[0] - mean[1]) / 2.0, deceleration, 1e-2, 0.0);
     motion_close(&motion);
 }

@@ -8,13 +8,13 @@
 
 /* Height of pivot B over pivot A. */
 static double rise_of_pivots(const Motion *motion) {
-    const double a =
-        *position(motion, CZ_DOF_BODY_Z, 0) +
-        *position(motion, CZ_DOF_BODY_PITCH, 0) * *parameter(motion, CZ_P_PIVOT_X_A, 0);
-    const double b =
-        *position(motion, CZ_DOF_BODY_Z, 1) +
-        *position(motion, CZ_DOF_BODY_PITCH, 1) * *parameter(motion, CZ_P_PIVOT_X_B, 0);
-    return *parameter(motion, CZ_P_PIVOT_RISE, 0) + b - a;
+    const double a = *position(motion, CZ_DOF(body.z), 0) +
+                     *position(motion, CZ_DOF(body.pitch), 0) *
+                         *parameter(motion, CZ_PARAMETER(coupler.pivot.x[0]), 0);
+    const double b = *position(motion, CZ_DOF(body.z), 1) +
+                     *position(motion, CZ_DOF(body.pitch), 1) *
+                         *parameter(motion, CZ_PARAMETER(coupler.pivot.x[1]), 0);
+    return *parameter(motion, CZ_PARAMETER(coupler.pivot.rise), 0) + b - a;
 }
 
 /* Pushes one car slowly towards the other, whose places along the track are given, while the tubes
@@ -31,10 +31,10 @@ static double fold(const char *hinge, const char *length, double share_of_critic
     double largest = 0.0;
     for (int i = 1; i <= 40000 && largest < 0.1; i++) {
         motion_advance(&motion);
-        *position(&motion, CZ_DOF_BODY_X, 0) = CLOSING_SPEED * i * motion.step;
-        *velocity(&motion, CZ_DOF_BODY_X, 0) = CLOSING_SPEED;
-        *position(&motion, CZ_DOF_BODY_X, 1) = 0.0;
-        *velocity(&motion, CZ_DOF_BODY_X, 1) = 0.0;
+        *position(&motion, CZ_DOF(body.x), 0) = CLOSING_SPEED * i * motion.step;
+        *velocity(&motion, CZ_DOF(body.x), 0) = CLOSING_SPEED;
+        *position(&motion, CZ_DOF(body.x), 1) = 0.0;
+        *velocity(&motion, CZ_DOF(body.x), 1) = 0.0;
         motion_evaluate(&motion);
         largest = fmax(largest, fabs(rise_of_pivots(&motion)));
     }
@@ -71,10 +71,10 @@ static void a_coupler_folds_above_its_critical_force_and_not_below(void **state)
 static double growth(const char *const *set, double duration) {
     Motion motion = motion_open("tests/physics/cases/fold-train.yaml", set);
     const int n_car = motion.collision.model->n_car;
-    *parameter(&motion, CZ_P_COUPLED, motion.collision.model->colliding) = 1.0;
+    *parameter(&motion, CZ_PARAMETER(coupler.coupled), motion.collision.model->colliding) = 1.0;
     motion_lay(&motion);
     for (int car = 0; car < n_car; car++)
-        *position(&motion, CZ_DOF_BODY_PITCH, car) = IMPERFECTION;
+        *position(&motion, CZ_DOF(body.pitch), car) = IMPERFECTION;
     motion.kernel->evaluate(motion.dynamics, motion.step);
     motion.kernel->commit(motion.dynamics, 0.0, 0.0);
     double largest = 0.0;
@@ -82,9 +82,9 @@ static double growth(const char *const *set, double duration) {
         motion_advance(&motion);
         for (int car = 0; car < n_car; car++) {
             const double speed = -car * LEAST_CLOSING;
-            *position(&motion, CZ_DOF_BODY_X, car) = speed * i * motion.step;
-            *velocity(&motion, CZ_DOF_BODY_X, car) = speed;
-            largest = fmax(largest, fabs(*position(&motion, CZ_DOF_BODY_PITCH, car)));
+            *position(&motion, CZ_DOF(body.x), car) = speed * i * motion.step;
+            *velocity(&motion, CZ_DOF(body.x), car) = speed;
+            largest = fmax(largest, fabs(*position(&motion, CZ_DOF(body.pitch), car)));
         }
         motion_evaluate(&motion);
     }
@@ -152,14 +152,15 @@ static double lift_at(Motion *motion, double pitch) {
     for (int i = 1; i <= n; i++) {
         const double share = fmin(1.0, 1.25 * i / n);
         motion_advance(motion);
-        *position(motion, CZ_DOF_BODY_X, 0) = *velocity(motion, CZ_DOF_BODY_X, 0) = 0.0;
-        *position(motion, CZ_DOF_BODY_Z, 0) = *velocity(motion, CZ_DOF_BODY_Z, 0) = 0.0;
-        *position(motion, CZ_DOF_BODY_PITCH, 0) = share * pitch;
-        *velocity(motion, CZ_DOF_BODY_PITCH, 0) =
+        *position(motion, CZ_DOF(body.x), 0) = *velocity(motion, CZ_DOF(body.x), 0) = 0.0;
+        *position(motion, CZ_DOF(body.z), 0) = *velocity(motion, CZ_DOF(body.z), 0) = 0.0;
+        *position(motion, CZ_DOF(body.pitch), 0) = share * pitch;
+        *velocity(motion, CZ_DOF(body.pitch), 0) =
             share < 1.0 ? 1.25 * pitch / (n * motion->step) : 0.0;
         motion_evaluate(motion);
     }
-    return *position(motion, CZ_DOF_WHEEL_Z_0 + 9, 0) - *parameter(motion, CZ_P_INDENTATION_3, 0);
+    return *position(motion, CZ_DOF(wheelset[3].z), 0) -
+           *parameter(motion, CZ_PARAMETER(wheel.indentation[3]), 0);
 }
 
 /* Stretch of a suspension that hangs in its lift stop with a weight below it: the stop carries the
@@ -175,15 +176,16 @@ static void a_pitching_car_lifts_its_wheels_by_its_stops(void **state) {
     for (size_t i = 0; i < sizeof pitches / sizeof pitches[0]; i++) {
         Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
         const double lift = lift_at(&motion, pitches[i]);
-        const double wheelset = 9.80665 * mass(&motion, CZ_DOF_WHEEL_Z_0, 0);
-        const double bogie = 9.80665 * mass(&motion, CZ_DOF_BOGIE_Z_REAR, 0);
-        const double secondary =
-            hanging(bogie + 2.0 * wheelset, *parameter(&motion, CZ_P_SECONDARY_PRELOAD_FRONT, 0),
-                    *parameter(&motion, CZ_P_SECONDARY_STIFFNESS, 0),
-                    *parameter(&motion, CZ_P_SECONDARY_LIFT_STIFFNESS, 0), 0.030);
-        const double primary = hanging(wheelset, *parameter(&motion, CZ_P_PRIMARY_PRELOAD_3, 0),
-                                       *parameter(&motion, CZ_P_PRIMARY_STIFFNESS, 0),
-                                       *parameter(&motion, CZ_P_PRIMARY_LIFT_STIFFNESS, 0), 0.025);
+        const double wheelset = 9.80665 * mass(&motion, CZ_DOF(wheelset[0].z), 0);
+        const double bogie = 9.80665 * mass(&motion, CZ_DOF(bogie[0].z), 0);
+        const double secondary = hanging(
+            bogie + 2.0 * wheelset, *parameter(&motion, CZ_PARAMETER(secondary_preload[1]), 0),
+            *parameter(&motion, CZ_PARAMETER(secondary.stiffness), 0),
+            *parameter(&motion, CZ_PARAMETER(secondary.lift_stiffness), 0), 0.030);
+        const double primary =
+            hanging(wheelset, *parameter(&motion, CZ_PARAMETER(primary_preload[3]), 0),
+                    *parameter(&motion, CZ_PARAMETER(primary.stiffness), 0),
+                    *parameter(&motion, CZ_PARAMETER(primary.lift_stiffness), 0), 0.025);
         const double way = 7.85 * pitches[i];
         if (getenv("CZ_TOL_SCALE") != NULL)
             print_message("%g mm at %g mrad: l_c pitch %g mm, less gaps %g mm\n", 1e3 * lift,
@@ -205,7 +207,7 @@ static void gaps_that_are_not_used_up_lift_nothing(void **state) {
 static void without_stops_wheels_stay_down(void **state) {
     (void)state;
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
-    *parameter(&motion, CZ_P_SECONDARY_LIFT_GAP, 0) = 1e30;
+    *parameter(&motion, CZ_PARAMETER(secondary.lift_gap), 0) = 1e30;
     assert_true(lift_at(&motion, 0.015) <= 0.0);
     motion_close(&motion);
 }

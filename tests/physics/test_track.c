@@ -235,7 +235,8 @@ static void go(Motion *motion, double duration) {
 
 static void stays_at_rest(const char *track) {
     Motion motion = motion_open("tests/physics/cases/standing.yaml", WITH(track));
-    memset(motion.lanes->velocity, 0, CZ_N_DOF * motion.lanes->stride * sizeof(double));
+    for (size_t k = 0; k < motion.lanes->stride / CZ_LANE_BLOCK; k++)
+        memset(&motion.lanes->block[k].velocity, 0, sizeof motion.lanes->block[k].velocity);
     motion_start(&motion);
     for (int i = 0; i < 5; i++) {
         go(&motion, 0.05);
@@ -261,27 +262,29 @@ static void cars_at_rest_on_any_track_stay_at_rest(void **state) {
 static double swing_after(double share) {
     Motion motion =
         motion_open("tests/physics/cases/standing.yaml", WITH("simulation.track=modal"));
-    memset(motion.lanes->velocity, 0, CZ_N_DOF * motion.lanes->stride * sizeof(double));
-    double *hertz = parameter(&motion, CZ_P_HERTZ, 0);
+    for (size_t k = 0; k < motion.lanes->stride / CZ_LANE_BLOCK; k++)
+        memset(&motion.lanes->block[k].velocity, 0, sizeof motion.lanes->block[k].velocity);
+    double *hertz = parameter(&motion, CZ_PARAMETER(wheel.hertz), 0);
     *hertz *= 1e3;
     for (int axle = 0; axle < 4; axle++)
-        *parameter(&motion, (CzParameter)(CZ_P_INDENTATION_0 + axle), 0) *= 1e-2;
-    *parameter(&motion, CZ_P_BOGIE_X, 0) = 13 * 0.6;
-    *parameter(&motion, CZ_P_AXLE_X, 0) = 2 * 0.6;
-    const double indentation = *parameter(&motion, CZ_P_INDENTATION_0, 0);
+        *parameter(&motion, CZ_PARAMETER(wheel.indentation[axle]), 0) *= 1e-2;
+    *parameter(&motion, CZ_PARAMETER(bogie_x), 0) = 13 * 0.6;
+    *parameter(&motion, CZ_PARAMETER(axle_x), 0) = 2 * 0.6;
+    const double indentation = *parameter(&motion, CZ_PARAMETER(wheel.indentation[0]), 0);
     const double contact = 1.5 * *hertz * sqrt(indentation);
-    motion.step = share * cz_track_longest_step(motion.collision.model->track, 1.0 / contact,
-                                                *parameter(&motion, CZ_P_INVERSE_WHEELSET_MASS, 0),
-                                                *parameter(&motion, CZ_P_PRIMARY_STIFFNESS, 0));
+    motion.step =
+        share * cz_track_longest_step(motion.collision.model->track, 1.0 / contact,
+                                      *parameter(&motion, CZ_PARAMETER(inverse.wheelset.mass), 0),
+                                      *parameter(&motion, CZ_PARAMETER(primary.stiffness), 0));
     assert_true(motion.step < 2e-4 * share); /* not the one that the modes themselves set */
     motion_start(&motion);
-    *position(&motion, CZ_DOF_WHEEL_Z_0, 0) = 1e-9;
+    *position(&motion, CZ_DOF(wheelset[0].z), 0) = 1e-9;
     motion_evaluate(&motion);
     double largest = 0.0;
     for (int i = 0; i < 4000; i++) {
         motion_advance(&motion);
         motion_evaluate(&motion);
-        largest = fmax(largest, fabs(*position(&motion, CZ_DOF_WHEEL_Z_0, 0)));
+        largest = fmax(largest, fabs(*position(&motion, CZ_DOF(wheelset[0].z), 0)));
     }
     motion_close(&motion);
     return largest;

@@ -7,21 +7,21 @@
 static void assert_same_block(const CzBlock *a, const CzBlock *b, long n_step) {
     const struct {
         const char *what;
-        const CzRow *a, *b;
+        const void *a, *b;
         size_t size;
     } rows[] = {
-        {"position", a->position, b->position, sizeof a->position},
-        {"velocity", a->velocity, b->velocity, sizeof a->velocity},
-        {"acceleration", a->acceleration, b->acceleration, sizeof a->acceleration},
-        {"work", a->work, b->work, sizeof a->work},
-        {"extreme", a->extreme, b->extreme, sizeof a->extreme},
-        {"memory", (const CzRow *)a->memory, (const CzRow *)b->memory, sizeof a->memories[0]},
-        {"interface force", &a->scratch[CZ_S_INTERFACE_FORCE], &b->scratch[CZ_S_INTERFACE_FORCE],
+        {"position", &a->position, &b->position, sizeof a->position},
+        {"velocity", &a->velocity, &b->velocity, sizeof a->velocity},
+        {"acceleration", &a->acceleration, &b->acceleration, sizeof a->acceleration},
+        {"impulse", &a->impulse, &b->impulse, sizeof a->impulse},
+        {"work", &a->work, &b->work, sizeof a->work},
+        {"extreme", &a->extreme, &b->extreme, sizeof a->extreme},
+        {"memory", a->memory, b->memory, sizeof *a->memory},
+        {"interface force", a->published.interface.force, b->published.interface.force,
          sizeof(CzRow)},
-        {"coupler force", &a->scratch[CZ_S_COUPLER_FORCE], &b->scratch[CZ_S_COUPLER_FORCE],
-         sizeof(CzRow)},
-        {"face force", &a->scratch[CZ_S_FACE_FORCE], &b->scratch[CZ_S_FACE_FORCE], sizeof(CzRow)},
-        {"face demand", &a->scratch[CZ_S_FACE_DEMAND], &b->scratch[CZ_S_FACE_DEMAND],
+        {"coupler force", a->published.coupler.force, b->published.coupler.force, sizeof(CzRow)},
+        {"face force", a->published.face.force, b->published.face.force, sizeof(CzRow)},
+        {"face demand", a->published.face.demand_vertical, b->published.face.demand_vertical,
          sizeof(CzRow)},
     };
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {

@@ -1,0 +1,87 @@
+/* Buffers as the springs of a chain: of couplers, and of side buffers. Part of kernel.c only. */
+#ifndef CZ_DYNAMICS_KERNEL_BUFFER_H
+#define CZ_DYNAMICS_KERNEL_BUFFER_H
+
+#include "dynamics/kernel_chain.h"
+#include "laws/buffer.h"
+
+/* The buffer of one side. */
+typedef struct {
+    const CzBufferRows *rows;
+    const CzBlockCurve *curve; /* loading curve */
+    const double *compliance;  /* 1 / transition */
+    const CzBufferMemory *memory;
+    CzBufferMemory *next;
+} Buffer;
+
+/* A chain with buffers as its springs. */
+typedef struct {
+    Chain chain; /* first: the solution hands it back */
+    Buffer buffer[2];
+} BufferChain;
+
+static inline CzBufferLaw buffer_law(const CzBufferRows *rows, const CzBlockCurve *curve,
+                                     size_t i) {
+    return (CzBufferLaw){cz_larger(rows->transition[i], 1.0),
+                         rows->share[i],
+                         rows->damping[i],
+                         rows->quadratic[i],
+                         rows->draw_stiffness[i],
+                         rows->draw_slack[i],
+                         curve->usable[i]};
+}
+
+/* The law of a buffer in a lane at a stroke, where the first linearisation has taken its offset. */
+static double buffer_force(const Chain *chain, int side, size_t i, double stroke) {
+    const Buffer *buffer = &((const BufferChain *)chain)->buffer[side];
+    const CzBufferLaw law = buffer_law(buffer->rows, buffer->curve, i);
+    double value, slope;
+    curve_at(buffer->curve, i, stroke, &value, &slope);
+    const CzBufferResponse response = cz_buffer_of(
+        &law, buffer->compliance[i], value, slope, stroke, stroke - buffer->memory->stroke[i],
+        buffer->memory->rate[i], buffer->next->offset[i], chain->step);
+    return response.force;
+}
+
+/* Linearises a buffer. The hysteresis starts from where the committed stroke has taken it. */
+static double linearise_buffer(Chain *chain, int side, int again) {
+    const Buffer *buffer = &((const BufferChain *)chain)->buffer[side];
+    const double *restrict compliance = buffer->compliance;
+    const double *restrict committed = buffer->memory->stroke, *restrict rate =
+                                                                   buffer->memory->rate;
+    const CzBlockCurve *restrict loading = buffer->curve;
+    const CzBufferRows *restrict rows = buffer->rows;
+    const double step = chain->step;
+    _Alignas(64) CzRow unused;
+    const double *restrict offset = again ? buffer->next->offset : buffer->memory->offset;
+    double *restrict next_offset = again ? unused : buffer->next->offset;
+    CurveAt curve;
+    Trial trial;
+    choose_stroke(chain, side, again, trial.stroke);
+    evaluate_curve(loading, trial.stroke, &curve);
+    CZ_LANES (i) {
+        const CzBufferLaw law = buffer_law(rows, loading, i);
+        const CzBufferResponse response =
+            cz_buffer_of(&law, compliance[i], curve.value[i], curve.slope[i], trial.stroke[i],
+                         trial.stroke[i] - committed[i], rate[i], offset[i], step);
+        trial.force[i] = response.force;
+        trial.up[i] = response.loading;
+        trial.down[i] = response.unloading;
+        next_offset[i] = response.offset;
+    }
+    return accept(&chain->now, side, again, &trial);
+}
+
+/* Rates of the buffers over the step, for the next one. */
+static void keep_rates(const BufferChain *of) {
+    const double per_step = 1.0 / of->chain.step;
+    for (int side = 0; side < 2; ++side) {
+        const CzBufferMemory *restrict before = of->buffer[side].memory;
+        CzBufferMemory *restrict after = of->buffer[side].next;
+        CZ_LANES (i) {
+            after->rate[i] = (after->stroke[i] - before->stroke[i]) * per_step;
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,208 @@
+/* Couplers lined up and put: a massless strut between two pivots. Part of kernel.c only.
+ *
+ *   closure = free length - |r_B - r_A|,   force along the current line;
+ *   where neither car can tilt, or one is a wall, closure and force are those along the track;
+ *   where it has sheared off, those along the mean normal of the cars
+ */
+#ifndef CZ_DYNAMICS_KERNEL_COUPLER_LINE_H
+#define CZ_DYNAMICS_KERNEL_COUPLER_LINE_H
+
+#include "dynamics/kernel_carrier.h"
+
+/* A coupler lined up. */
+typedef struct {
+    _Alignas(64) CzRow closure;
+    CzRow rate;
+    CzRow direction_x, direction_z; /* from side A to side B */
+    CzRow turn;                     /* rate of the line's angle [rad/s] */
+    CzRow inverse_length;           /* of the strut [1/m] */
+    CzRow arm_x[2], arm_z[2];       /* points of action from the carriers' centres of gravity */
+} CouplerLine;
+
+/* Forces of a coupler, and the moments of its hinges on their carriers. */
+typedef struct {
+    _Alignas(64) CzRow x; /* on side B [N] */
+    CzRow z;
+    CzRow push;             /* largest longitudinal force of the step [N] */
+    CzRow hinge_x, hinge_z; /* part of x and z that reacts the moments */
+    CzRow moment[2];        /* [N m] */
+} CouplerForces;
+
+/* ---- line up ---- */
+
+/* One row of the pivot's carrier: the end mass's where the pivot is fixed to it, else the body's.
+ */
+static inline double chosen(double on_end, double end, double body) {
+    return on_end > 0.5 ? end : body;
+}
+
+/* The carrier of the coupler at one side, its rows in `motion`. */
+static CzCarrier coupler_carrier(const CzBlock *d, int side, CzMotion *restrict motion) {
+    const double *restrict on_end = d->parameter.coupler.side[side].on_end;
+    const CzCarrier e = end_at(d, side), b = body_at(d, side);
+    CZ_LANES (i) {
+        const double w = on_end[i];
+        motion->displacement.x[i] = chosen(w, e.displacement->x[i], b.displacement->x[i]);
+        motion->displacement.z[i] = chosen(w, e.displacement->z[i], b.displacement->z[i]);
+        motion->displacement.pitch[i] =
+            chosen(w, e.displacement->pitch[i], b.displacement->pitch[i]);
+        motion->rate.x[i] = chosen(w, e.rate->x[i], b.rate->x[i]);
+        motion->rate.z[i] = chosen(w, e.rate->z[i], b.rate->z[i]);
+        motion->rate.pitch[i] = chosen(w, e.rate->pitch[i], b.rate->pitch[i]);
+        motion->turned.cosine[i] = chosen(w, e.turned->cosine[i], b.turned->cosine[i]);
+        motion->turned.sine[i] = chosen(w, e.turned->sine[i], b.turned->sine[i]);
+    }
+    return carrier_of(motion);
+}
+
+/* The line lies along the track, whatever the closure, where nothing tilts. */
+static void line_up_coupler(CzCarrier a, CzCarrier b, const CzCouplerRows *restrict rows,
+                            const double *restrict tilting, CouplerLine *restrict line) {
+    CZ_LANES (i) {
+        const double tilts = tilting[i];
+        CzPair pair = cz_pair_of(a, b, &rows->pivot, i);
+        pair.z = tilts * pair.z;
+        const double vx = pair.b.velocity_x - pair.a.velocity_x;
+        const double vz = tilts * (pair.b.velocity_z - pair.a.velocity_z);
+        const double apart = sqrt(pair.x * pair.x + pair.z * pair.z);
+        const double strut = pair.x < 0.0 ? -apart : apart; /* the run fails where pivots pass */
+        const double l = tilts > 0.0 ? strut : pair.x;
+        const double inverse = 1.0 / (tilts > 0.0 ? strut : 1.0);
+        const double nx = tilts > 0.0 ? pair.x * inverse : 1.0, nz = pair.z * inverse;
+        line->closure[i] = rows->length[i] - l;
+        line->rate[i] = -(nx * vx + nz * vz);
+        line->turn[i] = (nx * vz - nz * vx) * inverse;
+        line->direction_x[i] = nx;
+        line->direction_z[i] = nz;
+        line->inverse_length[i] = inverse;
+        line->arm_x[0][i] = pair.a.arm_x;
+        line->arm_z[0][i] = pair.a.arm_z;
+        line->arm_x[1][i] = pair.b.arm_x;
+        line->arm_z[1][i] = pair.b.arm_z;
+    }
+}
+
+/* Where a coupler has sheared off its line no longer turns about two pivots: from there on it
+ * pushes like a face, midway between them and along the mean normal of the cars, which holds where
+ * the pivots pass each other too. */
+static void line_up_released(CzCarrier a, CzCarrier b, const CzBlock *d,
+                             CouplerLine *restrict line) {
+    const CzCouplerRows *restrict rows = &d->parameter.coupler;
+    const CzCouplerMemory *restrict memory = &d->memory->coupler;
+    const double *restrict tilts = d->parameter.tilts;
+    CZ_LANES (i) {
+        const double gone_a =
+            memory->side[0].shear[i] >= rows->side[0].shear.softening[i] ? tilts[i] : 0.0;
+        const double gone =
+            memory->side[1].shear[i] >= rows->side[1].shear.softening[i] ? tilts[i] : gone_a;
+        const CzPair pair = cz_pair_of(a, b, &rows->pivot, i);
+        const double tilt = 0.5 * (a.displacement->pitch[i] + b.displacement->pitch[i]);
+        const double nx = 1.0 / sqrt(1.0 + tilt * tilt), nz = tilt * nx;
+        const CzPair met = cz_met_midway(a, b, pair, i);
+        const double vx = met.a.velocity_x - met.b.velocity_x;
+        const double vz = met.a.velocity_z - met.b.velocity_z;
+        line->closure[i] =
+            gone > 0.0 ? rows->along[i] - (nx * pair.x + nz * pair.z) : line->closure[i];
+        line->rate[i] = gone > 0.0 ? nx * vx + nz * vz : line->rate[i];
+        line->turn[i] = gone > 0.0 ? 0.0 : line->turn[i];
+        line->direction_x[i] = gone > 0.0 ? nx : line->direction_x[i];
+        line->direction_z[i] = gone > 0.0 ? nz : line->direction_z[i];
+        line->inverse_length[i] = gone > 0.0 ? 1.0 : line->inverse_length[i];
+        line->arm_x[0][i] = gone > 0.0 ? met.a.arm_x : line->arm_x[0][i];
+        line->arm_z[0][i] = gone > 0.0 ? met.a.arm_z : line->arm_z[0][i];
+        line->arm_x[1][i] = gone > 0.0 ? met.b.arm_x : line->arm_x[1][i];
+        line->arm_z[1][i] = gone > 0.0 ? met.b.arm_z : line->arm_z[1][i];
+    }
+}
+
+/* Angle of the line against the car of one side, less that at rest; the rate at which the hinge of
+ * that side turns. */
+static void line_up_swing(CzCarrier car, const CouplerLine *restrict line,
+                          const double *restrict rest, double *restrict swing,
+                          double *restrict turning) {
+    CZ_LANES (i) {
+        const double nz = line->direction_z[i];
+        const double angle = nz * (1.0 + nz * nz * (1.0 / 6.0));
+        swing[i] = angle - rest[i] - car.displacement->pitch[i];
+        turning[i] = line->turn[i] - car.rate->pitch[i];
+    }
+}
+
+/* Whether a coupler may have come within reach, from where its pivots are along the track: their
+ * distance there is never more than that along the coupler. */
+static int pivots_are_near(const CzBlock *d) {
+    const CzCouplerRows *restrict rows = &d->parameter.coupler;
+    const CzCarrier ea = end_at(d, 0), ba = body_at(d, 0);
+    const CzCarrier eb = end_at(d, 1), bb = body_at(d, 1);
+    const double *restrict reach = d->coupler_reach;
+    double n_near = 0.0;
+    CZ_LANES_SUM(i, n_near) {
+        const double on_a = rows->side[0].on_end[i], on_b = rows->side[1].on_end[i];
+        const double x_a = rows->pivot.x[0][i], x_b = rows->pivot.x[1][i];
+        const double ax =
+            x_a * chosen(on_a, ea.turned->cosine[i], ba.turned->cosine[i]) -
+            rows->pivot.z[0][i] * chosen(on_a, ea.turned->sine[i], ba.turned->sine[i]);
+        const double bx =
+            x_b * chosen(on_b, eb.turned->cosine[i], bb.turned->cosine[i]) -
+            rows->pivot.z[1][i] * chosen(on_b, eb.turned->sine[i], bb.turned->sine[i]);
+        const double way = chosen(on_b, eb.displacement->x[i], bb.displacement->x[i]) -
+                           chosen(on_a, ea.displacement->x[i], ba.displacement->x[i]);
+        const double along = rows->pivot.distance[i] + way + (bx - x_b) - (ax - x_a);
+        n_near += rows->length[i] - along <= reach[i] ? 0.0 : 1.0; /* not a number is near */
+    }
+    return n_near > 0.0;
+}
+
+/* Change of the height of one underframe over the other at the pivots, as they were lined up. */
+static void underframe_extremes(CzBlock *d) {
+    const CzCarrier own = own_body(d), ahead = body_at(d, 1);
+    const CzPairRows *restrict pivot = &d->parameter.coupler.pivot;
+    const double *restrict tilts = d->parameter.tilts;
+    double *restrict rise = d->extreme.underframe_rise;
+    CZ_LANES (i) {
+        const double here = own.displacement->z[i] + pivot->x[0][i] * own.turned->sine[i];
+        const double there = ahead.displacement->z[i] + pivot->x[1][i] * ahead.turned->sine[i];
+        rise[i] = cz_larger(rise[i], tilts[i] * fabs(there - here));
+    }
+}
+
+/* ---- put ---- */
+
+/* Puts strut force and hinge moments on the carriers of one side, and the largest strut force of
+ * the step into the section behind. */
+static void put_coupler(CzBlock *d, int side, const CouplerLine *restrict line,
+                        const CouplerForces *restrict forces) {
+    const double *restrict on_end = d->parameter.coupler.side[side].on_end;
+    const double sign = side == 0 ? -1.0 : 1.0;
+    CzPlane *end = force_on_end(d, side), *body = force_on_body(d, side);
+    double *restrict section = section_behind(d, side);
+    CZ_LANES (i) {
+        const CzPoint at = {.arm_x = line->arm_x[side][i], .arm_z = line->arm_z[side][i]};
+        const CzPush push = {sign * forces->x[i], sign * forces->z[i], forces->moment[side][i]};
+        cz_put_shared(end, body, i, cz_push_at_centre(at, push), on_end[i]);
+        section[i] += forces->push[i] - on_end[i] * forces->push[i];
+    }
+}
+
+/* Notes for a budget what strut and hinges put on the body of one side. */
+static void note_coupler(CzBlock *d, int side, const CouplerLine *restrict line,
+                         const CouplerForces *restrict forces) {
+    const double *restrict on_end = d->parameter.coupler.side[side].on_end;
+    const double *restrict own = forces->moment[side];
+    const double sign = side == 0 ? -1.0 : 1.0;
+    CzBudgetRows *restrict budget = d->budget;
+    CZ_LANES (i) {
+        const CzPoint at = {.arm_x = line->arm_x[side][i], .arm_z = line->arm_z[side][i]};
+        const double on_body = 1.0 - on_end[i];
+        const CzPush all =
+            cz_push_at_centre(at, (CzPush){sign * forces->x[i], sign * forces->z[i], own[i]});
+        const CzPush hinge = cz_push_at_centre(
+            at, (CzPush){sign * forces->hinge_x[i], sign * forces->hinge_z[i], own[i]});
+        budget->hinge_lift[side][i] = on_body * hinge.z;
+        budget->hinge_moment[side][i] = on_body * hinge.pitch;
+        budget->coupler_lift[side][i] = on_body * all.z - on_body * hinge.z;
+        budget->coupler_moment[side][i] = on_body * all.pitch - on_body * hinge.pitch;
+    }
+}
+
+#endif

@@ -1,0 +1,101 @@
+/* Loops over lanes, and the small passes that all others use. Part of kernel.c only. */
+#ifndef CZ_DYNAMICS_KERNEL_LANES_H
+#define CZ_DYNAMICS_KERNEL_LANES_H
+
+#include <string.h>
+
+#include "dynamics/dynamics.h"
+#include "laws/law.h"
+
+/* A loop over the lanes of a block, whose iterations are independent. */
+#define CZ_LANES(i) _Pragma("omp simd") for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
+
+/* The same that adds up `sum`. */
+#define CZ_PRAGMA(text) _Pragma(#text)
+#define CZ_LANES_SUM(i, sum)                                                                       \
+    CZ_PRAGMA(omp simd reduction(+ : sum))                                                         \
+    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
+
+/* What nothing adds. */
+static const _Alignas(64) CzRow zeros = {0.0};
+
+/* A curve at the strokes of all lanes. */
+typedef struct {
+    _Alignas(64) CzRow value;
+    CzRow slope;
+} CurveAt;
+
+/* Sets n rows that follow each other to zero. */
+static inline void clear_rows(void *rows, size_t size) {
+    const size_t n = size / sizeof(double);
+    double *restrict value = rows;
+    _Pragma("omp simd") for (size_t i = 0; i < n; ++i) value[i] = 0.0;
+}
+
+/* Value and slope of a curve. */
+static void evaluate_curve(const CzBlockCurve *curve, const double *restrict x,
+                           CurveAt *restrict at) {
+    CZ_LANES (i) {
+        at->value[i] = curve->start[i];
+        at->slope[i] = 0.0;
+    }
+    for (int kink = 0; kink < curve->n_kink; ++kink) {
+        const double *restrict place = curve->kink[2 * kink];
+        const double *restrict change = curve->kink[2 * kink + 1];
+        CZ_LANES (i) {
+            const double beyond = x[i] - place[i];
+            const double counted = beyond >= 0.0 ? change[i] : 0.0;
+            at->value[i] += counted * beyond;
+            at->slope[i] += counted;
+        }
+    }
+}
+
+/* The same in one lane. */
+static void curve_at(const CzBlockCurve *curve, size_t lane, double x, double *value,
+                     double *slope) {
+    *value = curve->start[lane];
+    *slope = 0.0;
+    for (int kink = 0; kink < curve->n_kink; ++kink) {
+        const double beyond = x - curve->kink[2 * kink][lane];
+        const double counted = beyond >= 0.0 ? curve->kink[2 * kink + 1][lane] : 0.0;
+        *value += counted * beyond;
+        *slope += counted;
+    }
+}
+
+/* Adds to `count` in the lanes that pass the begin or the end of a falling part of a curve. */
+static void count_turns(const CzBlockCurve *curve, const double *restrict from,
+                        const double *restrict to, double *restrict count) {
+    _Alignas(64) CzRow slope = {0.0};
+    for (int kink = 0; curve->falls && kink < curve->n_kink; ++kink) {
+        const double *restrict at = curve->kink[2 * kink];
+        const double *restrict change = curve->kink[2 * kink + 1];
+        CZ_LANES (i) {
+            const double after = slope[i] + change[i];
+            const double turns = cz_smaller(slope[i], after) < CZ_FALLING ? 1.0 : 0.0;
+            const double reached = at[i] < to[i] ? turns : 0.0;
+            count[i] += at[i] >= from[i] ? reached : 0.0;
+            slope[i] = after;
+        }
+    }
+}
+
+/* Largest shortening within the stages of a crush zone: beyond the last one it stands on its stop.
+ */
+static void largest_of_stages(const CzBlockCurve *curve, const double *restrict largest,
+                              double *restrict within) {
+    CZ_LANES (i) {
+        within[i] = cz_smaller(largest[i], curve->usable[i]);
+    }
+}
+
+/* Adds factor * row to target, lane by lane. */
+static inline void add(double *restrict target, const double *restrict factor,
+                       const double *restrict row) {
+    CZ_LANES (i) {
+        target[i] += factor[i] * row[i];
+    }
+}
+
+#endif

@@ -1,0 +1,206 @@
+/* Shear-offs of couplers. Part of kernel.c only.
+ *
+ * A shear-off releases inside a step. The chain is first solved as if it held, which gives when its
+ * force F_x is reached: the closure beyond that is what it would have to yield. Then it releases,
+ * and the step's mean force is that of the way through F_x,
+ *
+ *   theta (F_last + F_x) / 2 + (1 - theta) (s (F_x + F_end) / 2 + (1 - s) F_end)
+ *
+ * theta is the share of the step before F_x, s that of the rest in which the force falls: it falls
+ * over a closure of softening - compliance F_x, at once where the chain gives way faster than the
+ * shear-off softens. The integrator takes a step's impulse as the mean of the forces at its ends;
+ * what that leaves out is added to the force on the bodies, once. Without it an outcome would not
+ * depend on F_x but in jumps from step to step.
+ */
+#ifndef CZ_DYNAMICS_KERNEL_RELEASE_H
+#define CZ_DYNAMICS_KERNEL_RELEASE_H
+
+#include "dynamics/kernel_buffer.h"
+#include "dynamics/kernel_chain_solve.h"
+#include "laws/shear_off.h"
+#include "model/kinks.h"
+
+enum { SHEAR_OFF = 4 }; /* plastic member of the chain, of side A */
+
+/* A release in this step. */
+typedef struct {
+    CzRow force; /* at which a shear-off releases; 0 where none does [N] */
+    CzRow way;   /* closure of the step that is left then [m] */
+    CzRow more;  /* what the mean force of the step is more than the mean of its ends [N] */
+} Release;
+
+/* The chain of the couplers. */
+typedef struct {
+    BufferChain buffers;       /* first: the solution hands it back */
+    _Alignas(64) CzRow damage; /* share of the coupler's strength that shear-off has taken */
+    Release release;
+    int releases; /* a shear-off releases in this step */
+} CouplerChain;
+
+/* Linearises the shear-off of one side; the first time also gives the damage that it has done. */
+static double linearise_shear_off(Chain *chain, int side, int again) {
+    const int member = SHEAR_OFF + side;
+    const CzShearOffRows *restrict rows = chain->plastic[member].shear;
+    PlasticState *plastic = &chain->now.plastic[member];
+    const double step = chain->step;
+    _Alignas(64) CzRow trial, unused = {0.0};
+    CurveAt curve;
+    if (again && trial_of_plastic(chain, member, trial) == 0.0)
+        return 0.0;
+    const double *restrict travel = again ? trial : chain->plastic[member].stroke;
+    double *restrict damage = again ? unused : ((CouplerChain *)chain)->damage;
+    CZ_LANES (i) {
+        const CzShearOffLaw law = shear_off_law(rows, i);
+        const CzShearOffResponse response = cz_shear_off(&law, travel[i]);
+        curve.value[i] = response.strength;
+        curve.slope[i] = response.slope;
+        damage[i] = cz_larger(damage[i], response.damage);
+    }
+    if (again)
+        return accept_plastic(chain, member, trial, &curve);
+    CZ_LANES (i) {
+        plastic->strength[i] = curve.value[i];
+        plastic->flow[i] = cz_plastic_compliance(curve.value[i], curve.slope[i], 0.0, step);
+    }
+    return (double)CZ_LANE_BLOCK;
+}
+
+/* Marks the lanes in which a shear-off yields as the active ones, and what begins there: the force
+ * at which an undamaged one releases, and the closure left after that, with what the springs took
+ * of it while the smallest resistance held on. Returns whether there are any. */
+static int mark_release(CouplerChain *of) {
+    Chain *chain = &of->buffers.chain;
+    ChainState *now = &chain->now;
+    const PlasticState *a = &now->plastic[SHEAR_OFF], *b = &now->plastic[SHEAR_OFF + 1];
+    const double *restrict travel_a = chain->plastic[SHEAR_OFF].stroke,
+                           *restrict travel_b = chain->plastic[SHEAR_OFF + 1].stroke;
+    const double *restrict compliance = chain->compliance;
+    double n_flowing = 0.0;
+    CZ_LANES_SUM(i, n_flowing) {
+        const double force = now->force[i];
+        const double way_a = cz_plastic_flow(force, a->strength[i], a->flow[i]);
+        const double way_b = cz_plastic_flow(force, b->strength[i], b->flow[i]);
+        const double new_a = travel_a[i] > 0.0 ? 0.0 : way_a;
+        const double new_b = travel_b[i] > 0.0 ? 0.0 : way_b;
+        const double of_a = new_a > 0.0 ? a->strength[i] : CZ_NEVER;
+        const double of_b = new_b > 0.0 ? b->strength[i] : CZ_NEVER;
+        const double begins = new_a + new_b > 0.0 ? now->active[i] : 0.0;
+        const double at = begins > 0.0 ? cz_smaller(of_a, of_b) : force;
+        const double sprung =
+            (compliance[i] + now->spring[0].up[i] + now->spring[1].up[i]) * (force - at);
+        now->active[i] = way_a + way_b > 0.0 ? now->active[i] : 0.0;
+        of->release.force[i] = begins * at;
+        of->release.way[i] = begins * (new_a + new_b + sprung);
+        n_flowing += now->active[i];
+    }
+    return n_flowing > 0.0;
+}
+
+/* What a shear-off of one side keeps. */
+typedef struct {
+    _Alignas(64) CzRow left; /* force at the end of the step in which it releases; CZ_NEVER where it
+                                does not [N] */
+    CzRow softening;         /* its length; 0 where it does not [m] */
+} Kept;
+
+/* Without what the smallest resistance adds to so long a way. */
+static void released_to(const Chain *chain, int side, Kept *restrict kept) {
+    const double *restrict force = chain->now.force;
+    const double *restrict travel = chain->plastic[SHEAR_OFF + side].stroke;
+    const PlasticState *plastic = &chain->now.plastic[SHEAR_OFF + side];
+    const double *restrict length = chain->plastic[SHEAR_OFF + side].shear->softening;
+    CZ_LANES (i) {
+        const double way = cz_plastic_flow(force[i], plastic->strength[i], plastic->flow[i]);
+        const double begins = travel[i] > 0.0 ? 0.0 : way;
+        const double keeps = force[i] - CZ_SMALLEST_RESISTANCE * way;
+        kept->left[i] = begins > 0.0 ? keeps : CZ_NEVER;
+        kept->softening[i] = begins > 0.0 ? length[i] : 0.0;
+    }
+}
+
+/* Where a shear-off releases: what the bodies get beyond the force at the end of the step. */
+static void release_impulse(const CzCouplerRows *restrict rows, const double *restrict rate,
+                            CouplerChain *of) {
+    const Chain *chain = &of->buffers.chain;
+    const ChainState *now = &chain->now;
+    const double *restrict last = chain->last;
+    const double step = chain->step;
+    Release *release = &of->release;
+    Kept a, b;
+    released_to(chain, 0, &a);
+    released_to(chain, 1, &b);
+    CZ_LANES (i) {
+        const double released = release->force[i], beyond = release->way[i];
+        const double rest = beyond / cz_larger(cz_larger(rate[i] * step, beyond), 1e-30);
+        const double of_a = a.softening[i] > 0.0 ? rows->side[0].shear.residual[i] : 0.0;
+        const double of_b = b.softening[i] > 0.0 ? rows->side[1].shear.residual[i] : 0.0;
+        const double dropped = cz_positive_part(released - cz_larger(of_a, of_b));
+        const double back =
+            (rows->compliance[i] + now->spring[0].down[i] + now->spring[1].down[i]) * dropped;
+        const double length = a.softening[i] + b.softening[i] - back;
+        const double falls = cz_clamp(length / cz_larger(beyond, 1e-30), 0.0, 1.0);
+        const double end = cz_smaller(cz_smaller(a.left[i], b.left[i]), released);
+        const double before = 0.5 * (last[i] + released);
+        const double after = end + 0.5 * falls * (released - end);
+        const double mean = before + rest * (after - before);
+        const double given = end + mean - 0.5 * (last[i] + end);
+        release->more[i] = released > 0.0 ? given - now->force[i] : 0.0;
+    }
+}
+
+/* Releases shear-offs where they are to yield; returns how often the force was found anew. */
+static int release(CzBlock *d, const double *restrict rate, CouplerChain *of) {
+    Chain *chain = &of->buffers.chain;
+    if (!mark_release(of))
+        return 0;
+    of->releases = 1;
+    int n_anew = 0;
+    if (linearise_shear_off(chain, 0, 1) + linearise_shear_off(chain, 1, 1) > 0.0) {
+        const int found = solve_linear(chain);
+        n_anew = 1 + settle_chain(chain, &d->published, linearise_shear_off, found);
+    }
+    release_impulse(&d->parameter.coupler, rate, of);
+    return n_anew;
+}
+
+/* Work of that on the members of the side that releases. */
+static void release_work(CzBlock *d, const double *restrict rate, const CouplerChain *of) {
+    const double *restrict more = of->release.more;
+    const double step = of->buffers.chain.step;
+    const CzCouplerMemory *restrict memory = &d->memory->coupler;
+    CzCouplerMemory *restrict next = &d->next_memory->coupler;
+    for (int side = 0; side < 2; ++side)
+        CZ_LANES (i) {
+            const double way = memory->side[side].shear[i] > 0.0 ? 0.0 : next->side[side].shear[i];
+            const double other_way =
+                memory->side[1 - side].shear[i] > 0.0 ? 0.0 : next->side[1 - side].shear[i];
+            const double share = way / cz_larger(way + other_way, 1e-30);
+            const double work = share * more[i] * rate[i] * step;
+            next->side[side].energy[i] += work;
+            next->side[side].tube_energy[i] += work;
+        }
+}
+
+/* Buffers that snap back as a shear-off releases: their force falls along their own law, at least
+ * to that at the end of the step, and not in proportion to their way. What the mean force of the
+ * step would have them give back beyond that, the shear-off does not get. */
+static void snap_work(const CzCouplerMemory *restrict memory, CzCouplerMemory *restrict next) {
+    CZ_LANES (i) {
+        const double way_a = next->side[0].shear[i] - memory->side[0].shear[i];
+        const double way_b = next->side[1].shear[i] - memory->side[1].shear[i];
+        const double ways = way_a + way_b;
+        const double falls =
+            ways > 0.0 ? 0.5 * cz_positive_part(memory->force[i] - next->force[i]) : 0.0;
+        const double kept_a = falls * cz_positive_part(memory->side[0].buffer.stroke[i] -
+                                                       next->side[0].buffer.stroke[i]);
+        const double kept_b = falls * cz_positive_part(memory->side[1].buffer.stroke[i] -
+                                                       next->side[1].buffer.stroke[i]);
+        const double lost = (kept_a + kept_b) / cz_larger(ways, 1e-30);
+        next->side[0].energy[i] += kept_a - lost * way_a;
+        next->side[1].energy[i] += kept_b - lost * way_b;
+        next->side[0].tube_energy[i] -= lost * way_a;
+        next->side[1].tube_energy[i] -= lost * way_b;
+    }
+}
+
+#endif

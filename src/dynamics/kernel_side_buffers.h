@@ -1,0 +1,85 @@
+/* Side buffers: contact of plates, along the normal a series chain of buffers and crash elements,
+ * across it friction. Part of kernel.c only. */
+#ifndef CZ_DYNAMICS_KERNEL_SIDE_BUFFERS_H
+#define CZ_DYNAMICS_KERNEL_SIDE_BUFFERS_H
+
+#include "dynamics/kernel_buffer.h"
+#include "dynamics/kernel_contact.h"
+#include "dynamics/stored.h"
+#include "laws/slider.h"
+
+static void list_side_buffers(CzBlock *d, const Contact *contact, double step, BufferChain *of) {
+    const CzSideBufferRows *rows = &d->parameter.side_buffers;
+    const CzSideBufferMemory *memory = &d->memory->side_buffers;
+    CzSideBufferMemory *next = &d->next_memory->side_buffers;
+    Chain *chain = &of->chain;
+    chain->n_plastic = chain->n_curve = 2;
+    chain->step = step;
+    chain->closure = contact->closure;
+    chain->compliance = rows->compliance;
+    chain->last = memory->force;
+    chain->next = next->force;
+    chain->linearise = linearise_buffer;
+    chain->force_at = buffer_force;
+    chain->turns_at = NULL;
+    for (int side = 0; side < 2; ++side) {
+        of->buffer[side] = (Buffer){&rows->side[side].buffer, &d->curve.side_buffer[side],
+                                    d->constant.side_compliance[side], &memory->side[side].buffer,
+                                    &next->side[side].buffer};
+        chain->spring[side] =
+            (Spring){memory->side[side].buffer.stroke, memory->side[side].energy,
+                     memory->side[side].tube_energy,   next->side[side].buffer.stroke,
+                     next->side[side].energy,          next->side[side].tube_energy};
+        chain->plastic[side] = (Plastic){.curve = &d->curve.side_tube[side],
+                                         .rate = rows->side[side].tube_rate,
+                                         .rise = zeros,
+                                         .stroke = memory->side[side].tube,
+                                         .next = next->side[side].tube};
+    }
+}
+
+/* Friction of the plates. */
+static void slide_plates(CzBlock *d, const Contact *restrict contact,
+                         const double *restrict force) {
+    const double *restrict friction = d->parameter.side_buffers.friction;
+    const double *restrict offset = d->memory->side_buffers.slip_vertical;
+    double *restrict next = d->next_memory->side_buffers.slip_vertical;
+    double *restrict kept = d->published.side_buffers.force;
+    double *restrict tangential = d->published.side_buffers.sliding_vertical;
+    double *restrict power = d->power->side_buffers, *restrict sliding = d->power->side_sliding;
+    CZ_LANES (i) {
+        const CzSliderResponse grip = cz_slider(CZ_PLATE_STIFFNESS, friction[i] * force[i],
+                                                contact->slip_vertical[i], offset[i]);
+        next[i] = grip.offset;
+        kept[i] = force[i];
+        tangential[i] = grip.force;
+        power[i] += force[i] * contact->rate[i];
+        sliding[i] += grip.force * contact->slip_rate[i];
+    }
+}
+
+/* All side buffers: on the end masses, so that the crush zones lie behind them. */
+static void side_buffers(CzBlock *d, double step) {
+    const CzSideBufferRows *rows = &d->parameter.side_buffers;
+    Contact contact;
+    BufferChain of;
+    line_up_contact(end_at(d, 0), end_at(d, 1), &rows->contact, d->parameter.tilts, &contact);
+    memcpy(d->published.side_buffers.closure, contact.closure, sizeof(CzRow));
+    list_side_buffers(d, &contact, step, &of);
+    memset(of.chain.now.lowest, 0, sizeof(CzRow));
+    memcpy(of.chain.now.active, rows->exists, sizeof(CzRow));
+    solve_chain(&of.chain, &d->published);
+    move_members(&of.chain);
+    keep_rates(&of);
+    slide_plates(d, &contact, of.chain.now.force);
+    if (of.chain.falls) {
+        chain_top(&of.chain);
+        put_drop(d, &contact, &of.chain.now, d->published.side_buffers.force,
+                 d->published.side_buffers.top);
+    }
+    put_contact(force_on_end(d, 0), force_on_end(d, 1), &contact, d->published.side_buffers.force,
+                d->published.side_buffers.sliding_vertical, d->published.interface.force);
+    put_into_sections(d, &contact);
+}
+
+#endif

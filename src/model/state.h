@@ -1,0 +1,45 @@
+/* State of a car in the plane, and what a lane is: rows of one quantity side by side. */
+#ifndef CZ_MODEL_STATE_H
+#define CZ_MODEL_STATE_H
+
+#include <stddef.h>
+
+enum { CZ_LANE_BLOCK = 8 };
+
+/* One quantity of all lanes of a block. */
+typedef double CzRow[CZ_LANE_BLOCK];
+
+/* A number for each direction in which a body moves in the plane: displacement [m, rad], velocity,
+ * force or mass. Pitch is positive nose-up. */
+typedef struct CzPlane {
+    CzRow x, z, pitch;
+} CzPlane;
+
+/* The same of a wheelset, whose spin is positive when it rolls forward. */
+typedef struct CzWheelset {
+    CzRow x, z, spin;
+} CzWheelset;
+
+/* Of all bodies of a car: ends and bogies rear first, wheelsets from the rear. */
+typedef struct CzState {
+    CzPlane body, end[2], bogie[2];
+    CzWheelset wheelset[4];
+} CzState;
+
+/* Number of a row of a struct of rows, and how many rows it has: for tables and loops over all. */
+#define CZ_ROW_OF(type, member) ((int)(offsetof(type, member) / sizeof(CzRow)))
+#define CZ_ROWS_IN(type) ((int)(sizeof(type) / sizeof(CzRow)))
+
+/* Degrees of freedom by name, such as CZ_DOF(end[1].pitch). */
+#define CZ_DOF(member) CZ_ROW_OF(CzState, member)
+enum { CZ_N_DOF = CZ_ROWS_IN(CzState) };
+
+/* A row of a struct of rows by its number. */
+static inline double *cz_row_of(void *rows, int row) {
+    return (double *)rows + (size_t)row * CZ_LANE_BLOCK;
+}
+static inline const double *cz_const_row_of(const void *rows, int row) {
+    return (const double *)rows + (size_t)row * CZ_LANE_BLOCK;
+}
+
+#endif

@@ -212,14 +212,8 @@ static const void *field_of(const CzVariable *written) {
     return written->path != NULL ? (const void *)&written->path : (const void *)&written->paths;
 }
 
-static CzStatus add_target(const Builder *builder, const CzVariable *written,
-                           const CzTarget *target, CzDesignVariable *variable) {
-    const void *field = field_of(written);
-    if (!target->may_vary && !(builder->design->is_fit && target->may_fit))
-        return fail_at(builder, field,
-                       "'%s' may not vary: only stage forces and strokes, triggers, shear-off "
-                       "forces and gaps may",
-                       target->place);
+static CzStatus add_target(const Builder *builder, const CzTarget *target,
+                           CzDesignVariable *variable) {
     if (variable->n_place == 0) {
         variable->info.unit =
             cz_arena_copy_text(builder->arena, target->suffix, strlen(target->suffix));
@@ -248,9 +242,6 @@ static bool is_own(const Builder *builder, int vehicle) {
 static CzStatus check_variable(const Builder *builder, const CzVariable *written,
                                const CzDesignVariable *variable) {
     const CzVariableInfo *info = &variable->info;
-    if (!(info->min <= info->max))
-        return fail_at(builder, &written->min, "the lower bound of '%s' is above the upper one",
-                       info->name);
     bool any_own = builder->design->is_fit;
     for (int i = 0; i < variable->n_place; i++)
         any_own |= is_own(builder, variable->place[i].vehicle);
@@ -334,7 +325,8 @@ static CzStatus settle_choice(const Builder *builder, const CzVariable *written,
 }
 
 static CzStatus add_variable(Builder *builder, const CzVariable *written, int match, int n_match,
-                             int n_target, const CzTarget *target) {
+                             const CzTargets *targets) {
+    const CzTarget *target = targets->target;
     CzDesign *design = builder->design;
     if (design->n_variable == builder->most_variables)
         return fail_at(builder, &written->min, "there are more than 1000 variables");
@@ -343,9 +335,9 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
         name_variable(builder, written, match, n_match, first_of(target, match, n_match)->place);
     if (variable->info.name == NULL)
         return fail_memory(builder);
-    for (int i = 0; i < n_target; i++)
+    for (int i = 0; i < targets->n; i++)
         if (n_match == 1 || target[i].match == match)
-            CZ_TRY(add_target(builder, written, &target[i], variable));
+            CZ_TRY(add_target(builder, &target[i], variable));
     variable->info.min = written->min;
     variable->info.max = written->max;
     variable->info.increment = isnan(written->increment) ? 0 : written->increment;
@@ -366,71 +358,14 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
     return CZ_OK;
 }
 
-/* The numbers that a path names. A path to a buffer that is chosen is found by a number that only
- * buffers have; the target is then the whole buffer, and what is set is its `use`. */
-static CzStatus find_targets(const Builder *builder, const CzVariable *written, const char *path,
-                             CzTarget **target, int *n_target) {
-    static const char inside[] = ".preload_N";
-    if (written->choices.n_text == 0)
-        return cz_problem_find(builder->problem, path, target, n_target, builder->error);
-    char text[256];
-    snprintf(text, sizeof text, "%.200s%s", path, inside);
-    CZ_TRY(cz_problem_find(builder->problem, text, target, n_target, builder->error));
-    for (int i = 0; i < *n_target; i++) {
-        CzTarget *found = &(*target)[i];
-        char *end = found->place + strlen(found->place) - (sizeof inside - 1);
-        snprintf(end, sizeof found->place - (size_t)(end - found->place), ".use");
-        found->offset -= offsetof(CzBuffer, preload);
-        found->suffix = "";
-        found->unit = found->value = 1;
-        found->may_vary = true;
-    }
+/* An entry of the file: one variable per match of its path, or one for all of its paths. */
+static CzStatus add_entry(Builder *builder, const CzVariable *written, const CzTargets *targets) {
+    int n_match = 1;
+    for (int i = 0; written->path != NULL && i < targets->n; i++)
+        n_match = targets->target[i].match >= n_match ? targets->target[i].match + 1 : n_match;
+    for (int match = 0; match < n_match && targets->n > 0; match++)
+        CZ_TRY(add_variable(builder, written, match, n_match, targets));
     return CZ_OK;
-}
-
-/* A path: one variable per match. */
-static CzStatus add_path(Builder *builder, const CzVariable *written) {
-    CzTarget *target = NULL;
-    int n_target = 0, n_match = 0;
-    CzStatus status = find_targets(builder, written, written->path, &target, &n_target);
-    if (status == CZ_STATUS_INPUT && builder->error != NULL) {
-        CzError place = {0};
-        cz_problem_place(builder->problem, &written->path, &place);
-        memcpy(builder->error->file, place.file, sizeof place.file);
-        builder->error->line = place.line;
-        builder->error->column = place.column;
-    }
-    for (int i = 0; i < n_target; i++)
-        n_match = target[i].match >= n_match ? target[i].match + 1 : n_match;
-    for (int match = 0; match < n_match && status == CZ_OK; match++)
-        status = add_variable(builder, written, match, n_match, n_target, target);
-    free(target);
-    return status;
-}
-
-/* Several paths: one variable for all of their places. */
-static CzStatus add_tied(Builder *builder, const CzVariable *written) {
-    CzTarget *all = NULL;
-    int n_all = 0;
-    CzStatus status = CZ_OK;
-    for (int i = 0; i < written->paths.n_text && status == CZ_OK; i++) {
-        CzTarget *target = NULL;
-        int n_target = 0;
-        status = find_targets(builder, written, written->paths.text[i], &target, &n_target);
-        CzTarget *more = realloc(all, (size_t)(n_all + n_target + 1) * sizeof *all);
-        if (more == NULL)
-            status = fail_memory(builder);
-        else
-            all = more;
-        if (status == CZ_OK && n_target > 0)
-            memcpy(all + n_all, target, (size_t)n_target * sizeof *all);
-        n_all += status == CZ_OK ? n_target : 0;
-        free(target);
-    }
-    if (status == CZ_OK && n_all > 0)
-        status = add_variable(builder, written, 0, 1, n_all, all);
-    free(all);
-    return status;
 }
 
 CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *scene,
@@ -452,12 +387,8 @@ CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *s
         cz_arena_allocate(arena, (size_t)builder.most_variables, sizeof *design->variable);
     if (design->variable == NULL)
         return fail_memory(&builder);
-    for (int i = 0; i < optimise->n_variables; i++) {
-        const CzVariable *written = &optimise->variables[i];
-        if ((written->path == NULL) == (written->paths.n_text == 0))
-            return fail_at(&builder, &written->min, "a variable needs either 'path' or 'paths'");
-        CZ_TRY(written->path != NULL ? add_path(&builder, written) : add_tied(&builder, written));
-    }
+    for (int i = 0; i < optimise->n_variables; i++)
+        CZ_TRY(add_entry(&builder, &optimise->variables[i], cz_problem_targets(problem, i)));
     return CZ_OK;
 }
 

@@ -36,8 +36,7 @@ typedef struct CzDesign {
 } CzDesign;
 
 /* Builds the map of a problem; no variables without `optimise:`. Memory comes from the arena.
- * Statuses: CZ_OK, CZ_STATUS_INPUT naming the place that may not vary or does not exist,
- * CZ_STATUS_NO_MEMORY. */
+ * Statuses: CZ_OK, CZ_STATUS_INPUT naming the variable that is no design, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *scene,
                                        CzArena *arena, CzDesign *design, CzError *error);
 

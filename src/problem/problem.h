@@ -69,6 +69,17 @@ typedef struct CzTarget {
                         of one match share it */
 } CzTarget;
 
+/* What the paths of a variable name, path by path. */
+typedef struct CzTargets {
+    int n;
+    CzTarget *target; /* (n) */
+} CzTargets;
+
+/* Targets of the index-th variable of `optimise:`, found when the problem was read. Of a variable
+ * with choices each is a whole buffer: `offset` is that of the buffer, `place` of its `use`, and
+ * value and unit are 1. None in a problem that was read again. Borrowed. */
+const CzTargets *cz_problem_targets(const CzProblem *problem, int variable);
+
 /* All numbers that setting a path would change, ordered by match. Through `parts.NAME`
  * those of every vehicle that uses the part and does not override the key; through a vehicle of a
  * train those of this vehicle and of all that repeat or copy it (they have no values of their own);

@@ -54,7 +54,11 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     cz_measured_read(problem);
     const CzRules rules = cz_rules_of(problem);
     cz_rules_check_collision(&rules);
-    cz_rules_check_design(&rules);
+    problem->targets = cz_arena_allocate(
+        &reader->arena, (size_t)problem->input.optimise.n_variables, sizeof *problem->targets);
+    if (problem->targets == NULL)
+        return;
+    cz_rules_check_design(&rules, problem->targets);
     cz_rules_check_fit(&rules);
     cz_usual_check(&reader->warnings, &problem->places);
     cz_acts_on_check(problem);
@@ -204,6 +208,11 @@ const CzInput *cz_problem_input(const CzProblem *problem) {
 const CzVehicle *cz_problem_vehicles(const CzProblem *problem, int *n_vehicle) {
     *n_vehicle = problem->n_vehicle;
     return problem->vehicle;
+}
+
+const CzTargets *cz_problem_targets(const CzProblem *problem, int variable) {
+    static const CzTargets none = {0};
+    return problem->targets != NULL ? &problem->targets[variable] : &none;
 }
 
 CzTrack cz_problem_track(const CzProblem *problem) {

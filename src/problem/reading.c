@@ -22,6 +22,8 @@ CzProblem *cz_problem_create(const char *share_folder) {
 void cz_problem_free(CzProblem *problem) {
     if (problem == NULL)
         return;
+    for (int i = 0; problem->targets != NULL && i < problem->input.optimise.n_variables; i++)
+        free(problem->targets[i].target);
     cz_places_free(&problem->places);
     cz_arena_free(&problem->reader.arena);
     free(problem);

@@ -21,6 +21,7 @@ struct CzProblem {
     CzVehicle *vehicle; /* those of all trains (n_vehicle) */
     CzProfile profile;
     CzMeasured *measured; /* one per match; NULL while they are not read */
+    CzTargets *targets;   /* one per variable; NULL while they are not found */
 };
 
 /* A problem without anything in it; freed by cz_problem_free. NULL without memory. */

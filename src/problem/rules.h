@@ -11,7 +11,8 @@ void cz_rules_check_vehicle(const CzRules *rules, const CzVehicle *vehicle);
 void cz_rules_check_names(const CzRules *rules);
 void cz_rules_check_trains(const CzRules *rules);
 void cz_rules_check_scenarios(const CzRules *rules);
-void cz_rules_check_design(const CzRules *rules);
+/* Fills the targets of each variable (n_variables), which are allocated with malloc. */
+void cz_rules_check_design(const CzRules *rules, CzTargets *targets);
 void cz_rules_check_fit(const CzRules *rules);
 
 /* All rules but those on limits and variables. */

@@ -1,5 +1,6 @@
 /* Rules of limits and design variables. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,26 +76,41 @@ static void check_target(const CzRules *rules, const CzVariable *variable, const
                        cz_number_print_short(limit, hi), first->suffix);
 }
 
-/* `first` is the first target of the variable once one was found (its unit above 0). */
-static void check_path(const CzRules *rules, const CzVariable *variable, const char *const *path,
-                       CzTarget *first) {
-    CzTarget *target = NULL;
-    CzError error = {0};
-    int n_target = 0;
-    const CzStatus status = cz_problem_find(rules->problem, *path, &target, &n_target, &error);
-    if (status == CZ_STATUS_NO_MEMORY)
-        rules->mistakes->arena->out_of_memory = true;
-    if (status == CZ_STATUS_INPUT) {
-        cz_rule_broken(rules, path, "%s", error.message);
-        if (error.help[0] != '\0')
-            cz_mistake_help(rules->mistakes, "%s", error.help);
+/* Finds what a path names and adds it to the targets of its variable; how many there are more, 0
+ * with the reason in `error`. */
+static int find(const CzRules *rules, const char *path, CzTargets *targets, CzError *error) {
+    CzTarget *found = NULL;
+    int n_found = 0;
+    const CzStatus status = cz_problem_find(rules->problem, path, &found, &n_found, error);
+    const size_t n = (size_t)(targets->n + n_found);
+    CzTarget *all = n_found > 0 ? realloc(targets->target, n * sizeof *all) : NULL;
+    if (all != NULL) {
+        memcpy(all + targets->n, found, (size_t)n_found * sizeof *all);
+        *targets = (CzTargets){(int)n, all};
     }
-    if (n_target > 0 && !(first->unit > 0))
-        *first = target[0];
-    for (int i = 0; i < n_target; i++)
-        if (i == 0 || target[i].match != target[i - 1].match)
-            check_target(rules, variable, path, &target[i], first);
-    free(target);
+    if (status == CZ_STATUS_NO_MEMORY || (n_found > 0 && all == NULL))
+        rules->mistakes->arena->out_of_memory = true;
+    free(found);
+    return all != NULL ? n_found : 0;
+}
+
+/* Tells why a path names nothing, or a choice cannot be made. */
+static void tell_error(const CzRules *rules, const void *field, const char *before,
+                       const CzError *error) {
+    cz_rule_broken(rules, field, "%s%s", before, error->message);
+    if (error->help[0] != '\0')
+        cz_mistake_help(rules->mistakes, "%s", error->help);
+}
+
+static void check_path(const CzRules *rules, const CzVariable *variable, const char *const *path,
+                       CzTargets *targets) {
+    CzError error = {0};
+    const int n_found = find(rules, *path, targets, &error);
+    if (error.status == CZ_STATUS_INPUT)
+        tell_error(rules, path, "", &error);
+    for (int i = targets->n - n_found; i < targets->n; i++)
+        if (i == targets->n - n_found || targets->target[i].match != targets->target[i - 1].match)
+            check_target(rules, variable, path, &targets->target[i], targets->target);
 }
 
 static void check_bounds(const CzRules *rules, const CzVariable *variable) {
@@ -119,21 +135,26 @@ static void check_bounds(const CzRules *rules, const CzVariable *variable) {
 
 /* ---- choices ---- */
 
-/* The buffer that a path of a variable with choices names, by a number that only buffers have. */
-static bool is_buffer(const CzRules *rules, const char *const *path) {
-    char inside[CZ_PATH_ROOM + 16];
-    CzTarget *target = NULL;
+/* Finds the buffers that a path of a variable with choices names, by a number that only buffers
+ * have. */
+static bool find_buffers(const CzRules *rules, const char *const *path, CzTargets *targets) {
+    static const char inside[] = ".preload_N";
+    char text[CZ_PATH_ROOM + sizeof inside];
     CzError error = {0};
-    int n_target = 0;
-    snprintf(inside, sizeof inside, "%.*s.preload_N", (int)CZ_PATH_ROOM, *path);
-    const CzStatus status = cz_problem_find(rules->problem, inside, &target, &n_target, &error);
-    free(target);
-    if (status == CZ_STATUS_NO_MEMORY)
-        rules->mistakes->arena->out_of_memory = true;
-    if (status == CZ_OK)
-        return true;
-    cz_rule_broken(rules, path, "'%.120s' names no buffer: only buffers may be chosen", *path);
-    return false;
+    snprintf(text, sizeof text, "%.*s%s", (int)CZ_PATH_ROOM, *path, inside);
+    const int n_found = find(rules, text, targets, &error);
+    for (int i = targets->n - n_found; i < targets->n; i++) {
+        CzTarget *found = &targets->target[i];
+        char *end = found->place + strlen(found->place) - (sizeof inside - 1);
+        snprintf(end, sizeof found->place - (size_t)(end - found->place), ".use");
+        found->offset -= offsetof(CzBuffer, preload);
+        found->suffix = "";
+        found->unit = found->value = 1;
+        found->may_vary = true;
+    }
+    if (error.status == CZ_STATUS_INPUT)
+        cz_rule_broken(rules, path, "'%.120s' names no buffer: only buffers may be chosen", *path);
+    return n_found > 0;
 }
 
 /* Reads the problem with every choice in turn. */
@@ -150,16 +171,14 @@ static void check_each_choice(const CzRules *rules, const CzVariable *variable,
         cz_problem_free(chosen);
         if (status == CZ_STATUS_NO_MEMORY)
             rules->mistakes->arena->out_of_memory = true;
-        if (status != CZ_STATUS_INPUT)
-            continue;
-        cz_rule_broken(rules, &variable->choices.text[i], "choice '%.60s': %s",
-                       variable->choices.text[i], error.message);
-        if (error.help[0] != '\0')
-            cz_mistake_help(rules->mistakes, "%s", error.help);
+        char choice[80];
+        snprintf(choice, sizeof choice, "choice '%.60s': ", variable->choices.text[i]);
+        if (status == CZ_STATUS_INPUT)
+            tell_error(rules, &variable->choices.text[i], choice, &error);
     }
 }
 
-static void check_choices(const CzRules *rules, const CzVariable *variable) {
+static void check_choices(const CzRules *rules, const CzVariable *variable, CzTargets *targets) {
     const struct {
         const double *field;
         const char *name;
@@ -177,34 +196,33 @@ static void check_choices(const CzRules *rules, const CzVariable *variable) {
         cz_rule_broken(rules, &variable->choices, "a fit has no choices");
     if (rules->reader->has_holes || rules->mistakes->n_mistake > 0)
         return; /* reading again would tell other mistakes once more */
-    if (variable->path != NULL && is_buffer(rules, &variable->path))
+    if (variable->path != NULL && find_buffers(rules, &variable->path, targets))
         check_each_choice(rules, variable, &variable->path);
     for (int i = 0; i < variable->paths.n_text; i++)
-        if (is_buffer(rules, &variable->paths.text[i]))
+        if (find_buffers(rules, &variable->paths.text[i], targets))
             check_each_choice(rules, variable, &variable->paths.text[i]);
 }
 
-static void check_variable(const CzRules *rules, const CzVariable *variable) {
+static void check_variable(const CzRules *rules, const CzVariable *variable, CzTargets *targets) {
     const bool has_path = cz_rule_is_written(rules, &variable->path);
     const bool has_paths = cz_rule_is_written(rules, &variable->paths);
     if (has_path == has_paths)
         cz_rule_broken(rules, has_path ? (const void *)&variable->paths : variable,
                        "a variable has 'path' or 'paths', and only one of them");
     if (cz_rule_is_written(rules, &variable->choices)) {
-        check_choices(rules, variable);
+        check_choices(rules, variable, targets);
         return;
     }
     check_bounds(rules, variable);
     if (rules->reader->has_holes)
         return; /* a path may lead into what could not be read */
-    CzTarget first = {0};
     if (variable->path != NULL)
-        check_path(rules, variable, &variable->path, &first);
+        check_path(rules, variable, &variable->path, targets);
     for (int i = 0; i < variable->paths.n_text; i++)
-        check_path(rules, variable, &variable->paths.text[i], &first);
+        check_path(rules, variable, &variable->paths.text[i], targets);
 }
 
-void cz_rules_check_design(const CzRules *rules) {
+void cz_rules_check_design(const CzRules *rules, CzTargets *targets) {
     const CzInput *input = rules->input;
     check_limits(rules, input->checks.limits, input->checks.n_limits);
     check_limits(rules, rules->problem->profile.limits, rules->problem->profile.n_limits);
@@ -215,5 +233,5 @@ void cz_rules_check_design(const CzRules *rules) {
                            "categories belong to the limits of a profile");
     for (int i = 0; i < input->optimise.n_variables; i++)
         if (input->optimise.variables[i].given)
-            check_variable(rules, &input->optimise.variables[i]);
+            check_variable(rules, &input->optimise.variables[i], &targets[i]);
 }

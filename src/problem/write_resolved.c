@@ -18,7 +18,6 @@ typedef struct {
     FILE *stream;
     const char *lead; /* "# " while a record that the file has not is shown */
     bool is_there;    /* for a result folder */
-    bool *failed;     /* there was no memory for something */
 } Writer;
 
 static void write_record(const Writer *writer, const CzRecord *record, const char *memory,
@@ -212,7 +211,7 @@ static void write_target(const Writer *writer, const CzTarget *target) {
 
 /* Writes one variable that drives the places of one match, or of all matches when `match` < 0. */
 static void write_variable(const Writer *writer, const CzVariable *variable, const char *name,
-                           const CzTarget *target, int n_target, int match, int indent) {
+                           const CzTargets *targets, int match, int indent) {
     const CzRecord *record = &cz_records[CZ_RECORD_CzVariable];
     const char *before = "";
     write_key(writer, "name", "", indent, "- ");
@@ -221,11 +220,11 @@ static void write_variable(const Writer *writer, const CzVariable *variable, con
     fputc('\n', writer->stream);
     write_key(writer, "paths", "", indent, "");
     fputs(" [", writer->stream);
-    for (int i = 0; i < n_target; i++) {
-        if (match >= 0 && target[i].match != match)
+    for (int i = 0; i < targets->n; i++) {
+        if (match >= 0 && targets->target[i].match != match)
             continue;
         fputs(before, writer->stream);
-        write_target(writer, &target[i]);
+        write_target(writer, &targets->target[i]);
         before = ", ";
     }
     fputs("]\n", writer->stream);
@@ -235,60 +234,29 @@ static void write_variable(const Writer *writer, const CzVariable *variable, con
                         indent, "");
 }
 
-/* Targets of all paths of a variable; false when they cannot be found. */
-static bool find_targets(const Writer *writer, const CzVariable *variable, CzTarget **targets,
-                         int *n_target) {
-    const int n_path = variable->path != NULL ? 1 : variable->paths.n_text;
-    *targets = NULL;
-    *n_target = 0;
-    for (int i = 0; i < n_path; i++) {
-        const char *path = variable->path != NULL ? variable->path : variable->paths.text[i];
-        CzTarget *more = NULL;
-        int n_more = 0;
-        const CzStatus status = cz_problem_find(writer->problem, path, &more, &n_more, NULL);
-        *writer->failed |= status == CZ_STATUS_NO_MEMORY;
-        if (status != CZ_OK)
-            return false;
-        CzTarget *all = realloc(*targets, (size_t)(*n_target + n_more) * sizeof **targets);
-        if (all != NULL) {
-            memcpy(all + *n_target, more, (size_t)n_more * sizeof **targets);
-            *targets = all;
-            *n_target += n_more;
-        }
-        free(more);
-        *writer->failed |= all == NULL;
-        if (all == NULL)
-            return false;
-    }
-    return *n_target > 0;
-}
-
 static void write_variables(const Writer *writer, const CzVariable *variable, int indent) {
-    CzTarget *target = NULL;
-    int n_target = 0;
-    if (variable->choices.n_text > 0) { /* there are no parts here to choose from */
+    const CzOptimise *optimise = &writer->problem->input.optimise;
+    const CzTargets *targets =
+        cz_problem_targets(writer->problem, (int)(variable - optimise->variables));
+    const CzTarget *target = targets->target;
+    if (variable->choices.n_text > 0 || targets->n == 0) { /* no parts are here to choose from */
         Writer remark = *writer;
-        remark.lead = "# ";
+        remark.lead = variable->choices.n_text > 0 ? "# " : writer->lead;
         write_record(&remark, &cz_records[CZ_RECORD_CzVariable], (const char *)variable, indent,
                      "- ");
         return;
     }
-    const bool is_found = find_targets(writer, variable, &target, &n_target);
-    const int n_match = is_found && variable->path != NULL ? target[n_target - 1].match + 1 : 1;
+    const int n_match = variable->path != NULL ? target[targets->n - 1].match + 1 : 1;
     const char *name = variable->name != NULL   ? variable->name
                        : variable->path != NULL ? variable->path
                                                 : variable->paths.text[0];
-    if (!is_found)
-        write_record(writer, &cz_records[CZ_RECORD_CzVariable], (const char *)variable, indent,
-                     "- ");
-    else if (n_match == 1)
-        write_variable(writer, variable, name, target, n_target, -1, indent);
+    if (n_match == 1)
+        write_variable(writer, variable, name, targets, -1, indent);
     for (int match = 0, i = 0; n_match > 1 && match < n_match; match++) {
         while (target[i].match != match)
             i++;
-        write_variable(writer, variable, target[i].place, target, n_target, match, indent);
+        write_variable(writer, variable, target[i].place, targets, match, indent);
     }
-    free(target);
 }
 
 /* Records of a list: stages by value, others by pointer. */
@@ -369,10 +337,8 @@ static void write_record(const Writer *writer, const CzRecord *record, const cha
     }
 }
 
-static CzStatus write_resolved(const CzProblem *problem, bool is_there, FILE *stream,
-                               CzError *error) {
-    bool failed = false;
-    const Writer writer = {problem, stream, "", is_there, &failed};
+static void write_resolved(const CzProblem *problem, bool is_there, FILE *stream) {
+    const Writer writer = {problem, stream, "", is_there};
     fprintf(stream,
             "# %s resolved: parts, copies and defaults filled in, values in SI.\n"
             "# Behind each value: where it was written, or that it is a default.\n",
@@ -381,14 +347,16 @@ static CzStatus write_resolved(const CzProblem *problem, bool is_there, FILE *st
          source = source->next)
         fprintf(stream, "# read: %s\n", cz_problem_told_name(problem, source->name));
     write_record(&writer, &cz_records[CZ_RECORD_CzInput], (const char *)&problem->input, 0, "");
-    return failed ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the resolved problem")
-                  : CZ_OK;
 }
 
 CzStatus cz_problem_write_resolved(const CzProblem *problem, FILE *stream, CzError *error) {
-    return write_resolved(problem, false, stream, error);
+    (void)error;
+    write_resolved(problem, false, stream);
+    return CZ_OK;
 }
 
 CzStatus cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream, CzError *error) {
-    return write_resolved(problem, true, stream, error);
+    (void)error;
+    write_resolved(problem, true, stream);
+    return CZ_OK;
 }

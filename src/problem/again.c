@@ -31,12 +31,10 @@ static CzSetting *join_settings(CzProblem *again, const CzProblem *problem, int 
 CzStatus cz_problem_read_again(const CzProblem *problem, int n_more, const char *const *path,
                                const char *const *value, CzProblem **again, CzError *error) {
     *again = NULL;
-    CzProblem *made = cz_problem_create(problem->reader.share_folder);
+    CzProblem *made = cz_problem_create_again(problem);
     if (made == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory to read the problem again");
     CzReader *reader = &made->reader;
-    made->file = problem->file;
-    made->tree = problem->tree;
     made->setting = join_settings(made, problem, n_more, path, value);
     if (made->setting != NULL && !reader->arena.out_of_memory)
         cz_problem_bind(made, &made->tree);

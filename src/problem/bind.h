@@ -2,6 +2,7 @@
 #ifndef CZ_PROBLEM_BIND_H
 #define CZ_PROBLEM_BIND_H
 
+#include "problem/bind_table.h"
 #include "problem/keys.h"
 #include "problem/places.h"
 #include "tree/parts.h"
@@ -10,6 +11,7 @@
 typedef struct CzBinder {
     CzReader *reader;
     CzPlaces *places; /* get the place of every record and value */
+    const CzReadCurve **curves;
     const CzTree *tree;
     bool is_full;    /* inside a full vehicle */
     bool is_partial; /* inside a record whose part is not there */

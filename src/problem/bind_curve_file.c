@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -207,23 +206,15 @@ bool cz_bind_curve_file(CzReader *reader, const CzKey *key, const CzNode *node,
     const char *path = name != NULL ? cz_load_locate(reader, name, named, "catalogue") : NULL;
     CzCurveRequest request;
     CzCurvePoints points;
-    char *text = NULL;
-    size_t n_byte = 0;
-    if (path == NULL || !take_shape(&reading) || !take_request(&reading, &request))
-        return false;
-    CzSource *source =
-        cz_sources_read(&reader->sources, &reader->mistakes, path, named, &text, &n_byte);
-    const bool is_read =
-        source != NULL && cz_curve_points_read(&reader->arena, &reader->mistakes, source, text,
-                                               n_byte, &request, &points);
-    free(text);
-    if (!is_read)
+    if (path == NULL || !take_shape(&reading) || !take_request(&reading, &request) ||
+        !cz_curve_points_read(&reader->sources, &reader->mistakes, path, named, &request, &points))
         return false;
     CzTrace trace = {.n = points.n, .x = points.x, .f = points.y, .line = points.line};
-    const bool is_made = cz_trace_make(&reader->mistakes, source, &reading.shape, 1.0, &trace);
+    const bool is_made =
+        cz_trace_make(&reader->mistakes, points.source, &reading.shape, 1.0, &trace);
     for (int i = 0; is_made && i < trace.n_note; i++)
         cz_mistake(&reader->warnings, named, trail, "'%s': %s", key->stem, trace.note[i]);
-    if (!is_made || !keep_loading(&reading, source, &trace))
+    if (!is_made || !keep_loading(&reading, points.source, &trace))
         return false;
     *into->n_point = trace.n;
     *into->x = trace.x;

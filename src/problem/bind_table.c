@@ -190,8 +190,8 @@ static void reduce(Curve *curve, const CzNode *node, CzTable *table) {
     table->given = true;
 }
 
-void cz_bind_table(CzReader *reader, const CzKey *key, const CzNode *node, const CzTrail *trail,
-                   CzTable *table) {
+static void read_table(CzReader *reader, const CzKey *key, const CzNode *node, const CzTrail *trail,
+                       CzTable *table) {
     Curve curve = {.reader = reader, .key = key, .trail = trail};
     if (node->kind != CZ_NODE_MAPPING) {
         cz_mistake(&reader->mistakes, node, trail,
@@ -212,4 +212,20 @@ void cz_bind_table(CzReader *reader, const CzKey *key, const CzNode *node, const
         is_read = read_columns(&curve, node) && read_points(&curve, node);
     if (is_read && has_basis)
         reduce(&curve, node, table);
+}
+
+void cz_bind_table(CzReader *reader, const CzReadCurve **curves, const CzKey *key,
+                   const CzNode *node, const CzTrail *trail, CzTable *table) {
+    const CzReadCurve *curve = *curves;
+    while (curve != NULL && (curve->node != node || curve->key != key))
+        curve = curve->before;
+    if (curve == NULL) {
+        CzReadCurve *read = cz_arena_allocate(&reader->arena, 1, sizeof *read);
+        if (read == NULL)
+            return;
+        *read = (CzReadCurve){.node = node, .key = key, .before = *curves};
+        read_table(reader, key, node, trail, &read->table);
+        curve = *curves = read;
+    }
+    *table = curve->table;
 }

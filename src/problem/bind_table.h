@@ -9,7 +9,17 @@
 #include "problem/input.h"
 #include "tree/reader.h"
 
-void cz_bind_table(CzReader *reader, const CzKey *key, const CzNode *node, const CzTrail *trail,
-                   CzTable *table);
+/* Curves that were read, by their nodes: a curve of a part is read once, however many records use
+ * the part, and no more when the problem is read again, whatever has become of its file. */
+typedef struct CzReadCurve {
+    const CzNode *node;
+    const CzKey *key;
+    CzTable table;
+    const struct CzReadCurve *before; /* NULL for the first */
+} CzReadCurve;
+
+/* Reads a curve, unless it is among those that were read: then a copy. It is added to them. */
+void cz_bind_table(CzReader *reader, const CzReadCurve **curves, const CzKey *key,
+                   const CzNode *node, const CzTrail *trail, CzTable *table);
 
 #endif

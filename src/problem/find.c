@@ -141,7 +141,7 @@ CzStatus cz_problem_find(const CzProblem *problem, const char *path, CzTarget **
                          int *n_target, CzError *error) {
     *targets = NULL;
     *n_target = 0;
-    CzProblem *trial = cz_problem_create(problem->reader.share_folder);
+    CzProblem *trial = cz_problem_create_again(problem);
     if (trial == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
     const CzStatus status = find(problem, trial, path, targets, n_target, error);

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "text/curve_file.h"
@@ -61,17 +60,11 @@ static void read_measured(CzProblem *problem, const CzMatch *match, CzMeasured *
                        "\"Time (s)\"",
         .unit_help = "a title ends in its unit, as t_ms, or a row of units is below the titles"};
     CzCurvePoints points;
-    char *text = NULL;
-    size_t n_byte = 0;
-    CzSource *source =
-        cz_sources_read(&reader->sources, &reader->mistakes, path, named->value, &text, &n_byte);
-    if (source != NULL &&
-        cz_curve_points_read(&reader->arena, &reader->mistakes, source, text, n_byte, &request,
+    if (cz_curve_points_read(&reader->sources, &reader->mistakes, path, named->value, &request,
                              &points) &&
         keep_window(reader, match, &points))
         *measured = (CzMeasured){
-            .n_point = points.n, .time = points.x, .value = points.y, .source = source};
-    free(text);
+            .n_point = points.n, .time = points.x, .value = points.y, .source = points.source};
 }
 
 /* The first match of a file gives it its number. */

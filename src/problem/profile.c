@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/suggest.h"
-#include "problem/bind.h"
 #include "tree/load.h"
 #include "tree/merge.h"
 
@@ -131,7 +130,7 @@ static const CzNode *keep_category(CzReader *reader, const CzNode *top, const Cz
 static void bind_profile(CzProblem *problem, const CzNode *top, const CzPlace *named) {
     CzReader *reader = &problem->reader;
     const CzTree no_parts = {0};
-    const CzBinder binder = {.reader = reader, .places = &problem->places, .tree = &no_parts};
+    const CzBinder binder = cz_problem_binder(problem, &no_parts);
     const CzRecord *record = &cz_records[CZ_RECORD_CzProfile];
     CzProfile all = {0};
     cz_bind_record(binder, record, top, &cz_no_trail, &all);

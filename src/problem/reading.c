@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "problem/bind.h"
 #include "tree/families.h"
 #include "tree/merge.h"
 #include "tree/trains.h"
@@ -17,6 +16,23 @@ CzProblem *cz_problem_create(const char *share_folder) {
     cz_reader_begin(&problem->reader, &cz_records[CZ_RECORD_CzInput], share_folder);
     problem->places.arena = &problem->reader.arena;
     return problem;
+}
+
+CzProblem *cz_problem_create_again(const CzProblem *problem) {
+    CzProblem *again = cz_problem_create(problem->reader.share_folder);
+    if (again == NULL)
+        return NULL;
+    again->file = problem->file;
+    again->tree = problem->tree;
+    again->curves = problem->curves;
+    return again;
+}
+
+CzBinder cz_problem_binder(CzProblem *problem, const CzTree *tree) {
+    return (CzBinder){.reader = &problem->reader,
+                      .places = &problem->places,
+                      .curves = &problem->curves,
+                      .tree = tree};
 }
 
 void cz_problem_free(CzProblem *problem) {
@@ -80,8 +96,8 @@ void cz_problem_bind(CzProblem *problem, const CzTree *tree) {
         set.root = cz_families_write_out(reader, &set);
     if (set.root == NULL || reader->arena.out_of_memory || !allocate_vehicles(problem, set.root))
         return;
-    const CzBinder binder = {.reader = reader, .places = &problem->places, .tree = &set};
-    cz_bind_record(binder, reader->top, set.root, &cz_no_trail, &problem->input);
+    cz_bind_record(cz_problem_binder(problem, &set), reader->top, set.root, &cz_no_trail,
+                   &problem->input);
     if (problem->input.n_scenarios == 0 && cz_node_find(set.root, "scenarios") == NULL)
         add_scenario(problem, set.root);
 }

@@ -3,8 +3,7 @@
 #define CZ_PROBLEM_READING_H
 
 #include "base/suggest.h"
-#include "problem/keys.h"
-#include "problem/places.h"
+#include "problem/bind.h"
 #include "problem/problem.h"
 #include "tree/settings.h"
 
@@ -12,6 +11,7 @@ struct CzProblem {
     CzReader reader;
     CzTree tree; /* as the files say it, before settings */
     CzPlaces places;
+    const CzReadCurve *curves; /* the last one */
     const char *file;
     char hash[17];
     int n_setting;
@@ -26,6 +26,12 @@ struct CzProblem {
 
 /* A problem without anything in it; freed by cz_problem_free. NULL without memory. */
 CzProblem *cz_problem_create(const char *share_folder);
+
+/* One that is to be read again from the tree of another, which it must not outlive. */
+CzProblem *cz_problem_create_again(const CzProblem *problem);
+
+/* What the records of a tree are read with. */
+CzBinder cz_problem_binder(CzProblem *problem, const CzTree *tree);
 
 /* Puts settings in and reads the input of a tree. */
 void cz_problem_bind(CzProblem *problem, const CzTree *tree);

@@ -275,8 +275,11 @@ static bool begin(CzArena *arena, const char *text, size_t n_byte, CzCurveReadin
     return true;
 }
 
-bool cz_curve_points_read(CzArena *arena, CzMistakes *mistakes, CzSource *source, const char *text,
-                          size_t n_byte, const CzCurveRequest *request, CzCurvePoints *points) {
+/* Reads a text that was read from `source`, whose lines become those that are read: UTF-8, whatever
+ * the file is written in. */
+static bool read_points(CzMistakes *mistakes, CzSource *source, const char *text, size_t n_byte,
+                        const CzCurveRequest *request, CzCurvePoints *points) {
+    CzArena *arena = mistakes->arena;
     CzCurveReading reading = {.mistakes = mistakes,
                               .source = *source,
                               .request = request,
@@ -289,6 +292,18 @@ bool cz_curve_points_read(CzArena *arena, CzMistakes *mistakes, CzSource *source
     return has_begun && cz_reading_find_columns(&reading) && cz_reading_find_unit(&reading, 0) &&
            cz_reading_find_unit(&reading, 1) && find_decimal(&reading) &&
            make_room(arena, reading.source.n_line, points) && take_points(&reading);
+}
+
+bool cz_curve_points_read(CzSources *sources, CzMistakes *mistakes, const char *path,
+                          const CzNode *place, const CzCurveRequest *request,
+                          CzCurvePoints *points) {
+    char *text = NULL;
+    size_t n_byte = 0;
+    CzSource *source = cz_sources_read(sources, mistakes, path, place, &text, &n_byte);
+    const bool is_read =
+        source != NULL && read_points(mistakes, source, text, n_byte, request, points);
+    free(text);
+    return is_read;
 }
 
 static CzStatus finish(CzMistakes *mistakes, const char *name, CzError *error) {
@@ -312,7 +327,7 @@ CzStatus cz_curve_points_read_memory(CzArena *arena, const char *name, const cha
         source->folder = ".";
     }
     if (source != NULL && source->name != NULL)
-        cz_curve_points_read(arena, &mistakes, source, text, n_byte, request, points);
+        read_points(&mistakes, source, text, n_byte, request, points);
     return finish(&mistakes, name, error);
 }
 
@@ -320,12 +335,7 @@ CzStatus cz_curve_points_read_file(CzArena *arena, const char *path, const CzCur
                                    CzCurvePoints *points, CzError *error) {
     CzMistakes mistakes = {.arena = arena};
     CzSources sources = {.arena = arena, .hash = CZ_HASH_START};
-    char *text = NULL;
-    size_t n_byte = 0;
-    CzSource *source = cz_sources_read(&sources, &mistakes, path, NULL, &text, &n_byte);
-    if (source != NULL)
-        cz_curve_points_read(arena, &mistakes, source, text, n_byte, request, points);
-    free(text);
+    cz_curve_points_read(&sources, &mistakes, path, NULL, request, points);
     return finish(&mistakes, path, error);
 }
 

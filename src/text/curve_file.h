@@ -13,11 +13,11 @@
 
 #include "text/curve_columns.h"
 
-/* Reads a text that was read from `source`, whose name goes into messages and whose lines become
- * those that are read: UTF-8, whatever the file is written in. False with a mistake, or without
- * memory. */
-bool cz_curve_points_read(CzArena *arena, CzMistakes *mistakes, CzSource *source, const char *text,
-                          size_t n_byte, const CzCurveRequest *request, CzCurvePoints *points);
+/* Reads a file that `place` names (NULL: none does) and adds it to the sources, its lines as they
+ * are read: UTF-8, whatever the file is written in. False with a mistake, or without memory. */
+bool cz_curve_points_read(CzSources *sources, CzMistakes *mistakes, const char *path,
+                          const CzNode *place, const CzCurveRequest *request,
+                          CzCurvePoints *points);
 
 /* Reads a file ("-" is standard input), and the same from memory, which `name` stands for in
  * messages. Statuses: CZ_OK, CZ_STATUS_INPUT with the first mistake, CZ_STATUS_NO_MEMORY. */

@@ -2,6 +2,7 @@
 #include "problem/read_problem.h"
 
 #include "problem/reduce_curve.h"
+#include "text/node.h"
 
 #include <unistd.h>
 
@@ -169,12 +170,66 @@ static void plastic_strokes_of_an_end_get_their_elastic_part(void **state) {
     cz_problem_free(problem);
 }
 
+/* How many of the files that were read have this name. */
+static int count_sources(const CzProblem *problem, const char *name) {
+    int n = 0;
+    for (const CzSource *source = cz_problem_first_source(problem); source != NULL;
+         source = source->next)
+        n += strcmp(source->name, name) == 0;
+    return n;
+}
+
+static void a_curve_file_of_a_part_is_read_once_and_not_again(void **state) {
+    (void)state;
+    char path[] = "/tmp/crushzone-curve-XXXXXX", text[1000];
+    static const char curve[] = "stroke_mm,force_kN\n0,500\n200,600\n";
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    assert_int_equal(write(file, curve, sizeof curve - 1), (int)sizeof curve - 1);
+    close(file);
+    snprintf(
+        text, sizeof text,
+        "schema: 1\ntitle: a curve of a part\n"
+        "parts:\n"
+        "  tube: {curve: {file: %s, basis: dynamic, strokes: plastic}}\n"
+        "  end: {face_gap_mm: 900, unloading_stiffness_MN_m: 600,\n"
+        "    coupler: {buffer: {stages: [{stroke_mm: 50, force_kN: 400}]}, tube: {use: tube}}}\n"
+        "  car: {model: rigid, mass_t: 40, front: {use: end}, rear: {use: end}}\n"
+        "trains:\n"
+        "  - {name: A, speed_m_s: 5, vehicles: [{use: car}]}\n"
+        "  - {name: B, vehicles: [{use: car}]}\n",
+        path);
+    CzProblem *problem = read_good_text(text), *again = NULL;
+    assert_int_equal(count_sources(problem, path), 1);
+    unlink(path);
+
+    const char *const set[] = {"parts.tube.trigger_kN"}, *const value[] = {"700"};
+    CzTarget *target = NULL;
+    int n_target = 0, n_vehicle = 0;
+    assert_int_equal(cz_problem_find(problem, "parts.car.mass_t", &target, &n_target, NULL), CZ_OK);
+    assert_int_equal(n_target, 2);
+    assert_int_equal(cz_problem_read_again(problem, 1, set, value, &again, NULL), CZ_OK);
+    const CzVehicle *vehicle = cz_problem_vehicles(again, &n_vehicle);
+    for (int i = 0; i < 2; i++) {
+        const CzTube *tubes[] = {&vehicle[i].front.coupler.tube, &vehicle[i].rear.coupler.tube};
+        for (int k = 0; k < 2; k++) {
+            assert_near(tubes[k]->trigger, 700e3, 0, 0);
+            assert_int_equal(tubes[k]->curve.n_point, 2);
+            assert_near(tubes[k]->curve.y[1], 600e3, 0, 0);
+        }
+    }
+    free(target);
+    cz_problem_free(again);
+    cz_problem_free(problem);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_in_the_file_are_read_in_their_units),
         cmocka_unit_test(a_long_csv_curve_keeps_energy_ends_and_peak),
         cmocka_unit_test(total_strokes_lose_their_elastic_part),
         cmocka_unit_test(keys_beside_a_file_shape_its_curve),
+        cmocka_unit_test(a_curve_file_of_a_part_is_read_once_and_not_again),
         cmocka_unit_test(plastic_strokes_of_an_end_get_their_elastic_part),
         cmocka_unit_test(reducing_keeps_the_area),
         cmocka_unit_test(a_straight_line_loses_nothing),

@@ -249,10 +249,36 @@ static void numbers_of_trains_and_of_the_simulation_are_found_too(void **state) 
     cz_problem_free(problem);
 }
 
+static void variables_keep_what_their_paths_name(void **state) {
+    (void)state;
+    CzProblem *problem = read_good("full.yaml", 0, NULL);
+    const CzOptimise *optimise = &cz_problem_input(problem)->optimise;
+    int n_checked = 0;
+    for (int i = 0; i < optimise->n_variables; i++) {
+        const CzTargets *targets = cz_problem_targets(problem, i);
+        CzTarget *target = NULL;
+        int n_target = 0;
+        if (optimise->variables[i].path == NULL)
+            continue;
+        assert_int_equal(
+            cz_problem_find(problem, optimise->variables[i].path, &target, &n_target, NULL), CZ_OK);
+        assert_int_equal(targets->n, n_target);
+        for (int k = 0; k < n_target; k++) {
+            assert_ptr_equal(targets->target[k].field, target[k].field);
+            assert_string_equal(targets->target[k].place, target[k].place);
+        }
+        free(target);
+        n_checked++;
+    }
+    assert_in_range(n_checked, 1, optimise->n_variables);
+    cz_problem_free(problem);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(settings_of_parts_do_not_depend_on_their_order),
         cmocka_unit_test(numbers_of_trains_and_of_the_simulation_are_found_too),
+        cmocka_unit_test(variables_keep_what_their_paths_name),
         cmocka_unit_test(a_path_through_a_part_names_every_user_that_does_not_override),
         cmocka_unit_test(a_star_makes_one_match_of_every_item),
         cmocka_unit_test(a_path_through_a_vehicle_names_its_repeats_and_copies_too),

@@ -155,21 +155,29 @@ async function everyRowIsThere(page, channels) {
   if (times.length < 300 || plots.length < 8) return `only ${times.length} rows of ${plots.length} figures`;
 }
 
-/* The dot of a curve lies where its value is. */
+/* The dot of a curve lies where its value is: on one of the straight lines that the curve is made of. */
 async function dotsLieOnCurves(page) {
   return page.evaluate(() => {
+    const distance = (px, py, x, y, dx, dy) => {
+      const along = dx * dx + dy * dy > 0 ? ((px - x) * dx + (py - y) * dy) / (dx * dx + dy * dy) : 0;
+      const share = Math.min(1, Math.max(0, along));
+      return Math.hypot(px - x - share * dx, py - y - share * dy);
+    };
     for (const svg of document.querySelectorAll('svg.plot')) {
       const paths = svg.querySelectorAll('path[data-y]'), dots = svg.querySelectorAll('circle.dot');
       for (let i = 0; i < paths.length; i++) {
         const at = [Number(dots[i].getAttribute('cx')), Number(dots[i].getAttribute('cy'))];
         if (at[1] < 0) continue; // no value at this time
-        const length = paths[i].getTotalLength();
-        let nearest = Infinity;
-        for (let k = 0; k <= 4000; k++) {
-          const p = paths[i].getPointAtLength(length * k / 4000);
-          nearest = Math.min(nearest, Math.hypot(p.x / 10 - at[0], p.y / 10 - at[1]));
+        let x = 0, y = 0, nearest = Infinity; // in tenths, as the path
+        const moves = paths[i].getAttribute('d').matchAll(/([Ml])(-?[\d.]+) ?(-?[\d.]+)/g);
+        for (const [, command, first, second] of moves) {
+          const dx = command === 'l' ? Number(first) : 0, dy = command === 'l' ? Number(second) : 0;
+          if (command === 'M') [x, y] = [Number(first), Number(second)];
+          nearest = Math.min(nearest, distance(10 * at[0], 10 * at[1], x, y, dx, dy) / 10);
+          x += dx;
+          y += dy;
         }
-        if (nearest > 0.5 + length / 10 / 4000) return `${paths[i].dataset.y}: dot ${nearest} away`;
+        if (!(nearest <= 0.5)) return `${paths[i].dataset.y}: dot ${nearest} away`;
       }
     }
     return '';

@@ -137,23 +137,26 @@ static void an_offset_of_40_mm_lifts_the_far_bogie_of_the_higher_car(void **stat
 /* ---- margins that an optimiser can follow -----------------------------------------------------
  */
 
-/* A metric over a path, evenly spaced. */
-static void scan(const char *file, const char *setting, CzSweepAxis axis, const char *metric,
-                 double *value) {
+enum { N_PLACE = 13, MOST_METRICS = 3 };
+
+/* Metrics over a path, evenly spaced: value[k] is that of metric k. */
+static void scan(const char *file, const char *setting, CzSweepAxis axis, int n_metric,
+                 const char *const *metric, double value[][N_PLACE]) {
     CzProblemOptions problem_options = cz_problem_options_default();
     problem_options.set = &setting;
     problem_options.n_set = 1;
     CzSweepOptions options = cz_sweep_options_default();
     options.n_axis = 1;
     options.axis = &axis;
-    options.n_metric = 1;
-    options.metric = &metric;
+    options.n_metric = n_metric;
+    options.metric = metric;
     CzSweep *sweep = NULL;
     CzError error = {0};
     if (cz_sweep(file, &problem_options, &options, &sweep, &error) != CZ_OK)
         fail_msg("%s", error.message);
     for (int i = 0; i < axis.n; i++)
-        value[i] = sweep->point[i].metric[0];
+        for (int k = 0; k < n_metric; k++)
+            value[k][i] = sweep->point[i].metric[k];
     cz_sweep_free(sweep);
 }
 
@@ -168,11 +171,11 @@ static double bend_of(int n, const double *value, int every) {
 /* Difference quotients of neighbours have one sign, so a search is led one way. Their change is
  * that of a smooth curve: half the distance makes it a quarter, at a kink a half; over a jump, and
  * where a value rattles, it stays what it was. */
-static void assert_smooth(const char *name, int n, const double *value) {
+static void assert_smooth(const char *name, const char *path, int n, const double *value) {
     const double bend = bend_of(n, value, 1), wide = bend_of(n, value, 2);
     if (getenv("CZ_TOL_SCALE") != NULL)
-        print_message("%s: %g to %g, bend %g, at twice the distance %g times that\n", name,
-                      value[0], value[n - 1], bend, wide / bend);
+        print_message("%s over %s: %g to %g, bend %g, at twice the distance %g times that\n", name,
+                      path, value[0], value[n - 1], bend, wide / bend);
     assert_true(bend <= wide / 1.5);
     for (int i = 1; i < n; i++)
         assert_true((value[i] - value[i - 1]) * (value[n - 1] - value[0]) > 0.0);
@@ -180,38 +183,44 @@ static void assert_smooth(const char *name, int n, const double *value) {
 
 static void margins_follow_a_design_variable_without_jumps(void **state) {
     (void)state;
-    enum { N = 13 };
-    double value[N];
-    const CzSweepAxis stroke = {"parts.anti-climber.stages[0].stroke_mm", 200, 320, N};
-    scan(bottoming, "trains.A.speed_km_h=38", stroke, "vehicles.wheel_share", value);
-    assert_smooth("wheel lift over stroke", N, value);
-    scan(bottoming, "trains.A.speed_km_h=38", stroke, "vehicles.max_pitch_mrad", value);
-    assert_smooth("pitch over stroke", N, value);
-    scan(bottoming, "trains.A.speed_km_h=38", stroke, "vehicles.flange_share", value);
-    assert_smooth("bogie lift over stroke", N, value);
-    const CzSweepAxis face = {"parts.anti-climber.face_height_mm", 70, 118, N};
-    scan("problems/override-overlap-holds.yaml", "trains.A.speed_km_h=36", face,
-         "interfaces.min_overlap_mm.min", value);
-    assert_smooth("overlap over face height", N, value);
-    /* Ribs seat by the offset modulo their pitch, so over a wider range the capacity swings. */
-    const CzSweepAxis force = {"parts.anti-climber.stages[0].force_kN", 700, 860, N};
-    scan("problems/override-overlap-holds.yaml", "trains.A.speed_km_h=36", force,
-         "interfaces.vertical_margin_kN", value);
-    assert_smooth("vertical capacity over force", N, value);
-    const CzSweepAxis hinge = {"parts.coupler-hinge.stiffness_kNm_rad", 300, 900, N};
-    scan("problems/override-hinge-holds.yaml", "trains.A.speed_km_h=42", hinge,
-         "interfaces.A2-A3.swing_share", value);
-    assert_smooth("swing over hinge stiffness", N, value);
-    scan("problems/override-hinge-holds.yaml", "trains.A.speed_km_h=42", hinge,
-         "interfaces.strut_share", value);
-    assert_smooth("F over F_crit over hinge stiffness", N, value);
-    scan("problems/override-hinge-holds.yaml", "trains.A.speed_km_h=42", hinge,
-         "interfaces.underframe_rise_mm", value);
-    assert_smooth("rise of the underframes over hinge stiffness", N, value);
-    const CzSweepAxis guide = {"parts.front-end.pitch_stiffness_MNm_rad", 3, 15, N};
-    scan("problems/override-overlap-holds.yaml", "trains.A.speed_km_h=36", guide,
-         "interfaces.ramp_share", value);
-    assert_smooth("ramp over pitch guidance", N, value);
+    /* Ribs seat by the offset modulo their pitch, so over a wider range of forces the vertical
+     * capacity swings. */
+    static const struct {
+        const char *file, *setting;
+        CzSweepAxis axis;
+        const char *metric[MOST_METRICS];
+    } scans[] = {
+        {bottoming,
+         "trains.A.speed_km_h=38",
+         {"parts.anti-climber.stages[0].stroke_mm", 200, 320, N_PLACE},
+         {"vehicles.wheel_share", "vehicles.max_pitch_mrad", "vehicles.flange_share"}},
+        {"problems/override-overlap-holds.yaml",
+         "trains.A.speed_km_h=36",
+         {"parts.anti-climber.face_height_mm", 70, 118, N_PLACE},
+         {"interfaces.min_overlap_mm.min"}},
+        {"problems/override-overlap-holds.yaml",
+         "trains.A.speed_km_h=36",
+         {"parts.anti-climber.stages[0].force_kN", 700, 860, N_PLACE},
+         {"interfaces.vertical_margin_kN"}},
+        {"problems/override-hinge-holds.yaml",
+         "trains.A.speed_km_h=42",
+         {"parts.coupler-hinge.stiffness_kNm_rad", 300, 900, N_PLACE},
+         {"interfaces.A2-A3.swing_share", "interfaces.strut_share",
+          "interfaces.underframe_rise_mm"}},
+        {"problems/override-overlap-holds.yaml",
+         "trains.A.speed_km_h=36",
+         {"parts.front-end.pitch_stiffness_MNm_rad", 3, 15, N_PLACE},
+         {"interfaces.ramp_share"}},
+    };
+    for (size_t i = 0; i < sizeof scans / sizeof scans[0]; i++) {
+        double value[MOST_METRICS][N_PLACE];
+        int n_metric = 0;
+        while (n_metric < MOST_METRICS && scans[i].metric[n_metric] != NULL)
+            n_metric++;
+        scan(scans[i].file, scans[i].setting, scans[i].axis, n_metric, scans[i].metric, value);
+        for (int k = 0; k < n_metric; k++)
+            assert_smooth(scans[i].metric[k], scans[i].axis.path, N_PLACE, value[k]);
+    }
 }
 
 /* ---- claims ---------------------------------------------------------------------------------- */

@@ -1,4 +1,4 @@
-// RUN: own_objective problems/metro-6-car.yaml 15
+// RUN: crushzone new two-trains -o own.yaml && own_objective own.yaml 150
 /* Search with an objective of one's own: the largest force over mass that any car's body feels, in
  * g, over all scenarios. The checks of the problem file stay the constraints.
  *

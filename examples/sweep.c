@@ -1,4 +1,4 @@
-// RUN: sweep problems/metro-6-car.yaml 0 4
+// RUN: crushzone new two-trains -o swept.yaml && sweep swept.yaml 4 4
 /* Sweep: one variable of a problem goes from its lower to its upper bound, the others stay at their
  * starting values. All designs run side by side in one call.
  *

@@ -1,1 +1,2 @@
-cz_test(test_solvers physics test_solvers.c)
+cz_test(test_two_step physics test_two_step.c tests/physics/scheme.c)
+cz_tests(physics)

@@ -1,7 +1,1 @@
-cz_test(test_every_law laws test_every_law.c)
-cz_test(test_passivity laws test_passivity.c)
-cz_test(test_vehicle_end laws test_vehicle_end.c)
-cz_test(test_buffer laws test_buffer.c)
-cz_test(test_plastic_members laws test_plastic_members.c)
-cz_test(test_running_gear laws test_running_gear.c)
-cz_test(test_override laws test_override.c)
+cz_tests(laws)

@@ -1,1 +1,2 @@
 cz_test(test_filter unit test_filter.c)
+cz_tests(physics)

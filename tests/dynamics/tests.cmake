@@ -1,0 +1,2 @@
+cz_test(test_track physics test_track.c tests/physics/rails.c)
+cz_tests(physics)

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "physics/collision.h"
+#include "support/shipped.h"
 
 /* Two rigid cars whose ends meet: a first stage that one step may cross, and one behind it along
  * which the force falls. Forces in kN, strokes in mm. */
@@ -135,14 +136,11 @@ static void once_the_weaker_end_has_bottomed_out_the_other_one_is_crushed(void *
 /* A chain is solved until each member is within 1 N of its law. */
 static void members_of_chains_keep_their_laws_within_a_newton(void **state) {
     (void)state;
-    static const struct {
-        const char *file;
-        int scenario;
-    } cases[] = {{"problems/two-cars-25kmh.yaml", 0}, {"problems/wall.yaml", 0},
-                 {"problems/wagon.yaml", 0},          {"problems/buffer-stop.yaml", 0},
-                 {"problems/paper-25kmh.yaml", 0},    {"problems/metro-6-car.yaml", 3}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Collision collision = collide(cases[i].file, AS_WRITTEN, cases[i].scenario);
+    const Shipped shipped = shipped_problems();
+    for (int i = 0; i < shipped.n; i++) {
+        char path[SHIPPED_ROOM + 16];
+        snprintf(path, sizeof path, "problems/%s", shipped.name[i]);
+        Collision collision = collide(path, WITH("simulation.duration_s=1"), 0);
         double weakest = INFINITY;
         for (int k = 0; k < collision.summary->n_interface; k++)
             weakest = fmin(weakest, fmax(1e4, collision.summary->interface[k].peak_force));

@@ -2,6 +2,7 @@
 #include "support/check.h"
 
 #include "crushzone/model.h"
+#include "support/shipped.h"
 
 static CzProblem *read_shipped(const char *name) {
     char path[512];
@@ -45,11 +46,9 @@ static void check_scenarios(const char *name) {
 
 static void every_scenario_of_every_shipped_problem_makes_a_model(void **state) {
     (void)state;
-    static const char *const names[] = {"first-collision.yaml", "two-cars-25kmh.yaml",
-                                        "metro-6-car.yaml",     "wall.yaml",
-                                        "wagon.yaml",           "buffer-stop.yaml"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        check_scenarios(names[i]);
+    const Shipped shipped = shipped_problems();
+    for (int i = 0; i < shipped.n; i++)
+        check_scenarios(shipped.name[i]);
 }
 
 static void a_problem_that_makes_no_model_is_refused_at_its_place(void **state) {

@@ -2,6 +2,7 @@
 #include "problem/read_problem.h"
 
 #include "problem/keys.h"
+#include "support/shipped.h"
 
 static char *resolve(const CzProblem *problem) {
     char *text = NULL;
@@ -107,11 +108,9 @@ static void reading_the_resolved_file_gives_the_same_input(void **state) {
 
 static void problems_that_ship_resolve_to_themselves(void **state) {
     (void)state;
-    static const char *const names[] = {"first-collision.yaml", "two-cars-25kmh.yaml",
-                                        "metro-6-car.yaml",     "wall.yaml",
-                                        "wagon.yaml",           "buffer-stop.yaml"};
-    for (int i = 0; i < 6; i++)
-        check_round_trip(names[i], CZ_SOURCE_FOLDER "/problems");
+    const Shipped shipped = shipped_problems();
+    for (int i = 0; i < shipped.n; i++)
+        check_round_trip(shipped.name[i], CZ_SOURCE_FOLDER "/problems");
 }
 
 static void variables_of_the_resolved_file_drive_the_same_places(void **state) {

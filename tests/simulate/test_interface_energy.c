@@ -2,9 +2,8 @@
  * problem with damping, rate and speed factors switched on: what an end or a device dissipates is
  * counted where it is.
  */
-#include <dirent.h>
-
 #include "physics/collision.h"
+#include "support/shipped.h"
 
 /* Damping, rate and speed factors at every end; a share of what they may be. */
 static void switch_on(CzVehicle *vehicle, double share) {
@@ -67,18 +66,9 @@ static void check_problem(const char *file) {
 
 static void energies_are_the_work_of_the_forces_on_every_shipped_problem(void **state) {
     (void)state;
-    DIR *folder = opendir(CZ_SOURCE_FOLDER "/problems");
-    assert_non_null(folder);
-    int n_problem = 0;
-    for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
-        const size_t n = strlen(entry->d_name);
-        if (n < 5 || strcmp(&entry->d_name[n - 5], ".yaml") != 0)
-            continue;
-        check_problem(entry->d_name);
-        n_problem++;
-    }
-    closedir(folder);
-    assert_true(n_problem > 10);
+    const Shipped shipped = shipped_problems();
+    for (int i = 0; i < shipped.n; i++)
+        check_problem(shipped.name[i]);
 }
 
 int main(void) {

@@ -5,6 +5,8 @@
 #include "crushzone/problem.h"
 #include "crushzone/report.h"
 
+#include "evaluate/results.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -132,11 +134,14 @@ static void write_units(void) {
 
 static void write_checks(void) {
     static const struct {
-        const char *name, *unit, *doc;
+        const char *name, *doc;
     } metrics[] = {
-#define CZ_METRIC(level, name, unit, per_unit, scale, absent, expression, doc) {name, unit, doc},
-#include "evaluate/metrics.def"
-#undef CZ_METRIC
+#define CZ_METRIC_BY(record, key, form, source, unit, dimension, heading, judge, scale, absent,    \
+                     when, doc)                                                                    \
+    {CZ_METRIC_PREFIX_##record #key, doc},
+#define CZ_METRIC(record, key, form, source, unit, dimension, heading, scale, absent, when, doc)   \
+    {CZ_METRIC_PREFIX_##record #key, doc},
+#include "evaluate/results.def"
     };
     puts("What a limit, a target or the objective can be about. The worst place counts unless the "
          "name picks\none: interfaces.A4-B1.peak_force_kN, vehicles.A1.max_pitch_mrad.\n");

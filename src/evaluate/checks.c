@@ -33,7 +33,7 @@ static CzCheckResult blank_result(const CzCheck *check, const CzScene *scene) {
                            .limit = check->limit,
                            .value = NAN,
                            .when = {NAN, NAN},
-                           .unit = check->missing != NULL ? "" : check->metric.kind->unit,
+                           .unit = check->missing != NULL ? "" : check->metric.kind->unit->text,
                            .margin = NAN,
                            .is_minimum = check->is_minimum,
                            .is_flag = check->missing == NULL && check->scale == CZ_FLAG_SCALE,
@@ -76,7 +76,7 @@ CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, con
 }
 
 void cz_check_blank_total(const CzCheck *check, CzCheckResult *result) {
-    if (!result->beyond_validity || !cz_metric_is_total(check->metric.kind))
+    if (!result->beyond_validity || !check->metric.kind->is_total)
         return;
     result->value = result->margin = result->when[0] = result->when[1] = NAN;
     result->where[0] = '\0';
@@ -127,7 +127,7 @@ static void add_detail(const CzPlace *place, void *data) {
     Details *details = data;
     const CzMetricKind *kind = details->check->metric.kind;
     if (details->n < details->room)
-        details->constraint[details->n++] = detail_of(details, kind->value(place) / kind->per_unit);
+        details->constraint[details->n++] = detail_of(details, cz_metric_at(kind, place));
 }
 
 int cz_check_details(const CzCheck *check, const CzSubject *subject, double required_margin,

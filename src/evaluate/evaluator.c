@@ -130,7 +130,7 @@ static CzStatus build_objective(CzEvaluator *evaluator, CzError *error) {
         return status;
     }
     evaluator->objective_name = optimise->minimise;
-    evaluator->objective_unit = evaluator->objective.kind->unit;
+    evaluator->objective_unit = evaluator->objective.kind->unit->text;
     return CZ_OK;
 }
 

@@ -53,24 +53,6 @@ CzExplainOptions cz_explain_options_default(void) {
     return (CzExplainOptions){.search = true};
 }
 
-const char *cz_cause_text(CzCause cause) {
-    static const char *const text[] = {
-#define CZ_CAUSE(constant, text, doc) text,
-#include "crushzone/causes.def"
-#undef CZ_CAUSE
-    };
-    return text[cause];
-}
-
-const char *cz_cause_doc(CzCause cause) {
-    static const char *const doc[] = {
-#define CZ_CAUSE(constant, text, doc) doc,
-#include "crushzone/causes.def"
-#undef CZ_CAUSE
-    };
-    return doc[cause];
-}
-
 /* ---- running candidates ---------------------------------------------------------------------- */
 
 static bool is_stopped(const CzExplainOptions *options) {

@@ -67,7 +67,7 @@ static CzStatus build_item(const CzProblem *problem, int index, int n_scene, con
     if (written->metric != NULL) {
         CZ_TRY(place_failure(problem, &written->metric,
                              cz_metric_parse(written->metric, &item->metric, error), error));
-        item->unit = item->metric.kind->unit;
+        item->unit = item->metric.kind->unit->text;
         if (!cz_metric_picks(&item->metric, &scene[item->scenario]))
             return place_failure(problem, &written->metric,
                                  cz_fail(error, CZ_STATUS_INPUT,

@@ -11,6 +11,7 @@
 #define CZ_EVALUATE_METRIC_H
 
 #include "crushzone/simulate.h"
+#include "evaluate/results.h"
 #include "evaluate/scene.h"
 
 typedef enum CzLevel {
@@ -42,14 +43,18 @@ typedef struct CzPlace {
     char name[CZ_WHERE_ROOM];
 } CzPlace;
 
+/* A result that can be judged: an entry of results.def. */
 typedef struct CzMetricKind {
     CzLevel level;
-    const char *name, *unit;
-    double per_unit; /* SI value of one unit */
-    double scale;    /* smallest scale of a margin, in the unit; CZ_FLAG_SCALE for a yes or no */
+    const char *name;
+    const CzResultUnit *unit;
+    bool is_total; /* adds up over the whole run */
+    double scale;  /* smallest scale of a margin, in the unit; CZ_FLAG_SCALE for a yes or no */
     bool may_be_unknown;
-    const char *absent; /* why it does not apply, or what is not declared */
-    double (*value)(const CzPlace *place);
+    const char *absent;                                   /* why it does not apply, or what is not
+                                                             declared */
+    double (*value)(const CzPlace *place);                /* SI */
+    void (*when)(const CzPlace *place, double window[2]); /* NULL when its time is not kept [s] */
     const char *doc;
 } CzMetricKind;
 
@@ -107,11 +112,11 @@ CZ_MUST_CHECK CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzErr
 /* Value over all places that the selector picks; `worst_is_max` settles CZ_AGGREGATE_WORST. */
 CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, bool worst_is_max);
 
+/* Its value at one place, in its unit. */
+double cz_metric_at(const CzMetricKind *kind, const CzPlace *place);
 /* When the value was reached at a place [s]: begin and end, NaN when that is not kept. */
 void cz_metric_when(const CzMetricKind *kind, const CzPlace *place, double when[2]);
 
-/* Whether it adds up over the whole run. */
-bool cz_metric_is_total(const CzMetricKind *kind);
 /* Whether the selector picks anything in this scene, as written. */
 bool cz_metric_picks(const CzMetric *metric, const CzScene *scene);
 

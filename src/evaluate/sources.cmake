@@ -1,5 +1,6 @@
 # Sources of src/evaluate, one per line.
 set(CZ_SOURCES_evaluate
+    causes.c
     checklist.c
     checks.c
     choices.c
@@ -12,8 +13,10 @@ set(CZ_SOURCES_evaluate
     levers.c
     match.c
     metric.c
+    metric_values.c
     obstacle.c
     place.c
+    result_units.c
     runs.c
     scene.c
     signs.c

@@ -74,7 +74,7 @@ static double read_metrics(int n_scenario, const CzRunSummary *const *run, void 
     for (int k = 0; k < reading->sweeping->options->n_metric; k++) {
         const CzMetric *metric = &reading->sweeping->metric[k];
         const bool smallest = metric->aggregate == CZ_AGGREGATE_MIN;
-        if (reading->point->beyond_validity && cz_metric_is_total(metric->kind))
+        if (reading->point->beyond_validity && metric->kind->is_total)
             continue;
         for (int s = 0; s < n_scenario; s++) {
             if (run[s] == NULL)
@@ -232,7 +232,7 @@ static CzStatus prepare(Sweeping *sweeping, CzError *error) {
     for (int k = 0; k < options->n_metric; k++) {
         CZ_TRY(cz_metric_parse(options->metric[k], &sweeping->metric[k], error));
         snprintf(sweep->metric[k], sizeof sweep->metric[k], "%s", options->metric[k]);
-        sweep->metric_unit[k] = sweeping->metric[k].kind->unit;
+        sweep->metric_unit[k] = sweeping->metric[k].kind->unit->text;
         sweep->metric_doc[k] = sweeping->metric[k].kind->doc;
     }
     const size_t n = (size_t)sweep->n_point;

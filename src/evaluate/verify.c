@@ -160,9 +160,10 @@ static Number number_of_match(const CzMatchResult *match, const CzCheckResult *r
 /* What an objective that is a metric is measured by when it is next to zero. */
 static double least_scale_of(const CzMetricKind *kind, const CzEvaluation *evaluation) {
     double scale = fabs(kind->scale); /* 1 of a yes or no */
-    for (int i = 0; strcmp(kind->unit, "kJ") == 0 && i < evaluation->n_run; i++)
+    for (int i = 0; strcmp(kind->unit->text, "kJ") == 0 && i < evaluation->n_run; i++)
         if (evaluation->run != NULL && evaluation->run[i] != NULL)
-            scale = fmax(scale, energy_scale(cz_run_summary(evaluation->run[i]), kind->per_unit));
+            scale =
+                fmax(scale, energy_scale(cz_run_summary(evaluation->run[i]), kind->unit->in_si));
     return scale;
 }
 

@@ -1,5 +1,5 @@
 /* When the value of a metric was reached, for those whose time a run keeps. */
-#include "evaluate/metric.h"
+#include "evaluate/when.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,53 +15,72 @@ static double event_time(const CzPlace *place, CzEventKind what, const char *whe
     return NAN;
 }
 
-static double wheel_lift_time(const CzVehicleResult *vehicle) {
+static void at(double time, double window[2]) {
+    window[0] = window[1] = time;
+}
+
+static void over(const double from[2], double window[2]) {
+    window[0] = from[0];
+    window[1] = from[1];
+}
+
+void cz_when_peak_time(const CzPlace *place, double window[2]) {
+    at(place->interface->peak_time, window);
+}
+
+void cz_when_bottomed_time(const CzPlace *place, double window[2]) {
+    at(event_time(place, CZ_EVENT_BOTTOMED_OUT, NULL), window);
+}
+
+void cz_when_overlap_time(const CzPlace *place, double window[2]) {
+    at(place->interface->overlap_time, window);
+}
+
+void cz_when_margin_time(const CzPlace *place, double window[2]) {
+    at(place->interface->margin_time, window);
+}
+
+void cz_when_sheared_time(const CzPlace *place, double window[2]) {
+    at(event_time(place, CZ_EVENT_SHEAR_OFF, place->element->name), window);
+}
+
+void cz_when_contact_window(const CzPlace *place, double window[2]) {
+    over(place->vehicle->contact_window, window);
+}
+
+void cz_when_window_120ms(const CzPlace *place, double window[2]) {
+    over(place->vehicle->window_120ms, window);
+}
+
+void cz_when_mean_window(const CzPlace *place, double window[2]) {
+    const CzVehicleResult *vehicle = place->vehicle;
+    over(vehicle->mean_deceleration_contact > vehicle->mean_deceleration_120ms
+             ? vehicle->contact_window
+             : vehicle->window_120ms,
+         window);
+}
+
+void cz_when_wheel_lift_time(const CzPlace *place, double window[2]) {
+    const CzVehicleResult *vehicle = place->vehicle;
     int highest = 0;
     for (int i = 1; i < 4; i++)
         if (vehicle->wheel_lift[i] > vehicle->wheel_lift[highest])
             highest = i;
-    return vehicle->wheel_lift_time[highest];
+    at(vehicle->wheel_lift_time[highest], window);
 }
 
-static double bottomed_time(const CzPlace *place) {
-    return event_time(place, CZ_EVENT_BOTTOMED_OUT, NULL);
+void cz_when_bogie_lift_time(const CzPlace *place, double window[2]) {
+    at(place->vehicle->bogie_lift_time, window);
 }
 
-static double sheared_time(const CzPlace *place) {
-    return event_time(place, CZ_EVENT_SHEAR_OFF, place->element->name);
+void cz_when_climb_time(const CzPlace *place, double window[2]) {
+    at(place->run->beyond_validity_time, window);
 }
-
-static const double *mean_window(const CzVehicleResult *vehicle) {
-    return vehicle->mean_deceleration_contact > vehicle->mean_deceleration_120ms
-               ? vehicle->contact_window
-               : vehicle->window_120ms;
-}
-
-/* One function per line of the list, that writes begin and end [s]. */
-#define CZ_PASTE(a, b) a##b
-#define CZ_READER(line) CZ_PASTE(read_, line)
-#define CZ_WHEN(name, begin, end)                                                                  \
-    static void CZ_READER(__LINE__)(const CzPlace *place, double when[2]) {                        \
-        when[0] = begin;                                                                           \
-        when[1] = end;                                                                             \
-    }
-#include "evaluate/when.def"
-#undef CZ_WHEN
-
-#define CZ_WHEN(name, begin, end) {name, CZ_READER(__LINE__)},
-static const struct {
-    const char *name;
-    void (*read)(const CzPlace *place, double when[2]);
-} readers[] = {
-#include "evaluate/when.def"
-};
-#undef CZ_WHEN
 
 void cz_metric_when(const CzMetricKind *kind, const CzPlace *place, double when[2]) {
     when[0] = when[1] = NAN;
-    for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
-        if (strcmp(readers[i].name, kind->name) == 0)
-            readers[i].read(place, when);
+    if (kind->when != NULL)
+        kind->when(place, when);
     if (kind->value(place) == 0 || !(when[1] >= when[0]))
         when[0] = when[1] = NAN;
 }

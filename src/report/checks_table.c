@@ -2,9 +2,10 @@
 #include "report/checks_table.h"
 
 #include "base/number.h"
-#include "report/grid.h"
-#include "report/runs.h"
 #include "report/figure.h"
+#include "report/runs.h"
+#include "report/table.h"
+#include "report/units.h"
 
 #include <math.h>
 #include <string.h>
@@ -99,25 +100,151 @@ static const char *or_empty(const char *text) {
     return text != NULL ? text : "";
 }
 
-static void put_check(CzGrid *grid, const CzCheckResult *check, const CzCheckResult *before,
-                      bool with_scenario) {
+/* To the right what is left, to the left what is missing. */
+static const CzBar margin_bar = {"bar", "margin", 30, 31, "#d0021b", "#009e73"};
+
+/* When the value was reached, or the window of a mean. */
+static void format_when(const CzCheckResult *check, size_t room, char *text) {
+    char from[CZ_FIGURE_ROOM], to[CZ_FIGURE_ROOM];
+    text[0] = '\0';
+    if (!isfinite(check->when[0]))
+        return;
+    cz_figure_fixed(from, 0, check->when[0] * CZ_MILLI_PER_UNIT);
+    cz_figure_fixed(to, 0, check->when[1] * CZ_MILLI_PER_UNIT);
+    const bool is_window = check->when[1] > check->when[0];
+    snprintf(text, room, "%.20s%s%.20s", from, is_window ? " to " : "", is_window ? to : "");
+}
+
+/* Why, and the clause and source of the limit. */
+static void put_source(CzReportTable *table, const CzCheckResult *check) {
+    const bool has_source = check->source != NULL && check->source[0] != '\0';
+    const bool has_confidence = has_source && check->confidence != NULL;
+    char text[3 * CZ_SENTENCE_ROOM];
+    snprintf(text, sizeof text, "%s%s%s%s%s%s%s", or_empty(check->why),
+             check->why != NULL && has_source ? "; " : "", or_empty(check->clause),
+             check->clause != NULL && has_source ? ", " : "", or_empty(check->source),
+             has_confidence ? ", confidence " : "", has_confidence ? check->confidence : "");
+    cz_table_put(table, text, CZ_STYLE_SMALL);
+}
+
+/* What a column holds. */
+typedef enum Column {
+    COLUMN_NAME,
+    COLUMN_VERDICT,
+    COLUMN_WHERE,
+    COLUMN_SCENARIO,
+    COLUMN_WHEN,
+    COLUMN_LIMIT,
+    COLUMN_BEFORE,
+    COLUMN_VALUE,
+    COLUMN_MARGIN,
+    COLUMN_BAR,
+    COLUMN_WHY,
+    COLUMN_SOURCE
+} Column;
+
+typedef struct ColumnHead {
+    Column column;
+    const char *head;
+} ColumnHead;
+static const ColumnHead text_columns[] = {
+    {COLUMN_NAME, "check"},     {COLUMN_WHERE, "where"},    {COLUMN_SCENARIO, "scenario"},
+    {COLUMN_LIMIT, ">limit"},   {COLUMN_BEFORE, ">before"}, {COLUMN_VALUE, ">value"},
+    {COLUMN_MARGIN, ">margin"}, {COLUMN_VERDICT, ""},       {COLUMN_WHY, ""}};
+static const ColumnHead page_columns[] = {{COLUMN_NAME, "check"},
+                                          {COLUMN_VERDICT, "verdict"},
+                                          {COLUMN_WHERE, "where"},
+                                          {COLUMN_SCENARIO, "scenario"},
+                                          {COLUMN_WHEN, ">when ms"},
+                                          {COLUMN_LIMIT, ">limit"},
+                                          {COLUMN_BEFORE, ">before"},
+                                          {COLUMN_VALUE, ">value"},
+                                          {COLUMN_MARGIN, ">margin"},
+                                          {COLUMN_BAR, ""},
+                                          {COLUMN_SOURCE, "remark and source"}};
+static void put_cell(CzReportTable *table, Column column, const CzCheckResult *check,
+                     const CzCheckResult *before) {
     char text[96];
-    cz_grid_put(grid, check->name, CZ_STYLE_PLAIN);
-    cz_grid_put(grid, check->where, CZ_STYLE_PLAIN);
-    cz_grid_put(grid, with_scenario ? or_empty(check->scenario) : "", CZ_STYLE_PLAIN);
-    cz_checks_format_limit(check, sizeof text, text);
-    cz_grid_put(grid, text, CZ_STYLE_PLAIN);
-    if (before != NULL)
-        cz_checks_format_value(before, sizeof text, text);
-    cz_grid_put(grid, before != NULL ? text : "",
-                before != NULL && before->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD
-                                                                     : CZ_STYLE_PLAIN);
-    cz_checks_format_value(check, sizeof text, text);
-    cz_grid_put(grid, text, CZ_STYLE_PLAIN);
-    cz_grid_put(grid, cz_figure_margin(text, check->margin), CZ_STYLE_PLAIN);
-    cz_grid_put(grid, cz_checks_word(check),
-                does_not_apply(check) ? CZ_STYLE_PLAIN : verdict_styles[check->verdict]);
-    cz_grid_put(grid, or_empty(check->why), CZ_STYLE_PLAIN);
+    switch (column) {
+    case COLUMN_NAME:
+        cz_table_put(table, check->name, CZ_STYLE_PLAIN);
+        break;
+    case COLUMN_VERDICT:
+        cz_table_put(table, cz_checks_word(check),
+                     does_not_apply(check) ? CZ_STYLE_PLAIN : verdict_styles[check->verdict]);
+        break;
+    case COLUMN_WHERE:
+        cz_table_put(table, check->where, CZ_STYLE_PLAIN);
+        break;
+    case COLUMN_SCENARIO:
+        cz_table_put(table, check->scenario, CZ_STYLE_PLAIN);
+        break;
+    case COLUMN_WHEN:
+        format_when(check, sizeof text, text);
+        cz_table_put(table, text, CZ_STYLE_PLAIN);
+        break;
+    case COLUMN_LIMIT:
+        cz_checks_format_limit(check, sizeof text, text);
+        cz_table_put(table, text, CZ_STYLE_PLAIN);
+        break;
+    case COLUMN_BEFORE:
+        text[0] = '\0';
+        if (before != NULL)
+            cz_checks_format_value(before, sizeof text, text);
+        cz_table_put(table, text,
+                     before != NULL && before->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD
+                                                                          : CZ_STYLE_PLAIN);
+        break;
+    case COLUMN_VALUE:
+        cz_checks_format_value(check, sizeof text, text);
+        cz_table_put(table, text, CZ_STYLE_PLAIN);
+        break;
+    case COLUMN_MARGIN:
+        cz_table_put(table, cz_figure_margin(text, check->margin), CZ_STYLE_PLAIN);
+        break;
+    case COLUMN_BAR:
+        cz_table_put_bar(table, &margin_bar, check->margin);
+        break;
+    case COLUMN_WHY:
+        cz_table_put(table, check->why, CZ_STYLE_PLAIN);
+        break;
+    case COLUMN_SOURCE:
+        put_source(table, check);
+        break;
+    }
+}
+
+static void put_check(CzReportTable *table, int n, const ColumnHead *column,
+                      const CzCheckResult *check, const CzCheckResult *before) {
+    for (int k = 0; k < n; k++)
+        put_cell(table, column[k].column, check, before);
+}
+
+static void begin(CzReportTable *table, int n, const ColumnHead *column, bool several,
+                  bool with_before) {
+    cz_table_begin(table, 0, NULL);
+    for (int k = 0; k < n; k++) {
+        const bool is_left_out = (column[k].column == COLUMN_SCENARIO && !several) ||
+                                 (column[k].column == COLUMN_BEFORE && !with_before);
+        const bool is_after = column[k].column == COLUMN_VALUE && with_before;
+        cz_table_head(table, is_left_out ? NULL : is_after ? ">after" : column[k].head);
+    }
+}
+
+void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
+                          const CzEvaluation *before, bool rest) {
+    enum { n_column = sizeof page_columns / sizeof *page_columns };
+    CzReportTable table;
+    begin(&table, n_column, page_columns, true, before != NULL);
+    table.class_name = "checks";
+    for (int pass = 0; pass < 2; pass++) /* failures first */
+        for (int i = 0; i < evaluation->n_check; i++) {
+            const bool fails = evaluation->check[i].verdict == CZ_VERDICT_FAIL;
+            if (cz_checks_is_shown(evaluation, i) != rest && fails == (pass == 0))
+                put_check(&table, n_column, page_columns, &evaluation->check[i],
+                          before != NULL ? &before->check[i] : NULL);
+        }
+    cz_table_write_page(&table, markup);
 }
 
 static void write_count(const CzEvaluation *evaluation, bool colour, FILE *stream) {
@@ -132,12 +259,12 @@ static void write_count(const CzEvaluation *evaluation, bool colour, FILE *strea
         if (n[order[i]] == 0)
             continue;
         fprintf(stream, "%s%d ", between, n[order[i]]);
-        cz_grid_write_text(verdict_words[order[i]], verdict_styles[order[i]], colour, stream);
+        cz_text_write(verdict_words[order[i]], verdict_styles[order[i]], colour, stream);
         between = ", ";
     }
     fputs(". Verdict: ", stream);
-    cz_grid_write_text(verdict_words[evaluation->verdict], verdict_styles[evaluation->verdict],
-                       colour, stream);
+    cz_text_write(verdict_words[evaluation->verdict], verdict_styles[evaluation->verdict], colour,
+                  stream);
     fputs(".\n", stream);
 }
 
@@ -154,8 +281,8 @@ static void write_omitted(const CzEvaluation *evaluation, bool colour, FILE *str
     if (n == 0)
         return;
     fprintf(stream, "%d check%s of scenarios that were not run: ", n, n == 1 ? "" : "s");
-    cz_grid_write_text(verdict_words[CZ_VERDICT_NOT_CHECKED],
-                       verdict_styles[CZ_VERDICT_NOT_CHECKED], colour, stream);
+    cz_text_write(verdict_words[CZ_VERDICT_NOT_CHECKED], verdict_styles[CZ_VERDICT_NOT_CHECKED],
+                  colour, stream);
     fputs(".\n", stream);
 }
 
@@ -163,7 +290,7 @@ static void write_omitted(const CzEvaluation *evaluation, bool colour, FILE *str
 static void write_not_covered(const CzEvaluation *evaluation, bool colour, FILE *stream) {
     for (int i = 0; i < evaluation->n_not_judged; i++) {
         fputs("Not judged: ", stream);
-        cz_grid_write_text(evaluation->not_judged[i].train, CZ_STYLE_CAREFUL, colour, stream);
+        cz_text_write(evaluation->not_judged[i].train, CZ_STYLE_CAREFUL, colour, stream);
         fprintf(stream, ", %s.\n", evaluation->not_judged[i].why);
     }
     if (evaluation->n_not_covered == 0)
@@ -171,41 +298,30 @@ static void write_not_covered(const CzEvaluation *evaluation, bool colour, FILE 
     fputs("Not covered by this program, to be shown by other means: ", stream);
     for (int i = 0; i < evaluation->n_not_covered; i++) {
         fputs(i > 0 ? "; " : "", stream);
-        cz_grid_write_text(evaluation->not_covered[i], CZ_STYLE_PLAIN, colour, stream);
+        cz_text_write(evaluation->not_covered[i], CZ_STYLE_PLAIN, colour, stream);
     }
     fputs(".\n", stream);
 }
 
 bool cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
                            FILE *stream) {
-    bool is_whole = true;
     if (evaluation->n_check == 0) {
         fputs("No checks: NOTHING WAS JUDGED. Add `checks:` to the problem file.\n", stream);
         write_not_covered(evaluation, colour, stream);
         return true;
     }
+    enum { n_column = sizeof text_columns / sizeof *text_columns };
     const bool several = cz_n_kept_run(evaluation) > 1;
     const bool with_before = before != NULL && before->n_check == evaluation->n_check;
-    const char *const names[] = {"check",
-                                 "where",
-                                 several ? "scenario" : "",
-                                 "limit",
-                                 with_before ? "before" : "",
-                                 with_before ? "after" : "value",
-                                 "margin",
-                                 "",
-                                 ""};
-    CzGrid grid;
-    cz_grid_begin(&grid, "lllrrrrll");
-    for (int i = 0; i < 9; i++)
-        cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
+    CzReportTable table;
+    begin(&table, n_column, text_columns, several, with_before);
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
         if (check->is_omitted || (several && !cz_checks_is_shown(evaluation, i)))
             continue;
-        put_check(&grid, check, with_before ? &before->check[i] : NULL, several);
+        put_check(&table, n_column, text_columns, check, with_before ? &before->check[i] : NULL);
     }
-    is_whole &= cz_grid_write(&grid, colour, stream);
+    const bool is_whole = cz_table_write_text(&table, colour, stream);
     write_omitted(evaluation, colour, stream);
     write_count(evaluation, colour, stream);
     write_not_covered(evaluation, colour, stream);

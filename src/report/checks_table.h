@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "report/figure.h"
+#include "report/markup.h"
 #include "crushzone/report.h"
 
 /* One line per check of a single scenario; of several scenarios the worst line of each check and
@@ -13,6 +14,10 @@
  * evaluation with the same checks. Ends with a line that counts the verdicts. */
 bool cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
                            FILE *stream);
+
+/* The rows of a page: those that are shown, or the rest; failures first. `before` as above. */
+void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
+                          const CzEvaluation *before, bool rest);
 
 /* A value in its unit, with as many digits as set it apart from its limit when it breaks it. */
 void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text);

@@ -4,8 +4,7 @@
 #include "report/checks_table.h"
 #include "report/compare.h"
 #include "report/figure.h"
-#include "report/grid.h"
-#include "report/units.h"
+#include "report/table.h"
 
 #include <math.h>
 #include <string.h>
@@ -64,69 +63,42 @@ bool cz_compared_differs(int n, const CzReportRun *run, const CzCheckResult *che
 
 /* ---- numbers of interfaces and cars ---- */
 
-static double peak_force(const CzRunSummary *run, int i) {
-    return run->interface[i].peak_force / CZ_KILO;
-}
-static double closure(const CzRunSummary *run, int i) {
-    return run->interface[i].shortening * CZ_MILLI_PER_UNIT;
-}
-static double energy(const CzRunSummary *run, int i) {
-    return cz_run_total(run, run->interface[i].energy) / CZ_KILO;
-}
-static double stroke_used(const CzRunSummary *run, int i) {
-    double used = 0;
-    for (int k = 0; k < run->interface[i].n_element; k++)
-        used = fmax(used, run->interface[i].element[k].stroke_used);
-    return 100 * used;
-}
-static double mean_deceleration(const CzRunSummary *run, int i) {
-    return run->vehicle[i].mean_deceleration_120ms / CZ_GRAVITY;
-}
-static double peak_deceleration(const CzRunSummary *run, int i) {
-    return run->vehicle[i].peak_deceleration / CZ_GRAVITY;
-}
-static double wheel_lift(const CzRunSummary *run, int i) {
-    double lift = NAN;
-    for (int k = 0; k < 4; k++)
-        lift = fmax(lift, run->vehicle[i].wheel_lift[k]);
-    return lift * CZ_MILLI_PER_UNIT;
+static const CzResult *const of_interfaces[] = {
+    CZ_RESULT_AT(INTERFACE, peak_force_kN), CZ_RESULT_AT(INTERFACE, shortening_mm),
+    CZ_RESULT_AT(INTERFACE, stroke_used), CZ_RESULT_AT(INTERFACE, energy_kJ)};
+static const CzResult *const of_cars[] = {CZ_RESULT_AT(VEHICLE, mean_deceleration_120ms_g),
+                                          CZ_RESULT_AT(VEHICLE, peak_deceleration_g),
+                                          CZ_RESULT_AT(VEHICLE, max_wheel_lift_mm)};
+
+const CzResult *cz_compared_result(bool of_interface, int index) {
+    const int n = of_interface ? (int)(sizeof of_interfaces / sizeof *of_interfaces)
+                               : (int)(sizeof of_cars / sizeof *of_cars);
+    return index >= n ? NULL : of_interface ? of_interfaces[index] : of_cars[index];
 }
 
-const CzComparedNumber cz_compared_numbers[CZ_N_COMPARED_NUMBER] = {
-    {"peak force kN", "peak_force_kN", 1, true, peak_force},
-    {"closure mm", "shortening_mm", 1, true, closure},
-    {"stroke used %", "stroke_used", 0.01, true, stroke_used},
-    {"energy kJ", "energy_kJ", 1, true, energy},
-    {"mean g, 120 ms", "mean_deceleration_120ms_g", 1, false, mean_deceleration},
-    {"peak g", "peak_deceleration_g", 1, false, peak_deceleration},
-    {"wheel lift mm", "max_wheel_lift_mm", 1, false, wheel_lift}};
-
-int cz_compared_count(const CzRunSummary *run, const CzComparedNumber *number) {
-    return number->of_interface ? run->n_interface : run->n_vehicle;
+int cz_compared_count(const CzRunSummary *run, bool of_interface) {
+    return of_interface ? run->n_interface : run->n_vehicle;
 }
 
-const char *cz_compared_name(const CzRunSummary *run, const CzComparedNumber *number, int i) {
-    return number->of_interface ? run->interface[i].name : run->vehicle[i].name;
+const char *cz_compared_name(const CzRunSummary *run, bool of_interface, int index) {
+    return of_interface ? run->interface[index].name : run->vehicle[index].name;
 }
 
-double cz_compared_value(const CzReportRun *run, int i, const CzComparedNumber *number,
-                         const char *name) {
+double cz_compared_value(const CzReportRun *run, int i, const CzResult *result, const char *name) {
     const CzRunSummary *summary = cz_compared_run(run, i);
-    for (int k = 0; summary != NULL && k < cz_compared_count(summary, number); k++)
-        if (strcmp(cz_compared_name(summary, number, k), name) == 0)
-            return number->value(summary, k);
+    const bool of_interface = result->record == CZ_RECORD_INTERFACE;
+    CzResultContext context = {.run = summary};
+    for (int k = 0; summary != NULL && k < cz_compared_count(summary, of_interface); k++)
+        if (strcmp(cz_compared_name(summary, of_interface, k), name) == 0)
+            return cz_result_number(result, &context,
+                                    of_interface ? (const void *)&summary->interface[k]
+                                                 : (const void *)&summary->vehicle[k]);
     return NAN;
 }
 
 bool cz_compared_is_beyond(const CzReportRun *run, int i) {
     const CzRunSummary *summary = cz_compared_run(run, i);
     return summary != NULL && summary->beyond_validity;
-}
-
-const char *cz_compared_text(char text[CZ_FIGURE_ROOM], const CzReportRun *run, int i,
-                             const CzComparedNumber *number, const char *name) {
-    cz_figure_plain(text, cz_compared_value(run, i, number, name));
-    return cz_figure_mark(text, cz_compared_is_beyond(run, i));
 }
 
 const char *cz_compared_caution(int n, const CzReportRun *run) {
@@ -136,75 +108,98 @@ const char *cz_compared_caution(int n, const CzReportRun *run) {
     return "";
 }
 
-/* ---- on the terminal ---- */
+/* ---- tables ---- */
 
-static bool write_checks(int n, const CzReportRun *run, bool colour, FILE *stream) {
-    bool is_whole = true;
+static void begin(CzReportTable *table, int n, const CzReportRun *run, const char *first,
+                  const char *second) {
+    cz_table_begin(table, 2, (const char *const[]){first, second});
+    for (int i = 0; i < n; i++) {
+        char head[CZ_SENTENCE_ROOM];
+        snprintf(head, sizeof head, ">%s", run[i].label);
+        cz_table_head(table, head);
+    }
+}
+
+void cz_compared_begin_checks(CzReportTable *table, int n, const CzReportRun *run, int *n_same) {
     const CzEvaluation *first = run[0].evaluation;
-    int n_same = 0;
-    char alignment[] = "llrrrrrrrr";
-    alignment[2 + n] = '\0';
-    CzGrid grid;
-    cz_grid_begin(&grid, alignment);
-    cz_grid_put(&grid, "check", CZ_STYLE_PLAIN);
-    cz_grid_put(&grid, "limit", CZ_STYLE_PLAIN);
-    for (int i = 0; i < n; i++)
-        cz_grid_put(&grid, run[i].label, CZ_STYLE_PLAIN);
+    *n_same = 0;
+    begin(table, n, run, "check", ">limit");
     for (int k = 0; k < first->n_check; k++) {
         const CzCheckResult *check = &first->check[k];
-        char name[CZ_LABEL_ROOM + 1 + CZ_NAME_ROOM], text[160], value[96];
+        char text[CZ_LABEL_ROOM + 1 + CZ_NAME_ROOM], value[96];
         if (!cz_compared_differs(n, run, check)) {
-            n_same++;
+            ++*n_same;
             continue;
         }
-        snprintf(name, sizeof name, "%s, %s", check->name,
+        snprintf(text, sizeof text, "%s, %s", check->name,
                  check->scenario != NULL ? check->scenario : "");
-        cz_grid_put(&grid, name, CZ_STYLE_PLAIN);
-        cz_checks_format_limit(check, sizeof text, text);
-        cz_grid_put(&grid, text, CZ_STYLE_PLAIN);
+        cz_table_put(table, text, CZ_STYLE_PLAIN);
+        cz_checks_format_limit(check, sizeof value, value);
+        cz_table_put(table, value, CZ_STYLE_PLAIN);
         for (int i = 0; i < n; i++) {
             const CzCheckResult *other = cz_compared_check(&run[i], check);
             if (other == NULL) {
-                cz_grid_put(&grid, "-", CZ_STYLE_PLAIN);
+                cz_table_put(table, "-", CZ_STYLE_PLAIN);
                 continue;
             }
             cz_checks_format_value(other, sizeof value, value);
             snprintf(text, sizeof text, "%s %s", value, cz_checks_word(other));
-            cz_grid_put(&grid, text,
-                        other->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+            cz_table_put(table, text,
+                         other->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
         }
     }
-    is_whole &= cz_grid_write(&grid, colour, stream);
+}
+
+/* Whether any of the runs has the number: wheels of single masses have no lift. */
+static bool is_known(int n, const CzReportRun *run, const CzResult *result, const char *name) {
+    for (int i = 0; i < n; i++)
+        if (isfinite(cz_compared_value(run, i, result, name)))
+            return true;
+    return false;
+}
+
+/* With as many digits as it takes to see a difference, so shares as plain numbers. */
+static void put_numbers(CzReportTable *table, int n, const CzReportRun *run, const CzResult *result,
+                        const char *name) {
+    const double factor = result->format == CZ_FORMAT_PERCENT ? 100 : 1;
+    char text[CZ_FIGURE_ROOM];
+    cz_table_put(table, name, CZ_STYLE_PLAIN);
+    cz_table_put(table, result->title, CZ_STYLE_PLAIN);
+    for (int i = 0; i < n; i++) {
+        cz_figure_plain(text, factor * cz_compared_value(run, i, result, name));
+        cz_table_put(table, cz_figure_mark(text, cz_compared_is_beyond(run, i)), CZ_STYLE_PLAIN);
+    }
+}
+
+void cz_compared_begin_numbers(CzReportTable *table, int n, const CzReportRun *run,
+                               bool of_interface, bool known) {
+    const CzRunSummary *first = cz_compared_run(run, 0);
+    const CzResult *result;
+    begin(table, n, run, of_interface ? "interface" : "car", "");
+    for (int k = 0; (result = cz_compared_result(of_interface, k)) != NULL; k++)
+        for (int i = 0; i < cz_compared_count(first, of_interface); i++) {
+            const char *name = cz_compared_name(first, of_interface, i);
+            if (!known || is_known(n, run, result, name))
+                put_numbers(table, n, run, result, name);
+        }
+}
+
+/* ---- on the terminal ---- */
+
+static bool write_checks(int n, const CzReportRun *run, bool colour, FILE *stream) {
+    CzReportTable table;
+    int n_same;
+    cz_compared_begin_checks(&table, n, run, &n_same);
+    const bool is_whole = cz_table_write_text(&table, colour, stream);
     fprintf(stream, "%d check%s the same.\n\n", n_same, n_same == 1 ? " is" : "s are");
     return is_whole;
 }
 
 static bool write_numbers(int n, const CzReportRun *run, bool of_interface, bool colour,
                           FILE *stream) {
-    bool is_whole = true;
-    const CzRunSummary *first = cz_compared_run(run, 0);
-    char alignment[] = "llrrrrrrrr";
-    alignment[2 + n] = '\0';
-    CzGrid grid;
-    cz_grid_begin(&grid, alignment);
-    cz_grid_put(&grid, of_interface ? "interface" : "car", CZ_STYLE_PLAIN);
-    cz_grid_put(&grid, "", CZ_STYLE_PLAIN);
-    for (int i = 0; i < n; i++)
-        cz_grid_put(&grid, run[i].label, CZ_STYLE_PLAIN);
-    for (int k = 0; k < CZ_N_COMPARED_NUMBER; k++) {
-        const CzComparedNumber *number = &cz_compared_numbers[k];
-        for (int i = 0;
-             number->of_interface == of_interface && i < cz_compared_count(first, number); i++) {
-            const char *name = cz_compared_name(first, number, i);
-            char text[CZ_FIGURE_ROOM];
-            cz_grid_put(&grid, name, CZ_STYLE_PLAIN);
-            cz_grid_put(&grid, number->name, CZ_STYLE_PLAIN);
-            for (int m = 0; m < n; m++)
-                cz_grid_put(&grid, cz_compared_text(text, run, m, number, name), CZ_STYLE_PLAIN);
-        }
-    }
-    is_whole &= cz_grid_write(&grid, colour, stream);
-    return is_whole;
+    CzReportTable table;
+    cz_compared_begin_numbers(&table, n, run, of_interface, false);
+    return cz_table_write_text(&table, colour, stream);
 }
 
 CzStatus cz_report_write_comparison(int n, const CzReportRun *run, bool colour, FILE *stream) {
@@ -218,7 +213,7 @@ CzStatus cz_report_write_comparison(int n, const CzReportRun *run, bool colour, 
     fputc('\n', stream);
     is_whole &= write_numbers(n, run, false, colour, stream);
     if (cz_compared_caution(n, run)[0] != '\0') {
-        cz_grid_write_text(cz_compared_caution(n, run), CZ_STYLE_BAD, colour, stream);
+        cz_text_write(cz_compared_caution(n, run), CZ_STYLE_BAD, colour, stream);
         fputc('\n', stream);
     }
     return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;

@@ -2,6 +2,7 @@
 #include "report/csv.h"
 
 #include "report/figure.h"
+#include "report/results.h"
 #include "report/units.h"
 
 #include <math.h>
@@ -99,48 +100,67 @@ static void end_row(Table *table) {
     table->in_row = false;
 }
 
-static void put_names(Table *table, int n, const char *const *name) {
+static void put_keys(Table *table, int n, const CzResult *const *result) {
     for (int i = 0; i < n; i++)
-        put_text(table, name[i]);
-    end_row(table);
+        put_text(table, result[i]->key);
+}
+
+/* A field of a record; empty for a column that the record does not have. */
+static void put_result(Table *table, const CzResult *result, CzResultContext *context,
+                       const void *record) {
+    switch (result != NULL ? result->form : CZ_FORM_METRIC) {
+    case CZ_FORM_EXACT:
+        put_exact(table, cz_result_number(result, context, record));
+        break;
+    case CZ_FORM_REAL:
+    case CZ_FORM_TOTAL:
+        put_number(table, cz_result_number(result, context, record));
+        break;
+    case CZ_FORM_FLAG:
+    case CZ_FORM_FLAG_BY:
+        put_flag(table, cz_result_flag(result, context, record));
+        break;
+    case CZ_FORM_WHOLE_BY:
+        put_number(table, (double)result->by.whole(context, record));
+        break;
+    case CZ_FORM_TEXT:
+    case CZ_FORM_TEXT_OR_NULL:
+    case CZ_FORM_TEXT_BY:
+    case CZ_FORM_VERDICT:
+        put_text(table, cz_result_words(result, context, record));
+        break;
+    default:
+        put_text(table, NULL);
+    }
 }
 
 void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *options,
                          FILE *stream) {
-    static const char *const names[] = {"name",    "scenario",   "where",          "kind",
-                                        "limit",   "value",      "unit",           "margin",
-                                        "verdict", "why",        "profile",        "clause",
-                                        "source",  "confidence", "beyond_validity"};
-    enum { verdict = 8, n_column = sizeof names / sizeof *names };
+    static const CzResult *const columns[] = {
+        CZ_RESULT_AT(CHECK, name),           CZ_RESULT_AT(CHECK, scenario),
+        CZ_RESULT_AT(CHECK, where),          CZ_RESULT_AT(CHECK, kind),
+        CZ_RESULT_AT(CHECK, limit),          CZ_RESULT_AT(CHECK, value),
+        CZ_RESULT_AT(CHECK, unit),           CZ_RESULT_AT(CHECK, margin),
+        CZ_RESULT_AT(CHECK, verdict),        CZ_RESULT_AT(CHECK, why),
+        CZ_RESULT_AT(CHECK, profile),        CZ_RESULT_AT(CHECK, clause),
+        CZ_RESULT_AT(CHECK, source),         CZ_RESULT_AT(CHECK, confidence),
+        CZ_RESULT_AT(CHECK, beyond_validity)};
+    enum { n_column = sizeof columns / sizeof *columns };
+    CzResultContext context = {.evaluation = evaluation};
     Table table = table_of(options, stream);
-    put_names(&table, n_column, names);
+    put_keys(&table, n_column, columns);
+    end_row(&table);
     for (int i = 0; i < evaluation->n_check; i++) {
-        const CzCheckResult *check = &evaluation->check[i];
-        put_text(&table, check->name);
-        put_text(&table, check->scenario);
-        put_text(&table, check->where);
-        put_text(&table, check->is_minimum ? "min" : "max");
-        put_exact(&table, check->limit);
-        put_exact(&table, check->value);
-        put_text(&table, check->unit);
-        put_exact(&table, check->margin);
-        put_text(&table, cz_verdict_text(check->verdict));
-        put_text(&table, check->why);
-        put_text(&table, check->profile);
-        put_text(&table, check->clause);
-        put_text(&table, check->source);
-        put_text(&table, check->confidence);
-        put_flag(&table, check->beyond_validity);
+        for (int k = 0; k < n_column; k++)
+            put_result(&table, columns[k], &context, &evaluation->check[i]);
         end_row(&table);
     }
     for (int i = 0; i < evaluation->n_not_covered; i++) {
-        put_text(&table, evaluation->not_covered[i]);
-        for (int column = 1; column < verdict; column++)
-            put_text(&table, NULL);
-        put_text(&table, "not covered");
-        put_text(&table, "to be shown by other means");
-        for (int column = verdict + 2; column < n_column; column++)
-            put_text(&table, NULL);
+        for (int k = 0; k < n_column; k++)
+            put_text(&table, columns[k] == CZ_RESULT_AT(CHECK, name) ? evaluation->not_covered[i]
+                             : columns[k] == CZ_RESULT_AT(CHECK, verdict) ? "not covered"
+                             : columns[k] == CZ_RESULT_AT(CHECK, why) ? "to be shown by other means"
+                                                                      : NULL);
         end_row(&table);
     }
 }
@@ -148,41 +168,41 @@ void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *
 /* One row per element, after one for the interface as a whole with an empty element. */
 void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *options,
                              FILE *stream) {
-    static const char *const names[] = {"interface",    "element",       "peak_force_kN",
-                                        "peak_time_ms", "shortening_mm", "stroke_mm",
-                                        "stroke_used",  "energy_kJ",     "energy_share",
-                                        "stored_kJ",    "bottomed_out",  "beyond_validity"};
+    static const struct {
+        const CzResult *of_interface, *of_element; /* NULL where one has none */
+    } columns[] = {
+        {CZ_RESULT_AT(INTERFACE, peak_force_kN), CZ_RESULT_AT(ELEMENT, peak_force_kN)},
+        {CZ_RESULT_AT(INTERFACE, peak_time_ms), NULL},
+        {CZ_RESULT_AT(INTERFACE, shortening_mm), NULL},
+        {NULL, CZ_RESULT_AT(ELEMENT, stroke_mm)},
+        {NULL, CZ_RESULT_AT(ELEMENT, stroke_used)},
+        {CZ_RESULT_AT(INTERFACE, energy_kJ), CZ_RESULT_AT(ELEMENT, energy_kJ)},
+        {CZ_RESULT_AT(INTERFACE, energy_share), NULL},
+        {NULL, CZ_RESULT_AT(ELEMENT, stored_kJ)},
+        {CZ_RESULT_AT(INTERFACE, bottomed_out), CZ_RESULT_AT(ELEMENT, bottomed_out)},
+        {CZ_RESULT_AT(INTERFACE, beyond_validity), CZ_RESULT_AT(ELEMENT, beyond_validity)}};
+    enum { n_column = sizeof columns / sizeof *columns };
+    CzResultContext context = {.run = run};
     Table table = table_of(options, stream);
-    put_names(&table, (int)(sizeof names / sizeof *names), names);
+    put_text(&table, "interface");
+    put_text(&table, "element");
+    for (int k = 0; k < n_column; k++)
+        put_text(&table,
+                 (columns[k].of_interface != NULL ? columns[k].of_interface : columns[k].of_element)
+                     ->key);
+    end_row(&table);
     for (int i = 0; i < run->n_interface; i++) {
         const CzInterfaceResult *interface = &run->interface[i];
         put_text(&table, interface->name);
         put_text(&table, NULL);
-        put_number(&table, interface->peak_force / CZ_KILO);
-        put_number(&table, cz_milliseconds(interface->peak_time));
-        put_number(&table, interface->shortening * CZ_MILLI_PER_UNIT);
-        put_text(&table, NULL);
-        put_text(&table, NULL);
-        put_number(&table, cz_run_total(run, interface->energy) / CZ_KILO);
-        put_number(&table, cz_run_total(run, interface->energy_share));
-        put_text(&table, NULL);
-        put_flag(&table, interface->bottomed_out);
-        put_flag(&table, run->beyond_validity);
+        for (int k = 0; k < n_column; k++)
+            put_result(&table, columns[k].of_interface, &context, interface);
         end_row(&table);
-        for (int k = 0; k < interface->n_element; k++) {
-            const CzElementResult *element = &interface->element[k];
+        for (int e = 0; e < interface->n_element; e++) {
             put_text(&table, interface->name);
-            put_text(&table, element->name);
-            put_number(&table, element->peak_force / CZ_KILO);
-            put_text(&table, NULL);
-            put_text(&table, NULL);
-            put_number(&table, element->stroke * CZ_MILLI_PER_UNIT);
-            put_number(&table, element->stroke_used);
-            put_number(&table, cz_run_total(run, element->energy) / CZ_KILO);
-            put_text(&table, NULL);
-            put_number(&table, cz_run_total(run, element->stored) / CZ_KILO);
-            put_flag(&table, element->bottomed_out);
-            put_flag(&table, run->beyond_validity);
+            put_text(&table, interface->element[e].name);
+            for (int k = 0; k < n_column; k++)
+                put_result(&table, columns[k].of_element, &context, &interface->element[e]);
             end_row(&table);
         }
     }
@@ -215,22 +235,20 @@ void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FIL
 
 void cz_csv_write_history(const CzEvaluator *evaluator, const CzOutcome *outcome,
                           const CzReportOptions *options, FILE *stream) {
+    static const CzResult *const columns[] = {
+        CZ_RESULT_AT(TRIAL, evaluation), CZ_RESULT_AT(TRIAL, phase), CZ_RESULT_AT(TRIAL, objective),
+        CZ_RESULT_AT(TRIAL, violation), CZ_RESULT_AT(TRIAL, feasible)};
+    enum { n_column = sizeof columns / sizeof *columns };
     const int n_variable = outcome->trial_x != NULL ? outcome->n_variable : 0;
-    static const char *const names[] = {"evaluation", "phase", "objective", "violation",
-                                        "feasible"};
+    CzResultContext context = {.outcome = outcome};
     Table table = table_of(options, stream);
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        put_text(&table, names[i]);
+    put_keys(&table, n_column, columns);
     for (int k = 0; k < n_variable; k++)
         put_text(&table, cz_evaluator_variable(evaluator, k)->name);
     end_row(&table);
     for (long i = 0; i < outcome->n_trial; i++) {
-        const CzTrial *trial = &outcome->trial[i];
-        put_number(&table, (double)(i + 1));
-        put_text(&table, trial->phase);
-        put_exact(&table, trial->objective);
-        put_exact(&table, trial->violation);
-        put_flag(&table, trial->feasible);
+        for (int k = 0; k < n_column; k++)
+            put_result(&table, columns[k], &context, &outcome->trial[i]);
         for (int k = 0; k < n_variable; k++)
             put_exact(&table, outcome->trial_x[i * n_variable + k]);
         end_row(&table);
@@ -238,27 +256,32 @@ void cz_csv_write_history(const CzEvaluator *evaluator, const CzOutcome *outcome
 }
 
 void cz_csv_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FILE *stream) {
-    static const char *const names[] = {"state", "verdict",  "margin",         "check",
-                                        "where", "scenario", "beyond_validity"};
+    static const CzResult *const columns[] = {
+        CZ_RESULT_AT(POINT, state),          CZ_RESULT_AT(POINT, verdict),
+        CZ_RESULT_AT(POINT, margin),         CZ_RESULT_AT(POINT, check),
+        CZ_RESULT_AT(POINT, where),          CZ_RESULT_AT(POINT, scenario),
+        CZ_RESULT_AT(POINT, beyond_validity)};
+    enum { n_column = sizeof columns / sizeof *columns };
+    CzResultContext context = {.sweep = sweep};
     Table table = table_of(options, stream);
     for (int k = 0; k < sweep->n_axis; k++)
         put_text(&table, sweep->axis[k].path);
     for (int k = 0; k < sweep->n_metric; k++)
         put_text(&table, sweep->metric[k]);
-    put_names(&table, (int)(sizeof names / sizeof *names), names);
+    put_keys(&table, n_column, columns);
+    end_row(&table);
     for (int i = 0; i < sweep->n_point; i++) {
         const CzSweepPoint *point = &sweep->point[i];
+        const bool is_done = point->state == CZ_SWEEP_DONE;
         for (int k = 0; k < sweep->n_axis; k++)
             put_exact(&table, point->value[k]);
         for (int k = 0; k < sweep->n_metric; k++)
             put_exact(&table, point->metric[k]);
-        put_text(&table, cz_sweep_state_text(point->state));
-        put_text(&table, point->state == CZ_SWEEP_DONE ? cz_verdict_text(point->verdict) : NULL);
-        put_exact(&table, point->margin);
-        put_text(&table, point->check);
-        put_text(&table, point->where);
-        put_text(&table, point->scenario);
-        put_flag(&table, point->beyond_validity);
+        for (int k = 0; k < n_column; k++)
+            if (columns[k] == CZ_RESULT_AT(POINT, verdict)) /* in full: no column for provisional */
+                put_text(&table, is_done ? cz_verdict_text(point->verdict) : NULL);
+            else
+                put_result(&table, columns[k], &context, point);
         end_row(&table);
     }
 }

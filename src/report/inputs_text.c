@@ -7,6 +7,7 @@
 #include "base/memory_text.h"
 #include "text/node.h"
 #include "problem/problem.h"
+#include "report/table.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -175,16 +176,13 @@ static void add_default(Default *list, int *n, const char *path, const char *val
     added->n = 1;
 }
 
-static void write_default(const Default *found, CzMarkup *markup) {
+static void put_default(CzReportTable *table, const Default *found) {
     char text[32];
     snprintf(text, sizeof text, "%d", found->n);
-    cz_markup_open(markup, "tr");
-    cz_markup_element(markup, "td", found->path);
-    cz_markup_classed(markup, "td", "number", found->value);
-    cz_markup_classed(markup, "td", "number", text);
-    cz_markup_element(markup, "td", found->is_ours ? "ours, without a published source" : "");
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_table_put(table, found->path, CZ_STYLE_PLAIN);
+    cz_table_put(table, found->value, CZ_STYLE_PLAIN);
+    cz_table_put(table, text, CZ_STYLE_PLAIN);
+    cz_table_put(table, found->is_ours ? "ours, without a published source" : "", CZ_STYLE_PLAIN);
 }
 
 void cz_inputs_text_write_defaults(const CzInputsText *inputs, CzMarkup *markup) {
@@ -203,14 +201,11 @@ void cz_inputs_text_write_defaults(const CzInputsText *inputs, CzMarkup *markup)
     cz_markup_open(markup, "details");
     cz_markup_element(markup, "summary",
                       n == 0 ? "none" : "every value that no file states, with its default");
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    cz_markup_raw(markup, "<tr><th>key</th><th>value</th><th>places</th><th></th></tr>\n");
+    CzReportTable table;
+    cz_table_begin(&table, 4, (const char *const[]){"key", ">value", ">places", ""});
     for (int i = 0; i < n; i++)
-        write_default(&list[i], markup);
-    cz_markup_close(markup);
-    cz_markup_close(markup);
+        put_default(&table, &list[i]);
+    cz_table_write_page(&table, markup);
     cz_markup_close(markup);
     cz_markup_line(markup);
     free(list);

@@ -4,8 +4,8 @@
 #include "base/number.h"
 #include "evaluate/evaluator.h"
 #include "report/checks_table.h"
-#include "report/grid.h"
 #include "report/figure.h"
+#include "report/outcome_table.h"
 #include "report/overlay.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ static void write_objective(const CzEvaluator *evaluator, const CzOutcome *outco
     cz_figure_plain(start, before);
     cz_figure_plain(best, after);
     fputs("objective ", stream);
-    cz_grid_write_text(cz_evaluator_objective_name(evaluator), CZ_STYLE_PLAIN, colour, stream);
+    cz_text_write(cz_evaluator_objective_name(evaluator), CZ_STYLE_PLAIN, colour, stream);
     fprintf(stream, ": %s -> %s%s%s\n\n", cz_figure_mark(start, before_beyond),
             cz_figure_mark(best, after_beyond), unit != NULL && unit[0] != '\0' ? " " : "",
             unit != NULL ? unit : "");
@@ -56,7 +56,7 @@ static void write_unchecked(const CzEvaluation *best, bool colour, FILE *stream)
     char text[96];
     snprintf(text, sizeof text, "%d constraint%s NOT CHECKED and did not guide the search.", n,
              n == 1 ? " was" : "s were");
-    cz_grid_write_text(text, CZ_STYLE_CAREFUL, colour, stream);
+    cz_text_write(text, CZ_STYLE_CAREFUL, colour, stream);
     fputc('\n', stream);
 }
 
@@ -83,80 +83,87 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome, b
     static const CzStyle styles[] = {[CZ_OUTCOME_FEASIBLE] = CZ_STYLE_GOOD,
                                      [CZ_OUTCOME_INFEASIBLE] = CZ_STYLE_BAD,
                                      [CZ_OUTCOME_INTERRUPTED] = CZ_STYLE_CAREFUL};
-    cz_grid_write_text(cz_outcome_words(evaluator, outcome), styles[outcome->status], colour,
-                       stream);
+    cz_text_write(cz_outcome_words(evaluator, outcome), styles[outcome->status], colour, stream);
     fprintf(stream, " after %ld evaluation%s: ", outcome->n_evaluation,
             outcome->n_evaluation == 1 ? "" : "s");
-    cz_grid_write_text(outcome->why_stopped, CZ_STYLE_PLAIN, colour, stream);
+    cz_text_write(outcome->why_stopped, CZ_STYLE_PLAIN, colour, stream);
     if (outcome->status == CZ_OUTCOME_INTERRUPTED)
         fprintf(stream, "; the best so far is %sfeasible",
                 outcome->best_evaluation.violation <= 0 ? "" : "NOT ");
     fputc('\n', stream);
     write_unchecked(&outcome->best_evaluation, colour, stream);
     if (outcome->start_evaluation.beyond_validity || outcome->best_evaluation.beyond_validity) {
-        cz_grid_write_text("Override: a run went beyond model validity (" CZ_FIGURE_MARK_MEANS ").",
-                           CZ_STYLE_BAD, colour, stream);
+        cz_text_write("Override: a run went beyond model validity (" CZ_FIGURE_MARK_MEANS ").",
+                      CZ_STYLE_BAD, colour, stream);
         fputc('\n', stream);
     }
     write_objective(evaluator, outcome, colour, stream);
 }
 
-static bool write_variables(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
-                            FILE *stream) {
-    bool is_whole = true;
-    static const char *const names[] = {"variable", "unit", "min", "max", "before", "after", ""};
-    CzGrid grid;
-    cz_grid_begin(&grid, "llrrrrl");
-    for (int i = 0; i < 7; i++)
-        cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
+/* Where a value is between the bounds; NaN when they leave no room. */
+static double share_of(const CzVariableInfo *variable, double value) {
+    const double range = variable->max - variable->min;
+    return range > 0 ? (value - variable->min) / range : NAN;
+}
+
+void cz_outcome_begin_variables(CzReportTable *table, const CzEvaluator *evaluator,
+                                const CzOutcome *outcome, bool on_page) {
+    const char *const heads[] = {
+        "variable", "unit", ">min", ">max", ">before", ">after", on_page ? "place" : NULL, ""};
+    cz_table_begin(table, sizeof heads / sizeof *heads, heads);
     for (int i = 0; i < outcome->n_variable; i++) {
         const CzVariableInfo *variable = cz_evaluator_variable(evaluator, i);
         const double numbers[] = {variable->min, variable->max, outcome->start[i],
                                   outcome->best[i]};
         char text[CZ_FIGURE_ROOM];
-        cz_grid_put(&grid, variable->name, CZ_STYLE_PLAIN);
-        cz_grid_put(&grid, variable->unit, CZ_STYLE_PLAIN);
+        cz_table_put(table, variable->name, CZ_STYLE_PLAIN);
+        cz_table_put(table, variable->unit, CZ_STYLE_PLAIN);
         for (int k = 0; k < 4; k++)
-            cz_grid_put(&grid,
-                        variable->n_choice > 0 && k < 2 ? ""
-                        : variable->n_choice > 0        ? variable->choice[(int)numbers[k]]
-                                                 : cz_outcome_number(text, variable, numbers[k]),
-                        CZ_STYLE_PLAIN);
-        cz_grid_put(&grid, cz_outcome_remark(variable, outcome->at_bound[i]), CZ_STYLE_CAREFUL);
+            cz_table_put(table,
+                         variable->n_choice > 0 && k < 2 ? ""
+                         : variable->n_choice > 0        ? variable->choice[(int)numbers[k]]
+                                                  : cz_outcome_number(text, variable, numbers[k]),
+                         CZ_STYLE_PLAIN);
+        cz_table_put_range(table, share_of(variable, outcome->start[i]),
+                           share_of(variable, outcome->best[i]));
+        cz_table_put(table, cz_outcome_remark(variable, outcome->at_bound[i]), CZ_STYLE_CAREFUL);
     }
-    is_whole &= cz_grid_write(&grid, colour, stream);
+}
+
+static bool write_variables(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
+                            FILE *stream) {
+    CzReportTable table;
+    cz_outcome_begin_variables(&table, evaluator, outcome, false);
+    const bool is_whole = cz_table_write_text(&table, colour, stream);
     fputc('\n', stream);
     return is_whole;
 }
 
 /* What a fit was to reproduce, before and after. */
 static bool write_matches(const CzOutcome *outcome, bool colour, FILE *stream) {
-    bool is_whole = true;
-    static const char *const names[] = {"match",     "where",  "unit",  "measured",
-                                        "tolerance", "before", "after", "off by"};
+    static const char *const heads[] = {"match",      "where",   "unit",   ">measured",
+                                        ">tolerance", ">before", ">after", ">off by"};
     const CzEvaluation *best = &outcome->best_evaluation, *start = &outcome->start_evaluation;
-    CzGrid grid;
-    cz_grid_begin(&grid, "lllrrrrr");
-    for (int i = 0; i < 8; i++)
-        cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
+    CzReportTable table;
+    cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
     for (int i = 0; i < best->n_match; i++) {
         const CzMatchResult *match = &best->match[i];
         const double numbers[] = {match->is_history ? NAN : match->target, match->tolerance,
                                   i < start->n_match ? start->match[i].value : NAN, match->value};
         char text[CZ_FIGURE_ROOM + 16], number[CZ_FIGURE_ROOM];
-        cz_grid_put(&grid, match->name, CZ_STYLE_PLAIN);
-        cz_grid_put(&grid, match->where, CZ_STYLE_PLAIN);
-        cz_grid_put(&grid, match->unit, CZ_STYLE_PLAIN);
+        cz_table_put(&table, match->name, CZ_STYLE_PLAIN);
+        cz_table_put(&table, match->where, CZ_STYLE_PLAIN);
+        cz_table_put(&table, match->unit, CZ_STYLE_PLAIN);
         for (int k = 0; k < 4; k++)
-            cz_grid_put(&grid,
-                        k == 0 && match->is_history ? "history"
-                                                    : cz_figure_digits(text, 5, numbers[k]),
-                        CZ_STYLE_PLAIN);
+            cz_table_put(&table,
+                         k == 0 && match->is_history ? "history"
+                                                     : cz_figure_digits(text, 5, numbers[k]),
+                         CZ_STYLE_PLAIN);
         cz_figure_fixed(number, 2, match->residual);
         snprintf(text, sizeof text, "%s%.40s tol", number[0] == '-' ? "" : "+", number);
-        cz_grid_put(&grid, text, fabs(match->residual) <= 1 ? CZ_STYLE_GOOD : CZ_STYLE_BAD);
+        cz_table_put(&table, text, fabs(match->residual) <= 1 ? CZ_STYLE_GOOD : CZ_STYLE_BAD);
     }
-    is_whole &= cz_grid_write(&grid, colour, stream);
+    const bool is_whole = cz_table_write_text(&table, colour, stream);
     fputc('\n', stream);
     return is_whole;
 }
@@ -164,74 +171,74 @@ static bool write_matches(const CzOutcome *outcome, bool colour, FILE *stream) {
 /* Further parameter sets that fit about as well, a column each. */
 static bool write_alternatives(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
                                FILE *stream) {
-    bool is_whole = true;
-    char text[CZ_FIGURE_ROOM + 16];
-    if (outcome->n_alternative == 0) {
+    enum { MOST_SETS = 5 };
+    const int n_set = outcome->n_alternative < MOST_SETS ? outcome->n_alternative : MOST_SETS;
+    char text[CZ_FIGURE_ROOM];
+    if (n_set == 0) {
         fputs("No other parameter set of this search fits as well.\n\n", stream);
         return true;
     }
-    CzGrid grid;
-    cz_grid_begin(&grid, "lrrrrrr");
-    cz_grid_put(&grid, "sets that fit too", CZ_STYLE_PLAIN);
-    cz_grid_put(&grid, "best", CZ_STYLE_PLAIN);
-    for (int i = 0; i < 5; i++) {
-        snprintf(text, sizeof text, "set %d", i + 2);
-        cz_grid_put(&grid, i < outcome->n_alternative ? text : "", CZ_STYLE_PLAIN);
+    CzReportTable table;
+    cz_table_begin(&table, 2, (const char *const[]){"sets that fit too", ">best"});
+    for (int i = 0; i < n_set; i++) {
+        snprintf(text, sizeof text, ">set %d", i + 2);
+        cz_table_head(&table, text);
     }
     for (int k = -1; k < outcome->n_variable; k++) {
         const double best = k < 0 ? outcome->best_evaluation.objective : outcome->best[k];
-        cz_grid_put(&grid, k < 0 ? "sum of squares" : cz_evaluator_variable(evaluator, k)->name,
-                    CZ_STYLE_PLAIN);
-        cz_grid_put(&grid, cz_figure_digits(text, 4, best), CZ_STYLE_PLAIN);
-        for (int i = 0; i < 5; i++) {
-            const bool is_there = i < outcome->n_alternative;
-            const double value = !is_there ? NAN
-                                 : k < 0   ? outcome->alternative_objective[i]
-                                           : outcome->alternative[i * outcome->n_variable + k];
-            cz_grid_put(&grid, is_there ? cz_figure_digits(text, 4, value) : "", CZ_STYLE_PLAIN);
-        }
+        cz_table_put(&table, k < 0 ? "sum of squares" : cz_evaluator_variable(evaluator, k)->name,
+                     CZ_STYLE_PLAIN);
+        cz_table_put(&table, cz_figure_digits(text, 4, best), CZ_STYLE_PLAIN);
+        for (int i = 0; i < n_set; i++)
+            cz_table_put(&table,
+                         cz_figure_digits(text, 4,
+                                          k < 0
+                                              ? outcome->alternative_objective[i]
+                                              : outcome->alternative[i * outcome->n_variable + k]),
+                         CZ_STYLE_PLAIN);
     }
-    is_whole &= cz_grid_write(&grid, colour, stream);
+    const bool is_whole = cz_table_write_text(&table, colour, stream);
     fputc('\n', stream);
     return is_whole;
+}
+
+void cz_outcome_begin_constraints(CzReportTable *table, const char *name, const char *left) {
+    const char *const heads[] = {name, "where", "scenario", ">limit", ">value", left};
+    cz_table_begin(table, sizeof heads / sizeof *heads, heads);
+}
+
+void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluator,
+                               const CzEvaluation *best, int i, double left) {
+    const CzCheckResult *check = best->constraint_check != NULL ? &best->constraint_check[i] : NULL;
+    const CzStyle style = best->constraint[i] > 0 ? CZ_STYLE_BAD : CZ_STYLE_PLAIN;
+    char text[96] = "";
+    cz_table_put(table, cz_evaluator_constraint_name(evaluator, i), style);
+    cz_table_put(table, check != NULL ? check->where : "", CZ_STYLE_PLAIN);
+    cz_table_put(table, check != NULL ? check->scenario : "", CZ_STYLE_PLAIN);
+    if (check != NULL)
+        cz_checks_format_limit(check, sizeof text, text);
+    cz_table_put(table, text, CZ_STYLE_PLAIN);
+    if (check != NULL)
+        cz_checks_format_value(check, sizeof text, text);
+    cz_table_put(table, text, CZ_STYLE_PLAIN);
+    cz_table_put(table, check != NULL ? cz_figure_margin(text, left) : "", CZ_STYLE_PLAIN);
 }
 
 /* Every constraint that the best design breaks; a constraint may be a target that is no check. */
 static bool write_violations(const CzEvaluator *evaluator, const CzOutcome *outcome, bool colour,
                              FILE *stream) {
-    bool is_whole = true;
-    static const char *const names[] = {"violated", "where", "scenario",
-                                        "limit",    "value", "margin"};
     const CzEvaluation *best = &outcome->best_evaluation;
     if (best->violation <= 0 || best->n_constraint == best->n_match)
         return true; /* what is matched has a table of its own */
-    CzGrid grid;
-    cz_grid_begin(&grid, "lllrrr");
-    for (int i = 0; i < 6; i++)
-        cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
-    for (int i = 0; i < best->n_constraint; i++) {
-        if (best->constraint[i] <= 0)
-            continue;
-        const CzCheckResult *check =
-            best->constraint_check != NULL ? &best->constraint_check[i] : NULL;
-        char text[96];
-        cz_grid_put(&grid, cz_evaluator_constraint_name(evaluator, i), CZ_STYLE_BAD);
-        cz_grid_put(&grid, check != NULL ? check->where : "", CZ_STYLE_PLAIN);
-        cz_grid_put(&grid, check != NULL && check->scenario != NULL ? check->scenario : "",
-                    CZ_STYLE_PLAIN);
-        text[0] = '\0';
-        if (check != NULL)
-            cz_checks_format_limit(check, sizeof text, text);
-        cz_grid_put(&grid, text, CZ_STYLE_PLAIN);
-        if (check != NULL)
-            cz_checks_format_value(check, sizeof text, text);
-        cz_grid_put(&grid, text, CZ_STYLE_PLAIN);
-        cz_grid_put(&grid, check != NULL ? cz_figure_margin(text, check->margin) : "",
-                    CZ_STYLE_PLAIN);
-    }
+    CzReportTable table;
+    cz_outcome_begin_constraints(&table, "violated", ">margin");
+    for (int i = 0; i < best->n_constraint; i++)
+        if (best->constraint[i] > 0)
+            cz_outcome_put_constraint(
+                &table, evaluator, best, i,
+                best->constraint_check != NULL ? best->constraint_check[i].margin : NAN);
     fputc('\n', stream);
-    is_whole &= cz_grid_write(&grid, colour, stream);
-    return is_whole;
+    return cz_table_write_text(&table, colour, stream);
 }
 
 /* A change in per cent, up to the next tenth. */
@@ -263,8 +270,7 @@ static void write_verification(const CzVerification *verification, bool colour, 
             fprintf(stream, "%s changes %s %% at most, ", cz_verify_way_text((CzVerifyWay)way),
                     cz_figure_fixed(text, 1, tenths_above(verification->largest_change[way])));
     fputs("verification ", stream);
-    cz_grid_write_text(passes ? "pass" : "FAIL", passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, colour,
-                       stream);
+    cz_text_write(passes ? "pass" : "FAIL", passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, colour, stream);
     fprintf(stream, "%s%s\n", verification->failure[0] != '\0' ? ": " : "", verification->failure);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
         write_worst(verification, (CzVerifyWay)way, stream);
@@ -273,7 +279,7 @@ static void write_verification(const CzVerification *verification, bool colour, 
 CzStatus cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,
                                        const CzOutcome *outcome, bool colour, FILE *stream) {
     bool is_whole = true;
-    cz_grid_write_text(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
+    cz_text_write(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
     fputs("\n\n", stream);
     write_head(evaluator, outcome, colour, stream);
     is_whole &= write_variables(evaluator, outcome, colour, stream);

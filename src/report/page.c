@@ -188,64 +188,6 @@ void cz_page_close_section(CzMarkup *markup) {
     cz_markup_line(markup);
 }
 
-void cz_page_write_bar(CzMarkup *markup, const CzBar *bar, double share) {
-    const double size = bar->half * fmin(fabs(share), 1);
-    cz_markup_open(markup, "svg");
-    cz_markup_attribute(markup, "class", bar->class_name);
-    cz_markup_format(markup, "viewBox", "0 0 %g 10", 2 * bar->middle);
-    cz_markup_attribute(markup, "aria-hidden", "true");
-    cz_markup_open(markup, "rect");
-    if (bar->fill_class != NULL)
-        cz_markup_attribute(markup, "class", bar->fill_class);
-    cz_markup_number(markup, "x", 1, share < 0 ? bar->middle - size : bar->middle);
-    cz_markup_attribute(markup, "y", "1");
-    cz_markup_number(markup, "width", 1, fmax(size, 0.6));
-    cz_markup_attribute(markup, "height", "8");
-    cz_markup_attribute(markup, "fill", share < 0 ? bar->below : bar->above);
-    cz_markup_close(markup);
-    cz_markup_open(markup, "path");
-    cz_markup_format(markup, "d", "M%g 0v10", bar->middle);
-    cz_markup_attribute(markup, "stroke", "currentColor");
-    cz_markup_close(markup);
-    cz_markup_close(markup);
-}
-
-void cz_page_begin_heads(CzMarkup *markup, const char *class_name) {
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
-    cz_markup_open(markup, "table");
-    if (class_name != NULL)
-        cz_markup_attribute(markup, "class", class_name);
-    cz_markup_open(markup, "tr");
-}
-
-void cz_page_write_head_cell(CzMarkup *markup, const char *head) {
-    if (head[0] == '>')
-        cz_markup_classed(markup, "th", "number", head + 1);
-    else
-        cz_markup_element(markup, "th", head);
-}
-
-void cz_page_end_heads(CzMarkup *markup) {
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-}
-
-void cz_page_open_table(CzMarkup *markup, const char *class_name, size_t n_column,
-                        const char *const *head) {
-    cz_page_begin_heads(markup, class_name);
-    for (size_t i = 0; i < n_column; i++)
-        if (head[i] != NULL)
-            cz_page_write_head_cell(markup, head[i]);
-    cz_page_end_heads(markup);
-}
-
-void cz_page_close_table(CzMarkup *markup) {
-    cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-}
-
 /* The figures, with the histories of a fit over them. */
 static CzStatus write_figures(CzPage *page, CzError *error) {
     CzChartCurve curve[CZ_MOST_CHART_CURVES];

@@ -88,24 +88,6 @@ void cz_page_write_contents(CzPage *page, bool of_search);
 /* Opens a section with its heading; closes it. */
 void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading);
 void cz_page_close_section(CzMarkup *markup);
-/* How a share is drawn in a table: to the right of the middle above zero, to the left below. */
-typedef struct CzBar {
-    const char *class_name, *fill_class; /* fill_class NULL for none */
-    double half, middle;                 /* longest way to either side, place of zero */
-    const char *below, *above;           /* colours */
-} CzBar;
-void cz_page_write_bar(CzMarkup *markup, const CzBar *bar, double share);
-/* Opens a table that scrolls sideways where it is too wide, with the heads of its columns, NULL for
- * one left out; class_name NULL for none. Where the heads are not at hand as a list they are
- * written between begin and end. */
-void cz_page_open_table(CzMarkup *markup, const char *class_name, size_t n_column,
-                        const char *const *head);
-void cz_page_begin_heads(CzMarkup *markup, const char *class_name);
-/* A head; one that begins with '>' stands over numbers. */
-void cz_page_write_head_cell(CzMarkup *markup, const char *head);
-void cz_page_end_heads(CzMarkup *markup);
-void cz_page_close_table(CzMarkup *markup);
-
 /* ---- parts, in the order of the page ---- */
 
 /* page_checks.c, page_trains.c, page_figures.c, page_scene.c, page_inputs.c, page_data.c */

@@ -2,6 +2,7 @@
 #include "report/page.h"
 
 #include "report/figure.h"
+#include "report/table.h"
 #include "report/units.h"
 
 #include <math.h>
@@ -12,29 +13,19 @@ static const char *in_kilo(char text[CZ_FIGURE_ROOM], double impulse) {
     return cz_figure_fixed(text, 1, fabs(value) < 0.05 ? 0 : value);
 }
 
-static void write_bar(CzMarkup *markup, double share) {
+static void put_row(CzReportTable *table, const char *name, double moment, double lift, double most,
+                    const char *remark) {
     static const CzBar bar = {"budget", NULL, 90, 92, "#d55e00", "#0072b2"};
-    cz_markup_open(markup, "td");
-    cz_page_write_bar(markup, &bar, share);
-    cz_markup_close(markup);
-}
-
-/* One row; `most` is the length of the longest bar. */
-static void write_row(CzMarkup *markup, const char *name, double moment, double lift, double most,
-                      const char *remark) {
     char text[CZ_FIGURE_ROOM];
-    cz_markup_open(markup, "tr");
-    cz_markup_element(markup, "td", name);
-    cz_markup_classed(markup, "td", "number", in_kilo(text, moment));
-    write_bar(markup, most > 0 ? moment / most : 0);
-    cz_markup_classed(markup, "td", "number", in_kilo(text, lift));
-    cz_markup_classed(markup, "td", "small", remark);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_table_put(table, name, CZ_STYLE_PLAIN);
+    cz_table_put(table, in_kilo(text, moment), CZ_STYLE_PLAIN);
+    cz_table_put_bar(table, &bar, most > 0 ? moment / most : 0); /* of the longest */
+    cz_table_put(table, in_kilo(text, lift), CZ_STYLE_PLAIN);
+    cz_table_put(table, remark, CZ_STYLE_SMALL);
 }
 
 static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *budget) {
-    static const char *const names[] = {"source", ">moment kNms", "nose-down | nose-up",
+    static const char *const heads[] = {"source", ">moment kNms", "nose-down | nose-up",
                                         ">lift kNs", ""};
     int order[CZ_N_BUDGET];
     char text[CZ_SENTENCE_ROOM], time[CZ_FIGURE_ROOM];
@@ -44,15 +35,16 @@ static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *
              budget->of_lift ? "wheel lift" : "pitch",
              cz_figure_fixed(time, 0, budget->time * CZ_MILLI_PER_UNIT));
     cz_markup_element(markup, "h3", text);
-    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
+    CzReportTable table;
+    cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
     for (int i = 0; i < n; i++) {
         const CzBudgetSource source = (CzBudgetSource)order[i];
-        write_row(markup, cz_budget_text(source), budget->moment[source], budget->lift[source],
-                  most, cz_budget_counts(source) ? "" : "through the end mass");
+        put_row(&table, cz_budget_text(source), budget->moment[source], budget->lift[source], most,
+                cz_budget_counts(source) ? "" : "through the end mass");
     }
-    write_row(markup, "the body then", budget->spin, budget->rise, most,
-              "its momenta: the sum of all that acts on it directly");
-    cz_page_close_table(markup);
+    put_row(&table, "the body then", budget->spin, budget->rise, most,
+            "its momenta: the sum of all that acts on it directly");
+    cz_table_write_page(&table, markup);
 }
 
 /* The car that lifted or pitched most; -1 when none is full. */

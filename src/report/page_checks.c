@@ -11,101 +11,10 @@
 
 enum { MOST_LINKS = 12 }; /* to other reports that stand in plain view */
 
-static const char *const verdict_class[] = {[CZ_VERDICT_PASS] = "pass",
-                                            [CZ_VERDICT_PROVISIONAL] = "careful",
-                                            [CZ_VERDICT_FAIL] = "fail",
-                                            [CZ_VERDICT_NOT_CHECKED] = "careful"};
 static const char *const verdict_title[] = {[CZ_VERDICT_PASS] = "PASS",
                                             [CZ_VERDICT_PROVISIONAL] = "PROVISIONAL PASS",
                                             [CZ_VERDICT_FAIL] = "FAIL",
                                             [CZ_VERDICT_NOT_CHECKED] = "NOT CHECKED"};
-
-static const char *or_empty(const char *text) {
-    return text != NULL ? text : "";
-}
-
-/* To the right what is left, to the left what is missing. */
-static const CzBar margin_bar = {"bar", "margin", 30, 31, "#d0021b", "#009e73"};
-
-static void write_source(CzMarkup *markup, const CzCheckResult *check) {
-    const bool has_source = check->source != NULL && check->source[0] != '\0';
-    const bool has_confidence = has_source && check->confidence != NULL;
-    const char *const parts[] = {or_empty(check->why),
-                                 check->why != NULL && has_source ? "; " : "",
-                                 or_empty(check->clause),
-                                 check->clause != NULL && has_source ? ", " : "",
-                                 or_empty(check->source),
-                                 has_confidence ? ", confidence " : "",
-                                 has_confidence ? check->confidence : ""};
-    cz_markup_open(markup, "td");
-    cz_markup_attribute(markup, "class", "small");
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
-        cz_markup_text(markup, parts[i]);
-    cz_markup_close(markup);
-}
-
-/* When the value was reached, or the window of a mean. */
-static void format_when(const CzCheckResult *check, size_t room, char *text) {
-    char from[CZ_FIGURE_ROOM], to[CZ_FIGURE_ROOM];
-    text[0] = '\0';
-    if (!isfinite(check->when[0]))
-        return;
-    cz_figure_fixed(from, 0, check->when[0] * CZ_MILLI_PER_UNIT);
-    cz_figure_fixed(to, 0, check->when[1] * CZ_MILLI_PER_UNIT);
-    const bool is_window = check->when[1] > check->when[0];
-    snprintf(text, room, "%.20s%s%.20s", from, is_window ? " to " : "", is_window ? to : "");
-}
-
-static void write_check(CzMarkup *markup, const CzCheckResult *check, const CzCheckResult *before) {
-    char text[96];
-    cz_markup_open(markup, "tr");
-    cz_markup_element(markup, "td", check->name);
-    cz_markup_classed(markup, "td", verdict_class[check->verdict], cz_checks_word(check));
-    cz_markup_element(markup, "td", check->where);
-    cz_markup_element(markup, "td", or_empty(check->scenario));
-    format_when(check, sizeof text, text);
-    cz_markup_classed(markup, "td", "number", text);
-    cz_checks_format_limit(check, sizeof text, text);
-    cz_markup_classed(markup, "td", "number", text);
-    if (before != NULL) {
-        cz_checks_format_value(before, sizeof text, text);
-        cz_markup_classed(markup, "td", "number", text);
-    }
-    cz_checks_format_value(check, sizeof text, text);
-    cz_markup_classed(markup, "td", "number", text);
-    cz_markup_classed(markup, "td", "number", cz_figure_margin(text, check->margin));
-    cz_markup_open(markup, "td");
-    if (isfinite(check->margin))
-        cz_page_write_bar(markup, &margin_bar, check->margin);
-    cz_markup_close(markup);
-    write_source(markup, check);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-}
-
-static void write_table(CzMarkup *markup, const CzEvaluation *evaluation,
-                        const CzEvaluation *before, bool rest) {
-    const char *const names[] = {"check",
-                                 "verdict",
-                                 "where",
-                                 "scenario",
-                                 ">when ms",
-                                 ">limit",
-                                 before != NULL ? ">before" : NULL,
-                                 before != NULL ? ">after" : ">value",
-                                 ">margin",
-                                 "",
-                                 "remark and source"};
-    cz_page_open_table(markup, "checks", sizeof names / sizeof *names, names);
-    for (int pass = 0; pass < 2; pass++) /* failures first */
-        for (int i = 0; i < evaluation->n_check; i++) {
-            const bool fails = evaluation->check[i].verdict == CZ_VERDICT_FAIL;
-            if (cz_checks_is_shown(evaluation, i) != rest && fails == (pass == 0))
-                write_check(markup, &evaluation->check[i],
-                            before != NULL ? &before->check[i] : NULL);
-        }
-    cz_page_close_table(markup);
-}
 
 /* Whom no limit judges, and what the profile asks for and no check is made of. */
 static void write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation) {
@@ -141,7 +50,7 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
     int n_more = 0;
     for (int i = 0; i < evaluation->n_check; i++)
         n_more += !cz_checks_is_shown(evaluation, i);
-    write_table(markup, evaluation, before, false);
+    cz_checks_write_rows(markup, evaluation, before, false);
     write_not_covered(markup, evaluation);
     if (n_more == 0)
         return;
@@ -151,7 +60,7 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
              cz_checks_n_omitted(evaluation) > 0 ? "of a scenario that was not run, or " : "");
     cz_markup_open(markup, "details");
     cz_markup_element(markup, "summary", text);
-    write_table(markup, evaluation, before, true);
+    cz_checks_write_rows(markup, evaluation, before, true);
     cz_markup_close(markup);
     cz_markup_line(markup);
 }

@@ -3,57 +3,16 @@
 
 #include "base/error.h"
 #include "report/charts.h"
-#include "report/checks_table.h"
 #include "report/compare.h"
-#include "report/figure.h"
 #include "report/plot.h"
 #include "report/sheet.h"
 
-#include <math.h>
-
-static void open_table(CzMarkup *markup, int n, const CzReportRun *run, const char *first,
-                       const char *second) {
-    cz_page_begin_heads(markup, NULL);
-    cz_page_write_head_cell(markup, first);
-    cz_page_write_head_cell(markup, second);
-    for (int i = 0; i < n; i++)
-        cz_markup_classed(markup, "th", "number", run[i].label);
-    cz_page_end_heads(markup);
-}
-
 static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
-    const CzEvaluation *first = run[0].evaluation;
-    int n_same = 0;
+    CzReportTable table;
+    int n_same;
     cz_page_open_section(markup, "checks", "Checks that differ");
-    open_table(markup, n, run, "check", ">limit");
-    for (int k = 0; k < first->n_check; k++) {
-        const CzCheckResult *check = &first->check[k];
-        char text[CZ_LABEL_ROOM + 1 + CZ_NAME_ROOM], value[96];
-        if (!cz_compared_differs(n, run, check)) {
-            n_same++;
-            continue;
-        }
-        snprintf(text, sizeof text, "%s, %s", check->name,
-                 check->scenario != NULL ? check->scenario : "");
-        cz_markup_open(markup, "tr");
-        cz_markup_element(markup, "td", text);
-        cz_checks_format_limit(check, sizeof value, value);
-        cz_markup_classed(markup, "td", "number", value);
-        for (int i = 0; i < n; i++) {
-            const CzCheckResult *other = cz_compared_check(&run[i], check);
-            if (other != NULL)
-                cz_checks_format_value(other, sizeof value, value);
-            snprintf(text, sizeof text, "%s %s", other != NULL ? value : "-",
-                     other != NULL ? cz_checks_word(other) : "");
-            cz_markup_classed(markup, "td",
-                              other != NULL && other->verdict == CZ_VERDICT_FAIL ? "number fail"
-                                                                                 : "number",
-                              text);
-        }
-        cz_markup_close(markup);
-        cz_markup_line(markup);
-    }
-    cz_page_close_table(markup);
+    cz_compared_begin_checks(&table, n, run, &n_same);
+    cz_table_write_page(&table, markup);
     char text[64];
     snprintf(text, sizeof text, "%d checks are the same.", n_same);
     if (n_same > 0)
@@ -61,37 +20,10 @@ static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
     cz_page_close_section(markup);
 }
 
-/* Whether any of the runs has the number: wheels of single masses have no lift. */
-static bool is_known(int n, const CzReportRun *run, const CzComparedNumber *number,
-                     const char *name) {
-    for (int i = 0; i < n; i++)
-        if (isfinite(cz_compared_value(run, i, number, name)))
-            return true;
-    return false;
-}
-
 static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool of_interface) {
-    const CzRunSummary *first = cz_compared_run(run, 0);
-    open_table(markup, n, run, of_interface ? "interface" : "car", "");
-    for (int k = 0; k < CZ_N_COMPARED_NUMBER; k++) {
-        const CzComparedNumber *number = &cz_compared_numbers[k];
-        for (int i = 0;
-             number->of_interface == of_interface && i < cz_compared_count(first, number); i++) {
-            const char *name = cz_compared_name(first, number, i);
-            char text[CZ_FIGURE_ROOM];
-            if (!is_known(n, run, number, name))
-                continue;
-            cz_markup_open(markup, "tr");
-            cz_markup_element(markup, "td", name);
-            cz_markup_element(markup, "td", number->name);
-            for (int m = 0; m < n; m++)
-                cz_markup_classed(markup, "td", "number",
-                                  cz_compared_text(text, run, m, number, name));
-            cz_markup_close(markup);
-            cz_markup_line(markup);
-        }
-    }
-    cz_page_close_table(markup);
+    CzReportTable table;
+    cz_compared_begin_numbers(&table, n, run, of_interface, true);
+    cz_table_write_page(&table, markup);
 }
 
 /* One channel of all runs over time. */

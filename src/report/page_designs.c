@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "evaluate/evaluator.h"
 #include "report/figure.h"
+#include "report/table.h"
 #include "report/plot.h"
 
 #include <math.h>
@@ -203,38 +204,41 @@ CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
 
 /* ---- sensitivities ---- */
 
-static void put_change(CzMarkup *markup, double change) {
+static void put_change(CzReportTable *table, double change) {
     char text[CZ_FIGURE_ROOM];
-    if (!isfinite(change))
-        cz_markup_classed(markup, "td", "number", "-");
-    else
-        cz_markup_classed(markup, "td", "number",
-                          fabs(change) < 5e-5 ? "0" : cz_figure_margin(text, change));
+    cz_table_put(table,
+                 !isfinite(change)     ? "-"
+                 : fabs(change) < 5e-5 ? "0"
+                                       : cz_figure_margin(text, change),
+                 CZ_STYLE_PLAIN);
 }
 
-static void write_sensitivity(CzMarkup *markup, const CzEvaluator *evaluator,
-                              const CzOutcome *outcome, int variable, int n_column,
-                              const int *column) {
+static void put_sensitivity(CzReportTable *table, const CzEvaluator *evaluator,
+                            const CzOutcome *outcome, int variable, int n_column,
+                            const int *column) {
     const CzVariableInfo *info = cz_evaluator_variable(evaluator, variable);
     const int n_constraint = outcome->best_evaluation.n_constraint;
     char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 40];
-    cz_markup_open(markup, "tr");
-    cz_markup_element(markup, "td", info->name);
+    cz_table_put(table, info->name, CZ_STYLE_PLAIN);
     snprintf(text, sizeof text, "%s%s %.30s",
              outcome->sensitivity_increment[variable] > 0 ? "+" : "",
              cz_figure_digits(number, 4, outcome->sensitivity_increment[variable]),
              info->unit != NULL ? info->unit : "");
-    cz_markup_classed(markup, "td", "number", text);
+    cz_table_put(table, text, CZ_STYLE_PLAIN);
     const double change = outcome->objective_change[variable];
     if (cz_evaluator_maximises_margin(evaluator))
-        put_change(markup, -change);
+        put_change(table, -change);
     else
-        cz_markup_classed(markup, "td", "number",
-                          isfinite(change) ? cz_figure_digits(text, 3, change) : "-");
+        cz_table_put(table, isfinite(change) ? cz_figure_digits(text, 3, change) : "-",
+                     CZ_STYLE_PLAIN);
     for (int i = 0; i < n_column; i++)
-        put_change(markup, -outcome->constraint_change[variable * n_constraint + column[i]]);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+        put_change(table, -outcome->constraint_change[variable * n_constraint + column[i]]);
+}
+
+static void add_head(CzReportTable *table, const char *name) {
+    char head[CZ_SENTENCE_ROOM];
+    snprintf(head, sizeof head, ">%s", name);
+    cz_table_head(table, head);
 }
 
 void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
@@ -255,20 +259,17 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
         "One variable at a time is changed by its increment, at least 2 % of its range, downwards "
         "at its upper bound; all others keep the values of the best design. Margins are "
         "those of the most critical constraints, computed as in the search.");
-    cz_page_begin_heads(markup, "sensitivities");
-    cz_markup_element(markup, "th", "variable");
-    cz_markup_classed(markup, "th", "number", "increment");
-    cz_markup_classed(markup, "th", "number",
-                      cz_evaluator_maximises_margin(evaluator)
-                          ? "smallest margin"
-                          : cz_evaluator_objective_name(evaluator));
+    CzReportTable table;
+    cz_table_begin(&table, 2, (const char *const[]){"variable", ">increment"});
+    table.class_name = "sensitivities";
+    add_head(&table, cz_evaluator_maximises_margin(evaluator)
+                         ? "smallest margin"
+                         : cz_evaluator_objective_name(evaluator));
     for (int i = 0; i < n_column; i++)
-        cz_markup_classed(markup, "th", "number",
-                          cz_evaluator_constraint_name(evaluator, column[i]));
-    cz_page_end_heads(markup);
+        add_head(&table, cz_evaluator_constraint_name(evaluator, column[i]));
     for (int i = 0; i < outcome->n_variable; i++)
         if (outcome->sensitivity_increment[i] != 0)
-            write_sensitivity(markup, evaluator, outcome, i, n_column, column);
-    cz_page_close_table(markup);
+            put_sensitivity(&table, evaluator, outcome, i, n_column, column);
+    cz_table_write_page(&table, markup);
     cz_page_close_section(markup);
 }

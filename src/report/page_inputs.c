@@ -8,6 +8,7 @@
 #include "report/figure.h"
 #include "report/inputs_text.h"
 #include "report/runs.h"
+#include "report/table.h"
 #include "report/units.h"
 
 #include <stdlib.h>
@@ -31,29 +32,25 @@ void cz_page_event_words(CzEventKind kind, char words[48]) {
 }
 
 void cz_page_write_events(CzPage *page) {
-    static const char *const names[] = {">time ms", "what", "where", "interface"};
-    CzMarkup *markup = &page->markup;
+    static const char *const heads[] = {">time ms", "what", "where", "interface"};
     const CzRunSummary *run = page->summary;
-    cz_page_open_section(markup, "events", "Events");
-    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
+    CzReportTable table;
+    cz_page_open_section(&page->markup, "events", "Events");
+    cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
     for (int i = 0; i < run->n_event; i++) {
         const CzEvent *event = &run->event[i];
+        const bool has_interface = event->interface >= 0 && event->interface < run->n_interface;
         char time[CZ_FIGURE_ROOM], what[48];
         cz_page_event_words(event->what, what);
-        cz_markup_open(markup, "tr");
-        cz_markup_classed(markup, "td", "number",
-                          cz_figure_fixed(time, 1, event->time * CZ_MILLI_PER_UNIT));
-        cz_markup_classed(markup, "td", is_bad(event->what) ? "fail" : "plain", what);
-        cz_markup_element(markup, "td", event->where);
-        cz_markup_element(markup, "td",
-                          event->interface >= 0 && event->interface < run->n_interface
-                              ? run->interface[event->interface].name
-                              : "");
-        cz_markup_close(markup);
-        cz_markup_line(markup);
+        cz_table_put(&table, cz_figure_fixed(time, 1, event->time * CZ_MILLI_PER_UNIT),
+                     CZ_STYLE_PLAIN);
+        cz_table_put(&table, what, is_bad(event->what) ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+        cz_table_put(&table, event->where, CZ_STYLE_PLAIN);
+        cz_table_put(&table, has_interface ? run->interface[event->interface].name : "",
+                     CZ_STYLE_PLAIN);
     }
-    cz_page_close_table(markup);
-    cz_page_close_section(markup);
+    cz_table_write_page(&table, &page->markup);
+    cz_page_close_section(&page->markup);
 }
 
 /* ---- how to get it again ---- */

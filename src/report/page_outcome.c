@@ -6,6 +6,7 @@
 #include "report/checks_table.h"
 #include "report/charts.h"
 #include "report/figure.h"
+#include "report/outcome_table.h"
 #include "report/overlay.h"
 #include "report/plot.h"
 #include "report/runs.h"
@@ -61,63 +62,13 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
 
 /* ---- variables ---- */
 
-static void write_mark(CzMarkup *markup, double at, bool is_best) {
-    cz_markup_open(markup, "circle");
-    cz_markup_number(markup, "cx", 1, 8 + 104 * at);
-    cz_markup_attribute(markup, "cy", "8");
-    cz_markup_attribute(markup, "r", is_best ? "5" : "4");
-    cz_markup_attribute(markup, "fill", is_best ? "#0072b2" : "none");
-    cz_markup_attribute(markup, "stroke", is_best ? "#0072b2" : "#d55e00");
-    cz_markup_attribute(markup, "stroke-width", "2");
-    cz_markup_close(markup);
-}
-
-/* Where start (a ring) and best (a dot) lie between the bounds. */
-static void write_place(CzMarkup *markup, const CzVariableInfo *variable, double start,
-                        double best) {
-    const double range = variable->max - variable->min;
-    cz_markup_open(markup, "svg");
-    cz_markup_attribute(markup, "class", "place");
-    cz_markup_attribute(markup, "viewBox", "0 0 120 16");
-    cz_markup_attribute(markup, "aria-hidden", "true");
-    cz_markup_open(markup, "path");
-    cz_markup_attribute(markup, "d", "M8 8H112M8 3V13M112 3V13");
-    cz_markup_attribute(markup, "stroke", "currentColor");
-    cz_markup_close(markup);
-    if (range > 0) {
-        write_mark(markup, fmin(fmax((start - variable->min) / range, 0), 1), false);
-        write_mark(markup, fmin(fmax((best - variable->min) / range, 0), 1), true);
-    }
-    cz_markup_close(markup);
-}
-
 static void write_variables(CzMarkup *markup, const CzEvaluator *evaluator,
                             const CzOutcome *outcome) {
-    static const char *const names[] = {"variable", "unit", ">min",  ">before",
-                                        ">after",   ">max", "where", ""};
+    CzReportTable table;
     cz_page_open_section(markup, "variables", "Variables");
     cz_markup_element(markup, "p", "Between the bounds: a ring is the start, a dot the best.");
-    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
-    for (int i = 0; i < outcome->n_variable; i++) {
-        const CzVariableInfo *variable = cz_evaluator_variable(evaluator, i);
-        const double numbers[] = {variable->min, outcome->start[i], outcome->best[i],
-                                  variable->max};
-        char text[CZ_FIGURE_ROOM];
-        cz_markup_open(markup, "tr");
-        cz_markup_element(markup, "td", variable->name);
-        cz_markup_element(markup, "td", variable->unit != NULL ? variable->unit : "");
-        for (int k = 0; k < 4; k++)
-            cz_markup_classed(markup, "td", "number",
-                              cz_outcome_number(text, variable, numbers[k]));
-        cz_markup_open(markup, "td");
-        write_place(markup, variable, outcome->start[i], outcome->best[i]);
-        cz_markup_close(markup);
-        cz_markup_classed(markup, "td", "careful",
-                          cz_outcome_remark(variable, outcome->at_bound[i]));
-        cz_markup_close(markup);
-        cz_markup_line(markup);
-    }
-    cz_page_close_table(markup);
+    cz_outcome_begin_variables(&table, evaluator, outcome, true);
+    cz_table_write_page(&table, markup);
     cz_page_close_section(markup);
 }
 
@@ -220,28 +171,6 @@ static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
 
 /* ---- what holds the optimum ---- */
 
-static void write_constraint(CzMarkup *markup, const CzEvaluator *evaluator,
-                             const CzEvaluation *best, int i) {
-    const CzCheckResult *check = best->constraint_check != NULL ? &best->constraint_check[i] : NULL;
-    const bool is_flag = check != NULL && check->is_flag;
-    char text[96] = "";
-    cz_markup_open(markup, "tr");
-    cz_markup_element(markup, "td", cz_evaluator_constraint_name(evaluator, i));
-    cz_markup_element(markup, "td", check != NULL ? check->where : "");
-    cz_markup_element(markup, "td",
-                      check != NULL && check->scenario != NULL ? check->scenario : "");
-    if (check != NULL)
-        cz_checks_format_limit(check, sizeof text, text);
-    cz_markup_classed(markup, "td", "number", text);
-    if (check != NULL)
-        cz_checks_format_value(check, sizeof text, text);
-    cz_markup_classed(markup, "td", "number", text);
-    cz_markup_classed(markup, "td", best->constraint[i] > 0 ? "number fail" : "number",
-                      cz_figure_margin(text, is_flag ? NAN : -best->constraint[i]));
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-}
-
 int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const int *told) {
     int found = -1;
     for (int i = 0; i < evaluation->n_constraint; i++) {
@@ -258,20 +187,22 @@ int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const in
 }
 
 static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const CzOutcome *outcome) {
-    static const char *const names[] = {"constraint", "where",  "scenario",
-                                        ">limit",     ">value", ">left"};
     const CzEvaluation *best = &outcome->best_evaluation;
+    CzReportTable table;
     cz_page_open_section(markup, "active", "What holds the best design");
     cz_markup_element(markup, "p", "The constraints with least left; below 0 is violated.");
-    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
+    cz_outcome_begin_constraints(&table, "constraint", ">left");
     int told[MOST_CONSTRAINTS];
     for (int n = 0; n < MOST_CONSTRAINTS; n++) {
         told[n] = cz_page_next_constraint(best, n, told);
         if (told[n] < 0)
             break;
-        write_constraint(markup, evaluator, best, told[n]);
+        const bool is_flag =
+            best->constraint_check != NULL && best->constraint_check[told[n]].is_flag;
+        cz_outcome_put_constraint(&table, evaluator, best, told[n],
+                                  is_flag ? NAN : -best->constraint[told[n]]);
     }
-    cz_page_close_table(markup);
+    cz_table_write_page(&table, markup);
     cz_page_close_section(markup);
 }
 
@@ -298,31 +229,7 @@ static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
 
 /* ---- the same by other means ---- */
 
-static void write_way(CzMarkup *markup, const CzVerification *verification, CzVerifyWay way) {
-    const int worst = verification->worst[way];
-    char text[CZ_FIGURE_ROOM];
-    cz_markup_open(markup, "tr");
-    cz_markup_element(markup, "td", cz_verify_way_text(way));
-    if (!verification->is_done[way]) {
-        cz_markup_classed(markup, "td", "careful", "not done");
-        for (int empty = 0; empty < 3; empty++)
-            cz_markup_element(markup, "td", "");
-    } else {
-        const double change = verification->largest_change[way];
-        cz_markup_classed(markup, "td", change > verification->limit ? "number fail" : "number",
-                          cz_figure_percent(text, change));
-        cz_markup_element(markup, "td", worst >= 0 ? verification->value[worst].name : "");
-        cz_markup_element(markup, "td", worst >= 0 ? verification->value[worst].scenario : "");
-        cz_markup_classed(markup, "td", verification->n_flip[way] > 0 ? "number fail" : "number",
-                          cz_figure_fixed(text, 0, verification->n_flip[way]));
-    }
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-}
-
 static void write_verification(CzMarkup *markup, const CzVerification *verification) {
-    static const char *const names[] = {"computed by", ">largest change", "of", "in",
-                                        ">verdicts that flip"};
     char text[512], limit[CZ_FIGURE_ROOM];
     cz_page_open_section(markup, "verification", "The best design computed again");
     if (verification == NULL) {
@@ -338,11 +245,9 @@ static void write_verification(CzMarkup *markup, const CzVerification *verificat
              passes ? "Passed" : "NOT passed", cz_figure_percent(limit, verification->limit),
              verification->failure[0] != '\0' ? " " : "", verification->failure);
     cz_markup_classed(markup, "p", passes ? "pass" : "fail", text);
-    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        if ((verification->ways & (1u << way)) != 0)
-            write_way(markup, verification, (CzVerifyWay)way);
-    cz_page_close_table(markup);
+    CzReportTable table;
+    cz_verified_begin_ways(&table, verification, true);
+    cz_table_write_page(&table, markup);
     cz_page_close_section(markup);
 }
 

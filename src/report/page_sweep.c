@@ -16,23 +16,6 @@
 #define MAP_TOP 10.0
 #define MAP_BELOW 70.0 /* numbers, label and legend */
 
-/* How a point looks: word, sign in a map, colour, class of its cell in the table. */
-typedef struct Look {
-    const char *word, *sign, *colour, *class_name;
-} Look;
-
-static Look look_of(const CzSweepPoint *point) {
-    static const Look of_state[] = {[CZ_SWEEP_RUN_FAILED] = {"RUN FAILED", "!", "#5c0010", "fail"},
-                                    [CZ_SWEEP_INVALID] = {"invalid", "-", "#9a9a9a", "small"},
-                                    [CZ_SWEEP_NOT_RUN] = {"not run", "", "none", "small"}};
-    static const Look of_verdict[] = {
-        [CZ_VERDICT_PASS] = {"pass", "+", "#009e73", "pass"},
-        [CZ_VERDICT_PROVISIONAL] = {"PROVISIONAL", "~", "#e69f00", "careful"},
-        [CZ_VERDICT_FAIL] = {"FAIL", "X", "#d0021b", "fail"},
-        [CZ_VERDICT_NOT_CHECKED] = {"NOT CHECKED", "?", "#9a9a9a", "careful"}};
-    return point->state == CZ_SWEEP_DONE ? of_verdict[point->verdict] : of_state[point->state];
-}
-
 /* ---- curves over one value ---- */
 
 /* Stretches of values that fail, from halfway to the last point that does not to halfway to the
@@ -113,7 +96,7 @@ static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *er
 
 static void write_cell(CzMarkup *markup, const CzSweepPoint *point, double x, double y,
                        double width, double height) {
-    const Look look = look_of(point);
+    const CzPointLook look = cz_point_look(point);
     cz_markup_open(markup, "rect");
     cz_markup_number(markup, "x", 1, x);
     cz_markup_number(markup, "y", 1, y);
@@ -125,7 +108,8 @@ static void write_cell(CzMarkup *markup, const CzSweepPoint *point, double x, do
     cz_markup_attribute(markup, "stroke-width", ".4");
     cz_markup_close(markup);
     if (width >= 8 && height >= 10)
-        cz_svg_text(markup, x + width / 2, y + height / 2 + 4, "middle", look.sign);
+        cz_svg_text(markup, x + width / 2, y + height / 2 + 4, "middle",
+                    look.sign[0] != ' ' ? look.sign : "");
 }
 
 /* A number about every `every`-th row or column. */
@@ -169,64 +153,9 @@ static void write_map(CzMarkup *markup, const CzSweep *sweep) {
     cz_markup_line(markup);
 }
 
-/* ---- table ---- */
-
-static void write_point(CzMarkup *markup, const CzSweep *sweep, const CzSweepPoint *point) {
-    const Look look = look_of(point);
-    char text[CZ_FIGURE_ROOM];
-    cz_markup_open(markup, "tr");
-    for (int k = 0; k < sweep->n_axis; k++)
-        cz_markup_classed(markup, "td", "number", cz_figure_digits(text, 6, point->value[k]));
-    cz_markup_classed(markup, "td", look.class_name, look.word);
-    cz_markup_classed(markup, "td", "number", cz_figure_margin(text, point->margin));
-    for (int k = 0; k < sweep->n_metric; k++) {
-        cz_figure_plain(text, point->metric[k]);
-        cz_markup_classed(markup, "td", "number", cz_figure_mark(text, point->beyond_validity));
-    }
-    cz_markup_element(markup, "td", point->check[0] != '\0' ? point->check : point->message);
-    cz_markup_element(markup, "td", point->where);
-    cz_markup_element(markup, "td", point->scenario);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-}
-
-/* A path as a head, which may be broken behind its dots. */
-static void write_path_head(CzMarkup *markup, const char *path) {
-    cz_markup_open(markup, "th");
-    cz_markup_attribute(markup, "class", "number");
-    while (*path != '\0') {
-        char part[CZ_SENTENCE_ROOM];
-        const int n = (int)strcspn(path, ".") + (strchr(path, '.') != NULL);
-        snprintf(part, sizeof part, "%.*s", n, path);
-        cz_markup_text(markup, part);
-        path += n;
-        if (*path != '\0') {
-            cz_markup_open(markup, "wbr");
-            cz_markup_close(markup);
-        }
-    }
-    cz_markup_close(markup);
-}
-
-static void write_table(CzMarkup *markup, const CzSweep *sweep) {
-    cz_page_begin_heads(markup, "points");
-    for (int k = 0; k < sweep->n_axis; k++)
-        write_path_head(markup, sweep->axis[k].path);
-    cz_markup_element(markup, "th", "verdict");
-    cz_markup_classed(markup, "th", "number", "margin");
-    for (int k = 0; k < sweep->n_metric; k++)
-        write_path_head(markup, sweep->metric[k]);
-    cz_markup_element(markup, "th", "smallest margin");
-    cz_markup_element(markup, "th", "where");
-    cz_markup_element(markup, "th", "scenario");
-    cz_page_end_heads(markup);
-    for (int i = 0; i < sweep->n_point; i++)
-        write_point(markup, sweep, &sweep->point[i]);
-    cz_page_close_table(markup);
-}
-
 CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error) {
     CzMarkup markup = {.stream = stream};
+    CzReportTable table;
     char title[CZ_SENTENCE_ROOM];
     snprintf(title, sizeof title, "%s, swept", cz_problem_title(sweep->problem));
     cz_page_write_head(&markup, title);
@@ -251,7 +180,9 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
         cz_markup_open(&markup, "details");
         cz_markup_element(&markup, "summary", "Every point of the map");
     }
-    write_table(&markup, sweep);
+    cz_sweep_begin_points(&table, sweep, true);
+    table.class_name = "points";
+    cz_table_write_page(&table, &markup);
     if (sweep->n_axis > 1)
         cz_markup_close(&markup);
     cz_page_close_section(&markup);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "crushzone/sweep.h"
+#include "report/table.h"
 
 /* Whether something climbed at one of the points. */
 static inline bool cz_sweep_is_beyond(const CzSweep *sweep) {
@@ -16,5 +17,15 @@ static inline bool cz_sweep_is_beyond(const CzSweep *sweep) {
 
 /* Writes the page. Status: CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error);
+
+/* How a point looks: word, sign in a map, colour there, style in a table. */
+typedef struct CzPointLook {
+    const char *word, *sign, *colour;
+    CzStyle style;
+} CzPointLook;
+CzPointLook cz_point_look(const CzSweepPoint *point);
+
+/* The table of all points. */
+void cz_sweep_begin_points(CzReportTable *table, const CzSweep *sweep, bool on_page);
 
 #endif

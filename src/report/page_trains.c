@@ -4,6 +4,7 @@
 #include "report/elevation.h"
 #include "report/figure.h"
 #include "report/plot.h"
+#include "report/result_table.h"
 #include "report/units.h"
 
 #include <math.h>
@@ -17,13 +18,6 @@
 #define ROW_HEIGHT 146.0
 #define MOST_IN_ROW 9 /* cars that are as wide as a page */
 #define NOTHING 100.0 /* energy of an element that does not count as one that worked [J] */
-
-static double largest_use(const CzInterfaceResult *interface) {
-    double used = 0;
-    for (int i = 0; i < interface->n_element; i++)
-        used = fmax(used, interface->element[i].stroke_used);
-    return used;
-}
 
 static void write_car(const CzPage *page, int car, double x, double y, CzMarkup *markup) {
     const CzCar *description = &page->model->car[car];
@@ -50,21 +44,18 @@ static void write_car(const CzPage *page, int car, double x, double y, CzMarkup 
 
 /* A column of numbers below the gap between two cars. */
 static void write_interface(const CzPage *page, int index, double x, double y, CzMarkup *markup) {
-    const CzInterfaceResult *interface = &page->summary->interface[index];
-    char number[CZ_FIGURE_ROOM], text[5][CZ_FIGURE_ROOM + 16];
+    static const struct {
+        const CzResult *result;
+        const char *behind;
+    } lines[] = {{CZ_RESULT_AT(INTERFACE, peak_force_kN), " kN"},
+                 {CZ_RESULT_AT(INTERFACE, shortening_mm), " mm"},
+                 {CZ_RESULT_AT(INTERFACE, stroke_used), " used"},
+                 {CZ_RESULT_AT(INTERFACE, energy_kJ), " kJ"},
+                 {CZ_RESULT_AT(INTERFACE, energy_share), ""}};
+    enum { n_line = sizeof lines / sizeof *lines };
     const CzRunSummary *run = page->summary;
-    const char *mark = run->beyond_validity ? "*" : "";
-    snprintf(text[0], sizeof *text, "%s kN%s",
-             cz_figure_fixed(number, 0, interface->peak_force / CZ_KILO),
-             interface->peak_time <= run->beyond_validity_time ? "" : mark);
-    snprintf(text[1], sizeof *text, "%s mm%s",
-             cz_figure_fixed(number, 0, interface->shortening * CZ_MILLI_PER_UNIT), mark);
-    snprintf(text[2], sizeof *text, "%s used%s", cz_figure_percent(number, largest_use(interface)),
-             mark);
-    snprintf(text[3], sizeof *text, "%s kJ",
-             cz_figure_plain(number, cz_run_total(run, interface->energy) / CZ_KILO));
-    snprintf(text[4], sizeof *text, "%s",
-             cz_figure_percent(number, cz_run_total(run, interface->energy_share)));
+    const CzInterfaceResult *interface = &run->interface[index];
+    CzResultContext context = {.run = run};
     const bool collides = index == page->model->colliding;
     cz_markup_open(markup, "path");
     cz_markup_format(markup, "d", "M%d %dH%d", (int)(x - BETWEEN / 2), (int)(y + CAR_TOP + 22),
@@ -73,12 +64,20 @@ static void write_interface(const CzPage *page, int index, double x, double y, C
     cz_markup_attribute(markup, "stroke-width", collides ? "5" : "2");
     cz_markup_close(markup);
     cz_svg_text(markup, x, y + CAR_TOP + 14, "middle", interface->name);
-    for (int i = 0; i < 5; i++)
-        cz_svg_text(markup, x, y + CAR_TOP + CAR_HEIGHT + 16 + 14 * i, "middle", text[i]);
+    for (int i = 0; i < n_line; i++) {
+        char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 8];
+        const bool is_early = lines[i].result == CZ_RESULT_AT(INTERFACE, peak_force_kN) &&
+                              interface->peak_time <= run->beyond_validity_time;
+        const bool is_total = lines[i].result->form == CZ_FORM_TOTAL; /* blank and not marked */
+        snprintf(text, sizeof text, "%s%s%s",
+                 cz_result_text(number, lines[i].result, &context, interface), lines[i].behind,
+                 run->beyond_validity && !is_early && !is_total ? "*" : "");
+        cz_svg_text(markup, x, y + CAR_TOP + CAR_HEIGHT + 16 + 14 * i, "middle", text);
+    }
     if (interface->bottomed_out) {
         cz_markup_open(markup, "text");
         cz_markup_number(markup, "x", 1, x);
-        cz_markup_number(markup, "y", 1, y + CAR_TOP + CAR_HEIGHT + 16 + 14 * 5);
+        cz_markup_number(markup, "y", 1, y + CAR_TOP + CAR_HEIGHT + 16 + 14 * n_line);
         cz_markup_attribute(markup, "text-anchor", "middle");
         cz_markup_attribute(markup, "fill", "#d0021b");
         cz_markup_attribute(markup, "font-weight", "bold");
@@ -110,85 +109,61 @@ static void write_diagram(const CzPage *page, CzMarkup *markup) {
 
 /* ---- tables ---- */
 
-/* A number of the run, marked when it may be of the time beyond the model's validity. */
-static void put_number(CzMarkup *markup, const CzRunSummary *run, char text[CZ_FIGURE_ROOM]) {
-    cz_markup_classed(markup, "td", "number", cz_figure_mark(text, run->beyond_validity));
-}
-
-static void put_plain(CzMarkup *markup, const CzRunSummary *run, double value) {
-    char number[CZ_FIGURE_ROOM];
-    cz_figure_plain(number, value);
-    put_number(markup, run, number);
-}
-
-static void write_element(CzMarkup *markup, const CzRunSummary *run, const char *interface,
-                          const CzElementResult *element) {
-    char number[CZ_FIGURE_ROOM];
-    cz_markup_open(markup, "tr");
-    cz_markup_element(markup, "td", interface);
-    cz_markup_element(markup, "td", element->name);
-    put_plain(markup, run, element->peak_force / CZ_KILO);
-    put_plain(markup, run, element->stroke * CZ_MILLI_PER_UNIT);
-    cz_figure_percent(number, element->stroke_used);
-    put_number(markup, run, number);
-    put_plain(markup, run, cz_run_total(run, element->energy) / CZ_KILO);
-    cz_markup_classed(markup, "td", element->bottomed_out ? "fail" : "small",
-                      element->bottomed_out ? "bottomed out"
-                      : element->sheared    ? "sheared off"
-                                            : "");
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-}
-
 static void write_elements(const CzPage *page, CzMarkup *markup) {
-    static const char *const names[] = {"interface",    "element", ">peak kN", ">stroke mm",
-                                        ">stroke used", ">kJ",     ""};
-    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
-    for (int i = 0; i < page->summary->n_interface; i++) {
-        const CzInterfaceResult *interface = &page->summary->interface[i];
-        bool is_first = true;
-        for (int k = 0; k < interface->n_element; k++) {
-            if (!(interface->element[k].energy > NOTHING) && !interface->element[k].bottomed_out)
+    static const CzResult *const columns[] = {
+        CZ_RESULT_AT(ELEMENT, peak_force_kN), CZ_RESULT_AT(ELEMENT, stroke_mm),
+        CZ_RESULT_AT(ELEMENT, stroke_used), CZ_RESULT_AT(ELEMENT, energy_kJ)};
+    enum { n_column = sizeof columns / sizeof *columns };
+    const CzRunSummary *run = page->summary;
+    CzResultContext context = {.run = run};
+    CzReportTable table;
+    cz_table_begin(&table, 2, (const char *const[]){"interface", "element"});
+    for (int k = 0; k < n_column; k++)
+        cz_table_head_of(&table, columns[k]);
+    cz_table_head(&table, "");
+    for (int i = 0; i < run->n_interface; i++) {
+        const char *name = run->interface[i].name;
+        for (int e = 0; e < run->interface[i].n_element; e++) {
+            const CzElementResult *element = &run->interface[i].element[e];
+            if (!(element->energy > NOTHING) && !element->bottomed_out)
                 continue;
-            write_element(markup, page->summary, is_first ? interface->name : "",
-                          &interface->element[k]);
-            is_first = false;
+            cz_table_put(&table, name, CZ_STYLE_PLAIN);
+            cz_table_put(&table, element->name, CZ_STYLE_PLAIN);
+            for (int k = 0; k < n_column; k++)
+                cz_table_put_result(&table, columns[k], &context, element, run->beyond_validity);
+            cz_table_put(&table,
+                         element->bottomed_out ? "bottomed out"
+                         : element->sheared    ? "sheared off"
+                                               : "",
+                         element->bottomed_out ? CZ_STYLE_BAD : CZ_STYLE_SMALL);
+            name = "";
         }
     }
-    cz_page_close_table(markup);
-}
-
-static void write_vehicle(CzMarkup *markup, const CzRunSummary *run,
-                          const CzVehicleResult *vehicle) {
-    double lift = NAN;
-    for (int i = 0; i < 4; i++)
-        lift = fmax(lift, vehicle->wheel_lift[i]);
-    cz_markup_open(markup, "tr");
-    cz_markup_element(markup, "td", vehicle->name);
-    put_plain(markup, run, vehicle->final_speed * CZ_KM_H_PER_M_S);
-    put_plain(markup, run, vehicle->peak_deceleration / CZ_GRAVITY);
-    put_plain(markup, run, vehicle->mean_deceleration_contact / CZ_GRAVITY);
-    put_plain(markup, run, vehicle->mean_deceleration_120ms / CZ_GRAVITY);
-    put_plain(markup, run, lift * CZ_MILLI_PER_UNIT);
-    put_plain(markup, run, vehicle->max_pitch * CZ_MILLI_PER_UNIT);
-    put_plain(markup, run, vehicle->link_force / CZ_KILO);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_table_write_page(&table, markup);
 }
 
 static void write_vehicles(const CzPage *page, CzMarkup *markup) {
-    static const char *const names[] = {"car",
-                                        ">final km/h",
-                                        ">peak g",
-                                        ">mean g, contact",
-                                        ">mean g, 120 ms",
-                                        ">wheel lift mm",
-                                        ">pitch mrad",
-                                        ">traction link kN"};
-    cz_page_open_table(markup, NULL, sizeof names / sizeof *names, names);
-    for (int i = 0; i < page->summary->n_vehicle; i++)
-        write_vehicle(markup, page->summary, &page->summary->vehicle[i]);
-    cz_page_close_table(markup);
+    static const CzResult *const columns[] = {CZ_RESULT_AT(VEHICLE, final_speed_km_h),
+                                              CZ_RESULT_AT(VEHICLE, peak_deceleration_g),
+                                              CZ_RESULT_AT(VEHICLE, mean_deceleration_contact_g),
+                                              CZ_RESULT_AT(VEHICLE, mean_deceleration_120ms_g),
+                                              CZ_RESULT_AT(VEHICLE, max_wheel_lift_mm),
+                                              CZ_RESULT_AT(VEHICLE, max_pitch_mrad),
+                                              CZ_RESULT_AT(VEHICLE, link_force_kN)};
+    enum { n_column = sizeof columns / sizeof *columns };
+    const CzRunSummary *run = page->summary;
+    CzResultContext context = {.run = run};
+    CzReportTable table;
+    cz_table_begin(&table, 1, (const char *const[]){"car"});
+    for (int k = 0; k < n_column; k++)
+        cz_table_head_of(&table, columns[k]);
+    for (int i = 0; i < run->n_vehicle; i++) {
+        cz_table_put(&table, run->vehicle[i].name, CZ_STYLE_PLAIN);
+        for (int k = 0; k < n_column; k++)
+            cz_table_put_result(&table, columns[k], &context, &run->vehicle[i],
+                                run->beyond_validity);
+    }
+    cz_table_write_page(&table, markup);
 }
 
 void cz_page_write_trains(CzPage *page) {

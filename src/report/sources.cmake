@@ -7,21 +7,20 @@ set(CZ_SOURCES_report
     charts_motion.c
     checks_table.c
     compare.c
-    compare_document.c
+    compare_values.c
     csv.c
+    document_values.c
+    documents.c
     drawn.c
     elevation.c
     explanation.c
     figure.c
-    fit_document.c
     fit_figure.c
     folder.c
-    grid.c
     inputs_text.c
     json.c
     markup.c
     options.c
-    outcome.c
     outcome_table.c
     overlay.c
     page.c
@@ -38,13 +37,19 @@ set(CZ_SOURCES_report
     page_trains.c
     plot.c
     result_folder.c
+    result_list.c
+    result_table.c
+    result_values.c
+    results.c
+    run_table.c
     scene.c
     shares.c
     sheet.c
     single_file.c
-    summary.c
-    sweep.c
+    sweep_folder.c
+    sweep_table.c
     table.c
+    table_page.c
     temporary.c
     thin.c
     verification.c

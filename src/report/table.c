@@ -1,267 +1,131 @@
-/* What a run answers, on a terminal: who absorbed what, what was broken, what passes. */
-#include "crushzone/report.h"
+/* Tables as data, and as text: widths are counted in characters, so that names in UTF-8 line up. */
+#include "report/table.h"
 
-#include "problem/problem.h"
-#include "report/checks_table.h"
-#include "report/grid.h"
-#include "report/runs.h"
-#include "report/figure.h"
-#include "report/units.h"
-
-#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-static double given_or(double given, double otherwise) {
-    return isnan(given) ? otherwise : given;
+enum { COLUMN_SPACE = 3 };
+
+static const char *const style_begin[] = {[CZ_STYLE_PLAIN] = "",
+                                          [CZ_STYLE_GOOD] = "\033[32m",
+                                          [CZ_STYLE_CAREFUL] = "\033[33m",
+                                          [CZ_STYLE_BAD] = "\033[1;31m",
+                                          [CZ_STYLE_SMALL] = ""};
+
+void cz_text_write(const char *text, CzStyle style, bool colour, FILE *stream) {
+    const bool painted = colour && style_begin[style][0] != '\0';
+    if (painted)
+        fputs(style_begin[style], stream);
+    for (; *text != '\0'; text++)
+        fputc((unsigned char)*text < 0x20 || *text == 0x7f ? '?' : *text, stream);
+    if (painted)
+        fputs("\033[0m", stream);
 }
 
-static const CzTrain *train_named(const CzInput *input, const char *name) {
-    for (int i = 0; i < input->n_trains; i++)
-        if (strcmp(input->trains[i].name, name) == 0)
-            return &input->trains[i];
-    return NULL;
+/* ---- data ---- */
+
+static const char *keep(CzReportTable *table, const char *text) {
+    const char *copy = cz_arena_copy_text(&table->arena, text, strlen(text));
+    table->failed |= copy == NULL;
+    return copy != NULL ? copy : "";
 }
 
-/* Speeds of the two trains of a scenario as the file says them, such as "36 km/h -> 0 km/h". */
-static void write_speeds(const CzProblem *problem, const char *name, FILE *stream) {
-    const CzInput *input = cz_problem_input(problem);
-    const CzTrain *train[2] = {input->n_trains > 0 ? &input->trains[0] : NULL,
-                               input->n_trains > 1 ? &input->trains[1] : NULL};
-    double speed[2] = {NAN, NAN};
-    for (int i = 0; i < input->n_scenarios; i++) {
-        const CzScenario *scenario = &input->scenarios[i];
-        if (strcmp(scenario->name, name) != 0)
-            continue;
-        for (int side = 0; side < scenario->trains.n_text && side < 2; side++)
-            train[side] = train_named(input, scenario->trains.text[side]);
-        speed[0] = scenario->speed;
-        speed[1] = scenario->partner_speed;
-    }
-    if (train[0] == NULL || train[1] == NULL)
+void cz_table_head(CzReportTable *table, const char *head) {
+    if (table->n_column == CZ_MOST_COLUMNS)
         return;
-    char text[2][CZ_FIGURE_ROOM];
-    for (int side = 0; side < 2; side++)
-        cz_figure_digits(text[side], 4,
-                         given_or(speed[side], train[side]->speed) * CZ_KM_H_PER_M_S);
-    fprintf(stream, "   %s km/h -> %s km/h", text[0], text[1]);
+    const bool is_number = head != NULL && head[0] == '>';
+    table->column[table->n_column].head = head != NULL ? keep(table, head + is_number) : NULL;
+    table->column[table->n_column++].is_number = is_number;
 }
 
-static void write_run_head(const CzProblem *problem, const CzRunSummary *run, bool colour,
-                           FILE *stream) {
-    char simulated[CZ_FIGURE_ROOM], balance[CZ_FIGURE_ROOM];
-    cz_grid_write_text(run->scenario, CZ_STYLE_PLAIN, colour, stream);
-    write_speeds(problem, run->scenario, stream);
-    if (run->status != CZ_OK) {
-        fputs("   ", stream);
-        cz_grid_write_text("RUN FAILED", CZ_STYLE_BAD, colour, stream);
-        fputs(": ", stream);
-        cz_grid_write_text(run->failure, CZ_STYLE_PLAIN, colour, stream);
-        fputc('\n', stream);
-        return;
-    }
-    fprintf(stream, "   %s s simulated, ", cz_figure_digits(simulated, 3, run->simulated));
-    const bool cut = run->ended == CZ_ENDED_INCOMPLETE;
-    if (!cut)
-        fputs("ended ", stream);
-    char end[80];
-    snprintf(end, sizeof end, "INCOMPLETE: not over within simulation.longest_s = %s",
-             cz_figure_digits(simulated, 3, cz_problem_input(problem)->simulation.longest));
-    cz_grid_write_text(cut ? end : cz_ended_text(run->ended), cut ? CZ_STYLE_BAD : CZ_STYLE_PLAIN,
-                       colour, stream);
-    fprintf(stream, "   energy balance %s", cz_figure_percent(balance, run->energy.balance_error));
-    if (cz_run_is_unbalanced(run)) {
-        fputs("   ", stream);
-        cz_grid_write_text("POOR: take a smaller time step", CZ_STYLE_BAD, colour, stream);
-    }
-    if (cz_run_misses_laws(run)) {
-        char off[CZ_FIGURE_ROOM];
-        fprintf(stream, "   forces off their laws by %s ", cz_figure_percent(off, run->law_error));
-        cz_grid_write_text("POOR: take a smaller time step", CZ_STYLE_BAD, colour, stream);
-    }
-    fputc('\n', stream);
+void cz_table_begin(CzReportTable *table, int n_head, const char *const *head) {
+    memset(table, 0, sizeof *table);
+    for (int i = 0; i < n_head; i++)
+        cz_table_head(table, head[i]);
 }
 
-/* What was overrun or let go at an interface, and when. */
-static void describe_damage(const CzRunSummary *run, int interface, size_t room, char *text) {
-    size_t used = 0;
-    text[0] = '\0';
-    for (int i = 0; i < run->n_event && used < room; i++) {
-        const CzEvent *event = &run->event[i];
-        const bool bottomed = event->what == CZ_EVENT_BOTTOMED_OUT;
-        if ((!bottomed && event->what != CZ_EVENT_SHEAR_OFF) || event->interface != interface)
-            continue;
-        char time[CZ_FIGURE_ROOM];
-        const int n = snprintf(text + used, room - used, "%s%s %s at %s ms", used > 0 ? ", " : "",
-                               event->where, bottomed ? "BOTTOMED OUT" : "sheared off",
-                               cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
-        used += n > 0 ? (size_t)n : 0;
-    }
-    if (text[0] == '\0' && run->interface[interface].bottomed_out)
-        snprintf(text, room, "BOTTOMED OUT");
-}
-
-static void put_interface(CzGrid *grid, const CzRunSummary *run, int index) {
-    const CzInterfaceResult *interface = &run->interface[index];
-    char number[CZ_FIGURE_ROOM], damage[CZ_MAX_ELEMENTS * (CZ_WHERE_ROOM + CZ_FIGURE_ROOM + 32)],
-        used_text[CZ_FIGURE_ROOM + 2];
-    const bool late = run->beyond_validity;
-    const bool peak_is_late = late && !(interface->peak_time <= run->beyond_validity_time);
-    const CzStyle style = interface->bottomed_out ? CZ_STYLE_BAD : CZ_STYLE_PLAIN;
-    double used = 0;
-    for (int i = 0; i < interface->n_element; i++)
-        used = fmax(used, interface->element[i].stroke_used);
-    cz_figure_percent(number, used);
-    snprintf(used_text, sizeof used_text, "%s%s", cz_figure_mark(number, late),
-             interface->bottomed_out ? " !" : "");
-    describe_damage(run, index, sizeof damage, damage);
-
-    cz_grid_put(grid, interface->name, CZ_STYLE_PLAIN);
-    cz_figure_fixed(number, 0, interface->peak_force / CZ_KILO);
-    cz_grid_put(grid, cz_figure_mark(number, peak_is_late), CZ_STYLE_PLAIN);
-    cz_figure_fixed(number, 0, interface->shortening * CZ_MILLI_PER_UNIT);
-    cz_grid_put(grid, cz_figure_mark(number, late), CZ_STYLE_PLAIN);
-    cz_grid_put(grid, used_text, style);
-    const double energy = cz_run_total(run, interface->energy);
-    cz_grid_put(grid, cz_figure_plain(number, energy / CZ_KILO), CZ_STYLE_PLAIN);
-    const double share = cz_run_total(run, interface->energy_share);
-    cz_grid_put(grid, cz_figure_percent(number, share), CZ_STYLE_PLAIN);
-    cz_grid_put(grid, damage, style);
-}
-
-/* Interfaces of a run; a compact table keeps the one with the highest force and the overrun. */
-static bool write_interfaces(const CzRunSummary *run, bool compact, bool colour, FILE *stream) {
-    bool is_whole = true;
-    static const char *const names[] = {"interface", "peak kN", "crush mm", "used",
-                                        "energy kJ", "share",   ""};
-    int worst = 0;
-    for (int i = 1; i < run->n_interface; i++)
-        if (run->interface[i].peak_force > run->interface[worst].peak_force)
-            worst = i;
-
-    CzGrid grid;
-    cz_grid_begin(&grid, "lrrrrrl");
-    for (int i = 0; i < 7; i++)
-        cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
-    for (int i = 0; i < run->n_interface; i++)
-        if (!compact || i == worst || run->interface[i].bottomed_out)
-            put_interface(&grid, run, i);
-    is_whole &= cz_grid_write(&grid, colour, stream);
-    return is_whole;
-}
-
-/* Wheel lift and override are about the run as a whole. */
-static void write_climbing(const CzRunSummary *run, bool colour, FILE *stream) {
-    char text[CZ_WHERE_ROOM + 160], time[CZ_FIGURE_ROOM];
-    for (int i = 0; i < run->n_event; i++) {
-        const CzEvent *event = &run->event[i];
-        const bool override = event->what == CZ_EVENT_OVERRIDE;
-        if (!override && event->what != CZ_EVENT_WHEEL_LIFT)
-            continue;
-        snprintf(text, sizeof text, "%s: %s at %s ms\n", override ? "OVERRIDE" : "wheel lift",
-                 event->where, cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
-        text[strlen(text) - 1] = '\0';
-        cz_grid_write_text(text, override ? CZ_STYLE_BAD : CZ_STYLE_PLAIN, colour, stream);
-        fputc('\n', stream);
-    }
-    if (!run->beyond_validity)
-        return;
-    snprintf(text, sizeof text,
-             "From %s ms on this run is beyond model validity. " CZ_FIGURE_MARK_MEANS ".",
-             cz_figure_fixed(time, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
-    cz_grid_write_text(text, CZ_STYLE_BAD, colour, stream);
-    fputc('\n', stream);
-}
-
-/* ---- families of scenarios ---- */
-
-static const char *family_of(const CzProblem *problem, const char *scenario) {
-    const CzInput *input = cz_problem_input(problem);
-    for (int i = 0; i < input->n_scenarios; i++)
-        if (strcmp(input->scenarios[i].name, scenario) == 0)
-            return input->scenarios[i].family;
-    return NULL;
-}
-
-static bool is_of_family(const CzProblem *problem, const char *scenario, const char *family) {
-    const char *own = family_of(problem, scenario);
-    return own != NULL && strcmp(own, family) == 0;
-}
-
-/* The check of a family that is nearest to failing, or fails; NULL when none was made. */
-static const CzCheckResult *worst_check(const CzProblem *problem, const CzEvaluation *evaluation,
-                                        const char *family) {
-    const CzCheckResult *worst = NULL;
-    for (int i = 0; i < evaluation->n_check; i++) {
-        const CzCheckResult *check = &evaluation->check[i];
-        if (!isnan(check->value) && is_of_family(problem, check->scenario, family) &&
-            (worst == NULL || cz_check_is_worse(check, worst)))
-            worst = check;
-    }
-    return worst;
-}
-
-/* The run that stands for a family: one that failed or was cut short, else the one with the worst
- * check. */
-static int worst_member(const CzProblem *problem, const CzEvaluation *evaluation,
-                        const char *family) {
-    const CzCheckResult *worst = worst_check(problem, evaluation, family);
-    int member = -1;
-    for (int i = 0; i < evaluation->n_run; i++) {
-        const CzRunSummary *run = cz_kept_run(evaluation, i);
-        if (run == NULL || !is_of_family(problem, run->scenario, family))
-            continue;
-        if (run->status != CZ_OK || run->ended == CZ_ENDED_INCOMPLETE)
-            return i;
-        if (member < 0 || (worst != NULL && strcmp(worst->scenario, run->scenario) == 0))
-            member = i;
-    }
-    return member;
-}
-
-static void write_family(const CzProblem *problem, const CzEvaluation *evaluation,
-                         const char *family, bool colour, FILE *stream) {
-    const CzCheckResult *worst = worst_check(problem, evaluation, family);
-    char margin[CZ_FIGURE_ROOM];
-    int n = 0;
-    for (int i = 0; i < evaluation->n_run; i++) {
-        const CzRunSummary *run = cz_kept_run(evaluation, i);
-        n += run != NULL && is_of_family(problem, run->scenario, family);
-    }
-    cz_grid_write_text(family, CZ_STYLE_PLAIN, colour, stream);
-    fprintf(stream, ": the worst of %d scenarios", n);
-    if (worst != NULL) {
-        fputs(" by ", stream);
-        cz_grid_write_text(worst->name, CZ_STYLE_PLAIN, colour, stream);
-        if (!worst->is_flag)
-            fprintf(stream, ", margin %s", cz_figure_margin(margin, worst->margin));
-    }
-    fputc('\n', stream);
-}
-
-/* Whether a run is told: each one of its own, and of each family the worst member. */
-static bool is_told(const CzProblem *problem, const CzEvaluation *evaluation, int index) {
-    const char *family = family_of(problem, cz_kept_run(evaluation, index)->scenario);
-    return family == NULL || worst_member(problem, evaluation, family) == index;
-}
-
-CzStatus cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluation,
-                               bool colour, FILE *stream) {
-    bool is_whole = true;
-    cz_grid_write_text(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
-    fputs("\n\n", stream);
-    for (int i = 0; i < evaluation->n_run; i++) {
-        const CzRunSummary *run = cz_kept_run(evaluation, i);
-        if (run == NULL || !is_told(problem, evaluation, i))
-            continue;
-        if (family_of(problem, run->scenario) != NULL)
-            write_family(problem, evaluation, family_of(problem, run->scenario), colour, stream);
-        write_run_head(problem, run, colour, stream);
-        if (run->status == CZ_OK) {
-            is_whole &= write_interfaces(run, cz_n_kept_run(evaluation) > 1, colour, stream);
-            write_climbing(run, colour, stream);
+static void put(CzReportTable *table, CzReportCell cell) {
+    if (table->n_cell == table->room && !table->failed) {
+        const int room = 2 * table->room + 64;
+        CzReportCell *grown = realloc(table->cell, (size_t)room * sizeof *grown);
+        table->failed = grown == NULL;
+        if (!table->failed) {
+            table->cell = grown;
+            table->room = room;
         }
-        fputc('\n', stream);
     }
-    is_whole &= cz_checks_write_table(evaluation, NULL, colour, stream);
-    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
+    if (!table->failed)
+        table->cell[table->n_cell++] = cell;
+}
+
+void cz_table_put(CzReportTable *table, const char *text, CzStyle style) {
+    put(table, (CzReportCell){.text = keep(table, text != NULL ? text : ""), .style = style});
+}
+
+void cz_table_put_bar(CzReportTable *table, const CzBar *bar, double share) {
+    put(table, (CzReportCell){.text = "", .drawing = CZ_DRAWING_BAR, .bar = bar, .share = {share}});
+}
+
+void cz_table_put_range(CzReportTable *table, double start, double best) {
+    put(table, (CzReportCell){.text = "", .drawing = CZ_DRAWING_RANGE, .share = {start, best}});
+}
+
+void cz_table_free(CzReportTable *table) {
+    free(table->cell);
+    table->cell = NULL;
+    cz_arena_free(&table->arena);
+}
+
+/* ---- text ---- */
+
+static bool begins_character(char byte) {
+    return ((unsigned char)byte & 0xc0) != 0x80;
+}
+
+static int width_of(const char *text) {
+    int width = 0;
+    for (; *text != '\0'; text++)
+        width += begins_character(*text);
+    return width;
+}
+
+/* Writes a row without the blanks at its end. */
+static void write_row(const CzReportTable *table, const CzReportCell *cell, const int *width,
+                      bool colour, FILE *stream) {
+    int last = table->n_column - 1;
+    while (last > 0 && (table->column[last].head == NULL || cell[last].text[0] == '\0'))
+        last--;
+    for (int column = 0; column <= last; column++) {
+        if (width[column] == 0)
+            continue;
+        const int blank = width[column] - width_of(cell[column].text);
+        const bool right = table->column[column].is_number;
+        fprintf(stream, "%*s", (column > 0 ? COLUMN_SPACE : 0) + (right ? blank : 0), "");
+        cz_text_write(cell[column].text, cell[column].style, colour, stream);
+        if (!right && column < last)
+            fprintf(stream, "%*s", blank, "");
+    }
+    fputc('\n', stream);
+}
+
+bool cz_table_write_text(CzReportTable *table, bool colour, FILE *stream) {
+    CzReportCell head[CZ_MOST_COLUMNS];
+    int width[CZ_MOST_COLUMNS] = {0};
+    if (table->failed)
+        fputs("no memory for this table\n", stream);
+    for (int column = 0; column < table->n_column; column++) {
+        const char *text = table->column[column].head;
+        head[column] = (CzReportCell){.text = text != NULL ? text : ""};
+        width[column] = width_of(head[column].text);
+    }
+    for (int i = 0; i < table->n_cell; i++) {
+        const int column = i % table->n_column, cell_width = width_of(table->cell[i].text);
+        if (table->column[column].head != NULL && cell_width > width[column])
+            width[column] = cell_width;
+    }
+    write_row(table, head, width, colour, stream);
+    for (int i = 0; i + table->n_column <= table->n_cell; i += table->n_column)
+        write_row(table, &table->cell[i], width, colour, stream);
+    cz_table_free(table);
+    return !table->failed;
 }

@@ -1,18 +1,15 @@
-/* What a verification answers: a table of the numbers that change most, and the document
- * `crushzone.verification`. */
+/* What a verification answers, on a terminal: the numbers that change most. */
 #include "crushzone/report.h"
 
-#include "report/documents.h"
 #include "report/figure.h"
-#include "report/grid.h"
+#include "report/outcome_table.h"
+#include "report/table.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROWS = 12 }; /* of the table: the rest changes less and stands in the document */
-
-/* ---- terminal -------------------------------------------------------------------------------- */
+enum { MOST_ROWS = 12 }; /* of the table: the rest changes less and is in the document */
 
 static double largest_of(const CzVerifiedValue *value) {
     double largest = 0.0;
@@ -32,28 +29,28 @@ static int by_change(const void *a, const void *b) {
     return *p < *q ? -1 : *p > *q;
 }
 
-static void put_row(CzGrid *grid, const CzVerification *verification,
+static void put_row(CzReportTable *table, const CzVerification *verification,
                     const CzVerifiedValue *value) {
     char text[CZ_FIGURE_ROOM], record[CZ_FIGURE_ROOM + 16];
     const char *unit = value->unit != NULL ? value->unit : "";
-    cz_grid_put(grid, value->name, CZ_STYLE_PLAIN);
-    cz_grid_put(grid, value->where, CZ_STYLE_PLAIN);
-    cz_grid_put(grid, value->scenario, CZ_STYLE_PLAIN);
+    cz_table_put(table, value->name, CZ_STYLE_PLAIN);
+    cz_table_put(table, value->where, CZ_STYLE_PLAIN);
+    cz_table_put(table, value->scenario, CZ_STYLE_PLAIN);
     cz_figure_plain(text, value->record);
     snprintf(record, sizeof record, "%s%s%s", cz_figure_mark(text, value->beyond_validity),
              unit[0] != '\0' ? " " : "", unit);
-    cz_grid_put(grid, record, CZ_STYLE_PLAIN);
+    cz_table_put(table, record, CZ_STYLE_PLAIN);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
         if ((verification->ways & (1u << way)) == 0)
             continue;
         const bool bad = value->flips[way] || value->change[way] > verification->limit;
-        cz_grid_put(grid, value->flips[way] ? "FLIPS" : cz_figure_change(text, value->change[way]),
-                    bad ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+        cz_table_put(table,
+                     value->flips[way] ? "FLIPS" : cz_figure_change(text, value->change[way]),
+                     bad ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
     }
 }
 
 static bool write_values(const CzVerification *verification, bool colour, FILE *stream) {
-    bool is_whole = true;
     const size_t n = (size_t)verification->n_value;
     const CzVerifiedValue **value = calloc(n + 1, sizeof *value);
     if (value == NULL)
@@ -61,47 +58,52 @@ static bool write_values(const CzVerification *verification, bool colour, FILE *
     for (size_t i = 0; i < n; i++)
         value[i] = &verification->value[i];
     qsort(value, n, sizeof *value, by_change);
-    char columns[5 + CZ_N_VERIFY_WAY] = "lllr";
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
+    static const char *const heads[] = {"changes most", "where", "scenario", ">record"};
+    CzReportTable table;
+    cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
+    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
+        char head[64];
+        snprintf(head, sizeof head, ">%s", cz_verify_way_text((CzVerifyWay)way));
         if ((verification->ways & (1u << way)) != 0)
-            columns[strlen(columns)] = 'r';
-    CzGrid grid;
-    cz_grid_begin(&grid, columns);
-    static const char *const names[] = {"changes most", "where", "scenario", "record"};
-    for (int i = 0; i < 4; i++)
-        cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        if ((verification->ways & (1u << way)) != 0)
-            cz_grid_put(&grid, cz_verify_way_text((CzVerifyWay)way), CZ_STYLE_PLAIN);
+            cz_table_head(&table, head);
+    }
     for (size_t i = 0; i < n && i < MOST_ROWS; i++)
-        put_row(&grid, verification, value[i]);
-    is_whole &= cz_grid_write(&grid, colour, stream);
+        put_row(&table, verification, value[i]);
+    const bool is_whole = cz_table_write_text(&table, colour, stream);
     free(value);
     return is_whole;
 }
 
-static bool write_ways(const CzVerification *verification, bool colour, FILE *stream) {
-    bool is_whole = true;
-    static const char *const names[] = {"by", "largest change", "verdicts that flip"};
+void cz_verified_begin_ways(CzReportTable *table, const CzVerification *verification,
+                            bool on_page) {
+    const char *const heads[] = {on_page ? "computed by" : "by", ">largest change",
+                                 on_page ? "of" : NULL, on_page ? "in" : NULL,
+                                 ">verdicts that flip"};
     char text[CZ_FIGURE_ROOM];
-    CzGrid grid;
-    cz_grid_begin(&grid, "lrr");
-    for (int i = 0; i < 3; i++)
-        cz_grid_put(&grid, names[i], CZ_STYLE_PLAIN);
+    cz_table_begin(table, sizeof heads / sizeof *heads, heads);
     for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
-        const double change = verification->largest_change[way];
         if ((verification->ways & (1u << way)) == 0)
             continue;
-        const bool bad = !verification->is_done[way] || !(change <= verification->limit) ||
-                         verification->n_flip[way] > 0;
-        cz_grid_put(&grid, cz_verify_way_text((CzVerifyWay)way), CZ_STYLE_PLAIN);
-        cz_grid_put(&grid, verification->is_done[way] ? cz_figure_change(text, change) : "not done",
-                    bad ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+        const double change = verification->largest_change[way];
+        const bool is_done = verification->is_done[way];
+        const bool flips = verification->n_flip[way] > 0;
+        const bool bad = !is_done || !(change <= verification->limit) || flips;
+        const int worst = is_done ? verification->worst[way] : -1;
+        const CzVerifiedValue *value = worst >= 0 ? &verification->value[worst] : NULL;
+        cz_table_put(table, cz_verify_way_text((CzVerifyWay)way), CZ_STYLE_PLAIN);
+        cz_table_put(table, is_done ? cz_figure_change(text, change) : "not done",
+                     bad ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+        cz_table_put(table, value != NULL ? value->name : "", CZ_STYLE_PLAIN);
+        cz_table_put(table, value != NULL ? value->scenario : "", CZ_STYLE_PLAIN);
         snprintf(text, sizeof text, "%d", verification->n_flip[way]);
-        cz_grid_put(&grid, text, verification->n_flip[way] > 0 ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+        cz_table_put(table, text, flips ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
     }
-    is_whole &= cz_grid_write(&grid, colour, stream);
-    return is_whole;
+}
+
+static bool write_ways(const CzVerification *verification, bool colour, FILE *stream) {
+    CzReportTable table;
+    cz_verified_begin_ways(&table, verification, false);
+    return cz_table_write_text(&table, colour, stream);
 }
 
 static bool changes_too_much(const CzVerification *verification, const CzVerifiedValue *value) {
@@ -131,7 +133,7 @@ CzStatus cz_report_write_verification_table(const CzProblem *problem,
                                             FILE *stream) {
     bool is_whole = true;
     char text[CZ_FIGURE_ROOM];
-    cz_grid_write_text(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
+    cz_text_write(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
     fputs("\n\n", stream);
     if (verification->n_value > 0) {
         is_whole &= write_values(verification, colour, stream);
@@ -140,85 +142,14 @@ CzStatus cz_report_write_verification_table(const CzProblem *problem,
         fputc('\n', stream);
     }
     if (verification->failure[0] != '\0') {
-        cz_grid_write_text(verification->failure, CZ_STYLE_BAD, colour, stream);
+        cz_text_write(verification->failure, CZ_STYLE_BAD, colour, stream);
         fputc('\n', stream);
     }
     write_scatter(verification, stream);
     const bool passes = verification->verdict == CZ_VERDICT_PASS;
     fputs("Verification: ", stream);
-    cz_grid_write_text(passes ? "pass" : "FAIL", passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, colour,
-                       stream);
+    cz_text_write(passes ? "pass" : "FAIL", passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, colour, stream);
     fprintf(stream, " (%d numbers, %s allowed)\n", verification->n_value,
             cz_figure_change(text, verification->limit));
     return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
-}
-
-/* ---- document -------------------------------------------------------------------------------- */
-
-static void put_value(CzJson *json, const CzVerifiedValue *value) {
-    cz_json_open_object(json, NULL);
-    cz_json_text(json, "name", value->name);
-    cz_json_text(json, "scenario", value->scenario[0] != '\0' ? value->scenario : NULL);
-    cz_json_text(json, "where", value->where[0] != '\0' ? value->where : NULL);
-    cz_json_text(json, "unit", value->unit);
-    cz_json_exact(json, "record", value->record);
-    cz_json_flag(json, "beyond_validity", value->beyond_validity);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
-        cz_json_open_object(json, cz_verify_way_key((CzVerifyWay)way));
-        cz_json_exact(json, "value", value->value[way]);
-        cz_json_exact(json, "change", value->change[way]);
-        cz_json_flag(json, "flips", value->flips[way]);
-        cz_json_close(json);
-    }
-    cz_json_close(json);
-}
-
-static void put_way(CzJson *json, const CzVerification *verification, CzVerifyWay way) {
-    const int worst = verification->worst[way];
-    const CzVerifiedValue *value = worst >= 0 ? &verification->value[worst] : NULL;
-    cz_json_open_object(json, cz_verify_way_key(way));
-    cz_json_flag(json, "done", verification->is_done[way]);
-    cz_json_exact(json, "largest_change", verification->largest_change[way]);
-    cz_json_text(json, "of", value != NULL ? value->name : NULL);
-    cz_json_text(json, "where", value != NULL && value->where[0] != '\0' ? value->where : NULL);
-    cz_json_text(json, "scenario",
-                 value != NULL && value->scenario[0] != '\0' ? value->scenario : NULL);
-    cz_json_whole(json, "flips", verification->n_flip[way]);
-    cz_json_close(json);
-}
-
-void cz_document_verified_ways(CzJson *json, const CzVerification *verification) {
-    cz_json_open_object(json, "ways");
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        put_way(json, verification, (CzVerifyWay)way);
-    cz_json_close(json);
-}
-
-static void put_times(CzJson *json, const CzVerification *verification,
-                      const CzReportOptions *options) {
-    double wall_s = 0.0;
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        wall_s += verification->wall_s[way];
-    cz_document_run_info(json, wall_s, options->setup_s, options->n_job);
-}
-
-CzStatus cz_report_write_verification(const CzProblem *problem, const CzVerification *verification,
-                                      const CzReportOptions *options, FILE *stream,
-                                      CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
-    if (options == NULL)
-        options = &absent;
-    CzJson *json = cz_json_create();
-    cz_document_head(json, "crushzone.verification", problem);
-    cz_json_text(json, "status", verification->status == CZ_OK ? "completed" : "failed");
-    cz_json_text(json, "failure", verification->failure[0] != '\0' ? verification->failure : NULL);
-    cz_json_text(json, "verdict", cz_verdict_text(verification->verdict));
-    cz_json_exact(json, "limit", verification->limit);
-    put_times(json, verification, options);
-    cz_document_verified_ways(json, verification);
-    cz_json_open_list(json, "values");
-    for (int i = 0; i < verification->n_value; i++)
-        put_value(json, &verification->value[i]);
-    cz_json_close(json);
-    return cz_json_finish(json, stream, error);
 }

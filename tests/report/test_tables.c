@@ -247,6 +247,28 @@ static void figures_are_short_and_honest(void **state) {
     assert_string_equal(cz_figure_digits(text, 3, -0.0), "0");
 }
 
+/* More columns than once had room. */
+static void a_sweep_shows_as_many_metrics_as_it_may_have(void **state) {
+    (void)state;
+    CzSweepPoint point = {.value = {36}, .margin = 0.1, .scenario = "collision"};
+    CzSweep sweep = {.n_axis = 1,
+                     .axis = {{.path = "trains.A.speed_km_h"}},
+                     .n_metric = CZ_MOST_SWEPT_METRICS,
+                     .n_point = 1,
+                     .point = &point};
+    for (int k = 0; k < CZ_MOST_SWEPT_METRICS; k++) {
+        snprintf(sweep.metric[k], sizeof sweep.metric[k], "metric %d", k + 1);
+        sweep.metric_unit[k] = "kN";
+        point.metric[k] = 100 + k;
+    }
+    Text *text = text_begin();
+    assert_int_equal(cz_report_write_sweep_table(&sweep, false, text->stream), CZ_OK);
+    char *written = text_end(text);
+    assert_has(written, "metric 8   smallest margin   where   scenario\n");
+    assert_has(written, "107 kN                             collision\n");
+    free(written);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(table_tells_interfaces_checks_and_verdict),
@@ -259,6 +281,7 @@ int main(void) {
         cmocka_unit_test(without_checks_nothing_is_judged),
         cmocka_unit_test(a_search_shows_before_and_after_and_the_new_values),
         cmocka_unit_test(a_search_without_success_lists_what_is_violated),
+        cmocka_unit_test(a_sweep_shows_as_many_metrics_as_it_may_have),
         cmocka_unit_test(figures_are_short_and_honest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -50,20 +50,6 @@ static void a_swing_stop_is_met_just_when_the_largest_swing_is_beyond_it(void **
     assert_true(n_met > 0 && n_met < 3 * 22); /* both were tried */
 }
 
-static void every_total_is_a_metric(void **state) {
-    (void)state;
-    static const char *const totals[] = {
-#define CZ_TOTAL(name) name,
-#include "evaluate/totals.def"
-#undef CZ_TOTAL
-    };
-    for (size_t i = 0; i < sizeof totals / sizeof totals[0]; i++) {
-        CzMetric metric;
-        assert_int_equal(cz_metric_parse(totals[i], &metric, NULL), CZ_OK);
-        assert_true(cz_metric_is_total(metric.kind));
-    }
-}
-
 /* Checks of totals are not made, those of other numbers are marked; a pass of neither is one. */
 static void assert_marked(const CzEvaluation *evaluation) {
     int n_total = 0;
@@ -114,7 +100,6 @@ static void numbers_past_an_override_are_marked_and_totals_blank(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_swing_stop_is_met_just_when_the_largest_swing_is_beyond_it),
-        cmocka_unit_test(every_total_is_a_metric),
         cmocka_unit_test(numbers_past_an_override_are_marked_and_totals_blank),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,347 @@
+/* What metrics are: an entry of results.def each, and the values that are judged. */
+#include "evaluate/devices.h"
+#include "evaluate/metric.h"
+#include "evaluate/place.h"
+#include "evaluate/when.h"
+
+/* Energies below this count as nothing, so that no share is taken of them [J]. */
+static const double nothing = 100;
+
+static double share_of(double part, double whole) {
+    return whole > nothing ? part / whole : NAN;
+}
+
+/* What a run has left to collide with. The rule that ends a run waits until for a pitch period none
+ * closes in; what neighbours then still do is rattle, of another size at every step. */
+static double left_to_close(const CzPlace *place) {
+    const CzRunSummary *run = place->run;
+    const bool over = run->ended == CZ_ENDED_BY_RULE || run->ended == CZ_ENDED_SETTLED;
+    return over ? 0 : run->closing_speed;
+}
+
+/* Rib pitch of the coarser of the two faces at an interface; 0 without faces. */
+static double rib_pitch(const CzPlace *place) {
+    double pitch = 0;
+    for (int side = 0; side < 2; side++) {
+        const int vehicle = place->interface_index + side;
+        const CzVehicle *record = &place->vehicles[place->scene->record[vehicle]];
+        const CzAntiClimber *face =
+            side == 0 ? &record->front.anti_climber : &record->rear.anti_climber;
+        if (face->given && face->rib_count > 0)
+            pitch = fmax(pitch, face->face_height / face->rib_count);
+    }
+    return pitch;
+}
+
+static double overlap_in_ribs(const CzPlace *place) {
+    return place->interface->min_overlap / rib_pitch(place);
+}
+
+static bool is_judged(const CzPlace *place, int vehicle) {
+    return !cz_scene_has_obstacle_at(place->scene, vehicle);
+}
+
+/* Whether anything at an interface ran beyond its last point, the devices of an obstacle aside. */
+static double judged_bottoming(const CzPlace *place) {
+    const CzInterfaceResult *interface = place->interface;
+    if (is_judged(place, place->interface_index) && is_judged(place, place->interface_index + 1))
+        return interface->bottomed_out;
+    for (int i = 0; i < interface->n_element; i++)
+        if (interface->element[i].bottomed_out && is_judged(place, interface->element[i].vehicle))
+            return 1;
+    return 0;
+}
+
+/* Largest force through the sections at an interface that are judged. */
+static double judged_section_force(const CzPlace *place) {
+    double force = NAN;
+    for (int side = 0; side < 2; side++)
+        if (is_judged(place, place->interface_index + side))
+            force = fmax(force, place->interface->section_force[side]);
+    return force;
+}
+
+/* Closure between the end structures over the room that the folded gangways leave; 0 at the
+ * colliding interface, which has no gangway. */
+static double inner_gap_used(const CzPlace *place) {
+    if (place->interface_index == place->scene->colliding)
+        return 0;
+    double closure = place->interface->shortening;
+    for (int i = 0; i < place->interface->n_element; i++)
+        if (place->interface->element[i].kind == CZ_ELEMENT_END)
+            closure -= place->interface->element[i].stroke;
+    const int *record = &place->scene->record[place->interface_index];
+    const CzEnd *behind = &place->vehicles[record[0]].front;
+    const CzEnd *ahead = &place->vehicles[record[1]].rear;
+    const double room =
+        behind->face_gap - behind->gangway_block + ahead->face_gap - ahead->gangway_block;
+    return room > 0 || isnan(room) ? closure / room : INFINITY;
+}
+
+/* Plastic energy of the end structure behind an anti-climber [J]. */
+static double energy_behind(const CzPlace *place) {
+    for (int i = 0; i < place->interface->n_element; i++) {
+        const CzElementResult *element = &place->interface->element[i];
+        if (element->kind == CZ_ELEMENT_END && element->vehicle == place->element->vehicle)
+            return element->energy;
+    }
+    return 0;
+}
+
+/* What bottomed out used its stroke up and hardly more, however hard it was hit. So beyond the last
+ * point two things stand for the stroke that was missing: the rise of the force F over the largest
+ * plastic one P, up to a tenth of the stroke, and behind an anti-climber the energy E that the end
+ * structure had to take in its place:
+ *
+ *   demand = used + 0.1 (1 - P / F) + E / (P stroke)
+ *
+ * It does not jump at the last point. A coupler with a shear-off asks for nothing until it lets go:
+ * its tubes may be used up. */
+static double stroke_demand(const CzPlace *place) {
+    const CzElementResult *element = place->element;
+    if (element->kind == CZ_ELEMENT_COUPLER && place->end->coupler.shear_off.given &&
+        !element->sheared)
+        return 0;
+    const double plastic = cz_plastic_force(place->end, element->kind, place->rate);
+    if (!element->bottomed_out || !(element->peak_force > plastic))
+        return element->stroke_used;
+    double demand = element->stroke_used + 0.1 * (1 - plastic / element->peak_force);
+    if (element->kind == CZ_ELEMENT_ANTI_CLIMBER && element->stroke > 0 && plastic > 0)
+        demand += energy_behind(place) / (plastic * element->stroke);
+    return demand;
+}
+
+static double shear_load(const CzPlace *place) {
+    const CzCoupler *coupler = &place->end->coupler;
+    if (place->element->kind != CZ_ELEMENT_COUPLER || !coupler->shear_off.given)
+        return NAN;
+    const double load = place->element->peak_force / coupler->shear_off.force;
+    return place->element->sheared ? fmax(load, 1) : load;
+}
+
+static double judged_wheel_lift(const CzPlace *place) {
+    double lift = place->vehicle->checks_override ? 0 : NAN;
+    for (int i = 0; i < 4; i++)
+        lift = isnan(lift) ? lift : fmax(lift, place->vehicle->wheel_lift[i]);
+    return lift;
+}
+
+static double wheel_share(const CzPlace *place) {
+    return judged_wheel_lift(place) / place->record->bogie.flange_height;
+}
+
+static double judged_bogie_lift(const CzPlace *place) {
+    return place->vehicle->checks_override ? place->vehicle->bogie_lift : NAN;
+}
+
+static double flange_share(const CzPlace *place) {
+    return judged_bogie_lift(place) / place->record->bogie.flange_height;
+}
+
+static double mean_deceleration(const CzPlace *place) {
+    return fmax(place->vehicle->mean_deceleration_contact, place->vehicle->mean_deceleration_120ms);
+}
+
+static double temporary_energy(const CzPlace *place) {
+    return place->element->zone_energy[CZ_ZONE_TEMPORARY];
+}
+
+static double survival_energy(const CzPlace *place) {
+    return place->element->zone_energy[CZ_ZONE_SURVIVAL];
+}
+
+/* Largest force of a coupler of the interface; NaN when it has none. */
+static double coupler_force(const CzPlace *place) {
+    double force = NAN;
+    for (int i = 0; i < place->interface->n_element; i++)
+        if (place->interface->element[i].kind == CZ_ELEMENT_COUPLER)
+            force = fmax(force, place->interface->element[i].peak_force);
+    return force;
+}
+
+static double strut_share(const CzPlace *place) {
+    return coupler_force(place) / place->interface->critical_force;
+}
+
+static double ramp_over_friction(const CzPlace *place) {
+    const CzInterfaceResult *interface = place->interface;
+    return interface->friction > 0 ? interface->ramp / interface->friction : NAN;
+}
+
+static double swing_over_stop(const CzPlace *place) {
+    const CzInterfaceResult *interface = place->interface;
+    return fmax(interface->swing[0] / interface->swing_stop[0],
+                interface->swing[1] / interface->swing_stop[1]);
+}
+
+static double section_force(const CzPlace *place) {
+    return place->section_force;
+}
+
+static double section_force_share(const CzPlace *place) {
+    return place->section_force / place->end->proof_strength;
+}
+
+static double running_gear_share(const CzPlace *place) {
+    return share_of(place->run->energy.running_gear, place->run->energy.dissipated);
+}
+
+static double absorbers_share(const CzPlace *place) {
+    return share_of(place->run->energy.absorbers, place->run->plastic_energy);
+}
+
+static double stroke_fit(const CzPlace *place) {
+    return cz_stroke_fit(place->end);
+}
+
+static double length_used(const CzPlace *place) {
+    return cz_length_used(place->end);
+}
+
+static double coupler_length_used(const CzPlace *place) {
+    return cz_coupler_length_used(place->end);
+}
+
+static double retraction_used(const CzPlace *place) {
+    return cz_retraction_used(place->end);
+}
+
+static double tube_over_shear_off(const CzPlace *place) {
+    return cz_tube_over_shear_off(place->end, place->rate);
+}
+
+static double shear_off_over_strength(const CzPlace *place) {
+    return cz_shear_off_over_strength(place->end);
+}
+
+static double installed_length(const CzPlace *place) {
+    return cz_train_installed_length(place->n_record, place->record);
+}
+
+static double absorber_mass(const CzPlace *place) {
+    return cz_train_absorber_mass(place->n_record, place->record);
+}
+
+static double part_count(const CzPlace *place) {
+    return cz_train_part_count(place->n_record, place->record);
+}
+
+/* Whether a design could not be written down and read back. Memory that is lacking counts as
+ * broken: such a design is not one to win with. */
+static double breaks_rules(const CzPlace *place) {
+    return cz_problem_check_vehicles(place->problem, place->vehicles, NULL) != CZ_OK;
+}
+
+/* A climb that was seen is one whatever is declared; that none was seen says something only when
+ * every full vehicle can lift. */
+static double climbed(const CzPlace *place) {
+    if (place->run->beyond_validity)
+        return 1;
+    for (int i = 0; i < place->run->n_vehicle; i++) {
+        const CzVehicle *record = &place->vehicles[place->scene->record[i]];
+        if (record->model == CZ_MODEL_FULL && !place->run->vehicle[i].checks_override)
+            return NAN;
+    }
+    return place->must_declare ? 0 : NAN;
+}
+
+/* ---- the list ----------------------------------------------------------------------------------
+ */
+
+/* Where the record of a level is found. */
+#define CZ_RECORD_AT_RUN place->run
+#define CZ_RECORD_AT_ENERGY (&place->run->energy)
+#define CZ_RECORD_AT_INTERFACE place->interface
+#define CZ_RECORD_AT_ELEMENT place->element
+#define CZ_RECORD_AT_VEHICLE place->vehicle
+
+/* One reading function for each metric that is judged as it is written. */
+#define CZ_METRIC(record, key, form, source, ...)                                                  \
+    static double read_##record##_##key(const CzPlace *place) {                                    \
+        return CZ_RECORD_AT_##record->source;                                                      \
+    }
+#include "evaluate/results.def"
+
+#define CZ_LEVEL_ENERGY CZ_LEVEL_RUN /* energies are those of the run */
+
+/* Which forms of a result add up over the whole run. */
+enum {
+    IS_TOTAL_REAL = false,
+    IS_TOTAL_REAL_BY = false,
+    IS_TOTAL_EXACT = false,
+    IS_TOTAL_FLAG = false,
+    IS_TOTAL_METRIC = false,
+    IS_TOTAL_TOTAL = true,
+    IS_TOTAL_METRIC_TOTAL = true
+};
+
+#define SKIP(why) false, why
+#define UNKNOWN(why) true, why
+#define CZ_METRIC_BY(record, key, form, source, unit, dimension, heading, judge, scale, absent,    \
+                     when, doc)                                                                    \
+    {CZ_LEVEL_##record,                                                                            \
+     CZ_METRIC_PREFIX_##record #key,                                                               \
+     &cz_result_units[CZ_UNIT_OF_##unit],                                                          \
+     IS_TOTAL_##form,                                                                              \
+     scale,                                                                                        \
+     absent,                                                                                       \
+     judge,                                                                                        \
+     cz_when_##when,                                                                               \
+     doc},
+#define CZ_METRIC(record, key, form, source, unit, dimension, heading, scale, absent, when, doc)   \
+    {CZ_LEVEL_##record,                                                                            \
+     CZ_METRIC_PREFIX_##record #key,                                                               \
+     &cz_result_units[CZ_UNIT_OF_##unit],                                                          \
+     IS_TOTAL_##form,                                                                              \
+     scale,                                                                                        \
+     absent,                                                                                       \
+     read_##record##_##key,                                                                        \
+     cz_when_##when,                                                                               \
+     doc},
+static const CzMetricKind kinds[] = {
+#include "evaluate/results.def"
+};
+#undef SKIP
+#undef UNKNOWN
+
+enum { N_KIND = sizeof kinds / sizeof kinds[0] };
+
+int cz_n_metric_kind(void) {
+    return N_KIND;
+}
+
+double cz_metric_at(const CzMetricKind *kind, const CzPlace *place) {
+    return kind->value(place) / kind->unit->in_si;
+}
+
+const CzMetricKind *cz_metric_kind(int index) {
+    return &kinds[index];
+}
+
+/* ---- rules between values -----------------------------------------------------------------------
+ */
+
+static double rule_ratio(const CzPlace *place, CzValueRule rule) {
+    double ratio[CZ_N_VALUE_RULE];
+    cz_problem_rule_ratios(place->problem, place->vehicles, place->record, place->end, ratio);
+    return ratio[rule];
+}
+
+#define CZ_VALUE_RULE(constant, name, doc)                                                         \
+    static double read_rule_##constant(const CzPlace *place) {                                     \
+        return rule_ratio(place, CZ_VALUE_RULE_##constant);                                        \
+    }
+#include "problem/value_rules.def"
+#undef CZ_VALUE_RULE
+
+const CzMetricKind *cz_metric_of_rule(CzValueRule rule) {
+#define CZ_VALUE_RULE(constant, name, doc)                                                         \
+    {CZ_LEVEL_END, name,  &cz_result_units[CZ_UNIT_OF_NONE], false,                                \
+     0.01,         false, "no end has such a value",         read_rule_##constant,                 \
+     NULL,         doc},
+    static const CzMetricKind of_rule[] = {
+#include "problem/value_rules.def"
+    };
+#undef CZ_VALUE_RULE
+    return &of_rule[rule];
+}

@@ -1,0 +1,263 @@
+/* What a run answers, on a terminal: who absorbed what, what was broken, what passes. */
+#include "crushzone/report.h"
+
+#include "problem/problem.h"
+#include "report/checks_table.h"
+#include "report/result_table.h"
+#include "report/runs.h"
+#include "report/figure.h"
+#include "report/units.h"
+
+#include <math.h>
+#include <string.h>
+
+static double given_or(double given, double otherwise) {
+    return isnan(given) ? otherwise : given;
+}
+
+static const CzTrain *train_named(const CzInput *input, const char *name) {
+    for (int i = 0; i < input->n_trains; i++)
+        if (strcmp(input->trains[i].name, name) == 0)
+            return &input->trains[i];
+    return NULL;
+}
+
+/* Speeds of the two trains of a scenario as the file says them, such as "36 km/h -> 0 km/h". */
+static void write_speeds(const CzProblem *problem, const char *name, FILE *stream) {
+    const CzInput *input = cz_problem_input(problem);
+    const CzTrain *train[2] = {input->n_trains > 0 ? &input->trains[0] : NULL,
+                               input->n_trains > 1 ? &input->trains[1] : NULL};
+    double speed[2] = {NAN, NAN};
+    for (int i = 0; i < input->n_scenarios; i++) {
+        const CzScenario *scenario = &input->scenarios[i];
+        if (strcmp(scenario->name, name) != 0)
+            continue;
+        for (int side = 0; side < scenario->trains.n_text && side < 2; side++)
+            train[side] = train_named(input, scenario->trains.text[side]);
+        speed[0] = scenario->speed;
+        speed[1] = scenario->partner_speed;
+    }
+    if (train[0] == NULL || train[1] == NULL)
+        return;
+    char text[2][CZ_FIGURE_ROOM];
+    for (int side = 0; side < 2; side++)
+        cz_figure_digits(text[side], 4,
+                         given_or(speed[side], train[side]->speed) * CZ_KM_H_PER_M_S);
+    fprintf(stream, "   %s km/h -> %s km/h", text[0], text[1]);
+}
+
+static void write_run_head(const CzProblem *problem, const CzRunSummary *run, bool colour,
+                           FILE *stream) {
+    char simulated[CZ_FIGURE_ROOM], balance[CZ_FIGURE_ROOM];
+    cz_text_write(run->scenario, CZ_STYLE_PLAIN, colour, stream);
+    write_speeds(problem, run->scenario, stream);
+    if (run->status != CZ_OK) {
+        fputs("   ", stream);
+        cz_text_write("RUN FAILED", CZ_STYLE_BAD, colour, stream);
+        fputs(": ", stream);
+        cz_text_write(run->failure, CZ_STYLE_PLAIN, colour, stream);
+        fputc('\n', stream);
+        return;
+    }
+    fprintf(stream, "   %s s simulated, ", cz_figure_digits(simulated, 3, run->simulated));
+    const bool cut = run->ended == CZ_ENDED_INCOMPLETE;
+    if (!cut)
+        fputs("ended ", stream);
+    char end[80];
+    snprintf(end, sizeof end, "INCOMPLETE: not over within simulation.longest_s = %s",
+             cz_figure_digits(simulated, 3, cz_problem_input(problem)->simulation.longest));
+    cz_text_write(cut ? end : cz_ended_text(run->ended), cut ? CZ_STYLE_BAD : CZ_STYLE_PLAIN,
+                  colour, stream);
+    fprintf(stream, "   energy balance %s", cz_figure_percent(balance, run->energy.balance_error));
+    if (cz_run_is_unbalanced(run)) {
+        fputs("   ", stream);
+        cz_text_write("POOR: take a smaller time step", CZ_STYLE_BAD, colour, stream);
+    }
+    if (cz_run_misses_laws(run)) {
+        char off[CZ_FIGURE_ROOM];
+        fprintf(stream, "   forces off their laws by %s ", cz_figure_percent(off, run->law_error));
+        cz_text_write("POOR: take a smaller time step", CZ_STYLE_BAD, colour, stream);
+    }
+    fputc('\n', stream);
+}
+
+/* What was overrun or let go at an interface, and when. */
+static void describe_damage(const CzRunSummary *run, int interface, size_t room, char *text) {
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < run->n_event && used < room; i++) {
+        const CzEvent *event = &run->event[i];
+        const bool bottomed = event->what == CZ_EVENT_BOTTOMED_OUT;
+        if ((!bottomed && event->what != CZ_EVENT_SHEAR_OFF) || event->interface != interface)
+            continue;
+        char time[CZ_FIGURE_ROOM];
+        const int n = snprintf(text + used, room - used, "%s%s %s at %s ms", used > 0 ? ", " : "",
+                               event->where, bottomed ? "BOTTOMED OUT" : "sheared off",
+                               cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
+        used += n > 0 ? (size_t)n : 0;
+    }
+    if (text[0] == '\0' && run->interface[interface].bottomed_out)
+        snprintf(text, room, "BOTTOMED OUT");
+}
+
+static const CzResult *const interface_columns[] = {
+    CZ_RESULT_AT(INTERFACE, peak_force_kN), CZ_RESULT_AT(INTERFACE, shortening_mm),
+    CZ_RESULT_AT(INTERFACE, stroke_used), CZ_RESULT_AT(INTERFACE, energy_kJ),
+    CZ_RESULT_AT(INTERFACE, energy_share)};
+enum { N_INTERFACE_COLUMN = sizeof interface_columns / sizeof *interface_columns };
+
+static void put_interface(CzReportTable *table, const CzRunSummary *run, int index) {
+    const CzInterfaceResult *interface = &run->interface[index];
+    const bool late = run->beyond_validity;
+    const bool peak_is_late = late && !(interface->peak_time <= run->beyond_validity_time);
+    const CzStyle style = interface->bottomed_out ? CZ_STYLE_BAD : CZ_STYLE_PLAIN;
+    char text[CZ_FIGURE_ROOM + 2], damage[CZ_MAX_ELEMENTS * (CZ_WHERE_ROOM + CZ_FIGURE_ROOM + 32)];
+    CzResultContext context = {.run = run};
+    cz_table_put(table, interface->name, CZ_STYLE_PLAIN);
+    for (int k = 0; k < N_INTERFACE_COLUMN; k++) {
+        const CzResult *column = interface_columns[k];
+        const bool is_used = column == CZ_RESULT_AT(INTERFACE, stroke_used);
+        const bool is_peak = column == CZ_RESULT_AT(INTERFACE, peak_force_kN);
+        cz_result_text(text, column, &context, interface);
+        cz_figure_mark(text, is_peak ? peak_is_late : late);
+        if (is_used && interface->bottomed_out)
+            strcat(text, " !");
+        cz_table_put(table, text, is_used ? style : CZ_STYLE_PLAIN);
+    }
+    describe_damage(run, index, sizeof damage, damage);
+    cz_table_put(table, damage, style);
+}
+
+/* Interfaces of a run; a compact table keeps the one with the highest force and the overrun. */
+static bool write_interfaces(const CzRunSummary *run, bool compact, bool colour, FILE *stream) {
+    int worst = 0;
+    for (int i = 1; i < run->n_interface; i++)
+        if (run->interface[i].peak_force > run->interface[worst].peak_force)
+            worst = i;
+    CzReportTable table;
+    cz_table_begin(&table, 1, (const char *const[]){"interface"});
+    for (int k = 0; k < N_INTERFACE_COLUMN; k++)
+        cz_table_head_of(&table, interface_columns[k]);
+    cz_table_head(&table, "");
+    for (int i = 0; i < run->n_interface; i++)
+        if (!compact || i == worst || run->interface[i].bottomed_out)
+            put_interface(&table, run, i);
+    return cz_table_write_text(&table, colour, stream);
+}
+
+/* Wheel lift and override are about the run as a whole. */
+static void write_climbing(const CzRunSummary *run, bool colour, FILE *stream) {
+    char text[CZ_WHERE_ROOM + 160], time[CZ_FIGURE_ROOM];
+    for (int i = 0; i < run->n_event; i++) {
+        const CzEvent *event = &run->event[i];
+        const bool override = event->what == CZ_EVENT_OVERRIDE;
+        if (!override && event->what != CZ_EVENT_WHEEL_LIFT)
+            continue;
+        snprintf(text, sizeof text, "%s: %s at %s ms\n", override ? "OVERRIDE" : "wheel lift",
+                 event->where, cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
+        text[strlen(text) - 1] = '\0';
+        cz_text_write(text, override ? CZ_STYLE_BAD : CZ_STYLE_PLAIN, colour, stream);
+        fputc('\n', stream);
+    }
+    if (!run->beyond_validity)
+        return;
+    snprintf(text, sizeof text,
+             "From %s ms on this run is beyond model validity. " CZ_FIGURE_MARK_MEANS ".",
+             cz_figure_fixed(time, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
+    cz_text_write(text, CZ_STYLE_BAD, colour, stream);
+    fputc('\n', stream);
+}
+
+/* ---- families of scenarios ---- */
+
+static const char *family_of(const CzProblem *problem, const char *scenario) {
+    const CzInput *input = cz_problem_input(problem);
+    for (int i = 0; i < input->n_scenarios; i++)
+        if (strcmp(input->scenarios[i].name, scenario) == 0)
+            return input->scenarios[i].family;
+    return NULL;
+}
+
+static bool is_of_family(const CzProblem *problem, const char *scenario, const char *family) {
+    const char *own = family_of(problem, scenario);
+    return own != NULL && strcmp(own, family) == 0;
+}
+
+/* The check of a family that is nearest to failing, or fails; NULL when none was made. */
+static const CzCheckResult *worst_check(const CzProblem *problem, const CzEvaluation *evaluation,
+                                        const char *family) {
+    const CzCheckResult *worst = NULL;
+    for (int i = 0; i < evaluation->n_check; i++) {
+        const CzCheckResult *check = &evaluation->check[i];
+        if (!isnan(check->value) && is_of_family(problem, check->scenario, family) &&
+            (worst == NULL || cz_check_is_worse(check, worst)))
+            worst = check;
+    }
+    return worst;
+}
+
+/* The run that stands for a family: one that failed or was cut short, else the one with the worst
+ * check. */
+static int worst_member(const CzProblem *problem, const CzEvaluation *evaluation,
+                        const char *family) {
+    const CzCheckResult *worst = worst_check(problem, evaluation, family);
+    int member = -1;
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        if (run == NULL || !is_of_family(problem, run->scenario, family))
+            continue;
+        if (run->status != CZ_OK || run->ended == CZ_ENDED_INCOMPLETE)
+            return i;
+        if (member < 0 || (worst != NULL && strcmp(worst->scenario, run->scenario) == 0))
+            member = i;
+    }
+    return member;
+}
+
+static void write_family(const CzProblem *problem, const CzEvaluation *evaluation,
+                         const char *family, bool colour, FILE *stream) {
+    const CzCheckResult *worst = worst_check(problem, evaluation, family);
+    char margin[CZ_FIGURE_ROOM];
+    int n = 0;
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        n += run != NULL && is_of_family(problem, run->scenario, family);
+    }
+    cz_text_write(family, CZ_STYLE_PLAIN, colour, stream);
+    fprintf(stream, ": the worst of %d scenarios", n);
+    if (worst != NULL) {
+        fputs(" by ", stream);
+        cz_text_write(worst->name, CZ_STYLE_PLAIN, colour, stream);
+        if (!worst->is_flag)
+            fprintf(stream, ", margin %s", cz_figure_margin(margin, worst->margin));
+    }
+    fputc('\n', stream);
+}
+
+/* Whether a run is told: each one of its own, and of each family the worst member. */
+static bool is_told(const CzProblem *problem, const CzEvaluation *evaluation, int index) {
+    const char *family = family_of(problem, cz_kept_run(evaluation, index)->scenario);
+    return family == NULL || worst_member(problem, evaluation, family) == index;
+}
+
+CzStatus cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluation,
+                               bool colour, FILE *stream) {
+    bool is_whole = true;
+    cz_text_write(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
+    fputs("\n\n", stream);
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        if (run == NULL || !is_told(problem, evaluation, i))
+            continue;
+        if (family_of(problem, run->scenario) != NULL)
+            write_family(problem, evaluation, family_of(problem, run->scenario), colour, stream);
+        write_run_head(problem, run, colour, stream);
+        if (run->status == CZ_OK) {
+            is_whole &= write_interfaces(run, cz_n_kept_run(evaluation) > 1, colour, stream);
+            write_climbing(run, colour, stream);
+        }
+        fputc('\n', stream);
+    }
+    is_whole &= cz_checks_write_table(evaluation, NULL, colour, stream);
+    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
+}

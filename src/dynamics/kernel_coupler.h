@@ -4,7 +4,7 @@
  *   hinge i:  M_i = engaged * (slider(theta - beta_i) + swing stop),  reacted by transverse forces
  *             (M_A + M_B) / length
  *
- * with the angle theta of the line.
+ * with the angle theta of the line. Faces that are not coupled are flattened by a push along it.
  */
 #ifndef CZ_DYNAMICS_KERNEL_COUPLER_H
 #define CZ_DYNAMICS_KERNEL_COUPLER_H
@@ -22,18 +22,21 @@ static int some_are_released(const CzCouplerMemory *restrict memory) {
 }
 
 static void engage_couplers(CzBlock *d, const CouplerLine *restrict line,
-                            const double *restrict damage) {
+                            const double *restrict damage, double *restrict grows) {
     const CzCouplerRows *restrict rows = &d->parameter.coupler;
     double *restrict engaged = d->published.coupler.engaged;
     CZ_LANES (i) {
-        engaged[i] =
+        const CzEngagement engagement =
             cz_coupler_engagement(rows->exists[i], rows->coupled[i], line->closure[i], damage[i]);
+        engaged[i] = engagement.engaged;
+        grows[i] = engagement.grows;
     }
 }
 
-/* Moment of the hinge of one side on its carrier. */
+/* Moment of the hinge of one side on its carrier, and the push that flattens the faces against it,
+ * their engagement growing by `grows` with the closure. */
 static void turn_hinge(CzBlock *d, int side, const CouplerLine *line, CzCarrier car,
-                       double *restrict moment) {
+                       const double *restrict grows, CouplerForces *restrict forces) {
     const CzHingeRows *restrict rows = &d->parameter.coupler.side[side].hinge_vertical;
     const double *restrict compliance = d->constant.hinge_compliance[side];
     const double *restrict engaged = d->published.coupler.engaged;
@@ -41,6 +44,7 @@ static void turn_hinge(CzBlock *d, int side, const CouplerLine *line, CzCarrier 
     double *restrict next = d->next_memory->coupler.side[side].hinge_vertical;
     double *restrict power = d->power->hinge[side];
     double *restrict kept = d->published.coupler.swing_vertical[side];
+    double *restrict moment = forces->moment[side], *restrict push = forces->mating[side];
     _Alignas(64) CzRow swing, turning;
     line_up_swing(car, line, d->constant.rest_angle_vertical, swing, turning);
     CZ_LANES (i) {
@@ -51,11 +55,14 @@ static void turn_hinge(CzBlock *d, int side, const CouplerLine *line, CzCarrier 
         next[i] = engaged[i] >= 1.0 ? hinge.offset : yielded[i];
         kept[i] = engaged[i] * swing[i];
         moment[i] = held;
-        power[i] += held * turning[i];
+        push[i] = grows[i] * (cz_slider_energy(compliance[i], hinge.force, swing[i], yielded[i]) +
+                              cz_stop_energy(rows->stop_stiffness[i], rows->stop[i], swing[i]));
+        power[i] += held * turning[i] + push[i] * line->rate[i];
     }
 }
 
-/* Strut force with what a release adds to it, and what reacts the hinges. */
+/* Strut force with what a release adds to it, what flattens the faces, and what reacts the hinges.
+ */
 static void sum_coupler_forces(CzBlock *d, const CouplerLine *restrict line,
                                const CouplerChain *restrict of, CouplerForces *restrict forces) {
     const double *restrict force = of->buffers.chain.now.force, *restrict more = of->release.more;
@@ -67,8 +74,9 @@ static void sum_coupler_forces(CzBlock *d, const CouplerLine *restrict line,
         const double nx = line->direction_x[i], nz = line->direction_z[i];
         const double transverse =
             tilts[i] * (forces->moment[0][i] + forces->moment[1][i]) * line->inverse_length[i];
-        const double pushing = force[i] + more[i];
-        const double at_end = force[i] * nx + transverse * nz;
+        const double mating = forces->mating[0][i] + forces->mating[1][i];
+        const double pushing = force[i] + more[i] + mating;
+        const double at_end = (force[i] + mating) * nx + transverse * nz;
         const double lost = top[i] > 0.0 ? cz_positive_part(top[i] - force[i]) * nx : 0.0;
         forces->hinge_x[i] = transverse * nz;
         forces->hinge_z[i] = -transverse * nx;
@@ -78,7 +86,7 @@ static void sum_coupler_forces(CzBlock *d, const CouplerLine *restrict line,
         drop[i] += lost;
         total[i] += at_end;
         kept[i] = force[i];
-        power[i] += pushing * line->rate[i];
+        power[i] += (force[i] + more[i]) * line->rate[i];
     }
 }
 
@@ -108,9 +116,10 @@ static void push_couplers(CzBlock *d, const CzCarrier car[2], const CouplerLine 
     CouplerChain of;
     list_couplers(d, line, step, &of);
     const int slack = coupler_chain_force(d, line, &of);
-    engage_couplers(d, line, of.damage);
+    _Alignas(64) CzRow grows;
+    engage_couplers(d, line, of.damage, grows);
     for (int side = 0; side < 2; ++side)
-        turn_hinge(d, side, line, car[side], forces.moment[side]);
+        turn_hinge(d, side, line, car[side], grows, &forces);
     d->couplers_rest = slack && couplers_remember(d) && !d->leaves_nothing_out;
     sum_coupler_forces(d, line, &of, &forces);
     for (int side = 0; side < 2; ++side) {

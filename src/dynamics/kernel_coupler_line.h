@@ -26,6 +26,7 @@ typedef struct {
     CzRow push;             /* largest longitudinal force of the step [N] */
     CzRow hinge_x, hinge_z; /* part of x and z that reacts the moments */
     CzRow moment[2];        /* [N m] */
+    CzRow mating[2];        /* push that flattens the faces against the hinge of a side [N] */
 } CouplerForces;
 
 /* ---- line up ---- */

@@ -120,14 +120,15 @@ double cz_hinge_stored(const CzDynamics *dynamics, size_t lane, int side) {
         parameter(dynamics, CZ_PARAMETER(coupler.side[side].hinge_vertical.stiffness), lane);
     const double capacity =
         parameter(dynamics, CZ_PARAMETER(coupler.side[side].hinge_vertical.moment), lane);
-    const double moment = cz_clamp(
-        stiffness * (swing - memory(dynamics, CZ_MEMORY(coupler.side[side].hinge_vertical), lane)),
-        -capacity, capacity);
+    const double offset = memory(dynamics, CZ_MEMORY(coupler.side[side].hinge_vertical), lane);
+    const double moment = cz_slider(stiffness, capacity, swing, offset).force;
+    const double compliance = stiffness > 0.0 ? 1.0 / stiffness : 0.0;
     const double stop =
         parameter(dynamics, CZ_PARAMETER(coupler.side[side].hinge_vertical.stop_stiffness), lane);
     const double range =
         parameter(dynamics, CZ_PARAMETER(coupler.side[side].hinge_vertical.stop), lane);
-    return engaged * (squared(moment, stiffness) + squared(cz_stop(stop, range, swing), stop));
+    return engaged * (cz_slider_energy(compliance, moment, swing, offset) +
+                      cz_stop_energy(stop, range, swing));
 }
 
 double cz_face_stored(const CzDynamics *dynamics, size_t lane) {

@@ -1,7 +1,12 @@
 /* Coupler faces against swinging: held fully where they are coupled and undamaged, not at all where
- * they are apart or sheared off; faces that are not coupled take up moments over a small closure.
+ * they are apart or sheared off; faces that are not coupled come to lie flat over a small closure.
  *
- *   engaged = (coupled ? 1 : clamp(max(closure, 0) / 5 mm, 0, 1)) (1 - damage)
+ *   engaged = (coupled ? 1 : s^2 (3 - 2 s)) (1 - damage),   s = clamp(closure / 5 mm, 0, 1)
+ *   U       = engaged u(swing)
+ *
+ * u is what their hinges and stops store when the faces lie flat. Moment and push follow from U:
+ * faces that meet at an angle are flattened by a push of dU / dclosure, so that no closed path
+ * gives any energy. What they held when the coupler is damaged is lost.
  */
 #ifndef CZ_LAWS_COUPLER_H
 #define CZ_LAWS_COUPLER_H
@@ -10,11 +15,22 @@
 
 #define CZ_ENGAGING_CLOSURE 0.005 /* [m] (ours) */
 
+typedef struct {
+    double engaged; /* [-] */
+    double grows;   /* with the closure [1/m] */
+} CzEngagement;
+
 /* `exists` is 1 where there are couplers, `coupled` 1 where they carry tension. */
-static inline double cz_coupler_engagement(double exists, double coupled, double closure,
-                                           double damage) {
-    const double mated = cz_fade_in(cz_positive_part(closure), CZ_ENGAGING_CLOSURE);
-    return exists * (coupled > 0.5 ? 1.0 : mated) * (1.0 - damage);
+static inline CzEngagement cz_coupler_engagement(double exists, double coupled, double closure,
+                                                 double damage) {
+    const double s = cz_clamp(closure * (1.0 / CZ_ENGAGING_CLOSURE), 0.0, 1.0);
+    const double undamaged = exists * (1.0 - damage);
+    const double mated = s * s * (3.0 - 2.0 * s);
+    const double mating = 6.0 * s * (1.0 - s) * (1.0 / CZ_ENGAGING_CLOSURE);
+    CzEngagement engagement;
+    engagement.engaged = undamaged * (coupled > 0.5 ? 1.0 : mated);
+    engagement.grows = undamaged * (coupled > 0.5 ? 0.0 : mating);
+    return engagement;
 }
 
 #endif

@@ -31,9 +31,24 @@ static inline CzSliderResponse cz_slider(double stiffness, double capacity, doub
     return cz_slider_of(stiffness, compliance, capacity, displacement, offset);
 }
 
+/* Work of leading it from its offset to a displacement while the offset stays where it is [J]:
+ * |F| (|d - p| - |F| / 2 k). Where the offset follows, what is more than F^2 / 2 k is lost. */
+static inline double cz_slider_energy(double compliance, double force, double displacement,
+                                      double offset) {
+    const double elastic = fabs(force) * compliance;
+    const double beyond = cz_positive_part(fabs(displacement - offset) - elastic);
+    return fabs(force) * (0.5 * elastic + beyond);
+}
+
 /* Stop at both sides of a free range: k max(|d| - range, 0) with the sign of d. */
 static inline double cz_stop(double stiffness, double range, double displacement) {
     return stiffness * (displacement - cz_clamp(displacement, -range, range));
+}
+
+/* What it stores [J]. */
+static inline double cz_stop_energy(double stiffness, double range, double displacement) {
+    const double beyond = displacement - cz_clamp(displacement, -range, range);
+    return 0.5 * stiffness * beyond * beyond;
 }
 
 #endif

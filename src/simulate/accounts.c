@@ -69,19 +69,12 @@ static CzAccount compliance(const CzBatch *batch, size_t lane, int parameter, in
     return (CzAccount){stored, stored};
 }
 
-/* Faces that meet at an angle are flattened by the push; the model does not count that work, so
- * what their hinges store is counted where they were coupled before. */
-static double stored_in_hinge(const CzBatch *batch, size_t lane, int side) {
-    const bool coupled = cz_parameter(batch, CZ_PARAMETER(coupler.coupled), lane) > 0.5;
-    return coupled ? cz_hinge_stored(batch->dynamics, lane, side) : 0.0;
-}
-
 CzAccount cz_coupler_account(const CzBatch *batch, size_t lane, int side) {
     const CzDynamics *dynamics = batch->dynamics;
     const CzAccount members = {cz_memory(batch, CZ_MEMORY(coupler.side[side].energy), lane),
                                cz_coupler_stored(dynamics, lane, side)};
     const CzAccount hinge = {cz_work(batch, CZ_LEDGER(hinge[side]), lane),
-                             stored_in_hinge(batch, lane, side)};
+                             cz_hinge_stored(dynamics, lane, side)};
     const CzAccount elastic =
         compliance(batch, lane, CZ_PARAMETER(coupler.compliance), CZ_MEMORY(coupler.force));
     const double share = half_of(batch, lane, side, CZ_ELEMENT_COUPLER);
@@ -193,6 +186,6 @@ CzAccount cz_springs_account(const CzBatch *batch, size_t lane) {
     if (cz_parameter(batch, CZ_PARAMETER(superstructure.strength), lane) > 0.0)
         stored += 2.0 * cz_superstructure_account(batch, lane).stored;
     for (int side = 0; side < 2; ++side)
-        stored += stored_in_hinge(batch, lane, side) + cz_fold_stored(dynamics, lane, side);
+        stored += cz_hinge_stored(dynamics, lane, side) + cz_fold_stored(dynamics, lane, side);
     return (CzAccount){0.0, stored};
 }

@@ -50,7 +50,9 @@ static void cz_buffer_at(const double *input, double *output) {
 
 /* Closure, damage. */
 static void cz_coupler_engagement_at(const double *input, double *output) {
-    output[0] = cz_coupler_engagement(1.0, 0.0, input[0], input[1]);
+    const CzEngagement engagement = cz_coupler_engagement(1.0, 0.0, input[0], input[1]);
+    output[0] = engagement.engaged;
+    output[1] = engagement.grows;
 }
 
 /* Chain's force, closure, rate, slip, share that was released. */
@@ -223,8 +225,8 @@ static const Law range_cz_coupler_engagement = {
     .n_input = 2,
     .low = {-0.01, 0},
     .high = {0.02, 1},
-    .n_output = 1,
-    .scale = {1},
+    .n_output = 2,
+    .scale = {1, 300},
 };
 static const Law range_cz_face = {
     .n_input = 5,

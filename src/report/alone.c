@@ -11,14 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const chart_names[CZ_N_CHART] = {
-#define CZ_CHART(constant, name, doc) name,
-#include "crushzone/charts.def"
-#undef CZ_CHART
-};
-
 const char *cz_report_chart_name(int index) {
-    return index >= 0 && index < CZ_N_CHART ? chart_names[index] : NULL;
+    return index >= 0 && index < CZ_N_CHART ? cz_chart_name((CzChart)index) : NULL;
 }
 
 /* The scenario to draw; a failure when nothing was kept of it. */
@@ -52,9 +46,9 @@ static CzStatus find_chart(const char *what, CzChart *chart, CzError *error) {
     CzSuggestion suggestion = {0};
     for (int i = 0; i < CZ_N_CHART; i++) {
         *chart = (CzChart)i;
-        if (strcmp(chart_names[i], what) == 0)
+        if (strcmp(cz_chart_name((CzChart)i), what) == 0)
             return CZ_OK;
-        cz_suggest(&suggestion, what, chart_names[i]);
+        cz_suggest(&suggestion, what, cz_chart_name((CzChart)i));
     }
     const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no figure '%.100s'", what);
     cz_suggest_help(&suggestion, error);
@@ -71,7 +65,7 @@ static CzStatus find_place(const CzPage *page, CzChart chart, const char *at, in
         of_several && page->n_sample > 1 ? page->summary->n_interface : cz_chart_count(page, chart);
     if (n == 0)
         return cz_fail(error, CZ_STATUS_INPUT, "this run has nothing to show as '%s'",
-                       chart_names[chart]);
+                       cz_chart_name(chart));
     *index = 0;
     if (!of_interface && chart != CZ_CHART_CAR_ACCELERATION)
         return CZ_OK;
@@ -96,26 +90,27 @@ CzChartOptions cz_chart_options_default(void) {
 CzStatus cz_report_write_chart(const CzReportRun *run, const CzChartOptions *chosen, FILE *stream,
                                CzError *error) {
     const CzReportOptions absent = cz_report_options_default();
-    CzPage page = {0};
     CzChart chart;
     CzChartCurve measured[CZ_MOST_CHART_CURVES];
     int scenario, index = 0, n_measured;
     CZ_TRY(find_chart(chosen->what, &chart, error));
     CZ_TRY(find_scenario(run, &scenario, error));
     CzStatus status = cz_chart_curves_read(chosen, chart, &n_measured, measured, error);
+    CzPage page = {.problem = run->problem,
+                   .evaluation = run->evaluation,
+                   .options = &absent,
+                   .scenario = scenario,
+                   .n_measured = n_measured,
+                   .measured = measured};
     if (status == CZ_OK)
-        status =
-            cz_page_begin(&page, run->problem, run->evaluation, scenario, &absent, stream, error);
-    page.n_measured = n_measured;
-    page.measured = measured;
+        status = cz_page_begin(&page, error);
     if (status == CZ_OK)
         status = find_place(&page, chart, chosen->at, &index, error);
     if (status == CZ_OK) {
         fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", page.markup.stream);
-        status = cz_chart_write(&page, chart, index, &page.markup, error);
+        cz_chart_write(&page, chart, index, &page.markup);
+        status = cz_page_finish(&page, stream, error);
     }
-    if (status == CZ_OK)
-        status = cz_page_finish(&page, error);
     cz_page_free(&page);
     cz_chart_curves_free(n_measured, measured);
     return status;

@@ -80,9 +80,10 @@ static CzStatus read_column(Reading *reading, const char *column, const char *ti
                        options->measured, (int)CZ_MOST_CHART_CURVES);
     if (chart == CZ_CHART_PANELS)
         CZ_TRY(find_panel(reading, title, &chart));
-    const CzChartAxes *axes = cz_chart_axes(chart);
-    const CzCurveColumns columns = {.x_quantity = axes->x_quantity,
-                                    .y_quantity = axes->y_quantity,
+    CzChartAxes axes = {0};
+    (void)cz_chart_axes(chart, &axes); /* a figure that has some */
+    const CzCurveColumns columns = {.x_quantity = axes.x_quantity,
+                                    .y_quantity = axes.y_quantity,
                                     .x = "1",
                                     .y = column,
                                     .separator = options->csv_separator,
@@ -90,10 +91,10 @@ static CzStatus read_column(Reading *reading, const char *column, const char *ti
     CzChartCurve *measured = &reading->measured[reading->n];
     CZ_TRY(cz_curve_read(options->measured, &columns, &measured->curve, reading->error));
     measured->chart = chart;
-    name_curve(measured->label, sizeof measured->label, title, axes->y_quantity);
+    name_curve(measured->label, sizeof measured->label, title, axes.y_quantity);
     for (int i = 0; i < measured->curve->n; i++) {
-        measured->curve->x[i] /= axes->x_unit;
-        measured->curve->y[i] /= axes->y_unit;
+        measured->curve->x[i] /= axes.x_unit;
+        measured->curve->y[i] /= axes.y_unit;
     }
     reading->n++;
     return CZ_OK;
@@ -166,9 +167,10 @@ CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int 
     *n = 0;
     if (options->measured == NULL)
         return CZ_OK;
-    if (chart != CZ_CHART_PANELS && cz_chart_axes(chart) == NULL)
+    CzChartAxes axes;
+    if (chart != CZ_CHART_PANELS && !cz_chart_axes(chart, &axes))
         return cz_fail(error, CZ_STATUS_INPUT, "no measured curve fits over '%s'",
-                       cz_report_chart_name((int)chart));
+                       cz_chart_name(chart));
     Reading reading = {.options = options, .chart = chart, .measured = measured, .error = error};
     const bool has_list = options->column != NULL && strchr(options->column, ',') != NULL;
     const bool reads_twice = chart == CZ_CHART_PANELS || has_list;

@@ -2,7 +2,9 @@
 #ifndef CZ_REPORT_CHART_CURVES_H
 #define CZ_REPORT_CHART_CURVES_H
 
-#include "report/charts.h"
+#include "crushzone/fit.h"
+#include "crushzone/report.h"
+#include "report/chart.h"
 
 enum { CZ_MOST_CHART_CURVES = 12 };
 

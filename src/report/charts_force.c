@@ -1,15 +1,11 @@
 /* Figures of forces and energies. */
 #include "report/sheet.h"
 
-#include "base/error.h"
 #include "report/runs.h"
 #include "report/units.h"
-#include "simulate/input_curve.h"
 
 #include <math.h>
 #include <string.h>
-
-enum { INPUT_POINTS = 600 };
 
 /* Limits of checks that judged the peak force of an interface. */
 void cz_draw_force_limits(CzSheet *sheet) {
@@ -26,13 +22,6 @@ void cz_draw_force_limits(CzSheet *sheet) {
                 cz_sheet_add_limit(sheet, check->limit, check->name);
         }
     }
-}
-
-static double largest(const double *value, int n) {
-    double most = 0;
-    for (int i = 0; i < n; i++)
-        most = value[i] > most ? value[i] : most;
-    return most;
 }
 
 /* The same interface in the runs beside this one. */
@@ -55,43 +44,25 @@ static void add_other_loops(CzSheet *sheet, int interface) {
     }
 }
 
-CzStatus cz_draw_force_closure(CzSheet *sheet, int interface, CzError *error) {
+void cz_draw_force_closure(CzSheet *sheet, int interface) {
     const CzPage *page = sheet->page;
-    const double *closure = cz_page_values(page, CZ_DRAWN_INTERFACE_CLOSURE, interface);
-    const double *force = cz_page_values(page, CZ_DRAWN_INTERFACE_FORCE, interface);
-    if (closure == NULL || force == NULL)
-        return CZ_OK;
-    const double longest = largest(closure, page->n_sample);
-    double *input = cz_arena_allocate(&sheet->arena, 2 * INPUT_POINTS, sizeof *input);
-    if (input == NULL)
-        return CZ_OK; /* told by finish */
-    if (longest > 0) {
-        CZ_TRY(cz_input_curve(page->model, interface, longest / CZ_MILLI_PER_UNIT, INPUT_POINTS,
-                              input, input + INPUT_POINTS, error));
-        const double highest = 1.5 * largest(force, page->n_sample);
-        for (int i = 0; i < INPUT_POINTS; i++) {
-            input[i] *= CZ_MILLI_PER_UNIT;
-            input[INPUT_POINTS + i] = input[INPUT_POINTS + i] / CZ_KILO < highest
-                                          ? input[INPUT_POINTS + i] / CZ_KILO
-                                          : NAN;
-        }
+    const CzInputCurve *input = &page->input[interface];
+    sheet->plot.from_zero = true;
+    if (input->n > 0 && sheet->room > 0)
         sheet->series[sheet->plot.n_series++] = (CzSeries){.name = "input, closed slowly",
-                                                           .n = INPUT_POINTS,
-                                                           .x = input,
-                                                           .y = input + INPUT_POINTS,
+                                                           .n = input->n,
+                                                           .x = input->points,
+                                                           .y = input->points + input->n,
                                                            .colour = CZ_PLOT_QUIET};
-    }
     add_other_loops(sheet, interface);
     CzSeries *series = cz_sheet_add(sheet, CZ_DRAWN_INTERFACE_FORCE, interface);
     if (series != NULL) {
         series->name = page->label != NULL ? page->label : "computed, with unloading";
-        series->x = closure;
+        series->x = cz_page_values(page, CZ_DRAWN_INTERFACE_CLOSURE, interface);
         series->x_channel = cz_sheet_name(sheet, CZ_DRAWN_INTERFACE_CLOSURE, interface);
         cz_sheet_split_beyond(sheet, series);
     }
     cz_draw_force_limits(sheet);
-    sheet->plot.from_zero = true;
-    return CZ_OK;
 }
 
 void cz_draw_interfaces(CzSheet *sheet, CzDrawn drawn) {
@@ -104,7 +75,8 @@ void cz_draw_interfaces(CzSheet *sheet, CzDrawn drawn) {
     sheet->plot.from_zero = true;
 }
 
-void cz_draw_energy(CzSheet *sheet) {
+void cz_draw_energy(CzSheet *sheet, int index) {
+    (void)index;
     static const struct {
         CzDrawn drawn;
         const char *name;
@@ -126,7 +98,8 @@ void cz_draw_energy(CzSheet *sheet) {
     sheet->plot.from_zero = true;
 }
 
-void cz_draw_balance(CzSheet *sheet) {
+void cz_draw_balance(CzSheet *sheet, int index) {
+    (void)index;
     CzSeries *series = cz_sheet_add(sheet, CZ_DRAWN_BALANCE_ERROR, 0);
     if (series != NULL)
         series->name = "energy too much";

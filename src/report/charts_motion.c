@@ -23,6 +23,7 @@ void cz_draw_shortening(CzSheet *sheet, int interface) {
         const char *name;
     } parts[2] = {{CZ_DRAWN_END_STROKE, "end"}, {CZ_DRAWN_ANTI_CLIMBER_STROKE, "anti-climber"}};
     CzSeries *closure = cz_sheet_add(sheet, CZ_DRAWN_INTERFACE_CLOSURE, interface);
+    sheet->plot.y_label = "shortening [mm]";
     if (closure != NULL)
         closure->name = "closure of the interface";
     for (int side = 0; side < 2; side++)
@@ -40,7 +41,8 @@ void cz_draw_shortening(CzSheet *sheet, int interface) {
     sheet->plot.from_zero = true;
 }
 
-void cz_draw_accelerations(CzSheet *sheet) {
+void cz_draw_accelerations(CzSheet *sheet, int index) {
+    (void)index;
     cz_draw_cars(sheet, CZ_DRAWN_FILTERED_ACCELERATION);
     if (sheet->plot.n_series > 0)
         return;
@@ -105,15 +107,11 @@ static CzSeries *add_lift(CzSheet *sheet, int vehicle, int axle) {
     return series;
 }
 
-void cz_draw_lifts(CzSheet *sheet) {
+void cz_draw_lifts(CzSheet *sheet, int index) {
+    (void)index;
     const CzPage *page = sheet->page;
     int vehicle[CZ_MOST_LIFTS], axle[CZ_MOST_LIFTS];
     const int n = rank_lifts(page->summary, CZ_MOST_LIFTS, vehicle, axle);
-    double flange = INFINITY;
-    for (int car = 0; car < page->model->n_car; car++)
-        if (page->model->car[car].model == CZ_MODEL_FULL)
-            flange =
-                fmin(flange, page->vehicles[page->model->car[car].vehicle].bogie.flange_height);
     for (int i = 0; i < n; i++) {
         CzSeries *series = add_lift(sheet, vehicle[i], axle[i]);
         if (series == NULL)
@@ -123,7 +121,7 @@ void cz_draw_lifts(CzSheet *sheet) {
     }
     for (int car = 0; n == 0 && car < page->summary->n_vehicle && sheet->plot.n_series == 0; car++)
         (void)add_lift(sheet, car, 0); /* all wheels stay down: one of them shows it */
-    if (isfinite(flange))
-        cz_sheet_add_limit(sheet, flange * CZ_MILLI_PER_UNIT, "flange height");
+    if (isfinite(page->flange_height))
+        cz_sheet_add_limit(sheet, page->flange_height * CZ_MILLI_PER_UNIT, "flange height");
     sheet->plot.from_zero = true;
 }

@@ -5,6 +5,7 @@
 #include "report/units.h"
 #include "simulate/filter.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,6 +55,15 @@ const char *cz_drawn_name(const CzRunSummary *run, CzDrawn drawn, int place,
                           char name[CZ_CHANNEL_ROOM]) {
     const CzChannelInfo *info = cz_drawn_info(drawn);
     return cz_channel_name(info, place, cz_run_place_name(run, info->at, place), name);
+}
+
+const char *cz_drawn_label(CzDrawn drawn, char label[CZ_DRAWN_LABEL]) {
+    const CzChannelInfo *info = cz_drawn_info(drawn);
+    snprintf(label, CZ_DRAWN_LABEL, "%s [%s]", info->title, info->unit);
+    char *mark = strchr(label, '_');
+    if (mark != NULL) /* m_s is m/s */
+        *mark = '/';
+    return label;
 }
 
 /* Adds a curve of zeros; NULL without memory. */

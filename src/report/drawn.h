@@ -44,6 +44,10 @@ const double *cz_drawn_values(const CzRun *run, const CzMadeCurves *made, CzDraw
 const double *cz_drawn_beside(const CzRunSummary *run, CzChannel channel, int place,
                               const CzRun *other);
 
+/* Label of an axis, such as "force [kN]"; returns it. */
+enum { CZ_DRAWN_LABEL = 48 };
+const char *cz_drawn_label(CzDrawn drawn, char label[CZ_DRAWN_LABEL]);
+
 /* Name of a curve, as of a column of channels.csv; returns it. */
 const char *cz_drawn_name(const CzRunSummary *run, CzDrawn drawn, int place,
                           char name[CZ_CHANNEL_ROOM]);

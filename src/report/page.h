@@ -12,6 +12,7 @@
 #include "model/model.h"
 #include "model/stand.h"
 #include "report/drawn.h"
+#include "report/inputs_text.h"
 #include "report/markup.h"
 
 /* A further run that figures set beside the page's own. */
@@ -20,14 +21,28 @@ typedef struct CzPageOther {
     const CzRun *run;
 } CzPageOther;
 
+/* What the input says about an interface that is closed slowly, as far as the run closed it. */
+typedef struct CzInputCurve {
+    int n;          /* 0 where the run never closed it */
+    double *points; /* closures [mm], then forces [kN], NaN far above those of the run (2 n) */
+} CzInputCurve;
+
+/* A page. What it shows is collected before anything is drawn; drawing changes nothing but the text
+ * and fails for want of room for it only. */
 typedef struct CzPage {
-    CzMarkup markup;   /* writes into memory, for a page must know how long it is */
-    FILE *stream;      /* where the page goes when it is whole; borrowed */
-    CzMemoryText text; /* what was written, known once the markup's stream was flushed */
-    const CzProblem *problem;
-    const CzEvaluation *evaluation;
+    /* Set by the caller, all borrowed. */
+    const CzProblem
+        *problem; /* that the run was computed from, an optimum's with its best values */
+    const CzEvaluation *evaluation; /* with kept runs */
     const CzReportOptions *options;
-    int scenario; /* the one that the figures show */
+    int scenario;      /* the one that the figures show */
+    const char *label; /* of the page's own run where there are others; NULL otherwise */
+    int n_other;
+    const CzPageOther *other; /* (n_other) */
+    int n_measured;
+    const struct CzChartCurve *measured; /* curves laid over figures (n_measured) */
+
+    /* Collected by cz_page_begin. */
     const CzRun *run;
     const CzRunSummary *summary;
     CzModel *model;
@@ -35,20 +50,25 @@ typedef struct CzPage {
     const double *time; /* [ms] (n_sample) */
     int n_sample;
     CzMadeCurves made;
-    const char *label; /* of the page's own run where there are others; NULL otherwise */
-    int n_measured;
-    const struct CzChartCurve *measured; /* curves laid over figures (n_measured) */
-    int n_other;
-    const CzPageOther *other;  /* (n_other) */
+    CzInputCurve *input;       /* by interface (n_interface) */
+    double flange_height;      /* lowest of the full vehicles [m]; infinite without one */
     const CzVehicle *vehicles; /* the problem's array; model->car[].vehicle is an index into it */
+
+    /* Collected by cz_page_collect_parts. */
+    CzInputsText inputs;
+    struct CzChartCurve *fitted; /* time histories of a fit, which are `measured` then */
+
+    /* What was drawn. */
+    CzMarkup markup;   /* writes into memory, for a page must know how long it is */
+    CzMemoryText text; /* what was written, known once the markup's stream was flushed */
 } CzPage;
 
-/* Makes a page about one scenario of an evaluation with kept runs. `problem` is the one that the
- * run was computed from, an optimum's with its best values. Statuses: CZ_STATUS_INPUT,
- * CZ_STATUS_NO_MEMORY; free it in any case. */
-CZ_MUST_CHECK CzStatus cz_page_begin(CzPage *page, const CzProblem *problem,
-                                     const CzEvaluation *evaluation, int scenario,
-                                     const CzReportOptions *options, FILE *stream, CzError *error);
+/* Collects what figures show. Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY; free the page in any
+ * case. */
+CZ_MUST_CHECK CzStatus cz_page_begin(CzPage *page, CzError *error);
+/* Collects what the parts of a run show beside that: the problem's text, the histories of a fit.
+ * Status: CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_page_collect_parts(CzPage *page, CzError *error);
 void cz_page_free(CzPage *page);
 
 /* The scenario that decides: of a check that fails, else the smallest margin, else the first that
@@ -74,11 +94,10 @@ CZ_MUST_CHECK CzStatus cz_page_write_outcome(const CzProblem *best, const CzEval
                                              CzError *error);
 
 /* The parts about one run, from the trains to the inputs, and the data for the script. */
-CZ_MUST_CHECK CzStatus cz_page_write_parts(CzPage *page, CzError *error);
+void cz_page_write_parts(CzPage *page);
 
-/* Hands what was written on to the page's stream, all of it or nothing. Status:
- * CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_page_finish(CzPage *page, CzError *error);
+/* Hands what was written on to a stream, all of it or nothing. Status: CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_page_finish(CzPage *page, FILE *stream, CzError *error);
 
 /* The first and last lines of a page. */
 void cz_page_write_head(CzMarkup *markup, const char *title);
@@ -93,11 +112,11 @@ void cz_page_close_section(CzMarkup *markup);
 /* page_checks.c, page_trains.c, page_figures.c, page_scene.c, page_inputs.c, page_data.c */
 void cz_page_write_verdict(CzPage *page, bool is_top);
 void cz_page_write_trains(CzPage *page);
-CZ_MUST_CHECK CzStatus cz_page_write_figures(CzPage *page, CzError *error);
+void cz_page_write_figures(CzPage *page);
 void cz_page_write_budget(CzPage *page); /* page_budget.c; nothing where no car is full */
 void cz_page_write_animation(CzPage *page);
 void cz_page_write_events(CzPage *page);
-CZ_MUST_CHECK CzStatus cz_page_write_inputs(CzPage *page, CzError *error);
+void cz_page_write_inputs(CzPage *page);
 void cz_page_write_data(CzPage *page);
 
 /* What happened, in words such as "anti-climber contact". */

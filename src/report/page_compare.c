@@ -28,10 +28,11 @@ static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool 
 
 /* One channel of all runs over time. */
 static void write_overlay(CzMarkup *markup, int n, const CzReportRun *run, const char *title,
-                          const char *y_label, CzChannel channel, int place) {
+                          CzChannel channel, int place) {
     const CzRunSummary *first = cz_compared_run(run, 0);
     CzSeries series[CZ_MOST_COMPARED];
     CzPlotBand band[CZ_MOST_COMPARED];
+    char label[2][CZ_DRAWN_LABEL];
     int n_series = 0, n_band = 0;
     for (int i = 0; i < n; i++) {
         const int scenario = cz_compared_scenario(run, i);
@@ -51,8 +52,8 @@ static void write_overlay(CzMarkup *markup, int n, const CzReportRun *run, const
     if (n_series == 0)
         return;
     const CzPlot plot = {.title = title,
-                         .x_label = "time [ms]",
-                         .y_label = y_label,
+                         .x_label = cz_drawn_label(CZ_DRAWN_TIME, label[0]),
+                         .y_label = cz_drawn_label((CzDrawn)channel, label[1]),
                          .n_series = n_series,
                          .series = series,
                          .n_band = n_band,
@@ -65,47 +66,43 @@ static void write_overlay(CzMarkup *markup, int n, const CzReportRun *run, const
     cz_markup_line(markup);
 }
 
-static CzStatus write_loops(CzPage *page, CzError *error) {
+static void write_loops(CzPage *page) {
     CzMarkup *markup = &page->markup;
-    CzStatus status = CZ_OK;
     cz_page_open_section(markup, "loops", "Force over closure");
     cz_markup_open(markup, "div");
     cz_markup_attribute(markup, "class", "figures");
-    for (int i = 0; i < cz_chart_count(page, CZ_CHART_FORCE_CLOSURE) && status == CZ_OK; i++) {
+    for (int i = 0; i < cz_chart_count(page, CZ_CHART_FORCE_CLOSURE); i++) {
         char title[CZ_SENTENCE_ROOM];
         cz_chart_title(page, CZ_CHART_FORCE_CLOSURE, i, sizeof title, title);
         cz_markup_open(markup, "figure");
         cz_markup_element(markup, "figcaption", title);
-        status = cz_chart_write(page, CZ_CHART_FORCE_CLOSURE, i, markup, error);
+        cz_chart_write(page, CZ_CHART_FORCE_CLOSURE, i, markup);
         cz_markup_close(markup);
         cz_markup_line(markup);
     }
     cz_markup_close(markup);
     cz_page_close_section(markup);
-    return status;
 }
 
 static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
     static const struct {
-        const char *title, *y_label;
+        const char *title;
         CzChannel channel;
-    } overlays[] = {
-        {"Force of the colliding interface", "force [kN]", CZ_CHANNEL_INTERFACE_FORCE},
-        {"Energy of the colliding interface", "energy [kJ]", CZ_CHANNEL_INTERFACE_ENERGY},
-        {"Speed of the car behind it", "speed [m/s]", CZ_CHANNEL_BODY_SPEED},
-        {"Pitch of the car behind it, nose up", "pitch [mrad]", CZ_CHANNEL_BODY_PITCH}};
+    } overlays[] = {{"Force of the colliding interface", CZ_CHANNEL_INTERFACE_FORCE},
+                    {"Energy of the colliding interface", CZ_CHANNEL_INTERFACE_ENERGY},
+                    {"Speed of the car behind it", CZ_CHANNEL_BODY_SPEED},
+                    {"Pitch of the car behind it, nose up", CZ_CHANNEL_BODY_PITCH}};
     const int colliding = page->model->colliding;
     cz_page_open_section(&page->markup, "time", "Over time");
     cz_markup_open(&page->markup, "div");
     cz_markup_attribute(&page->markup, "class", "figures");
     for (size_t i = 0; i < sizeof overlays / sizeof *overlays; i++)
-        write_overlay(&page->markup, n, run, overlays[i].title, overlays[i].y_label,
-                      overlays[i].channel, colliding);
+        write_overlay(&page->markup, n, run, overlays[i].title, overlays[i].channel, colliding);
     cz_markup_close(&page->markup);
     cz_page_close_section(&page->markup);
 }
 
-static CzStatus write_page(CzPage *page, int n, const CzReportRun *run, CzError *error) {
+static void write_page(CzPage *page, int n, const CzReportRun *run) {
     CzMarkup *markup = &page->markup;
     char title[CZ_SENTENCE_ROOM];
     snprintf(title, sizeof title, "%s, compared", cz_problem_title(page->problem));
@@ -123,32 +120,34 @@ static CzStatus write_page(CzPage *page, int n, const CzReportRun *run, CzError 
     write_numbers(markup, n, run, false);
     cz_markup_close(markup);
     cz_page_close_section(markup);
-    CZ_TRY(write_loops(page, error));
+    write_loops(page);
     write_overlays(page, n, run);
     cz_page_write_foot(markup);
-    return cz_page_finish(page, error);
 }
 
 CzStatus cz_report_write_comparison_page(int n, const CzReportRun *run,
                                          const CzReportOptions *options, FILE *stream,
                                          CzError *error) {
     CzPageOther other[CZ_MOST_COMPARED];
-    CzPage page;
     n = n < CZ_MOST_COMPARED ? n : CZ_MOST_COMPARED;
     if (n < 1 || cz_compared_run(run, 0) == NULL)
         return cz_fail(error, CZ_STATUS_INPUT, "no run was kept to compare");
-    const int scenario = cz_compared_scenario(run, 0);
-    CzStatus status =
-        cz_page_begin(&page, run[0].problem, run[0].evaluation, scenario, options, stream, error);
-    page.label = run[0].label;
-    page.other = other;
+    CzPage page = {.problem = run[0].problem,
+                   .evaluation = run[0].evaluation,
+                   .options = options,
+                   .scenario = cz_compared_scenario(run, 0),
+                   .label = run[0].label,
+                   .other = other};
     for (int i = 1; i < n; i++) {
         const int its = cz_compared_scenario(run, i);
         if (cz_compared_run(run, i) != NULL)
             other[page.n_other++] = (CzPageOther){run[i].label, run[i].evaluation->run[its]};
     }
-    if (status == CZ_OK)
-        status = write_page(&page, n, run, error);
+    CzStatus status = cz_page_begin(&page, error);
+    if (status == CZ_OK) {
+        write_page(&page, n, run);
+        status = cz_page_finish(&page, stream, error);
+    }
     cz_page_free(&page);
     return status;
 }

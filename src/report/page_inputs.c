@@ -160,25 +160,21 @@ static void write_sources(CzPage *page) {
     }
 }
 
-CzStatus cz_page_write_inputs(CzPage *page, CzError *error) {
+void cz_page_write_inputs(CzPage *page) {
     CzMarkup *markup = &page->markup;
-    CzInputsText inputs;
-    CZ_TRY(cz_inputs_text_begin(&inputs, page->problem, error));
     cz_page_open_section(markup, "inputs", "Inputs and how to get this again");
     write_command(page);
     write_versions(page);
     write_assumptions(page);
     cz_markup_element(markup, "h3", "Defaults that were taken");
-    cz_inputs_text_write_defaults(&inputs, markup);
+    cz_inputs_text_write_defaults(&page->inputs, markup);
     write_sources(page);
     cz_markup_element(markup, "h3", "The whole problem in SI, with the origin of each value");
     cz_markup_open(markup, "details");
     cz_markup_element(markup, "summary", "resolved problem; of equal cars only the first");
     cz_markup_open(markup, "pre");
-    cz_inputs_text_write(&inputs, markup);
+    cz_inputs_text_write(&page->inputs, markup);
     cz_markup_close(markup);
     cz_markup_close(markup);
     cz_page_close_section(markup);
-    cz_inputs_text_free(&inputs);
-    return CZ_OK;
 }

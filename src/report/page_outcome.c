@@ -277,9 +277,9 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
                                : ".");
     cz_markup_element(markup, "h2", "The best design");
     cz_markup_element(markup, "p", title);
-    CZ_TRY(cz_page_write_parts(page, error));
+    cz_page_write_parts(page);
     cz_page_write_foot(markup);
-    return cz_page_finish(page, error);
+    return CZ_OK;
 }
 
 CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluator,
@@ -288,16 +288,23 @@ CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluat
     const CzEvaluation *evaluation = &outcome->best_evaluation;
     const CzEvaluation *start = &outcome->start_evaluation;
     const int scenario = cz_page_deciding(evaluation);
-    CzPage page;
-    CzStatus status = cz_page_begin(&page, best, evaluation, scenario, options, stream, error);
     const bool has_start =
         start->run != NULL && scenario < start->n_run && start->run[scenario] != NULL;
     const CzPageOther before = {"before", has_start ? start->run[scenario] : NULL};
-    page.label = has_start ? "after, with unloading" : NULL;
-    page.n_other = has_start;
-    page.other = &before;
+    CzPage page = {.problem = best,
+                   .evaluation = evaluation,
+                   .options = options,
+                   .scenario = scenario,
+                   .label = has_start ? "after, with unloading" : NULL,
+                   .n_other = has_start,
+                   .other = &before};
+    CzStatus status = cz_page_begin(&page, error);
+    if (status == CZ_OK)
+        status = cz_page_collect_parts(&page, error);
     if (status == CZ_OK)
         status = write_page(&page, evaluator, outcome, error);
+    if (status == CZ_OK)
+        status = cz_page_finish(&page, stream, error);
     cz_page_free(&page);
     return status;
 }

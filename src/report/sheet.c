@@ -1,20 +1,21 @@
 /* A figure while its curves are gathered. */
 #include "report/sheet.h"
 
-#include "base/error.h"
 #include "report/units.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-bool cz_sheet_begin(CzSheet *sheet, const CzPage *page, int room, const char *x_label,
-                    const char *y_label) {
-    *sheet = (CzSheet){.page = page, .room = room};
-    sheet->plot.x_label = x_label;
-    sheet->plot.y_label = y_label;
-    sheet->series = cz_arena_allocate(&sheet->arena, (size_t)room + 1, sizeof *sheet->series);
-    return sheet->series != NULL;
+void cz_sheet_begin(CzSheet *sheet, const CzPage *page, const char *title, CzDrawn x, CzDrawn y) {
+    const int room = page->summary->n_vehicle + CZ_MOST_LIFTS + page->n_other + page->n_measured;
+    *sheet = (CzSheet){.page = page};
+    sheet->plot = (CzPlot){.title = title,
+                           .x_label = cz_drawn_label(x, sheet->label[0]),
+                           .y_label = cz_drawn_label(y, sheet->label[1]),
+                           .is_time = x == CZ_DRAWN_TIME};
+    sheet->series = cz_arena_allocate(&sheet->arena, (size_t)room, sizeof *sheet->series);
+    sheet->room = sheet->series != NULL ? room : 0;
 }
 
 const char *cz_sheet_name(CzSheet *sheet, CzDrawn drawn, int place) {
@@ -96,21 +97,15 @@ CzSeries *cz_sheet_split_beyond(CzSheet *sheet, CzSeries *series) {
     return late;
 }
 
-CzStatus cz_sheet_finish(CzSheet *sheet, CzChart chart, int index, CzMarkup *markup,
-                         CzError *error) {
-    char title[CZ_SENTENCE_ROOM];
-    const bool fits = !sheet->arena.out_of_memory && !sheet->failed;
-    cz_chart_title(sheet->page, chart, index, sizeof title, title);
-    sheet->plot.title = title;
-    sheet->plot.is_time = chart != CZ_CHART_FORCE_CLOSURE;
+void cz_sheet_write(CzSheet *sheet, CzMarkup *markup) {
     if (sheet->plot.is_time && sheet->page->n_sample > 0)
         mark_beyond(sheet);
     sheet->plot.series = sheet->series;
     sheet->plot.limit = sheet->limit;
     sheet->plot.band = sheet->band;
-    if (fits)
+    if (sheet->arena.out_of_memory)
+        markup->failed = true;
+    else
         cz_plot_write(&sheet->plot, markup);
     cz_arena_free(&sheet->arena);
-    return fits && !markup->failed ? CZ_OK
-                                   : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a figure");
 }

@@ -3,7 +3,7 @@
 #define CZ_REPORT_SHEET_H
 
 #include "base/arena.h"
-#include "report/charts.h"
+#include "report/page.h"
 #include "report/plot.h"
 
 /* A plot while its curves are gathered. */
@@ -11,11 +11,11 @@ typedef struct CzSheet {
     const CzPage *page;
     CzArena arena; /* names and derived curves */
     CzPlot plot;
+    char label[2][CZ_DRAWN_LABEL]; /* of the axes */
     CzSeries *series;
     CzPlotLimit limit[4];
     CzPlotBand band[4];
-    int room;    /* for series */
-    bool failed; /* no memory for a derived curve */
+    int room; /* for series; 0 without memory */
 } CzSheet;
 
 /* The stretch of time in which a run is beyond the model's validity. */
@@ -24,9 +24,8 @@ CzPlotBand cz_band_beyond(const CzRunSummary *run, const double *time, int n_sam
  * part, NULL where there is none. */
 CzSeries *cz_sheet_split_beyond(CzSheet *sheet, CzSeries *series);
 
-/* Starts a figure with room for that many curves; false without memory. */
-bool cz_sheet_begin(CzSheet *sheet, const CzPage *page, int room, const char *x_label,
-                    const char *y_label);
+/* Starts a figure with room for all that a page may draw into one. The title is borrowed. */
+void cz_sheet_begin(CzSheet *sheet, const CzPage *page, const char *title, CzDrawn x, CzDrawn y);
 
 /* Adds a curve over time, named after its place; NULL when there is none. */
 CzSeries *cz_sheet_add(CzSheet *sheet, CzDrawn drawn, int place);
@@ -39,23 +38,22 @@ void cz_sheet_mark_interface(CzSeries *series, const CzModel *model, int interfa
 
 void cz_sheet_add_limit(CzSheet *sheet, double at, const char *name);
 
-/* Writes the figure and frees what it took. Status: CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_sheet_finish(CzSheet *sheet, CzChart chart, int index, CzMarkup *markup,
-                                       CzError *error);
+/* Draws the figure and frees what it took; without memory the markup has failed. */
+void cz_sheet_write(CzSheet *sheet, CzMarkup *markup);
 
 /* charts_force.c */
 void cz_draw_force_limits(CzSheet *sheet);
-CZ_MUST_CHECK CzStatus cz_draw_force_closure(CzSheet *sheet, int interface, CzError *error);
+void cz_draw_force_closure(CzSheet *sheet, int interface);
 void cz_draw_interfaces(CzSheet *sheet, CzDrawn drawn);
-void cz_draw_energy(CzSheet *sheet);
-void cz_draw_balance(CzSheet *sheet);
+void cz_draw_energy(CzSheet *sheet, int index);
+void cz_draw_balance(CzSheet *sheet, int index);
 
 /* charts_motion.c */
 void cz_draw_cars(CzSheet *sheet, CzDrawn drawn);
 void cz_draw_shortening(CzSheet *sheet, int interface);
-void cz_draw_accelerations(CzSheet *sheet);
+void cz_draw_accelerations(CzSheet *sheet, int index);
 void cz_draw_car_acceleration(CzSheet *sheet, int car);
-void cz_draw_lifts(CzSheet *sheet);
+void cz_draw_lifts(CzSheet *sheet, int index);
 
 /* Wheelsets that lifts are drawn of at most. */
 enum { CZ_MOST_LIFTS = 14 };

@@ -1,6 +1,7 @@
 # Sources of src/report, one per line.
 set(CZ_SOURCES_report
     alone.c
+    chart.c
     chart_curves.c
     charts.c
     charts_force.c
@@ -26,6 +27,7 @@ set(CZ_SOURCES_report
     page.c
     page_budget.c
     page_checks.c
+    page_collect.c
     page_compare.c
     page_data.c
     page_designs.c

@@ -30,6 +30,7 @@ put CHANGELOG.md '## [2.3.3]'
 put include/crushzone/channels.def '/* n */\nCZ_CHANNEL(A, VEHICLE, PLANE, ANY, "x_{vehicle}_m", "m", "", "")\nCZ_CHANNEL(B, RUN, PLANE, TOTAL, "E_kinetic_kJ", "kJ", "", "")'
 put src/evaluate/curves.c '/* n */\nfind(run, "x_A1_m");\nfind(run, "E_kinetic_kJ");\nfind(run, "length");'
 put src/report/loops.c '/* n */\nif (strcmp(cz_channel_name(info, 0, "", text), wanted) == 0)'
+put src/report/bars.c '/* n */\n#include "simulate/filter.h"\nstatus = cz_model_build(problem, 0, &model, error);'
 put demo 'if then'
 awk 'BEGIN { print "/* n */"; for (i = 0; i < 500; i++) print "int a;" }' >src/base/long.c
 
@@ -66,6 +67,9 @@ for place in src/evaluate/curves.c:2 src/evaluate/curves.c:3 'src/report/loops.c
     check "a channel that is looked up by a text is found: $place" finds "^$place" channels_by_text
 done
 check "a text that is no channel is let through" sh -c '! grep -q curves.c:4 found.txt'
+for line in 2 3; do
+    check "a part of the report that computes is found: line $line" finds "^src/report/bars.c:$line:" report_that_computes
+done
 check "printing in the library is found" finds '^src/report/table.c:4:' library_manners
 check "a comparison of floats is found" finds '^tests/model/test_list.c:2:' float_comparisons
 check "a file without a purpose is found" finds '^src/report/other.c:1:' missing_purposes

@@ -55,8 +55,7 @@ names_on_circles() {
 # Within a folder, headers include one another without a circle; a header and the source of its name are one. What is
 # left of earlier circles stands in known_circles, and nothing may join it.
 known_circles="dynamics/track dynamics/track_motion evaluate/choices evaluate/design evaluate/evaluator
-evaluate/evaluator_parts evaluate/metric evaluate/place model/lanes model/model report/chart_curves report/charts
-report/page report/sheet"
+evaluate/evaluator_parts evaluate/metric evaluate/place model/lanes model/model"
 header_circles() {
     for folder in $folders; do
         c_files src/$folder | grep '\.[ch]$' | xargs awk -v folder=$folder '
@@ -160,6 +159,13 @@ channels_by_text() {
         grep -vxE 'src/(problem/(channel|rules_names)|report/(csv|drawn|page_data|sheet)|cli/help_topics)\.c' |
         sed 's/$/ makes names of channels/'
     grep -rnE '(str(n)?(cmp|str|chr)|fnmatch)\(.*(channel|drawn)_name' src --include='*.c' | grep -v '^src/problem/channel.c:'
+}
+
+# The report computes nothing: what it needs of models and of simulation beside results is collected in these files before
+# anything is drawn.
+report_that_computes() {
+    grep -HnE '#[[:space:]]*include[[:space:]]*"(simulate|dynamics|integrate|laws)/|(^|[^_a-z])(cz_model_build|cz_simulate|cz_evaluate|cz_optimise)\(' \
+        src/report/*.[ch] | grep -vE '^src/report/(page_collect|drawn|alone)\.c:'
 }
 
 # The library returns statuses: it neither prints nor ends the program, and reads no locale and no environment. Text becomes

@@ -45,6 +45,15 @@ void *cz_arena_allocate(CzArena *arena, size_t n, size_t size) {
     return memory;
 }
 
+void *cz_arena_grow(CzArena *arena, void *items, int n, size_t size) {
+    if ((n & (n - 1)) != 0)
+        return items;
+    void *more = cz_arena_allocate(arena, n == 0 ? 1 : 2 * (size_t)n, size);
+    if (more != NULL && n > 0)
+        memcpy(more, items, (size_t)n * size);
+    return more;
+}
+
 char *cz_arena_copy_text(CzArena *arena, const char *text, size_t n) {
     char *copy = cz_arena_allocate(arena, n + 1, 1);
     if (copy != NULL)

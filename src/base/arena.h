@@ -14,6 +14,10 @@ typedef struct CzArena {
 /* Zeroed memory for n items, aligned to 64 bytes; NULL when there is none. */
 void *cz_arena_allocate(CzArena *arena, size_t n, size_t size);
 
+/* An array with room for one more than its n items, which may have moved: it doubles at powers of
+ * two, so all n must have come here one by one. NULL when there is no memory. */
+void *cz_arena_grow(CzArena *arena, void *items, int n, size_t size);
+
 /* Copy of a text of n bytes, ended by a zero; NULL when there is no memory. */
 char *cz_arena_copy_text(CzArena *arena, const char *text, size_t n);
 

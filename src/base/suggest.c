@@ -44,11 +44,15 @@ void cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known) 
     const size_t n_typed = strlen(typed), n_known = strlen(known);
     if (n_typed == 0 || n_known == 0 || n_typed > LONGEST || n_known > LONGEST)
         return;
-    const int distance = edit_distance(typed, (int)n_typed, known, (int)n_known);
-    const int allowed = EDIT * (int)(n_known < 4 ? 1 : (n_known + 2) / 3);
-    if (distance > allowed || distance >= EDIT * (int)n_known)
+    int allowed = EDIT * (int)(n_known < 4 ? 1 : (n_known + 2) / 3);
+    allowed = smaller(allowed, EDIT * (int)n_known - 1);
+    if (suggestion->best != NULL)
+        allowed = smaller(allowed, suggestion->distance - 1);
+    const int n_more = (int)n_typed - (int)n_known; /* letters that must at least come or go */
+    if (EDIT * (n_more < 0 ? -n_more : n_more) > allowed)
         return;
-    if (suggestion->best != NULL && distance >= suggestion->distance)
+    const int distance = edit_distance(typed, (int)n_typed, known, (int)n_known);
+    if (distance > allowed)
         return;
     suggestion->best = known;
     suggestion->distance = distance;

@@ -121,19 +121,10 @@ static bool drives(const CzDesignVariable *variable, const CzDesignPlace *place)
     return false;
 }
 
-/* Room for one more of n items of a size in an arena array that doubles at powers of two. */
-static void *grow(const Builder *builder, void *items, int n, size_t size) {
-    if ((n & (n - 1)) != 0)
-        return items;
-    void *more = cz_arena_allocate(builder->arena, n == 0 ? 1 : 2 * (size_t)n, size);
-    if (more != NULL && n > 0)
-        memcpy(more, items, (size_t)n * size);
-    return more;
-}
-
 static CzStatus add_place(const Builder *builder, CzDesignVariable *variable,
                           const CzDesignPlace *place) {
-    CzDesignPlace *places = grow(builder, variable->place, variable->n_place, sizeof *places);
+    CzDesignPlace *places =
+        cz_arena_grow(builder->arena, variable->place, variable->n_place, sizeof *places);
     if (places == NULL)
         return fail_memory(builder);
     variable->place = places;
@@ -176,7 +167,8 @@ static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable,
                 variable->shown[i].drawn_stroke = drawn;
             return CZ_OK;
         }
-    CzVariablePlace *shown = grow(builder, variable->shown, variable->n_shown, sizeof *shown);
+    CzVariablePlace *shown =
+        cz_arena_grow(builder->arena, variable->shown, variable->n_shown, sizeof *shown);
     const char *copy = cz_arena_copy_text(builder->arena, path, strlen(path));
     if (shown == NULL || copy == NULL)
         return fail_memory(builder);

@@ -197,6 +197,16 @@ static bool is_list(CzBinder binder, const CzNode *key, const CzNode *value, con
 
 /* ---- values of one key ---- */
 
+static void add_place(CzBinder binder, const void *address, const CzEntry *entry,
+                      const CzTrail *trail, const CzKey *key, const CzUnit *unit) {
+    cz_places_add(binder.places, (CzPlace){.address = address,
+                                           .node = entry->key != NULL ? entry->key : entry->value,
+                                           .value = entry->value,
+                                           .trail = trail,
+                                           .key = key,
+                                           .unit = unit});
+}
+
 /* One word of a set; a mistyped word is taken for the one that was meant. */
 static bool bind_choice(CzValue value, const CzWordSet *set, int *choice) {
     char words[160] = "";
@@ -277,11 +287,7 @@ static void bind_texts(CzBinder binder, const Record *record, const CzKey *key,
                                                 cz_entry_trail(&list->entry[i], trail)));
         if (text[i] == NULL)
             return;
-        cz_places_add(binder.places, (CzPlace){.address = &text[i],
-                                               .node = list->entry[i].value,
-                                               .value = list->entry[i].value,
-                                               .trail = trail,
-                                               .key = key});
+        add_place(binder, &text[i], &list->entry[i], trail, key, NULL);
     }
     *(CzTexts *)(void *)(record->memory + key->offset) =
         (CzTexts){text != NULL ? list->n_entry : 0, text};
@@ -333,12 +339,7 @@ static void bind_value(CzBinder binder, const Record *record, const CzKey *key, 
         bind_texts(binder, record, key, entry, trail);
         break;
     }
-    cz_places_add(binder.places, (CzPlace){.address = field,
-                                           .node = entry->key,
-                                           .value = entry->value,
-                                           .trail = trail,
-                                           .key = key,
-                                           .unit = unit});
+    add_place(binder, field, entry, trail, key, unit);
 }
 
 /* The word under a mistyped key holds as if the key were right, so that nothing else is blamed. */
@@ -365,11 +366,7 @@ static void bind_entry(CzBinder binder, Record *record, const CzEntry *entry) {
             *(double *)(void *)(record->memory + key->offset) = NAN;
         if (key->kind == CZ_KEY_CHOICE)
             take_meant_word(record, key, entry->value);
-        cz_places_add(binder.places, (CzPlace){.address = record->memory + key->offset,
-                                               .node = entry->key,
-                                               .value = entry->value,
-                                               .trail = trail,
-                                               .key = key});
+        add_place(binder, record->memory + key->offset, entry, trail, key, NULL);
         return;
     }
     const CzNode **seen = &record->seen[key - record->record->key];

@@ -10,7 +10,7 @@
 
 /* The column of the values, wanted in the unit at the end of the channel's name. */
 static CzCurveColumn column_of(const CzMatch *match) {
-    const CzCurveUnit *unit =
+    const CzUnit *unit =
         match->channel != NULL ? cz_curve_unit_of_title(match->channel, NULL) : NULL;
     const char *wanted = match->column != NULL ? match->column : match->channel;
     return (CzCurveColumn){.name = unit != NULL ? cz_dimension_text[unit->dimension] : wanted,

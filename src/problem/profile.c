@@ -111,20 +111,17 @@ static bool holds_for(const CzLimit *limit, const char *category) {
 /* The profile's tree without the limits of other categories; NULL without memory. */
 static const CzNode *keep_category(CzReader *reader, const CzNode *top, const CzProfile *profile,
                                    const char *category) {
-    CzNode *kept = cz_node_copy(&reader->arena, top, 0);
-    for (int i = 0; kept != NULL && i < kept->n_entry; i++) {
-        if (strcmp(kept->entry[i].key->text, "limits") != 0)
-            continue;
-        CzNode *list = cz_node_copy(&reader->arena, kept->entry[i].value, 0);
-        if (list == NULL)
-            return NULL;
-        list->n_entry = 0;
-        for (int k = 0; k < profile->n_limits; k++)
-            if (holds_for(&profile->limits[k], category))
-                list->entry[list->n_entry++] = kept->entry[i].value->entry[k];
-        kept->entry[i].value = list;
-    }
-    return kept;
+    const CzEntry *limits = cz_node_find(top, "limits");
+    if (limits == NULL)
+        return top;
+    CzNode *list = cz_node_copy(&reader->arena, limits->value, 0);
+    if (list == NULL)
+        return NULL;
+    list->n_entry = 0;
+    for (int k = 0; k < profile->n_limits; k++)
+        if (holds_for(&profile->limits[k], category))
+            list->entry[list->n_entry++] = limits->value->entry[k];
+    return cz_node_with(&reader->arena, top, limits, list);
 }
 
 static void bind_profile(CzProblem *problem, const CzNode *top, const CzPlace *named) {

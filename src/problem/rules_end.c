@@ -8,6 +8,8 @@ enum { MOST_END_STAGES = 4 };
 /* Turns "at most" into "below" where a rule says so. */
 static const double just_above = 1 + 1e-9;
 
+static const char no_plateau[] = "a plateau without force absorbs nothing";
+
 /* ---- curves ---- */
 
 static bool is_there(const CzRules *rules, const void *field) {
@@ -32,12 +34,13 @@ static void check_curve_start(const CzRules *rules, const CzTable *curve) {
                        CZ_MM(text, curve->x[0]));
 }
 
-/* Plateaus of a tube or an anti-climber carry a force. */
-static void check_plateaus(const CzRules *rules, const CzStage *stages, int n_stage) {
+/* Every stage carries a force, or ends at one. */
+static void check_forces(const CzRules *rules, const CzStage *stages, int n_stage,
+                         const char *otherwise) {
     for (int i = 0; i < n_stage; i++) {
         cz_rule_note(rules, CZ_VALUE_RULE_FORCE, stages[i].force <= 0, 0);
         if (stages[i].force <= 0)
-            cz_rule_broken(rules, &stages[i].force, "a plateau without force absorbs nothing");
+            cz_rule_broken(rules, &stages[i].force, "%s", otherwise);
     }
 }
 
@@ -92,7 +95,7 @@ static void check_tube(const CzRules *rules, const CzTube *tube) {
         return;
     check_law(rules, tube, "a tube", tube->stages, &tube->curve);
     check_curve_start(rules, &tube->curve);
-    check_plateaus(rules, tube->stages, tube->n_stages);
+    check_forces(rules, tube->stages, tube->n_stages, no_plateau);
     check_trigger(rules, &tube->trigger, tube->stages, tube->n_stages, &tube->curve);
     check_rate(rules, &tube->rate_factor, &tube->curve);
     check_installed(rules, &tube->installed_length, tube->efficiency,
@@ -132,7 +135,7 @@ static void check_anti_climber(const CzRules *rules, const CzAntiClimber *device
         return;
     check_law(rules, device, "an anti-climber", device->stages, &device->curve);
     check_curve_start(rules, &device->curve);
-    check_plateaus(rules, device->stages, device->n_stages);
+    check_forces(rules, device->stages, device->n_stages, no_plateau);
     check_trigger(rules, &device->trigger, device->stages, device->n_stages, &device->curve);
     check_rate(rules, &device->rate_factor, &device->curve);
     check_rate(rules, &device->speed_factor, &device->curve);
@@ -215,11 +218,7 @@ static void check_structure(const CzRules *rules, const CzVehicle *vehicle, cons
     if (end->n_stages > MOST_END_STAGES)
         cz_rule_broken(rules, end->stages, "an end has %d stages; %d is the most", end->n_stages,
                        (int)MOST_END_STAGES);
-    for (int i = 0; i < end->n_stages; i++) {
-        cz_rule_note(rules, CZ_VALUE_RULE_FORCE, end->stages[i].force <= 0, 0);
-        if (end->stages[i].force <= 0)
-            cz_rule_broken(rules, &end->stages[i].force, "a stage of an end must end at a force");
-    }
+    check_forces(rules, end->stages, end->n_stages, "a stage of an end must end at a force");
     check_zones(rules, end);
     check_unloading(rules, end);
     check_available(rules, end);

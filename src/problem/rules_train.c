@@ -58,18 +58,17 @@ void cz_rules_check_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
 
 /* ---- trains ---- */
 
-static bool is_full_train(const CzTrain *train) {
+/* Whether a train has a vehicle of a model. */
+static bool has(const CzTrain *train, int model) {
     for (int i = 0; i < train->n_vehicles; i++)
-        if (train->vehicles[i].model == CZ_MODEL_FULL)
+        if (train->vehicles[i].model == model)
             return true;
     return false;
 }
 
-static bool is_fixed_train(const CzTrain *train) {
-    for (int i = 0; i < train->n_vehicles; i++)
-        if (train->vehicles[i].model == CZ_MODEL_FIXED)
-            return true;
-    return false;
+/* A name for a sentence, which may be absent. */
+static const char *name_of(const char *name) {
+    return name != NULL ? name : "";
 }
 
 static bool gives_way(const CzEnd *end) {
@@ -84,15 +83,15 @@ static void check_facing(const CzRules *rules, const CzVehicle *behind, const Cz
         cz_rule_absent(
             rules, ahead,
             "nothing can give way between '%.48s' and '%.48s': neither has anything there",
-            behind->name != NULL ? behind->name : "", ahead->name != NULL ? ahead->name : "");
+            name_of(behind->name), name_of(ahead->name));
 }
 
 static void warn_of_lone_devices(const CzRules *rules, const CzVehicle *owner, const CzEnd *end,
                                  const CzVehicle *other, const CzEnd *opposite) {
     if (!end->given)
         return;
-    const char *own = owner->name != NULL ? owner->name : "";
-    const char *others = other->name != NULL ? other->name : "";
+    const char *own = name_of(owner->name);
+    const char *others = name_of(other->name);
     if (end->coupler.given && !(opposite->given && opposite->coupler.given))
         cz_rule_warning(rules, &end->coupler,
                         "lone coupler: '%.48s' has none to meet that of '%.48s', which then "
@@ -124,8 +123,7 @@ static void check_strut(const CzRules *rules, const CzVehicle *vehicle, const Cz
     cz_rule_absent(rules, &end->coupler,
                    "the coupler of rigid '%.48s' meets that of full '%.48s', and the line between "
                    "their pivots needs the length of both: length_m or length_mm",
-                   vehicle->name != NULL ? vehicle->name : "",
-                   other->name != NULL ? other->name : "");
+                   name_of(vehicle->name), name_of(other->name));
 }
 
 static void check_neighbours(const CzRules *rules, const CzVehicle *behind,
@@ -143,15 +141,15 @@ static bool can_brake(const CzRules *rules, const CzTrain *train) {
     for (int i = 0; i < rules->input->n_scenarios && train->brake.given; i++)
         brakes |= rules->input->scenarios[i].brake_ratio > 0 ||
                   rules->input->scenarios[i].partner_brake_ratio > 0;
-    return brakes && !is_fixed_train(train);
+    return brakes && !has(train, CZ_MODEL_FIXED);
 }
 
 static void check_train(const CzRules *rules, const CzTrain *train) {
     const CzSimulation *simulation = &rules->input->simulation;
-    if (is_full_train(train) && !cz_rule_is_written(rules, &train->brake))
+    if (has(train, CZ_MODEL_FULL) && !cz_rule_is_written(rules, &train->brake))
         cz_rule_absent(rules, train,
                        "a train with full vehicles needs 'brake': {ratio, axle_share}");
-    if (is_full_train(train) && !cz_rule_is_written(rules, &simulation->adhesion))
+    if (has(train, CZ_MODEL_FULL) && !cz_rule_is_written(rules, &simulation->adhesion))
         cz_rule_absent(
             rules, rules->input,
             "a problem with full vehicles needs 'simulation: {adhesion: {friction: ...}}'");
@@ -159,7 +157,7 @@ static void check_train(const CzRules *rules, const CzTrain *train) {
         cz_rule_absent(rules, &train->brake,
                        "a brake holds by the wheel-rail friction: it needs 'simulation: {adhesion: "
                        "{friction: ...}}'");
-    if (is_fixed_train(train) && train->speed != 0)
+    if (has(train, CZ_MODEL_FIXED) && train->speed != 0)
         cz_rule_broken(rules, &train->speed, "a train with a fixed vehicle stands still");
     for (int i = 1; i < train->n_vehicles; i++)
         check_neighbours(rules, &train->vehicles[i - 1], &train->vehicles[i]);
@@ -229,13 +227,12 @@ static void check_closing(const CzRules *rules, const CzScenario *scenario,
     if (behind <= ahead)
         cz_rule_broken(rules, place,
                        "the trains never meet: '%.40s' runs at %s behind '%.40s' at %s",
-                       pair[0]->name != NULL ? pair[0]->name : "",
-                       cz_rule_text(first, behind, "km/h", 1 / 3.6),
-                       pair[1]->name != NULL ? pair[1]->name : "",
-                       cz_rule_text(second, ahead, "km/h", 1 / 3.6));
-    if (is_fixed_train(pair[0]) && scenario->speed != 0 && !isnan(scenario->speed))
+                       name_of(pair[0]->name), cz_rule_text(first, behind, "km/h", 1 / 3.6),
+                       name_of(pair[1]->name), cz_rule_text(second, ahead, "km/h", 1 / 3.6));
+    if (has(pair[0], CZ_MODEL_FIXED) && scenario->speed != 0 && !isnan(scenario->speed))
         cz_rule_broken(rules, &scenario->speed, "a train with a fixed vehicle stands still");
-    if (is_fixed_train(pair[1]) && scenario->partner_speed != 0 && !isnan(scenario->partner_speed))
+    if (has(pair[1], CZ_MODEL_FIXED) && scenario->partner_speed != 0 &&
+        !isnan(scenario->partner_speed))
         cz_rule_broken(rules, &scenario->partner_speed,
                        "a train with a fixed vehicle stands still");
 }
@@ -295,20 +292,19 @@ static void check_offsets(const CzRules *rules, const CzScenario *scenario,
 static void check_brake(const CzRules *rules, const double *ratio, const CzTrain *train) {
     if (!isnan(*ratio) && !cz_rule_is_written(rules, &train->brake))
         cz_rule_broken(rules, ratio, "train '%.48s' has no 'brake' whose ratio could be another",
-                       train->name != NULL ? train->name : "");
+                       name_of(train->name));
 }
 
 /* One of two trains at least must be there to be judged. */
 static void check_roles(const CzRules *rules, const CzTrain *const pair[2]) {
     bool any_judged = false;
     for (int i = 0; i < 2; i++)
-        any_judged |= pair[i]->role != CZ_ROLE_OBSTACLE && !is_fixed_train(pair[i]);
+        any_judged |= pair[i]->role != CZ_ROLE_OBSTACLE && !has(pair[i], CZ_MODEL_FIXED);
     if (!any_judged)
         cz_rule_broken(rules, pair[0]->role == CZ_ROLE_OBSTACLE ? &pair[0]->role : &pair[1]->role,
                        "nothing would be judged: neither '%.48s' nor '%.48s' is a train, by role "
                        "or because it is fixed",
-                       pair[0]->name != NULL ? pair[0]->name : "",
-                       pair[1]->name != NULL ? pair[1]->name : "");
+                       name_of(pair[0]->name), name_of(pair[1]->name));
 }
 
 void cz_rules_check_scenarios(const CzRules *rules) {

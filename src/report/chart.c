@@ -47,8 +47,8 @@ const char *cz_chart_name(CzChart chart) {
 
 bool cz_chart_axes(CzChart chart, CzChartAxes *axes) {
     const CzChartInfo *info = &charts[chart];
-    const CzCurveUnit *x = cz_curve_unit_find(CZ_N_DIMENSION, cz_drawn_info(info->x)->unit);
-    const CzCurveUnit *y = cz_curve_unit_find(CZ_N_DIMENSION, cz_drawn_info(info->y)->unit);
+    const CzUnit *x = cz_curve_unit_find(CZ_N_DIMENSION, cz_drawn_info(info->x)->unit);
+    const CzUnit *y = cz_curve_unit_find(CZ_N_DIMENSION, cz_drawn_info(info->y)->unit);
     if (!info->is_of_curves || x == NULL || y == NULL)
         return false;
     *axes = (CzChartAxes){cz_dimension_text[x->dimension], x->si, cz_dimension_text[y->dimension],

@@ -198,7 +198,7 @@ static bool begin_without_titles(CzCurveReading *reading) {
 typedef struct Units {
     CzField field; /* the title */
     char title[CZ_MOST_FIELD_TEXT];
-    const CzCurveUnit *in_title, *in_row;
+    const CzUnit *in_title, *in_row;
     bool has_unknown; /* the row of units has something there that is none */
 } Units;
 
@@ -222,7 +222,7 @@ static Units units_of(const CzCurveReading *reading, int i) {
 static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *column,
                         const Units *units) {
     char list[120], sentence[CZ_MOST_FIELD_TEXT + 200];
-    const CzCurveUnit *unit = units->in_title != NULL ? units->in_title : units->in_row;
+    const CzUnit *unit = units->in_title != NULL ? units->in_title : units->in_row;
     cz_curve_unit_list(column->dimension, list, sizeof list);
     if (column->unit != NULL)
         snprintf(sentence, sizeof sentence, "'%.60s' is no unit of the %s, which takes %s",
@@ -231,11 +231,11 @@ static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *colu
              unit->dimension == column->dimension)
         snprintf(sentence, sizeof sentence,
                  "the %s has two units: %s in its title '%.60s' and %s in the row below",
-                 column->name, unit->spelling, units->title, units->in_row->spelling);
+                 column->name, unit->suffix, units->title, units->in_row->suffix);
     else if (unit != NULL)
         snprintf(sentence, sizeof sentence,
                  "the unit of column '%.60s', %s, is no unit of the %s, which takes %s",
-                 units->title, unit->spelling, column->name, list);
+                 units->title, unit->suffix, column->name, list);
     else
         snprintf(sentence, sizeof sentence, "the unit of %s%.60s%sthe %s%s is not known",
                  units->title[0] != '\0' ? "column '" : "", units->title,
@@ -266,7 +266,7 @@ static bool ends_like_a_unit(const char *title) {
 bool cz_reading_find_unit(CzCurveReading *reading, int i) {
     const CzCurveColumn *column = &reading->request->column[i];
     const Units units = units_of(reading, i);
-    const CzCurveUnit *unit = units.in_title != NULL ? units.in_title : units.in_row;
+    const CzUnit *unit = units.in_title != NULL ? units.in_title : units.in_row;
     const bool differs =
         units.in_title != NULL && units.in_row != NULL && units.in_title->si != units.in_row->si;
     double si = column->without;

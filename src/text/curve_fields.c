@@ -69,34 +69,12 @@ static char *decode(CzArena *arena, const char *text, size_t n_byte, size_t *n) 
     return decoded;
 }
 
-/* Ends each line with a zero and points to its start. */
-static bool cut(CzArena *arena, char *text, size_t n_byte, CzSource *source) {
-    int n_line = 1;
-    for (size_t i = 0; i < n_byte; i++)
-        n_line += text[i] == '\n' || (text[i] == '\r' && text[i + 1] != '\n');
-    const char **line = cz_arena_allocate(arena, (size_t)n_line, sizeof *line);
-    if (line == NULL)
-        return false;
-    line[0] = text;
-    source->n_line = 1;
-    for (size_t i = 0; i < n_byte; i++) {
-        if (text[i] != '\n' && text[i] != '\r')
-            continue;
-        const bool is_pair = text[i] == '\r' && text[i + 1] == '\n';
-        text[i] = '\0';
-        i += is_pair;
-        line[source->n_line++] = &text[i + 1];
-    }
-    source->line = line;
-    return true;
-}
-
 bool cz_curve_lines(CzArena *arena, CzMistakes *mistakes, const char *text, size_t n_byte,
                     CzSource *source) {
     size_t n = 0;
     char *decoded = decode(arena, text, n_byte, &n);
     return decoded != NULL && cz_source_is_text(mistakes, source, decoded, n) &&
-           cut(arena, decoded, n, source);
+           cz_source_cut(arena, source, decoded, n, false);
 }
 
 /* ---- fields ---- */

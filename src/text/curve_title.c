@@ -8,7 +8,7 @@
 
 /* ---- units ---- */
 
-static const CzCurveUnit units[] = {
+static const CzUnit units[] = {
 #define CZ_CURVE_UNIT(dimension, spelling, si) {CZ_DIMENSION_##dimension, spelling, si},
 #include "text/curve_units.def"
 #undef CZ_CURVE_UNIT
@@ -16,10 +16,10 @@ static const CzCurveUnit units[] = {
 
 enum { N_UNIT = sizeof units / sizeof units[0] };
 
-const CzCurveUnit *cz_curve_unit_find(CzDimension dimension, const char *spelling) {
+const CzUnit *cz_curve_unit_find(CzDimension dimension, const char *spelling) {
     for (int i = 0; i < N_UNIT; i++)
         if ((dimension == CZ_N_DIMENSION || units[i].dimension == dimension) &&
-            strcmp(units[i].spelling, spelling) == 0)
+            strcmp(units[i].suffix, spelling) == 0)
             return &units[i];
     return NULL;
 }
@@ -35,11 +35,11 @@ static void copy_bare(const char *start, size_t n, char text[CZ_MOST_FIELD_TEXT]
     snprintf(text, CZ_MOST_FIELD_TEXT, "%.*s", (int)(n < CZ_MOST_FIELD_TEXT ? n : 0), start);
 }
 
-const CzCurveUnit *cz_curve_unit_of_title(const char *title, size_t *n_title) {
+const CzUnit *cz_curve_unit_of_title(const char *title, size_t *n_title) {
     char rest[CZ_MOST_FIELD_TEXT];
     for (const char *at = strpbrk(title, "_[( /,:"); at != NULL; at = strpbrk(at + 1, "_[( /,:")) {
         copy_bare(at + 1, strlen(at + 1), rest);
-        const CzCurveUnit *unit = cz_curve_unit_find(CZ_N_DIMENSION, rest);
+        const CzUnit *unit = cz_curve_unit_find(CZ_N_DIMENSION, rest);
         if (unit == NULL)
             continue; /* the first cut leaves the longest end */
         size_t n = (size_t)(at - title);
@@ -54,7 +54,7 @@ const CzCurveUnit *cz_curve_unit_of_title(const char *title, size_t *n_title) {
     return NULL;
 }
 
-const CzCurveUnit *cz_curve_unit_alone(const CzField *field) {
+const CzUnit *cz_curve_unit_alone(const CzField *field) {
     char text[CZ_MOST_FIELD_TEXT];
     copy_bare(field->text, field->n, text);
     return cz_curve_unit_find(CZ_N_DIMENSION, text);
@@ -74,7 +74,7 @@ void cz_curve_unit_list(CzDimension dimension, char *text, size_t size) {
     for (int i = 0; i < N_UNIT; i++) {
         if (units[i].dimension != dimension || is_listed(i) || n + 1 >= size)
             continue;
-        n += (size_t)snprintf(text + n, size - n, "%s%s", n > 0 ? ", " : "", units[i].spelling);
+        n += (size_t)snprintf(text + n, size - n, "%s%s", n > 0 ? ", " : "", units[i].suffix);
     }
 }
 
@@ -133,7 +133,7 @@ static Answer answer_of(const CzCurveColumn *column, const CzField *title, const
     cz_field_text(title, text);
     if (column->title != NULL)
         return answer_to_title(column->title, text);
-    const CzCurveUnit *unit = cz_curve_unit_of_title(text, NULL);
+    const CzUnit *unit = cz_curve_unit_of_title(text, NULL);
     if (unit == NULL && below != NULL)
         unit = cz_curve_unit_alone(below);
     if (unit == NULL && title->n > 1) /* "N" may be a number of cycles, "s" a stroke */

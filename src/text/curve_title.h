@@ -10,21 +10,15 @@
 #include "text/curve_fields.h"
 #include "text/units.h"
 
-typedef struct CzCurveUnit {
-    CzDimension dimension;
-    const char *spelling;
-    double si; /* SI value of one unit */
-} CzCurveUnit;
-
 /* Unit by its spelling, of a dimension or of any (CZ_N_DIMENSION); NULL when it is none. */
-const CzCurveUnit *cz_curve_unit_find(CzDimension dimension, const char *spelling);
+const CzUnit *cz_curve_unit_find(CzDimension dimension, const char *spelling);
 
 /* Unit at the end of a title, whatever its dimension is; NULL without one. `n_title`, unless NULL,
  * becomes the length of the title without it [byte]. */
-const CzCurveUnit *cz_curve_unit_of_title(const char *title, size_t *n_title);
+const CzUnit *cz_curve_unit_of_title(const char *title, size_t *n_title);
 
 /* Unit that a field of a row of units is, with brackets or without; NULL when it is none. */
-const CzCurveUnit *cz_curve_unit_alone(const CzField *field);
+const CzUnit *cz_curve_unit_alone(const CzField *field);
 
 /* Lists the spellings of a dimension: "mm, cm, m". */
 void cz_curve_unit_list(CzDimension dimension, char *text, size_t size);

@@ -74,29 +74,30 @@ void cz_error_place(CzError *error, const CzNode *place) {
     error->column = place->column;
 }
 
-void cz_mistake(CzMistakes *mistakes, const CzNode *place, const CzTrail *trail, const char *format,
-                ...) {
+/* Adds a mistake at a place, of whose node only source, line and column count. */
+static void tell(CzMistakes *mistakes, const CzNode *place, const CzTrail *trail,
+                 const char *format, va_list arguments) {
     CzError error = {0};
     cz_error_place(&error, place);
+    vsnprintf(error.message, sizeof error.message, format, arguments);
+    add(mistakes, &error, place->source->order, trail);
+}
+
+void cz_mistake(CzMistakes *mistakes, const CzNode *place, const CzTrail *trail, const char *format,
+                ...) {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(error.message, sizeof error.message, format, arguments);
+    tell(mistakes, place, trail, format, arguments);
     va_end(arguments);
-    add(mistakes, &error, place->source->order, trail);
 }
 
 void cz_mistake_at(CzMistakes *mistakes, const CzSource *source, int line, int column,
                    const char *format, ...) {
-    CzError error = {0};
-    snprintf(error.file, sizeof error.file, "%s", source->name);
-    end_at_character(error.file, sizeof error.file);
-    error.line = line;
-    error.column = column;
+    const CzNode place = {.source = source, .line = line, .column = column};
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(error.message, sizeof error.message, format, arguments);
+    tell(mistakes, &place, NULL, format, arguments);
     va_end(arguments);
-    add(mistakes, &error, source->order, NULL);
 }
 
 void cz_mistake_help(CzMistakes *mistakes, const char *format, ...) {

@@ -53,6 +53,14 @@ CzNode *cz_node_copy(CzArena *arena, const CzNode *node, int n_more) {
     return copy;
 }
 
+const CzNode *cz_node_with(CzArena *arena, const CzNode *node, const CzEntry *entry,
+                           const CzNode *value) {
+    CzNode *copy = value != NULL ? cz_node_copy(arena, node, 0) : NULL;
+    if (copy != NULL)
+        copy->entry[entry - node->entry].value = value;
+    return copy;
+}
+
 CzNode *cz_node_without(CzArena *arena, const CzNode *mapping, const char *key) {
     CzNode *copy = cz_node_copy(arena, mapping, 0);
     if (copy == NULL)

@@ -71,6 +71,11 @@ const CzNode *cz_node_name(CzArena *arena, const char *name, const CzNode *place
  * shared. NULL without memory. */
 CzNode *cz_node_copy(CzArena *arena, const CzNode *node, int n_more);
 
+/* Copy of a list or mapping with another value in one of its entries; NULL without memory, and when
+ * the value is NULL for lack of it. */
+const CzNode *cz_node_with(CzArena *arena, const CzNode *node, const CzEntry *entry,
+                           const CzNode *value);
+
 /* Copy of a mapping without one key. NULL without memory. */
 CzNode *cz_node_without(CzArena *arena, const CzNode *mapping, const char *key);
 

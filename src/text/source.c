@@ -19,39 +19,43 @@ void cz_sources_hash(CzSources *sources, const char *bytes, size_t n_byte) {
 
 /* Bytes of the end of a line at the start of a text; 0 when there is none. Those of YAML, so that
  * lines are counted as its parser counts them: CR LF, CR, LF, NEL, LS, PS. */
-static size_t line_end_length(const char *text) {
+static size_t line_end_length(const char *text, bool is_yaml) {
     if (text[0] == '\r' || text[0] == '\n')
         return text[0] == '\r' && text[1] == '\n' ? 2 : 1;
-    if (strncmp(text, "\xc2\x85", 2) == 0)
+    if (is_yaml && strncmp(text, "\xc2\x85", 2) == 0)
         return 2;
     const bool separates =
-        strncmp(text, "\xe2\x80\xa8", 3) == 0 || strncmp(text, "\xe2\x80\xa9", 3) == 0;
+        is_yaml && (strncmp(text, "\xe2\x80\xa8", 3) == 0 || strncmp(text, "\xe2\x80\xa9", 3) == 0);
     return separates ? 3 : 0;
 }
 
-/* Cuts a copy of the text into lines. */
-static bool cut_lines(CzArena *arena, CzSource *source, const char *text, size_t n_byte) {
-    char *copy = cz_arena_copy_text(arena, text, n_byte);
-    if (copy == NULL)
-        return false;
-    int n_line = 1;
-    size_t n_end;
-    for (size_t i = 0; i<n_byte; i += n_end> 0 ? n_end : 1) {
-        n_end = line_end_length(copy + i);
-        n_line += n_end > 0;
+/* The next end of a line, with its bytes; NULL without one. */
+static char *find_line_end(char *at, const char *end, bool is_yaml, size_t *n_end) {
+    for (; at < end; at++) {
+        *n_end = line_end_length(at, is_yaml);
+        if (*n_end > 0)
+            return at;
     }
+    return NULL;
+}
+
+bool cz_source_cut(CzArena *arena, CzSource *source, char *text, size_t n_byte, bool is_yaml) {
+    const char *end = text + n_byte;
+    int n_line = 1;
+    size_t n = 0;
+    for (char *at = find_line_end(text, end, is_yaml, &n); at != NULL;
+         at = find_line_end(at + n, end, is_yaml, &n))
+        n_line++;
     const char **line = cz_arena_allocate(arena, (size_t)n_line, sizeof *line);
     if (line == NULL)
         return false;
-    line[0] = copy;
-    source->n_line = 1;
-    for (size_t i = 0; i<n_byte; i += n_end> 0 ? n_end : 1) {
-        n_end = line_end_length(copy + i);
-        if (n_end == 0)
-            continue;
-        copy[i] = '\0';
-        line[source->n_line++] = &copy[i + n_end];
+    line[0] = text;
+    for (int i = 1; i < n_line; i++) {
+        char *at = find_line_end(text, end, is_yaml, &n);
+        *at = '\0';
+        line[i] = text = at + n;
     }
+    source->n_line = n_line;
     source->line = line;
     return true;
 }
@@ -63,8 +67,9 @@ CzSource *cz_sources_add(CzSources *sources, const char *name, const char *folde
         return NULL;
     source->name = cz_arena_copy_text(sources->arena, name, strlen(name));
     source->folder = cz_arena_copy_text(sources->arena, folder, strlen(folder));
-    if (source->name == NULL || source->folder == NULL ||
-        !cut_lines(sources->arena, source, text, n_byte))
+    char *copy = cz_arena_copy_text(sources->arena, text, n_byte);
+    if (source->name == NULL || source->folder == NULL || copy == NULL ||
+        !cz_source_cut(sources->arena, source, copy, n_byte, true))
         return NULL;
     source->order = sources->n_source++;
     if (sources->last != NULL)
@@ -215,7 +220,7 @@ bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char 
         return true;
     int line = 1, column = 1;
     for (size_t i = 0; i < at;) {
-        const size_t n_end = line_end_length(text + i);
+        const size_t n_end = line_end_length(text + i, true);
         column = n_end > 0 ? 1 : column + 1;
         line += n_end > 0;
         i += n_end > 0 ? n_end : cz_text_character(text + i, n_byte - i);

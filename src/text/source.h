@@ -31,6 +31,10 @@ CzSource *cz_sources_add(CzSources *sources, const char *name, const char *folde
 CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *path,
                           const CzNode *place, char **text, size_t *n_byte);
 
+/* Makes the lines of a source of a text, which ends in a zero and is cut in place; with `is_yaml`
+ * at all line ends of YAML, else at LF, CR and both. False without memory. */
+bool cz_source_cut(CzArena *arena, CzSource *source, char *text, size_t n_byte, bool is_yaml);
+
 /* Bytes of the byte order mark that some editors put before UTF-8 text; 0 when there is none. */
 size_t cz_source_mark(const char *text, size_t n_byte);
 

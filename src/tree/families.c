@@ -170,31 +170,19 @@ static const CzNode *member_node(const Family *family, const CzEntry *name, int 
 typedef struct Scenarios {
     CzReader *reader;
     const CzTree *tree;
-    int n, room;
-    CzEntry *entry; /* (room) */
+    int n;
+    CzEntry *entry; /* (n) */
     bool is_full;   /* there are too many, which was told */
 } Scenarios;
 
-/* Room for n more; false when they are too many, or without memory. */
-static bool make_room(Scenarios *scenarios, int n, const CzNode *place) {
-    if (scenarios->n + n > MOST_SCENARIOS) {
+/* Whether there may be n more. */
+static bool may_add(Scenarios *scenarios, int n, const CzNode *place) {
+    scenarios->is_full = scenarios->n + n > MOST_SCENARIOS;
+    if (scenarios->is_full)
         cz_mistake(&scenarios->reader->mistakes, place, NULL,
                    "the problem has more than %d scenarios, members of sweeps counted",
                    (int)MOST_SCENARIOS);
-        scenarios->is_full = true;
-        return false;
-    }
-    if (scenarios->n + n <= scenarios->room)
-        return true;
-    const int room = 2 * (scenarios->n + n);
-    CzEntry *more = cz_arena_allocate(&scenarios->reader->arena, (size_t)room, sizeof *more);
-    if (more == NULL)
-        return false;
-    if (scenarios->n > 0)
-        memcpy(more, scenarios->entry, (size_t)scenarios->n * sizeof *more);
-    scenarios->entry = more;
-    scenarios->room = room;
-    return true;
+    return !scenarios->is_full;
 }
 
 /* Appends the members of a scenario, or the scenario itself when it has no sweep that can be
@@ -209,10 +197,14 @@ static bool append_scenario(Scenarios *scenarios, const CzEntry *entry) {
     const bool is_family = family.sweep != NULL && name != NULL &&
                            name->value->kind == CZ_NODE_TEXT && read_sweep(&family);
     const int n = is_family ? family.n_member : 1;
-    if (!make_room(scenarios, n, family.sweep != NULL ? family.sweep->key : scenario))
+    if (!may_add(scenarios, n, family.sweep != NULL ? family.sweep->key : scenario))
         return false;
     for (int i = 0; i < n; i++) {
-        CzEntry *item = &scenarios->entry[scenarios->n++];
+        CzEntry *all = cz_arena_grow(&reader->arena, scenarios->entry, scenarios->n, sizeof *all);
+        if (all == NULL)
+            return false;
+        scenarios->entry = all;
+        CzEntry *item = &all[scenarios->n++];
         *item = *entry;
         if (is_family)
             item->value = member_node(&family, name, i);
@@ -229,15 +221,13 @@ const CzNode *cz_families_write_out(CzReader *reader, const CzTree *tree) {
     Scenarios scenarios = {.reader = reader, .tree = tree};
     if (entry == NULL || entry->value->kind != CZ_NODE_LIST)
         return tree->root;
-    CzNode *root = cz_node_copy(&reader->arena, tree->root, 0);
     CzNode *list = cz_node_copy(&reader->arena, entry->value, 0);
-    if (root == NULL || list == NULL)
+    if (list == NULL)
         return NULL;
     for (int i = 0; i < list->n_entry && !scenarios.is_full; i++)
         if (!append_scenario(&scenarios, &list->entry[i]) && !scenarios.is_full)
             return NULL;
     list->n_entry = scenarios.n;
     list->entry = scenarios.entry;
-    root->entry[entry - tree->root->entry].value = list;
-    return root;
+    return cz_node_with(&reader->arena, tree->root, entry, list);
 }

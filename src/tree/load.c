@@ -15,7 +15,7 @@ enum { DEEPEST_CHAIN = 16 };
 typedef struct {
     CzReader *reader;
     CzPart *part; /* all parts of catalogues so far */
-    int n_part, n_allocated;
+    int n_part;
     CzIndex by_name;        /* of the parts */
     const char *loaded[64]; /* paths of the catalogues read */
     int n_loaded;
@@ -64,17 +64,12 @@ static CzPart *find_part(const Loader *loader, const char *name) {
 }
 
 static void add_part(Loader *loader, const CzEntry *entry) {
-    if (loader->n_part == loader->n_allocated) {
-        const int n = loader->n_allocated > 0 ? 2 * loader->n_allocated : 64;
-        CzPart *larger = cz_arena_allocate(&loader->reader->arena, (size_t)n, sizeof *larger);
-        if (larger == NULL)
-            return;
-        if (loader->n_part > 0)
-            memcpy(larger, loader->part, (size_t)loader->n_part * sizeof *larger);
-        loader->part = larger;
-        loader->n_allocated = n;
-    }
     const char *name = entry->key->text;
+    CzPart *part =
+        cz_arena_grow(&loader->reader->arena, loader->part, loader->n_part, sizeof *part);
+    if (part == NULL)
+        return;
+    loader->part = part;
     if (!cz_index_add(&loader->by_name, name, strlen(name), loader->n_part))
         return;
     loader->part[loader->n_part++] = (CzPart){name, entry->key, entry->value, 0};

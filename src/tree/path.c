@@ -27,7 +27,7 @@ typedef struct {
     const CzNode *place; /* of the path */
     const CzNode *value;
     CzMatches *matches;
-    int n_found, n_room;
+    int n_found;
     bool failed;
     const char *train;     /* name of the train on the way, for its vehicles */
     char at[CZ_PATH_ROOM]; /* concrete path so far */
@@ -150,17 +150,11 @@ static const CzNode *value_to_put(Walk *walk) {
         walk->failed = true;
         return walk->value;
     }
-    if (matches->n_match == walk->n_room) {
-        const int n_room = walk->n_room > 0 ? 2 * walk->n_room : 8;
-        char(*larger)[CZ_PATH_ROOM] =
-            cz_arena_allocate(&walk->reader->arena, (size_t)n_room, CZ_PATH_ROOM);
-        if (larger == NULL)
-            return NULL;
-        if (matches->n_match > 0)
-            memcpy(larger, matches->place, (size_t)matches->n_match * CZ_PATH_ROOM);
-        matches->place = larger;
-        walk->n_room = n_room;
-    }
+    char(*places)[CZ_PATH_ROOM] = cz_arena_grow(&walk->reader->arena, matches->place,
+                                                matches->n_match, sizeof *matches->place);
+    if (places == NULL)
+        return NULL;
+    matches->place = places;
     CzNode *marker = cz_arena_allocate(&walk->reader->arena, 1, sizeof *marker);
     if (marker == NULL)
         return NULL;

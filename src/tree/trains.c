@@ -91,9 +91,8 @@ static const CzNode *name_vehicles(CzArena *arena, const CzNode *train) {
     const CzEntry *vehicles = cz_node_find(train, "vehicles");
     if (name == NULL || vehicles == NULL || vehicles->value->kind != CZ_NODE_LIST)
         return train;
-    CzNode *named = cz_node_copy(arena, train, 0);
     CzNode *list = cz_node_copy(arena, vehicles->value, 0);
-    if (named == NULL || list == NULL)
+    if (list == NULL)
         return NULL;
     for (int i = 0, position = 1; i < list->n_entry; i++) {
         position += i > 0 ? cz_vehicle_repeat(list->entry[i - 1].value) : 0;
@@ -101,25 +100,20 @@ static const CzNode *name_vehicles(CzArena *arena, const CzNode *train) {
         if (list->entry[i].value == NULL)
             return NULL;
     }
-    named->entry[vehicles - train->entry].value = list;
-    return named;
+    return cz_node_with(arena, train, vehicles, list);
 }
 
 const CzNode *cz_trains_name_vehicles(CzArena *arena, const CzNode *root) {
     const CzEntry *trains = cz_node_find(root, "trains");
     if (trains == NULL || trains->value->kind != CZ_NODE_LIST)
         return root;
-    CzNode *named = cz_node_copy(arena, root, 0);
     CzNode *list = cz_node_copy(arena, trains->value, 0);
     for (int i = 0; list != NULL && i < list->n_entry; i++) {
         list->entry[i].value = name_vehicles(arena, list->entry[i].value);
         if (list->entry[i].value == NULL)
             return NULL;
     }
-    if (named == NULL || list == NULL)
-        return NULL;
-    named->entry[trains - root->entry].value = list;
-    return named;
+    return cz_node_with(arena, root, trains, list);
 }
 
 /* ---- vehicles of one train ---- */
@@ -371,9 +365,8 @@ const CzNode *cz_trains_write_out(CzReader *reader, const CzTree *tree) {
         return tree->root;
     Trains trains = {.reader = reader, .tree = tree, .n_train = entry->value->n_entry};
     trains.train = cz_arena_allocate(&reader->arena, (size_t)trains.n_train, sizeof(Train));
-    CzNode *root = cz_node_copy(&reader->arena, tree->root, 0);
     CzNode *list = cz_node_copy(&reader->arena, entry->value, 0);
-    if (trains.train == NULL || root == NULL || list == NULL)
+    if (trains.train == NULL || list == NULL)
         return NULL;
     const CzTrail *list_trail = cz_entry_trail(entry, &cz_no_trail);
     for (int i = 0; i < trains.n_train; i++) {
@@ -392,6 +385,5 @@ const CzNode *cz_trains_write_out(CzReader *reader, const CzTree *tree) {
         if (list->entry[i].value == NULL)
             return NULL;
     }
-    root->entry[entry - tree->root->entry].value = list;
-    return root;
+    return cz_node_with(&reader->arena, tree->root, entry, list);
 }

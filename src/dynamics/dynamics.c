@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "laws/wheel_rail.h"
-#include "model/kinks.h"
 
 extern const CzKernel cz_kernel_baseline;
 #ifdef CZ_HAS_KERNEL_V3

@@ -13,12 +13,11 @@
 #include <stdio.h>
 
 #include "base/error.h"
+#include "base/gravity.h"
 #include "integrate/integrator.h"
 #include "laws/suspension.h"
 #include "laws/wheel_rail.h"
-#include "model/kinks.h"
 
-#define GRAVITY 9.80665 /* [m/s2] */
 #define TOLERANCE 1e-11 /* of a residual, over the weight: rounding leaves some 1e-14 (ours) */
 #define FIRST_SAG 0.02  /* of every spring at the first guess, so that all bear [m] (ours) */
 #define FIRST_DENT 1e-3 /* of every wheel [m] (ours) */
@@ -120,17 +119,17 @@ static void residuals(CzEquations *equations, const double *q, double *residual)
     const Car *car = (const Car *)equations;
     for (int i = 0; i < N_UNKNOWN; i++)
         residual[i] = 0.0;
-    residual[BODY_Z] = -car->body_mass * GRAVITY;
+    residual[BODY_Z] = -car->body_mass * CZ_GRAVITY;
     for (int end = 0; end < 2; end++) {
-        residual[BODY_Z] -= car->end_mass[end] * GRAVITY;
-        residual[BODY_PITCH] -= car->end_x[end] * car->end_mass[end] * GRAVITY;
+        residual[BODY_Z] -= car->end_mass[end] * CZ_GRAVITY;
+        residual[BODY_PITCH] -= car->end_x[end] * car->end_mass[end] * CZ_GRAVITY;
     }
     for (int bogie = 0; bogie < 2; bogie++) {
         const double force =
             cz_suspension_spring(&car->secondary, secondary_compression(car, q, bogie));
         residual[BODY_Z] += force;
         residual[BODY_PITCH] += side_of(bogie) * car->bogie_x * force;
-        residual[BOGIE_Z + bogie] -= force + car->bogie_mass * GRAVITY;
+        residual[BOGIE_Z + bogie] -= force + car->bogie_mass * CZ_GRAVITY;
     }
     for (int axle = 0; axle < 4; axle++) {
         const int bogie = axle / 2;
@@ -138,7 +137,7 @@ static void residuals(CzEquations *equations, const double *q, double *residual)
         const double approach = rail_way(car, q, axle) - q[WHEEL_Z + axle];
         residual[BOGIE_Z + bogie] += force;
         residual[BOGIE_PITCH + bogie] += side_of(axle) * car->axle_x * force;
-        residual[WHEEL_Z + axle] = q[LOAD + axle] - force - car->wheelset_mass * GRAVITY;
+        residual[WHEEL_Z + axle] = q[LOAD + axle] - force - car->wheelset_mass * CZ_GRAVITY;
         residual[LOAD + axle] =
             cz_wheel_force_on_spring(car->hertz, car->flexibility[axle], approach) - q[LOAD + axle];
     }
@@ -212,8 +211,8 @@ CzStatus cz_equilibrium_find(const CzLanes *lanes, size_t lane, const CzTrackMod
     Car car = car_of(lanes, lane);
     if (modes != NULL && !find_influence(&car, modes))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the track");
-    const double weight = GRAVITY * (car.body_mass + car.end_mass[0] + car.end_mass[1] +
-                                     2.0 * car.bogie_mass + 4.0 * car.wheelset_mass);
+    const double weight = CZ_GRAVITY * (car.body_mass + car.end_mass[0] + car.end_mass[1] +
+                                        2.0 * car.bogie_mass + 4.0 * car.wheelset_mass);
     double q[N_UNKNOWN], unknown_scale[N_UNKNOWN], residual_scale[N_UNKNOWN];
     for (int i = 0; i < N_UNKNOWN; i++) {
         unknown_scale[i] = i >= LOAD ? weight : FIRST_SAG;

@@ -13,15 +13,16 @@
 
 /* The axle as the bogie sees it. */
 static inline CzSight line_up_axle(CzCarrier bogie, const CzWheelset *at, const CzWheelset *rate,
-                                   CzPoint rest, size_t i) {
-    const CzPoint from_bogie = {rest.arm_x + (at->x[i] - bogie.displacement->x[i]),
-                                rest.arm_z + (at->z[i] - bogie.displacement->z[i]),
+                                   Rest rest, size_t i) {
+    const CzPoint from_bogie = {rest.along + (at->x[i] - bogie.displacement->x[i]),
+                                rest.up + (at->z[i] - bogie.displacement->z[i]),
                                 rate->x[i] - bogie.rate->x[i], rate->z[i] - bogie.rate->z[i]};
     return cz_sight_of(bogie, i, from_bogie);
 }
 
-/* ---- law, line up and put of one axle, counted from the rear of the car ---- */
+/* ---- law ---- */
 
+/* One axle, counted from the rear of the car. */
 static void axle_to_bogie(CzBlock *d, int axle) {
     const int bogie = axle / 2;
     const double sign = axle % 2 == 0 ? -1.0 : 1.0;
@@ -35,9 +36,9 @@ static void axle_to_bogie(CzBlock *d, int axle) {
     double *restrict compressed = d->published.primary[axle].compression;
     double *restrict stretched = d->published.axle_guidance[axle].travel;
     CZ_LANES (i) {
-        const CzPoint rest = {.arm_x = sign * rows->axle_x[i], .arm_z = rows->axle_z[i]};
+        const Rest rest = {sign * rows->axle_x[i], rows->axle_z[i]};
         const CzSight seen = line_up_axle(frame, at_axle, rate, rest, i);
-        const StrutStrokes at = strokes_seen(seen, rest.arm_x, rest.arm_z);
+        const StrutStrokes at = strokes_seen(seen, rest);
 
         const CzSuspensionLaw law = suspension_law(&rows->primary, preload, i);
         const double spring = cz_suspension_spring(&law, at.compression);

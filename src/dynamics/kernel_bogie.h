@@ -16,6 +16,11 @@ typedef struct {
     CzSight seen;
 } BogieLine;
 
+/* Where a point is at rest, from the carrier that sees it. */
+typedef struct {
+    double along, up; /* [m] */
+} Rest;
+
 /* Strokes and rates of suspension and link. */
 typedef struct {
     double compression, rate; /* [m, m/s] */
@@ -34,24 +39,24 @@ static inline CzSuspensionLaw suspension_law(const CzSuspensionRows *rows, const
 /* ---- line up ---- */
 
 static inline BogieLine line_up_bogie(CzCarrier body, CzCarrier bogie, const CzParameters *rows,
-                                      double half, size_t i) {
-    const double link_body = rows->link.body_z[i], link_bogie = rows->link.bogie_z[i];
+                                      Rest rest, size_t i) {
+    const double link_bogie = rows->link.bogie_z[i];
     const CzPoint pin = cz_point_of(bogie, i, 0.0, link_bogie);
     const double turn = bogie.rate->pitch[i];
     const CzPoint from_body = {
-        half + (bogie.displacement->x[i] - body.displacement->x[i]) + pin.arm_x,
-        link_body - link_bogie + (bogie.displacement->z[i] - body.displacement->z[i]) + pin.arm_z,
+        rest.along + (bogie.displacement->x[i] - body.displacement->x[i]) + pin.arm_x,
+        rest.up - link_bogie + (bogie.displacement->z[i] - body.displacement->z[i]) + pin.arm_z,
         bogie.rate->x[i] - body.rate->x[i] - pin.arm_z * turn,
         bogie.rate->z[i] - body.rate->z[i] + pin.arm_x * turn};
     return (BogieLine){pin, cz_sight_of(body, i, from_body)};
 }
 
-/* From where the pin is at rest: `half` along, `height` up. */
-static inline StrutStrokes strokes_seen(CzSight seen, double half, double height) {
-    return (StrutStrokes){seen.up - height, seen.rate_up, half - seen.along, -seen.rate_along};
+static inline StrutStrokes strokes_seen(CzSight seen, Rest rest) {
+    return (StrutStrokes){seen.up - rest.up, seen.rate_up, rest.along - seen.along,
+                          -seen.rate_along};
 }
 
-/* ---- law, line up and put of one bogie ---- */
+/* ---- law ---- */
 
 static void bogie_to_body(CzBlock *d, int bogie) {
     const double sign = bogie == 0 ? -1.0 : 1.0;
@@ -62,9 +67,9 @@ static void bogie_to_body(CzBlock *d, int bogie) {
     CzPower *restrict power = d->power;
     CzPublished *restrict published = &d->published;
     CZ_LANES (i) {
-        const double half = sign * rows->bogie_x[i];
-        const BogieLine line = line_up_bogie(body, frame, rows, half, i);
-        const StrutStrokes at = strokes_seen(line.seen, half, rows->link.body_z[i]);
+        const Rest rest = {sign * rows->bogie_x[i], rows->link.body_z[i]};
+        const BogieLine line = line_up_bogie(body, frame, rows, rest, i);
+        const StrutStrokes at = strokes_seen(line.seen, rest);
 
         const CzSuspensionLaw law = suspension_law(&rows->secondary, preload, i);
         const double spring = cz_suspension_spring(&law, at.compression);
@@ -87,6 +92,8 @@ static void bogie_to_body(CzBlock *d, int bogie) {
     }
 }
 
+/* ---- put ---- */
+
 /* Notes for a budget what link, suspension and stops put on the body, which had `before` before
  * them. */
 static void note_bogie(CzBlock *d, int bogie, const CzPlane *restrict before) {
@@ -96,7 +103,8 @@ static void note_bogie(CzBlock *d, int bogie, const CzPlane *restrict before) {
     const CzPlane *restrict after = &d->force.body;
     CzBudgetRows *restrict budget = d->budget;
     CZ_LANES (i) {
-        const BogieLine line = line_up_bogie(body, frame, rows, sign * rows->bogie_x[i], i);
+        const BogieLine line = line_up_bogie(
+            body, frame, rows, (Rest){sign * rows->bogie_x[i], rows->link.body_z[i]}, i);
         const double stop = d->published.secondary[bogie].stop_vertical[i];
         const double of_link = line.seen.up * d->published.link[bogie].force[i];
         const double lift = body.turned->cosine[i] * stop;

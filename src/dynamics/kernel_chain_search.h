@@ -20,7 +20,6 @@
 #include "dynamics/kernel_chain.h"
 
 #include "laws/shear_off.h"
-#include "model/kinks.h"
 
 enum {
     SEARCH_MEMBERS = 8,      /* two springs and up to six plastic members */

@@ -52,6 +52,13 @@ static void line_up_contact(CzCarrier a, CzCarrier b, const CzPairRows *at,
     }
 }
 
+/* Slope of the faces. */
+static void line_up_ramp(const Contact *restrict contact, double *restrict ramp) {
+    CZ_LANES (i) {
+        ramp[i] = fabs(contact->normal_z[i]) / contact->normal_x[i];
+    }
+}
+
 /* ---- put ---- */
 
 /* Puts normal force and vertical force of the contact on both carriers. */

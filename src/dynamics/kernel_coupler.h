@@ -13,6 +13,8 @@
 #include "laws/coupler.h"
 #include "laws/slider.h"
 
+/* ---- law ---- */
+
 static int some_are_released(const CzCouplerMemory *restrict memory) {
     double n_released = 0.0;
     CZ_LANES_SUM(i, n_released) {
@@ -61,6 +63,27 @@ static void turn_hinge(CzBlock *d, int side, const CouplerLine *line, CzCarrier 
     }
 }
 
+/* Closure of the couplers that are there. */
+static void keep_closure(const double *restrict exists, const double *restrict closure,
+                         double *restrict kept) {
+    CZ_LANES (i) {
+        kept[i] = exists[i] * closure[i];
+    }
+}
+
+/* Whether the evaluation at hand leaves the memory of the couplers as it was. */
+static int couplers_remember(const CzBlock *d) {
+    return memcmp(&d->memory->coupler, &d->next_memory->coupler, sizeof d->memory->coupler) == 0;
+}
+
+/* Couplers that changed nothing and are still apart: both copies of their memory hold what they
+ * would leave. */
+static void leave_couplers(CzBlock *d) {
+    memcpy(d->published.coupler.force, d->memory->coupler.force, sizeof(CzRow));
+}
+
+/* ---- put ---- */
+
 /* Strut force with what a release adds to it, what flattens the faces, and what reacts the hinges.
  */
 static void sum_coupler_forces(CzBlock *d, const CouplerLine *restrict line,
@@ -88,25 +111,6 @@ static void sum_coupler_forces(CzBlock *d, const CouplerLine *restrict line,
         kept[i] = force[i];
         power[i] += (force[i] + more[i]) * line->rate[i];
     }
-}
-
-/* Closure of the couplers that are there. */
-static void keep_closure(const double *restrict exists, const double *restrict closure,
-                         double *restrict kept) {
-    CZ_LANES (i) {
-        kept[i] = exists[i] * closure[i];
-    }
-}
-
-/* Whether the evaluation at hand leaves the memory of the couplers as it was. */
-static int couplers_remember(const CzBlock *d) {
-    return memcmp(&d->memory->coupler, &d->next_memory->coupler, sizeof d->memory->coupler) == 0;
-}
-
-/* Couplers that changed nothing and are still apart: both copies of their memory hold what they
- * would leave. */
-static void leave_couplers(CzBlock *d) {
-    memcpy(d->published.coupler.force, d->memory->coupler.force, sizeof(CzRow));
 }
 
 /* Couplers at work. */

@@ -110,7 +110,7 @@ static void grip_faces(CzBlock *d, const Contact *restrict contact) {
     CzFaceMemory *restrict next = &d->next_memory->face;
     double *restrict next_offset = d->next_memory->grip.slip_vertical;
     const double *restrict normal = d->published.face.force;
-    double *restrict ready = d->published.face.ready, *restrict ramp = d->published.face.ramp;
+    double *restrict ready = d->published.face.ready;
     double *restrict tangential = d->published.face.demand_vertical;
     double *restrict power = d->power->face_sliding;
     CZ_LANES (i) {
@@ -127,7 +127,6 @@ static void grip_faces(CzBlock *d, const Contact *restrict contact) {
         next->slipped[i] = memory->slipped[i] + way;
         next->sheared[i] = memory->sheared[i] + grip.mesh * way;
         tangential[i] = held.force;
-        ramp[i] = fabs(contact->normal_z[i]) / contact->normal_x[i];
         power[i] += held.force * contact->slip_rate[i];
     }
 }
@@ -166,14 +165,6 @@ static void leave_faces(CzBlock *d, const Contact *contact) {
     memcpy(d->next_memory->grip.slip_vertical, contact->slip_vertical, sizeof(CzRow));
 }
 
-/* Notes of the force for a budget, and its points of action from the end masses. */
-static void note_faces(CzBudgetRows *budget, const Contact *contact) {
-    memcpy(budget->face_x, contact->force_x, sizeof(CzRow));
-    memcpy(budget->face_z, contact->force_z, sizeof(CzRow));
-    memcpy(budget->face_arm_x, contact->arm_x, sizeof contact->arm_x);
-    memcpy(budget->face_arm_z, contact->arm_z, sizeof contact->arm_z);
-}
-
 /* Solves the chain and moves its members on. */
 static void push_faces(CzBlock *d, const Contact *contact, FaceChain *of) {
     Chain *chain = &of->chain;
@@ -188,6 +179,16 @@ static void push_faces(CzBlock *d, const Contact *contact, FaceChain *of) {
     d->faces_rest =
         settled && faces_are_slack(d, chain) && faces_remember(d) && !d->leaves_nothing_out;
     press_faces(d, contact, chain->now.force);
+}
+
+/* ---- put ---- */
+
+/* Notes of the force for a budget, and its points of action from the end masses. */
+static void note_faces(CzBudgetRows *budget, const Contact *contact) {
+    memcpy(budget->face_x, contact->force_x, sizeof(CzRow));
+    memcpy(budget->face_z, contact->force_z, sizeof(CzRow));
+    memcpy(budget->face_arm_x, contact->arm_x, sizeof contact->arm_x);
+    memcpy(budget->face_arm_z, contact->arm_z, sizeof contact->arm_z);
 }
 
 /* All anti-climbers and bare ends. */
@@ -210,6 +211,7 @@ static void faces(const CzDynamics *dynamics, int index, double step) {
         put_drop(d, &contact, &of.chain.now, d->published.face.force, d->published.face.top);
     }
     count_held(&d->memory->face, &d->next_memory->face, d->parameter.face.compliance);
+    line_up_ramp(&contact, d->published.face.ramp);
     grip_faces(d, &contact);
     put_contact(force_on_end(d, 0), force_on_end(d, 1), &contact, d->published.face.force,
                 d->published.face.demand_vertical, d->published.interface.force);

@@ -18,7 +18,6 @@
 #include "dynamics/kernel_buffer.h"
 #include "dynamics/kernel_chain_solve.h"
 #include "laws/shear_off.h"
-#include "model/kinks.h"
 
 enum { SHEAR_OFF = 4 }; /* plastic member of the chain, of side A */
 

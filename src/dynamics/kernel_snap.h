@@ -42,10 +42,10 @@ static void settle_snap(const CzDynamics *dynamics, const FaceChain *of, FaceSte
         face[side] = faces.next->side[side].stroke[i] - faces.memory->side[side].stroke[i];
         if (of->massless[side].exists[i] < 0.5)
             continue;
-        released += mean * (after->stroke[i] - before->stroke[i]) -
-                    (after->damped[i] - before->damped[i]) -
-                    (cz_limp_received_at(dynamics, lane, side, after->stroke[i], after->peak[i]) -
-                     cz_limp_received_at(dynamics, lane, side, before->stroke[i], before->peak[i]));
+        released +=
+            mean * (after->stroke[i] - before->stroke[i]) - (after->damped[i] - before->damped[i]) -
+            (cz_massless_received_at(dynamics, lane, side, after->stroke[i], after->peak[i]) -
+             cz_massless_received_at(dynamics, lane, side, before->stroke[i], before->peak[i]));
     }
     const double zones = zone[0] + zone[1], faces_went = face[0] + face[1];
     for (int side = 0; side < 2; ++side)

@@ -308,7 +308,7 @@ static CzVehicleEndLaw end_law(const CzDynamics *dynamics, size_t lane, int end)
         parameter(dynamics, CZ_PARAMETER(end[end].crush.tension), lane)};
 }
 
-static CzVehicleEndLaw limp_law(const CzDynamics *dynamics, size_t lane, int side) {
+static CzVehicleEndLaw massless_law(const CzDynamics *dynamics, size_t lane, int side) {
     return (CzVehicleEndLaw){
         cz_larger(parameter(dynamics, CZ_PARAMETER(face.side[side].massless.unloading), lane), 1.0),
         parameter(dynamics, CZ_PARAMETER(face.side[side].massless.share), lane),
@@ -330,19 +330,19 @@ static double of_end(const CzDynamics *dynamics, size_t lane, int end, OfCrush *
                     memory(dynamics, CZ_MEMORY(end[end].peak), lane));
 }
 
-static double of_limp_at(const CzDynamics *dynamics, size_t lane, int side, OfCrush *function,
-                         double x, double largest) {
+static double of_massless_at(const CzDynamics *dynamics, size_t lane, int side, OfCrush *function,
+                             double x, double largest) {
     if (parameter(dynamics, CZ_PARAMETER(face.side[side].has_massless), lane) < 0.5)
         return 0.0;
-    const CzVehicleEndLaw law = limp_law(dynamics, lane, side);
+    const CzVehicleEndLaw law = massless_law(dynamics, lane, side);
     return function(&dynamics->lanes->curve[CZ_CURVE(massless[side])], dynamics->lanes->stride,
                     lane, &law, x, largest);
 }
 
-static double of_limp(const CzDynamics *dynamics, size_t lane, int side, OfCrush *function) {
-    return of_limp_at(dynamics, lane, side, function,
-                      memory(dynamics, CZ_MEMORY(face.side[side].massless.stroke), lane),
-                      memory(dynamics, CZ_MEMORY(face.side[side].massless.peak), lane));
+static double of_massless(const CzDynamics *dynamics, size_t lane, int side, OfCrush *function) {
+    return of_massless_at(dynamics, lane, side, function,
+                          memory(dynamics, CZ_MEMORY(face.side[side].massless.stroke), lane),
+                          memory(dynamics, CZ_MEMORY(face.side[side].massless.peak), lane));
 }
 
 double cz_end_stored(const CzDynamics *dynamics, size_t lane, int end) {
@@ -353,17 +353,17 @@ double cz_end_received(const CzDynamics *dynamics, size_t lane, int end) {
     return of_end(dynamics, lane, end, crush_received);
 }
 
-double cz_limp_stored(const CzDynamics *dynamics, size_t lane, int side) {
-    return of_limp(dynamics, lane, side, crush_stored);
+double cz_massless_stored(const CzDynamics *dynamics, size_t lane, int side) {
+    return of_massless(dynamics, lane, side, crush_stored);
 }
 
-double cz_limp_received(const CzDynamics *dynamics, size_t lane, int side) {
-    return of_limp(dynamics, lane, side, crush_received);
+double cz_massless_received(const CzDynamics *dynamics, size_t lane, int side) {
+    return of_massless(dynamics, lane, side, crush_received);
 }
 
-double cz_limp_received_at(const CzDynamics *dynamics, size_t lane, int side, double x,
-                           double largest) {
-    return of_limp_at(dynamics, lane, side, crush_received, x, largest);
+double cz_massless_received_at(const CzDynamics *dynamics, size_t lane, int side, double x,
+                               double largest) {
+    return of_massless_at(dynamics, lane, side, crush_received, x, largest);
 }
 
 double cz_slide_stored(const CzDynamics *dynamics, size_t lane) {

@@ -23,11 +23,11 @@ double cz_side_sliding_stored(const CzDynamics *dynamics, size_t lane);
  * the work of loading to their largest shortening less what unloading from there gave back. */
 double cz_end_stored(const CzDynamics *dynamics, size_t lane, int end);
 double cz_end_received(const CzDynamics *dynamics, size_t lane, int end);
-double cz_limp_stored(const CzDynamics *dynamics, size_t lane, int side);
-double cz_limp_received(const CzDynamics *dynamics, size_t lane, int side);
+double cz_massless_stored(const CzDynamics *dynamics, size_t lane, int side);
+double cz_massless_received(const CzDynamics *dynamics, size_t lane, int side);
 /* The latter of a state that is none yet: shortened by x, at most by `largest` so far. */
-double cz_limp_received_at(const CzDynamics *dynamics, size_t lane, int side, double x,
-                           double largest);
+double cz_massless_received_at(const CzDynamics *dynamics, size_t lane, int side, double x,
+                               double largest);
 
 /* Springs of the running gear, all of a car. */
 double cz_secondary_stored(const CzDynamics *dynamics, size_t lane);

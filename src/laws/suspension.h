@@ -14,7 +14,7 @@
 
 typedef struct {
     double stiffness;      /* k [N/m] */
-    double preload;        /* F_0 [N]; 1e30 when the spring carries tension */
+    double preload;        /* F_0 [N]; never (1e30) when the spring carries tension */
     double bump_gap;       /* [m]; 1e30 without a stop */
     double bump_stiffness; /* [N/m] */
     double lift_gap;       /* [m]; 1e30 without a stop */

@@ -295,7 +295,7 @@ static double value_or_zero(double value) {
     return isnan(value) ? 0.0 : value;
 }
 
-static CzStatus fill_limp_end(const Pair *pair, int which) {
+static CzStatus fill_massless_end(const Pair *pair, int which) {
     const Side *side = &pair->side[which];
     const CzEnd *end = side->end;
     if (side->is_full || !cz_end_crushes(end))
@@ -322,7 +322,7 @@ static CzStatus fill_face_side(const Pair *pair, int which, double height, doubl
     const CzAntiClimber *anti_climber = has_anti_climber(side) ? &side->end->anti_climber : NULL;
     CZ_TRY(cz_fill_anti_climber(pair->fill, part_name(pair, which, "anti-climber"), anti_climber,
                                 CZ_CURVE(face[which])));
-    CZ_TRY(fill_limp_end(pair, which));
+    CZ_TRY(fill_massless_end(pair, which));
     if (anti_climber == NULL)
         return CZ_OK;
     put(pair, CZ_PARAMETER(face.side[which].rate), anti_climber->rate_factor);
@@ -360,10 +360,10 @@ static CzStatus fill_faces(const Pair *pair) {
     double compliance = 0.0;
     CZ_TRY(fill_face_side(pair, CZ_SIDE_A, heights.side[CZ_SIDE_A], &compliance));
     CZ_TRY(fill_face_side(pair, CZ_SIDE_B, heights.side[CZ_SIDE_B], &compliance));
-    const bool a_limps = !a->is_full && cz_end_crushes(a->end);
-    const bool b_limps = !b->is_full && cz_end_crushes(b->end);
+    const bool a_is_massless = !a->is_full && cz_end_crushes(a->end);
+    const bool b_is_massless = !b->is_full && cz_end_crushes(b->end);
     if (compliance == 0.0)
-        compliance = a_limps || b_limps ? SMALLEST_COMPLIANCE : BARE_COMPLIANCE;
+        compliance = a_is_massless || b_is_massless ? SMALLEST_COMPLIANCE : BARE_COMPLIANCE;
     put(pair, CZ_PARAMETER(face.contact.distance), pair->distance + face_gap(a) + face_gap(b));
     put(pair, CZ_PARAMETER(face.contact.rise), heights.rise);
     put(pair, CZ_PARAMETER(face.compliance), compliance);

@@ -15,11 +15,10 @@
 #ifndef CZ_MODEL_KINKS_H
 #define CZ_MODEL_KINKS_H
 
+#include "model/state.h"
 #include "problem/input.h"
 
 enum { CZ_MAX_KINKS = CZ_MAX_CURVE_POINTS + 2 };
-
-#define CZ_NEVER 1e30 /* a force, gap or stiffness that nothing reaches */
 
 typedef struct CzKinks {
     int n;

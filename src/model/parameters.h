@@ -23,7 +23,7 @@ typedef struct CzStrutRows {
     CzRow damping;   /* [N s/m] */
 } CzStrutRows;
 
-/* Crush zone; its backbone is a curve (curves.def). */
+/* Crush zone; its backbone is a curve (CzCurveNames). */
 typedef struct CzCrushRows {
     CzRow unloading;        /* first unloading stage [N/m]; never without */
     CzRow share;            /* of the peak force at which the second one begins [-] */

@@ -9,6 +9,10 @@ enum { CZ_LANE_BLOCK = 8 };
 /* One quantity of all lanes of a block. */
 typedef double CzRow[CZ_LANE_BLOCK];
 
+/* What stands for a thing that is not there. */
+#define CZ_NEVER 1e30   /* a force, gap or stiffness that nothing reaches */
+#define CZ_MISSING 1e29 /* strengths, strokes and gaps from here on are never reached */
+
 /* A number for each direction in which a body moves in the plane: displacement [m, rad], velocity,
  * force or mass. Pitch is positive nose-up. */
 typedef struct CzPlane {
@@ -33,6 +37,18 @@ typedef struct CzState {
 /* Degrees of freedom by name, such as CZ_DOF(end[1].pitch). */
 #define CZ_DOF(member) CZ_ROW_OF(CzState, member)
 enum { CZ_N_DOF = CZ_ROWS_IN(CzState) };
+
+/* Direction of a degree of freedom. */
+typedef enum CzAxis { CZ_AXIS_ALONG, CZ_AXIS_UP, CZ_AXIS_TURN } CzAxis;
+
+static inline CzAxis cz_axis_of(int dof) {
+    static const CzAxis axes[CZ_N_DOF] = {
+#define CZ_DOF_ENTRY(row, axis, dimension, what) [CZ_DOF(row)] = CZ_AXIS_##axis,
+#include "model/dof.def"
+#undef CZ_DOF_ENTRY
+    };
+    return axes[dof];
+}
 
 /* A row of a struct of rows by its number. */
 static inline double *cz_row_of(void *rows, int row) {

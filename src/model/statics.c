@@ -10,8 +10,7 @@
 #include "model/fill.h"
 
 #include "base/error.h"
-
-#define GRAVITY 9.80665 /* [m/s2] */
+#include "base/gravity.h"
 
 static double tube_mass(const CzTube *tube, int count) {
     if (!tube->given)
@@ -84,13 +83,13 @@ static CzStatus full_statics(const CzFill *fill, int car, const CzVehicle *vehic
                          absorber_mass(&vehicle->rear) + absorber_mass(&vehicle->front);
     statics->body_inertia = vehicle->pitch_inertia * scenario->mass_factor;
     statics->mass = statics->body_mass + ends + gear;
-    statics->weight = statics->mass * GRAVITY;
+    statics->weight = statics->mass * CZ_GRAVITY;
 
     /* Loads. */
-    const double carried = (statics->body_mass + ends) * GRAVITY;
+    const double carried = (statics->body_mass + ends) * CZ_GRAVITY;
     const double moment = (vehicle->front.mass * vehicle->front.distance -
                            vehicle->rear.mass * vehicle->rear.distance) *
-                          GRAVITY;
+                          CZ_GRAVITY;
     for (int end = CZ_REAR; end <= CZ_FRONT; end++) {
         const double share = moment / vehicle->bogie_spacing;
         const double load = carried / 2.0 + (end == CZ_FRONT ? share : -share);
@@ -100,9 +99,9 @@ static CzStatus full_statics(const CzFill *fill, int car, const CzVehicle *vehic
                                   end == CZ_FRONT ? "front" : "rear", load * 1e-3);
         statics->secondary_load[end] = load;
         for (int axle = 2 * end; axle < 2 * end + 2; axle++) {
-            statics->primary_load[axle] = (load + bogie->mass * GRAVITY) / 2.0;
+            statics->primary_load[axle] = (load + bogie->mass * CZ_GRAVITY) / 2.0;
             statics->wheel_load[axle] =
-                statics->primary_load[axle] + bogie->wheelset_mass * GRAVITY;
+                statics->primary_load[axle] + bogie->wheelset_mass * CZ_GRAVITY;
         }
     }
     return CZ_OK;
@@ -132,6 +131,6 @@ CzStatus cz_fill_statics(const CzFill *fill, int car, CzStatics *statics) {
                          vehicle->payload * scenario->payload_share +
                          absorber_mass(&vehicle->rear) + absorber_mass(&vehicle->front);
     statics->mass = statics->body_mass;
-    statics->weight = statics->mass * GRAVITY;
+    statics->weight = statics->mass * CZ_GRAVITY;
     return CZ_OK;
 }

@@ -214,7 +214,7 @@ static double chain_stiffness(double a, double b, double compliance) {
     return sum > 1.0 / CZ_NEVER * 4.0 ? 1.0 / sum : CZ_NEVER;
 }
 
-static double limp_stiffness(const Car *car, int side) {
+static double massless_stiffness(const Car *car, int side) {
     if (value(car, CZ_PARAMETER(face.side[side].has_massless)) == 0.0)
         return CZ_NEVER;
     return fmax(steepest(car->lanes, CZ_CURVE(massless[side]), car->car),
@@ -225,7 +225,7 @@ static double limp_stiffness(const Car *car, int side) {
 static void note_faces(const Car *car, const char *name) {
     const Carrier carrier[2] = {carrier_of(car, CZ_SIDE_A, true), carrier_of(car, CZ_SIDE_B, true)};
     note(car->model, "anti-climber", name,
-         chain_stiffness(limp_stiffness(car, CZ_SIDE_A), limp_stiffness(car, CZ_SIDE_B),
+         chain_stiffness(massless_stiffness(car, CZ_SIDE_A), massless_stiffness(car, CZ_SIDE_B),
                          value(car, CZ_PARAMETER(face.compliance))),
          value(car, CZ_PARAMETER(face.damping)) +
              fmax(value(car, CZ_PARAMETER(face.side[0].massless.damping)),

@@ -12,8 +12,6 @@
 
 #include <math.h>
 
-#define MISSING 1e29 /* strengths and strokes from here on stand for a member that is not there */
-
 static CzAccount sum_of(CzAccount a, CzAccount b) {
     return (CzAccount){a.received + b.received, a.stored + b.stored};
 }
@@ -29,17 +27,18 @@ static CzAccount share_of(double share, CzAccount a) {
 
 static bool has_coupler(const CzBatch *batch, size_t lane, int side) {
     return cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) >= 0.5 &&
-           cz_parameter(batch, CZ_PARAMETER(coupler.side[side].buffer.transition), lane) <= MISSING;
+           cz_parameter(batch, CZ_PARAMETER(coupler.side[side].buffer.transition), lane) <=
+               CZ_MISSING;
 }
 
 static bool has_side_buffers(const CzBatch *batch, size_t lane, int side) {
     return cz_parameter(batch, CZ_PARAMETER(side_buffers.exists), lane) >= 0.5 &&
            cz_parameter(batch, CZ_PARAMETER(side_buffers.side[side].buffer.transition), lane) <=
-               MISSING;
+               CZ_MISSING;
 }
 
 static bool has_anti_climber(const CzBatch *batch, size_t lane, int side) {
-    return batch->lanes->curve[CZ_CURVE(face[side])].start[lane] <= MISSING;
+    return batch->lanes->curve[CZ_CURVE(face[side])].start[lane] <= CZ_MISSING;
 }
 
 bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind kind) {
@@ -141,9 +140,9 @@ CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end) {
                                 cz_work(batch, CZ_LEDGER(fold_damping[end]), lane)));
 }
 
-CzAccount cz_limp_account(const CzBatch *batch, size_t lane, int side) {
-    return (CzAccount){cz_limp_received(batch->dynamics, lane, side),
-                       cz_limp_stored(batch->dynamics, lane, side)};
+CzAccount cz_massless_account(const CzBatch *batch, size_t lane, int side) {
+    return (CzAccount){cz_massless_received(batch->dynamics, lane, side),
+                       cz_massless_stored(batch->dynamics, lane, side)};
 }
 
 CzAccount cz_chains_account(const CzBatch *batch, size_t lane) {
@@ -162,7 +161,7 @@ CzAccount cz_chains_account(const CzBatch *batch, size_t lane) {
         sum = sum_of(sum, (CzAccount){members, buffers});
         sum = sum_of(sum, lost(cz_memory(batch, CZ_MEMORY(face.side[side].energy), lane) +
                                cz_memory(batch, CZ_MEMORY(face.side[side].massless.damped), lane)));
-        sum = sum_of(sum, cz_limp_account(batch, lane, side));
+        sum = sum_of(sum, cz_massless_account(batch, lane, side));
     }
     return sum;
 }

@@ -61,22 +61,12 @@ double cz_balance_residual(const CzBatch *batch, int design) {
            batch->design[design].initial_energy;
 }
 
-bool cz_is_along(int dof) {
-    enum { ALONG, UP, TURN };
-    static const char axis_of[CZ_N_DOF] = {
-#define CZ_DOF_ENTRY(row, axis, dimension, what) [CZ_DOF(row)] = axis,
-#include "model/dof.def"
-#undef CZ_DOF_ENTRY
-    };
-    return axis_of[dof] == ALONG;
-}
-
 double cz_momentum_error(const CzBatch *batch, int design) {
     double change = 0.0, scale = 0.0;
     for (int car = 0; car < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         for (int dof = 0; dof < CZ_N_DOF; ++dof) {
-            if (!cz_is_along(dof))
+            if (cz_axis_of(dof) != CZ_AXIS_ALONG)
                 continue;
             const double mass = *cz_lane_mass(batch->lanes, dof, lane);
             const double before = *cz_lane_velocity(batch->lanes, dof, lane);

@@ -5,9 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NEVER                                                                                      \
-    1e29 /* a strength or an overlap from here on stands for a member that is not there            \
-          */
+#include "base/gravity.h"
 
 /* Walks over the columns of a batch: counts them, lists them, or writes their values. */
 typedef struct {
@@ -35,7 +33,7 @@ static void put_car(Writer *writer, int car) {
         cz_block_of(batch->dynamics, lane)->acceleration.body.x[lane % CZ_LANE_BLOCK];
     put(writer, CZ_CHANNEL_BODY_DISPLACEMENT, car, cz_position(batch, CZ_DOF(body.x), lane));
     put(writer, CZ_CHANNEL_BODY_SPEED, car, cz_velocity(batch, CZ_DOF(body.x), lane));
-    put(writer, CZ_CHANNEL_BODY_ACCELERATION, car, acceleration / 9.80665);
+    put(writer, CZ_CHANNEL_BODY_ACCELERATION, car, acceleration / CZ_GRAVITY);
     if (description->model != CZ_MODEL_FULL)
         return;
     put(writer, CZ_CHANNEL_BODY_RISE, car, 1e3 * cz_position(batch, CZ_DOF(body.z), lane));
@@ -58,12 +56,12 @@ static void put_face(Writer *writer, int interface) {
     const CzBatch *batch = writer->batch;
     const size_t lane = cz_lane(batch, interface, 0);
     for (int side = 0; side < 2; ++side)
-        if (batch->lanes->curve[CZ_CURVE(face[side])].start[lane] < NEVER)
+        if (batch->lanes->curve[CZ_CURVE(face[side])].start[lane] < CZ_MISSING)
             put(writer, CZ_CHANNEL_ANTI_CLIMBER_STROKE, cz_end_place(interface + side, side == 0),
                 1e3 * cz_memory(batch, CZ_MEMORY(face.side[side].stroke), lane));
     const bool pushes = cz_published(batch, CZ_PUBLISHED(face.force), lane) > 0.0;
     if (cz_parameter(batch, CZ_PARAMETER(face.overlap), lane) <
-        NEVER) /* there is none until they meet */
+        CZ_MISSING) /* there is none until they meet */
         put(writer, CZ_CHANNEL_ANTI_CLIMBER_OVERLAP, interface,
             pushes ? 1e3 * cz_published(batch, CZ_PUBLISHED(face.remaining), lane) : NAN);
 }

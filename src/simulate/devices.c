@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#define MISSING 1e29 /* strokes from here on stand for a device that is not there */
-
 typedef enum { MEMORY, EXTREME, OF_CAR, OF_SLIDE } Source;
 typedef enum { CURVE, PARAMETER } Limit;
 typedef enum { REVERSIBLE, COLLAPSES } Kind;
@@ -57,7 +55,7 @@ static CzDevice device_of(const CzBatch *batch, int interface, int design, int s
     const size_t own = cz_lane(batch, of_car ? car : interface, design);
     const double usable = kind->limit == CURVE ? batch->lanes->curve[kind->of[which]].usable[own]
                                                : cz_parameter(batch, kind->of[which], own);
-    const bool is_there = usable < MISSING &&
+    const bool is_there = usable < CZ_MISSING &&
                           has_element(batch, cz_lane(batch, interface, design), car, class) &&
                           (!slides || has_slide(batch, car, design, side));
     return (CzDevice){.class = class,

@@ -8,12 +8,10 @@
 #include "base/error.h"
 #include "simulate/devices.h"
 
-#define MISSING 1e29 /* strengths and strokes from here on stand for a member that is not there */
-
 /* Usable stroke of a curve in a lane; infinite when it has none. */
 static double usable(const CzBatch *batch, int curve, size_t lane) {
     const double stroke = batch->lanes->curve[curve].usable[lane];
-    return stroke < MISSING ? stroke : INFINITY;
+    return stroke < CZ_MISSING ? stroke : INFINITY;
 }
 
 static void name_element(CzElementResult *result, const CzBatch *batch) {
@@ -159,7 +157,7 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
         fill_end_mass(batch, cz_lane(batch, car, design), 1 - side, result);
     else {
         result->kind = CZ_ELEMENT_END;
-        take(result, cz_limp_account(batch, lane, side));
+        take(result, cz_massless_account(batch, lane, side));
         result->tube_energy = result->energy;
         result->energy += cz_memory(batch, CZ_MEMORY(face.side[side].massless.damped), lane);
         result->stroke = cz_memory(batch, CZ_MEMORY(face.side[side].massless.peak), lane);
@@ -276,7 +274,7 @@ static void fill_climbing(const CzBatch *batch, int interface, int design,
             cz_parameter(batch, CZ_PARAMETER(coupler.side[side].hinge_vertical.stop), lane);
         result->swing[side] =
             has_couplers ? cz_extreme(batch, CZ_EXTREME(swing_vertical[side]), lane) : NAN;
-        result->swing_stop[side] = has_couplers && stop < MISSING ? stop : NAN;
+        result->swing_stop[side] = has_couplers && stop < CZ_MISSING ? stop : NAN;
     }
 }
 
@@ -292,9 +290,9 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
         cz_extreme(batch, CZ_EXTREME(section[0]), cz_lane(batch, interface + 1, design));
     const double lost_overlap = cz_extreme(batch, CZ_EXTREME(face_lost_overlap), lane);
     const double lost_margin = cz_extreme(batch, CZ_EXTREME(face_lost_margin), lane);
-    const bool can_climb = cz_parameter(batch, CZ_PARAMETER(face.overlap), lane) < MISSING;
-    result->min_overlap = can_climb && lost_overlap > -1e299 ? -lost_overlap : NAN;
-    result->vertical_margin = can_climb && lost_margin > -1e299 ? -lost_margin : NAN;
+    const bool can_climb = cz_parameter(batch, CZ_PARAMETER(face.overlap), lane) < CZ_MISSING;
+    result->min_overlap = can_climb && lost_overlap > CZ_NOT_YET ? -lost_overlap : NAN;
+    result->vertical_margin = can_climb && lost_margin > CZ_NOT_YET ? -lost_margin : NAN;
     result->vertical_demand = cz_extreme(batch, CZ_EXTREME(face_demand_vertical), lane);
     fill_climbing(batch, interface, design, result);
     result->n_element = 0;

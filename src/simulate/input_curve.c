@@ -10,7 +10,6 @@
 #include "dynamics/stored.h"
 #include "model/own_design.h"
 
-#define NEVER 1e29 /* a strength from here on stands for a member that is not there */
 enum { MOST_MEMBERS = 8 };
 
 typedef struct Member {

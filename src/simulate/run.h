@@ -135,7 +135,7 @@ CzAccount cz_bare_faces_account(const CzBatch *batch, size_t lane);
 CzAccount cz_crush_account(const CzBatch *batch, size_t lane, int end);
 CzAccount cz_guide_account(const CzBatch *batch, size_t lane, int end);
 CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end);
-CzAccount cz_limp_account(const CzBatch *batch, size_t lane, int side);
+CzAccount cz_massless_account(const CzBatch *batch, size_t lane, int side);
 /* All series chains of an interface, without regard to whom they belong. */
 CzAccount cz_chains_account(const CzBatch *batch, size_t lane);
 /* Springs of the running gear and the wheels' contact. */
@@ -165,8 +165,6 @@ CzLedgerClass cz_ledger_class(int row);
 double cz_wheel_rail_work(const CzBatch *batch, int design);
 /* Mean speed of the vehicles of a train that can move, by mass. */
 double cz_train_speed(const CzBatch *batch, int train, int design);
-/* Whether a degree of freedom is one along the track. */
-bool cz_is_along(int dof);
 double cz_momentum_error(const CzBatch *batch, int design);
 /* Largest distance of a member of the interface's series chains from its law, over the largest
  * force of the interface. */

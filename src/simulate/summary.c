@@ -73,7 +73,7 @@ static double plastic_energy(const CzBatch *batch, int design) {
         const size_t lane = cz_lane(batch, car, design);
         for (int dof = 0; dof < CZ_N_DOF; ++dof) {
             const double m = *cz_lane_mass(batch->lanes, dof, lane);
-            mass[train] += cz_is_along(dof) ? m : 0.0;
+            mass[train] += cz_axis_of(dof) == CZ_AXIS_ALONG ? m : 0.0;
         }
         speed[train] = *cz_lane_velocity(batch->lanes, CZ_DOF(body.x), lane);
         fixed[train] |= batch->model->car[car].model == CZ_MODEL_FIXED;

@@ -91,10 +91,10 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
           CZ_MEMORY(side_buffers.side[side].tube), lane, FLOWED, "side buffers", name);
     watch_devices(list, batch, interface, side);
     if (cz_parameter(batch, CZ_PARAMETER(face.side[side].has_massless), lane) > 0.5) {
-        const int limp = CZ_CURVE(massless[side]);
+        const int massless = CZ_CURVE(massless[side]);
         watch(list, batch, CZ_EVENT_END_CRUSH, FROM_MEMORY,
-              CZ_MEMORY(face.side[side].massless.peak), lane, first_stage(batch, limp, lane), "end",
-              name);
+              CZ_MEMORY(face.side[side].massless.peak), lane, first_stage(batch, massless, lane),
+              "end", name);
     }
     if (batch->model->car[interface + side].model == CZ_MODEL_FULL) {
         const int end = CZ_CURVE(end[which]);
@@ -152,7 +152,10 @@ static void watch_car(CzWatch *list, const CzBatch *batch, int car) {
 static double *limit_row(Limits *limits, const Watched *watched) {
     switch (watched->source) {
     case FROM_EXTREME:
-        return cz_row_of(limits->lift, watched->row - CZ_EXTREME(lift));
+        for (int axle = 1; axle < 4; ++axle)
+            if (watched->row == CZ_EXTREME(lift[axle]))
+                return limits->lift[axle];
+        return limits->lift[0];
     case FROM_LIFT_STOP:
         return limits->raised[watched->row];
     case FROM_BUMP_STOP:

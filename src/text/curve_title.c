@@ -6,6 +6,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/gravity.h"
+
 /* ---- units ---- */
 
 static const CzUnit units[] = {

@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/gravity.h"
+
 #define CZ_DIMENSION(dimension, text) CZ_DIMENSION_##dimension,
 #define CZ_UNIT(dimension, suffix, si)
 typedef enum CzDimension {

@@ -11,17 +11,12 @@ static Motion all_on(const char *track, double speed, const char *brake_a, const
     Motion motion = motion_open("tests/physics/cases/standing.yaml", WITH(track, brake_a, brake_b));
     for (int car = 0; car < N_CAR; car++)
         for (int dof = 0; dof < CZ_N_DOF; dof++) {
-            const bool along = dof == CZ_DOF(body.x) || dof == CZ_DOF(end[0].x) ||
-                               dof == CZ_DOF(end[1].x) || dof == CZ_DOF(bogie[0].x) ||
-                               dof == CZ_DOF(bogie[1].x);
-            const bool wheel =
-                dof >= CZ_DOF(wheelset[0].x) && (dof - CZ_DOF(wheelset[0].x)) % 3 == 0;
-            const bool spin =
-                dof >= CZ_DOF(wheelset[0].x) && (dof - CZ_DOF(wheelset[0].x)) % 3 == 2;
+            const CzAxis axis = cz_axis_of(dof);
+            const bool spin = dof >= CZ_DOF(wheelset[0]) && axis == CZ_AXIS_TURN;
             const double radius = *parameter(&motion, CZ_PARAMETER(wheel.radius), car);
-            *cz_lane_velocity(motion.lanes, dof, (size_t)car) = along || wheel ? speed
-                                                                : spin         ? speed / radius
-                                                                               : 0.0;
+            *cz_lane_velocity(motion.lanes, dof, (size_t)car) = axis == CZ_AXIS_ALONG ? speed
+                                                                : spin ? speed / radius
+                                                                       : 0.0;
         }
     motion_start(&motion);
     return motion;

@@ -67,10 +67,7 @@ static void all_masses_of_a_full_car_move_at_its_speed_and_add_up(void **state) 
     Built built = build_model(&problem);
     double mass = 0.0, momentum = 0.0;
     for (int dof = 0; dof < CZ_N_DOF; dof++) {
-        const bool along = dof == CZ_DOF(body.x) || dof == CZ_DOF(end[0].x) ||
-                           dof == CZ_DOF(end[1].x) || dof == CZ_DOF(bogie[0].x) ||
-                           dof == CZ_DOF(bogie[1].x) ||
-                           (dof >= CZ_DOF(wheelset[0].x) && (dof - CZ_DOF(wheelset[0].x)) % 3 == 0);
+        const bool along = cz_axis_of(dof) == CZ_AXIS_ALONG;
         mass += along ? mass_of(&built, 0, dof) : 0.0;
         momentum += along ? mass_of(&built, 0, dof) * velocity_of(&built, 0, dof) : 0.0;
     }

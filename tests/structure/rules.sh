@@ -90,6 +90,57 @@ call_circles() {
     done
 }
 
+# A macro of the kernel uses what it is given: parameters, types, constants (capital letters), functions of the project,
+# and no name of the place that it is used in. (The copy of the kernel for every processor is called baseline.)
+macros_with_locals() {
+    c_files src/dynamics src/laws | xargs awk '
+        /^[ \t]*#[ \t]*define[ \t]/ { macro = ""; first = FNR; inside = 1 }
+        inside {
+            line = $0
+            inside = sub(/\\[ \t]*$/, "", line)
+            macro = macro " " line
+            if (!inside) judge(macro)
+        }
+        function judge(text,   given, name, part, n, i) {
+            split("", given)
+            gsub(/"[^"]*"/, "", text); gsub(/\/\*.*\*\//, "", text)
+            gsub(/[0-9][0-9.]*[eE][-+]?[0-9]+|0x[0-9a-fA-F]+/, "", text)
+            sub(/^[ \t]*#[ \t]*define[ \t]+[A-Za-z0-9_]+/, "", text)
+            if (text ~ /^\(/) {
+                n = split(substr(text, 2, index(text, ")") - 2), part, /[ ,]+/)
+                for (i = 1; i <= n; i++) given[part[i]]
+                text = substr(text, index(text, ")") + 1)
+            }
+            if (match(text, /size_t [a-z]+ = 0/)) given[substr(text, RSTART + 7, RLENGTH - 11)]
+            n = split(text, part, /[^A-Za-z0-9_]+/)
+            for (i = 1; i <= n; i++) {
+                name = part[i]
+                if (name !~ /^[a-z]/ || name in given || name ~ /^cz_/) continue
+                if (name ~ /^(int|char|double|size_t|for|if|sizeof|offsetof|omp|simd|reduction|baseline)$/) continue
+                print FILENAME ":" first ": a macro uses " name ", which it is not given"
+            }
+        }'
+}
+
+# A row of the model or the kernel has a name of its own: nothing is counted on from another.
+arithmetic_on_rows() {
+    c_files src/model src/dynamics src/simulate tests | xargs grep -HnE \
+        'CZ_(DOF|PARAMETER|MEMORY|LEDGER|EXTREME|PUBLISHED|CURVE)\([^()]*\) *[-+*%]|[-+*%] *CZ_(DOF|PARAMETER|MEMORY|LEDGER|EXTREME|PUBLISHED|CURVE)\('
+}
+
+# What knows an angle, an arm or a direction is a part of the kernel that lines up or puts: between the two comments that
+# name it and the next part. kernel_carrier.h is such a part as a whole, the rail has a shape of its own.
+angles_in_laws() {
+    c_files src/dynamics | grep '/kernel[_a-z]*\.[ch]$' | grep -vE '/kernel_(carrier|neighbours|track)\.h$' | xargs awk '
+        FNR == 1 { part = ""; in_type = 0 }
+        /^\/\* ---- / { part = $0 }
+        /^typedef struct/ { in_type = 1 }
+        !in_type && part !~ /line up|put/ && !/^(\/\*| \*)/ && /(^|[^a-z_])(cosine|sine|turned|arm_x|arm_z|normal_x|normal_z|direction_x|direction_z)([^a-z_]|$)/ {
+            print FILENAME ":" FNR ": " $0
+        }
+        in_type && /^}/ { in_type = 0 }'
+}
+
 # A third-party library is named in one file, so that it can be replaced.
 third_party_headers() {
     for header in nlopt.h yaml.h jansson.h 'cvode/' 'arkode/' 'kinsol/' 'sundials/' pthread.h getopt.h; do

@@ -6,6 +6,9 @@ cd "$SOURCE"
 nothing "include arrows go one way" include_arrows
 nothing "headers of a folder do not include one another in a circle" header_circles
 nothing "sources of the reader do not call one another in a circle" call_circles
+nothing "no macro of the kernel uses a name that it is not given" macros_with_locals
+nothing "no row is counted on from another one" arithmetic_on_rows
+nothing "angles and arms are in what lines up or puts alone" angles_in_laws
 nothing "each third-party header is named in one file" third_party_headers
 nothing "every source is in its folder's list and every listed source exists" unlisted_sources
 nothing "every test is in its folder's list" unlisted_tests

@@ -17,6 +17,54 @@ static double time_of(const Collision *collision, CzEventKind what, const char *
     return NAN;
 }
 
+/* A collision in which each kind of event happens. At 2 km/h, none but contact does in any of them.
+ */
+static const struct {
+    const char *file, *where; /* begins with */
+} happens[] = {
+    [CZ_EVENT_CONTACT] = {"problems/wall.yaml", "A1-wall"},
+    [CZ_EVENT_TUBE_ACTIVATION] = {"problems/wall.yaml", "coupler A1"},
+    [CZ_EVENT_TUBE_EXHAUSTED] = {"problems/override-bottoming-lifts.yaml", "coupler tube B1"},
+    [CZ_EVENT_SHEAR_OFF] = {"problems/wall.yaml", "coupler A1"},
+    [CZ_EVENT_ANTI_CLIMBER_CONTACT] = {"problems/wall.yaml", "A1-wall"},
+    [CZ_EVENT_ANTI_CLIMBER_ACTIVATION] = {"problems/wall.yaml", "anti-climber A1"},
+    [CZ_EVENT_END_CRUSH] = {"problems/override-bottoming-lifts.yaml", "end A1"},
+    [CZ_EVENT_SUPERSTRUCTURE_CRUSH] = {"problems/override-overlap-climbs.yaml", "superstructures"},
+    [CZ_EVENT_BOTTOMED_OUT] = {"problems/wagon.yaml", "side buffers A2"},
+    [CZ_EVENT_LIFT_STOP] = {"problems/override-bottoming-lifts.yaml", "rear bogie A1"},
+    [CZ_EVENT_BUMP_STOP] = {"problems/override-bottoming-lifts.yaml", "front bogie A1"},
+    [CZ_EVENT_SWING_STOP] = {"problems/override-hinge-folds.yaml", "coupler A2"},
+    [CZ_EVENT_WHEEL_LIFT] = {"problems/override-bottoming-lifts.yaml", "wheelset 2 A1"},
+    [CZ_EVENT_OVERRIDE] = {"problems/override-overlap-climbs.yaml", "A1-B1"},
+};
+
+static void every_kind_of_event_happens_and_none_but_contact_at_walking_pace(void **state) {
+    (void)state;
+    static const CzEventKind kinds[] = {
+#define CZ_EVENT(constant, text, doc) constant,
+#include "crushzone/events.def"
+#undef CZ_EVENT
+    };
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        const CzEventKind kind = kinds[i];
+        if ((size_t)kind >= sizeof happens / sizeof happens[0] || happens[kind].file == NULL)
+            fail_msg("no collision for event '%s'", cz_event_text(kind));
+        Collision fast = collide(happens[kind].file, WITH("simulation.duration_s=0.6"), 0);
+        const double time = event_time(&fast, kind, happens[kind].where);
+        const double contact = event_time(&fast, CZ_EVENT_CONTACT, "");
+        if (!(time >= contact))
+            fail_msg("event '%s' at %g s, contact at %g s", cz_event_text(kind), time, contact);
+        collision_free(&fast);
+        Collision slow = collide(
+            happens[kind].file,
+            WITH("simulation.duration_s=0.6", "trains[0].speed_km_h=2", "trains[1].speed_km_h=0"),
+            0);
+        for (int k = 0; k < slow.summary->n_event; k++)
+            assert_int_equal(slow.summary->event[k].what, CZ_EVENT_CONTACT);
+        collision_free(&slow);
+    }
+}
+
 /* Couplers of one interface stand at unequal heights, so that they are turned from the start. */
 static void a_swing_stop_is_met_just_when_the_largest_swing_is_beyond_it(void **state) {
     (void)state;
@@ -99,6 +147,7 @@ static void numbers_past_an_override_are_marked_and_totals_blank(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind_of_event_happens_and_none_but_contact_at_walking_pace),
         cmocka_unit_test(a_swing_stop_is_met_just_when_the_largest_swing_is_beyond_it),
         cmocka_unit_test(numbers_past_an_override_are_marked_and_totals_blank),
     };

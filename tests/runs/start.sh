@@ -118,6 +118,15 @@ $end
 END
         grep -q '^skipped: p t: three (no terminal)$' counted
 }
+skips_stand_last() { # after what failed, before the count
+    counts "1 passed, 1 failed, 1 skipped" <<END && [ "$(tail -n 2 counted | head -n 1)" = "skipped: p t: two (no such device)" ]
+1: [       OK ] one
+1: skipped - two (no such device)
+1: not ok - three
+1/1 Test #1: t .......***Failed    0.00 sec
+$end
+END
+}
 crash() {
     counts "1 passed, 1 failed" <<END && [ "$code" = 1 ]
 1: [       OK ] one
@@ -150,6 +159,7 @@ nothing_ran() {
 check "a good run is counted by cases" good_run
 check "a failed case is counted once and its reason told" failed_case
 check "skipped cases are counted, each with its reason" skips_with_reasons
+check "what was skipped and why stands in the last lines" skips_stand_last
 check "a crash counts as a failure" crash
 check "a program without cases counts as a failure" program_without_cases
 check "a run cut short counts as a failure" cut_short

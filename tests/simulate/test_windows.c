@@ -1,5 +1,6 @@
 /* The worst window of 120 ms and more is the worst of all of them, looked at one by one. */
 #include "physics/collision.h"
+#include "support/shipped.h"
 
 #define SHORTEST 120 /* samples of 1 ms */
 
@@ -24,18 +25,23 @@ static void assert_worst_window(const Collision *collision, int car) {
     assert_near(vehicle->window_120ms[1], to, 0.0, 1e-9);
 }
 
+static void check_cars(const char *file, const char *const *set) {
+    Collision collision = collide(file, set, 0);
+    assert_completed(&collision);
+    for (int car = 0; car < collision.summary->n_vehicle; car++)
+        assert_worst_window(&collision, car);
+    collision_free(&collision);
+}
+
 static void the_worst_window_is_found_in_a_short_run_and_in_long_ones(void **state) {
     (void)state;
-    static const char *const files[] = {"problems/two-cars-25kmh.yaml", "problems/wall.yaml",
-                                        "problems/first-collision.yaml",
-                                        "problems/metro-6-car.yaml"};
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        Collision collision = collide(files[i], WITH("simulation.output_step_ms=1"), 0);
-        assert_completed(&collision);
-        for (int car = 0; car < collision.summary->n_vehicle; car++)
-            assert_worst_window(&collision, car);
-        collision_free(&collision);
+    const Shipped shipped = shipped_problems();
+    for (int i = 0; i < shipped.n; i++) {
+        char file[SHIPPED_ROOM + 16];
+        snprintf(file, sizeof file, "problems/%s", shipped.name[i]);
+        check_cars(file, WITH("simulation.output_step_ms=1", "simulation.duration_s=1"));
     }
+    check_cars("problems/first-collision.yaml", WITH("simulation.output_step_ms=1"));
 }
 
 int main(void) {

@@ -59,6 +59,8 @@ static void soft_hinges_let_couplers_fold_and_stiffer_ones_hold(void **state) {
 /* The pair that bottoms out, slower so that it does not climb: closing at 63 km/h. */
 static const char bottoming[] = "problems/override-bottoming-lifts.yaml";
 
+#define LEAST_LIFT 1e-3 /* from which on a wheelset counts as lifted [m] */
+
 /* Largest wheel lift of the rear bogie of the car behind [m]. */
 static double rear_lift(const char *setting, const char *other) {
     Collision run = collide(bottoming, WITH(setting, other), 0);
@@ -73,7 +75,7 @@ static void stiffer_springs_lower_the_lift_and_a_higher_centre_of_gravity_raises
     (void)state;
     const char *speed = "trains.A.speed_km_h=38";
     const double lift = rear_lift(speed, NULL);
-    assert_true(lift > 5e-3);
+    assert_true(lift > LEAST_LIFT);
     const double stiffer = rear_lift(speed, "parts.bogie.secondary.stiffness_MN_m=1.032");
     const double softer = rear_lift(speed, "parts.bogie.secondary.stiffness_MN_m=0.688");
     if (getenv("CZ_TOL_SCALE") != NULL)
@@ -81,26 +83,32 @@ static void stiffer_springs_lower_the_lift_and_a_higher_centre_of_gravity_raises
     /* Published for a second bogie: -17 % of lift for +20 % of stiffness. Half to twice of it. */
     assert_true(stiffer < 0.915 * lift && stiffer > 0.66 * lift);
     assert_true(softer > lift);
-    /* 20 % of its height lift a wheel above its flange at that speed; at 31 km/h not yet. */
+    /* The ends push 0.65 m below a centre of gravity of 1.6 m: 20 % of its height are 49 % of that
+     * lever, up or down, and so about of the pitch. The gaps of the stops take up 55 mm of the
+     * seat's rise, so that 3 % more pitch double a lift of 2 mm, and half of it lifts nothing. At
+     * 38 km/h the wheel would rise above its flange of 28 mm, at 31 km/h not yet. */
     speed = "trains.A.speed_km_h=31";
     const double as_written = rear_lift(speed, NULL);
     const double higher = rear_lift(speed, "parts.middle-car.cg_height_m=1.92");
     const double lower = rear_lift(speed, "parts.middle-car.cg_height_m=1.28");
     if (getenv("CZ_TOL_SCALE") != NULL)
         print_message("lift %g, centre +20 %%: %g, -20 %%: %g\n", as_written, higher, lower);
-    assert_true(as_written > 1e-3 && higher > 2.0 * as_written && higher < 0.028);
-    assert_true(lower < 0.5 * as_written);
+    assert_true(as_written > LEAST_LIFT && higher > 2.0 * as_written && higher < 0.028);
+    assert_true(lower < LEAST_LIFT);
 }
 
+/* Up to 30 km/h the gaps of the stops take up the pitch but for what is little more than a lift
+ * that counts. Beyond, it rises more than in proportion to the speed in excess: more than two times
+ * at twice the excess, and by more from step to step. */
 static void lift_rises_steeply_above_a_critical_closing_speed(void **state) {
     (void)state;
     const double at_25 = rear_lift("trains.A.speed_km_h=25", NULL);
     const double at_30 = rear_lift("trains.A.speed_km_h=30", NULL);
     const double at_35 = rear_lift("trains.A.speed_km_h=35", NULL);
     const double at_40 = rear_lift("trains.A.speed_km_h=40", NULL);
-    assert_true(at_25 < 1e-3 && at_30 < 2e-3);
-    assert_true(at_35 > 3.0 * at_30 && at_40 > 2.0 * at_35);
-    assert_true(at_40 - at_35 > 1.5 * (at_35 - at_30));
+    assert_true(at_25 < LEAST_LIFT && at_30 < 2.0 * LEAST_LIFT);
+    assert_true(at_35 > 2.0 * at_30 && at_40 > 2.0 * at_35);
+    assert_true(at_40 - at_35 > at_35 - at_30);
 }
 
 /* Largest lift of the wheels of a bogie [m]. */
@@ -111,7 +119,7 @@ static double bogie_lift(const CzRunSummary *summary, int car, int bogie) {
 
 /* EN 15227's 40 mm, either way. The faces meet between the heights of the two: the higher car is
  * pushed further below its centre of gravity, its nose goes down and its far bogie up, by more than
- * 1 mm more than when both are level. */
+ * what counts as lifted more than when both are level. */
 static void an_offset_of_40_mm_lifts_the_far_bogie_of_the_higher_car(void **state) {
     (void)state;
     static const char *const offsets[] = {"trains.B.height_offset_mm=-40",
@@ -128,10 +136,12 @@ static void an_offset_of_40_mm_lifts_the_far_bogie_of_the_higher_car(void **stat
         assert_int_equal(run.summary->vehicle[1].lifted_bogie, 1);
         collision_free(&run);
     }
-    assert_true(a[0] > a[1] + 1e-3 && a[1] > a[2] + 1e-3);
-    assert_true(b[2] > b[1] + 1e-3 && b[1] > b[0] + 1e-3);
-    /* Mirror images, but for the train that moves faster over the rails. */
-    assert_near(a[0], b[2], 0.01, 0.0);
+    assert_true(a[0] > a[1] + LEAST_LIFT && a[1] > a[2] + LEAST_LIFT);
+    assert_true(b[2] > b[1] + LEAST_LIFT && b[1] > b[0] + LEAST_LIFT);
+    /* Mirror images, but for the train that moves faster over the rails. The step leaves one part
+     * in a thousand of a pitch (docs/verification.md, C1), so as much of the rise of the seat,
+     * which is the lift and the gaps of the stops. */
+    assert_near(a[0], b[2], 0.0, 1e-3 * (b[2] + 0.055));
 }
 
 /* ---- margins that an optimiser can follow -----------------------------------------------------
@@ -171,12 +181,13 @@ static double bend_of(int n, const double *value, int every) {
 /* Difference quotients of neighbours have one sign, so a search is led one way. Their change is
  * that of a smooth curve: half the distance makes it a quarter, at a kink a half; over a jump, and
  * where a value rattles, it stays what it was. */
+#define MOST_OF_A_JUMP 1.5 /* between the factors of a jump, 1, and of a kink, 2 */
 static void assert_smooth(const char *name, const char *path, int n, const double *value) {
     const double bend = bend_of(n, value, 1), wide = bend_of(n, value, 2);
     if (getenv("CZ_TOL_SCALE") != NULL)
         print_message("%s over %s: %g to %g, bend %g, at twice the distance %g times that\n", name,
                       path, value[0], value[n - 1], bend, wide / bend);
-    assert_true(bend <= wide / 1.5);
+    assert_true(bend <= wide / MOST_OF_A_JUMP);
     for (int i = 1; i < n; i++)
         assert_true((value[i] - value[i - 1]) * (value[n - 1] - value[0]) > 0.0);
 }
@@ -226,18 +237,22 @@ static void margins_follow_a_design_variable_without_jumps(void **state) {
 /* ---- claims ---------------------------------------------------------------------------------- */
 
 /* Lift over the stops by hand: the body's end rises by l_c x pitch, and what the stops do not take
- * up of it lifts the wheels. The stops give way by some millimetres, and bogies that are thrown up
- * go on by some more. */
-static void lift_is_the_way_of_the_seat_less_the_gaps(void **state) {
+ * up of it lifts the wheels. Less by what stops yield under a bogie that hangs in them, 9 mm by
+ * hand (test_stability.c); more by how far a bogie flies on that its body throws up, which moves no
+ * faster than it would swing freely to that pitch. */
+static void lift_is_the_rise_of_the_seat_less_the_gaps(void **state) {
     (void)state;
     Collision run = collide(bottoming, WITH("trains.A.speed_km_h=40"), 0);
     const CzVehicleResult *car = &run.summary->vehicle[0];
     const double seat = 15.7 / 2 * car->max_pitch, gaps = 0.030 + 0.025;
     const double mean = 0.5 * (car->wheel_lift[0] + car->wheel_lift[1]);
+    const double frequency = cz_model_vehicle_facts(run.model, 0).pitch_frequency;
+    const double speed = 2.0 * 3.14159265358979 * frequency * seat;
+    const double flight = speed * speed / (2.0 * 9.80665);
     if (getenv("CZ_TOL_SCALE") != NULL)
-        print_message("seat %g, gaps %g, lift %g\n", seat, gaps, mean);
+        print_message("seat %g, gaps %g, flight %g, lift %g\n", seat, gaps, flight, mean);
     assert_true(mean > 0.0);
-    assert_near(mean, seat - gaps, 0.0, 12e-3);
+    assert_true(mean > seat - gaps - 9.1e-3 && mean < seat - gaps + flight);
     collision_free(&run);
 }
 
@@ -273,7 +288,7 @@ int main(void) {
         cmocka_unit_test(lift_rises_steeply_above_a_critical_closing_speed),
         cmocka_unit_test(an_offset_of_40_mm_lifts_the_far_bogie_of_the_higher_car),
         cmocka_unit_test(margins_follow_a_design_variable_without_jumps),
-        cmocka_unit_test(lift_is_the_way_of_the_seat_less_the_gaps),
+        cmocka_unit_test(lift_is_the_rise_of_the_seat_less_the_gaps),
         cmocka_unit_test(what_climbed_is_marked_and_slides_on_to_the_end_walls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

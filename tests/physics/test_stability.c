@@ -56,7 +56,7 @@ static void a_coupler_folds_above_its_critical_force_and_not_below(void **state)
         const double above = fold(struts[i][0], struts[i][1], 1.1);
         if (getenv("CZ_TOL_SCALE") != NULL)
             print_message("%g m below, %g m above\n", below, above);
-        assert_true(below < 0.03);
+        assert_true(below < 2.0 * 10.0 * 1e-3);
         assert_true(above >= 0.1);
     }
 }
@@ -64,6 +64,7 @@ static void a_coupler_folds_above_its_critical_force_and_not_below(void **state)
 /* ---- a train is a chain of struts ---- */
 
 #define IMPERFECTION 1e-6  /* pitch of every car at the start [rad] */
+#define RUNAWAY 1000.0     /* times that: far beyond what any swing below F_crit may reach [-] */
 #define LEAST_CLOSING 1e-3 /* of every interface, so that all tubes go on collapsing [m/s] */
 
 /* The largest pitch of any car within `duration`, over the imperfection, while the tubes of all
@@ -102,7 +103,7 @@ static void a_train_of_twelve_cars_folds_at_1040_kn_and_stays_at_1000(void **sta
     if (getenv("CZ_TOL_SCALE") != NULL)
         print_message("pitch grows %g times below, %g times above\n", below, above);
     assert_true(below < 6.4);
-    assert_true(above > 1000.0);
+    assert_true(above > RUNAWAY);
 }
 
 /* Half a percent on either side; the bound is 1 / sqrt(0.005) = 14 then. */
@@ -123,8 +124,8 @@ static void assert_folds_at_the_printed_force(const char *const *set) {
     if (getenv("CZ_TOL_SCALE") != NULL)
         print_message("%g kN: pitch grows %g times below, %g times above\n", 1e-3 * critical,
                       grown[0], grown[1]);
-    assert_true(grown[0] < 14.2);
-    assert_true(grown[1] > 1000.0);
+    assert_true(grown[0] < 1.0 / sqrt(0.005));
+    assert_true(grown[1] > RUNAWAY);
 }
 
 static void the_printed_force_is_where_the_integration_folds(void **state) {
@@ -169,7 +170,10 @@ static double hanging(double weight, double preload, double spring, double stop,
     return (weight + preload + stop * gap) / (stop + spring);
 }
 
-/* By hand: l_c times pitch, less both gaps and what the stops give way. */
+/* By hand: l_c times pitch, less both gaps and what the stops yield; small angles leave out terms
+ * of the second order, of points that lie no further than 1.6 m below the centre that is turned
+ * about.
+ */
 static void a_pitching_car_lifts_its_wheels_by_its_stops(void **state) {
     (void)state;
     static const double pitches[] = {0.010, 0.012, 0.015};
@@ -190,8 +194,8 @@ static void a_pitching_car_lifts_its_wheels_by_its_stops(void **state) {
         if (getenv("CZ_TOL_SCALE") != NULL)
             print_message("%g mm at %g mrad: l_c pitch %g mm, less gaps %g mm\n", 1e3 * lift,
                           1e3 * pitches[i], 1e3 * way, 1e3 * (way - 0.055));
-        assert_near(lift, way - secondary - primary, 0.02, 0.0);
-        assert_true(lift < way - 0.055 && lift > way - 0.055 - 0.015);
+        assert_near(lift, way - secondary - primary, 0.0, 1.6 * pitches[i] * pitches[i]);
+        assert_true(lift < way - 0.055); /* stops that yield lift less than rigid ones */
         motion_close(&motion);
     }
 }

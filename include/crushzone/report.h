@@ -67,6 +67,14 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_fit_figure(const CzFit *fit, FILE 
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_mistakes(int n_mistake, const CzError *const *mistake,
                                                        FILE *stream, CzError *error);
 
+/* JSON documents by name, such as "summary"; NULL beyond the last. */
+CZ_API const char *cz_report_document_name(int index);
+/* The JSON schema of a document. Status: CZ_STATUS_INPUT when there is none of that name. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_document_schema(const char *document, FILE *stream,
+                                                              CzError *error);
+/* All results with unit, shape and meaning, in Markdown. */
+CZ_API void cz_report_write_results_page(FILE *stream);
+
 /* Tables end with CZ_STATUS_NO_MEMORY when rows are missing, which the text says too.
  *
  * The table of a run on a terminal, of a family of scenarios the worst member, and the one of a

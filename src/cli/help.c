@@ -113,6 +113,8 @@ int cz_command_help(const CzArguments *arguments) {
         cz_keys_write_reference(stdout);
     else if (is_page && cz_topic_named(topic) == CZ_TOPIC_CHANNELS)
         cz_help_write_channels_markdown();
+    else if (is_page && cz_topic_named(topic) == CZ_TOPIC_RESULTS)
+        cz_report_write_results_page(stdout);
     else if (cz_topic_named(topic) != CZ_N_TOPIC)
         cz_help_write_topic(cz_topic_named(topic));
     else if (cz_command_named(topic) != CZ_N_COMMAND)

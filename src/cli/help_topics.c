@@ -236,6 +236,13 @@ void cz_help_write_channels_markdown(void) {
     printf("| `beyond_validity` | flag | 1 | the run | %s |\n", beyond_doc);
 }
 
+static void write_results(void) {
+    puts("Every key, its unit and meaning: docs/results.md, or 'crushzone help results "
+         "--markdown'.\n'crushzone schema DOCUMENT' prints the JSON schema of a document:\n");
+    for (int i = 0; cz_report_document_name(i) != NULL; i++)
+        printf("  %s\n", cz_report_document_name(i));
+}
+
 static void write_events(void) {
     static const Entry events[] = {
 #define CZ_EVENT(constant, text, doc) {text, doc},
@@ -278,6 +285,7 @@ void cz_help_write_topic(CzTopic topic) {
         [CZ_TOPIC_PATHS] = write_paths,       [CZ_TOPIC_ALGORITHMS] = write_algorithms,
         [CZ_TOPIC_CHANNELS] = write_channels, [CZ_TOPIC_EVENTS] = write_events,
         [CZ_TOPIC_FIGURES] = write_figures,   [CZ_TOPIC_FILES] = write_files,
-        [CZ_TOPIC_VERDICTS] = write_verdicts, [CZ_TOPIC_EXIT_CODES] = write_exit_codes};
+        [CZ_TOPIC_VERDICTS] = write_verdicts, [CZ_TOPIC_EXIT_CODES] = write_exit_codes,
+        [CZ_TOPIC_RESULTS] = write_results};
     writers[topic]();
 }

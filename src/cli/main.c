@@ -10,8 +10,13 @@
 #include <unistd.h>
 
 int cz_command_schema(const CzArguments *arguments) {
-    (void)arguments;
-    cz_keys_write_schema(stdout);
+    CzError error = {0};
+    if (arguments->n_operand == 0)
+        cz_keys_write_schema(stdout);
+    else if (cz_report_write_document_schema(arguments->operand[0], stdout, &error) != CZ_OK) {
+        snprintf(error.help, sizeof error.help, "'crushzone help results' lists the documents");
+        return cz_tell_error(arguments, &error);
+    }
     return 0;
 }
 

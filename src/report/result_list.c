@@ -9,6 +9,13 @@
 #include "report/document_records.def"
 #undef CZ_RECORD
 
+const char *const cz_record_names[CZ_N_RECORD] = {
+#define CZ_RECORD(record, type, doc) #record,
+#include "evaluate/result_records.def"
+#include "report/document_records.def"
+#undef CZ_RECORD
+};
+
 const char *const cz_record_docs[CZ_N_RECORD] = {
 #define CZ_RECORD(record, type, doc) doc,
 #include "evaluate/result_records.def"
@@ -66,6 +73,8 @@ const char *const cz_record_docs[CZ_N_RECORD] = {
     {ENTRY(record, key, form, doc), HOW_##form(record, source), NUMBER(unit, dimension), heading},
 #define CZ_RESULT_PART(record, key, whose, source, doc)                                            \
     {ENTRY(record, key, PART, doc), .by.part = cz_value_##source, .of = CZ_RECORD_##whose},
+#define CZ_RESULT_PART_IF(record, key, whose, source, doc)                                         \
+    {ENTRY(record, key, PART_IF, doc), .by.part = cz_value_##source, .of = CZ_RECORD_##whose},
 #define CZ_RESULT_LIST(record, key, whose, source, doc)                                            \
     {ENTRY(record, key, LIST, doc), .by.item = cz_value_##source, .of = CZ_RECORD_##whose},
 #define CZ_RESULT_LIST_IF(record, key, whose, source, there, doc)                                  \

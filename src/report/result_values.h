@@ -34,6 +34,8 @@
 #define CZ_METRIC_BY(record, key, form, source, ...) DECLARE_##form(source)
 #define CZ_RESULT_PART(record, key, of, source, doc)                                               \
     const void *cz_value_##source(CzResultContext *context, const void *record);
+#define CZ_RESULT_PART_IF(record, key, of, source, doc)                                            \
+    const void *cz_value_##source(CzResultContext *context, const void *record);
 #define CZ_RESULT_LIST(record, key, of, source, doc)                                               \
     const void *cz_value_##source(CzResultContext *context, const void *record, int index);
 #define CZ_RESULT_TEXTS(record, key, source, doc)                                                  \

@@ -210,6 +210,7 @@ static void put_result(CzJson *json, const CzResult *result, CzResultContext *co
                      cz_closed_verdict(*(const CzVerdict *)stored(result, record)));
         break;
     case CZ_FORM_PART:
+    case CZ_FORM_PART_IF:
         if (result->by.part(context, record) != NULL)
             put_record(json, result->key, result->of, context, result->by.part(context, record));
         break;

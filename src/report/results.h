@@ -139,7 +139,8 @@ typedef enum CzResultForm {
     CZ_FORM_SHOWN_BY,
     CZ_FORM_METRIC,
     CZ_FORM_METRIC_TOTAL,
-    CZ_FORM_PART, /* left out where it is NULL */
+    CZ_FORM_PART,
+    CZ_FORM_PART_IF, /* left out where it is NULL */
     CZ_FORM_LIST,
     CZ_FORM_LIST_IF, /* left out where it is not there */
     CZ_FORM_MAP,     /* records by name; left out when there are none */
@@ -205,6 +206,7 @@ enum {
 #define CZ_METRIC(record, key, ...) CZ_RESULT_##record##_##key,
 #define CZ_METRIC_BY(record, key, ...) CZ_RESULT_##record##_##key,
 #define CZ_RESULT_PART(record, key, ...) CZ_RESULT_##record##_##key,
+#define CZ_RESULT_PART_IF(record, key, ...) CZ_RESULT_##record##_##key,
 #define CZ_RESULT_LIST(record, key, ...) CZ_RESULT_##record##_##key,
 #define CZ_RESULT_TEXTS(record, key, ...) CZ_RESULT_##record##_##key,
 #define CZ_RESULT_LIST_IF(record, key, ...) CZ_RESULT_##record##_##key,
@@ -214,7 +216,7 @@ enum {
     CZ_N_RESULT
 };
 extern const CzResult cz_results[CZ_N_RESULT];
-extern const char *const cz_record_docs[CZ_N_RECORD];
+extern const char *const cz_record_names[CZ_N_RECORD], *const cz_record_docs[CZ_N_RECORD];
 
 /* A result by its record and key, as in CZ_RESULT_AT(INTERFACE, peak_force_kN). */
 #define CZ_RESULT_AT(record, key) (&cz_results[CZ_RESULT_##record##_##key])

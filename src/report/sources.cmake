@@ -40,6 +40,7 @@ set(CZ_SOURCES_report
     plot.c
     result_folder.c
     result_list.c
+    result_reference.c
     result_table.c
     result_values.c
     results.c

@@ -19,6 +19,12 @@ check "docs/crushzone.1 is what 'crushzone help --man' prints" \
     same docs/crushzone.1 "$PROGRAM" help --man
 check "docs/crushzone.bash is what 'crushzone help --completion bash' prints" \
     same docs/crushzone.bash "$PROGRAM" help --completion bash
+check "docs/results.md is what 'crushzone help results --markdown' prints" \
+    same docs/results.md "$PROGRAM" help results --markdown
+for document in summary outcome; do
+    check "docs/$document.schema.json is what 'crushzone schema $document' prints" \
+        same docs/$document.schema.json "$PROGRAM" schema $document
+done
 schema_lines() {
     find "$SOURCE/problems" -name '*.yaml' | while read -r file; do
         line=$(head -1 "$file") && schema=${line#"# yaml-language-server: \$schema="} && [ "$schema" != "$line" ] &&

@@ -81,6 +81,11 @@ check "a text that is no channel is let through" sh -c '! grep -q curves.c:4 fou
 for line in 2 3; do
     check "a part of the report that computes is found: line $line" finds "^src/report/bars.c:$line:" report_that_computes
 done
+put src/report/by_hand.c '/* n */\n#include "report/json.h"\nput(table, "peak_force_kN");\nput(table, "peak force kN");'
+for line in 2 3; do
+    check "a key of the results that is written by hand is found: line $line" finds "^src/report/by_hand.c:$line:" keys_by_hand
+done
+check "a heading is let through" sh -c '! grep -q by_hand.c:4 found.txt'
 check "printing in the library is found" finds '^src/report/table.c:4:' library_manners
 check "a comparison of floats is found" finds '^tests/model/test_list.c:2:' float_comparisons
 check "a file without a purpose is found" finds '^src/report/other.c:1:' missing_purposes

@@ -276,3 +276,11 @@ broken_scripts() {
         sh -n "$file" 2>&1
     done
 }
+
+# A key of the results is in the lists of results and nowhere else: one file writes JSON, and no other names a key with its
+# unit.
+keys_by_hand() {
+    for folder in report cli; do c_files src/$folder; done | grep -v '\.def$' |
+        xargs grep -HnE '#[[:space:]]*include[[:space:]]*"report/json.h"' | grep -v '^src/report/\(results\|json\)\.c:'
+    c_files src/report | grep -v '\.def$' | xargs grep -HnE '"[a-z0-9_]+_(kN|mm|kJ|ms|mrad|km_h|kNs|kNms)"' | without_comments
+}

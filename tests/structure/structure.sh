@@ -17,6 +17,7 @@ nothing "no file has a vague name" vague_names
 nothing "no file is longer than 500 lines" long_files
 nothing "no channel is looked up by a text" channels_by_text
 nothing "the report computes nothing while it draws" report_that_computes
+nothing "a key of the results is written by the list alone" keys_by_hand
 nothing "the library does not print, exit, or depend on locale and environment" library_manners
 nothing "doubles are not compared as floats" float_comparisons
 nothing "every file begins with what it is for" missing_purposes

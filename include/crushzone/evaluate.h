@@ -121,8 +121,8 @@ CZ_API bool cz_check_is_worse(const CzCheckResult *check, const CzCheckResult *o
 
 typedef struct CzEvaluatorOptions {
     int n_job;               /* threads; 0 takes the number of processors */
-    double step_factor;      /* factor on every time step; 1 is the record */
-    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI is the record */
+    double step_factor;      /* factor on every time step; 1 for production runs */
+    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI for production runs */
     const char *scenario; /* run this one, or this family, only; NULL for all. Checks of the others
                              are then NOT CHECKED */
 } CzEvaluatorOptions;

@@ -33,8 +33,8 @@ typedef struct CzOptimiseOptions {
     const char *algorithm; /* "auto" or an NLopt name such as "LN_COBYLA"; NULL takes the file's */
     long evaluations;      /* most evaluations; 0 takes the file's */
     long seed;             /* -1 takes the file's */
-    unsigned verify_ways;  /* ways that a design that passes is verified by, as CzVerifyOptions has
-                              them; all but Adams by default, 0 for none */
+    unsigned verify_methods; /* ways that a design that passes is verified by, as CzVerifyOptions
+                             has them; all but Adams by default, 0 for none */
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */
     void (*progress)(const CzProgress *progress, void *data); /* NULL when none */
     void *progress_data;

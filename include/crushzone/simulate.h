@@ -13,11 +13,12 @@ extern "C" {
 #endif
 
 typedef enum CzEnded {
-#define CZ_ENDED(constant, text) constant,
+#define CZ_ENDED(constant, key, text) constant,
 #include "crushzone/ended.def"
 #undef CZ_ENDED
 } CzEnded;
-CZ_API const char *cz_ended_text(CzEnded ended);
+CZ_API const char *cz_ended_key(CzEnded ended);  /* such as "by rule", for documents */
+CZ_API const char *cz_ended_text(CzEnded ended); /* such as "end criterion met", for people */
 
 /* What advances a run in time. The references obey the same laws and end by the same rules; they
  * take about ten times as long and are there to be compared with. */
@@ -119,10 +120,11 @@ typedef struct CzVehicleResult {
     double wheel_lift_time[4];        /* [s] */
     double bogie_lift_time;           /* when the next was reached [s] */
     int lifted_bogie;                 /* where: 0 rear, 1 front */
-    double bogie_lift;  /* largest over bogies and time of the lower wheelset's lift [m] */
-    double max_pitch;   /* largest |pitch| of the body [rad] */
-    double link_force;  /* largest traction link force [N] */
-    double link_travel; /* largest way of a bogie against the body at its traction link [m] */
+    double bogie_lift; /* largest over bogies and time of the lower wheelset's lift [m] */
+    double max_pitch;  /* largest |pitch| of the body [rad] */
+    double link_force; /* largest traction link force [N] */
+    double
+        link_travel; /* largest travel of a bogie relative to the body at its traction link [m] */
     double survival_shortening; /* stroke of survival zones, both ends [m]; NaN when no end declares
                                    a survival zone */
     bool checks_override;       /* bump and lift stops are declared, so override can be judged */
@@ -222,8 +224,8 @@ typedef struct CzSimulateOptions {
                          again at more than 0.4 of the first closing speed; the run has then
                          CZ_ENDED_SETTLED and is no record */
     CzTrackUse track;
-    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI is the record; the others know the tracks `modal`
-                                and `rigid` */
+    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI for production runs; the others know the tracks
+                                `modal` and `rigid` */
     double tolerance;        /* of a reference: local error of a step, 1 m/s or 1 rad/s times it in
                                 velocities, 10 mm or 10 mrad in displacements. The default of 1e-6 adds up
                                 to far less than what the largest step leaves (ours) */

@@ -14,22 +14,22 @@
 extern "C" {
 #endif
 
-typedef enum CzVerifyWay {
-#define CZ_VERIFY_WAY(constant, key, text, doc) constant,
-#include "crushzone/verify_ways.def"
-#undef CZ_VERIFY_WAY
-    CZ_N_VERIFY_WAY
-} CzVerifyWay;
-CZ_API const char *cz_verify_way_key(CzVerifyWay way);  /* such as "half_step" */
-CZ_API const char *cz_verify_way_text(CzVerifyWay way); /* such as "half the step" */
+typedef enum CzVerifyMethod {
+#define CZ_VERIFY_METHOD(constant, key, text, doc) constant,
+#include "crushzone/verify_methods.def"
+#undef CZ_VERIFY_METHOD
+    CZ_N_VERIFY_METHOD
+} CzVerifyMethod;
+CZ_API const char *cz_verify_method_key(CzVerifyMethod method);  /* such as "half_step" */
+CZ_API const char *cz_verify_method_text(CzVerifyMethod method); /* such as "halved time step" */
 
 typedef struct CzVerifyOptions {
-    unsigned ways;                     /* which ones, bit 1 << CzVerifyWay each; all by default */
-    double limit;                      /* largest change that passes [-]; 0.01 by default */
+    unsigned methods; /* which ones, bit 1 << CzVerifyMethod each; all by default */
+    double limit;     /* largest change that passes [-]; 0.01 by default */
     const volatile sig_atomic_t *stop; /* a flag that ends it when not 0; NULL when none */
-    double solver_step; /* longest step of the solvers, in half steps of the record; 1 by default,
-                           2, as a search takes, halves their time; from 3 on their own error passes
-                           the limit [-] */
+    double solver_step; /* longest step of the solvers, in half steps of the production run; 1 by
+                           default, 2, as a search takes, halves their time; from 3 on their own
+                           error passes the limit [-] */
 } CzVerifyOptions;
 CZ_API CzVerifyOptions cz_verify_options_default(void);
 
@@ -38,37 +38,37 @@ CZ_API CzVerifyOptions cz_verify_options_default(void);
 typedef struct CzVerifiedValue {
     const char *name;
     char scenario[CZ_NAME_ROOM]; /* empty for the objective and for the design itself */
-    char where[CZ_WHERE_ROOM];   /* of the record; empty when it has no place */
+    char where[CZ_WHERE_ROOM];   /* of the production run; empty when it has no place */
     const char *unit;
-    double record;
-    bool beyond_validity;           /* of the record: it may be of the time after an override */
-    double value[CZ_N_VERIFY_WAY];  /* NaN when not computed */
-    double change[CZ_N_VERIFY_WAY]; /* of a check or target: by how much its margin changes, a
+    double production;    /* value of the production run */
+    bool beyond_validity; /* of the production run: it may be of the time after an override */
+    double value[CZ_N_VERIFY_METHOD];  /* NaN when not computed */
+    double change[CZ_N_VERIFY_METHOD]; /* of a check or target: by how much its margin changes, a
                                        margin above 1 counting as 1, over the size of one below
-                                       -1; of the others: |value - record| over the record, or
-                                       over the scale of its quantity where the record is next to
-                                       zero, over 1 for a smallest margin; NaN for a mere yes or no
-                                       and when not computed */
-    bool flips[CZ_N_VERIFY_WAY];    /* another verdict than that of the record */
+                                       -1; of the others: |value - production| over production, or
+                                       over the scale of its quantity where the production run is
+                                       next to zero, over 1 for a smallest margin; NaN for a mere
+                                       yes or no and when not computed */
+    bool flips[CZ_N_VERIFY_METHOD];    /* another verdict than that of the production run */
 } CzVerifiedValue;
 
 /* Open result, owns its memory. */
 typedef struct CzVerification {
-    CzStatus status;    /* CZ_OK, or CZ_STATUS_RUN_FAILED when a run of any way failed or is
+    CzStatus status;    /* CZ_OK, or CZ_STATUS_RUN_FAILED when a run of any method failed or is
                            incomplete */
-    char failure[320];  /* which way, scenario and why; empty otherwise */
+    char failure[320];  /* which method, scenario and why; empty otherwise */
     double solver_step; /* as it was asked for */
     double limit;
-    unsigned ways; /* that were asked for and apply here: bit 1 << CzVerifyWay each */
+    unsigned methods; /* that were asked for and apply here: bit 1 << CzVerifyMethod each */
     int n_value;
-    CzVerifiedValue *value;                 /* (n_value) */
-    bool is_done[CZ_N_VERIFY_WAY];          /* this way was gone to its end */
-    double largest_change[CZ_N_VERIFY_WAY]; /* over all values; NaN when not done */
-    int worst[CZ_N_VERIFY_WAY];             /* value with that change; -1 when none */
-    int n_flip[CZ_N_VERIFY_WAY];            /* verdicts that flip */
-    double wall_s[CZ_N_VERIFY_WAY];         /* for run_info only */
-    CzVerdict verdict; /* pass: every way asked for is done, changes at most the limit and flips no
-                          verdict */
+    CzVerifiedValue *value;                    /* (n_value) */
+    bool is_done[CZ_N_VERIFY_METHOD];          /* this method was gone to its end */
+    double largest_change[CZ_N_VERIFY_METHOD]; /* over all values; NaN when not done */
+    int worst[CZ_N_VERIFY_METHOD];             /* value with that change; -1 when none */
+    int n_flip[CZ_N_VERIFY_METHOD];            /* changed verdicts */
+    double wall_s[CZ_N_VERIFY_METHOD];         /* for run_info only */
+    CzVerdict verdict; /* pass: every method asked for is done, changes at most the limit and flips
+                          no verdict */
 } CzVerification;
 
 /* Computes a design again. x as in cz_evaluate; `record` is its evaluation with runs kept, NULL

@@ -93,14 +93,14 @@ static const char *what_is_wrong(const char *text, const char *end) {
     if ((*end == '\'' || *end == ' ') && groups_digits(end))
         return "is not a number: digits are not grouped";
     if (*end == '%')
-        return "is not a number alone: a share is written as 0.3, not as 30%";
+        return "is not a number: write a share as 0.3, not as 30%";
     if (strncmp(end, "\xc2\xa0", 2) == 0)
-        return "is not a number alone: a blank that is no space follows it (U+00A0)";
+        return "is not a number: a no-break space follows it (U+00A0)";
     if (*end == ',')
         return "is not a number: the decimal sign is a point";
     if (*end == ':')
         return "is not a number: ':' has no meaning in one";
-    return "is not a number alone: a unit belongs to the key, not to the value";
+    return "is not a number: the unit belongs to the key, not to the value";
 }
 
 const char *cz_number_parse(const char *text, double *value) {

@@ -273,7 +273,7 @@ static CzStatus check_file_name(const char *name, CzError *error) {
     size_t at;
     if (name == NULL || !cz_text_fault(name, strlen(name), false, &at, what))
         return CZ_OK;
-    misuse(error, "the name of a file or folder on the command line holds %s", what);
+    misuse(error, "the name of a file or folder on the command line contains %s", what);
     snprintf(error->help, sizeof error->help, "rename it");
     return CZ_STATUS_INPUT;
 }
@@ -295,7 +295,7 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
     if (arguments->n_operand < info->fewest)
         return misuse(error, "'crushzone %s' needs %s", info->name, info->operands);
     if (arguments->n_operand > info->most)
-        return misuse(error, "'crushzone %s' does not know what to do with '%.100s'", info->name,
+        return misuse(error, "'crushzone %s' takes no argument '%.100s'", info->name,
                       arguments->operand[info->most]);
     for (int i = 0; i < arguments->n_set; i++)
         if (strchr(arguments->set[i], '=') == NULL || arguments->set[i][0] == '=')

@@ -91,9 +91,10 @@ static CzStatus take_options(const CzArguments *arguments, CzFitOptions *options
         return status;
     options->is_dynamic = basis != NULL && strcmp(basis, "dynamic") == 0;
     if (!options->is_dynamic && (basis == NULL || strcmp(basis, "static") != 0))
-        return misuse(error, "'crushzone fit' needs '--basis static' or '--basis dynamic'",
-                      "a dynamic curve was measured at speed and already holds the rise with the "
-                      "rate");
+        return misuse(
+            error, "'crushzone fit' needs '--basis static' or '--basis dynamic'",
+            "a dynamic curve was measured at speed and already contains the rise with the "
+            "rate");
     options->n_stage = arguments->n_stage;
     options->name = arguments->text[CZ_OPTION_NAME];
     options->stroke = arguments->text[CZ_OPTION_STROKE];
@@ -119,8 +120,8 @@ static void tell_doubts(const CzFit *fit) {
                 summary->verdict == CZ_FIT_REFUSED ? "error" : "warning", cz_fit_doubt(fit, i));
     if (summary->verdict == CZ_FIT_REFUSED)
         fprintf(stderr,
-                "  help: no law as %s is like this curve, so none is written; another --as, --from "
-                "or --to may be, and --svg FILE shows both\n",
+                "  help: no law as %s fits this curve, so none is written; try another --as, "
+                "--from or --to; --svg FILE draws both\n",
                 cz_fit_kind_word(summary->kind));
 }
 

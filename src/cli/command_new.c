@@ -36,7 +36,7 @@ static CzStatus write_new(const char *path, const char *text, CzError *error) {
     }
     error->status = CZ_STATUS_OUTPUT;
     snprintf(error->message, sizeof error->message, "%.300s cannot be written: %s", path,
-             why == EEXIST ? "it is there already" : strerror(why));
+             why == EEXIST ? "the file exists" : strerror(why));
     if (why == EEXIST)
         snprintf(error->help, sizeof error->help,
                  "choose another name with -o FILE, or -o - for standard output");

@@ -88,8 +88,9 @@ static void tell_fixed(const CzSession *session) {
     for (int i = 0; i < cz_evaluator_n_variable(session->evaluator); i++) {
         const CzVariableInfo *info = cz_evaluator_variable(session->evaluator, i);
         if (info->is_fixed)
-            printf("  variable %s is fixed at %.10g %s: its bounds hold no other %s\n", info->name,
-                   info->fixed_at, info->unit, info->min == info->max ? "value" : "increment");
+            printf("  variable %s is fixed at %.10g %s: its bounds contain no other %s\n",
+                   info->name, info->fixed_at, info->unit,
+                   info->min == info->max ? "value" : "increment");
     }
 }
 

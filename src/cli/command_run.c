@@ -47,7 +47,8 @@ static void tell_incomplete(const CzArguments *arguments, const CzEvaluation *ev
         const CzRunSummary *run = cz_run_summary(evaluation->run[i]);
         if (run->status == CZ_OK && run->ended == CZ_ENDED_INCOMPLETE)
             cz_tell(arguments,
-                    "scenario '%s' was not over after %.3g s, the simulation.longest_s of the "
+                    "scenario '%s' has not met its end criterion after %.3g s, the "
+                    "simulation.longest_s of the "
                     "problem; allow "
                     "more, such as --set simulation.longest_s=%.3g",
                     run->scenario, run->simulated, 2.0 * run->simulated);
@@ -66,7 +67,7 @@ static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
     if (!judges || cz_verdict_passes(evaluation->verdict))
         return 0;
     if (evaluation->verdict == CZ_VERDICT_NOT_CHECKED)
-        cz_tell(arguments, "not everything could be checked, so this is no pass");
+        cz_tell(arguments, "some checks could not be made, so this is no pass");
     return cz_status_exit_code(CZ_STATUS_VIOLATED);
 }
 
@@ -121,8 +122,8 @@ static int run_file(const CzArguments *arguments, const char *file) {
     return code;
 }
 
-/* Whether two of the files would be written to one folder, which the second would replace. Where
- * the file system tells no capitals they are one folder too. */
+/* Whether two of the files would be written to the same folder, which the second would replace.
+ * Where the file system tells no capitals they are one folder too. */
 static int check_folders(const CzArguments *arguments) {
     char first[4096], second[4096];
     for (int i = 0; i < arguments->n_operand; i++)
@@ -133,10 +134,9 @@ static int check_folders(const CzArguments *arguments) {
                 continue;
             CzError error = {.status = CZ_STATUS_OUTPUT};
             snprintf(error.message, sizeof error.message,
-                     "%.150s and %.150s would be written to one folder, %.100s",
+                     "%.150s and %.150s would be written to the same folder, %.100s",
                      arguments->operand[k], arguments->operand[i], folder);
-            snprintf(error.help, sizeof error.help,
-                     "run them one by one, each with a -o of its own");
+            snprintf(error.help, sizeof error.help, "run them one by one, each with its own -o");
             return cz_tell_error(arguments, &error);
         }
     return 0;

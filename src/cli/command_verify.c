@@ -31,10 +31,10 @@ static int answer(const CzSession *session, const CzVerification *verification) 
         cz_print_mistake(arguments, "error", NULL, &error);
         return cz_status_exit_code(status);
     }
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        if (verification->is_done[way] && arguments->text[CZ_OPTION_VERBOSE] != NULL)
-            cz_tell(arguments, "%s: %.3g s", cz_verify_way_text((CzVerifyWay)way),
-                    verification->wall_s[way]);
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
+        if (verification->is_done[method] && arguments->text[CZ_OPTION_VERBOSE] != NULL)
+            cz_tell(arguments, "%s: %.3g s", cz_verify_method_text((CzVerifyMethod)method),
+                    verification->wall_s[method]);
     return judge(verification);
 }
 

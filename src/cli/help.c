@@ -11,8 +11,8 @@
 #include <string.h>
 
 void cz_help_write_greeting(void) {
-    puts("crushzone designs crush zones: it collides trains, judges the collision, sizes "
-         "absorbers.\n"
+    puts("crushzone designs crush zones: it simulates the collision of trains, checks limits, "
+         "sizes absorbers.\n"
          "\n"
          "  crushzone new two-trains && crushzone run two-trains.yaml    a first collision\n"
          "  crushzone optimise two-trains.yaml                           size its absorbers\n"

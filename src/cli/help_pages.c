@@ -118,12 +118,13 @@ void cz_help_write_man(void) {
          ".SH NAME\ncrushzone \\- design of the crush zones of railway trains\n"
          ".SH SYNOPSIS\n.B crushzone\n.I COMMAND\n[\\fIOPTION\\fR...] [\\fIFILE\\fR...]\n"
          ".SH DESCRIPTION\n"
-         "crushzone collides trains that a problem file describes, judges the collision against\n"
+         "crushzone simulates the collision of trains that a problem file describes, judges the "
+         "collision against\n"
          "limits, and sizes couplers, collapse tubes, anti\\-climbers and car ends until every "
          "check\n"
          "passes.\n.PP\n"
-         "Answers stand on standard output, progress and warnings on standard error. A\n"
-         ".I FILE\nmay be \\- for standard input. Options are written out; they may stand after\n"
+         "Results go to standard output, progress and warnings to standard error. A\n"
+         ".I FILE\nmay be \\- for standard input. Options cannot be abbreviated; they may follow\n"
          "files. Every command takes \\fB\\-h\\fR, \\fB\\-\\-help\\fR.");
     write_man_commands();
     puts(".SH TOPICS\n.B crushzone help\n.I TOPIC\nexplains:");

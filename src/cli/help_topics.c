@@ -28,11 +28,11 @@ CzTopic cz_topic_named(const char *name) {
 static const char *const codes[][2] = {
     {"0", "done"},
     {"1",
-     "a check fails or could not be made, nothing feasible (optimise), a law is refused (fit)"},
-    {"2", "something is wrong with the command line or a problem file"},
+     "a check fails or could not be made, no feasible design (optimise), a law is refused (fit)"},
+    {"2", "error in the command line or a problem file"},
     {"3", "a run failed or is incomplete"},
     {"4", "results cannot be written"},
-    {"5", "a fault of the program's own, or no memory"},
+    {"5", "internal error, or no memory"},
     {"130", "interrupted (143 by SIGTERM); the best design so far is written"}};
 
 int cz_n_exit_code(void) {
@@ -49,11 +49,11 @@ const char *cz_exit_code_text(int index) {
 
 /* The rule of cz_verdict_over. */
 static const char *const verdicts[][2] = {
-    {"FAIL", "a check fails, or something climbed: what comes after is beyond the model"},
+    {"FAIL", "a check fails, or a vehicle climbed: later results are beyond the model"},
     {"NOT CHECKED",
      "else: a run failed or is incomplete, a check could not be made, or there is no "
      "check at all"},
-    {"PROVISIONAL", "else: a check satisfies a limit that nobody has confirmed, so with a "
+    {"PROVISIONAL", "else: a check satisfies a limit that is not confirmed: its "
                     "confidence other than S1 (read in the primary text) and user (set by you)"},
     {"pass", "else: every check is satisfied"}};
 
@@ -68,14 +68,15 @@ const char *cz_verdict_rule_text(int index) {
 }
 
 const char cz_verdict_remark[] =
-    "The same rule holds for a scenario, a problem, a point of a sweep, an optimum and compared "
+    "The same rule applies to a scenario, a problem, a point of a sweep, an optimum and compared "
     "runs, in tables, JSON, reports and exit codes: check, run --strict and sweep --strict end "
     "with 0 for pass and PROVISIONAL only. JSON has PROVISIONAL as \"verdict\": \"pass\" with "
-    "\"provisional\": true. What a profile asks for and this program cannot compute is listed as "
-    "not covered; it is no check and counts in no verdict. Rules of the design itself are limits "
-    "of this program and not provisional. The constraints of a search are those checks that can "
-    "be made, with its margin and its targets: FEASIBLE says that they are satisfied, the verdict "
-    "whether all checks are.";
+    "\"provisional\": true. Requirements of a profile that this program cannot compute are listed "
+    "as "
+    "not covered; they count in no verdict. Design rules are limits of this program "
+    "and not provisional. The constraints of a search are the checks that can be made, with the "
+    "required margin, and the targets: FEASIBLE means that they are satisfied; the verdict covers "
+    "all checks.";
 
 static void write_verdicts(void) {
     for (int i = 0; i < cz_n_verdict_rule(); i++) {
@@ -143,8 +144,8 @@ static void write_checks(void) {
     {CZ_METRIC_PREFIX_##record #key, doc},
 #include "evaluate/results.def"
     };
-    puts("What a limit, a target or the objective can be about. The worst place counts unless the "
-         "name picks\none: interfaces.A4-B1.peak_force_kN, vehicles.A1.max_pitch_mrad.\n");
+    puts("Metrics for limits, targets and the objective. The worst place counts unless the name "
+         "selects\none: interfaces.A4-B1.peak_force_kN, vehicles.A1.max_pitch_mrad.\n");
     for (size_t i = 0; i < sizeof metrics / sizeof *metrics; i++) {
         printf("  %-40s ", metrics[i].name);
         cz_help_write_wrapped(metrics[i].doc, 43);
@@ -152,7 +153,7 @@ static void write_checks(void) {
 }
 
 static void write_algorithms(void) {
-    puts("auto: the program's own strategy. Others, by NLopt's names:\n");
+    puts("auto: the default strategy. NLopt algorithms by name:\n");
     for (int i = 0; i < cz_n_algorithm(); i++)
         printf("  %s\n", cz_algorithm_name(i));
 }
@@ -164,8 +165,8 @@ static void write_paths(void) {
         {"parts.cab-end.coupler.tube.stages[0].force_kN", "of a part, wherever it is used"},
         {"parts.cab-end.stages[*].force_kN", "of every entry of a list: one variable each"},
         {"simulation.time_step_ms", "of the run itself"}};
-    puts("A path names the place in the file where one would type the value. It ends in a key with "
-         "its unit,\nand the value is in that unit:\n");
+    puts("A path names the place of a value in the file. It ends in a key with its unit,\nand the "
+         "value is in that unit:\n");
     write_entries((int)(sizeof paths / sizeof *paths), paths, 46);
     puts("\nA vehicle that repeats or copies another has no values of its own; its original is "
          "named instead.\n'crushzone show FILE' prints the whole problem with its names.");
@@ -200,7 +201,7 @@ static const char channels_remark[] =
     "stands for any of them, A4-B1 for any interface, front for either end, w1 to w4 are wheelsets "
     "from the rear. A value is blank where there is none.";
 static const char beyond_doc[] =
-    "1 after an override, where the model says nothing; energies are blank there";
+    "1 after an override, beyond the validity of the model; energies are blank there";
 
 static void write_channels(void) {
     cz_help_write_wrapped(channels_remark, 0);
@@ -249,7 +250,7 @@ static void write_events(void) {
 #include "crushzone/events.def"
 #undef CZ_EVENT
     };
-    puts("What is noted once at a place, with its time:\n");
+    puts("Events are recorded once per place, with their time:\n");
     write_entries((int)(sizeof events / sizeof *events), events, 22);
 }
 
@@ -275,7 +276,7 @@ static void write_files(void) {
          "wrote "
          "is replaced\nby the next run; one that holds the result of a search only by another "
          "search "
-         "or with --force;\nany other is left alone.");
+         "or with --force;\nany other folder is not changed.");
 }
 
 void cz_help_write_topic(CzTopic topic) {

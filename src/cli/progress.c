@@ -63,9 +63,9 @@ static void describe(const CzProgress *progress, const CzProgressLine *line, dou
         snprintf(best, sizeof best, "best %s%s%s feasible", number,
                  line->unit[0] != '\0' ? " " : "", line->unit);
     else if (progress->best_fails_a_flag)
-        snprintf(best, sizeof best, "best fails a check of yes or no");
+        snprintf(best, sizeof best, "best violates a yes-or-no check");
     else if (isfinite(progress->best_violation))
-        snprintf(best, sizeof best, "best misses by %.3g %%", 100 * progress->best_violation);
+        snprintf(best, sizeof best, "best violates by %.3g %%", 100 * progress->best_violation);
     else
         snprintf(best, sizeof best, "none yet");
     snprintf(text, room, "eval %ld | %s | %.3g/s | ETA %ld:%02ld | %s", progress->n_evaluation,

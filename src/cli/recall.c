@@ -58,7 +58,7 @@ void cz_recall_problem(const char *folder, char path[4096]) {
         snprintf(path, 4096, "%.4000s/resolved.yaml", folder);
 }
 
-/* "optimise: feasible after 345 evaluations: nothing was left to gain" */
+/* "optimise: feasible after 345 evaluations: no further improvement" */
 static bool read_log(FILE *stream, History *history) {
     char line[1024];
     static const char before[] = "optimise: ";
@@ -167,9 +167,9 @@ int cz_recall_outcome(const CzResult *result, const char *folder, CzOutcome **ou
     int code;
     if (!fits) {
         snprintf(error.message, sizeof error.message,
-                 "%.200s cannot be read as what a search wrote", path);
+                 "%.200s cannot be read as the history of a search", path);
         snprintf(error.help, sizeof error.help,
-                 "for a report of its best design alone give a file: -o best.html");
+                 "for a report of the best design only give a file: -o best.html");
         code = cz_tell_error(&result->arguments, &error);
     } else {
         const CzRecall recall = {.status = history.status,

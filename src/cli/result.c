@@ -43,10 +43,10 @@ static void tell_version(const CzArguments *arguments, const char *folder) {
     if (stream != NULL)
         fclose(stream);
     if (!is_ours)
-        cz_tell(arguments,
-                "warning: the results in %s are of another version; shown is what this one "
-                "computes",
-                folder);
+        cz_tell(
+            arguments,
+            "warning: the results in %s are of another version; shown are the results of this one",
+            folder);
 }
 
 /* What to run for an operand: the file itself, or what its folder holds. */

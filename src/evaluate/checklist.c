@@ -93,11 +93,12 @@ static CzStatus append_in_scenarios(Builder *builder, CzCheck check, const CzLim
     if (n_scene == 0 && !from_profile)
         return place_failure(builder, &limit->scenarios,
                              cz_fail(builder->error, CZ_STATUS_INPUT,
-                                     "limit '%s' holds in no scenario of the problem", check.name));
+                                     "limit '%s' applies to no scenario of the problem",
+                                     check.name));
     if (!picks && !from_profile)
         return place_failure(builder, &limit->metric,
                              cz_fail(builder->error, CZ_STATUS_INPUT,
-                                     "'%s' picks nothing in any scenario", limit->metric));
+                                     "'%s' matches no place in any scenario", limit->metric));
     return CZ_OK;
 }
 

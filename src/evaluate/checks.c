@@ -23,7 +23,7 @@ double cz_margin(double value, double limit, bool is_minimum, double scale) {
     return fabs(margin) < rounding ? 0 : margin;
 }
 
-static const char beyond_validity[] = "beyond model validity: something climbed in this run";
+static const char beyond_validity[] = "beyond model validity: a vehicle climbed in this run";
 
 /* The result with everything that does not depend on a run. */
 static CzCheckResult blank_result(const CzCheck *check, const CzScene *scene) {

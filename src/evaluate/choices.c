@@ -56,9 +56,9 @@ CzStatus cz_choice_settle(const CzProblem *problem, const CzDesignVariable *vari
             *own = k;
         for (int j = 0; j < k && status == CZ_OK; j++)
             if (same_buffers(mine, cz_problem_vehicles(chosen[j], &n_vehicle), variable))
-                status = cz_fail(
-                    error, CZ_STATUS_INPUT, "'%s' makes no difference between '%s' and '%s'",
-                    variable->info.name, variable->info.choice[j], variable->info.choice[k]);
+                status = cz_fail(error, CZ_STATUS_INPUT, "'%s' gives '%s' and '%s' the same values",
+                                 variable->info.name, variable->info.choice[j],
+                                 variable->info.choice[k]);
     }
     if (status == CZ_OK && *own < 0)
         status =

@@ -11,9 +11,9 @@ static const char *failure_of(const CzRunSummary *run) {
         return "this scenario was not run";
     if (run->status != CZ_OK)
         return "the run of this scenario failed";
-    return run->ended == CZ_ENDED_INCOMPLETE
-               ? "the run of this scenario did not come to its end within simulation.longest_s"
-               : NULL;
+    return run->ended == CZ_ENDED_INCOMPLETE ? "the run of this scenario did not meet its end "
+                                               "criterion within simulation.longest_s"
+                                             : NULL;
 }
 
 CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,

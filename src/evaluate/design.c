@@ -238,10 +238,10 @@ static CzStatus check_variable(const Builder *builder, const CzVariable *written
     for (int i = 0; i < variable->n_place; i++)
         any_own |= is_own(builder, variable->place[i].vehicle);
     if (!any_own)
-        return fail_at(builder, field_of(written),
-                       "'%s' would only change the partner, and softening the opponent is no "
-                       "design",
-                       info->name);
+        return fail_at(
+            builder, field_of(written),
+            "'%s' changes only the partner; a softer partner is no improvement of the design",
+            info->name);
     for (const CzDesignVariable *other = builder->design->variable; other != variable; other++) {
         bool shares = false;
         for (int i = 0; i < variable->n_place; i++)

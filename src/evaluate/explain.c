@@ -327,10 +327,10 @@ static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluatio
         if (summary->status != CZ_OK)
             return cz_fail(error, CZ_STATUS_RUN_FAILED, "scenario '%s' failed", summary->scenario);
         if (summary->ended == CZ_ENDED_INCOMPLETE)
-            return cz_fail(error, CZ_STATUS_RUN_FAILED,
-                           "scenario '%s' did not come to its end within simulation.longest_s = %g",
-                           summary->scenario,
-                           cz_problem_input(evaluator->problem)->simulation.longest);
+            return cz_fail(
+                error, CZ_STATUS_RUN_FAILED,
+                "scenario '%s' did not meet its end criterion within simulation.longest_s = %g",
+                summary->scenario, cz_problem_input(evaluator->problem)->simulation.longest);
         if (!isnan(worst.margin) && (chosen < 0 || worst.margin < explanation->worst.margin)) {
             chosen = s;
             chosen_run = run;
@@ -342,7 +342,7 @@ static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluatio
     if (chosen < 0)
         return cz_fail(error, CZ_STATUS_INPUT,
                        "no full vehicle with declared bump and lift stops and no pair of "
-                       "anti-climbers could climb, so there is nothing to explain");
+                       "anti-climbers could climb: override is not possible");
     explanation->run = evaluation->run[chosen_run];
     evaluation->run[chosen_run] = NULL;
     const CzRunSummary *summary = cz_run_summary(explanation->run);

@@ -71,7 +71,7 @@ static CzStatus build_item(const CzProblem *problem, int index, int n_scene, con
         if (!cz_metric_picks(&item->metric, &scene[item->scenario]))
             return place_failure(problem, &written->metric,
                                  cz_fail(error, CZ_STATUS_INPUT,
-                                         "'%s' picks nothing in scenario '%s'", written->metric,
+                                         "'%s' matches no place in scenario '%s'", written->metric,
                                          scene[item->scenario].name),
                                  error);
     } else if (written->event != NULL) {

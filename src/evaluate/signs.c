@@ -52,7 +52,7 @@ static void add_of_interface(CzExplanation *explanation, const CzInterfaceResult
             interface->name, kilonewton(coupler), kilonewton(interface->critical_force));
     if (interface->vertical_margin < 0)
         add(explanation, CZ_CAUSE_CAPACITY, NAN,
-            "%s: the anti-climbers slipped, %ld kN across was asked of them", interface->name,
+            "%s: the anti-climbers slipped under a vertical force of %ld kN", interface->name,
             kilonewton(interface->vertical_demand));
     if (interface->min_overlap < 0)
         add(explanation, CZ_CAUSE_OVERLAP, NAN, "%s: the faces lost their overlap",

@@ -128,7 +128,7 @@ static CzStatus judge(const CzSweepOptions *options, const CzEvaluation *evaluat
     const bool by_check = deciding != NULL && deciding->verdict == CZ_VERDICT_FAIL;
     if (point->verdict == CZ_VERDICT_FAIL && !by_check) {
         snprintf(point->message, sizeof point->message,
-                 "something climbed: what comes after is beyond the model");
+                 "a vehicle climbed: later results are beyond the model");
         return CZ_OK;
     }
     if (deciding == NULL)
@@ -220,7 +220,7 @@ static CzStatus prepare(Sweeping *sweeping, CzError *error) {
         return cz_fail(error, CZ_STATUS_INPUT, "a sweep has one or two paths, not %d",
                        options->n_axis);
     if (options->n_metric > CZ_MOST_SWEPT_METRICS)
-        return cz_fail(error, CZ_STATUS_INPUT, "a sweep tells at most %d metrics",
+        return cz_fail(error, CZ_STATUS_INPUT, "a sweep prints at most %d metrics",
                        (int)CZ_MOST_SWEPT_METRICS);
     sweep->n_axis = options->n_axis;
     sweep->n_metric = options->n_metric;

@@ -30,58 +30,58 @@
 #define NUDGE (32.0 / 33.0)
 
 static const char *const keys[] = {
-#define CZ_VERIFY_WAY(constant, key, text, doc) key,
-#include "crushzone/verify_ways.def"
-#undef CZ_VERIFY_WAY
+#define CZ_VERIFY_METHOD(constant, key, text, doc) key,
+#include "crushzone/verify_methods.def"
+#undef CZ_VERIFY_METHOD
 };
 static const char *const texts[] = {
-#define CZ_VERIFY_WAY(constant, key, text, doc) text,
-#include "crushzone/verify_ways.def"
-#undef CZ_VERIFY_WAY
+#define CZ_VERIFY_METHOD(constant, key, text, doc) text,
+#include "crushzone/verify_methods.def"
+#undef CZ_VERIFY_METHOD
 };
 
-const char *cz_verify_way_key(CzVerifyWay way) {
-    return keys[way];
+const char *cz_verify_method_key(CzVerifyMethod method) {
+    return keys[method];
 }
 
-const char *cz_verify_way_text(CzVerifyWay way) {
-    return texts[way];
+const char *cz_verify_method_text(CzVerifyMethod method) {
+    return texts[method];
 }
 
 CzVerifyOptions cz_verify_options_default(void) {
     return (CzVerifyOptions){
-        .ways = (1u << CZ_N_VERIFY_WAY) - 1, .limit = LIMIT, .solver_step = 1.0};
+        .methods = (1u << CZ_N_VERIFY_METHOD) - 1, .limit = LIMIT, .solver_step = 1.0};
 }
 
 static CzTrack track_of(const CzEvaluator *evaluator) {
     return cz_problem_track(evaluator->problem);
 }
 
-/* How a way makes its runs. The solvers know the modal track; what runs along with the wheels, and
- * finite elements, are compared with it, and it is compared with finite elements. */
-static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyWay way, double solver_step) {
+/* How a method makes its runs. The solvers know the modal track; what runs along with the wheels,
+ * and finite elements, are compared with it, and it is compared with finite elements. */
+static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyMethod method, double solver_step) {
     CzManner manner = evaluator->manner;
-    switch (way) {
-    case CZ_WAY_HALF_STEP:
+    switch (method) {
+    case CZ_METHOD_HALF_STEP:
         manner.step_factor *= 0.5;
         break;
-    case CZ_WAY_SCATTER:
+    case CZ_METHOD_SCATTER:
         manner.step_factor *= NUDGE;
         break;
-    case CZ_WAY_TRACK:
+    case CZ_METHOD_TRACK:
         manner.track = track_of(evaluator) == CZ_TRACK_MODAL ? CZ_TRACK_USE_FE : CZ_TRACK_USE_MODAL;
         break;
-    case CZ_WAY_ERK:
+    case CZ_METHOD_ERK:
         manner.step_factor *= solver_step;
         manner.integrator = CZ_INTEGRATOR_ERK;
         manner.track = CZ_TRACK_USE_MODAL;
         break;
-    case CZ_WAY_ADAMS:
+    case CZ_METHOD_ADAMS:
         manner.step_factor *= solver_step;
         manner.integrator = CZ_INTEGRATOR_ADAMS;
         manner.track = CZ_TRACK_USE_MODAL;
         break;
-    case CZ_N_VERIFY_WAY:
+    case CZ_N_VERIFY_METHOD:
         break;
     }
     return manner;
@@ -232,63 +232,65 @@ static bool differs(CzVerdict a, CzVerdict b) {
 static void begin_value(CzVerifiedValue *value, const Number *number) {
     *value = (CzVerifiedValue){.name = number->name,
                                .unit = number->unit,
-                               .record = number->value,
+                               .production = number->value,
                                .beyond_validity = number->beyond_validity};
     snprintf(value->scenario, sizeof value->scenario, "%s",
              number->scenario != NULL ? number->scenario : "");
     snprintf(value->where, sizeof value->where, "%s", number->where);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        value->value[way] = value->change[way] = NAN;
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
+        value->value[method] = value->change[method] = NAN;
 }
 
-static void compare(CzVerification *verification, CzVerifyWay way, int index, const Number *record,
-                    const Number *again) {
+static void compare(CzVerification *verification, CzVerifyMethod method, int index,
+                    const Number *record, const Number *again) {
     CzVerifiedValue *value = &verification->value[index];
     const double difference = fabs(again->counted - record->counted);
-    value->value[way] = again->value;
+    value->value[method] = again->value;
     if (isfinite(record->scale))
-        value->change[way] = difference == 0.0 ? 0.0 : difference / record->scale;
-    value->flips[way] =
+        value->change[method] = difference == 0.0 ? 0.0 : difference / record->scale;
+    value->flips[method] =
         record->check != NULL && differs(record->check->verdict, again->check->verdict);
-    verification->n_flip[way] += value->flips[way];
-    if (value->change[way] > verification->largest_change[way]) { /* not for NaN */
-        verification->largest_change[way] = value->change[way];
-        verification->worst[way] = index;
+    verification->n_flip[method] += value->flips[method];
+    if (value->change[method] > verification->largest_change[method]) { /* not for NaN */
+        verification->largest_change[method] = value->change[method];
+        verification->worst[method] = index;
     }
 }
 
 /* Says which scenario of an evaluation failed. */
-static void tell_failure(CzVerification *verification, const char *way,
+static void tell_failure(CzVerification *verification, const char *method,
                          const CzEvaluation *evaluation) {
     verification->status = CZ_STATUS_RUN_FAILED;
-    snprintf(verification->failure, sizeof verification->failure, "%s: a run failed", way);
+    snprintf(verification->failure, sizeof verification->failure, "%s: a run failed", method);
     for (int i = 0; i < evaluation->n_run; i++) {
         const CzRunSummary *run = cz_run_summary(evaluation->run[i]);
         if (run->status == CZ_OK && run->ended != CZ_ENDED_INCOMPLETE)
             continue;
-        const char *why = run->failure[0] != '\0'
-                              ? run->failure
-                              : "the run did not come to its end within simulation.longest_s";
+        const char *why =
+            run->failure[0] != '\0'
+                ? run->failure
+                : "the run did not meet its end criterion within simulation.longest_s";
         snprintf(verification->failure, sizeof verification->failure, "%s, scenario %.60s: %.220s",
-                 way, run->scenario, why);
+                 method, run->scenario, why);
         return;
     }
 }
 
-/* Goes one way. */
-static CzStatus go(CzVerification *verification, const CzEvaluator *evaluator, CzVerifyWay way,
-                   const double *x, const Number *record, Number *again, CzError *error) {
-    const CzManner manner = manner_of(evaluator, way, verification->solver_step);
+/* Goes one method. */
+static CzStatus go(CzVerification *verification, const CzEvaluator *evaluator,
+                   CzVerifyMethod method, const double *x, const Number *record, Number *again,
+                   CzError *error) {
+    const CzManner manner = manner_of(evaluator, method, verification->solver_step);
     CzEvaluation evaluation = {0};
     CZ_TRY(cz_evaluator_again(evaluator, &manner, x, &evaluation, error));
     if (evaluation.status != CZ_OK) {
-        tell_failure(verification, texts[way], &evaluation);
+        tell_failure(verification, texts[method], &evaluation);
     } else {
-        verification->is_done[way] = true;
-        verification->largest_change[way] = 0.0;
+        verification->is_done[method] = true;
+        verification->largest_change[method] = 0.0;
         list_numbers(evaluator, &evaluation, again);
         for (int i = 0; i < verification->n_value; i++)
-            compare(verification, way, i, &record[i], &again[i]);
+            compare(verification, method, i, &record[i], &again[i]);
     }
     cz_evaluation_free(&evaluation);
     return CZ_OK;
@@ -313,43 +315,43 @@ static CzStatus go_all(CzVerification *verification, const CzEvaluator *evaluato
         for (int i = 0; i < n; i++)
             begin_value(&verification->value[i], &number[i]);
     }
-    for (int way = 0; way < CZ_N_VERIFY_WAY && status == CZ_OK; way++) {
-        if ((verification->ways & (1u << way)) == 0)
+    for (int method = 0; method < CZ_N_VERIFY_METHOD && status == CZ_OK; method++) {
+        if ((verification->methods & (1u << method)) == 0)
             continue;
         const double began = now_s();
-        status = go(verification, evaluator, (CzVerifyWay)way, x, number, number + n, error);
-        verification->wall_s[way] = now_s() - began;
+        status = go(verification, evaluator, (CzVerifyMethod)method, x, number, number + n, error);
+        verification->wall_s[method] = now_s() - began;
     }
     free(number);
     return status;
 }
 
 static CzVerdict judge(const CzVerification *verification) {
-    const unsigned ways = verification->ways;
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
-        if ((ways & (1u << way)) == 0)
+    const unsigned methods = verification->methods;
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
+        if ((methods & (1u << method)) == 0)
             continue;
-        if (!verification->is_done[way] || verification->n_flip[way] > 0 ||
-            !(verification->largest_change[way] <= verification->limit))
+        if (!verification->is_done[method] || verification->n_flip[method] > 0 ||
+            !(verification->largest_change[method] <= verification->limit))
             return CZ_VERDICT_FAIL;
     }
-    return verification->status == CZ_OK && ways != 0 ? CZ_VERDICT_PASS : CZ_VERDICT_NOT_CHECKED;
+    return verification->status == CZ_OK && methods != 0 ? CZ_VERDICT_PASS : CZ_VERDICT_NOT_CHECKED;
 }
 
 /* Verifies against a record that has its runs. */
 static CzStatus verify(CzVerification *verification, CzEvaluator *evaluator, const double *x,
                        const CzEvaluation *record, const CzVerifyOptions *options, CzError *error) {
     verification->limit = options->limit;
-    verification->ways = options->ways;
+    verification->methods = options->methods;
     verification->solver_step = options->solver_step;
     if (track_of(evaluator) == CZ_TRACK_RIGID)
-        verification->ways &= ~(1u << CZ_WAY_TRACK);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
-        verification->largest_change[way] = NAN;
-        verification->worst[way] = -1;
+        verification->methods &= ~(1u << CZ_METHOD_TRACK);
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
+        verification->largest_change[method] = NAN;
+        verification->worst[method] = -1;
     }
     if (record->status != CZ_OK) {
-        tell_failure(verification, "the record", record);
+        tell_failure(verification, "the production run", record);
         verification->verdict = CZ_VERDICT_FAIL;
         return CZ_OK;
     }

@@ -135,7 +135,7 @@ static void fit_shear_off(CzFit *fit, const CzBranch *branch, const Parts *parts
     if (!(parts->stop < parts->peak))
         cz_fit_doubt_that(fit,
                           "the force falls from %s to %s kN at %s mm without a stop before it: a "
-                          "tube that ruptures looks like that, and is no shear-off",
+                          "ruptured tube looks the same and is no shear-off",
                           cz_number_print_short(kN, 1e-3 * parts->force),
                           cz_number_print_short(kept, 1e-3 * parts->residual),
                           cz_number_print_short(at, 1e3 * parts->peak));

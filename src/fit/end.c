@@ -152,7 +152,8 @@ static void fit_unloading(CzFit *fit, double peak) {
         const Unloading found = unload_with(&fit->trace, peak, share);
         first = second = mean_unloading(&fit->trace, peak);
         if (one_line_will_do(&fit->trace, peak, first))
-            cz_fit_note_down(fit, "one stiffness tells the unloading; a second stage adds nothing");
+            cz_fit_note_down(fit,
+                             "one stiffness describes the unloading; a second stage is not needed");
         else if (found.left < INFINITY) {
             fit->share = share;
             first = 1.0 / found.c_1;

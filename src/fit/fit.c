@@ -173,15 +173,14 @@ void cz_fit_let_rise(CzStaged *staged) {
 
 /* A curve that was read well and that no law follows: the same answer as a law that is refused. */
 static CzStatus no_law(const CzFit *fit, CzError *error, const char *why) {
-    const CzStatus status =
-        cz_fail(error, CZ_STATUS_VIOLATED, "no law as %s is like this curve: %s",
-                cz_fit_kind_word(fit->summary.kind), why);
+    const CzStatus status = cz_fail(error, CZ_STATUS_VIOLATED, "no law as %s fits this curve: %s",
+                                    cz_fit_kind_word(fit->summary.kind), why);
     if (error == NULL)
         return status;
     snprintf(error->file, sizeof error->file, "%s",
              fit->summary.file != NULL ? fit->summary.file : "");
     snprintf(error->help, sizeof error->help,
-             "another --as, --from or --to may be; are the units right?");
+             "try another --as, --from or --to, and check the units");
     return status;
 }
 
@@ -204,7 +203,7 @@ CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzE
     }
     if (fabs(factor - 1.0) <= FAR_OFF)
         return CZ_OK;
-    return no_law(fit, error, "stages of its energy are far from its force");
+    return no_law(fit, error, "stages of equal energy differ too much from its force");
 }
 
 /* ---- values ---- */
@@ -320,8 +319,8 @@ static CzStatus check_values(const CzFit *fit, CzError *error) {
         if (key != NULL && value >= key->lo * (1 - 1e-12) && value <= key->hi * (1 + 1e-12) &&
             !(is_force && value <= 0.0)) /* a stage without force absorbs nothing */
             continue;
-        snprintf(why, sizeof why, "%.80s would be %s, which no problem file takes", path,
-                 cz_number_print_short(number, fit->value[i].value));
+        snprintf(why, sizeof why, "%.80s would be %s, which is outside the range of a problem file",
+                 path, cz_number_print_short(number, fit->value[i].value));
         return no_law(fit, error, why);
     }
     return CZ_OK;
@@ -356,9 +355,9 @@ static CzStatus fit_law(CzFit *fit, int n_stage, CzError *error) {
     else
         CZ_TRY(cz_fit_plastic(fit, n_stage, error));
     cz_fit_note_down(fit, summary->is_dynamic
-                              ? "dynamic: the curve holds the rise with the rate, so nothing may "
+                              ? "dynamic: the curve contains the rate effect, so nothing may "
                                 "add it again"
-                              : "static: the curve holds no rise with the rate");
+                              : "static: the curve contains no rate effect");
     summary->law_energy = cz_fit_law_energy(fit);
     cz_fit_compare(fit);
     cz_fit_judge(fit);

@@ -216,7 +216,7 @@ static int drops_of(sunrealtype time, N_Vector state, sunrealtype *value, void *
 static CzStatus tell(const CzSolver *solver, int flag, CzError *error) {
     if (flag == ARK_MEM_FAIL || flag == CV_MEM_FAIL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the second solver");
-    return cz_fail(error, CZ_STATUS_RUN_FAILED, "the second solver gave up at %.3f ms: %s",
+    return cz_fail(error, CZ_STATUS_RUN_FAILED, "the second solver failed at %.3f ms: %s",
                    1e3 * solver->time, solver->message.text);
 }
 

@@ -95,7 +95,7 @@ static CzStatus check_strength(const CzFill *fill, CzPartName part, const void *
                               table->given ? "both" : "none");
     if (table->given && table->basis == CZ_BASIS_DYNAMIC && rise != 0.0)
         return cz_fill_refuse(fill, part, field,
-                              "a dynamic curve already holds the rise with the rate; leave out the "
+                              "a dynamic curve already contains the rate effect; leave out the "
                               "rate and speed factors");
     return table->given ? check_table(fill, part, table) : check_stages(fill, part, stage, n_stage);
 }

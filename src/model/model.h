@@ -36,7 +36,7 @@ struct CzModel {
     const CzTrackModes *track; /* NULL on a rigid track, and without wheels */
     double friction;           /* peak wheel-rail friction of the scenario */
     double time_step;          /* [s] */
-    double duration;           /* [s]; NaN: ended by rule */
+    double duration;           /* [s]; NaN: until the end criterion is met */
     double longest;            /* [s] */
     double hold; /* time for which the end-of-run conditions must hold: the longest body pitch
                     period; 0.02 s without full cars (ours) [s] */

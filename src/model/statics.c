@@ -76,7 +76,7 @@ static CzStatus full_statics(const CzFill *fill, int car, const CzVehicle *vehic
     const double bare = vehicle->mass - gear - ends;
     if (!(bare > 0.0))
         return cz_fill_refuse(fill, name, &vehicle->mass,
-                              "mass %g kg leaves nothing for the body: bogies and wheelsets have "
+                              "mass %g kg leaves no mass for the body: bogies and wheelsets have "
                               "%g kg, the ends %g kg",
                               vehicle->mass, gear, ends);
     statics->body_mass = bare * scenario->mass_factor + vehicle->payload * scenario->payload_share +

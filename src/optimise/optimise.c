@@ -22,8 +22,9 @@ const char *cz_outcome_text(CzOutcomeStatus status) {
 }
 
 CzOptimiseOptions cz_optimise_options_default(void) {
-    return (CzOptimiseOptions){
-        .seed = -1, .verify_ways = 1u << CZ_WAY_HALF_STEP | 1u << CZ_WAY_TRACK | 1u << CZ_WAY_ERK};
+    return (CzOptimiseOptions){.seed = -1,
+                               .verify_methods = 1u << CZ_METHOD_HALF_STEP | 1u << CZ_METHOD_TRACK |
+                                                 1u << CZ_METHOD_ERK};
 }
 
 /* ---- the outcome ----------------------------------------------------------------------------- */
@@ -227,7 +228,7 @@ static void tell_end(const CzHunt *hunt, long limit, const CzOutcome *outcome, s
     const long left = limit - outcome->n_evaluation;
     const CzEvaluation *start = &outcome->start_evaluation;
     if (start->status == CZ_OK && isnan(start->objective) && search->best < 0)
-        snprintf(text, room, "what is to be minimised has no value in any design");
+        snprintf(text, room, "the objective has no value in any design");
     else if (search->why[0] != '\0')
         snprintf(text, room, "%s", search->why);
     else if (search->function->n_variable == 0 && hunt->n == 1)
@@ -236,10 +237,10 @@ static void tell_end(const CzHunt *hunt, long limit, const CzOutcome *outcome, s
         snprintf(text, room, "the limit of %ld evaluations is reached", limit);
     else if (search->is_spent)
         snprintf(text, room, "%ld of %ld evaluations left, %s", left, limit,
-                 cz_search_has_steps(search) ? "all kept for the increments"
+                 cz_search_has_steps(search) ? "all reserved for the increments"
                                              : "too few to go on searching");
     else
-        snprintf(text, room, "nothing was left to gain");
+        snprintf(text, room, "no further improvement");
 }
 
 static void conclude(const CzHunt *hunt, long limit, CzOutcome *outcome) {
@@ -253,15 +254,16 @@ static void conclude(const CzHunt *hunt, long limit, CzOutcome *outcome) {
         outcome->status = CZ_OUTCOME_INTERRUPTED;
     tell_end(hunt, limit, outcome, sizeof end, end);
     snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%.100s%s", end,
-             is_between_steps(hunt, outcome) ? "; the best lies between catalogue increments" : "");
+             is_between_steps(hunt, outcome) ? "; the best design is between catalogue increments"
+                                             : "");
 }
 
 CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                            CzOutcome *outcome, CzError *error) {
-    if (outcome->status != CZ_OUTCOME_FEASIBLE || options->verify_ways == 0)
+    if (outcome->status != CZ_OUTCOME_FEASIBLE || options->verify_methods == 0)
         return CZ_OK;
     CzVerifyOptions chosen = cz_verify_options_default();
-    chosen.ways = options->verify_ways;
+    chosen.methods = options->verify_methods;
     chosen.solver_step = 2.0;
     chosen.stop = options->stop;
     const CzStatus status = cz_verify(evaluator, outcome->best, &outcome->best_evaluation, &chosen,

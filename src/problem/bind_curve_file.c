@@ -165,7 +165,7 @@ static bool keep_loading(const Reading *reading, const CzSource *source, CzTrace
     CzMistakes *mistakes = &reading->reader->mistakes;
     if (trace->unloads)
         cz_mistake(&reading->reader->warnings, reading->node, reading->trail,
-                   "the unloading of '%s' is not used: how a device unloads is said by its "
+                   "the unloading of '%s' is not used: the unloading of a device follows from its "
                    "stiffness",
                    reading->key->stem);
     trace->n = trace->n_loading;

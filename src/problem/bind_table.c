@@ -126,7 +126,7 @@ static bool read_basis(Curve *curve, const CzNode *node, CzTable *table) {
                "'%s' needs 'basis': static or dynamic", curve->key->stem);
     cz_mistake_help(
         &curve->reader->mistakes,
-        "a dynamic curve was measured at speed and already holds the rise with the rate");
+        "a dynamic curve was measured at speed and already contains the rise with the rate");
     return false;
 }
 

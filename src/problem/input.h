@@ -26,7 +26,7 @@ enum {
 #undef CZ_WORD
 #undef CZ_CHOICE_SET_END
 
-/* Basis of a measured curve: a dynamic one already holds the rise with the rate. */
+/* Basis of a measured curve: a dynamic one already contains the rate effect. */
 typedef enum CzBasis { CZ_BASIS_STATIC, CZ_BASIS_DYNAMIC } CzBasis;
 
 /* What the strokes of a curve are: the permanent shortening alone, or with the elastic one. */

@@ -18,7 +18,7 @@ static void check_what_acts(const CzRules *rules) {
     if (input->track.given && !(rolls && is_elastic))
         cz_rule_warning(rules, &input->track, "no effect: %s",
                         rolls ? "simulation: {track: rigid} has no use for a roadbed"
-                              : "no vehicle of model: full stands on the track");
+                              : "no vehicle of model: full is on the track");
     else if (input->track.given && input->simulation.track != CZ_TRACK_FE &&
              cz_rule_is_written(rules, &input->track.nodes_per_bay))
         cz_rule_warning(rules, &input->track.nodes_per_bay,

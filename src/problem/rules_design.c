@@ -47,7 +47,7 @@ static void check_target(const CzRules *rules, const CzVariable *variable, const
         cz_rule_broken(rules, path, "'%.120s' is data, not a %s", *path,
                        is_fit(rules) ? "parameter of a fit" : "design variable");
         if (is_fit(rules))
-            cz_mistake_help(rules->mistakes, "`crushzone help keys` tells what may be fitted");
+            cz_mistake_help(rules->mistakes, "`crushzone help keys` lists what may be fitted");
         else
             cz_mistake_help(rules->mistakes,
                             target->may_fit
@@ -58,11 +58,10 @@ static void check_target(const CzRules *rules, const CzVariable *variable, const
         return;
     }
     if (cz_strokes_depend_on(rules->input, target->field))
-        cz_rule_broken(
-            rules, path,
-            "'%.120s' cannot vary: the strokes of the curve beside it were made with it; "
-            "give the curve in the strokes that its law is over",
-            *path);
+        cz_rule_broken(rules, path,
+                       "'%.120s' cannot vary: the strokes of the curve depend on it; "
+                       "give the curve in the strokes that its law is over",
+                       *path);
     const CzPlace *place = cz_places_find(&rules->problem->places, target->field);
     if (place == NULL || place->address != target->field || place->key == NULL)
         return;

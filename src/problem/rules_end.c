@@ -8,7 +8,7 @@ enum { MOST_END_STAGES = 4 };
 /* Turns "at most" into "below" where a rule says so. */
 static const double just_above = 1 + 1e-9;
 
-static const char no_plateau[] = "a plateau without force absorbs nothing";
+static const char no_plateau[] = "a plateau without force absorbs no energy";
 
 /* ---- curves ---- */
 
@@ -60,7 +60,7 @@ static void check_rate(const CzRules *rules, const double *factor, const CzTable
     if (curve->given && curve->basis == CZ_BASIS_DYNAMIC && *factor > 0)
         cz_rule_broken(
             rules, factor,
-            "a dynamic curve already holds the rise with the speed; this would count it twice");
+            "a dynamic curve already contains the rate effect; this would count it twice");
 }
 
 /* A device is longer than its usable stroke. */

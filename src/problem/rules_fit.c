@@ -52,7 +52,7 @@ static void check_scenario(const CzRules *rules, const CzMatch *match) {
     CzSuggestion nearest = {0};
     if (match->scenario == NULL) {
         if (rules->input->n_scenarios > 1)
-            cz_rule_broken(rules, match, "'scenario' must say which of the %d scenarios shows it",
+            cz_rule_broken(rules, match, "'scenario' must name one of the %d scenarios",
                            rules->input->n_scenarios);
         return;
     }
@@ -77,11 +77,11 @@ void cz_rules_check_fit(const CzRules *rules) {
         if (match->channel != NULL)
             check_channel(rules, match);
         else if (!cz_rule_is_written(rules, &match->value))
-            cz_rule_broken(rules, match, "a match needs the 'value' that was measured");
+            cz_rule_broken(rules, match, "a match needs the measured 'value'");
         check_window(rules, match);
         check_scenario(rules, match);
     }
     if (optimise->given && optimise->n_match > 0 && cz_rule_is_written(rules, &optimise->minimise))
         cz_rule_broken(rules, &optimise->minimise,
-                       "a fit minimises the differences of 'match' and nothing else");
+                       "a fit minimises the differences of 'match' only");
 }

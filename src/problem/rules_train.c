@@ -23,7 +23,7 @@ static void check_full_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
         cz_rule_absent(rules, vehicle, "a full vehicle needs its length: length_m or length_mm");
     if (body_mass(vehicle) <= 0)
         cz_rule_broken(rules, &vehicle->mass,
-                       "nothing is left for the body: ends, bogies and wheelsets have %s of %s",
+                       "no mass is left for the body: ends, bogies and wheelsets have %s of %s",
                        cz_rule_text(first, vehicle->mass - body_mass(vehicle), "t", 1e3),
                        cz_rule_text(second, vehicle->mass, "t", 1e3));
     if (vehicle->bogie_spacing + vehicle->bogie.axle_spacing >= vehicle->length)
@@ -33,7 +33,7 @@ static void check_full_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
                        CZ_MM(second, vehicle->length));
     if (vehicle->bogie.axle_spacing >= vehicle->bogie_spacing)
         cz_rule_broken(rules, &vehicle->bogie_spacing,
-                       "bogies %s apart with axles %s apart would stand in one another",
+                       "bogies %s apart with axles %s apart would overlap",
                        CZ_MM(first, vehicle->bogie_spacing),
                        CZ_MM(second, vehicle->bogie.axle_spacing));
     if (vehicle->cg_height <= vehicle->bogie.wheel_radius)
@@ -43,7 +43,7 @@ static void check_full_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
                        CZ_MM(second, vehicle->bogie.wheel_radius));
     if (vehicle->bogie.axle_spacing <= 2 * vehicle->bogie.wheel_radius)
         cz_rule_broken(rules, &vehicle->bogie.axle_spacing,
-                       "wheels with a radius of %s touch one another on axles %s apart",
+                       "wheels with a radius of %s overlap on axles %s apart",
                        CZ_MM(first, vehicle->bogie.wheel_radius),
                        CZ_MM(second, vehicle->bogie.axle_spacing));
 }
@@ -82,7 +82,7 @@ static void check_facing(const CzRules *rules, const CzVehicle *behind, const Cz
     if (behind->given && ahead->given && !gives_way(&behind->front) && !gives_way(&ahead->rear))
         cz_rule_absent(
             rules, ahead,
-            "nothing can give way between '%.48s' and '%.48s': neither has anything there",
+            "no device can deflect between '%.48s' and '%.48s': neither end has one",
             name_of(behind->name), name_of(ahead->name));
 }
 
@@ -94,12 +94,12 @@ static void warn_of_lone_devices(const CzRules *rules, const CzVehicle *owner, c
     const char *others = name_of(other->name);
     if (end->coupler.given && !(opposite->given && opposite->coupler.given))
         cz_rule_warning(rules, &end->coupler,
-                        "lone coupler: '%.48s' has none to meet that of '%.48s', which then "
+                        "unpaired coupler: '%.48s' has none to meet that of '%.48s', which then "
                         "carries no force; in reality it would strike the headstock",
                         others, own);
     if (end->side_buffers.given && !(opposite->given && opposite->side_buffers.given))
         cz_rule_warning(rules, &end->side_buffers,
-                        "lone side buffers: '%.48s' has none to meet those of '%.48s', which then "
+                        "unpaired side buffers: '%.48s' has none to meet those of '%.48s', which then "
                         "carry no force; in reality they would strike the headstock",
                         others, own);
 }
@@ -155,10 +155,10 @@ static void check_train(const CzRules *rules, const CzTrain *train) {
             "a problem with full vehicles needs 'simulation: {adhesion: {friction: ...}}'");
     else if (can_brake(rules, train) && !cz_rule_is_written(rules, &simulation->adhesion))
         cz_rule_absent(rules, &train->brake,
-                       "a brake holds by the wheel-rail friction: it needs 'simulation: {adhesion: "
+                       "a brake acts through the wheel-rail friction: it needs 'simulation: {adhesion: "
                        "{friction: ...}}'");
     if (has(train, CZ_MODEL_FIXED) && train->speed != 0)
-        cz_rule_broken(rules, &train->speed, "a train with a fixed vehicle stands still");
+        cz_rule_broken(rules, &train->speed, "a train with a fixed vehicle must have speed 0");
     for (int i = 1; i < train->n_vehicles; i++)
         check_neighbours(rules, &train->vehicles[i - 1], &train->vehicles[i]);
 }
@@ -230,11 +230,11 @@ static void check_closing(const CzRules *rules, const CzScenario *scenario,
                        name_of(pair[0]->name), cz_rule_text(first, behind, "km/h", 1 / 3.6),
                        name_of(pair[1]->name), cz_rule_text(second, ahead, "km/h", 1 / 3.6));
     if (has(pair[0], CZ_MODEL_FIXED) && scenario->speed != 0 && !isnan(scenario->speed))
-        cz_rule_broken(rules, &scenario->speed, "a train with a fixed vehicle stands still");
+        cz_rule_broken(rules, &scenario->speed, "a train with a fixed vehicle must have speed 0");
     if (has(pair[1], CZ_MODEL_FIXED) && scenario->partner_speed != 0 &&
         !isnan(scenario->partner_speed))
         cz_rule_broken(rules, &scenario->partner_speed,
-                       "a train with a fixed vehicle stands still");
+                       "a train with a fixed vehicle must have speed 0");
 }
 
 /* The interface that is perturbed too must be inside one of the two trains. */
@@ -272,7 +272,7 @@ static void check_offset(const CzRules *rules, const double *offset, const CzVeh
     const bool is_fixed = behind->model == CZ_MODEL_FIXED || ahead->model == CZ_MODEL_FIXED;
     if (!isnan(*offset) && *offset != 0 && (!is_full || is_fixed))
         cz_rule_warning(rules, offset, "no effect: %s",
-                        is_fixed ? "a fixed vehicle is met as an upright plane"
+                        is_fixed ? "a fixed vehicle is an upright plane"
                                  : "neither vehicle there is of model: full");
 }
 
@@ -302,7 +302,7 @@ static void check_roles(const CzRules *rules, const CzTrain *const pair[2]) {
         any_judged |= pair[i]->role != CZ_ROLE_OBSTACLE && !has(pair[i], CZ_MODEL_FIXED);
     if (!any_judged)
         cz_rule_broken(rules, pair[0]->role == CZ_ROLE_OBSTACLE ? &pair[0]->role : &pair[1]->role,
-                       "nothing would be judged: neither '%.48s' nor '%.48s' is a train, by role "
+                       "no vehicle would be judged: neither '%.48s' nor '%.48s' is a train, by role "
                        "or because it is fixed",
                        name_of(pair[0]->name), name_of(pair[1]->name));
 }

@@ -44,7 +44,7 @@ static void warn(CzMistakes *warnings, const CzPlace *place, const Usual *range,
                cz_number_print_short(lo, range->lo * scale),
                with_unit(hi, range->hi * scale, place->unit->suffix));
     cz_mistake_help(warnings,
-                    "it is computed with as written; 'crushzone help keys' has the usual values");
+                    "the value is used as written; 'crushzone help keys' lists the usual ranges");
 }
 
 void cz_usual_write(FILE *stream, const CzKey *key) {

@@ -96,8 +96,8 @@ static const char *variation_text(CzVariation variation) {
 void cz_keys_write_help(FILE *stream) {
     char spelled[200];
     fputs("Keys of a problem file. Every number with a dimension carries its unit in the key.\n"
-          "Any record may also `use: PART`, with keys of its own laid over the part's.\n"
-          "A number outside of what is usual is computed with as written; a warning asks for its\n"
+          "Any record may also `use: PART`, with keys of its own that override the part's.\n"
+          "A number outside its usual range is used as written; a warning asks for its\n"
           "unit, which -q leaves out.\n",
           stream);
     for (int r = 0; r < CZ_N_RECORD; r++) {
@@ -147,14 +147,14 @@ static void write_reuse(FILE *stream) {
         "A record that has `use` takes all keys of the part; keys beside `use` override, inner "
         "records key by key, lists as a whole.\n"
         "An inner record with a `use` of its own replaces the part's, and so does a curve.\n"
-        "`key: null` lets go what the part or the base file has.\n"
+        "`key: null` removes the key of the part or the base file.\n"
         "A value in another unit overrides the same stem.\n"
-        "A part is checked where it is used: what stands in a part that nothing uses is not read, "
+        "A part is checked where it is used: the contents of an unused part are not read, "
         "mistakes included.\n"
         "\n"
         "A path names places: keys and names parted by points, `[0]` for an item of a list, `[*]` "
         "or `*` for every item.\n"
-        "A setting means what typing the value at that place would mean: through `parts.NAME` it "
+        "A setting acts like the value typed at that place: through `parts.NAME` it "
         "changes every vehicle that uses the part and does not override the key; through a vehicle "
         "it changes this vehicle and those that repeat or copy it.\n",
         stream);
@@ -169,11 +169,11 @@ void cz_keys_write_reference(FILE *stream) {
         "A problem file is YAML, or JSON, which is nearly a subset of it.\n"
         "Every number with a dimension carries its unit in its key, such as `force_kN`; ranges and "
         "defaults below are in SI units.\n"
-        "A number outside of what is usual is computed with as written, but a warning asks whether "
-        "it is in the right unit; `-q` leaves warnings out. The usual ranges are ours, from a "
+        "A number outside its usual range is used as written, with a warning that asks for the "
+        "unit; `-q` leaves warnings out. The usual ranges are ours, from a "
         "light "
         "rail car to a loaded heavy wagon, and change no result.\n"
-        "Anchors, aliases, tags and merge keys are refused; what is written once is used again by "
+        "Anchors, aliases, tags and merge keys are refused; parts are reused by "
         "the keys under Reuse.\n",
         stream);
     for (int r = CZ_N_RECORD - 1; r >= 0; r--) {

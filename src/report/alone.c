@@ -64,7 +64,7 @@ static CzStatus find_place(const CzPage *page, CzChart chart, const char *at, in
     const int n =
         of_several && page->n_sample > 1 ? page->summary->n_interface : cz_chart_count(page, chart);
     if (n == 0)
-        return cz_fail(error, CZ_STATUS_INPUT, "this run has nothing to show as '%s'",
+        return cz_fail(error, CZ_STATUS_INPUT, "this run has no data for the figure '%s'",
                        cz_chart_name(chart));
     *index = 0;
     if (!of_interface && chart != CZ_CHART_CAR_ACCELERATION)

@@ -141,7 +141,7 @@ static CzStatus read_columns(Reading *reading) {
         return read_named(reading, "2");
     if (reading->n_title < 2)
         return cz_fail(reading->error, CZ_STATUS_INPUT,
-                       "%.200s: times stand in the first column, but there is no second one",
+                       "%.200s: times are in the first column, but there is no second one",
                        reading->options->measured);
     for (int i = 1; i < reading->n_title; i++) {
         char number[16];

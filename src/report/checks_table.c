@@ -306,7 +306,7 @@ static void write_not_covered(const CzEvaluation *evaluation, bool colour, FILE 
 bool cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
                            FILE *stream) {
     if (evaluation->n_check == 0) {
-        fputs("No checks: NOTHING WAS JUDGED. Add `checks:` to the problem file.\n", stream);
+        fputs("NO CHECKS. Add `checks:` to the problem file.\n", stream);
         write_not_covered(evaluation, colour, stream);
         return true;
     }

@@ -176,30 +176,30 @@ const void *cz_value_outcome_verification(CzResultContext *context, const void *
     const double *change = made != NULL ? made->largest_change : NULL;
     context->verification = made;
     context->optimum = (CzOptimumVerification){
-        .half_step = made != NULL ? change[CZ_WAY_HALF_STEP] : NAN,
-        .reference = made != NULL ? change[CZ_WAY_ERK] : NAN,
-        .full_track = made != NULL ? change[CZ_WAY_TRACK] : NAN,
+        .half_step = made != NULL ? change[CZ_METHOD_HALF_STEP] : NAN,
+        .reference = made != NULL ? change[CZ_METHOD_ERK] : NAN,
+        .full_track = made != NULL ? change[CZ_METHOD_TRACK] : NAN,
         .verdict = cz_verdict_text(made != NULL ? made->verdict : CZ_VERDICT_NOT_CHECKED),
         .failure = made != NULL ? or_null(made->failure) : NULL};
     return &context->optimum;
 }
 
-const void *cz_value_verified_way(CzResultContext *context, const void *record, int index,
-                                  const char **name) {
+const void *cz_value_verified_method(CzResultContext *context, const void *record, int index,
+                                     const char **name) {
     const CzVerification *verification = context->verification;
     (void)record;
-    if (verification == NULL || index >= CZ_N_VERIFY_WAY)
+    if (verification == NULL || index >= CZ_N_VERIFY_METHOD)
         return NULL;
     const int worst = verification->worst[index];
     const CzVerifiedValue *value = worst >= 0 ? &verification->value[worst] : NULL;
-    *name = cz_verify_way_key((CzVerifyWay)index);
-    context->way = (CzWayRow){.is_done = verification->is_done[index],
-                              .largest_change = verification->largest_change[index],
-                              .of = value != NULL ? value->name : NULL,
-                              .where = value != NULL ? or_null(value->where) : NULL,
-                              .scenario = value != NULL ? or_null(value->scenario) : NULL,
-                              .n_flip = verification->n_flip[index]};
-    return &context->way;
+    *name = cz_verify_method_key((CzVerifyMethod)index);
+    context->method = (CzMethodRow){.is_done = verification->is_done[index],
+                                    .largest_change = verification->largest_change[index],
+                                    .of = value != NULL ? value->name : NULL,
+                                    .where = value != NULL ? or_null(value->where) : NULL,
+                                    .scenario = value != NULL ? or_null(value->scenario) : NULL,
+                                    .n_flip = verification->n_flip[index]};
+    return &context->method;
 }
 
 const char *cz_value_verification_status(CzResultContext *context, const void *record) {
@@ -218,12 +218,12 @@ const void *cz_value_verified_value(CzResultContext *context, const void *record
     return index < verification->n_value ? &verification->value[index] : NULL;
 }
 
-const void *cz_value_value_by_way(CzResultContext *context, const void *record, int index,
-                                  const char **name) {
+const void *cz_value_value_by_method(CzResultContext *context, const void *record, int index,
+                                     const char **name) {
     const CzVerifiedValue *value = record;
-    if (index >= CZ_N_VERIFY_WAY)
+    if (index >= CZ_N_VERIFY_METHOD)
         return NULL;
-    *name = cz_verify_way_key((CzVerifyWay)index);
+    *name = cz_verify_method_key((CzVerifyMethod)index);
     context->change = (CzChangeRow){value->value[index], value->change[index], value->flips[index]};
     return &context->change;
 }

@@ -42,7 +42,7 @@ CzStatus cz_report_write_verification(const CzProblem *problem, const CzVerifica
                                .problem = problem,
                                .options = options != NULL ? options : &absent,
                                .verification = verification};
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
+    for (int way = 0; way < CZ_N_VERIFY_METHOD; way++)
         context.wall_s += verification->wall_s[way];
     return cz_results_write(CZ_RECORD_VERIFICATION, &context, verification, stream, error);
 }

@@ -29,17 +29,17 @@ static void write_head(const CzExplanation *explanation, bool colour, FILE *stre
     cz_text_write(explanation->scenario, CZ_STYLE_PLAIN, colour, stream);
     fputs(": ", stream);
     if (explanation->climbed) {
-        cz_text_write("IT CLIMBED", CZ_STYLE_BAD, colour, stream);
-        fprintf(stream, " at %s ms; what comes after is beyond the model.\n",
+        cz_text_write("OVERRIDE", CZ_STYLE_BAD, colour, stream);
+        fprintf(stream, " at %s ms; later results are beyond the model.\n",
                 cz_figure_fixed(time, 0, explanation->climb_time * CZ_MILLI_PER_UNIT));
     } else if (broken) {
-        cz_text_write("it nearly climbed: a limit is broken", CZ_STYLE_BAD, colour, stream);
+        cz_text_write("close to override: a limit is violated", CZ_STYLE_BAD, colour, stream);
         fputs(".\n", stream);
     } else if (explanation->verdict == CZ_VERDICT_NOT_CHECKED) {
         cz_text_write("NOT CHECKED in full", CZ_STYLE_CAREFUL, colour, stream);
-        fprintf(stream, ": %s.\n", worst->why != NULL ? worst->why : "a margin is not known");
+        fprintf(stream, ": %s.\n", worst->why != NULL ? worst->why : "a margin is unknown");
     } else {
-        cz_text_write("it holds", CZ_STYLE_GOOD, colour, stream);
+        cz_text_write("no override", CZ_STYLE_GOOD, colour, stream);
         fputs(".\n", stream);
     }
     cz_checks_format_value(worst, sizeof value, value);
@@ -82,7 +82,7 @@ static bool write_budget(const CzExplanation *explanation, bool colour, FILE *st
     char text[CZ_FIGURE_ROOM];
     if (n == 0)
         return true;
-    fprintf(stream, "\nWhat turned the body of %s until its largest %s at %s ms, nose-up:\n",
+    fprintf(stream, "\nPitch impulses on the body of %s until its largest %s at %s ms, nose-up:\n",
             run->vehicle[explanation->vehicle].name, budget->of_lift ? "wheel lift" : "pitch",
             cz_figure_fixed(text, 0, budget->time * CZ_MILLI_PER_UNIT));
     CzReportTable table;
@@ -118,10 +118,10 @@ static bool write_levers(const CzExplanation *explanation, bool turning, bool co
                          FILE *stream) {
     const bool broken = explanation->worst.margin < 0;
     static const char *const titles[2][2] = {
-        {"No change of one of these alone breaks the margin; the worst of those tried:",
-         "The smallest change of one value alone that breaks the margin:"},
-        {"No change of one of these alone restores the margin; the best of those tried:",
-         "The smallest change of one value alone that restores the margin:"}};
+        {"No single change of these values violates the limit; the worst of those tried:",
+         "Smallest single change that violates the limit:"},
+        {"No single change of these values satisfies the limit; the best of those tried:",
+         "Smallest single change that satisfies the limit:"}};
     static const char *const heads[] = {"cause", "value", ">now", ">then", ">change", ">margin"};
     CzReportTable table;
     int n = 0;
@@ -149,7 +149,7 @@ CzStatus cz_report_write_explanation_table(const CzExplanation *explanation, boo
     is_whole &= write_levers(explanation, false, colour, stream);
     if (explanation->has_cause)
         fprintf(stream, "\n%s: %s: %s.\n",
-                explanation->worst.margin < 0 ? "First cause" : "First to give way",
+                explanation->worst.margin < 0 ? "First cause" : "First to fail",
                 cz_cause_text(explanation->cause), cz_cause_doc(explanation->cause));
     return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
 }

@@ -77,7 +77,7 @@ static CzStatus clean_path(const char *path, char clean[PATH_MAX], CzError *erro
         return cz_fail(error, CZ_STATUS_OUTPUT, "the name of the result folder is %s",
                        n == 0 ? "empty" : "too long");
     if (cz_text_fault(path, n, false, &at, what))
-        return cz_fail(error, CZ_STATUS_OUTPUT, "the name of the result folder holds %s", what);
+        return cz_fail(error, CZ_STATUS_OUTPUT, "the name of the result folder contains %s", what);
     snprintf(clean, PATH_MAX, "%.*s", (int)n, path);
     const char *slash = strrchr(clean, '/'), *name = slash != NULL ? slash + 1 : clean;
     if (name[0] == '\0' || strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
@@ -113,7 +113,7 @@ static CzStatus check_content(const char *path, bool replaces_search, CzError *e
     char *marker = cz_marker_read(path);
     if (marker == NULL)
         return cz_fail(error, CZ_STATUS_OUTPUT,
-                       "the folder %.200s is there already and crushzone did not write it; choose "
+                       "the folder %.200s exists and was not written by crushzone; choose "
                        "another one with -o",
                        path);
     const bool has_foreign = find_foreign(path, marker, "", foreign);
@@ -121,14 +121,15 @@ static CzStatus check_content(const char *path, bool replaces_search, CzError *e
     free(marker);
     if (has_foreign)
         return cz_fail(error, CZ_STATUS_OUTPUT,
-                       "the folder %.150s holds %.150s, which crushzone did not write; move it "
+                       "the folder %.150s contains %.150s, which crushzone did not write; move it "
                        "away or choose another folder with -o",
                        path, foreign);
     if (is_search && !replaces_search)
-        return cz_fail(error, CZ_STATUS_OUTPUT,
-                       "the folder %.150s holds the result of a search, which took long to find; "
-                       "choose another folder with -o, or replace it with --force",
-                       path);
+        return cz_fail(
+            error, CZ_STATUS_OUTPUT,
+            "the folder %.150s contains the result of a search, which took long to compute; "
+            "choose another folder with -o, or replace it with --force",
+            path);
     return CZ_OK;
 }
 
@@ -137,10 +138,9 @@ static CzStatus check_content(const char *path, bool replaces_search, CzError *e
  * one that is empty is made anew. */
 static CzStatus check_movable(const char *path, const struct stat *info, CzError *error) {
     if (cz_folder_holds(path, "."))
-        return cz_fail(error, CZ_STATUS_OUTPUT,
-                       "the result folder %.200s cannot be replaced: it holds the folder that "
-                       "crushzone was started in",
-                       path);
+        return cz_fail(
+            error, CZ_STATUS_OUTPUT,
+            "the result folder %.200s cannot be replaced: it contains the current folder", path);
     if (rmdir(path) == 0)
         return mkdir(path, info->st_mode & 07777) == 0 ? CZ_OK
                                                        : cz_cannot_write(path, errno, error);
@@ -163,8 +163,7 @@ static CzStatus check_target(const char *path, bool replaces_search, CzError *er
                        path);
     if (!S_ISDIR(info.st_mode))
         return cz_fail(error, CZ_STATUS_OUTPUT,
-                       "%.200s is there already and is no folder; choose another one with -o",
-                       path);
+                       "%.200s exists and is no folder; choose another one with -o", path);
     if (!is_empty_folder(path))
         CZ_TRY(check_content(path, replaces_search, error));
     return check_movable(path, &info, error);
@@ -184,9 +183,9 @@ static CzStatus check_parents(const char *path, CzError *error) {
     cz_parent_of(path, parent);
     while (stat(parent, &info) != 0 && errno == ENOENT && strcmp(parent, ".") != 0) {
         if (steps_up(parent)) /* once made, it would lead to what nobody has looked at */
-            return cz_fail(error, CZ_STATUS_OUTPUT,
-                           "%.200s cannot be written: '..' leads out of a folder that is not there",
-                           path);
+            return cz_fail(
+                error, CZ_STATUS_OUTPUT,
+                "%.200s cannot be written: '..' leads out of a folder that does not exist", path);
         cz_parent_of(parent, above);
         memcpy(parent, above, sizeof parent);
     }

@@ -108,7 +108,7 @@ void cz_inputs_text_write(const CzInputsText *inputs, CzMarkup *markup) {
         char name[64], first[64], text[192];
         name_of(inputs->line[i], name);
         name_of(inputs->line[same], first);
-        snprintf(text, sizeof text, "      - name: %s   (all else as %s)", name, first);
+        snprintf(text, sizeof text, "      - name: %s   (otherwise as %s)", name, first);
         write_line(inputs, text, markup);
         i = end_of_car(inputs, i);
     }

@@ -37,7 +37,7 @@ static void write_objective(const CzEvaluator *evaluator, const CzOutcome *outco
 
 const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome) {
     static const char *const words[] = {[CZ_OUTCOME_FEASIBLE] = "FEASIBLE",
-                                        [CZ_OUTCOME_INFEASIBLE] = "NOTHING FEASIBLE FOUND",
+                                        [CZ_OUTCOME_INFEASIBLE] = "NO FEASIBLE DESIGN FOUND",
                                         [CZ_OUTCOME_INTERRUPTED] = "INTERRUPTED"};
     static const char *const of_fit[] = {[CZ_OUTCOME_FEASIBLE] = "WITHIN EVERY TOLERANCE",
                                          [CZ_OUTCOME_INFEASIBLE] = "NOT WITHIN EVERY TOLERANCE",
@@ -179,7 +179,7 @@ static bool write_alternatives(const CzEvaluator *evaluator, const CzOutcome *ou
         return true;
     }
     CzReportTable table;
-    cz_table_begin(&table, 2, (const char *const[]){"sets that fit too", ">best"});
+    cz_table_begin(&table, 2, (const char *const[]){"further sets", ">best"});
     for (int i = 0; i < n_set; i++) {
         snprintf(text, sizeof text, ">set %d", i + 2);
         cz_table_head(&table, text);
@@ -246,34 +246,35 @@ static double tenths_above(double change) {
     return 0.1 * ceil(1e3 * change);
 }
 
-/* The number that changes more than is allowed. */
-static void write_worst(const CzVerification *verification, CzVerifyWay way, FILE *stream) {
+/* The number with the largest change, when this exceeds the limit. */
+static void write_worst(const CzVerification *verification, CzVerifyMethod method, FILE *stream) {
     char text[CZ_FIGURE_ROOM];
-    if (!verification->is_done[way] || verification->largest_change[way] <= verification->limit)
+    if (!verification->is_done[method] ||
+        verification->largest_change[method] <= verification->limit)
         return;
-    const CzVerifiedValue *value = &verification->value[verification->worst[way]];
+    const CzVerifiedValue *value = &verification->value[verification->worst[method]];
     const char *scenario = value->scenario[0] != '\0' ? value->scenario : "design";
-    fprintf(stream, "%s changes most: %s%s%s, %s, by %s\n", cz_verify_way_text(way), value->name,
-            value->where[0] != '\0' ? " at " : "", value->where, scenario,
-            cz_figure_percent(text, value->change[way]));
+    fprintf(stream, "Largest change with %s: %s%s%s, %s, %s\n", cz_verify_method_text(method),
+            value->name, value->where[0] != '\0' ? " at " : "", value->where, scenario,
+            cz_figure_percent(text, value->change[method]));
 }
 
-/* What independent means say of the optimum. */
+/* Verification of the optimum. */
 static void write_verification(const CzVerification *verification, bool colour, FILE *stream) {
     char text[CZ_FIGURE_ROOM];
     if (verification == NULL)
         return;
     const bool passes = verification->verdict == CZ_VERDICT_PASS;
-    fputs("\nComputed again: ", stream);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        if (verification->is_done[way])
-            fprintf(stream, "%s changes %s %% at most, ", cz_verify_way_text((CzVerifyWay)way),
-                    cz_figure_fixed(text, 1, tenths_above(verification->largest_change[way])));
+    fputs("\nLargest changes: ", stream);
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
+        if (verification->is_done[method])
+            fprintf(stream, "%s %s %%, ", cz_verify_method_text((CzVerifyMethod)method),
+                    cz_figure_fixed(text, 1, tenths_above(verification->largest_change[method])));
     fputs("verification ", stream);
     cz_text_write(passes ? "pass" : "FAIL", passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, colour, stream);
     fprintf(stream, "%s%s\n", verification->failure[0] != '\0' ? ": " : "", verification->failure);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        write_worst(verification, (CzVerifyWay)way, stream);
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
+        write_worst(verification, (CzVerifyMethod)method, stream);
 }
 
 CzStatus cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,

@@ -15,7 +15,8 @@ void cz_outcome_begin_constraints(CzReportTable *table, const char *name, const 
 void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluator,
                                const CzEvaluation *best, int i, double left);
 
-/* What each way of a verification changes most. */
-void cz_verified_begin_ways(CzReportTable *table, const CzVerification *verification, bool on_page);
+/* What each method of a verification changes most. */
+void cz_verified_begin_methods(CzReportTable *table, const CzVerification *verification,
+                               bool on_page);
 
 #endif

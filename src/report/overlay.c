@@ -252,8 +252,8 @@ CzStatus cz_report_write_overlay(const CzProblem *problem, const CzEvaluator *ev
         options = &absent;
     fprintf(stream, "# The best design of %ld evaluation%s: %s. Verdict of its checks: %s.\n",
             outcome->n_evaluation, outcome->n_evaluation == 1 ? "" : "s",
-            outcome->best_evaluation.violation <= 0 ? "it keeps every constraint"
-                                                    : "IT BREAKS A CONSTRAINT",
+            outcome->best_evaluation.violation <= 0 ? "it satisfies every constraint"
+                                                    : "IT VIOLATES A CONSTRAINT",
             cz_verdict_text(outcome->best_evaluation.verdict));
     if (options->text == NULL && realpath(cz_problem_file(problem), file) != NULL &&
         resolve_folder(folder, from)) {

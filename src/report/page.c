@@ -72,15 +72,15 @@ void cz_page_write_contents(CzPage *page, bool of_search) {
         int where; /* what has to be there */
     } parts[] = {{"checks", "checks", ALWAYS},
                  {"variables", "variables", OF_SEARCH},
-                 {"active", "what holds it", OF_SEARCH},
-                 {"verification", "computed again", OF_SEARCH},
+                 {"active", "active constraints", OF_SEARCH},
+                 {"verification", "verification", OF_SEARCH},
                  {"values", "new values", OF_SEARCH},
                  {"trains", "trains", ALWAYS},
                  {"loops", "force over closure", OF_FIGURES},
                  {"energy", "energy", OF_FIGURES},
                  {"motion", "speed and acceleration", OF_FIGURES},
                  {"vertical", "wheels and pitch", OF_FIGURES | OF_FULL_CARS},
-                 {"budget", "what turned the cars", OF_FULL_CARS | OF_BUDGET},
+                 {"budget", "pitch: moments and impulses", OF_FULL_CARS | OF_BUDGET},
                  {"animation", "animation", OF_FIGURES},
                  {"events", "events", ALWAYS},
                  {"inputs", "inputs", ALWAYS}};

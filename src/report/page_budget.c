@@ -43,7 +43,7 @@ static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *
                 cz_budget_counts(source) ? "" : "through the end mass");
     }
     put_row(&table, "the body then", budget->spin, budget->rise, most,
-            "its momenta: the sum of all that acts on it directly");
+            "its momenta: sum of all direct contributions");
     cz_table_write_page(&table, markup);
 }
 
@@ -74,12 +74,11 @@ void cz_page_write_budget(CzPage *page) {
     const int worst = run->budget != NULL ? worst_car(run) : -1;
     if (worst < 0)
         return;
-    cz_page_open_section(markup, "budget", "What turned the cars");
+    cz_page_open_section(markup, "budget", "Pitch: moments and impulses");
     cz_markup_element(markup, "p",
-                      "Impulses about the centre of gravity of a body, by where they came from, "
-                      "from the first contact until its wheels lifted most, or it pitched most "
-                      "where none lifted by 0.1 mm. Nose-up is positive for a car that looks along "
-                      "the track.");
+                      "Impulses about the centre of gravity of a body by source, from the first "
+                      "contact to its largest wheel lift, or to its largest pitch "
+                      "where the lift is below 0.1 mm. Nose-up is positive for a car facing +x.");
     write_car(markup, run->vehicle[worst].name, &run->budget[worst]);
     cz_markup_open(markup, "details");
     cz_markup_element(markup, "summary", "The other cars");

@@ -43,7 +43,7 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
     if (before != NULL && before->n_check != evaluation->n_check)
         before = NULL;
     if (evaluation->n_check == 0) {
-        cz_markup_element(markup, "p", "No checks: nothing was judged.");
+        cz_markup_element(markup, "p", "No checks: no check was made.");
         write_not_covered(markup, evaluation);
         return;
     }
@@ -146,30 +146,29 @@ static void write_caution(CzPage *page) {
         cz_markup_classed(markup, "p", "fail", text);
     } else if (run->ended == CZ_ENDED_INCOMPLETE) {
         cz_markup_classed(markup, "p", "fail",
-                          "This run is incomplete: the collision was not over within "
-                          "simulation.longest_s, so nothing can be judged by it.");
+                          "This run is incomplete: the end criterion was not met within "
+                          "simulation.longest_s, so it gives no result.");
     }
     if (run->beyond_validity) {
         snprintf(text, sizeof text,
-                 "Override at %s ms: what the figures show from there on, shaded, is beyond the "
+                 "Override at %s ms: later results, shaded in the figures, are beyond the "
                  "model (" CZ_FIGURE_MARK_MEANS ").",
                  cz_figure_fixed(number, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
         cz_markup_classed(markup, "p", "fail", text);
     }
     snprintf(text, sizeof text,
-             "%s s simulated, ended %s, time step %s ms. Energy is balanced to %s of the initial "
+             "%s s simulated, %s, time step %s ms. Energy is balanced to %s of the initial "
              "energy%s.",
              cz_figure_digits(number, 4, run->simulated), cz_ended_text(run->ended),
              cz_figure_digits((char[CZ_FIGURE_ROOM]){0}, 4, run->time_step * CZ_MILLI_PER_UNIT),
              cz_figure_percent(balance, run->energy.balance_error),
-             cz_run_is_unbalanced(run) ? ", WHICH IS POOR: take a smaller time step" : "");
+             cz_run_is_unbalanced(run) ? ", WHICH IS POOR: reduce the time step" : "");
     cz_markup_element(markup, "p", text);
     if (cz_run_misses_laws(run)) {
-        snprintf(
-            text, sizeof text,
-            "Forces in series are off the laws of their elements by %s of the largest force of "
-            "the interface, WHICH IS POOR: take a smaller time step.",
-            cz_figure_percent(balance, run->law_error));
+        snprintf(text, sizeof text,
+                 "The largest force error of a series chain is %s of the largest force of "
+                 "the interface, WHICH IS POOR: reduce the time step.",
+                 cz_figure_percent(balance, run->law_error));
         cz_markup_element(markup, "p", text);
     }
     cz_markup_line(markup);

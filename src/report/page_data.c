@@ -227,8 +227,7 @@ static void write_rows(CzPage *page, const Rows *rows) {
     CzMarkup *markup = &page->markup;
     char until[CZ_FIGURE_ROOM], every[CZ_FIGURE_ROOM], text[400];
     if (rows->n_first == rows->n) {
-        snprintf(text, sizeof text,
-                 "Cursor and animation stand at every one of the %d rows of channels.csv.",
+        snprintf(text, sizeof text, "Cursor and animation cover all %d rows of channels.csv.",
                  rows->n);
     } else {
         char first[96] = "";
@@ -237,7 +236,7 @@ static void write_rows(CzPage *page, const Rows *rows) {
                      cz_figure_plain(until, page->time[rows->n_first - 1]));
         snprintf(
             text, sizeof text,
-            "Cursor and animation stand at %severy event, every extreme of a force or an "
+            "Cursor and animation cover %severy event, every extreme of a force or an "
             "acceleration, and at least every %s ms: with all %d rows this page would be "
             "larger than 1 MB.",
             first,

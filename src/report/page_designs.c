@@ -129,7 +129,7 @@ static void write_figure(CzMarkup *markup, const Axes *axes, double start, doubl
                 width, TOP + HEIGHT + 42);
     cz_markup_attribute(markup, "class", "designs");
     cz_markup_number(markup, "width", 0, width);
-    write_designs(markup, axes, false, "designs that break a constraint");
+    write_designs(markup, axes, false, "designs that violate a constraint");
     write_designs(markup, axes, true, "feasible designs");
     for (int axis = 0; axis < axes->n; axis++)
         write_axis(markup, axes, axis);
@@ -189,7 +189,7 @@ CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
     cz_page_open_section(markup, "designs", "All designs");
     cz_markup_element(markup, "p",
                       "A line is a design: where it crosses an axis is its value between the "
-                      "bounds. Grey breaks a constraint, blue is feasible, orange dashes are the "
+                      "bounds. Grey violates a constraint, blue is feasible, orange dashes are the "
                       "start, green is the best. Objectives far below the start lie at the end of "
                       "their axis.");
     cz_markup_open(markup, "div");

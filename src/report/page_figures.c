@@ -99,7 +99,7 @@ void cz_page_write_figures(CzPage *page) {
         return;
     write_section(
         page, "loops", "Force over closure",
-        "Closure is how much nearer the two car bodies are than at rest. The curve behind is what "
+        "Closure is the shortening between the two car bodies. The grey curve is what "
         "the input says when the interface is closed slowly: without rate, inertia and friction.",
         1, loops);
     write_section(page, "energy", "Energy", NULL, 4, energy);

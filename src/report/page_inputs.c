@@ -84,7 +84,7 @@ static void write_command(CzPage *page) {
         snprintf(text + strlen(text), sizeof text - strlen(text), " --set");
         quote(text, sizeof text, options->set[i]);
     }
-    cz_markup_element(&page->markup, "h3", "The same again");
+    cz_markup_element(&page->markup, "h3", "Reproduction");
     cz_markup_element(&page->markup, "pre", text);
     cz_markup_element(&page->markup, "p",
                       options->command != NULL
@@ -108,15 +108,14 @@ static void write_versions(CzPage *page) {
 
 static void write_assumptions(CzPage *page) {
     static const char *const assumptions[] = {
-        "The trains move along the track, up and down, and pitch; there is no lateral motion.",
+        "Motion is longitudinal, vertical and pitch; there is no lateral motion.",
         "Car bodies are rigid between their crush zones; their bending and the strength beyond "
         "the crush zones are not computed.",
-        "Absorbers are the curves that were given; beyond the last point they are stiff, which is "
-        "told as bottoming out.",
-        "Climbing is judged until engagement is lost or a wheel is above its flange; what follows "
-        "is beyond the model.",
-        "A check that passes is no certificate, and PROVISIONAL marks a limit that nobody has "
-        "confirmed."};
+        "Absorbers follow the given curves; beyond the last point they are stiff, which is "
+        "reported as bottoming out.",
+        "Override is judged until engagement is lost or a wheel is above its flange; later results "
+        "are beyond the validity of the model.",
+        "A pass is no certificate; PROVISIONAL marks a limit that is not confirmed."};
     CzMarkup *markup = &page->markup;
     cz_markup_element(markup, "h3", "Assumptions");
     const CzWord *track =
@@ -140,7 +139,7 @@ static void write_assumptions(CzPage *page) {
 
 static void write_sources(CzPage *page) {
     CzMarkup *markup = &page->markup;
-    cz_markup_element(markup, "h3", "Inputs as they were written");
+    cz_markup_element(markup, "h3", "Inputs as written");
     for (const CzSource *source = cz_problem_first_source(page->problem); source != NULL;
          source = source->next) {
         char left_out[96];
@@ -162,14 +161,14 @@ static void write_sources(CzPage *page) {
 
 void cz_page_write_inputs(CzPage *page) {
     CzMarkup *markup = &page->markup;
-    cz_page_open_section(markup, "inputs", "Inputs and how to get this again");
+    cz_page_open_section(markup, "inputs", "Inputs and reproduction");
     write_command(page);
     write_versions(page);
     write_assumptions(page);
-    cz_markup_element(markup, "h3", "Defaults that were taken");
+    cz_markup_element(markup, "h3", "Defaults used");
     cz_inputs_text_write_defaults(&page->inputs, markup);
     write_sources(page);
-    cz_markup_element(markup, "h3", "The whole problem in SI, with the origin of each value");
+    cz_markup_element(markup, "h3", "Complete problem in SI units, with the origin of each value");
     cz_markup_open(markup, "details");
     cz_markup_element(markup, "summary", "resolved problem; of equal cars only the first");
     cz_markup_open(markup, "pre");

@@ -66,7 +66,7 @@ static void write_variables(CzMarkup *markup, const CzEvaluator *evaluator,
                             const CzOutcome *outcome) {
     CzReportTable table;
     cz_page_open_section(markup, "variables", "Variables");
-    cz_markup_element(markup, "p", "Between the bounds: a ring is the start, a dot the best.");
+    cz_markup_element(markup, "p", "Between the bounds: ring: start, dot: best design.");
     cz_outcome_begin_variables(&table, evaluator, outcome, true);
     cz_table_write_page(&table, markup);
     cz_page_close_section(markup);
@@ -189,9 +189,9 @@ int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const in
 static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const CzOutcome *outcome) {
     const CzEvaluation *best = &outcome->best_evaluation;
     CzReportTable table;
-    cz_page_open_section(markup, "active", "What holds the best design");
-    cz_markup_element(markup, "p", "The constraints with least left; below 0 is violated.");
-    cz_outcome_begin_constraints(&table, "constraint", ">left");
+    cz_page_open_section(markup, "active", "Active constraints of the best design");
+    cz_markup_element(markup, "p", "The most critical constraints; a negative margin is violated.");
+    cz_outcome_begin_constraints(&table, "constraint", ">margin");
     int told[MOST_CONSTRAINTS];
     for (int n = 0; n < MOST_CONSTRAINTS; n++) {
         told[n] = cz_page_next_constraint(best, n, told);
@@ -227,26 +227,26 @@ static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
     return fits ? CZ_OK : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
 }
 
-/* ---- the same by other means ---- */
+/* ---- verification ---- */
 
 static void write_verification(CzMarkup *markup, const CzVerification *verification) {
     char text[512], limit[CZ_FIGURE_ROOM];
-    cz_page_open_section(markup, "verification", "The best design computed again");
+    cz_page_open_section(markup, "verification", "Verification of the best design");
     if (verification == NULL) {
         cz_markup_element(markup, "p",
-                          "Not done: the best design breaks a constraint, or the "
-                          "search was not asked to.");
+                          "Not done: the best design violates a constraint, or "
+                          "verification was switched off.");
         cz_page_close_section(markup);
         return;
     }
     const bool passes = verification->verdict == CZ_VERDICT_PASS;
     snprintf(text, sizeof text,
-             "%s: no number may change by more than %s, and no verdict may flip.%s%s",
+             "%s: no result may change by more than %s, and no verdict may change.%s%s",
              passes ? "Passed" : "NOT passed", cz_figure_percent(limit, verification->limit),
              verification->failure[0] != '\0' ? " " : "", verification->failure);
     cz_markup_classed(markup, "p", passes ? "pass" : "fail", text);
     CzReportTable table;
-    cz_verified_begin_ways(&table, verification, true);
+    cz_verified_begin_methods(&table, verification, true);
     cz_table_write_page(&table, markup);
     cz_page_close_section(markup);
 }
@@ -273,7 +273,7 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     CZ_TRY(write_values(markup, evaluator, outcome, error));
     snprintf(title, sizeof title, "What follows is scenario %s of the best design%s",
              page->summary->scenario,
-             page->n_other > 0 ? "; force over closure and energy have the design before beside it."
+             page->n_other > 0 ? "; force over closure and energy also show the design before."
                                : ".");
     cz_markup_element(markup, "h2", "The best design");
     cz_markup_element(markup, "p", title);

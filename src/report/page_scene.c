@@ -101,7 +101,7 @@ static void write_controls(CzPage *page) {
     cz_markup_close(markup);
     cz_markup_open(markup, "label");
     cz_markup_text(markup, "look at ");
-    write_control(markup, "select", "focus", "interface in the middle");
+    write_control(markup, "select", "focus", "centred interface");
     for (int i = 0; i < page->summary->n_interface; i++) {
         cz_markup_open(markup, "option");
         cz_markup_attribute(markup, "value", page->summary->interface[i].name);

@@ -116,7 +116,7 @@ static CzStatus write_log(const Results *results, FILE *stream, CzError *error) 
         const CzRunSummary *run = cz_kept_run(evaluation, i);
         if (run == NULL)
             continue;
-        fprintf(stream, "scenario %s: %s, %ld steps, ended %s%s%s\n", run->scenario,
+        fprintf(stream, "scenario %s: %s, %ld steps, %s%s%s\n", run->scenario,
                 run->status == CZ_OK ? "completed" : "FAILED", run->n_step,
                 cz_ended_text(run->ended), run->failure[0] != '\0' ? ": " : "", run->failure);
     }

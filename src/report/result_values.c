@@ -106,10 +106,10 @@ long cz_value_mistake_column(CzResultContext *context, const void *record) {
 /* What a run is warned of: of two things the n-th that is true; NULL beyond. */
 static const char *warning_of_run(const CzRunSummary *run, int n) {
     if (cz_run_is_unbalanced(run) && n-- == 0)
-        return "the energy balance is off by more than 0.1 %";
+        return "the error of the energy balance is above 0.1 %";
     if (cz_run_misses_laws(run) && n == 0)
-        return "the force of a series chain is more than 0.1 % of the largest force of its "
-               "interface from the law of a member";
+        return "the force error of a series chain is above 0.1 % of the largest force of its "
+               "interface, from the law of a member";
     return NULL;
 }
 
@@ -129,7 +129,7 @@ const void *cz_value_warning(CzResultContext *context, const void *record, int i
             *warning = (CzError){0};
             snprintf(warning->message, sizeof warning->message, "scenario '%s': %s", run->scenario,
                      warning_of_run(run, n));
-            snprintf(warning->help, sizeof warning->help, "take a smaller time step");
+            snprintf(warning->help, sizeof warning->help, "reduce the time step");
             return warning;
         }
     }
@@ -205,7 +205,7 @@ const char *cz_value_integrator_word(CzResultContext *context, const void *recor
 
 const char *cz_value_ended_word(CzResultContext *context, const void *record) {
     (void)context;
-    return cz_ended_text(((const CzRunSummary *)record)->ended);
+    return cz_ended_key(((const CzRunSummary *)record)->ended);
 }
 
 const char *cz_value_track_word(CzResultContext *context, const void *record) {

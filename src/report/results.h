@@ -49,12 +49,12 @@ typedef struct CzOptimumVerification {
     double half_step, reference, full_track;
     const char *verdict, *failure;
 } CzOptimumVerification;
-typedef struct CzWayRow {
+typedef struct CzMethodRow {
     bool is_done;
     double largest_change;
     const char *of, *where, *scenario;
     int n_flip;
-} CzWayRow;
+} CzMethodRow;
 typedef struct CzChangeRow {
     double value, change;
     bool flips;
@@ -107,7 +107,7 @@ typedef struct CzResultContext {
     CzConstraintRow constraint;
     CzSensitivityRow sensitivity;
     CzOptimumVerification optimum;
-    CzWayRow way;
+    CzMethodRow method;
     CzChangeRow change;
     CzSweptMetric swept;
     CzPointMetric point;

@@ -61,22 +61,21 @@ static void write_run_head(const CzProblem *problem, const CzRunSummary *run, bo
     }
     fprintf(stream, "   %s s simulated, ", cz_figure_digits(simulated, 3, run->simulated));
     const bool cut = run->ended == CZ_ENDED_INCOMPLETE;
-    if (!cut)
-        fputs("ended ", stream);
     char end[80];
-    snprintf(end, sizeof end, "INCOMPLETE: not over within simulation.longest_s = %s",
+    snprintf(end, sizeof end, "INCOMPLETE: end criterion not met within simulation.longest_s = %s",
              cz_figure_digits(simulated, 3, cz_problem_input(problem)->simulation.longest));
     cz_text_write(cut ? end : cz_ended_text(run->ended), cut ? CZ_STYLE_BAD : CZ_STYLE_PLAIN,
                   colour, stream);
     fprintf(stream, "   energy balance %s", cz_figure_percent(balance, run->energy.balance_error));
     if (cz_run_is_unbalanced(run)) {
         fputs("   ", stream);
-        cz_text_write("POOR: take a smaller time step", CZ_STYLE_BAD, colour, stream);
+        cz_text_write("POOR: reduce the time step", CZ_STYLE_BAD, colour, stream);
     }
     if (cz_run_misses_laws(run)) {
         char off[CZ_FIGURE_ROOM];
-        fprintf(stream, "   forces off their laws by %s ", cz_figure_percent(off, run->law_error));
-        cz_text_write("POOR: take a smaller time step", CZ_STYLE_BAD, colour, stream);
+        fprintf(stream, "   force error of series chains %s ",
+                cz_figure_percent(off, run->law_error));
+        cz_text_write("POOR: reduce the time step", CZ_STYLE_BAD, colour, stream);
     }
     fputc('\n', stream);
 }

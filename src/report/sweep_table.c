@@ -132,7 +132,7 @@ CzStatus cz_report_write_sweep_table(const CzSweep *sweep, bool colour, FILE *st
     }
     write_worst(sweep, colour, stream);
     if (sweep->is_interrupted) {
-        cz_text_write("INTERRUPTED: not every point was run.", CZ_STYLE_BAD, colour, stream);
+        cz_text_write("INTERRUPTED: points are missing.", CZ_STYLE_BAD, colour, stream);
         fputc('\n', stream);
     }
     return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;

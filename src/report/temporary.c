@@ -185,7 +185,8 @@ static void clear_file(const char *path) {
     close(descriptor);
 }
 
-/* A folder that is whole stays: it holds results that somebody was about to put in their place. */
+/* A folder that is whole stays: it holds results that somebody was about to put in their place.
+ */
 static void clear_folder(const char *path) {
     char marker_path[PATH_MAX];
     if (cz_path_in(marker_path, path, CZ_MARKER_NAME, NULL) != CZ_OK)

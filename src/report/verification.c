@@ -13,9 +13,9 @@ enum { MOST_ROWS = 12 }; /* of the table: the rest changes less and is in the do
 
 static double largest_of(const CzVerifiedValue *value) {
     double largest = 0.0;
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
-        largest = fmax(largest, value->change[way]);
-        largest = value->flips[way] ? INFINITY : largest;
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
+        largest = fmax(largest, value->change[method]);
+        largest = value->flips[method] ? INFINITY : largest;
     }
     return largest;
 }
@@ -36,17 +36,17 @@ static void put_row(CzReportTable *table, const CzVerification *verification,
     cz_table_put(table, value->name, CZ_STYLE_PLAIN);
     cz_table_put(table, value->where, CZ_STYLE_PLAIN);
     cz_table_put(table, value->scenario, CZ_STYLE_PLAIN);
-    cz_figure_plain(text, value->record);
+    cz_figure_plain(text, value->production);
     snprintf(record, sizeof record, "%s%s%s", cz_figure_mark(text, value->beyond_validity),
              unit[0] != '\0' ? " " : "", unit);
     cz_table_put(table, record, CZ_STYLE_PLAIN);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
-        if ((verification->ways & (1u << way)) == 0)
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
+        if ((verification->methods & (1u << method)) == 0)
             continue;
-        const bool bad = value->flips[way] || value->change[way] > verification->limit;
-        cz_table_put(table,
-                     value->flips[way] ? "FLIPS" : cz_figure_change(text, value->change[way]),
-                     bad ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+        const bool bad = value->flips[method] || value->change[method] > verification->limit;
+        cz_table_put(
+            table, value->flips[method] ? "CHANGED" : cz_figure_change(text, value->change[method]),
+            bad ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
     }
 }
 
@@ -58,13 +58,13 @@ static bool write_values(const CzVerification *verification, bool colour, FILE *
     for (size_t i = 0; i < n; i++)
         value[i] = &verification->value[i];
     qsort(value, n, sizeof *value, by_change);
-    static const char *const heads[] = {"changes most", "where", "scenario", ">record"};
+    static const char *const heads[] = {"largest changes", "where", "scenario", ">production"};
     CzReportTable table;
     cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
         char head[64];
-        snprintf(head, sizeof head, ">%s", cz_verify_way_text((CzVerifyWay)way));
-        if ((verification->ways & (1u << way)) != 0)
+        snprintf(head, sizeof head, ">%s", cz_verify_method_text((CzVerifyMethod)method));
+        if ((verification->methods & (1u << method)) != 0)
             cz_table_head(&table, head);
     }
     for (size_t i = 0; i < n && i < MOST_ROWS; i++)
@@ -74,58 +74,58 @@ static bool write_values(const CzVerification *verification, bool colour, FILE *
     return is_whole;
 }
 
-void cz_verified_begin_ways(CzReportTable *table, const CzVerification *verification,
-                            bool on_page) {
-    const char *const heads[] = {on_page ? "computed by" : "by", ">largest change",
-                                 on_page ? "of" : NULL, on_page ? "in" : NULL,
-                                 ">verdicts that flip"};
+void cz_verified_begin_methods(CzReportTable *table, const CzVerification *verification,
+                               bool on_page) {
+    const char *const heads[] = {"method", ">largest change", on_page ? "check" : NULL,
+                                 on_page ? "scenario" : NULL, ">changed verdicts"};
     char text[CZ_FIGURE_ROOM];
     cz_table_begin(table, sizeof heads / sizeof *heads, heads);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
-        if ((verification->ways & (1u << way)) == 0)
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
+        if ((verification->methods & (1u << method)) == 0)
             continue;
-        const double change = verification->largest_change[way];
-        const bool is_done = verification->is_done[way];
-        const bool flips = verification->n_flip[way] > 0;
+        const double change = verification->largest_change[method];
+        const bool is_done = verification->is_done[method];
+        const bool flips = verification->n_flip[method] > 0;
         const bool bad = !is_done || !(change <= verification->limit) || flips;
-        const int worst = is_done ? verification->worst[way] : -1;
+        const int worst = is_done ? verification->worst[method] : -1;
         const CzVerifiedValue *value = worst >= 0 ? &verification->value[worst] : NULL;
-        cz_table_put(table, cz_verify_way_text((CzVerifyWay)way), CZ_STYLE_PLAIN);
+        cz_table_put(table, cz_verify_method_text((CzVerifyMethod)method), CZ_STYLE_PLAIN);
         cz_table_put(table, is_done ? cz_figure_change(text, change) : "not done",
                      bad ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
         cz_table_put(table, value != NULL ? value->name : "", CZ_STYLE_PLAIN);
         cz_table_put(table, value != NULL ? value->scenario : "", CZ_STYLE_PLAIN);
-        snprintf(text, sizeof text, "%d", verification->n_flip[way]);
+        snprintf(text, sizeof text, "%d", verification->n_flip[method]);
         cz_table_put(table, text, flips ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
     }
 }
 
-static bool write_ways(const CzVerification *verification, bool colour, FILE *stream) {
+static bool write_methods(const CzVerification *verification, bool colour, FILE *stream) {
     CzReportTable table;
-    cz_verified_begin_ways(&table, verification, false);
+    cz_verified_begin_methods(&table, verification, false);
     return cz_table_write_text(&table, colour, stream);
 }
 
 static bool changes_too_much(const CzVerification *verification, const CzVerifiedValue *value) {
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        if (value->change[way] > verification->limit)
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
+        if (value->change[method] > verification->limit)
             return true;
     return false;
 }
 
-/* How many of the numbers that change too much scatter as much by themselves, so that nothing would
- * pin them down. */
+/* How many of the results that change too much have a scatter above the limit, so that no method
+ * gives them more accurately. */
 static void write_scatter(const CzVerification *verification, FILE *stream) {
     int n = 0, n_scatter = 0;
     for (int i = 0; i < verification->n_value; i++) {
         const CzVerifiedValue *value = &verification->value[i];
         n += changes_too_much(verification, value);
-        n_scatter += value->change[CZ_WAY_SCATTER] > verification->limit;
+        n_scatter += value->change[CZ_METHOD_SCATTER] > verification->limit;
     }
     char text[CZ_FIGURE_ROOM];
-    if (n > 0 && verification->is_done[CZ_WAY_SCATTER])
-        fprintf(stream, "%d of %d numbers change by more than %s; %d of them scatter by more.\n", n,
-                verification->n_value, cz_figure_change(text, verification->limit), n_scatter);
+    if (n > 0 && verification->is_done[CZ_METHOD_SCATTER])
+        fprintf(stream,
+                "%d of %d results change by more than %s; the scatter of %d of them is larger.\n",
+                n, verification->n_value, cz_figure_change(text, verification->limit), n_scatter);
 }
 
 CzStatus cz_report_write_verification_table(const CzProblem *problem,
@@ -138,7 +138,7 @@ CzStatus cz_report_write_verification_table(const CzProblem *problem,
     if (verification->n_value > 0) {
         is_whole &= write_values(verification, colour, stream);
         fputc('\n', stream);
-        is_whole &= write_ways(verification, colour, stream);
+        is_whole &= write_methods(verification, colour, stream);
         fputc('\n', stream);
     }
     if (verification->failure[0] != '\0') {
@@ -149,7 +149,7 @@ CzStatus cz_report_write_verification_table(const CzProblem *problem,
     const bool passes = verification->verdict == CZ_VERDICT_PASS;
     fputs("Verification: ", stream);
     cz_text_write(passes ? "pass" : "FAIL", passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, colour, stream);
-    fprintf(stream, " (%d numbers, %s allowed)\n", verification->n_value,
+    fprintf(stream, " (%d results, limit %s)\n", verification->n_value,
             cz_figure_change(text, verification->limit));
     return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
 }

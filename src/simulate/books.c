@@ -66,7 +66,7 @@ static bool gives(const CzBatch *batch, const CzElementResult *element, double a
     snprintf(fault->where, sizeof fault->where, "%s %s", batch->model->car[element->vehicle].name,
              cz_element_text(element->kind));
     if (has_given)
-        snprintf(fault->what, sizeof fault->what, "gave back %.4g kJ more than it took",
+        snprintf(fault->what, sizeof fault->what, "returned %.4g kJ more than it received",
                  -1e-3 * element->energy);
     else
         snprintf(fault->what, sizeof fault->what, "stores %.4g kJ, which is less than nothing",
@@ -117,7 +117,7 @@ static bool running_gear_gives(const CzBatch *batch, int design, double allowed,
                 continue;
             snprintf(fault->where, sizeof fault->where, "%s %s", batch->model->car[car].name,
                      springs[k].what);
-            snprintf(fault->what, sizeof fault->what, "gave back %.4g kJ more than it took",
+            snprintf(fault->what, sizeof fault->what, "returned %.4g kJ more than it received",
                      1e-3 * given);
             return true;
         }
@@ -131,8 +131,9 @@ static bool differs(const char *name, const char *kind, double given, double rec
     if (fabs(given - received) <= allowed)
         return false;
     snprintf(fault->where, sizeof fault->where, "%s %s", name, kind);
-    snprintf(fault->what, sizeof fault->what, "took %.4g kJ where its force did %.4g kJ of work",
-             1e-3 * received, 1e-3 * given);
+    snprintf(fault->what, sizeof fault->what,
+             "received %.4g kJ, but the work of its force is %.4g kJ", 1e-3 * received,
+             1e-3 * given);
     return true;
 }
 
@@ -167,16 +168,16 @@ bool cz_books_are_wrong(const CzBatch *batch, int design, char *where, char *wha
     if (!wrong && !(fabs(sum - energy.absorbers) <= rounding)) {
         wrong = true;
         snprintf(fault.where, sizeof fault.where, "sum of elements");
-        snprintf(fault.what, sizeof fault.what,
-                 "misses the ledger by %.4g J, which is a fault of this program",
+        snprintf(fault.what, sizeof fault.what, "misses the ledger by %.4g J, an internal error",
                  sum - energy.absorbers);
     }
     const double open = batch->design[design].balance + rounding;
     if (!wrong && !(energy.dissipated <= energy.initial - energy.moving_load + open)) {
         wrong = true;
         snprintf(fault.where, sizeof fault.where, "all elements");
-        snprintf(fault.what, sizeof fault.what, "dissipated %.4g kJ of the %.4g kJ that there were",
-                 1e-3 * energy.dissipated, 1e-3 * energy.initial);
+        snprintf(fault.what, sizeof fault.what,
+                 "dissipated %.4g kJ, more than the available %.4g kJ", 1e-3 * energy.dissipated,
+                 1e-3 * energy.initial);
     }
     snprintf(where, CZ_FAULT_ROOM, "%s", fault.where);
     snprintf(what, CZ_FAULT_ROOM, "%s", fault.what);

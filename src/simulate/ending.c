@@ -1,4 +1,4 @@
-/* When a run ends: by rule, after its duration, or because it failed.
+/* When a run ends: at its end criterion, after its duration, or because it failed.
  *
  * By rule: no neighbouring cars close in or can meet again faster than CLOSING_SPEED, no interface
  * that can open carries a force, none stores more than CZ_STORED_SHARE of the initial energy, no
@@ -97,10 +97,11 @@ static bool fails_to_solve(CzBatch *batch, int design) {
         const double off = cz_law_error(batch, lane);
         char what[96];
         if (!(open <= LARGEST_RESIDUAL))
-            snprintf(what, sizeof what, "strokes that miss the closure by %.3g mm", 1e3 * open);
+            snprintf(what, sizeof what, "the strokes of a chain differ from its closure by %.3g mm",
+                     1e3 * open);
         else if (!(off <= LARGEST_LAW_ERROR))
-            snprintf(what, sizeof what, "a member %.3g %% of the largest force off its law",
-                     100.0 * off);
+            snprintf(what, sizeof what,
+                     "force error of a chain member: %.3g %% of the largest force", 100.0 * off);
         else
             continue;
         fail(batch, design, batch->model->interface_name[car], "series chain", what);
@@ -131,7 +132,7 @@ static bool fails_to_fit(CzBatch *batch, int design) {
             if (largest <= fmax(cz_extreme(batch, chains[k].closure, lane), 0.0) + LARGEST_RESIDUAL)
                 continue;
             fail(batch, design, batch->model->interface_name[car], chains[k].chain,
-                 "a stroke beyond the closure");
+                 "a stroke larger than the closure");
             return true;
         }
     return false;

@@ -3,9 +3,18 @@
 
 #include "integrate/integrator.h"
 
+const char *cz_ended_key(CzEnded ended) {
+    static const char *const keys[] = {
+#define CZ_ENDED(constant, key, text) key,
+#include "crushzone/ended.def"
+#undef CZ_ENDED
+    };
+    return keys[ended];
+}
+
 const char *cz_ended_text(CzEnded ended) {
     static const char *const text[] = {
-#define CZ_ENDED(constant, text) text,
+#define CZ_ENDED(constant, key, text) text,
 #include "crushzone/ended.def"
 #undef CZ_ENDED
     };

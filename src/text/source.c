@@ -225,7 +225,7 @@ bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char 
         line += n_end > 0;
         i += n_end > 0 ? n_end : cz_text_character(text + i, n_byte - i);
     }
-    cz_mistake_at(mistakes, source, line, column, "the file holds %s", what);
+    cz_mistake_at(mistakes, source, line, column, "the file contains %s", what);
     if (cz_text_character(text + at, n_byte - at) == 0)
         cz_mistake_help(mistakes, "save it as UTF-8");
     else

@@ -145,7 +145,7 @@ static CzNode *read_text(Document *document) {
     size_t at;
     n_byte = cz_text_one_line(text, n_byte); /* blocks of text have several */
     if (cz_text_fault(text, n_byte, false, &at, what)) {
-        snprintf(sentence, sizeof sentence, "a text cannot hold %s", what);
+        snprintf(sentence, sizeof sentence, "a text cannot contain %s", what);
         refuse(document, sentence);
         node->text = "";
         node->is_refused = true;
@@ -329,7 +329,7 @@ static const CzNode *read_top(Document *document) {
         return NULL;
     if (document->event.type == YAML_STREAM_END_EVENT) {
         cz_mistake_at(document->mistakes, document->source, 1, 1,
-                      "the file holds nothing but comments");
+                      "the file contains only comments");
         return NULL;
     }
     if (!next_event(document))
@@ -338,7 +338,7 @@ static const CzNode *read_top(Document *document) {
     if (top == NULL || !next_event(document) || !next_event(document)) /* ends of both */
         return NULL;
     if (document->event.type != YAML_STREAM_END_EVENT) {
-        refuse(document, "a second document begins here; a file holds one");
+        refuse(document, "a second document begins here; a file contains one");
         return NULL;
     }
     if (top->kind != CZ_NODE_MAPPING) {

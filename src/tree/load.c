@@ -51,7 +51,7 @@ const char *cz_load_locate(CzReader *reader, const char *name, const CzNode *pla
             return candidates[i];
     cz_mistake(&reader->mistakes, place, NULL, "there is no file '%s'", beside);
     if (in_share != NULL && name[0] != '/')
-        cz_mistake_help(&reader->mistakes, "looked beside the file that names it and in '%s'",
+        cz_mistake_help(&reader->mistakes, "searched beside the file that names it and in '%s'",
                         reader->share_folder);
     return NULL;
 }

@@ -81,7 +81,7 @@ static const CzPart *find_part(CzReader *reader, const CzTree *tree, const CzNod
     cz_mistake_suggest(&reader->mistakes, suggestion.best);
     if (suggestion.best == NULL)
         cz_mistake_help(&reader->mistakes,
-                        "parts stand under 'parts:' or in the files of 'catalogue:'");
+                        "parts belong under 'parts:' or in the files of 'catalogue:'");
     return NULL;
 }
 

@@ -14,7 +14,7 @@ exits() {
     head -5 out.txt err.txt
     return 1
 }
-# says FILE TEXT: the file holds the text.
+# says FILE TEXT: the file contains the text.
 says() {
     grep -qF -- "$2" "$1" && return
     echo "no '$2' in $1:"

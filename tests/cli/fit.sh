@@ -107,7 +107,7 @@ check "byte order mark and line ends of other systems do no harm" exits 0 "$C" f
 
 # A curve that was read well and has no law ends as a law that is refused does, and names its file.
 printf 'stroke_mm,force_kN\n0,0\n1,9000\n2,100\n300,100\n' >spike.csv
-spike() { exits 1 "$C" fit spike.csv --as coupler --basis static && says err.txt 'spike.csv: error: no law as coupler is like this curve' && [ ! -s out.txt ] &&
+spike() { exits 1 "$C" fit spike.csv --as coupler --basis static && says err.txt 'spike.csv: error: no law as coupler fits this curve' && [ ! -s out.txt ] &&
     exits 1 "$C" fit spike.csv --as anti-climber --basis static --json && json out.txt error.file spike.csv; }
 check "a curve that no law follows ends with 1 and names its file" spike
 printf 'stroke_mm,force_kN\n37.5,0\n39.5,400\n41.5,600\n87.5,605\n137.5,610\n237.5,620\n337.5,630\n' >exact.csv

@@ -28,7 +28,7 @@ check "optimise writes to out-optimised" default
 kept() {
     for command in run check "sweep --vary trains.A.speed_km_h=10:12:2"; do
         # shellcheck disable=SC2086
-        exits 4 "$C" $command small.yaml -o out-optimised -q && says err.txt 'holds the result of a search' && says err.txt -- --force || return 1
+        exits 4 "$C" $command small.yaml -o out-optimised -q && says err.txt 'contains the result of a search' && says err.txt -- --force || return 1
     done
     [ -f out-optimised/optimised.yaml ]
 }
@@ -53,7 +53,7 @@ own() {
 }
 check "a folder that holds an input is refused, the file or one that it is built on" own
 out_of_nowhere() {
-    exits 0 "$C" run small.yaml -q -o built && exits 4 "$C" run built/resolved.yaml -o nowhere/../built -q && says err.txt 'leads out of a folder that is not there' &&
+    exits 0 "$C" run small.yaml -q -o built && exits 4 "$C" run built/resolved.yaml -o nowhere/../built -q && says err.txt 'leads out of a folder that does not exist' &&
         [ ! -e nowhere ] && mkdir nowhere && exits 4 "$C" run built/resolved.yaml -o nowhere/../built -q && says err.txt 'which this problem is read from'
 }
 check "nor is it reached through a folder that is not there yet" out_of_nowhere
@@ -64,7 +64,7 @@ input_file() {
 }
 check "a file that is an input is not written over" input_file
 two() {
-    mkdir -p a b && cp small.yaml a/x.yaml && cp small.yaml b/X.yaml && exits 4 "$C" run a/x.yaml b/X.yaml -o many -q && says err.txt 'would be written to one folder' && [ ! -e many ]
+    mkdir -p a b && cp small.yaml a/x.yaml && cp small.yaml b/X.yaml && exits 4 "$C" run a/x.yaml b/X.yaml -o many -q && says err.txt 'would be written to the same folder' && [ ! -e many ]
 }
 check "two inputs of one name are refused before anything is computed" two
 scenario() {
@@ -82,14 +82,14 @@ long=$(printf 'x%.0s' $(seq 300))
 early_ones() {
     : >file && early . 'give it a name of its own' && early .. 'give it a name of its own' && early a/. 'give it a name of its own' && early / 'give it a name of its own' &&
         early "$long" 'File name too long' && early "deep/$long/out" 'File name too long' && early file/out 'is no folder' && early file/a/out 'is no folder' && early file 'is no folder' &&
-        early "../$(basename "$PWD")" 'did not write it' && early '' empty
+        early "../$(basename "$PWD")" 'was not written by crushzone' && early '' empty
 }
 check "names that cannot be folders are told at once" early_ones
 inside() {
     mkdir -p work && cd work && exits 0 "$C" run ../small.yaml -q && cd out || return 1
     code=0
     "$C" run ../../small.yaml -o ../out -q 2>../../err.txt || code=$?
-    cd ../.. && [ "$code" = 4 ] && says err.txt 'started in'
+    cd ../.. && [ "$code" = 4 ] && says err.txt 'contains the current folder'
 }
 check "the folder that it was started in is not replaced" inside
 files() {

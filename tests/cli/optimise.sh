@@ -6,7 +6,7 @@
 found() { exits 0 "$C" optimise two-trains.yaml && says out.txt FEASIBLE && says out.txt 'Verdict: pass' && says out.txt 'set:'; }
 check "a design that passes is found" found
 check "outcome.json is feasible" json out-optimised/outcome.json status feasible
-verified() { json out-optimised/outcome.json verification.verdict pass && json out-optimised/outcome.json verification.half_step_change && says out.txt 'Computed again: half the step changes'; }
+verified() { json out-optimised/outcome.json verification.verdict pass && json out-optimised/outcome.json verification.half_step_change && says out.txt 'Largest changes: halved time step'; }
 check "the optimum is verified by half the step and by another solver" verified
 files() { for file in summary.json checks.csv outcome.json optimised.yaml history.csv resolved.yaml run.log; do [ -s out-optimised/$file ] || return 1; done; }
 check "the result folder holds the outcome, the optimum and the history" files
@@ -54,7 +54,7 @@ check "one thread and two find the same design by the same way" again
 
 spelled() { exits 1 "$C" optimize two-trains.yaml --evaluations 3 --json -q && json out.txt format crushzone.outcome && json out.txt evaluations && json out.txt variables.0.value; }
 check "optimize is the same command, --json prints one document" spelled
-infeasible() { exits 1 "$C" optimise two-trains.yaml --evaluations 3 -o few && says out.txt 'NOTHING FEASIBLE FOUND' && says out.txt violated && json few/outcome.json status infeasible && says few/optimised.yaml 'BREAKS A CONSTRAINT'; }
+infeasible() { exits 1 "$C" optimise two-trains.yaml --evaluations 3 -o few && says out.txt 'NO FEASIBLE DESIGN FOUND' && says out.txt violated && json few/outcome.json status infeasible && says few/optimised.yaml 'VIOLATES A CONSTRAINT'; }
 check "nothing feasible ends with 1 and lists what is violated" infeasible
 nested() { mkdir -p deep/problems && cp two-trains.yaml deep/problems && exits 1 "$C" optimise deep/problems/two-trains.yaml --evaluations 3 -o results/a/b && says results/a/b/optimised.yaml 'extends: "../../../deep/problems/two-trains.yaml"' && exits 1 "$C" check results/a/b/optimised.yaml; }
 check "the optimum finds its problem from another folder" nested
@@ -64,7 +64,7 @@ piped() { "$C" optimise - --evaluations 3 -o piped <two-trains.yaml >out.txt 2>e
 check "the optimum of a problem from standard input stands alone" piped
 named() { exits 1 "$C" optimise two-trains.yaml --algorithm LN_NELDERMEAD --evaluations 5 -o named; }
 check "an NLopt algorithm is taken by name" named
-foreign() { mkdir -p mine && echo x >mine/thesis && exits 4 "$C" optimise two-trains.yaml -o mine && says err.txt 'crushzone did not write it'; }
+foreign() { mkdir -p mine && echo x >mine/thesis && exits 4 "$C" optimise two-trains.yaml -o mine && says err.txt 'was not written by crushzone'; }
 check "a folder that cannot be written is refused before the search" foreign
 
 interrupted() { # interrupted SIGNAL CODE OPTION...
@@ -115,7 +115,7 @@ unbound() {
 }
 check "run and sweep do not mind the bounds of a search, and a search tells the digits that differ" unbound
 readable() {
-    exits 1 "$C" optimise bounded.yaml -o bounded && says out.txt 'NOTHING FEASIBLE FOUND' && says out.txt 'fixed: one increment within its bounds' &&
+    exits 1 "$C" optimise bounded.yaml -o bounded && says out.txt 'NO FEASIBLE DESIGN FOUND' && says out.txt 'fixed: one increment within its bounds' &&
         json bounded/outcome.json variables.2.fixed true && json bounded/outcome.json constraints.3.name 'rule: trigger above the plateau, design' &&
         exits 0 "$C" validate bounded/optimised.yaml && exits 1 "$C" check bounded/optimised.yaml
 }

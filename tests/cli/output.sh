@@ -53,9 +53,9 @@ check "resolved.yaml gives the same results" resolved
 with_set() { exits 0 "$C" run two-trains.yaml --set trains.A.speed_km_h=20 -o set && exits 0 "$C" run set/resolved.yaml -o set2 && cmp set/interfaces.csv set2/interfaces.csv && says set/run.log 'set trains.A.speed_km_h=20'; }
 check "resolved.yaml holds the settings of the command line" with_set
 
-foreign() { mkdir -p mine && echo x >mine/thesis && exits 4 "$C" run two-trains.yaml -o mine && says err.txt 'crushzone did not write it' && [ -f mine/thesis ] && [ ! -s out.txt ]; }
+foreign() { mkdir -p mine && echo x >mine/thesis && exits 4 "$C" run two-trains.yaml -o mine && says err.txt 'was not written by crushzone' && [ -f mine/thesis ] && [ ! -s out.txt ]; }
 check "a folder that the program did not write is refused before the run" foreign
-coarse() { exits 0 "$C" run "$SOURCE/problems/wall.yaml" --set simulation.track=rigid --time-step-ms 1 -o coarse && says out.txt 'POOR: take a smaller time step' && says coarse/summary.json 'energy balance is off by more than 0.1 %'; }
+coarse() { exits 0 "$C" run "$SOURCE/problems/wall.yaml" --set simulation.track=rigid --time-step-ms 1 -o coarse && says out.txt 'POOR: reduce the time step' && says coarse/summary.json 'error of the energy balance is above 0.1 %'; }
 check "a run whose energy balance is poor is warned of" coarse
 bad_first() { echo 'schema: 1' >bad.yaml && exits 2 "$C" run bad.yaml -o mine && exits 2 "$C" optimise bad.yaml -o mine && says err.txt "lacks 'trains'"; }
 check "a bad file is told before a folder that is refused" bad_first

@@ -28,7 +28,7 @@ never_passes() {
 }
 check "a gentle collision without stops is no pass either" never_passes
 incomplete() {
-    exits 3 "$C" check "$climbs" --set simulation.longest_s=0.06 && says out.txt INCOMPLETE && line out.txt 'override ' 'NOT CHECKED' 'did not come to its end' &&
+    exits 3 "$C" check "$climbs" --set simulation.longest_s=0.06 && says out.txt INCOMPLETE && line out.txt 'override ' 'NOT CHECKED' 'did not meet its end criterion' &&
         ! says out.txt 'Verdict: PASS' >nothing.txt && exits 3 "$C" run "$climbs" --set simulation.longest_s=0.06 --json && json out.txt scenarios.0.ended incomplete
 }
 check "a run that is cut short is incomplete and no pass" incomplete

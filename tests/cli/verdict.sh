@@ -142,7 +142,7 @@ named() {
 }
 check "a limit that names an obstacle judges it" named
 nobody() {
-    exits 2 "$C" check crossing.yaml --set trains.lorry.role=obstacle --set trains.A.role=obstacle && says err.txt 'nothing would be judged'
+    exits 2 "$C" check crossing.yaml --set trains.lorry.role=obstacle --set trains.A.role=obstacle && says err.txt 'no vehicle would be judged'
 }
 check "two obstacles are refused" nobody
 alone() {
@@ -151,7 +151,7 @@ alone() {
 check "the partner of an obstacle is judged, however light it is" alone
 no_objective() { # what a search would minimise is no matter of a check
     printf 'extends: crossing.yaml\nchecks: {design_rules: false}\noptimise: {minimise: vehicles.max_wheel_lift_mm, evaluations: 9, variables: [{path: "parts.end.stages[0].force_kN", min: 500, max: 1600}]}\n' >aim.yaml
-    agree aim.yaml 0 pass pass false PASS && exits 1 "$C" optimise aim.yaml -o aimed && says out.txt 'what is to be minimised has no value in any design' && json aimed/outcome.json best_is_feasible false
+    agree aim.yaml 0 pass pass false PASS && exits 1 "$C" optimise aim.yaml -o aimed && says out.txt 'the objective has no value in any design' && json aimed/outcome.json best_is_feasible false
 }
 check "an objective without a value is no matter of a check, and ends a search as not feasible" no_objective
 finish

@@ -80,7 +80,7 @@ static void a_coupler_that_closes_by_its_whole_length_fails_the_run(void **state
     collision_free(&collision);
 }
 
-/* The same against a wall, which has no coupler to share the closure. */
+/* Reproductionst a wall, which has no coupler to share the closure. */
 static void a_coupler_that_a_wall_closes_by_its_whole_length_fails_the_run(void **state) {
     (void)state;
     Collision collision = collide("problems/wall.yaml",

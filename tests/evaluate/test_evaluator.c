@@ -436,9 +436,10 @@ static void design_that_could_not_be_read_back_is_infeasible(void **state) {
         if (made.evaluation.constraint[i] > 0) { /* 1990 mm of 900, and of 1000 mm of coupler */
             const char *name = made.evaluation.constraint_check[i].name;
             n_broken++;
-            assert_true(strcmp(name, "rule: anti-climber before the bare end") == 0 ||
-                        strcmp(name, "rule: anti-climber within the coupler") == 0 ||
-                        strcmp(name, "rule: anti-climber met before the coupler stops") == 0 ||
+            assert_true(strcmp(name, "rule: anti-climber in front of the bare end") == 0 ||
+                        strcmp(name, "rule: anti-climber behind the coupler face") == 0 ||
+                        strcmp(name, "rule: anti-climber contact within the retraction space") ==
+                            0 ||
                         strcmp(name, "rules between values") == 0);
         }
     assert_true(n_broken >= 3);

@@ -37,7 +37,7 @@ static void softening_the_opponent_is_refused(void **state) {
     expect_refusal(
         "optimise: {variables: [{path: \"trains.B.vehicles.B1.rear.coupler.tube.stages[0]"
         ".force_kN\", min: 400, max: 900}]}\n",
-        "softening the opponent");
+        "a softer partner is no improvement");
     expect_refusal(
         "optimise: {variables: [{path: \"trains.A.vehicles.A1.front.coupler.tube.stages[0]"
         ".force_kN\", min: 400, max: 900}]}\n",
@@ -59,7 +59,7 @@ static void limits_that_name_nothing_are_refused(void **state) {
     expect_refusal("checks: {limits: [{name: a, metric: interfaces.peak_force, max: 1}]}\n",
                    "no metric 'interfaces.peak_force'");
     expect_refusal("checks: {limits: [{name: a, metric: interfaces.C1-*.peak_force_kN, max: 1}]}\n",
-                   "picks nothing");
+                   "matches no place");
     expect_refusal("checks: {limits: [{name: a, metric: interfaces.peak_force_kN, max: 1, "
                    "scenarios: [crush]}]}\n",
                    "no scenario 'crush'");

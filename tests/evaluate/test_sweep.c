@@ -126,7 +126,7 @@ static void a_run_that_is_cut_short_is_no_point(void **state) {
     const CzSweepOptions options = options_of(&axis, 1);
     CzSweep *sweep = sweep_with(&options);
     assert_int_equal(sweep->point[0].state, CZ_SWEEP_RUN_FAILED);
-    assert_non_null(strstr(sweep->point[0].message, "did not come to its end"));
+    assert_non_null(strstr(sweep->point[0].message, "did not meet its end criterion"));
     assert_int_equal(sweep->point[1].state, CZ_SWEEP_DONE);
     assert_int_equal(sweep->worst, 0);
     cz_sweep_free(sweep);

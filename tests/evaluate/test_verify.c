@@ -55,14 +55,14 @@ static void numbers_that_do_not_hang_on_steps_and_solvers_pass(void **state) {
     const CzVerification *verification = made.verification;
     assert_int_equal(verification->verdict, CZ_VERDICT_PASS);
     assert_int_equal(verification->status, CZ_OK);
-    assert_false(verification->is_done[CZ_WAY_TRACK]); /* the track is rigid both ways */
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
-        if (way == CZ_WAY_TRACK)
+    assert_false(verification->is_done[CZ_METHOD_TRACK]); /* the track is rigid both ways */
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
+        if (method == CZ_METHOD_TRACK)
             continue;
-        assert_true(verification->is_done[way]);
-        assert_int_equal(verification->n_flip[way], 0);
-        assert_true(verification->largest_change[way] > 0.0);
-        assert_true(verification->largest_change[way] < 0.01);
+        assert_true(verification->is_done[method]);
+        assert_int_equal(verification->n_flip[method], 0);
+        assert_true(verification->largest_change[method] > 0.0);
+        assert_true(verification->largest_change[method] < 0.01);
     }
     end(&made);
 }
@@ -76,18 +76,19 @@ static void changes_are_relative_to_what_is_allowed(void **state) {
     const CzVerification *verification = made.verification;
     const CzVerifiedValue *closure = value_of(verification, "closure", "crash");
     const CzVerifiedValue *bulk = value_of(verification, "largest closure", "crash");
-    assert_near(closure->record, bulk->record, 1e-12, 0.0);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++) {
-        if (way == CZ_WAY_TRACK)
+    assert_near(closure->production, bulk->production, 1e-12, 0.0);
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
+        if (method == CZ_METHOD_TRACK)
             continue;
-        const double difference = fabs(closure->value[way] - closure->record);
-        assert_near(closure->change[way], difference / 3000.0, 1e-9, 1e-15);
-        assert_near(bulk->change[way], difference / bulk->record, 1e-9, 1e-15);
+        const double difference = fabs(closure->value[method] - closure->production);
+        assert_near(closure->change[method], difference / 3000.0, 1e-9, 1e-15);
+        assert_near(bulk->change[method], difference / bulk->production, 1e-9, 1e-15);
         double largest = 0.0;
         for (int i = 0; i < verification->n_value; i++)
-            largest = fmax(largest, verification->value[i].change[way]);
-        assert_near(verification->largest_change[way], largest, 0.0, 0.0);
-        assert_near(verification->value[verification->worst[way]].change[way], largest, 0.0, 0.0);
+            largest = fmax(largest, verification->value[i].change[method]);
+        assert_near(verification->largest_change[method], largest, 0.0, 0.0);
+        assert_near(verification->value[verification->worst[method]].change[method], largest, 0.0,
+                    0.0);
     }
     end(&made);
 }
@@ -99,13 +100,13 @@ static void a_limit_exceeded_many_times_changes_by_what_it_is_exceeded_by(void *
                       "  design_rules: false\n"
                       "  limits: [{name: closure, metric: interfaces.shortening_mm, max: 1}]\n");
     CzVerifyOptions options = cz_verify_options_default();
-    options.ways = 1u << CZ_WAY_HALF_STEP;
+    options.methods = 1u << CZ_METHOD_HALF_STEP;
     verify(&made, &options);
     const CzVerifiedValue *closure = value_of(made.verification, "closure", "crash");
-    const double difference = fabs(closure->value[CZ_WAY_HALF_STEP] - closure->record);
-    assert_true(difference > 0.0 && closure->record > 100.0);
-    assert_near(closure->change[CZ_WAY_HALF_STEP], difference / (closure->record - 1.0), 1e-9,
-                1e-15);
+    const double difference = fabs(closure->value[CZ_METHOD_HALF_STEP] - closure->production);
+    assert_true(difference > 0.0 && closure->production > 100.0);
+    assert_near(closure->change[CZ_METHOD_HALF_STEP], difference / (closure->production - 1.0),
+                1e-9, 1e-15);
     assert_int_equal(made.verification->verdict, CZ_VERDICT_PASS);
     end(&made);
 }
@@ -126,11 +127,11 @@ static void a_verdict_that_flips_does_not_pass(void **state) {
     (void)state;
     Case made = begin(limits);
     CzVerifyOptions options = cz_verify_options_default();
-    options.ways = 1u << CZ_WAY_HALF_STEP;
+    options.methods = 1u << CZ_METHOD_HALF_STEP;
     verify(&made, &options);
     const CzVerifiedValue *closure = value_of(made.verification, "closure", "crash");
-    const double between = 0.5 * (closure->record + closure->value[CZ_WAY_HALF_STEP]);
-    assert_true(closure->record != closure->value[CZ_WAY_HALF_STEP]);
+    const double between = 0.5 * (closure->production + closure->value[CZ_METHOD_HALF_STEP]);
+    assert_true(closure->production != closure->value[CZ_METHOD_HALF_STEP]);
     assert_int_equal(made.verification->verdict, CZ_VERDICT_PASS);
     end(&made);
 
@@ -143,9 +144,9 @@ static void a_verdict_that_flips_does_not_pass(void **state) {
              between);
     made = begin(closer);
     verify(&made, &options);
-    assert_true(value_of(made.verification, "closure", "crash")->flips[CZ_WAY_HALF_STEP]);
-    assert_int_equal(made.verification->n_flip[CZ_WAY_HALF_STEP], 1);
-    assert_true(made.verification->largest_change[CZ_WAY_HALF_STEP] < 0.01);
+    assert_true(value_of(made.verification, "closure", "crash")->flips[CZ_METHOD_HALF_STEP]);
+    assert_int_equal(made.verification->n_flip[CZ_METHOD_HALF_STEP], 1);
+    assert_true(made.verification->largest_change[CZ_METHOD_HALF_STEP] < 0.01);
     assert_int_equal(made.verification->verdict, CZ_VERDICT_FAIL);
     end(&made);
 }
@@ -157,8 +158,8 @@ static void a_yes_or_no_counts_by_its_verdict_alone(void **state) {
                       "  limits:\n"
                       "    - {name: bottom, metric: elements.bottomed_out, max: 0}\n");
     verify(&made, NULL);
-    for (int way = 0; way < CZ_N_VERIFY_WAY; way++)
-        assert_true(isnan(value_of(made.verification, "bottom", "crash")->change[way]));
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
+        assert_true(isnan(value_of(made.verification, "bottom", "crash")->change[method]));
     end(&made);
 }
 
@@ -173,15 +174,15 @@ static void a_fit_is_verified_by_what_it_matches(void **state) {
                       "    - {name: measured, scenario: crash, metric: interfaces.shortening_mm,\n"
                       "       value: 800, tolerance: 5}\n");
     CzVerifyOptions options = cz_verify_options_default();
-    options.ways = 1u << CZ_WAY_HALF_STEP;
+    options.methods = 1u << CZ_METHOD_HALF_STEP;
     verify(&made, &options);
     const CzVerifiedValue *sum = &made.verification->value[0];
-    assert_true(sum->value[CZ_WAY_HALF_STEP] != sum->record);
-    assert_true(isnan(sum->change[CZ_WAY_HALF_STEP]));
+    assert_true(sum->value[CZ_METHOD_HALF_STEP] != sum->production);
+    assert_true(isnan(sum->change[CZ_METHOD_HALF_STEP]));
     const CzVerifiedValue *match = value_of(made.verification, "measured", "crash");
-    const double difference = fabs(match->value[CZ_WAY_HALF_STEP] - match->record);
+    const double difference = fabs(match->value[CZ_METHOD_HALF_STEP] - match->production);
     assert_true(difference > 0.0);
-    assert_near(match->change[CZ_WAY_HALF_STEP], difference / 800.0, 1e-9, 0.0);
+    assert_near(match->change[CZ_METHOD_HALF_STEP], difference / 800.0, 1e-9, 0.0);
     assert_int_equal(made.verification->verdict, CZ_VERDICT_PASS);
     end(&made);
 }
@@ -191,13 +192,13 @@ static void ways_are_chosen(void **state) {
     (void)state;
     Case made = begin(limits);
     CzVerifyOptions options = cz_verify_options_default();
-    options.ways = 1u << CZ_WAY_ADAMS;
+    options.methods = 1u << CZ_METHOD_ADAMS;
     verify(&made, &options);
     assert_int_equal(made.verification->verdict, CZ_VERDICT_PASS);
-    assert_false(made.verification->is_done[CZ_WAY_HALF_STEP]);
-    assert_true(isnan(made.verification->largest_change[CZ_WAY_ERK]));
-    assert_true(made.verification->is_done[CZ_WAY_ADAMS]);
-    options.ways = 0;
+    assert_false(made.verification->is_done[CZ_METHOD_HALF_STEP]);
+    assert_true(isnan(made.verification->largest_change[CZ_METHOD_ERK]));
+    assert_true(made.verification->is_done[CZ_METHOD_ADAMS]);
+    options.methods = 0;
     verify(&made, &options);
     assert_int_equal(made.verification->verdict, CZ_VERDICT_NOT_CHECKED);
     end(&made);
@@ -209,7 +210,7 @@ static void a_record_that_did_not_end_is_a_failure(void **state) {
     verify(&made, NULL);
     assert_int_equal(made.verification->status, CZ_STATUS_RUN_FAILED);
     assert_int_equal(made.verification->verdict, CZ_VERDICT_FAIL);
-    assert_non_null(strstr(made.verification->failure, "the record, scenario crash"));
+    assert_non_null(strstr(made.verification->failure, "the production run, scenario crash"));
     end(&made);
 }
 
@@ -238,7 +239,7 @@ static void an_objective_of_the_callers_own_is_verified_too(void **state) {
     verify(&made, NULL);
     assert_string_equal(made.verification->value[0].name, "own");
     assert_string_equal(made.verification->value[0].scenario, "");
-    assert_true(made.verification->value[0].record > 100.0);
+    assert_true(made.verification->value[0].production > 100.0);
     end(&made);
 }
 

@@ -31,7 +31,7 @@ static CzVehicle *second(void) {
 static void masses_must_leave_something_for_the_body(void **state) {
     (void)state;
     second()->mass = 14000.0;
-    expect_refusal("car A2: mass 14000 kg leaves nothing for the body", 2);
+    expect_refusal("car A2: mass 14000 kg leaves no mass for the body", 2);
     second()->mass = -1.0;
     expect_refusal("car A2: mass is -1; it must be positive", 2);
     second()->mass = NAN;
@@ -114,7 +114,7 @@ static void curves_must_be_possible(void **state) {
     tube->curve = table(3, 0.0, 5e5);
     tube->curve.basis = CZ_BASIS_DYNAMIC;
     tube->rate_factor = 0.01;
-    expect_refusal("a dynamic curve already holds the rise with the rate", 2);
+    expect_refusal("a dynamic curve already contains the rate effect", 2);
     CzEnd *end = &second()->front;
     end->n_stages = 0;
     end->curve = table(3, 0.0, 1e3);

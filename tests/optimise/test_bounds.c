@@ -132,7 +132,7 @@ static void the_reason_of_the_end_is_true_to_the_digit(void **state) {
         CzOptimiseOptions options = cz_optimise_options_default();
         char text[160];
         options.evaluations = limit;
-        options.verify_ways = 0;
+        options.verify_methods = 0;
         optimise(&made, &options);
         const long left = limit - made.outcome->n_evaluation;
         const char *why = made.outcome->why_stopped;

@@ -186,7 +186,7 @@ static void interruption_gives_the_best_so_far(void **state) {
     const CzOutcome *outcome = made.outcome;
     assert_int_equal(outcome->status, CZ_OUTCOME_INTERRUPTED);
     assert_string_equal(outcome->why_stopped,
-                        "interrupted; the best lies between catalogue increments");
+                        "interrupted; the best design is between catalogue increments");
     assert_true(outcome->n_evaluation < 150);
     double least = INFINITY;
     for (long i = 0; i < outcome->n_trial; i++)

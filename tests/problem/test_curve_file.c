@@ -127,7 +127,7 @@ static void what_can_be_read_in_two_ways_is_refused(void **state) {
         {"0;0\n1;1\n", 1, 1, "no line of titles above says which column is the stroke"},
         {"stroke_mm;force_kN\n0;0\nstroke_mm;force_kN\n0;0\n", 3, 1, "is not a number"},
         {"stroke_mm,force_kN\n0,0\n1,\"500\n2,600\n", 3, 3, "a quotation mark opens here"},
-        {"stroke_mm;force_kN\n0;0\n\x01;1\n", 3, 1, "the file holds the control character"}};
+        {"stroke_mm;force_kN\n0;0\n\x01;1\n", 3, 1, "the file contains the control character"}};
     (void)state;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         CzArena arena = {0};

@@ -257,7 +257,7 @@ static void coupler_without_one_to_meet_is_warned_of(void **state) {
     CzProblem *problem = read_good_text(text);
     assert_int_equal(cz_problem_n_warning(problem), 3); /* height and hinge do nothing either */
     assert_non_null(strstr(cz_problem_warning(problem, 2)->message,
-                           "lone coupler: 'B1' has none to meet that of 'A1'"));
+                           "unpaired coupler: 'B1' has none to meet that of 'A1'"));
     cz_problem_free(problem);
 }
 

@@ -384,21 +384,30 @@ void stand_in_fill(StandIn *s) {
         s->start_check;
 }
 
-const char *cz_verify_way_key(CzVerifyWay way) {
+const char *cz_verify_method_key(CzVerifyMethod method) {
     static const char *const keys[] = {
-#define CZ_VERIFY_WAY(constant, key, text, doc) key,
-#include "crushzone/verify_ways.def"
-#undef CZ_VERIFY_WAY
+#define CZ_VERIFY_METHOD(constant, key, text, doc) key,
+#include "crushzone/verify_methods.def"
+#undef CZ_VERIFY_METHOD
     };
-    return keys[way];
+    return keys[method];
 }
-const char *cz_verify_way_text(CzVerifyWay way) {
-    return cz_verify_way_key(way);
+const char *cz_verify_method_text(CzVerifyMethod method) {
+    return cz_verify_method_key(method);
+}
+
+const char *cz_ended_key(CzEnded ended) {
+    static const char *const keys[] = {
+#define CZ_ENDED(constant, key, text) key,
+#include "crushzone/ended.def"
+#undef CZ_ENDED
+    };
+    return keys[ended];
 }
 
 const char *cz_ended_text(CzEnded ended) {
     static const char *const texts[] = {
-#define CZ_ENDED(constant, text) text,
+#define CZ_ENDED(constant, key, text) text,
 #include "crushzone/ended.def"
 #undef CZ_ENDED
     };

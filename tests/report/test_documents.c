@@ -331,10 +331,10 @@ static void outcome_tells_how_far_the_optimum_changes(void **state) {
     assert_real_at(json, "verification.reference_change", 0.02);
     assert_null_at(json, "verification.full_track_change");
     assert_text_at(json, "verification.verdict", "fail");
-    assert_text_at(json, "verification.ways.reference.of", "wheel lift");
-    assert_text_at(json, "verification.ways.reference.where", "A4");
-    assert_text_at(json, "verification.ways.reference.scenario", "crash");
-    assert_null_at(json, "verification.ways.full_track.of");
+    assert_text_at(json, "verification.methods.reference.of", "wheel lift");
+    assert_text_at(json, "verification.methods.reference.where", "A4");
+    assert_text_at(json, "verification.methods.reference.scenario", "crash");
+    assert_null_at(json, "verification.methods.full_track.of");
     json_decref(json);
 }
 

@@ -137,12 +137,12 @@ static void whatever_we_did_not_write_is_left_alone(void **state) {
     stand_in_fill(&s);
     assert_int_equal(mkdir("thesis", 0777), 0);
     put("thesis/chapter", "1");
-    refuses(&s, "thesis", "crushzone did not write it");
+    refuses(&s, "thesis", "was not written by crushzone");
     assert_true(is_there("thesis/chapter"));
 
     assert_int_equal(write_run(&s, "out", &error), CZ_OK);
     put("out/notes.txt", "mine");
-    refuses(&s, "out", "holds notes.txt, which crushzone did not write");
+    refuses(&s, "out", "contains notes.txt, which crushzone did not write");
     assert_true(is_there("out/notes.txt"));
 
     put("file", "x");
@@ -202,7 +202,7 @@ static void the_log_holds_no_times_and_all_warnings(void **state) {
     char *text = content("out/run.log");
     assert_non_null(strstr(text, "two.yaml:3:7: warning: mind the gap"));
     assert_non_null(strstr(text, "hash 0123456789abcdef"));
-    assert_non_null(strstr(text, "scenario 36: completed, 6200 steps, ended by rule\n"));
+    assert_non_null(strstr(text, "scenario 36: completed, 6200 steps, end criterion met\n"));
     assert_non_null(strstr(text, "verdict: fail\n"));
     free(text);
 }

@@ -13,20 +13,21 @@ static CzVerification filled_verification(CzVerifiedValue *value) {
                                  .scenario = "36",
                                  .where = "coupler A1",
                                  .unit = "",
-                                 .record = 0.5,
+                                 .production = 0.5,
                                  .value = {0.5, NAN, 0.501, NAN},
                                  .change = {0.0, NAN, 0.001, NAN}};
     value[1] = (CzVerifiedValue){.name = "interface force",
                                  .scenario = "36",
                                  .unit = "kN",
-                                 .record = 1500,
+                                 .production = 1500,
                                  .value = {1503, NAN, 1490, NAN},
                                  .change = {0.002, NAN, 0.0067, NAN},
                                  .flips = {true, false, false, false}};
     return (CzVerification){.limit = 0.01,
                             .n_value = 2,
                             .value = value,
-                            .ways = 1u << CZ_WAY_HALF_STEP | 1u << CZ_WAY_ERK | 1u << CZ_WAY_ADAMS,
+                            .methods = 1u << CZ_METHOD_HALF_STEP | 1u << CZ_METHOD_ERK |
+                                       1u << CZ_METHOD_ADAMS,
                             .is_done = {true, false, true, false},
                             .largest_change = {0.002, NAN, 0.0067, NAN},
                             .worst = {1, -1, 1, -1},
@@ -51,10 +52,10 @@ static void a_verification_is_one_document(void **state) {
     assert_non_null(json);
     assert_text_at(json, "format", "crushzone.verification");
     assert_text_at(json, "verdict", "fail");
-    assert_text_at(json, "ways.half_step.of", "interface force");
-    assert_real_at(json, "ways.reference.largest_change", 0.0067);
-    assert_null_at(json, "ways.adams.largest_change");
-    assert_true(json_is_false(at(json, "ways.adams.done")));
+    assert_text_at(json, "methods.half_step.of", "interface force");
+    assert_real_at(json, "methods.reference.largest_change", 0.0067);
+    assert_null_at(json, "methods.adams.largest_change");
+    assert_true(json_is_false(at(json, "methods.adams.done")));
     assert_real_at(json, "values.1.half_step.value", 1503);
     assert_true(json_is_true(at(json, "values.1.half_step.flips")));
     assert_null_at(json, "values.1.where");
@@ -73,10 +74,10 @@ static void a_verification_is_a_table_with_the_largest_change_first(void **state
         cz_report_write_verification_table(stand_in_problem, &verification, false, stream), CZ_OK);
     fclose(stream);
     assert_true(strstr(text, "interface force") < strstr(text, "stroke used"));
-    assert_non_null(strstr(text, "FLIPS"));
+    assert_non_null(strstr(text, "CHANGED"));
     assert_non_null(strstr(text, "not done"));
     assert_null(strstr(text, "full_track")); /* a way that does not apply is not told */
-    assert_non_null(strstr(text, "Verification: FAIL (2 numbers, 1 % allowed)"));
+    assert_non_null(strstr(text, "Verification: FAIL (2 results, limit 1 %)"));
     free(text);
 }
 
@@ -85,17 +86,18 @@ static void what_scatters_is_counted(void **state) {
     (void)state;
     CzVerifiedValue value[2];
     CzVerification verification = filled_verification(value);
-    verification.ways |= 1u << CZ_WAY_SCATTER;
-    verification.is_done[CZ_WAY_SCATTER] = true;
-    value[0].change[CZ_WAY_HALF_STEP] = value[1].change[CZ_WAY_HALF_STEP] = 0.02;
-    value[1].change[CZ_WAY_SCATTER] = 0.03;
+    verification.methods |= 1u << CZ_METHOD_SCATTER;
+    verification.is_done[CZ_METHOD_SCATTER] = true;
+    value[0].change[CZ_METHOD_HALF_STEP] = value[1].change[CZ_METHOD_HALF_STEP] = 0.02;
+    value[1].change[CZ_METHOD_SCATTER] = 0.03;
     char *text = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
     assert_int_equal(
         cz_report_write_verification_table(stand_in_problem, &verification, false, stream), CZ_OK);
     fclose(stream);
-    assert_non_null(strstr(text, "2 of 2 numbers change by more than 1 %; 1 of them scatter"));
+    assert_non_null(
+        strstr(text, "2 of 2 results change by more than 1 %; the scatter of 1 of them"));
     free(text);
 }
 

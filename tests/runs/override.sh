@@ -34,7 +34,7 @@ if [ "${1:-}" = all ]; then
             code=0
             "$C" verify "$sized" --scenario "$scenario" --json >out.txt || code=$?
             for way in half_step full_track scatter reference adams; do
-                json out.txt ways.$way.flips 0 && change=$("$BUILD/tests/read_json" out.txt ways.$way.largest_change) || return 1
+                json out.txt methods.$way.flips 0 && change=$("$BUILD/tests/read_json" out.txt methods.$way.largest_change) || return 1
                 echo "$change" | awk '{ exit !($1 > 0 && $1 < 0.01) }' || { echo "$way changes $change"; return 1; }
             done
         }

@@ -32,10 +32,9 @@ static void check_full_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
                        CZ_MM(first, vehicle->bogie_spacing + vehicle->bogie.axle_spacing),
                        CZ_MM(second, vehicle->length));
     if (vehicle->bogie.axle_spacing >= vehicle->bogie_spacing)
-        cz_rule_broken(rules, &vehicle->bogie_spacing,
-                       "bogies %s apart with axles %s apart would overlap",
-                       CZ_MM(first, vehicle->bogie_spacing),
-                       CZ_MM(second, vehicle->bogie.axle_spacing));
+        cz_rule_broken(
+            rules, &vehicle->bogie_spacing, "bogies %s apart with axles %s apart would overlap",
+            CZ_MM(first, vehicle->bogie_spacing), CZ_MM(second, vehicle->bogie.axle_spacing));
     if (vehicle->cg_height <= vehicle->bogie.wheel_radius)
         cz_rule_broken(rules, &vehicle->cg_height,
                        "a body with its centre of gravity at %s would lie below the axles at %s",
@@ -80,10 +79,9 @@ static bool gives_way(const CzEnd *end) {
 /* Two ends that face one another: one of them at least must give way. */
 static void check_facing(const CzRules *rules, const CzVehicle *behind, const CzVehicle *ahead) {
     if (behind->given && ahead->given && !gives_way(&behind->front) && !gives_way(&ahead->rear))
-        cz_rule_absent(
-            rules, ahead,
-            "no device can deflect between '%.48s' and '%.48s': neither end has one",
-            name_of(behind->name), name_of(ahead->name));
+        cz_rule_absent(rules, ahead,
+                       "no device can deflect between '%.48s' and '%.48s': neither end has one",
+                       name_of(behind->name), name_of(ahead->name));
 }
 
 static void warn_of_lone_devices(const CzRules *rules, const CzVehicle *owner, const CzEnd *end,
@@ -98,10 +96,11 @@ static void warn_of_lone_devices(const CzRules *rules, const CzVehicle *owner, c
                         "carries no force; in reality it would strike the headstock",
                         others, own);
     if (end->side_buffers.given && !(opposite->given && opposite->side_buffers.given))
-        cz_rule_warning(rules, &end->side_buffers,
-                        "unpaired side buffers: '%.48s' has none to meet those of '%.48s', which then "
-                        "carry no force; in reality they would strike the headstock",
-                        others, own);
+        cz_rule_warning(
+            rules, &end->side_buffers,
+            "unpaired side buffers: '%.48s' has none to meet those of '%.48s', which then "
+            "carry no force; in reality they would strike the headstock",
+            others, own);
 }
 
 /* Couplers and side buffers act in pairs, or alone against a partner that does not move. */
@@ -154,9 +153,10 @@ static void check_train(const CzRules *rules, const CzTrain *train) {
             rules, rules->input,
             "a problem with full vehicles needs 'simulation: {adhesion: {friction: ...}}'");
     else if (can_brake(rules, train) && !cz_rule_is_written(rules, &simulation->adhesion))
-        cz_rule_absent(rules, &train->brake,
-                       "a brake acts through the wheel-rail friction: it needs 'simulation: {adhesion: "
-                       "{friction: ...}}'");
+        cz_rule_absent(
+            rules, &train->brake,
+            "a brake acts through the wheel-rail friction: it needs 'simulation: {adhesion: "
+            "{friction: ...}}'");
     if (has(train, CZ_MODEL_FIXED) && train->speed != 0)
         cz_rule_broken(rules, &train->speed, "a train with a fixed vehicle must have speed 0");
     for (int i = 1; i < train->n_vehicles; i++)
@@ -301,10 +301,11 @@ static void check_roles(const CzRules *rules, const CzTrain *const pair[2]) {
     for (int i = 0; i < 2; i++)
         any_judged |= pair[i]->role != CZ_ROLE_OBSTACLE && !has(pair[i], CZ_MODEL_FIXED);
     if (!any_judged)
-        cz_rule_broken(rules, pair[0]->role == CZ_ROLE_OBSTACLE ? &pair[0]->role : &pair[1]->role,
-                       "no vehicle would be judged: neither '%.48s' nor '%.48s' is a train, by role "
-                       "or because it is fixed",
-                       name_of(pair[0]->name), name_of(pair[1]->name));
+        cz_rule_broken(
+            rules, pair[0]->role == CZ_ROLE_OBSTACLE ? &pair[0]->role : &pair[1]->role,
+            "no vehicle would be judged: neither '%.48s' nor '%.48s' is a train, by role "
+            "or because it is fixed",
+            name_of(pair[0]->name), name_of(pair[1]->name));
 }
 
 void cz_rules_check_scenarios(const CzRules *rules) {

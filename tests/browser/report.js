@@ -124,7 +124,7 @@ async function cursorFollowsLoops(page, channels) {
 
 /* What stands below each figure at rows of channels.csv, as far as the page says that it has every one of them. */
 async function everyRowIsThere(page, channels) {
-  const told = await page.locator('p', {hasText: 'Cursor and animation stand'}).textContent();
+  const told = await page.locator('p', {hasText: 'Cursor and animation cover'}).textContent();
   const until = told.includes('every row') ? Number(told.match(/until ([\d.]+) ms/)[1]) * 0.995 : Infinity; // told with three digits
   const times = channels.t_ms.filter((t, i) => t <= until && (i < 400 || i % 7 === 0));
   const plots = await page.evaluate(all => {

@@ -213,12 +213,12 @@ void rows_of_sequence(Rows *rows, const Step *step) {
         ROW(rows, "m/s", value_at(&collision, v, ends[i].time), ends[i].speed, step->tolerance, 0.0,
             "%s, %g s: speed, %s", ends[i].name, ends[i].time, step->name);
         ROW(rows, "m", value_at(&collision, x, ends[i].time), ends[i].way, step->tolerance, 0.0,
-            "%s, %g s: way, %s", ends[i].name, ends[i].time, step->name);
+            "%s, %g s: displacement, %s", ends[i].name, ends[i].time, step->name);
     }
     ROW(rows, "s", time_of_fall(&collision, v, NULL), 0.167891, step->tolerance, 0.0,
         "standstill, %s", step->name);
     ROW(rows, "m", 0.5 * summary->interface[0].shortening, 0.781502, step->tolerance, 0.0,
-        "whole way of a car, %s", step->name);
+        "total displacement of a car, %s", step->name);
     ROW(rows, "kJ", 1e-3 * summary->interface[0].energy, 1929.012, step->tolerance, 0.0,
         "dissipated, %s", step->name);
     collision_free(&collision);

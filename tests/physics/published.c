@@ -208,8 +208,8 @@ void rows_of_coupling_speeds(Rows *rows) {
         assert_completed(&collision);
         const double flows =
             isfinite(event_time(&collision, CZ_EVENT_TUBE_ACTIVATION, "")) ? 1.0 : 0.0;
-        ROW(rows, "", flows, i == 5 ? 1.0 : 0.0, 0.0, 0.0,
-            "%g mph: the device gives way (1) or not (0)", speeds[i]);
+        ROW(rows, "", flows, i == 5 ? 1.0 : 0.0, 0.0, 0.0, "%g mph: device released (1) or not (0)",
+            speeds[i]);
         collision_free(&collision);
     }
 }

@@ -75,7 +75,7 @@ static void measure(const Shipped *problem, double time[N_TRACK]) {
 }
 
 static void put_costs(bool measures) {
-    puts("\n## What it costs\n\n"
+    puts("\n## Cost\n\n"
          "Processor time of the steps over that on rigid rails, per simulated second; smallest of "
          "ten runs in turn.\n\n"
          "| problem | `rigid` | `co-running` | `modal` | `fe` |\n|---|---|---|---|---|");
@@ -150,41 +150,41 @@ static void put_differences(const Shipped *problem) {
 }
 
 int main(int n_argument, char **argument) {
-    puts("# The track: what each model costs, and how far it differs\n"
+    puts("# Track models: cost and differences\n"
          "\n"
-         "`scripts/write-track` writes this page from runs of shipped problems; a test computes "
-         "the differences again.\n"
+         "`scripts/write-track` writes this page from runs of shipped problems; a test repeats the "
+         "differences.\n"
          "\n"
-         "| `simulation.track` | what it is | for |\n"
+         "| `simulation.track` | model | use |\n"
          "|---|---|---|\n"
          "| `modal` | rail, pads, sleepers and ballast in their exact modes up to 1500 Hz, and the "
-         "static flexibility of the rest | the record; the default |\n"
+         "residual static flexibility | production runs; the default |\n"
          "| `co-running` | one mass, spring and damper under each wheelset, calibrated to `modal` "
-         "| what a search runs on, unless the record is rigid |\n"
-         "| `rigid` | rails that do not move | closed forms; absorbers alone |\n"
+         "| searches, unless the track is rigid |\n"
+         "| `rigid` | rails that do not move | closed forms; absorbers only |\n"
          "| `fe` | Timoshenko elements with lumped masses | a check of `modal` by an independent "
          "assembly |\n"
          "\n"
-         "Their equations stand in [theory.md](theory.md), section 10, how `fe` and the modes "
-         "converge to each other in [verification.md](verification.md), C4.");
+         "Section 10 of [theory.md](theory.md) has the equations, C4 of "
+         "[verification.md](verification.md) the convergence of `fe` and the modes.");
     put_costs(n_argument > 1 && strcmp(argument[1], "costs") == 0);
-    puts("\n## How far results differ\n\n"
-         "The value on the record's track, and how far the others are from it.\n"
+    puts("\n## Differences of results\n\n"
+         "The value on the modal track, and the differences of the others.\n"
          "`crushzone verify FILE` compares every check of a problem on `fe` with `modal`, in its "
          "column "
          "\"other track\"; `--set simulation.track=rigid` runs any problem on rails that do not "
          "move.");
     for (int i = 0; i < N_SHIPPED; i++)
         put_differences(&shipped[i]);
-    puts(
-        "\nForces, closures and energies hardly feel the rails; pitch does by some percent.\n"
-        "The lift of a wheel is another matter: it is the small rest of the way of body and "
-        "bogie, the track's own way of about a millimetre is part of it, and on rigid rails "
-        "wheels bounce that elastic ones let settle.\n"
-        "Where wheels land hard, waves of up to 400 Hz run from one wheel of a bogie to the other, "
-        "and a mass that runs along is off by up to 2.6 mm (the sized metro of "
-        "[override.md](override.md) at 40 km/h), finite elements by 0.01 mm.\n"
-        "So override is judged on `modal`, and a search on `co-running` ends with a run on "
-        "`modal`.");
+    puts("\nThe track has little influence on forces, closures and energies, and changes pitch by "
+         "less than one percent.\n"
+         "Wheel lift is more sensitive: it is a small difference of the displacements of body and "
+         "bogie, it includes the deflection of the track of about a millimetre, and wheels bounce "
+         "more on rigid rails.\n"
+         "After a hard landing of a wheel, waves of up to 400 Hz travel from one wheel of a bogie "
+         "to the other, and co-running masses differ by up to 2.6 mm (the sized metro of "
+         "[override.md](override.md) at 40 km/h), finite elements by 0.01 mm.\n"
+         "So override is judged on `modal`, and a search on `co-running` ends with a run on "
+         "`modal`.");
     return 0;
 }

@@ -51,7 +51,7 @@ static void put_row(const Row *row) {
         put_number(is_relative ? row->relative : row_allowed(row), is_relative ? "" : row->unit);
         printf(" | ");
     }
-    puts(row_holds(row) ? "holds |" : "**FAILS** |");
+    puts(row_holds(row) ? "ok |" : "**FAILS** |");
     n_row++;
     n_wrong += !row_holds(row);
 }

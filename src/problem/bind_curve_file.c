@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "problem/trace.h"
 #include "tree/load.h"
 
 #define JUMP 0.01         /* of the energy that points at one stroke may be worth (ours) */
@@ -195,7 +194,7 @@ static bool keep_loading(const Reading *reading, const CzSource *source, CzTrace
 }
 
 bool cz_bind_curve_file(CzReader *reader, const CzKey *key, const CzNode *node,
-                        const CzTrail *trail, const CzCurveInFile *into) {
+                        const CzTrail *trail, CzTrace *trace) {
     Reading reading = {.reader = reader,
                        .key = key,
                        .node = node,
@@ -209,15 +208,10 @@ bool cz_bind_curve_file(CzReader *reader, const CzKey *key, const CzNode *node,
     if (path == NULL || !take_shape(&reading) || !take_request(&reading, &request) ||
         !cz_curve_points_read(&reader->sources, &reader->mistakes, path, named, &request, &points))
         return false;
-    CzTrace trace = {.n = points.n, .x = points.x, .f = points.y, .line = points.line};
+    *trace = (CzTrace){.n = points.n, .x = points.x, .f = points.y, .line = points.line};
     const bool is_made =
-        cz_trace_make(&reader->mistakes, points.source, &reading.shape, 1.0, &trace);
-    for (int i = 0; is_made && i < trace.n_note; i++)
-        cz_mistake(&reader->warnings, named, trail, "'%s': %s", key->stem, trace.note[i]);
-    if (!is_made || !keep_loading(&reading, points.source, &trace))
-        return false;
-    *into->n_point = trace.n;
-    *into->x = trace.x;
-    *into->y = trace.f;
-    return true;
+        cz_trace_make(&reader->mistakes, points.source, &reading.shape, 1.0, trace);
+    for (int i = 0; is_made && i < trace->n_note; i++)
+        cz_mistake(&reader->warnings, named, trail, "'%s': %s", key->stem, trace->note[i]);
+    return is_made && keep_loading(&reading, points.source, trace);
 }

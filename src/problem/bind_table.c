@@ -15,14 +15,15 @@ typedef struct {
     const CzKey *key; /* of the table */
     const CzTrail *trail;
     const CzUnit *x_unit, *y_unit;
-    int n_point;
-    double *x, *y; /* [SI] (n_point) */
+    CzTrace points; /* in SI units of the table; those of this file are in no file's line */
 } Curve;
 
 static bool make_room(Curve *curve, int n_point) {
-    curve->x = cz_arena_allocate(&curve->reader->arena, (size_t)n_point, sizeof *curve->x);
-    curve->y = cz_arena_allocate(&curve->reader->arena, (size_t)n_point, sizeof *curve->y);
-    return curve->x != NULL && curve->y != NULL;
+    curve->points.x =
+        cz_arena_allocate(&curve->reader->arena, (size_t)n_point, sizeof *curve->points.x);
+    curve->points.f =
+        cz_arena_allocate(&curve->reader->arena, (size_t)n_point, sizeof *curve->points.f);
+    return curve->points.x != NULL && curve->points.f != NULL;
 }
 
 /* Unit of a column whose name must be stem_unit; a mistake when it is another. */
@@ -52,21 +53,21 @@ static bool take_number(Curve *curve, const char *stem, const CzUnit *unit, CzDi
 
 /* Takes one point; false when it is none. */
 static bool take_point(Curve *curve, const CzNode *x, const CzNode *y) {
-    const int at = curve->n_point;
-    const bool has_x =
-        take_number(curve, curve->key->x, curve->x_unit, curve->key->dimension, x, &curve->x[at]);
-    const bool has_y =
-        take_number(curve, curve->key->y, curve->y_unit, curve->key->y_dimension, y, &curve->y[at]);
+    const int at = curve->points.n;
+    const bool has_x = take_number(curve, curve->key->x, curve->x_unit, curve->key->dimension, x,
+                                   &curve->points.x[at]);
+    const bool has_y = take_number(curve, curve->key->y, curve->y_unit, curve->key->y_dimension, y,
+                                   &curve->points.f[at]);
     if (!has_x || !has_y)
         return false;
-    if (at > 0 && curve->x[at] <= curve->x[at - 1]) {
+    if (at > 0 && curve->points.x[at] <= curve->points.x[at - 1]) {
         cz_mistake(
             &curve->reader->mistakes, x, curve->trail,
             "'%s' must rise from point to point, but %.40s does not lie beyond the point before",
             curve->key->x, x->text);
         return false;
     }
-    curve->n_point++;
+    curve->points.n++;
     return true;
 }
 
@@ -166,27 +167,27 @@ static void check_keys(Curve *curve, const CzNode *node, bool has_file) {
 
 static void reduce(Curve *curve, const CzNode *node, CzTable *table) {
     char energy[CZ_NUMBER_TEXT], force[CZ_NUMBER_TEXT];
-    const int n_before = curve->n_point;
+    const int n_before = curve->points.n;
     double largest = 0.0;
     CzCurveChange change;
     for (int i = 0; i < n_before; i++)
-        largest = fmax(largest, curve->y[i]);
-    if (!cz_reduce_curve(&curve->reader->arena, curve->x, curve->y, &curve->n_point,
+        largest = fmax(largest, curve->points.f[i]);
+    if (!cz_reduce_curve(&curve->reader->arena, curve->points.x, curve->points.f, &curve->points.n,
                          CZ_MAX_CURVE_POINTS, &change))
         return;
-    if (curve->n_point < n_before)
+    if (curve->points.n < n_before)
         cz_mistake(
             &curve->reader->warnings, node, curve->trail,
             "'%s' was reduced from %d to %d points: energy %s kJ as before, force differs by up "
             "to %s kN",
-            curve->key->stem, n_before, curve->n_point,
+            curve->key->stem, n_before, curve->points.n,
             cz_number_print_short(energy, change.area / 1e3),
             cz_number_print_short(force, change.largest_difference <= 1e-12 * largest
                                              ? 0.0 /* what rounding leaves of it */
                                              : change.largest_difference / 1e3));
-    table->n_point = curve->n_point;
-    memcpy(table->x, curve->x, (size_t)curve->n_point * sizeof table->x[0]);
-    memcpy(table->y, curve->y, (size_t)curve->n_point * sizeof table->y[0]);
+    table->n_point = curve->points.n;
+    memcpy(table->x, curve->points.x, (size_t)curve->points.n * sizeof table->x[0]);
+    memcpy(table->y, curve->points.f, (size_t)curve->points.n * sizeof table->y[0]);
     table->given = true;
 }
 
@@ -206,8 +207,7 @@ static void read_table(CzReader *reader, const CzKey *key, const CzNode *node, c
         cz_mistake(&reader->mistakes, file->key, trail,
                    "'%s' has points here or in a file, not both", key->stem);
     else if (file != NULL)
-        is_read = cz_bind_curve_file(reader, key, node, trail,
-                                     &(CzCurveInFile){&curve.n_point, &curve.x, &curve.y});
+        is_read = cz_bind_curve_file(reader, key, node, trail, &curve.points);
     else
         is_read = read_columns(&curve, node) && read_points(&curve, node);
     if (is_read && has_basis)

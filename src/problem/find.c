@@ -6,31 +6,6 @@
 
 #include "base/error.h"
 #include "problem/reading.h"
-#include "tree/path.h"
-
-/* The stand-ins take their turn among the settings. */
-static bool put_stand_ins(CzProblem *trial, const CzProblem *problem, const char *path,
-                          const CzNode *place, CzTree *tree, CzMatches *matches) {
-    CzReader *reader = &trial->reader;
-    const int own = cz_setting_rank(&problem->tree, path);
-    int n = 0, n_before = 0;
-    CzSetting *ordered =
-        cz_arena_allocate(&reader->arena, (size_t)problem->n_setting, sizeof *ordered);
-    if (ordered == NULL)
-        return false;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int i = 0; i < problem->n_setting; i++)
-            if ((cz_setting_rank(&problem->tree, problem->setting[i].path) <= own) == (pass == 0))
-                ordered[n++] = problem->setting[i];
-        n_before = pass == 0 ? n : n_before;
-    }
-    *tree = cz_settings_apply(reader, &problem->tree, ordered, n_before);
-    if (!cz_path_put(reader, tree, path, place, NULL, matches))
-        return false;
-    trial->setting = ordered + n_before;
-    trial->n_setting = problem->n_setting - n_before;
-    return true;
-}
 
 /* First mistake that the path itself made, or NULL. */
 static const CzError *first_mistake(const CzReader *reader, const CzNode *place) {
@@ -95,27 +70,28 @@ static int compare_targets(const void *a, const void *b) {
 }
 
 static CzStatus collect(const CzProblem *problem, const CzProblem *trial, const CzMatches *matches,
-                        CzTarget **targets, int *n_target, CzError *error) {
+                        CzTargets *found, CzError *error) {
     const CzPlaces *places = &trial->places;
-    *targets = malloc(((size_t)places->n_place + 1) * sizeof **targets);
-    if (*targets == NULL)
+    found->target = malloc(((size_t)places->n_place + 1) * sizeof *found->target);
+    if (found->target == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
     for (int i = 0; i < places->n_place; i++)
         if (is_target(problem, trial, &places->place[i]))
-            (*targets)[(*n_target)++] = make_target(problem, trial, &places->place[i], matches);
-    qsort(*targets, (size_t)*n_target, sizeof **targets, compare_targets);
+            found->target[found->n++] = make_target(problem, trial, &places->place[i], matches);
+    qsort(found->target, (size_t)found->n, sizeof *found->target, compare_targets);
     return CZ_OK;
 }
 
-static CzStatus find(const CzProblem *problem, CzProblem *trial, const char *path,
-                     CzTarget **targets, int *n_target, CzError *error) {
+/* Reads the problem with stand-ins as the last of its settings; they take their turn. */
+static CzStatus find(const CzProblem *problem, CzProblem *trial, CzSetting *stand_ins,
+                     const char *path, CzTargets *found, CzError *error) {
     CzReader *reader = &trial->reader;
     CzMatches matches = {0};
-    CzTree tree;
     const CzSource *source = cz_sources_add(&reader->sources, "(path)", ".", path, strlen(path));
     const CzNode place = {.source = source, .line = 1, .column = 1};
-    if (source != NULL && put_stand_ins(trial, problem, path, &place, &tree, &matches))
-        cz_problem_bind(trial, &tree);
+    *stand_ins = (CzSetting){.path = path, .place = &place, .matches = &matches};
+    if (source != NULL)
+        cz_problem_bind(trial, &trial->tree);
     if (reader->arena.out_of_memory)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
     const CzError *mistake = first_mistake(reader, &place);
@@ -125,11 +101,9 @@ static CzStatus find(const CzProblem *problem, CzProblem *trial, const char *pat
             memcpy(error->help, mistake->help, sizeof error->help);
         return CZ_STATUS_INPUT;
     }
-    CZ_TRY(collect(problem, trial, &matches, targets, n_target, error));
-    if (*n_target > 0)
+    CZ_TRY(collect(problem, trial, &matches, found, error));
+    if (found->n > 0)
         return CZ_OK;
-    free(*targets);
-    *targets = NULL;
     cz_fail(error, CZ_STATUS_INPUT, "path '%s' names no number", path);
     if (error != NULL)
         snprintf(error->help, sizeof error->help,
@@ -139,12 +113,20 @@ static CzStatus find(const CzProblem *problem, CzProblem *trial, const char *pat
 
 CzStatus cz_problem_find(const CzProblem *problem, const char *path, CzTarget **targets,
                          int *n_target, CzError *error) {
+    CzTargets found = {0};
+    CzSetting *stand_ins = NULL;
     *targets = NULL;
     *n_target = 0;
-    CzProblem *trial = cz_problem_create_again(problem);
+    CzProblem *trial = cz_problem_create_again(problem, 1, &stand_ins);
     if (trial == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
-    const CzStatus status = find(problem, trial, path, targets, n_target, error);
+    const CzStatus status = find(problem, trial, stand_ins, path, &found, error);
     cz_problem_free(trial);
-    return status;
+    if (status != CZ_OK) {
+        free(found.target);
+        return status;
+    }
+    *targets = found.target;
+    *n_target = found.n;
+    return CZ_OK;
 }

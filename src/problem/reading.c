@@ -18,10 +18,21 @@ CzProblem *cz_problem_create(const char *share_folder) {
     return problem;
 }
 
-CzProblem *cz_problem_create_again(const CzProblem *problem) {
+CzProblem *cz_problem_create_again(const CzProblem *problem, int n_more, CzSetting **more) {
     CzProblem *again = cz_problem_create(problem->reader.share_folder);
-    if (again == NULL)
+    const int n = problem->n_setting;
+    CzSetting *setting = again != NULL ? cz_arena_allocate(&again->reader.arena,
+                                                           (size_t)(n + n_more), sizeof *setting)
+                                       : NULL;
+    if (setting == NULL) {
+        cz_problem_free(again);
         return NULL;
+    }
+    if (n > 0)
+        memcpy(setting, problem->setting, (size_t)n * sizeof *setting);
+    *more = setting + n;
+    again->setting = setting;
+    again->n_setting = n + n_more;
     again->file = problem->file;
     again->tree = problem->tree;
     again->curves = problem->curves;

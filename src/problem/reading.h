@@ -27,8 +27,9 @@ struct CzProblem {
 /* A problem without anything in it; freed by cz_problem_free. NULL without memory. */
 CzProblem *cz_problem_create(const char *share_folder);
 
-/* One that is to be read again from the tree of another, which it must not outlive. */
-CzProblem *cz_problem_create_again(const CzProblem *problem);
+/* One that is to be read again from the tree of another, which it must not outlive, with `*more`
+ * for n_more settings behind its own. NULL without memory. */
+CzProblem *cz_problem_create_again(const CzProblem *problem, int n_more, CzSetting **more);
 
 /* What the records of a tree are read with. */
 CzBinder cz_problem_binder(CzProblem *problem, const CzTree *tree);

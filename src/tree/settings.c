@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "tree/path.h"
 
 /* Text of all settings of the options, one per line. NULL without memory. */
 static char *join_lines(int n_set, const char *const *set, size_t *n_byte) {
@@ -93,7 +92,7 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_
     for (int i = 0; i < n_own; i++) {
         const CzEntry *entry = &own->value->entry[i];
         if (entry->value->kind == CZ_NODE_TEXT)
-            setting[(*n_setting)++] = (CzSetting){entry->key->text, entry->key, entry->value};
+            setting[(*n_setting)++] = (CzSetting){entry->key->text, entry->key, entry->value, NULL};
         else
             cz_mistake(&reader->mistakes, entry->value, NULL,
                        "'%s' is set to %s; it needs one value", entry->key->text,
@@ -106,13 +105,17 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_
 
 /* ---- their order ---- */
 
-int cz_setting_rank(const CzTree *tree, const char *path) {
+enum { LAST_RANK = 48 };
+
+/* When a setting takes its turn: 0 for parts without parts in them, more the deeper parts are
+ * nested in a part, LAST_RANK for what is no part. */
+static int rank_of(const CzTree *tree, const char *path) {
     if (strncmp(path, "parts.", 6) != 0)
-        return CZ_LAST_RANK;
+        return LAST_RANK;
     const char *name = path + 6;
     const CzPart *part = cz_tree_part(tree, name, strcspn(name, ".["));
     const int depth = part != NULL ? part->depth : 0;
-    return depth < CZ_LAST_RANK ? depth : CZ_LAST_RANK - 1;
+    return depth < LAST_RANK ? depth : LAST_RANK - 1;
 }
 
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
@@ -129,11 +132,11 @@ CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *
     if (own == NULL)
         return *tree;
     for (int i = 0; i < n_setting; i++)
-        own[i] = cz_setting_rank(tree, setting[i].path);
-    for (int rank = 0; rank <= CZ_LAST_RANK; rank++)
+        own[i] = rank_of(tree, setting[i].path);
+    for (int rank = 0; rank <= LAST_RANK; rank++)
         for (int i = 0; i < n_setting; i++)
             if (own[i] == rank)
                 cz_path_put(reader, &changed, setting[i].path, setting[i].place, setting[i].value,
-                            NULL);
+                            setting[i].matches);
     return changed;
 }

@@ -7,22 +7,19 @@
 #ifndef CZ_TREE_SETTINGS_H
 #define CZ_TREE_SETTINGS_H
 
-#include "tree/parts.h"
+#include "tree/path.h"
 
 typedef struct CzSetting {
     const char *path;
     const CzNode *place; /* of the path */
     const CzNode *value;
+    CzMatches *matches; /* gets the places of nodes that stand for any number; NULL: the value is
+                           put in */
 } CzSetting;
 
 /* Settings of the file's `set:`, then those of the command line, "path=value" (n_set). */
 const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_set,
                                     const char *const *set, int *n_setting);
-
-/* When a setting takes its turn: 0 for parts without parts in them, more the deeper parts are
- * nested in a part, CZ_LAST_RANK for what is no part. */
-enum { CZ_LAST_RANK = 48 };
-int cz_setting_rank(const CzTree *tree, const char *path);
 
 /* The tree with all settings put in. */
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,

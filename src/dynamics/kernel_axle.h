@@ -9,19 +9,6 @@
 
 #include "dynamics/kernel_bogie.h"
 
-/* ---- line up ---- */
-
-/* The axle as the bogie sees it. */
-static inline CzSight line_up_axle(CzCarrier bogie, const CzWheelset *at, const CzWheelset *rate,
-                                   Rest rest, size_t i) {
-    const CzPoint from_bogie = {rest.along + (at->x[i] - bogie.displacement->x[i]),
-                                rest.up + (at->z[i] - bogie.displacement->z[i]),
-                                rate->x[i] - bogie.rate->x[i], rate->z[i] - bogie.rate->z[i]};
-    return cz_sight_of(bogie, i, from_bogie);
-}
-
-/* ---- law ---- */
-
 /* One axle, counted from the rear of the car. */
 static void axle_to_bogie(CzBlock *d, int axle) {
     const int bogie = axle / 2;
@@ -48,9 +35,7 @@ static void axle_to_bogie(CzBlock *d, int axle) {
         const double resisted = rows->axle_guidance.damping[i] * at.stretching;
         const double pull = held + resisted; /* forward on the wheelset */
 
-        const CzPush other = cz_put_seen(on_bogie, frame, i, seen, pull, lifted);
-        on_axle->x[i] += other.x;
-        on_axle->z[i] += other.z;
+        put_on_axle(on_axle, i, cz_put_seen(on_bogie, frame, i, seen, pull, lifted));
         compressed[i] = at.compression;
         stretched[i] = at.stretch;
         power->primary[i] += spring * at.rate;

@@ -13,8 +13,6 @@
 #include "laws/coupler.h"
 #include "laws/slider.h"
 
-/* ---- law ---- */
-
 static int some_are_released(const CzCouplerMemory *restrict memory) {
     double n_released = 0.0;
     CZ_LANES_SUM(i, n_released) {
@@ -82,37 +80,6 @@ static void leave_couplers(CzBlock *d) {
     memcpy(d->published.coupler.force, d->memory->coupler.force, sizeof(CzRow));
 }
 
-/* ---- put ---- */
-
-/* Strut force with what a release adds to it, what flattens the faces, and what reacts the hinges.
- */
-static void sum_coupler_forces(CzBlock *d, const CouplerLine *restrict line,
-                               const CouplerChain *restrict of, CouplerForces *restrict forces) {
-    const double *restrict force = of->buffers.chain.now.force, *restrict more = of->release.more;
-    const double *restrict tilts = d->parameter.tilts, *restrict top = d->published.coupler.top;
-    double *restrict total = d->published.interface.force, *restrict drop =
-                                                               d->published.interface.drop;
-    double *restrict kept = d->published.coupler.force, *restrict power = d->power->coupler;
-    CZ_LANES (i) { /* on side B */
-        const double nx = line->direction_x[i], nz = line->direction_z[i];
-        const double transverse =
-            tilts[i] * (forces->moment[0][i] + forces->moment[1][i]) * line->inverse_length[i];
-        const double mating = forces->mating[0][i] + forces->mating[1][i];
-        const double pushing = force[i] + more[i] + mating;
-        const double at_end = (force[i] + mating) * nx + transverse * nz;
-        const double lost = top[i] > 0.0 ? cz_positive_part(top[i] - force[i]) * nx : 0.0;
-        forces->hinge_x[i] = transverse * nz;
-        forces->hinge_z[i] = -transverse * nx;
-        forces->x[i] = pushing * nx + transverse * nz;
-        forces->z[i] = pushing * nz - transverse * nx;
-        forces->push[i] = at_end + lost;
-        drop[i] += lost;
-        total[i] += at_end;
-        kept[i] = force[i];
-        power[i] += (force[i] + more[i]) * line->rate[i];
-    }
-}
-
 /* Couplers at work. */
 static void push_couplers(CzBlock *d, const CzCarrier car[2], const CouplerLine *line,
                           double step) {
@@ -125,7 +92,7 @@ static void push_couplers(CzBlock *d, const CzCarrier car[2], const CouplerLine 
     for (int side = 0; side < 2; ++side)
         turn_hinge(d, side, line, car[side], grows, &forces);
     d->couplers_rest = slack && couplers_remember(d) && !d->leaves_nothing_out;
-    sum_coupler_forces(d, line, &of, &forces);
+    sum_coupler_forces(d, line, of.buffers.chain.now.force, of.release.more, &forces);
     for (int side = 0; side < 2; ++side) {
         put_coupler(d, side, line, &forces);
         if (d->budget != NULL)

@@ -169,6 +169,35 @@ static void underframe_extremes(CzBlock *d) {
 
 /* ---- put ---- */
 
+/* Strut force with what a release adds to it, what flattens the faces, and what reacts the hinges.
+ */
+static void sum_coupler_forces(CzBlock *d, const CouplerLine *restrict line,
+                               const double *restrict force, const double *restrict more,
+                               CouplerForces *restrict forces) {
+    const double *restrict tilts = d->parameter.tilts, *restrict top = d->published.coupler.top;
+    double *restrict total = d->published.interface.force, *restrict drop =
+                                                               d->published.interface.drop;
+    double *restrict kept = d->published.coupler.force, *restrict power = d->power->coupler;
+    CZ_LANES (i) { /* on side B */
+        const double nx = line->direction_x[i], nz = line->direction_z[i];
+        const double transverse =
+            tilts[i] * (forces->moment[0][i] + forces->moment[1][i]) * line->inverse_length[i];
+        const double mating = forces->mating[0][i] + forces->mating[1][i];
+        const double pushing = force[i] + more[i] + mating;
+        const double at_end = (force[i] + mating) * nx + transverse * nz;
+        const double lost = top[i] > 0.0 ? cz_positive_part(top[i] - force[i]) * nx : 0.0;
+        forces->hinge_x[i] = transverse * nz;
+        forces->hinge_z[i] = -transverse * nx;
+        forces->x[i] = pushing * nx + transverse * nz;
+        forces->z[i] = pushing * nz - transverse * nx;
+        forces->push[i] = at_end + lost;
+        drop[i] += lost;
+        total[i] += at_end;
+        kept[i] = force[i];
+        power[i] += (force[i] + more[i]) * line->rate[i];
+    }
+}
+
 /* Puts strut force and hinge moments on the carriers of one side, and the largest strut force of
  * the step into the section behind. */
 static void put_coupler(CzBlock *d, int side, const CouplerLine *restrict line,

@@ -4,7 +4,7 @@
 #ifndef CZ_DYNAMICS_KERNEL_FACE_H
 #define CZ_DYNAMICS_KERNEL_FACE_H
 
-#include "dynamics/kernel_contact.h"
+#include "dynamics/kernel_contact_line.h"
 #include "dynamics/kernel_massless.h"
 #include "dynamics/kernel_snap.h"
 #include "laws/face.h"
@@ -179,16 +179,6 @@ static void push_faces(CzBlock *d, const Contact *contact, FaceChain *of) {
     d->faces_rest =
         settled && faces_are_slack(d, chain) && faces_remember(d) && !d->leaves_nothing_out;
     press_faces(d, contact, chain->now.force);
-}
-
-/* ---- put ---- */
-
-/* Notes of the force for a budget, and its points of action from the end masses. */
-static void note_faces(CzBudgetRows *budget, const Contact *contact) {
-    memcpy(budget->face_x, contact->force_x, sizeof(CzRow));
-    memcpy(budget->face_z, contact->force_z, sizeof(CzRow));
-    memcpy(budget->face_arm_x, contact->arm_x, sizeof contact->arm_x);
-    memcpy(budget->face_arm_z, contact->arm_z, sizeof contact->arm_z);
 }
 
 /* All anti-climbers and bare ends. */

@@ -4,7 +4,7 @@
 #define CZ_DYNAMICS_KERNEL_SIDE_BUFFERS_H
 
 #include "dynamics/kernel_buffer.h"
-#include "dynamics/kernel_contact.h"
+#include "dynamics/kernel_contact_line.h"
 #include "dynamics/stored.h"
 #include "laws/slider.h"
 

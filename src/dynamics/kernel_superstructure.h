@@ -7,7 +7,7 @@
 #ifndef CZ_DYNAMICS_KERNEL_SUPERSTRUCTURE_H
 #define CZ_DYNAMICS_KERNEL_SUPERSTRUCTURE_H
 
-#include "dynamics/kernel_contact.h"
+#include "dynamics/kernel_contact_line.h"
 #include "laws/superstructure.h"
 
 /* All superstructures; a lane without any has no strength. */

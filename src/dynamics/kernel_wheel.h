@@ -2,7 +2,7 @@
 #ifndef CZ_DYNAMICS_KERNEL_WHEEL_H
 #define CZ_DYNAMICS_KERNEL_WHEEL_H
 
-#include "dynamics/kernel_carrier.h"
+#include "dynamics/kernel_wheel_line.h"
 #include "laws/drag.h"
 #include "laws/slider.h"
 #include "laws/wheel_rail.h"
@@ -53,14 +53,12 @@ static void wheel(CzBlock *d, int axle, double step) {
     const double *restrict rest = constant->static_load[axle];
     const double *restrict brake = rows->brake_moment[axle];
     const double *restrict pressing = d->published.wheel[axle].force;
-    const CzWheelset *restrict at = &d->position.wheelset[axle];
-    const CzWheelset *restrict rate = &d->velocity.wheelset[axle];
-    const double *restrict pitch = d->position.bogie[bogie].pitch;
-    const double *restrict turn = d->velocity.bogie[bogie].pitch;
+    const CzWheelset *at = &d->position.wheelset[axle], *rate = &d->velocity.wheelset[axle];
+    const CzCarrier frame = own_bogie(d, bogie);
     const CzWheelMemory *restrict memory = &d->memory->wheel[axle];
     CzWheelMemory *restrict next = &d->next_memory->wheel[axle];
-    CzWheelset *restrict on = &d->force.wheelset[axle];
-    double *restrict on_bogie = d->force.bogie[bogie].pitch;
+    CzWheelset *on = &d->force.wheelset[axle];
+    CzPlane *on_bogie = &d->force.bogie[bogie];
     double *restrict adhesion = d->published.adhesion;
     CzPower *restrict power = d->power;
     CZ_LANES (i) {
@@ -70,23 +68,21 @@ static void wheel(CzBlock *d, int axle, double step) {
         const CzCreepLaw law = {rows->creep_stiffness[i], cz_larger(rows->creep_length[i], 1e-6),
                                 rows->friction_peak[i], rows->friction_sliding[i],
                                 cz_larger(rows->friction_fall_speed[i], 1e-6)};
-        const double slip = rate->x[i] - radius * rate->spin[i];
-        const double deflection = cz_creep_deflection(
-            &law, constant->creep_compliance[i], memory->creep[i], slip, rate->x[i], normal, step);
+        const WheelLine line = line_up_wheel(frame, at, rate, radius, i);
+        const double deflection =
+            cz_creep_deflection(&law, constant->creep_compliance[i], memory->creep[i], line.slip,
+                                line.speed, normal, step);
         const double tangential = -law.stiffness * deflection;
         const CzSliderResponse held =
             cz_slider_of(rows->brake_stiffness[i], constant->brake_compliance[i], brake[i],
-                         at->spin[i] + pitch[i], memory->brake[i]);
+                         line.angle, memory->brake[i]);
         next->creep[i] = deflection;
         next->brake[i] = held.offset;
-        on->x[i] += tangential;
-        on->z[i] += more;
-        on->spin[i] -= radius * tangential + held.force;
-        cz_put_moment(on_bogie, i, -held.force);
+        put_wheel(on, on_bogie, i, (WheelForces){tangential, more, held.force}, radius);
         adhesion[i] += tangential;
-        power->wheel_normal[i] -= more * rate->z[i];
-        power->wheel_creep[i] -= tangential * slip;
-        power->brake[i] += held.force * (rate->spin[i] + turn[i]);
+        power->wheel_normal[i] -= more * line.rate_up;
+        power->wheel_creep[i] -= tangential * line.slip;
+        power->brake[i] += held.force * line.turning;
     }
 }
 

@@ -348,11 +348,51 @@ static void every_header_of_a_law_is_in_the_list(void **state) {
     closedir(folder);
 }
 
+/* Laws of signed quantities: which inputs turn round with the direction, and whether the outputs
+ * do.
+ */
+static const struct {
+    int law;
+    double turns[MAX_INPUT]; /* -1 for those that do */
+    double sign;
+} signed_laws[] = {
+    {LAW_cz_slider, {-1, -1, 1}, -1},     {LAW_cz_stop, {-1, 1}, -1},
+    {LAW_cz_suspension_damper, {-1}, -1}, {LAW_cz_creep_deflection, {-1, -1, -1, 1, 1}, -1},
+    {LAW_cz_drag, {1, 1, -1, -1}, -1},    {LAW_cz_ribs, {-1, 1, 1, 1}, 1},
+};
+
+/* To the last bit, and at zero of either sign. */
+static void laws_of_signed_quantities_know_no_direction(void **state) {
+    (void)state;
+    Law laws[N_LAW];
+    list_laws(laws);
+    uint64_t seed = 4711;
+    for (size_t k = 0; k < sizeof signed_laws / sizeof signed_laws[0]; k++) {
+        const Law *law = &laws[signed_laws[k].law];
+        for (int n = 0; n < 2000; n++) {
+            double input[MAX_INPUT], turned[MAX_INPUT], output[MAX_OUTPUT], mirrored[MAX_OUTPUT];
+            for (int i = 0; i < law->n_input; i++) {
+                const double at = next_random(&seed), size = law->high[i] - law->low[i];
+                const bool is_zero = signed_laws[k].turns[i] < 0 && (n >> i) % 4 == 0;
+                input[i] = is_zero ? 0.0 : law->low[i] + at * size;
+                turned[i] = signed_laws[k].turns[i] * input[i];
+            }
+            law->at(input, output);
+            law->at(turned, mirrored);
+            for (int i = 0; i < law->n_output; i++)
+                if (mirrored[i] != signed_laws[k].sign * output[i])
+                    fail_msg("%s: %.17g turned round gives %.17g", law->name, output[i],
+                             mirrored[i]);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_output_jumps_along_any_input),
         cmocka_unit_test(the_search_for_jumps_finds_one),
         cmocka_unit_test(every_header_of_a_law_is_in_the_list),
+        cmocka_unit_test(laws_of_signed_quantities_know_no_direction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,17 +128,11 @@ arithmetic_on_rows() {
         'CZ_(DOF|PARAMETER|MEMORY|LEDGER|EXTREME|PUBLISHED|CURVE)\([^()]*\) *[-+*%]|[-+*%] *CZ_(DOF|PARAMETER|MEMORY|LEDGER|EXTREME|PUBLISHED|CURVE)\('
 }
 
-# What knows an angle, an arm or a direction is a part of the kernel that lines up or puts: between the two comments that
-# name it and the next part. kernel_carrier.h is such a part as a whole, the rail has a shape of its own.
+# What knows an angle, an arm or a direction is a part of the kernel that lines up or puts: kernel_carrier.h, which says
+# how bodies move, and the kernel_*_line.h of the elements. Messages between cars and the rail have shapes of their own.
 angles_in_laws() {
-    c_files src/dynamics | grep '/kernel[_a-z]*\.[ch]$' | grep -vE '/kernel_(carrier|neighbours|track)\.h$' | xargs awk '
-        FNR == 1 { part = ""; in_type = 0 }
-        /^\/\* ---- / { part = $0 }
-        /^typedef struct/ { in_type = 1 }
-        !in_type && part !~ /line up|put/ && !/^(\/\*| \*)/ && /(^|[^a-z_])(cosine|sine|turned|arm_x|arm_z|normal_x|normal_z|direction_x|direction_z)([^a-z_]|$)/ {
-            print FILENAME ":" FNR ": " $0
-        }
-        in_type && /^}/ { in_type = 0 }'
+    c_files src/dynamics | grep '/kernel[_a-z]*\.[ch]$' | grep -vE '/kernel_(carrier|neighbours|track|[a-z_]*_line)\.h$' |
+        xargs grep -HnwE 'cosine|sine|turned|arm_x|arm_z|normal_x|normal_z|direction_x|direction_z' | without_comments
 }
 
 # A third-party library is named in one file, so that it can be replaced.

@@ -5,8 +5,8 @@
  * integrals of the relative velocity of the material points at P, where both forces act: power and
  * moment balance to rounding.
  */
-#ifndef CZ_DYNAMICS_KERNEL_CONTACT_H
-#define CZ_DYNAMICS_KERNEL_CONTACT_H
+#ifndef CZ_DYNAMICS_KERNEL_CONTACT_LINE_H
+#define CZ_DYNAMICS_KERNEL_CONTACT_LINE_H
 
 #include "dynamics/kernel_carrier.h"
 #include "dynamics/kernel_chain_solve.h"
@@ -104,6 +104,14 @@ static void put_drop(CzBlock *d, const Contact *restrict contact, const ChainSta
         section[i] += slaved[i] * lost;
         pushed[i] += slaved_ahead[i] * lost;
     }
+}
+
+/* Notes of the force for a budget, and its points of action from the end masses. */
+static void note_faces(CzBudgetRows *budget, const Contact *contact) {
+    memcpy(budget->face_x, contact->force_x, sizeof(CzRow));
+    memcpy(budget->face_z, contact->force_z, sizeof(CzRow));
+    memcpy(budget->face_arm_x, contact->arm_x, sizeof contact->arm_x);
+    memcpy(budget->face_arm_z, contact->arm_z, sizeof contact->arm_z);
 }
 
 #endif

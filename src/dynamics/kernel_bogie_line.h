@@ -1,0 +1,85 @@
+/* Bogies and axles lined up and put: as the body sees a bogie, and a bogie its axles. Part of
+ * kernel.c only. */
+#ifndef CZ_DYNAMICS_KERNEL_BOGIE_LINE_H
+#define CZ_DYNAMICS_KERNEL_BOGIE_LINE_H
+
+#include "dynamics/kernel_carrier.h"
+
+/* A bogie lined up: the pin from the bogie's centre of gravity, and as the body sees it. */
+typedef struct {
+    CzPoint pin;
+    CzSight seen;
+} BogieLine;
+
+/* Where a point is at rest, from the carrier that sees it. */
+typedef struct {
+    double along, up; /* [m] */
+} Rest;
+
+/* Strokes and rates of suspension and link. */
+typedef struct {
+    double compression, rate; /* [m, m/s] */
+    double stretch, stretching;
+} StrutStrokes;
+
+/* ---- line up ---- */
+
+static inline BogieLine line_up_bogie(CzCarrier body, CzCarrier bogie, const CzParameters *rows,
+                                      Rest rest, size_t i) {
+    const double link_bogie = rows->link.bogie_z[i];
+    const CzPoint pin = cz_point_of(bogie, i, 0.0, link_bogie);
+    const double turn = bogie.rate->pitch[i];
+    const CzPoint from_body = {
+        rest.along + (bogie.displacement->x[i] - body.displacement->x[i]) + pin.arm_x,
+        rest.up - link_bogie + (bogie.displacement->z[i] - body.displacement->z[i]) + pin.arm_z,
+        bogie.rate->x[i] - body.rate->x[i] - pin.arm_z * turn,
+        bogie.rate->z[i] - body.rate->z[i] + pin.arm_x * turn};
+    return (BogieLine){pin, cz_sight_of(body, i, from_body)};
+}
+
+static inline StrutStrokes strokes_seen(CzSight seen, Rest rest) {
+    return (StrutStrokes){seen.up - rest.up, seen.rate_up, rest.along - seen.along,
+                          -seen.rate_along};
+}
+
+/* The axle as the bogie sees it. */
+static inline CzSight line_up_axle(CzCarrier bogie, const CzWheelset *at, const CzWheelset *rate,
+                                   Rest rest, size_t i) {
+    const CzPoint from_bogie = {rest.along + (at->x[i] - bogie.displacement->x[i]),
+                                rest.up + (at->z[i] - bogie.displacement->z[i]),
+                                rate->x[i] - bogie.rate->x[i], rate->z[i] - bogie.rate->z[i]};
+    return cz_sight_of(bogie, i, from_bogie);
+}
+
+/* ---- put ---- */
+
+/* Puts what an axle carries on it. */
+static inline void put_on_axle(CzWheelset *on, size_t i, CzPush push) {
+    on->x[i] += push.x;
+    on->z[i] += push.z;
+}
+
+/* Notes for a budget what link, suspension and stops put on the body, which had `before` before
+ * them. */
+static void note_bogie(CzBlock *d, int bogie, const CzPlane *restrict before) {
+    const double sign = bogie == 0 ? -1.0 : 1.0;
+    const CzParameters *restrict rows = &d->parameter;
+    const CzCarrier body = own_body(d), frame = own_bogie(d, bogie);
+    const CzPlane *restrict after = &d->force.body;
+    CzBudgetRows *restrict budget = d->budget;
+    CZ_LANES (i) {
+        const BogieLine line = line_up_bogie(
+            body, frame, rows, (Rest){sign * rows->bogie_x[i], rows->link.body_z[i]}, i);
+        const double stop = d->published.secondary[bogie].stop_vertical[i];
+        const double of_link = line.seen.up * d->published.link[bogie].force[i];
+        const double lift = body.turned->cosine[i] * stop;
+        budget->link_moment[i] += of_link;
+        budget->stop_lift[i] += lift;
+        budget->stop_moment[i] += line.seen.along * stop;
+        budget->suspension_lift[i] += after->z[i] - before->z[i] - lift;
+        budget->suspension_moment[i] +=
+            after->pitch[i] - before->pitch[i] - of_link - line.seen.along * stop;
+    }
+}
+
+#endif

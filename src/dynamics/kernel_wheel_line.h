@@ -1,0 +1,40 @@
+/* Wheelsets lined up and put: on the rail, and against the brake in the bogie frame. Part of
+ * kernel.c only. */
+#ifndef CZ_DYNAMICS_KERNEL_WHEEL_LINE_H
+#define CZ_DYNAMICS_KERNEL_WHEEL_LINE_H
+
+#include "dynamics/kernel_carrier.h"
+
+/* A wheelset lined up. */
+typedef struct {
+    double slip, speed;    /* of the contact point over the rail, and along it [m/s] */
+    double rate_up;        /* [m/s] */
+    double angle, turning; /* in the brake: the frame turns the other way round [rad, rad/s] */
+} WheelLine;
+
+/* What acts on it. */
+typedef struct {
+    double tangential, more; /* of the rail, `more` beyond the static load [N] */
+    double brake;            /* [N m] */
+} WheelForces;
+
+/* ---- line up ---- */
+
+static inline WheelLine line_up_wheel(CzCarrier frame, const CzWheelset *at, const CzWheelset *rate,
+                                      double radius, size_t i) {
+    return (WheelLine){rate->x[i] - radius * rate->spin[i], rate->x[i], rate->z[i],
+                       at->spin[i] + frame.displacement->pitch[i],
+                       rate->spin[i] + frame.rate->pitch[i]};
+}
+
+/* ---- put ---- */
+
+static inline void put_wheel(CzWheelset *on, CzPlane *on_bogie, size_t i, WheelForces forces,
+                             double radius) {
+    on->x[i] += forces.tangential;
+    on->z[i] += forces.more;
+    cz_put_moment(on->spin, i, -(radius * forces.tangential + forces.brake));
+    cz_put_moment(on_bogie->pitch, i, -forces.brake);
+}
+
+#endif

@@ -83,8 +83,9 @@ typedef struct CzNotJudged {
 
 /* What one design answers. Arrays are borrowed from the evaluation and freed with it. */
 typedef struct CzEvaluation {
-    CzStatus status;  /* CZ_OK, or CZ_STATUS_RUN_FAILED when a scenario failed or is incomplete */
-    double objective; /* in the objective's unit; NaN when failed, or not known */
+    CzStatus status;   /* CZ_OK, or CZ_STATUS_RUN_FAILED when a scenario failed or is incomplete */
+    char failure[512]; /* the first such scenario, and why; empty otherwise */
+    double objective;  /* in the objective's unit; NaN when failed, or not known */
     int n_constraint;
     double *constraint; /* -(margin - required margin): at most 0 when kept; NaN when failed
                            (n_constraint) */

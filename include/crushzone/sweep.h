@@ -74,7 +74,7 @@ typedef struct CzSweepPoint {
     bool beyond_validity; /* something climbed: the metrics may be of later, and totals are NaN */
     double metric[CZ_MOST_SWEPT_METRICS]; /* in the metrics' units; NaN when unknown (n_metric) */
     char metric_where[CZ_MOST_SWEPT_METRICS][CZ_PLACE_ROOM]; /* place and scenario (n_metric) */
-    char message[256];                                       /* why it is invalid or failed */
+    char message[512];                                       /* why it is invalid or failed */
 } CzSweepPoint;
 
 /* Open result, owns its memory. */

@@ -218,15 +218,29 @@ static CzStatus compose_checks(const CzEvaluator *evaluator, const CzVehicle *ve
     return CZ_OK;
 }
 
+/* The scenario that failed, or the first that did not come to its end, and why. */
+static void note_failure(const CzEvaluator *evaluator, const CzRunSummary *const *run,
+                         CzEvaluation *evaluation) {
+    const CzRunSummary *first = NULL;
+    for (int s = 0; s < evaluator->n_scene; s++) {
+        const bool has_failed = run[s] != NULL && run[s]->status != CZ_OK;
+        const bool is_worse = first == NULL || (has_failed && first->status == CZ_OK);
+        if (run[s] != NULL && failure_of(run[s]) != NULL && is_worse)
+            first = run[s];
+    }
+    if (first != NULL)
+        snprintf(evaluation->failure, sizeof evaluation->failure, "%s: %s", first->scenario,
+                 first->failure[0] != '\0' ? first->failure : failure_of(first));
+}
+
 CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                     const CzRunSummary *const *run, CzRun *const *whole, CzEvaluation *evaluation,
                     CzError *error) {
     CZ_TRY(allocate(evaluator, evaluation, error));
     CZ_TRY(compose_checks(evaluator, vehicles, run, evaluation, error));
     CZ_TRY(judge_matches(evaluator, vehicles, run, whole, evaluation, error));
-    bool failed = false;
-    for (int s = 0; s < evaluator->n_scene; s++)
-        failed |= run[s] != NULL && failure_of(run[s]) != NULL;
+    note_failure(evaluator, run, evaluation);
+    const bool failed = evaluation->failure[0] != '\0';
     if (!failed)
         set_objective(evaluator, vehicles, run, evaluation);
     const bool has_objective = evaluator->own_objective != NULL ||

@@ -140,19 +140,6 @@ static CzStatus judge(const CzSweepOptions *options, const CzEvaluation *evaluat
     return CZ_OK;
 }
 
-/* Says which run of a point failed or did not come to its end. */
-static void note_failure(const CzEvaluation *evaluation, CzSweepPoint *point) {
-    for (int i = 0; i < evaluation->n_check; i++) {
-        const CzCheckResult *check = &evaluation->check[i];
-        if (check->verdict == CZ_VERDICT_NOT_CHECKED && !check->is_omitted && check->why != NULL &&
-            isnan(check->value)) {
-            snprintf(point->message, sizeof point->message, "%.80s: %.160s", check->scenario,
-                     check->why);
-            return;
-        }
-    }
-}
-
 static CzStatus evaluate(const Sweeping *sweeping, CzProblem *problem, CzSweepPoint *point,
                          CzError *error) {
     CzEvaluatorOptions options = cz_evaluator_options_default();
@@ -169,7 +156,7 @@ static CzStatus evaluate(const Sweeping *sweeping, CzProblem *problem, CzSweepPo
     status = cz_evaluate(evaluator, 1, NULL, false, &evaluation, error);
     if (status == CZ_OK && evaluation.status != CZ_OK) {
         point->state = CZ_SWEEP_RUN_FAILED;
-        note_failure(&evaluation, point);
+        snprintf(point->message, sizeof point->message, "%s", evaluation.failure);
     } else if (status == CZ_OK) {
         point->state = CZ_SWEEP_DONE;
         status = judge(sweeping->options, &evaluation, point, error);
@@ -192,7 +179,7 @@ static void run_point(int index, void *data) {
     sweeping->status[i] = status;
     if (status == CZ_STATUS_INPUT) {
         point->state = CZ_SWEEP_INVALID;
-        snprintf(point->message, sizeof point->message, "%.255s", error->message);
+        snprintf(point->message, sizeof point->message, "%.511s", error->message);
     }
 }
 

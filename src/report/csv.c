@@ -257,10 +257,10 @@ void cz_csv_write_history(const CzEvaluator *evaluator, const CzOutcome *outcome
 
 void cz_csv_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FILE *stream) {
     static const CzResult *const columns[] = {
-        CZ_RESULT_AT(POINT, state),          CZ_RESULT_AT(POINT, verdict),
-        CZ_RESULT_AT(POINT, margin),         CZ_RESULT_AT(POINT, check),
-        CZ_RESULT_AT(POINT, where),          CZ_RESULT_AT(POINT, scenario),
-        CZ_RESULT_AT(POINT, beyond_validity)};
+        CZ_RESULT_AT(POINT, state),           CZ_RESULT_AT(POINT, verdict),
+        CZ_RESULT_AT(POINT, margin),          CZ_RESULT_AT(POINT, check),
+        CZ_RESULT_AT(POINT, where),           CZ_RESULT_AT(POINT, scenario),
+        CZ_RESULT_AT(POINT, beyond_validity), CZ_RESULT_AT(POINT, message)};
     enum { n_column = sizeof columns / sizeof *columns };
     CzResultContext context = {.sweep = sweep};
     Table table = table_of(options, stream);

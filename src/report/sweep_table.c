@@ -87,6 +87,27 @@ static void write_map(const CzSweep *sweep, bool colour, FILE *stream) {
     fputs("\n+ pass   ~ provisional   X FAIL   ? not checked   ! run failed   - invalid\n", stream);
 }
 
+/* Why points of a map failed or are invalid, each reason once, with the first point that has it. */
+static void write_reasons(const CzSweep *sweep, bool colour, FILE *stream) {
+    enum { MOST_REASONS = 8 };
+    char text[CZ_FIGURE_ROOM];
+    for (int i = 0, n = 0; i < sweep->n_point && n < MOST_REASONS; i++) {
+        const CzSweepPoint *point = &sweep->point[i];
+        bool is_known = point->state == CZ_SWEEP_DONE || point->message[0] == '\0';
+        for (int k = 0; k < i && !is_known; k++)
+            is_known = sweep->point[k].state == point->state &&
+                       strcmp(sweep->point[k].message, point->message) == 0;
+        if (is_known)
+            continue;
+        n++;
+        fprintf(stream, "%s at %s", cz_point_look(point).sign,
+                cz_figure_digits(text, 6, point->value[0]));
+        fprintf(stream, ", %s: ", cz_figure_digits(text, 6, point->value[1]));
+        cz_text_write(point->message, CZ_STYLE_PLAIN, colour, stream);
+        fputc('\n', stream);
+    }
+}
+
 static void write_worst(const CzSweep *sweep, bool colour, FILE *stream) {
     if (sweep->worst < 0) {
         fputs("No point has a margin.\n", stream);
@@ -122,8 +143,10 @@ CzStatus cz_report_write_sweep_table(const CzSweep *sweep, bool colour, FILE *st
     if (sweep->n_axis == 1) {
         cz_sweep_begin_points(&table, sweep, false);
         is_whole = cz_table_write_text(&table, colour, stream);
-    } else
+    } else {
         write_map(sweep, colour, stream);
+        write_reasons(sweep, colour, stream);
+    }
     if (cz_sweep_is_beyond(sweep)) {
         cz_text_write("Override: some points went beyond model validity (" CZ_FIGURE_MARK_MEANS
                       ").",

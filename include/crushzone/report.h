@@ -197,13 +197,20 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_check_folder(const CzProblem *problem, c
                                                      const CzReportOptions *options,
                                                      CzError *error);
 
+/* Puts back a result folder that a process which died while replacing it has left under a hidden
+ * name beside it; whether it did. */
+CZ_API bool cz_report_restore_folder(const char *folder);
+
 /* Writes a single file whole or not at all: to a temporary name first, renamed at the end. A link
  * is replaced and not followed; a pipe or a device is written to. `write` puts the content into a
  * stream. cz_report_check_file tells beforehand whether that can be, and refuses to replace a file
- * that the problem was read from (NULL: of no problem). Statuses: CZ_STATUS_OUTPUT, those of
- * `write`. */
+ * that the problem was read from (NULL: of no problem) or that belongs to a result folder;
+ * cz_report_check_page lets the page of the folder that the problem was read from be replaced.
+ * Statuses: CZ_STATUS_OUTPUT, those of `write`. */
 typedef CzStatus CzReportWriter(const void *data, FILE *stream, CzError *error);
 CZ_MUST_CHECK CZ_API CzStatus cz_report_check_file(const CzProblem *problem, const char *path,
+                                                   CzError *error);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_check_page(const CzProblem *problem, const char *path,
                                                    CzError *error);
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_file(const char *path, CzReportWriter *write,
                                                    const void *data, CzError *error);

@@ -10,6 +10,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* A folder that was about to be replaced when its process died is looked at all the same. */
+static void restore(const CzArguments *arguments) {
+    for (int i = 0; i < arguments->n_operand; i++)
+        if (cz_report_restore_folder(arguments->operand[i]))
+            cz_tell(arguments, "restored %s, which a process that died had left under another name",
+                    arguments->operand[i]);
+}
+
 /* ---- report ---- */
 
 static CzStatus write_page(const void *data, FILE *stream, CzError *error) {
@@ -48,6 +56,7 @@ int cz_command_report(const CzArguments *arguments) {
     CzResult result;
     CzOutcome *outcome = NULL;
     const char *folder = arguments->operand[0];
+    restore(arguments);
     const bool is_search = arguments->text[CZ_OPTION_OUTPUT] == NULL && cz_recall_is_search(folder);
     char problem[4096];
     find_report(arguments, path);
@@ -86,6 +95,7 @@ static CzStatus write_chart(const void *data, FILE *stream, CzError *error) {
 int cz_command_plot(const CzArguments *arguments) {
     const char *path = arguments->text[CZ_OPTION_SVG];
     CzResult result;
+    restore(arguments);
     int code = cz_result_begin(&result, arguments, arguments->operand[0], path);
     if (code == 0)
         code = cz_result_write(arguments, path != NULL ? path : "-", write_chart, &result);
@@ -134,6 +144,7 @@ int cz_command_compare(const CzArguments *arguments) {
         return cz_tell_error(arguments, &error);
     }
     int code = 0;
+    restore(arguments);
     for (int i = 0; i < arguments->n_operand && code == 0; i++)
         code = cz_result_begin(&result[i], arguments, arguments->operand[i],
                                arguments->text[CZ_OPTION_OUTPUT]);

@@ -153,6 +153,9 @@ int cz_command_fit(const CzArguments *arguments) {
                "name a file, such as --svg fit.svg");
         return cz_tell_error(arguments, &error);
     }
+    const int unwritable = cz_result_check(arguments, NULL, svg);
+    if (unwritable != 0)
+        return unwritable;
     if (take_options(arguments, &options, &error) != CZ_OK ||
         cz_fit_read(arguments->operand[0], &options, &fit, &error) != CZ_OK)
         return cz_tell_error(arguments, &error);

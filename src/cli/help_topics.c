@@ -114,7 +114,7 @@ static void write_units(void) {
         const char *dimension, *suffix, *text;
     } units[] = {
 #define CZ_DIMENSION(dimension, text) {#dimension, NULL, text},
-#define CZ_UNIT(dimension, suffix, value) {#dimension, suffix, NULL},
+#define CZ_UNIT(dimension, suffix, symbol, value) {#dimension, suffix, NULL},
 #include "text/units.def"
 #undef CZ_DIMENSION
 #undef CZ_UNIT

@@ -101,11 +101,34 @@ void cz_result_end(CzResult *result) {
     cz_session_end(&result->session);
 }
 
+static bool is_same_file(const char *path, const char *other) {
+    struct stat first, second;
+    return other != NULL && stat(path, &first) == 0 && stat(other, &second) == 0 &&
+           S_ISREG(first.st_mode) && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
+/* Whether a file is one that the command line names to be read. */
+static bool is_read(const CzArguments *arguments, const char *path) {
+    bool is_read = is_same_file(path, arguments->text[CZ_OPTION_MEASURED]);
+    for (int i = 0; i < arguments->n_operand; i++)
+        is_read |= is_same_file(path, arguments->operand[i]);
+    return is_read;
+}
+
 int cz_result_check(const CzArguments *arguments, const CzProblem *problem, const char *path) {
     CzError error = {0};
-    if (path == NULL || cz_report_check_file(problem, path, &error) == CZ_OK)
+    if (path == NULL)
         return 0;
-    return cz_tell_error(arguments, &error);
+    CzStatus status = arguments->command == CZ_COMMAND_REPORT
+                          ? cz_report_check_page(problem, path, &error)
+                          : cz_report_check_file(problem, path, &error);
+    if (status == CZ_OK && is_read(arguments, path)) {
+        error.status = status = CZ_STATUS_OUTPUT;
+        snprintf(error.message, sizeof error.message,
+                 "%.200s is read and would be replaced by what is written; choose another file",
+                 path);
+    }
+    return status == CZ_OK ? 0 : cz_tell_error(arguments, &error);
 }
 
 int cz_result_write(const CzArguments *arguments, const char *path, CzReportWriter *write,

@@ -40,9 +40,9 @@ static void warn(CzMistakes *warnings, const CzPlace *place, const Usual *range,
     cz_mistake(warnings, place->value, place->trail,
                "%s of this %s is unusual: %s, where %s to %s is usual; is it in the right unit?",
                place->key->stem, cz_records[range->record].name,
-               with_unit(own, si / place->unit->si, place->unit->suffix),
+               with_unit(own, si / place->unit->si, place->unit->symbol),
                cz_number_print_short(lo, range->lo * scale),
-               with_unit(hi, range->hi * scale, place->unit->suffix));
+               with_unit(hi, range->hi * scale, place->unit->symbol));
     cz_mistake_help(warnings,
                     "the value is used as written; 'crushzone help keys' lists the usual ranges");
 }
@@ -54,8 +54,9 @@ void cz_usual_write(FILE *stream, const CzKey *key) {
         char lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT + 16];
         if (cz_record_key(&cz_records[range->record], range->stem) != key)
             continue;
+        const CzUnit *unit = cz_unit_find(key->dimension, range->unit);
         fprintf(stream, "%s%s to %s", before, cz_number_print_short(lo, range->lo),
-                with_unit(hi, range->hi, range->unit));
+                with_unit(hi, range->hi, unit->symbol));
         before = ", ";
     }
 }

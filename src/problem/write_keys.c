@@ -24,7 +24,7 @@ static void write_kind(FILE *stream, const CzKey *key) {
     case CZ_KEY_NUMBER:
         fprintf(stream, "%s to %s%s%s", cz_number_print_short(lo, key->lo),
                 cz_number_print_short(hi, key->hi), key->dimension != CZ_DIMENSION_NONE ? " " : "",
-                cz_unit_si(key->dimension)->suffix);
+                cz_unit_si(key->dimension)->symbol);
         cz_usual_write(stream, key);
         break;
     case CZ_KEY_COUNT:
@@ -79,7 +79,7 @@ static void write_presence(FILE *stream, const CzKey *key) {
         fprintf(stream, "default %s", key->absent != 0 ? "true" : "false");
     else
         fprintf(stream, "default %s%s%s", cz_number_print_short(number, key->absent),
-                key->dimension != CZ_DIMENSION_NONE ? " " : "", cz_unit_si(key->dimension)->suffix);
+                key->dimension != CZ_DIMENSION_NONE ? " " : "", cz_unit_si(key->dimension)->symbol);
 }
 
 static bool belongs_to(const CzReuseKey *reuse, const CzRecord *record) {

@@ -28,6 +28,43 @@ static bool lists(const char *marker, const char *name, bool is_folder) {
     return false;
 }
 
+/* The last part of a path. */
+static const char *name_of(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash != NULL ? slash + 1 : path;
+}
+
+/* The text with everything resolved that is there; false when nothing is. */
+static bool resolve(const char *path, char resolved[PATH_MAX]) {
+    char *found = realpath(path, NULL);
+    const bool is_there = found != NULL && strlen(found) < PATH_MAX;
+    if (is_there)
+        snprintf(resolved, PATH_MAX, "%s", found);
+    free(found);
+    return is_there;
+}
+
+bool cz_folder_lists(const char *file) {
+    char folder[PATH_MAX], name[PATH_MAX] = "";
+    cz_parent_of(file, folder);
+    snprintf(name, sizeof name, "%.255s", name_of(file));
+    for (int depth = 0; depth < 2; depth++) {
+        char above[PATH_MAX], resolved[PATH_MAX], longer[PATH_MAX];
+        char *marker = cz_marker_read(folder);
+        const bool is_listed = marker != NULL && lists(marker, name, false);
+        free(marker);
+        if (is_listed)
+            return true;
+        if (!resolve(folder, resolved)) /* "." has no name to put before */
+            return false;
+        snprintf(longer, sizeof longer, "%.255s/%.1000s", name_of(resolved), name);
+        memcpy(name, longer, sizeof name);
+        cz_parent_of(resolved, above);
+        memcpy(folder, above, sizeof folder);
+    }
+    return false;
+}
+
 /* Looks for an entry that we did not write, at most one folder deep. */
 static bool find_foreign(const char *folder, const char *marker, const char *prefix,
                          char foreign[PATH_MAX]) {
@@ -79,7 +116,7 @@ static CzStatus clean_path(const char *path, char clean[PATH_MAX], CzError *erro
     if (cz_text_fault(path, n, false, &at, what))
         return cz_fail(error, CZ_STATUS_OUTPUT, "the name of the result folder contains %s", what);
     snprintf(clean, PATH_MAX, "%.*s", (int)n, path);
-    const char *slash = strrchr(clean, '/'), *name = slash != NULL ? slash + 1 : clean;
+    const char *name = name_of(clean);
     if (name[0] == '\0' || strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
         return cz_fail(
             error, CZ_STATUS_OUTPUT,
@@ -87,16 +124,6 @@ static CzStatus clean_path(const char *path, char clean[PATH_MAX], CzError *erro
             "a name of its own",
             clean);
     return CZ_OK;
-}
-
-/* The text with everything resolved that is there; false when nothing is. */
-static bool resolve(const char *path, char resolved[PATH_MAX]) {
-    char *found = realpath(path, NULL);
-    const bool is_there = found != NULL && strlen(found) < PATH_MAX;
-    if (is_there)
-        snprintf(resolved, PATH_MAX, "%s", found);
-    free(found);
-    return is_there;
 }
 
 bool cz_folder_holds(const char *folder, const char *file) {
@@ -171,8 +198,7 @@ static CzStatus check_target(const char *path, bool replaces_search, CzError *er
 
 /* Whether the last part of a path is the step up. */
 static bool steps_up(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return strcmp(slash != NULL ? slash + 1 : path, "..") == 0;
+    return strcmp(name_of(path), "..") == 0;
 }
 
 /* Whether a folder can be made there: one is made and removed in the nearest folder above that is
@@ -207,6 +233,7 @@ static CzStatus check_parents(const char *path, CzError *error) {
 CzStatus cz_folder_check(const char *path, bool replaces_search, CzError *error) {
     char clean[PATH_MAX];
     CZ_TRY(clean_path(path, clean, error));
+    (void)cz_folder_restore(clean);
     CZ_TRY(check_target(clean, replaces_search, error));
     return check_parents(clean, error);
 }
@@ -238,11 +265,20 @@ CzStatus cz_folder_begin(CzFolder *folder, const char *path, bool replaces_searc
         folder->temporary[0] = '\0';
         return cz_cannot_write(folder->target, why, error);
     }
-    if (fputs(CZ_MARKER_HEAD, folder->marker) != EOF && fflush(folder->marker) == 0)
+    if (fprintf(folder->marker, "%s%s%s\n", CZ_MARKER_HEAD, CZ_MARKER_MADE_FOR,
+                name_of(folder->target)) > 0 &&
+        fflush(folder->marker) == 0)
         return CZ_OK;
     why = errno;
     cz_folder_abandon(folder);
     return cz_cannot_write(folder->target, why, error);
+}
+
+/* The sentence that a file of the folder cannot be written. */
+static CzStatus cannot_write(const CzFolder *folder, const char *name, int why, CzError *error) {
+    char path[PATH_MAX];
+    const bool fits = cz_path_in(path, folder->target, name, NULL) == CZ_OK;
+    return cz_cannot_write(fits ? path : name, why, error);
 }
 
 /* A file is listed before it is made: what is not listed would not be removed. */
@@ -257,10 +293,10 @@ CzStatus cz_folder_open(CzFolder *folder, const char *name, FILE **stream, CzErr
         *slash = '/';
     }
     if (fprintf(folder->marker, "%s\n", name) < 0 || fflush(folder->marker) != 0)
-        return cz_cannot_write(name, errno, error);
+        return cannot_write(folder, name, errno, error);
     const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor < 0)
-        return cz_cannot_write(name, errno, error);
+        return cannot_write(folder, name, errno, error);
     folder->file = fdopen(descriptor, "wb");
     if (folder->file == NULL) {
         close(descriptor);
@@ -289,7 +325,7 @@ int cz_stream_close(FILE *stream) {
 CzStatus cz_folder_close(CzFolder *folder, CzError *error) {
     const int why = cz_stream_close(folder->file);
     folder->file = NULL;
-    return why == 0 ? CZ_OK : cz_cannot_write(folder->file_name, why, error);
+    return why == 0 ? CZ_OK : cannot_write(folder, folder->file_name, why, error);
 }
 
 /* Puts what is there out of the way; `old` is empty when nothing was. */
@@ -302,6 +338,8 @@ static CzStatus move_away(CzFolder *folder, char old[PATH_MAX], CzError *error) 
         return CZ_OK;
     cz_parent_of(folder->target, parent);
     int why = cz_temporary_name(parent, old);
+    if (why == 0) /* for the next process, should this one die before the new one is in its place */
+        cz_marker_add(folder->target, CZ_MARKER_MOVED, name_of(folder->target));
     if (why == 0 && rename(folder->target, old) == 0)
         return CZ_OK;
     why = why != 0 ? why : errno;

@@ -40,7 +40,22 @@ static CzStatus find_folder(const char *path, char folder[PATH_MAX], CzError *er
     return CZ_OK;
 }
 
-CzStatus cz_report_check_file(const CzProblem *problem, const char *path, CzError *error) {
+/* Whether a path is the page of the result folder that a problem was read from. */
+static bool is_own_page(const CzProblem *problem, const char *path) {
+    char folder[PATH_MAX], own[PATH_MAX];
+    const CzSource *source = problem != NULL ? cz_problem_first_source(problem) : NULL;
+    const char *slash = strrchr(path, '/');
+    struct stat first, second;
+    if (source == NULL || strcmp(slash != NULL ? slash + 1 : path, "report.html") != 0)
+        return false;
+    cz_parent_of(path, folder);
+    cz_parent_of(source->name, own);
+    return stat(folder, &first) == 0 && stat(own, &second) == 0 && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}
+
+static CzStatus check_file(const CzProblem *problem, const char *path, bool is_page,
+                           CzError *error) {
     char folder[PATH_MAX], temporary[PATH_MAX];
     FILE *stream = NULL;
     if (strcmp(path, "-") == 0 || is_device(path))
@@ -53,12 +68,24 @@ CzStatus cz_report_check_file(const CzProblem *problem, const char *path, CzErro
                            "%.200s is read and would be replaced by what is written; choose "
                            "another file",
                            path);
+    if (cz_folder_lists(path) && !(is_page && is_own_page(problem, path)))
+        return cz_fail(error, CZ_STATUS_OUTPUT,
+                       "%.200s is a result of crushzone and would be replaced; choose another file",
+                       path);
     const int why = cz_temporary_file(folder, temporary, &stream);
     if (why != 0)
         return cz_cannot_write(path, why, error);
     (void)unlink(temporary);
     fclose(stream);
     return CZ_OK;
+}
+
+CzStatus cz_report_check_file(const CzProblem *problem, const char *path, CzError *error) {
+    return check_file(problem, path, false, error);
+}
+
+CzStatus cz_report_check_page(const CzProblem *problem, const char *path, CzError *error) {
+    return check_file(problem, path, true, error);
 }
 
 static CzStatus write_device(const char *path, CzReportWriter *write, const void *data,

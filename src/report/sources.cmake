@@ -38,6 +38,7 @@ set(CZ_SOURCES_report
     page_sweep.c
     page_trains.c
     plot.c
+    restore.c
     result_folder.c
     result_list.c
     result_reference.c

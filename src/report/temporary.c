@@ -112,16 +112,35 @@ static bool is_inside(const char *line, size_t n) {
     return n > 0 && line[0] != '/' && line[0] != '#';
 }
 
-/* What is about to be removed is whole no more: if this is cut short, the rest is cleared later. */
-static void give_up(const char *folder) {
-    static const char line[] = "# given up\n";
-    char path[PATH_MAX];
-    if (cz_path_in(path, folder, CZ_MARKER_NAME, NULL) != CZ_OK)
+static const char given_up[] = "# given up";
+
+bool cz_marker_is_whole(const char *marker) {
+    return (strncmp(marker, CZ_MARKER_WHOLE, sizeof CZ_MARKER_WHOLE - 1) == 0 ||
+            strstr(marker, "\n" CZ_MARKER_WHOLE) != NULL) &&
+           strstr(marker, given_up) == NULL;
+}
+
+bool cz_marker_says(const char *marker, const char *what, const char *name) {
+    const size_t n_what = strlen(what), n_name = strlen(name);
+    for (const char *line = marker; line != NULL && *line != '\0';) {
+        if (strncmp(line, what, n_what) == 0 && strncmp(line + n_what, name, n_name) == 0 &&
+            line[n_what + n_name] == '\n')
+            return true;
+        line = strchr(line, '\n');
+        line = line != NULL ? line + 1 : NULL;
+    }
+    return false;
+}
+
+void cz_marker_add(const char *folder, const char *what, const char *name) {
+    char path[PATH_MAX], line[PATH_MAX];
+    const int n = snprintf(line, sizeof line, "%s%s\n", what, name);
+    if (n >= (int)sizeof line || cz_path_in(path, folder, CZ_MARKER_NAME, NULL) != CZ_OK)
         return;
     const int descriptor = open(path, O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0)
         return;
-    (void)!write(descriptor, line, sizeof line - 1);
+    (void)!write(descriptor, line, (size_t)n);
     close(descriptor);
 }
 
@@ -140,7 +159,7 @@ static void remove_temporary(const char *folder) {
 
 void cz_remove_listed(const char *folder) {
     char path[PATH_MAX];
-    give_up(folder);
+    cz_marker_add(folder, given_up, ""); /* if this is cut short, the rest is cleared later */
     remove_temporary(folder);
     char *marker = cz_marker_read(folder);
     for (int pass = 0; pass < 2 && marker != NULL; pass++) /* files, then the folders around them */
@@ -167,8 +186,7 @@ static bool is_still(const char *path, int descriptor) {
            named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
 }
 
-/* Opens a file and takes its lock; -1 when somebody else has it. */
-static int take(const char *path) {
+int cz_temporary_take(const char *path) {
     const int descriptor = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
     if (descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_still(path, descriptor))
         return descriptor;
@@ -178,27 +196,37 @@ static int take(const char *path) {
 }
 
 static void clear_file(const char *path) {
-    const int descriptor = take(path);
+    const int descriptor = cz_temporary_take(path);
     if (descriptor < 0)
         return;
     (void)unlink(path);
     close(descriptor);
 }
 
-/* A folder that is whole stays: it holds results that somebody was about to put in their place.
- */
+/* Whether a folder was replaced by one that is there. */
+static bool is_replaced(const char *folder, const char *marker) {
+    char parent[PATH_MAX], path[PATH_MAX], name[NAME_MAX + 1];
+    struct stat info;
+    const char *line = strstr(marker, "\n" CZ_MARKER_MOVED);
+    if (line == NULL || sscanf(line + sizeof CZ_MARKER_MOVED, "%255[^\n]", name) != 1)
+        return false;
+    cz_parent_of(folder, parent);
+    return cz_path_in(path, parent, name, NULL) == CZ_OK && lstat(path, &info) == 0;
+}
+
+/* A folder that is whole stays unless another took its place: it holds results that somebody was
+ * about to put there. */
 static void clear_folder(const char *path) {
     char marker_path[PATH_MAX];
     if (cz_path_in(marker_path, path, CZ_MARKER_NAME, NULL) != CZ_OK)
         return;
-    const int descriptor = take(marker_path);
+    const int descriptor = cz_temporary_take(marker_path);
     if (descriptor < 0) {
         (void)rmdir(path); /* its maker died before it made the marker, or tries again */
         return;
     }
     char *marker = cz_marker_read(path);
-    const size_t n = marker != NULL ? strlen(marker) : 0, n_end = sizeof CZ_MARKER_WHOLE - 1;
-    if (n < n_end || strcmp(marker + n - n_end, CZ_MARKER_WHOLE) != 0)
+    if (marker == NULL || !cz_marker_is_whole(marker) || is_replaced(path, marker))
         cz_remove_listed(path);
     free(marker);
     close(descriptor);

@@ -20,6 +20,10 @@
 /* First line of a marker, and the line that says that its folder is whole. */
 #define CZ_MARKER_HEAD "crushzone results\n"
 #define CZ_MARKER_WHOLE "# whole\n"
+/* Beginnings of lines with the name of the folder that one is to become, or was before another took
+ * its place. */
+#define CZ_MARKER_MADE_FOR "# for "
+#define CZ_MARKER_MOVED "# was "
 
 /* The folder above a path, "." for a plain name. */
 void cz_parent_of(const char *path, char parent[PATH_MAX]);
@@ -54,5 +58,15 @@ bool cz_is_temporary(const char *name);
 /* Reads the marker of a folder: the lines after its head, freed by the caller; NULL when the folder
  * is not ours, or without memory. */
 char *cz_marker_read(const char *folder);
+
+/* Whether a marker's folder is whole, and whether a line of it is `what` and a name. */
+bool cz_marker_is_whole(const char *marker);
+bool cz_marker_says(const char *marker, const char *what, const char *name);
+
+/* Adds a line, such as CZ_MARKER_MOVED and a name, to the marker of a folder. */
+void cz_marker_add(const char *folder, const char *what, const char *name);
+
+/* Opens a file and takes its lock; -1 when somebody else has it. */
+int cz_temporary_take(const char *path);
 
 #endif

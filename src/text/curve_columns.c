@@ -46,8 +46,16 @@ static int numbers_in(const CzCurveReading *reading, const char *line) {
 
 /* ---- titles ---- */
 
-/* Whether every field of a line that is not empty is a unit, in brackets, or a dash. */
-static bool is_of_units(const CzCurveReading *reading, const char *line) {
+enum { LONGEST_UNIT = 8 };
+
+/* Whether a field can be a unit that is not known: one short word. */
+static bool is_like_a_unit(const CzField *field) {
+    return field->n <= LONGEST_UNIT && memchr(field->text, ' ', field->n) == NULL;
+}
+
+/* Whether some fields of a line are units and every other one that is not empty is in brackets, a
+ * dash, or where `with_unknown` one short word. */
+static bool is_of_units(const CzCurveReading *reading, const char *line, bool with_unknown) {
     CzFieldWalk walk = cz_fields_begin(line, reading->separator);
     CzField field;
     int n_unit = 0;
@@ -55,7 +63,7 @@ static bool is_of_units(const CzCurveReading *reading, const char *line) {
         const bool is_unit = cz_curve_unit_alone(&field) != NULL;
         const bool is_bracketed = field.n > 1 && strchr("[(", field.text[0]) != NULL;
         if (field.n > 0 && !is_unit && !is_bracketed && field.text[0] != '-' &&
-            field.text[0] != '%')
+            field.text[0] != '%' && !(with_unknown && is_like_a_unit(&field)))
             return false;
         n_unit += is_unit;
     }
@@ -73,7 +81,7 @@ static bool look_below(CzCurveReading *reading, int line) {
         const char *text = reading->source.line[reading->data];
         if (numbers_in(reading, text) >= 2)
             return true;
-        if (reading->units == NULL && is_of_units(reading, text))
+        if (reading->units == NULL && is_of_units(reading, text, true))
             reading->units = text;
         else if (is_by_number(reading))
             return false; /* nothing but units is between titles and points */
@@ -91,7 +99,7 @@ static bool try_titles(CzCurveReading *reading, int line, const char *text, int 
         place[i] = cz_curve_column_find(&reading->request->column[i], text, reading->units,
                                         reading->separator);
     const bool has_both = place[0] >= 0 && place[1] >= 0 && place[0] != place[1];
-    if (!has_both && is_of_units(reading, text))
+    if (!has_both && is_of_units(reading, text, false))
         return false;
     memcpy(found, place, sizeof place);
     reading->titles = text;
@@ -199,7 +207,8 @@ typedef struct Units {
     CzField field; /* the title */
     char title[CZ_MOST_FIELD_TEXT];
     const CzUnit *in_title, *in_row;
-    bool has_unknown; /* the row of units has something there that is none */
+    bool has_unknown; /* the row of units has something there that is none: */
+    char unknown[CZ_MOST_FIELD_TEXT];
 } Units;
 
 static Units units_of(const CzCurveReading *reading, int i) {
@@ -214,6 +223,8 @@ static Units units_of(const CzCurveReading *reading, int i) {
     else
         below = (CzField){.text = ""};
     units.has_unknown = units.in_row == NULL && below.n > 0 && strchr("-1", below.text[0]) == NULL;
+    if (units.has_unknown)
+        (void)cz_field_text(&below, units.unknown);
     if (units.in_title == NULL && units.in_row == NULL && units.field.n > 1)
         units.in_title = cz_curve_unit_alone(&units.field);
     return units;
@@ -236,6 +247,10 @@ static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *colu
         snprintf(sentence, sizeof sentence,
                  "the unit of column '%.60s', %s, is no unit of the %s, which takes %s",
                  units->title, unit->suffix, column->name, list);
+    else if (units->has_unknown)
+        snprintf(sentence, sizeof sentence,
+                 "'%.60s' in the row of units is no unit of the %s, which takes %s", units->unknown,
+                 column->name, list);
     else
         snprintf(sentence, sizeof sentence, "the unit of %s%.60s%sthe %s%s is not known",
                  units->title[0] != '\0' ? "column '" : "", units->title,

@@ -11,7 +11,7 @@
 /* ---- units ---- */
 
 static const CzUnit units[] = {
-#define CZ_CURVE_UNIT(dimension, spelling, si) {CZ_DIMENSION_##dimension, spelling, si},
+#define CZ_CURVE_UNIT(dimension, spelling, si) {CZ_DIMENSION_##dimension, spelling, spelling, si},
 #include "text/curve_units.def"
 #undef CZ_CURVE_UNIT
 };

@@ -72,6 +72,14 @@ CzNode *cz_node_without(CzArena *arena, const CzNode *mapping, const char *key) 
     return copy;
 }
 
+bool cz_node_is_null(const CzNode *node) {
+    static const char *const words[] = {"null", "Null", "NULL", "~"};
+    bool is_null = false;
+    for (size_t i = 0; i < sizeof words / sizeof *words && node->kind == CZ_NODE_TEXT; i++)
+        is_null |= !node->quoted && strcmp(node->text, words[i]) == 0;
+    return is_null;
+}
+
 const char *cz_node_what(const CzNode *node) {
     static const char *const what[] = {"a text", "a list", "a mapping"};
     return what[node->kind];

@@ -79,6 +79,9 @@ const CzNode *cz_node_with(CzArena *arena, const CzNode *node, const CzEntry *en
 /* Copy of a mapping without one key. NULL without memory. */
 CzNode *cz_node_without(CzArena *arena, const CzNode *mapping, const char *key);
 
+/* Whether a node is one of the words for nothing: null, Null, NULL or ~, not in quotes. */
+bool cz_node_is_null(const CzNode *node);
+
 /* What a node is, for sentences: "a text", "a list", "a mapping". */
 const char *cz_node_what(const CzNode *node);
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define CZ_DIMENSION(dimension, text)
-#define CZ_UNIT(dimension, suffix, si) {CZ_DIMENSION_##dimension, suffix, si},
+#define CZ_UNIT(dimension, suffix, symbol, si) {CZ_DIMENSION_##dimension, suffix, symbol, si},
 const CzUnit cz_units[] = {
 #include "text/units.def"
 };
@@ -14,7 +14,7 @@ const CzUnit cz_units[] = {
 const int cz_n_unit = sizeof cz_units / sizeof cz_units[0];
 
 #define CZ_DIMENSION(dimension, text) text,
-#define CZ_UNIT(dimension, suffix, si)
+#define CZ_UNIT(dimension, suffix, symbol, si)
 const char *const cz_dimension_text[CZ_N_DIMENSION] = {
 #include "text/units.def"
 };

@@ -8,7 +8,7 @@
 #include "base/gravity.h"
 
 #define CZ_DIMENSION(dimension, text) CZ_DIMENSION_##dimension,
-#define CZ_UNIT(dimension, suffix, si)
+#define CZ_UNIT(dimension, suffix, symbol, si)
 typedef enum CzDimension {
 #include "text/units.def"
     CZ_N_DIMENSION
@@ -19,6 +19,7 @@ typedef enum CzDimension {
 typedef struct CzUnit {
     CzDimension dimension;
     const char *suffix; /* "" for none */
+    const char *symbol; /* for sentences: "kN/m" */
     double si;          /* SI value of one unit */
 } CzUnit;
 

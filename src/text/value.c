@@ -18,8 +18,7 @@ bool cz_value_is_there(CzValue value) {
                    value.key, cz_node_what(node));
         return false;
     }
-    const bool is_null = strcmp(node->text, "~") == 0 || strcmp(node->text, "null") == 0;
-    if (!node->quoted && (node->text[0] == '\0' || is_null)) {
+    if (cz_node_is_null(node) || (!node->quoted && node->text[0] == '\0')) {
         cz_mistake(value.mistakes, node, value.trail, "'%s' has no value", value.key);
         return false;
     }
@@ -53,7 +52,7 @@ static bool is_in_range(CzValue value, const CzUnit *unit, double lo, double hi,
     cz_number_print_short(limit, (is_low ? lo : hi) / unit->si);
     cz_mistake(value.mistakes, value.node, value.trail, "%s: %.60s is %s allowed %s%s%s", value.key,
                value.node->text, is_low ? "below the smallest" : "above the largest", limit,
-               unit->suffix[0] != '\0' ? " " : "", unit->suffix);
+               unit->symbol[0] != '\0' ? " " : "", unit->symbol);
     return false;
 }
 

@@ -12,11 +12,6 @@ const CzTrail *cz_entry_trail(const CzEntry *entry, const CzTrail *outer) {
     return entry->trail != NULL ? entry->trail : outer;
 }
 
-/* The word null lets go what the base has. */
-static bool is_null(const CzNode *node) {
-    return node->kind == CZ_NODE_TEXT && !node->quoted && strcmp(node->text, "null") == 0;
-}
-
 /* A record that takes a part of its own and a curve with points of its own replace the base's. */
 static bool replaces(const CzNode *node) {
     return cz_node_find(node, "use") != NULL || cz_node_find(node, "points") != NULL ||
@@ -82,7 +77,7 @@ static const CzNode *merge_mappings(CzArena *arena, const CzNode *base, const Cz
     CzNode *merged = copy_base(arena, base, base_trail, over);
     for (int i = 0; merged != NULL && i < over->n_entry; i++) {
         CzEntry *like = find_same_stem(merged, over->entry[i].key->text);
-        if (like != NULL && is_null(over->entry[i].value))
+        if (like != NULL && cz_node_is_null(over->entry[i].value))
             *like = merged->entry[--merged->n_entry];
         else if (!merge_entry(arena, merged, like, &over->entry[i], over_trail, by_name))
             return NULL;

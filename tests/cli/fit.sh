@@ -125,7 +125,8 @@ matched() { # matched LINES COLUMN: a problem whose match reads a file of these 
 }
 unknown_unit() {
     matched 't_ms,v [foo]\n0,5\n100,4\n' 'v [foo]' && exits 2 "$C" validate matched.yaml && says err.txt "matched.csv:1:6: error: the unit of column 'v [foo]', the speed, is not known" &&
-        matched 'time,v\n(ms),(foo)\n0,5\n100,4\n' v && exits 2 "$C" validate matched.yaml && says err.txt "the unit of column 'v', the speed, is not known" &&
+        matched 'time,v\n(ms),(foo)\n0,5\n100,4\n' v && exits 2 "$C" validate matched.yaml && says err.txt "'(foo)' in the row of units is no unit of the speed, which takes m/s" &&
+        matched 'time,v\nms,mph2\n0,5\n100,4\n' v && exits 2 "$C" validate matched.yaml && says err.txt "'mph2' in the row of units is no unit of the speed" &&
         matched 'time,v\nms,-\n0,5\n100,4\n' v && exits 0 "$C" validate matched.yaml &&
         matched 't_ms,v (A1)\n0,5\n100,4\n' 'v (A1)' && exits 0 "$C" validate matched.yaml
 }

@@ -103,7 +103,7 @@ check "so are files" files
 if [ "$(id -u)" = 0 ] && mkdir -p disk && mount -t tmpfs -o size=64k tmpfs disk 2>/dev/null; then
     mounted() { early disk 'a file system is mounted' && early disk/. 'give it a name'; }
     check "a folder where a file system is mounted is told at once" mounted
-    full() { exits 4 "$C" run small.yaml -o disk/out -q && says err.txt 'No space left on device' && [ -z "$(ls -A disk)" ]; }
+    full() { exits 4 "$C" run small.yaml -o disk/out -q && says err.txt 'disk/out/' && says err.txt 'No space left on device' && [ -z "$(ls -A disk)" ]; }
     check "a full disk leaves nothing, and is told as that" full
     full_file() { exits 4 "$C" report out -o disk/a.html -q && says err.txt 'disk/a.html cannot be written: No space left on device' && [ -z "$(ls -A disk)" ]; }
     check "nor does it leave half a file" full_file
@@ -178,4 +178,42 @@ stopped() { # while a process holds its temporary folder, nobody clears it
     [ -f busy/outcome.json ] && [ -z "$(leftovers)" ]
 }
 check "processes side by side do not clear each other's work" stopped
+
+# ---- files of a result folder, and what is read ----
+overwritten() { # no file of a result folder is replaced by another command, its report by `report` alone
+    exits 0 "$C" run small.yaml -o whole -q && cp -r whole before || return 1
+    for file in summary.json resolved.yaml channels.csv run.log checks.csv; do
+        exits 4 "$C" report whole -o whole/$file -q && says err.txt "whole/$file is " && exits 4 "$C" plot whole --svg whole/$file -q && exits 4 "$C" compare whole before -o whole/$file -q || return 1
+    done
+    exits 4 "$C" compare whole before -o whole/report.html -q && exits 4 "$C" plot whole --svg whole/report.html -q && exits 4 "$C" report before -o whole/report.html -q &&
+        exits 4 "$C" show small.yaml --svg whole/summary.json -q && (cd whole && ! "$C" report . -o summary.json -q 2>/dev/null) && diff -r whole before &&
+        exits 0 "$C" report whole -q && exits 0 "$C" report whole -o whole/report.html -q && exits 0 "$C" report whole -o page.html -q && cmp page.html whole/report.html
+}
+check "a file of a result folder is not replaced by a page or a figure" overwritten
+inputs() {
+    printf 't_ms,force_kN\n0,0\n50,100\n' >laid.csv && cp laid.csv kept.csv && exits 4 "$C" plot whole --what force-time --measured laid.csv --svg laid.csv -q && says err.txt 'is read and would be replaced' &&
+        printf 'stroke_mm,force_kN\n0,0\n1,100\n50,100\n' >curve.csv && cp curve.csv kept-curve.csv && exits 4 "$C" fit curve.csv --as anti-climber --basis static --svg curve.csv && says err.txt 'is read and would be replaced' &&
+        exits 4 "$C" show small.yaml --svg small.yaml -q && exits 4 "$C" new -o small.yaml -q && cmp laid.csv kept.csv && cmp curve.csv kept-curve.csv
+}
+check "nothing that a command reads is replaced by what it writes" inputs
+
+# ---- a process that dies while it replaces a folder ----
+halfway() { # between the two renames: the old results and the new ones under hidden names
+    rm -rf swap aside && exits 0 "$C" run small.yaml -o swap -q && mv swap aside && echo '# was swap' >>aside/.crushzone &&
+        exits 0 "$C" run small.yaml -o swap -q --set trains.A.speed_km_h=16 && mv swap .crushzone-fedcba9876543210 && mv aside .crushzone-0123456789abcdef
+}
+next_report() { halfway && exits 0 "$C" report swap && says err.txt 'restored swap' && grep -q 'speed_m_s: 4.44' swap/resolved.yaml && [ -z "$(leftovers)" ]; }
+next_run() { halfway && exits 0 "$C" run small.yaml -o swap -q && [ -f swap/summary.json ] && [ -z "$(leftovers)" ]; }
+old_alone() { halfway && rm -r .crushzone-fedcba9876543210 && exits 0 "$C" compare swap swap -q && [ -f swap/summary.json ] && [ -z "$(leftovers)" ]; }
+after() { # behind the second rename the old results go
+    halfway && mv .crushzone-fedcba9876543210 swap && exits 0 "$C" run small.yaml -o swap -q && [ -z "$(leftovers)" ]
+}
+search() { # what a search found is put back before it is looked at whether it may be replaced
+    rm -rf found && exits 0 "$C" optimise small.yaml -o found -q && mv found .crushzone-0123456789abcdef && exits 4 "$C" run small.yaml -o found -q && says err.txt 'the result of a search' && [ -f found/optimised.yaml ]
+}
+check "the next report restores the new results" next_report
+check "the next run replaces them" next_run
+check "the old results are restored where there are no new ones" old_alone
+check "old results that were replaced are cleared" after
+check "a search that was being put in place is kept from other commands" search
 finish

@@ -25,7 +25,7 @@ check "report says that a sweep has one already" again
 cut() { exits 3 "$C" sweep "$cars" --vary simulation.longest_s=0.05:6:2 && says out.txt 'RUN FAILED'; }
 check "a run that is cut short ends with 3" cut
 why() { # in the table, the map, the document, the columns and the page
-    reason='did not come to its end within simulation.longest_s' failed='coupler: shortened by'
+    reason='end criterion within simulation.longest_s' failed='coupler: shortened by'
     exits 3 "$C" sweep "$cars" --vary simulation.longest_s=0.05:6:2 -o why && says out.txt "$reason" && says why/sweep.json "$reason" && grep -q "^0.05,.*$reason" why/sweep.csv && says why/report.html "$reason" &&
         exits 3 "$C" sweep "$cars" --vary simulation.longest_s=0.05:6:2 --vary trains.A.speed_km_h=20:25:2 && says out.txt "! at 0.05, 20: " && says out.txt "$reason" &&
         exits 3 "$C" sweep "$cars" --vary trains.A.speed_km_h=25:300:2 -o failed && says out.txt "$failed" && says failed/sweep.json "$failed" && grep -q "^300,.*$failed" failed/sweep.csv && says failed/report.html "$failed"

@@ -239,6 +239,28 @@ static void mark_of_an_editor_before_the_text_is_passed_over(void **state) {
     cz_problem_free(problem);
 }
 
+static void every_word_for_nothing_is_one(void **state) {
+    (void)state;
+    static const char *const words[] = {"null", "Null", "NULL", "~"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        char text[200];
+        CzProblem *problem = NULL;
+        snprintf(text, sizeof text, "extends: rigid.yaml\ntitle: a\noptimise: %s\nchecks: %s\n",
+                 words[i], words[i]);
+        problem = read_good_text(text);
+        assert_false(cz_problem_input(problem)->optimise.given);
+        assert_int_equal(cz_problem_input(problem)->checks.n_limits, 0);
+        cz_problem_free(problem);
+        snprintf(text, sizeof text, "extends: rigid.yaml\ntitle: %s\n", words[i]);
+        assert_int_equal(read_text(text, &problem), CZ_STATUS_INPUT);
+        cz_problem_free(problem);
+        snprintf(text, sizeof text, "extends: rigid.yaml\ntitle: \"%s\"\n", words[i]);
+        problem = read_good_text(text);
+        assert_string_equal(cz_problem_input(problem)->title, words[i]);
+        cz_problem_free(problem);
+    }
+}
+
 static void coupler_without_one_to_meet_is_warned_of(void **state) {
     (void)state;
     static const char text[] = "extends: rigid.yaml\n"
@@ -317,6 +339,7 @@ int main(void) {
         cmocka_unit_test(the_place_of_a_field_is_where_it_was_written),
         cmocka_unit_test(limits_of_a_profile_are_those_of_the_category),
         cmocka_unit_test(mark_of_an_editor_before_the_text_is_passed_over),
+        cmocka_unit_test(every_word_for_nothing_is_one),
         cmocka_unit_test(coupler_without_one_to_meet_is_warned_of),
         cmocka_unit_test(a_sweep_is_one_scenario_per_combination),
     };

@@ -55,7 +55,10 @@ static int count_with(const char *setting, const char *word) {
 static void what_newcomers_mistype_is_warned_of(void **state) {
     (void)state;
     assert_int_equal(count_with("parts.car.mass_kg=38", "38 kg, where 1000 to 250000 kg is"), 1);
-    assert_int_equal(count_with("trains.A.speed_m_s=25", "25 m_s, where 0.3 to 20 m_s is"), 1);
+    assert_int_equal(count_with("trains.A.speed_m_s=25", "25 m/s, where 0.3 to 20 m/s is"), 1);
+    assert_int_equal(count_with("parts.bumper.unloading_stiffness_kN_m=2e7",
+                                "2e+07 kN/m, where 5000 to 1e+07 kN/m is"),
+                     1);
     assert_int_equal(count_with("simulation.time_step_ms=0.0002", "0.0002 ms, where 0.001"), 1);
     assert_int_equal(
         count_with("parts.bumper.anti_climber.stages[0].stroke_mm=0.25", "0.25 mm, where"), 1);

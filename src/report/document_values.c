@@ -7,11 +7,6 @@
 
 /* ---- searches ---- */
 
-const char *cz_value_outcome_status(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_outcome_text(((const CzOutcome *)record)->status);
-}
-
 bool cz_value_best_is_feasible(CzResultContext *context, const void *record) {
     const CzEvaluation *best = &((const CzOutcome *)record)->best_evaluation;
     (void)context;
@@ -202,22 +197,6 @@ const void *cz_value_verified_method(CzResultContext *context, const void *recor
     return &context->method;
 }
 
-const char *cz_value_verification_status(CzResultContext *context, const void *record) {
-    (void)context;
-    return ((const CzVerification *)record)->status == CZ_OK ? "completed" : "failed";
-}
-
-const char *cz_value_verification_verdict(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_verdict_text(((const CzVerification *)record)->verdict);
-}
-
-const void *cz_value_verified_value(CzResultContext *context, const void *record, int index) {
-    const CzVerification *verification = record;
-    (void)context;
-    return index < verification->n_value ? &verification->value[index] : NULL;
-}
-
 const void *cz_value_value_by_method(CzResultContext *context, const void *record, int index,
                                      const char **name) {
     const CzVerifiedValue *value = record;
@@ -235,12 +214,6 @@ const char *cz_value_sweep_status(CzResultContext *context, const void *record) 
     return ((const CzSweep *)record)->is_interrupted ? "interrupted" : "completed";
 }
 
-const void *cz_value_sweep_axis(CzResultContext *context, const void *record, int index) {
-    const CzSweep *sweep = record;
-    (void)context;
-    return index < sweep->n_axis ? &sweep->axis[index] : NULL;
-}
-
 const void *cz_value_sweep_metric(CzResultContext *context, const void *record, int index) {
     const CzSweep *sweep = record;
     if (index >= sweep->n_metric)
@@ -254,23 +227,12 @@ long cz_value_sweep_worst(CzResultContext *context, const void *record) {
     return ((const CzSweep *)record)->worst;
 }
 
-const void *cz_value_sweep_point(CzResultContext *context, const void *record, int index) {
-    const CzSweep *sweep = record;
-    (void)context;
-    return index < sweep->n_point ? &sweep->point[index] : NULL;
-}
-
 bool cz_value_point_value(CzResultContext *context, const void *record, int index,
                           CzNamedNumber *number) {
     if (index >= context->sweep->n_axis)
         return false;
     number->value = ((const CzSweepPoint *)record)->value[index];
     return true;
-}
-
-const char *cz_value_point_state(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_sweep_state_text(((const CzSweepPoint *)record)->state);
 }
 
 const char *cz_value_point_verdict(CzResultContext *context, const void *record) {
@@ -306,17 +268,6 @@ const char *cz_value_first_cause(CzResultContext *context, const void *record) {
     return explanation->has_cause ? cz_cause_text(explanation->cause) : NULL;
 }
 
-const void *cz_value_explained_sign(CzResultContext *context, const void *record, int index) {
-    const CzExplanation *explanation = record;
-    (void)context;
-    return index < explanation->n_sign ? &explanation->sign[index] : NULL;
-}
-
-const char *cz_value_sign_cause(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_cause_text(((const CzSign *)record)->cause);
-}
-
 const void *cz_value_explained_budget(CzResultContext *context, const void *record) {
     const CzRunSummary *run = context->run;
     return run->budget != NULL ? &run->budget[((const CzExplanation *)record)->vehicle] : NULL;
@@ -328,23 +279,7 @@ const char *cz_value_budget_vehicle(CzResultContext *context, const void *record
                                         : NULL;
 }
 
-const void *cz_value_explained_lever(CzResultContext *context, const void *record, int index) {
-    const CzExplanation *explanation = record;
-    (void)context;
-    return index < explanation->n_lever ? &explanation->lever[index] : NULL;
-}
-
-const char *cz_value_lever_cause(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_cause_text(((const CzLever *)record)->cause);
-}
-
 /* ---- fits of curves ---- */
-
-const char *cz_value_fit_kind(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_fit_kind_word(((const CzFitSummary *)record)->kind);
-}
 
 const char *cz_value_fit_basis(CzResultContext *context, const void *record) {
     (void)context;
@@ -355,11 +290,6 @@ double cz_value_fit_energy_error(CzResultContext *context, const void *record) {
     const CzFitSummary *summary = record;
     (void)context;
     return summary->law_energy / summary->energy - 1.0;
-}
-
-const char *cz_value_fit_verdict(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_fit_verdict_word(((const CzFitSummary *)record)->verdict);
 }
 
 bool cz_value_fit_value(CzResultContext *context, const void *record, int index,

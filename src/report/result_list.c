@@ -3,6 +3,11 @@
 
 #include <stddef.h>
 
+/* Of a run, an evaluation or a verification. */
+static const char *status_word(CzStatus status) {
+    return status == CZ_OK ? "completed" : "failed";
+}
+
 /* The struct of each record. */
 #define CZ_RECORD(record, type, doc) typedef type Of_##record;
 #include "evaluate/result_records.def"
@@ -22,6 +27,22 @@ const char *const cz_record_docs[CZ_N_RECORD] = {
 #include "report/document_records.def"
 #undef CZ_RECORD
 };
+
+/* What lists and words of members are read by. */
+#define CZ_RESULT_ITEMS(record_of, key, of, array, number, doc)                                    \
+    static const void *items_##record_of##_##key(CzResultContext *context, const void *record,     \
+                                                 int index) {                                      \
+        (void)context;                                                                             \
+        return index < ((const Of_##record_of *)record)->number                                    \
+                   ? &((const Of_##record_of *)record)->array[index]                               \
+                   : NULL;                                                                         \
+    }
+#define CZ_RESULT_WORD(record_of, key, member, function, doc)                                      \
+    static const char *word_##record_of##_##key(CzResultContext *context, const void *record) {    \
+        (void)context;                                                                             \
+        return function(((const Of_##record_of *)record)->member);                                 \
+    }
+#include "report/documents.def"
 
 #define STORED(place)                                                                              \
     _Generic((place), double: CZ_STORED_DOUBLE, double *: CZ_STORED_DOUBLE, bool: CZ_STORED_BOOL,  \
@@ -77,6 +98,11 @@ const char *const cz_record_docs[CZ_N_RECORD] = {
     {ENTRY(record, key, PART_IF, doc), .by.part = cz_value_##source, .of = CZ_RECORD_##whose},
 #define CZ_RESULT_LIST(record, key, whose, source, doc)                                            \
     {ENTRY(record, key, LIST, doc), .by.item = cz_value_##source, .of = CZ_RECORD_##whose},
+#define CZ_RESULT_ITEMS(record, key, whose, array, number, doc)                                    \
+    {ENTRY(record, key, LIST, doc), .by.item = items_##record##_##key, .of = CZ_RECORD_##whose},
+#define CZ_RESULT_WORD(record, key, member, function, doc)                                         \
+    {ENTRY(record, key, TEXT_BY, doc), .by.text = word_##record##_##key,                           \
+     .unit = &cz_result_units[CZ_UNIT_OF_NONE]},
 #define CZ_RESULT_LIST_IF(record, key, whose, source, there, doc)                                  \
     {ENTRY(record, key, LIST_IF, doc), .by.item = cz_value_##source, .of = CZ_RECORD_##whose,      \
      .is_there = cz_value_##there},

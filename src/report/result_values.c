@@ -138,15 +138,6 @@ const void *cz_value_warning(CzResultContext *context, const void *record, int i
 
 /* ---- evaluation ---- */
 
-static const char *status_word(CzStatus status) {
-    return status == CZ_OK ? "completed" : "failed";
-}
-
-const char *cz_value_evaluation_status(CzResultContext *context, const void *record) {
-    (void)context;
-    return status_word(((const CzEvaluation *)record)->status);
-}
-
 const void *cz_value_kept_run(CzResultContext *context, const void *record, int index) {
     const CzEvaluation *evaluation = record;
     (void)context;
@@ -154,18 +145,6 @@ const void *cz_value_kept_run(CzResultContext *context, const void *record, int 
         if (cz_kept_run(evaluation, i) != NULL && index-- == 0)
             return cz_kept_run(evaluation, i);
     return NULL;
-}
-
-const void *cz_value_check(CzResultContext *context, const void *record, int index) {
-    const CzEvaluation *evaluation = record;
-    (void)context;
-    return index < evaluation->n_check ? &evaluation->check[index] : NULL;
-}
-
-const void *cz_value_not_judged(CzResultContext *context, const void *record, int index) {
-    const CzEvaluation *evaluation = record;
-    (void)context;
-    return index < evaluation->n_not_judged ? &evaluation->not_judged[index] : NULL;
 }
 
 const char *cz_value_not_covered(CzResultContext *context, const void *record, int index) {
@@ -193,21 +172,6 @@ double cz_value_check_to(CzResultContext *context, const void *record) {
 
 /* ---- runs ---- */
 
-const char *cz_value_run_status(CzResultContext *context, const void *record) {
-    (void)context;
-    return status_word(((const CzRunSummary *)record)->status);
-}
-
-const char *cz_value_integrator_word(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_integrator_text(((const CzRunSummary *)record)->integrator);
-}
-
-const char *cz_value_ended_word(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_ended_key(((const CzRunSummary *)record)->ended);
-}
-
 const char *cz_value_track_word(CzResultContext *context, const void *record) {
     (void)record;
     switch (cz_problem_track(context->problem)) {
@@ -233,35 +197,6 @@ const void *cz_value_run_energy(CzResultContext *context, const void *record) {
     return &((const CzRunSummary *)record)->energy;
 }
 
-const void *cz_value_run_interface(CzResultContext *context, const void *record, int index) {
-    const CzRunSummary *run = record;
-    (void)context;
-    return index < run->n_interface ? &run->interface[index] : NULL;
-}
-
-const void *cz_value_run_outer_end(CzResultContext *context, const void *record, int index) {
-    const CzRunSummary *run = record;
-    (void)context;
-    return index < run->n_outer_end ? &run->outer_end[index] : NULL;
-}
-
-const void *cz_value_run_vehicle(CzResultContext *context, const void *record, int index) {
-    const CzRunSummary *run = record;
-    (void)context;
-    return index < run->n_vehicle ? &run->vehicle[index] : NULL;
-}
-
-const void *cz_value_run_event(CzResultContext *context, const void *record, int index) {
-    const CzRunSummary *run = record;
-    (void)context;
-    return index < run->n_event ? &run->event[index] : NULL;
-}
-
-const char *cz_value_event_word(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_event_text(((const CzEvent *)record)->what);
-}
-
 const char *cz_value_event_interface(CzResultContext *context, const void *record) {
     const CzEvent *event = record;
     return event->interface >= 0 ? context->run->interface[event->interface].name : NULL;
@@ -280,17 +215,6 @@ double cz_value_largest_stroke_used(CzResultContext *context, const void *record
     for (int i = 0; i < interface->n_element; i++)
         used = fmax(used, interface->element[i].stroke_used);
     return used;
-}
-
-const void *cz_value_interface_element(CzResultContext *context, const void *record, int index) {
-    const CzInterfaceResult *interface = record;
-    (void)context;
-    return index < interface->n_element ? &interface->element[index] : NULL;
-}
-
-const char *cz_value_element_kind(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_element_text(((const CzElementResult *)record)->kind);
 }
 
 const void *cz_value_element_zones(CzResultContext *context, const void *record) {
@@ -337,11 +261,6 @@ const void *cz_value_budget_source(CzResultContext *context, const void *record,
         (CzBudgetSource)(context->order != NULL ? context->order[index] : index);
     context->impulse = (CzImpulse){source, budget->moment[source], budget->lift[source]};
     return &context->impulse;
-}
-
-const char *cz_value_source_name(CzResultContext *context, const void *record) {
-    (void)context;
-    return cz_budget_text(((const CzImpulse *)record)->source);
 }
 
 bool cz_value_source_acts(CzResultContext *context, const void *record) {

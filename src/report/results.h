@@ -208,6 +208,8 @@ enum {
 #define CZ_RESULT_PART(record, key, ...) CZ_RESULT_##record##_##key,
 #define CZ_RESULT_PART_IF(record, key, ...) CZ_RESULT_##record##_##key,
 #define CZ_RESULT_LIST(record, key, ...) CZ_RESULT_##record##_##key,
+#define CZ_RESULT_ITEMS(record, key, ...) CZ_RESULT_##record##_##key,
+#define CZ_RESULT_WORD(record, key, ...) CZ_RESULT_##record##_##key,
 #define CZ_RESULT_TEXTS(record, key, ...) CZ_RESULT_##record##_##key,
 #define CZ_RESULT_LIST_IF(record, key, ...) CZ_RESULT_##record##_##key,
 #define CZ_RESULT_MAP(record, key, form, ...) CZ_RESULT_##record##_##key,

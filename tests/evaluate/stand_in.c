@@ -174,6 +174,7 @@ static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles, bool bri
     run->summary.energy =
         (CzEnergy){.initial = 2 * energy, .dissipated = energy, .absorbers = interface->energy};
     run->summary.energy.survival = survival;
+    run->summary.law_error = 2e-3;
     if (!brief && vehicles[0].front.anti_climber.stages[0].force < stand_in.late_below) {
         run->summary.ended = CZ_ENDED_DURATION;
         run->summary.closing_speed = 1;

@@ -154,6 +154,22 @@ static void a_family_alone_can_be_run(void **state) {
     cz_problem_free(problem);
 }
 
+/* Forces in series that are off the laws of their members can be limited as the energy balance is.
+ */
+static void the_distance_from_the_laws_can_be_judged(void **state) {
+    (void)state;
+    Case made =
+        judge("checks: {limits: [{name: laws, metric: law_error, max: 0.001}, {name: laws too, "
+              "metric: law_error, max: 0.004}]}\n");
+    const CzCheckResult *broken = find(&made, "laws", "crash");
+    assert_non_null(broken);
+    assert_near(broken->value, 2e-3, 1e-15, 0);
+    assert_near(broken->margin, -1, 1e-12, 0); /* of the limit, which is above the scale of 1e-4 */
+    assert_int_equal(broken->verdict, CZ_VERDICT_FAIL);
+    assert_near(find(&made, "laws too", "crash")->margin, 0.5, 1e-12, 0);
+    end(&made);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_the_named_checks_and_limits_that_name_it_judge_a_scenario),
@@ -162,6 +178,7 @@ int main(void) {
         cmocka_unit_test(a_rule_that_judges_nowhere_is_not_checked),
         cmocka_unit_test(a_misspelt_judge_is_refused_with_its_place),
         cmocka_unit_test(a_family_alone_can_be_run),
+        cmocka_unit_test(the_distance_from_the_laws_can_be_judged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

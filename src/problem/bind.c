@@ -62,12 +62,11 @@ static const CzKey *nearest_key(const CzRecord *record, const char *typed, char 
     text[0] = '\0';
     for (int i = 0; i < record->n_key; i++) {
         const CzKey *key = &record->key[i];
-        for (int u = 0; u < cz_n_unit; u++) {
-            const bool is_number = key->kind == CZ_KEY_NUMBER;
-            if (cz_units[u].dimension != (is_number ? key->dimension : CZ_DIMENSION_NONE))
-                continue;
+        const bool is_number = key->kind == CZ_KEY_NUMBER;
+        for (const CzUnit *unit = cz_unit_si(is_number ? key->dimension : CZ_DIMENSION_NONE);
+             unit != NULL; unit = cz_unit_next(unit)) {
             snprintf(spelled, sizeof spelled, "%s%s%s", key->stem,
-                     cz_units[u].suffix[0] != '\0' ? "_" : "", cz_units[u].suffix);
+                     unit->suffix[0] != '\0' ? "_" : "", unit->suffix);
             cz_suggest(&suggestion, typed, spelled);
             if (suggestion.best != spelled)
                 continue;

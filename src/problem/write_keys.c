@@ -125,10 +125,9 @@ static void write_units(FILE *stream) {
         if (d == CZ_DIMENSION_NONE)
             continue;
         fprintf(stream, "| %s | ", cz_dimension_text[d]);
-        for (int i = 0; i < cz_n_unit; i++) {
-            if ((int)cz_units[i].dimension != d)
-                continue;
-            fprintf(stream, "%s`%s`", before, cz_units[i].suffix);
+        for (const CzUnit *unit = cz_unit_si((CzDimension)d); unit != NULL;
+             unit = cz_unit_next(unit)) {
+            fprintf(stream, "%s`%s`", before, unit->suffix);
             before = ", ";
         }
         fputs(" |\n", stream);

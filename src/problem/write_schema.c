@@ -33,12 +33,10 @@ static const char *in_unit(char text[CZ_NUMBER_TEXT], double si, double unit) {
 
 static void write_number(FILE *stream, bool *is_first, const CzKey *key) {
     char lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT];
-    for (int i = 0; i < cz_n_unit; i++) {
-        if (cz_units[i].dimension != key->dimension)
-            continue;
-        open_property(stream, is_first, key->stem, cz_units[i].suffix, key->doc);
+    for (const CzUnit *unit = cz_unit_si(key->dimension); unit != NULL; unit = cz_unit_next(unit)) {
+        open_property(stream, is_first, key->stem, unit->suffix, key->doc);
         fprintf(stream, ", \"type\": \"number\", \"minimum\": %s, \"maximum\": %s}",
-                in_unit(lo, key->lo, cz_units[i].si), in_unit(hi, key->hi, cz_units[i].si));
+                in_unit(lo, key->lo, unit->si), in_unit(hi, key->hi, unit->si));
     }
 }
 
@@ -117,11 +115,9 @@ static void write_key(FILE *stream, bool *is_first, const CzKey *key) {
 static void write_required(FILE *stream, const CzKey *key) {
     const char *before = "";
     fputs("{\"oneOf\": [", stream);
-    for (int i = 0; i < cz_n_unit; i++) {
-        if (cz_units[i].dimension != key->dimension)
-            continue;
+    for (const CzUnit *unit = cz_unit_si(key->dimension); unit != NULL; unit = cz_unit_next(unit)) {
         fprintf(stream, "%s{\"required\": [\"%s%s%s\"]}", before, key->stem,
-                cz_units[i].suffix[0] != '\0' ? "_" : "", cz_units[i].suffix);
+                unit->suffix[0] != '\0' ? "_" : "", unit->suffix);
         before = ", ";
     }
     fputs("]}", stream);
@@ -132,13 +128,12 @@ static void write_pairs(FILE *stream, const CzRecord *record) {
     const char *before = "";
     for (int k = 0; k < record->n_key; k++) {
         const CzKey *key = &record->key[k];
-        for (int i = 0; key->kind == CZ_KEY_NUMBER && i < cz_n_unit; i++)
-            for (int j = i + 1; j < cz_n_unit; j++) {
-                if (cz_units[i].dimension != key->dimension ||
-                    cz_units[j].dimension != key->dimension)
-                    continue;
+        for (const CzUnit *one = cz_unit_si(key->dimension);
+             key->kind == CZ_KEY_NUMBER && one != NULL; one = cz_unit_next(one))
+            for (const CzUnit *other = cz_unit_next(one); other != NULL;
+                 other = cz_unit_next(other)) {
                 fprintf(stream, "%s\n        {\"not\": {\"required\": [\"%s_%s\", \"%s_%s\"]}}",
-                        before, key->stem, cz_units[i].suffix, key->stem, cz_units[j].suffix);
+                        before, key->stem, one->suffix, key->stem, other->suffix);
                 before = ",";
             }
     }

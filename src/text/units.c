@@ -28,11 +28,16 @@ const CzUnit *cz_unit_si(CzDimension dimension) {
     return &cz_units[unit];
 }
 
+const CzUnit *cz_unit_next(const CzUnit *unit) {
+    const bool is_last = unit + 1 == cz_units + cz_n_unit || unit[1].dimension != unit->dimension;
+    return is_last ? NULL : unit + 1;
+}
+
 const CzUnit *cz_unit_find(CzDimension dimension, const char *suffix) {
-    for (int i = 0; i < cz_n_unit; i++)
-        if (cz_units[i].dimension == dimension && strcmp(cz_units[i].suffix, suffix) == 0)
-            return &cz_units[i];
-    return NULL;
+    const CzUnit *unit = cz_unit_si(dimension);
+    while (unit != NULL && strcmp(unit->suffix, suffix) != 0)
+        unit = cz_unit_next(unit);
+    return unit;
 }
 
 /* Whether a text is the suffix of any unit. */
@@ -57,16 +62,14 @@ bool cz_key_same_stem(const char *a, const char *b) {
 }
 
 void cz_key_spellings(char *text, size_t size, const char *stem, CzDimension dimension) {
+    const char *before = "";
     size_t n = 0;
     text[0] = '\0';
-    for (int i = 0; i < cz_n_unit; i++) {
-        if (cz_units[i].dimension != dimension)
-            continue;
-        const bool is_first = n == 0;
-        const bool is_last = i + 1 == cz_n_unit || cz_units[i + 1].dimension != dimension;
-        const char *before = is_first ? "" : is_last ? " or " : ", ";
+    for (const CzUnit *unit = cz_unit_si(dimension); unit != NULL; unit = cz_unit_next(unit)) {
         const int more = snprintf(text + n, size - n, "%s%s%s%s", before, stem,
-                                  cz_units[i].suffix[0] != '\0' ? "_" : "", cz_units[i].suffix);
+                                  unit->suffix[0] != '\0' ? "_" : "", unit->suffix);
         n = n + (size_t)more < size ? n + (size_t)more : size - 1;
+        const CzUnit *next = cz_unit_next(unit);
+        before = next != NULL && cz_unit_next(next) != NULL ? ", " : " or ";
     }
 }

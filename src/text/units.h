@@ -28,6 +28,8 @@ extern const int cz_n_unit;
 extern const char *const cz_dimension_text[CZ_N_DIMENSION];
 
 const CzUnit *cz_unit_si(CzDimension dimension);
+/* The unit of the same dimension behind one; NULL behind the last. */
+const CzUnit *cz_unit_next(const CzUnit *unit);
 /* Unit of a dimension by its suffix; NULL when it is not one of its units. */
 const CzUnit *cz_unit_find(CzDimension dimension, const char *suffix);
 /* Length of a key without the longest unit suffix at its end [byte]. */

@@ -25,13 +25,6 @@ typedef struct {
     bool failed;
 } Document;
 
-/* A growing list of entries; entries move to the arena when the list is complete. */
-typedef struct Chunk {
-    struct Chunk *before;
-    CzEntry entry[64];
-    int n_entry;
-} Chunk;
-
 static int line_of(yaml_mark_t mark) {
     return (int)mark.line + 1;
 }
@@ -165,34 +158,17 @@ static CzNode *read_alias(Document *document) {
     return node;
 }
 
-static bool push(Document *document, Chunk **chunk, CzEntry entry) {
-    if (*chunk == NULL || (*chunk)->n_entry == (int)(sizeof(*chunk)->entry / sizeof entry)) {
-        Chunk *more = cz_arena_allocate(document->mistakes->arena, 1, sizeof *more);
-        if (more == NULL) {
-            fail_without_memory(document);
-            return false;
-        }
-        more->before = *chunk;
-        *chunk = more;
-    }
-    (*chunk)->entry[(*chunk)->n_entry++] = entry;
-    return true;
-}
-
-static void gather(Document *document, CzNode *node, const Chunk *chunk) {
-    int n_entry = 0;
-    for (const Chunk *c = chunk; c != NULL; c = c->before)
-        n_entry += c->n_entry;
-    node->entry = cz_arena_allocate(document->mistakes->arena, (size_t)n_entry, sizeof(CzEntry));
-    if (node->entry == NULL && n_entry > 0) {
+/* Appends an entry to a list or mapping. */
+static bool push(Document *document, CzNode *node, CzEntry entry) {
+    CzEntry *all =
+        cz_arena_grow(document->mistakes->arena, node->entry, node->n_entry, sizeof *all);
+    if (all == NULL) {
         fail_without_memory(document);
-        return;
+        return false;
     }
-    node->n_entry = n_entry;
-    for (const Chunk *c = chunk; c != NULL; c = c->before) {
-        n_entry -= c->n_entry;
-        memcpy(&node->entry[n_entry], c->entry, (size_t)c->n_entry * sizeof(CzEntry));
-    }
+    all[node->n_entry++] = entry;
+    node->entry = all;
+    return true;
 }
 
 static CzNode *read_node(Document *document, int depth);
@@ -201,22 +177,18 @@ static CzNode *read_list(Document *document, int depth) {
     refuse_decorations(document, document->event.data.sequence_start.anchor,
                        document->event.data.sequence_start.tag);
     CzNode *list = node_create(document, CZ_NODE_LIST);
-    Chunk *chunk = NULL;
-    int n_item = 0;
-    while (next_event(document) && document->event.type != YAML_SEQUENCE_END_EVENT) {
+    while (list != NULL && next_event(document) &&
+           document->event.type != YAML_SEQUENCE_END_EVENT) {
         CzNode *item = read_node(document, depth + 1);
-        if (item == NULL || !push(document, &chunk, (CzEntry){.value = item}))
+        if (item == NULL || !push(document, list, (CzEntry){.value = item}))
             return NULL;
-        if (++n_item > MOST_ENTRIES) {
+        if (list->n_entry > MOST_ENTRIES) {
             cz_mistake(document->mistakes, item, NULL, "a list has more than %d items",
                        (int)MOST_ENTRIES);
             document->failed = true;
         }
     }
-    if (list == NULL || document->failed)
-        return NULL;
-    gather(document, list, chunk);
-    return list;
+    return document->failed ? NULL : list;
 }
 
 /* The mapping at hand: the line of every key so far, the entry that was read last. */
@@ -276,9 +248,9 @@ static CzNode *read_mapping(Document *document, int depth) {
                        document->event.data.mapping_start.tag);
     CzNode *mapping = node_create(document, CZ_NODE_MAPPING);
     Mapping at_hand = {.lines = {.arena = document->mistakes->arena}};
-    Chunk *chunk = NULL;
     int n_key = 0;
-    while (next_event(document) && document->event.type != YAML_MAPPING_END_EVENT) {
+    while (mapping != NULL && next_event(document) &&
+           document->event.type != YAML_MAPPING_END_EVENT) {
         bool is_kept = false;
         CzNode *key = read_key(document, &at_hand, depth, &is_kept);
         if (key == NULL || !next_event(document))
@@ -286,7 +258,7 @@ static CzNode *read_mapping(Document *document, int depth) {
         CzNode *value = read_node(document, depth + 1);
         if (value == NULL)
             return NULL;
-        if (is_kept && !push(document, &chunk, (CzEntry){.key = key, .value = value}))
+        if (is_kept && !push(document, mapping, (CzEntry){.key = key, .value = value}))
             return NULL;
         at_hand.last_key = key;
         at_hand.last_value = value;
@@ -296,10 +268,7 @@ static CzNode *read_mapping(Document *document, int depth) {
             document->failed = true;
         }
     }
-    if (mapping == NULL || document->failed)
-        return NULL;
-    gather(document, mapping, chunk);
-    return mapping;
+    return document->failed ? NULL : mapping;
 }
 
 /* Reads the node that the event at hand begins. NULL at a failure. */

@@ -1,6 +1,7 @@
 /* Walking along paths. */
 #include "tree/path.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -106,6 +107,24 @@ static bool read_path(Walk *walk, const char *path) {
     return false;
 }
 
+/* Tells what is wrong at a segment; nothing is put in any more. */
+__attribute__((format(printf, 3, 4))) static void refuse(Walk *walk, int level, const char *format,
+                                                         ...) {
+    const CzNode place = place_of(walk, level);
+    char sentence[sizeof((CzError *)0)->message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    cz_mistake(&walk->reader->mistakes, &place, NULL, "%s", sentence);
+    walk->failed = true;
+}
+
+/* What the path has come to. */
+static const char *here(const Walk *walk) {
+    return walk->at[0] != '\0' ? walk->at : "the problem";
+}
+
 /* ---- walking ---- */
 
 /* Whether a record of the table has a name: trains and their vehicles are named by paths. */
@@ -188,8 +207,7 @@ static const CzNode *put_value(Walk *walk, const CzNode *mapping, Step step) {
     const char *name = walk->segment[step.level].name;
     const CzNode place = place_of(walk, step.level);
     if (is_fixed_key(name) && !sets_part(walk, mapping, step)) {
-        cz_mistake(&walk->reader->mistakes, &place, NULL, "'%s' cannot be set by a path", name);
-        walk->failed = true;
+        refuse(walk, step.level, "'%s' cannot be set by a path", name);
         return mapping;
     }
     const size_t before = enter(walk, "", name, 0);
@@ -216,11 +234,9 @@ static bool needs_nothing(const CzRecord *record) {
 
 static void report_unknown(Walk *walk, const CzNode *mapping, Step step) {
     const char *name = walk->segment[step.level].name;
-    const CzNode place = place_of(walk, step.level);
     CzSuggestion suggestion = {0};
     walk->failed = true;
-    if (mapping
-            ->is_partial) /* the part that has it is not there, and that is told where it is used */
+    if (mapping->is_partial) /* a part is not there, which is told where it is used */
         return;
     for (int i = 0; i < mapping->n_entry; i++)
         cz_suggest(&suggestion, name, mapping->entry[i].key->text);
@@ -229,8 +245,7 @@ static void report_unknown(Walk *walk, const CzNode *mapping, Step step) {
             cz_suggest(&suggestion, name, step.record->key[i].stem);
     const bool is_known =
         suggestion.best != NULL && strcmp(suggestion.best, name) == 0; /* a key, but not there */
-    cz_mistake(&walk->reader->mistakes, &place, NULL, "there is no '%s' in %s", name,
-               walk->at[0] != '\0' ? walk->at : "the problem");
+    refuse(walk, step.level, "there is no '%s' in %s", name, here(walk));
     if (!is_known)
         cz_mistake_suggest(&walk->reader->mistakes, suggestion.best);
 }
@@ -243,22 +258,17 @@ static bool is_copied(Walk *walk, const CzNode *mapping, Step step) {
         return false;
     if (step.is_open)
         return true;
-    const CzNode place = place_of(walk, step.level);
-    cz_mistake(&walk->reader->mistakes, &place, NULL,
-               "%s copies train '%s' and has no vehicles of its own", walk->at, copied);
+    refuse(walk, step.level, "%s copies train '%s' and has no vehicles of its own", walk->at,
+           copied);
     cz_mistake_help(&walk->reader->mistakes, "trains.%s.vehicles names those of both trains",
                     copied);
-    walk->failed = true;
     return true;
 }
 
 static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) {
     const Segment *segment = &walk->segment[step.level];
     if (segment->kind != SEGMENT_NAME) {
-        const CzNode place = place_of(walk, step.level);
-        cz_mistake(&walk->reader->mistakes, &place, NULL, "%s is no list: a key must follow",
-                   walk->at[0] != '\0' ? walk->at : "the problem");
-        walk->failed = true;
+        refuse(walk, step.level, "%s is no list: a key must follow", here(walk));
         return mapping;
     }
     if (step.level == walk->n_segment - 1)
@@ -313,12 +323,10 @@ static const char *name_of_item(Walk *walk, const CzNode *item, const CzRecord *
 
 static void report_no_item(Walk *walk, const CzNode *list, Step step) {
     const Segment *segment = &walk->segment[step.level];
-    const CzNode place = place_of(walk, step.level);
     CzMistakes *mistakes = &walk->reader->mistakes;
-    walk->failed = true;
     if (segment->kind == SEGMENT_INDEX) {
-        cz_mistake(mistakes, &place, NULL, "%s has %d items, counted from 0; there is no [%d]",
-                   walk->at, list->n_entry, segment->index);
+        refuse(walk, step.level, "%s has %d items, counted from 0; there is no [%d]", walk->at,
+               list->n_entry, segment->index);
         return;
     }
     CzSuggestion suggestion = {0};
@@ -330,9 +338,9 @@ static void report_no_item(Walk *walk, const CzNode *list, Step step) {
             cz_vehicle_name(text, sizeof text, item, walk->train, position, k);
             if (strcmp(text, segment->name) == 0) {
                 cz_vehicle_name(text, sizeof text, item, walk->train, position, 0);
-                cz_mistake(mistakes, &place, NULL,
-                           "vehicle '%s' is '%s' repeated and has no values of its own",
-                           segment->name, text);
+                refuse(walk, step.level,
+                       "vehicle '%s' is '%s' repeated and has no values of its own", segment->name,
+                       text);
                 cz_mistake_help(mistakes, "'%s' names all %d of them", text, n_repeat);
                 return;
             }
@@ -344,7 +352,7 @@ static void report_no_item(Walk *walk, const CzNode *list, Step step) {
             suggestion.best = strcpy(best, strlen(name) < sizeof best ? name : "");
         position += n_repeat;
     }
-    cz_mistake(mistakes, &place, NULL, "there is no '%s' in %s", segment->name, walk->at);
+    refuse(walk, step.level, "there is no '%s' in %s", segment->name, walk->at);
     cz_mistake_suggest(mistakes, suggestion.best);
 }
 
@@ -356,10 +364,7 @@ static const CzNode *walk_item(Walk *walk, const CzNode *item, Step step) {
     }
     if (item->kind == CZ_NODE_TEXT)
         return value_to_put(walk);
-    const CzNode place = place_of(walk, step.level);
-    cz_mistake(&walk->reader->mistakes, &place, NULL, "%s is %s: a key must follow", walk->at,
-               cz_node_what(item));
-    walk->failed = true;
+    refuse(walk, step.level, "%s is %s: a key must follow", walk->at, cz_node_what(item));
     return item;
 }
 
@@ -403,10 +408,7 @@ static const CzNode *walk_on(Walk *walk, const CzNode *node, Step step) {
         return walk_mapping(walk, taken, step);
     if (taken->kind == CZ_NODE_LIST)
         return walk_list(walk, taken, step);
-    const CzNode place = place_of(walk, step.level);
-    cz_mistake(&walk->reader->mistakes, &place, NULL, "%s is a value: nothing can follow it",
-               walk->at);
-    walk->failed = true;
+    refuse(walk, step.level, "%s is a value: nothing can follow it", walk->at);
     return taken;
 }
 
@@ -430,15 +432,14 @@ static bool put_into_part(Walk *walk, CzTree *tree) {
     CzSuggestion suggestion = {0};
     for (int i = 0; names && i < tree->n_part; i++)
         cz_suggest(&suggestion, segment->name, tree->part[i].name);
-    const CzNode place = place_of(walk, walk->n_segment > 1 ? 1 : 0);
     walk->failed = true;
     if (names && tree->lacks_parts)
         return true;
     if (names)
-        cz_mistake(&walk->reader->mistakes, &place, NULL, "there is no part '%s'", segment->name);
+        refuse(walk, 1, "there is no part '%s'", segment->name);
     else
-        cz_mistake(&walk->reader->mistakes, &place, NULL,
-                   "'parts' is followed by the name of a part and one of its keys");
+        refuse(walk, walk->n_segment > 1 ? 1 : 0,
+               "'parts' is followed by the name of a part and one of its keys");
     cz_mistake_suggest(&walk->reader->mistakes, suggestion.best);
     return true;
 }

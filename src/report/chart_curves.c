@@ -10,15 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The panels by the channels that they show. */
-static const struct {
-    CzChart chart;
-    CzChannel channel;
-} panels[] = {{CZ_CHART_FORCE, CZ_CHANNEL_INTERFACE_FORCE},
-              {CZ_CHART_VELOCITY, CZ_CHANNEL_BODY_SPEED},
-              {CZ_CHART_DISPLACEMENT, CZ_CHANNEL_BODY_DISPLACEMENT},
-              {CZ_CHART_SHORTENING, CZ_CHANNEL_INTERFACE_CLOSURE}};
-
 /* What is being read. */
 typedef struct Reading {
     const CzChartOptions *options;
@@ -30,10 +21,13 @@ typedef struct Reading {
     CzError *error;
 } Reading;
 
+/* The panel whose channels have names that begin like the title. */
 static CzStatus find_panel(const Reading *reading, const char *title, CzChart *chart) {
+    static const CzChart panels[] = {CZ_CHART_FORCE, CZ_CHART_VELOCITY, CZ_CHART_DISPLACEMENT,
+                                     CZ_CHART_SHORTENING};
     for (size_t i = 0; i < sizeof panels / sizeof *panels; i++) {
-        const char *pattern = cz_channel_info(panels[i].channel)->pattern;
-        *chart = panels[i].chart;
+        const char *pattern = cz_drawn_info(cz_chart_info(panels[i])->y)->pattern;
+        *chart = panels[i];
         if (strncmp(title, pattern, strcspn(pattern, "{")) == 0)
             return CZ_OK;
     }
@@ -191,33 +185,15 @@ CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int 
 
 /* ---- of a fit ---- */
 
-/* The figure of a page that shows a channel over time; CZ_N_CHART for none. */
+/* The figure over time of a page that shows such quantities; CZ_N_CHART for none. */
 static CzChart chart_of(CzChannel channel) {
-    switch (channel) {
-    case CZ_CHANNEL_INTERFACE_FORCE:
-    case CZ_CHANNEL_COUPLER_FORCE:
-    case CZ_CHANNEL_ANTI_CLIMBER_FORCE:
-    case CZ_CHANNEL_SIDE_BUFFER_FORCE:
-    case CZ_CHANNEL_END_FORCE:
-        return CZ_CHART_FORCE;
-    case CZ_CHANNEL_BODY_SPEED:
-        return CZ_CHART_VELOCITY;
-    case CZ_CHANNEL_INTERFACE_ENERGY:
-    case CZ_CHANNEL_KINETIC_ENERGY:
-    case CZ_CHANNEL_ENERGY_TAKEN_UP:
-    case CZ_CHANNEL_WHEEL_RAIL_ENERGY:
-    case CZ_CHANNEL_RUNNING_GEAR_ENERGY:
-    case CZ_CHANNEL_TRACK_ENERGY:
-    case CZ_CHANNEL_STORED_ENERGY:
-    case CZ_CHANNEL_ENERGY_IMBALANCE:
-        return CZ_CHART_ENERGY;
-    case CZ_CHANNEL_ANTI_CLIMBER_OVERLAP:
-        return CZ_CHART_OVERLAP;
-    case CZ_CHANNEL_BODY_PITCH:
-        return CZ_CHART_PITCH;
-    default:
-        return CZ_N_CHART;
-    }
+    static const CzChart charts[] = {CZ_CHART_FORCE, CZ_CHART_VELOCITY, CZ_CHART_ENERGY,
+                                     CZ_CHART_OVERLAP, CZ_CHART_PITCH};
+    const char *quantity = cz_channel_info(channel)->title;
+    for (size_t i = 0; i < sizeof charts / sizeof *charts; i++)
+        if (strcmp(cz_drawn_info(cz_chart_info(charts[i])->y)->title, quantity) == 0)
+            return charts[i];
+    return CZ_N_CHART;
 }
 
 /* The figure of the channel that a match follows in a run; CZ_N_CHART for none. */

@@ -308,11 +308,33 @@ static void rows_for_which_there_is_no_room_are_left_out_at_the_end(void **state
     free_ran(&ran);
 }
 
+/* The car ahead is the second of two and the seventh of twelve; A6 is in the longer trains alone.
+ */
+static void curves_of_another_run_are_those_of_the_same_names(void **state) {
+    (void)state;
+    static const char *const set[] = {"simulation.duration_ms=5"};
+    Ran two = run_set("two-cars-25kmh.yaml", NULL, 1, set);
+    Ran twelve = run_set("metro-6-car.yaml", "25-km-h", 1, set);
+    const CzRunSummary *own = cz_run_summary(two.evaluation.run[0]);
+    const CzRunSummary *its = cz_run_summary(twelve.evaluation.run[0]);
+    const CzRun *run = two.evaluation.run[0], *other = twelve.evaluation.run[0];
+    assert_string_equal(own->vehicle[1].name, its->vehicle[6].name);
+    assert_ptr_equal(cz_drawn_beside(own, CZ_CHANNEL_BODY_SPEED, 1, other),
+                     cz_run_channel(other, CZ_CHANNEL_BODY_SPEED, 6));
+    assert_ptr_equal(cz_drawn_beside(own, CZ_CHANNEL_WHEEL_LIFT, cz_wheelset_place(1, 2), other),
+                     cz_run_channel(other, CZ_CHANNEL_WHEEL_LIFT, cz_wheelset_place(6, 2)));
+    assert_null(cz_drawn_beside(own, CZ_CHANNEL_INTERFACE_FORCE, 0, other)); /* A1-B1 */
+    assert_null(cz_drawn_beside(its, CZ_CHANNEL_BODY_SPEED, 5, run));
+    free_ran(&two);
+    free_ran(&twelve);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sections_come_in_the_order_of_questions),
         cmocka_unit_test(every_lack_of_memory_is_told),
         cmocka_unit_test(a_run_that_was_not_kept_has_no_page),
+        cmocka_unit_test(curves_of_another_run_are_those_of_the_same_names),
         cmocka_unit_test(the_cursor_stands_at_every_row_that_was_recorded),
         cmocka_unit_test(rows_for_which_there_is_no_room_are_left_out_at_the_end),
         cmocka_unit_test(a_wall_does_not_hold_a_coupler_that_has_sheared_off),

@@ -12,6 +12,9 @@ void cz_chart_title(const CzPage *page, CzChart chart, int index, size_t room, c
 /* Writes one of them as an element `svg`; without memory the markup has failed. */
 void cz_chart_write(const CzPage *page, CzChart chart, int index, CzMarkup *markup);
 
+/* The same on the page, under its title. */
+void cz_page_write_figure(CzPage *page, CzChart chart, int index);
+
 /* Six frames of the collision from the side (page_scene.c). */
 void cz_chart_write_frames(const CzPage *page, int interface, CzMarkup *markup);
 

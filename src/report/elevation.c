@@ -55,14 +55,11 @@ static double end_stroke(const CzEnd *end) {
 static void write_bar(CzMarkup *markup, double from, double to, double y, double thickness,
                       const char *colour, const char *title) {
     cz_markup_open(markup, "rect");
-    cz_markup_number(markup, "x", 1, fmin(from, to));
-    cz_markup_number(markup, "y", 1, y - thickness / 2);
-    cz_markup_number(markup, "width", 1, fabs(to - from));
-    cz_markup_number(markup, "height", 1, thickness);
-    cz_markup_attribute(markup, "fill", colour);
-    cz_markup_attribute(markup, "fill-opacity", ".55");
-    cz_markup_attribute(markup, "stroke", "currentColor");
-    cz_markup_attribute(markup, "stroke-width", ".7");
+    cz_markup_numbers(
+        markup, 1, "x y width height",
+        (const double[]){fmin(from, to), y - thickness / 2, fabs(to - from), thickness});
+    cz_markup_attributes(markup, "fill", colour, "fill-opacity", ".55", "stroke", "currentColor",
+                         "stroke-width", ".7", NULL);
     cz_markup_element(markup, "title", title);
     cz_markup_close(markup);
 }
@@ -98,11 +95,8 @@ static void write_parts(CzMarkup *markup, const Side *side) {
         const double y = height(side->rise + end->coupler.height);
         write_bar(markup, place(side, pivot), place(side, tip), y, 9, cz_plot_colour(0), "coupler");
         cz_markup_open(markup, "circle");
-        cz_markup_number(markup, "cx", 1, place(side, pivot));
-        cz_markup_number(markup, "cy", 1, y);
-        cz_markup_attribute(markup, "r", "5");
-        cz_markup_attribute(markup, "stroke", "currentColor");
-        cz_markup_attribute(markup, "stroke-width", "2");
+        cz_markup_numbers(markup, 1, "cx cy", (const double[]){place(side, pivot), y});
+        cz_markup_attributes(markup, "r", "5", "stroke", "currentColor", "stroke-width", "2", NULL);
         cz_markup_close(markup);
     }
 }
@@ -178,9 +172,8 @@ static void write_heights(CzMarkup *markup, const Side *side) {
         cz_markup_format(markup, "d", "M%d %dL%d %dH%d", (int)(side->edge - side->sign * 4),
                          (int)label[i].y - 4, (int)(side->edge + side->sign * 8),
                          (int)height(label[i].z), (int)place(side, label[i].to));
-        cz_markup_attribute(markup, "stroke", "currentColor");
-        cz_markup_attribute(markup, "stroke-width", ".8");
-        cz_markup_attribute(markup, "stroke-dasharray", "3 2");
+        cz_markup_attributes(markup, "stroke", "currentColor", "stroke-width", ".8",
+                             "stroke-dasharray", "3 2", NULL);
         cz_markup_close(markup);
     }
 }
@@ -310,9 +303,7 @@ void cz_elevation_write(const CzModel *model, const CzStand *stand, CzMarkup *ma
     }
     cz_markup_open(markup, "path");
     cz_markup_format(markup, "d", "M%d %dH%d", (int)COLUMN, (int)RAIL, (int)(WIDTH - COLUMN));
-    cz_markup_attribute(markup, "stroke", "currentColor");
-    cz_markup_attribute(markup, "stroke-width", "2.5");
+    cz_markup_attributes(markup, "stroke", "currentColor", "stroke-width", "2.5", NULL);
     cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }

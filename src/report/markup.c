@@ -84,6 +84,28 @@ void cz_markup_number(CzMarkup *markup, const char *name, int decimals, double v
     fputc('"', markup->stream);
 }
 
+void cz_markup_open_class(CzMarkup *markup, const char *element, const char *class_name) {
+    cz_markup_open(markup, element);
+    cz_markup_attribute(markup, "class", class_name);
+}
+
+void cz_markup_numbers(CzMarkup *markup, int decimals, const char *names, const double *value) {
+    for (const char *at = names; *at != '\0'; at += strspn(at, " ")) {
+        char name[32];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, " "), at);
+        cz_markup_number(markup, name, decimals, *value++);
+        at += strlen(name);
+    }
+}
+
+void cz_markup_attributes(CzMarkup *markup, ...) {
+    va_list arguments;
+    va_start(arguments, markup);
+    for (const char *name; (name = va_arg(arguments, const char *)) != NULL;)
+        cz_markup_attribute(markup, name, va_arg(arguments, const char *));
+    va_end(arguments);
+}
+
 void cz_markup_format(CzMarkup *markup, const char *name, const char *format, ...) {
     char text[CZ_SENTENCE_ROOM];
     va_list arguments;
@@ -101,6 +123,11 @@ void cz_markup_text(CzMarkup *markup, const char *text) {
 void cz_markup_line(CzMarkup *markup) {
     end_tag(markup);
     fputc('\n', markup->stream);
+}
+
+void cz_markup_end(CzMarkup *markup) {
+    cz_markup_close(markup);
+    cz_markup_line(markup);
 }
 
 void cz_markup_raw(CzMarkup *markup, const char *text) {

@@ -27,13 +27,20 @@ typedef struct CzMarkup {
 
 /* Opens an element inside the one that is open; `element` lives until it is closed. */
 void cz_markup_open(CzMarkup *markup, const char *element);
-/* Closes the element that was opened last. */
+/* The same with an attribute `class`. */
+void cz_markup_open_class(CzMarkup *markup, const char *element, const char *class_name);
+/* Closes the element that was opened last; the same with a line end. */
 void cz_markup_close(CzMarkup *markup);
+void cz_markup_end(CzMarkup *markup);
 
 /* Attributes of the element that was opened last. Numbers get at most `decimals` places and no
  * zeros at their end. */
 void cz_markup_attribute(CzMarkup *markup, const char *name, const char *value);
 void cz_markup_number(CzMarkup *markup, const char *name, int decimals, double value);
+/* Several at once: names with a blank between them and a value for each; pairs of name and value up
+ * to a NULL. */
+void cz_markup_numbers(CzMarkup *markup, int decimals, const char *names, const double *value);
+void cz_markup_attributes(CzMarkup *markup, ...) __attribute__((sentinel));
 void cz_markup_format(CzMarkup *markup, const char *name, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

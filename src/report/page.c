@@ -15,8 +15,7 @@ static void write_policy(CzMarkup *markup) {
                      "default-src 'none'; script-src 'sha256-%s'; style-src 'sha256-%s'; img-src "
                      "data:; base-uri 'none'; form-action 'none'",
                      cz_report_js_sha256, cz_report_css_sha256);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 void cz_page_write_head(CzMarkup *markup, const char *title) {
@@ -27,22 +26,18 @@ void cz_page_write_head(CzMarkup *markup, const char *title) {
     cz_markup_open(markup, "head");
     cz_markup_open(markup, "meta");
     cz_markup_attribute(markup, "charset", "utf-8");
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
     write_policy(markup);
     cz_markup_open(markup, "meta");
-    cz_markup_attribute(markup, "name", "viewport");
-    cz_markup_attribute(markup, "content", "width=device-width, initial-scale=1");
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_attributes(markup, "name", "viewport", "content",
+                         "width=device-width, initial-scale=1", NULL);
+    cz_markup_end(markup);
     cz_markup_element(markup, "title", title);
     cz_markup_line(markup);
     cz_markup_open(markup, "style");
     cz_markup_raw(markup, cz_report_css);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
+    cz_markup_end(markup);
     cz_markup_open(markup, "body");
     cz_markup_line(markup);
 }
@@ -50,11 +45,9 @@ void cz_page_write_head(CzMarkup *markup, const char *title) {
 void cz_page_write_foot(CzMarkup *markup) {
     cz_markup_open(markup, "script");
     cz_markup_raw(markup, cz_report_js);
+    cz_markup_end(markup);
     cz_markup_close(markup);
-    cz_markup_line(markup);
-    cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 static void write_link(CzMarkup *markup, const char *id, const char *name) {
@@ -93,8 +86,7 @@ void cz_page_write_contents(CzPage *page, bool of_search) {
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if ((parts[i].where & ~there) == 0)
             write_link(markup, parts[i].id, parts[i].name);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading) {
@@ -106,8 +98,7 @@ void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading)
 }
 
 void cz_page_close_section(CzMarkup *markup) {
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 void cz_page_write_parts(CzPage *page) {

@@ -62,24 +62,15 @@ static void write_overlay(CzMarkup *markup, int n, const CzReportRun *run, const
     cz_markup_open(markup, "figure");
     cz_markup_element(markup, "figcaption", title);
     cz_plot_write(&plot, markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 static void write_loops(CzPage *page) {
     CzMarkup *markup = &page->markup;
     cz_page_open_section(markup, "loops", "Force over closure");
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "figures");
-    for (int i = 0; i < cz_chart_count(page, CZ_CHART_FORCE_CLOSURE); i++) {
-        char title[CZ_SENTENCE_ROOM];
-        cz_chart_title(page, CZ_CHART_FORCE_CLOSURE, i, sizeof title, title);
-        cz_markup_open(markup, "figure");
-        cz_markup_element(markup, "figcaption", title);
-        cz_chart_write(page, CZ_CHART_FORCE_CLOSURE, i, markup);
-        cz_markup_close(markup);
-        cz_markup_line(markup);
-    }
+    cz_markup_open_class(markup, "div", "figures");
+    for (int i = 0; i < cz_chart_count(page, CZ_CHART_FORCE_CLOSURE); i++)
+        cz_page_write_figure(page, CZ_CHART_FORCE_CLOSURE, i);
     cz_markup_close(markup);
     cz_page_close_section(markup);
 }
@@ -94,8 +85,7 @@ static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
                     {"Pitch of the car behind it, nose up", CZ_CHANNEL_BODY_PITCH}};
     const int colliding = page->model->colliding;
     cz_page_open_section(&page->markup, "time", "Over time");
-    cz_markup_open(&page->markup, "div");
-    cz_markup_attribute(&page->markup, "class", "figures");
+    cz_markup_open_class(&page->markup, "div", "figures");
     for (size_t i = 0; i < sizeof overlays / sizeof *overlays; i++)
         write_overlay(&page->markup, n, run, overlays[i].title, overlays[i].channel, colliding);
     cz_markup_close(&page->markup);
@@ -114,8 +104,7 @@ static void write_page(CzPage *page, int n, const CzReportRun *run) {
         cz_markup_classed(markup, "p", "fail", cz_compared_caution(n, run));
     write_checks(markup, n, run);
     cz_page_open_section(markup, "numbers", "Interfaces and cars");
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "tables");
+    cz_markup_open_class(markup, "div", "tables");
     write_numbers(markup, n, run, true);
     write_numbers(markup, n, run, false);
     cz_markup_close(markup);

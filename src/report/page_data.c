@@ -281,8 +281,7 @@ void cz_page_write_data(CzPage *page) {
         markup->failed = true;
     cz_markup_raw(markup, text.text != NULL ? text.text : "");
     cz_markup_raw(markup, "}");
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
     write_rows(page, &rows);
     cz_memory_text_free(&text);
     free(later);

@@ -10,11 +10,10 @@ static void write_titled(const CzPage *page, CzChart chart, int index, const cha
     cz_markup_element(markup, "figcaption", title);
     cz_markup_line(markup);
     cz_chart_write(page, chart, index, markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
-static void write_figure(CzPage *page, CzChart chart, int index) {
+void cz_page_write_figure(CzPage *page, CzChart chart, int index) {
     char title[CZ_SENTENCE_ROOM];
     cz_chart_title(page, chart, index, sizeof title, title);
     write_titled(page, chart, index, title, &page->markup);
@@ -22,18 +21,16 @@ static void write_figure(CzPage *page, CzChart chart, int index) {
 
 static void write_all(CzPage *page, CzChart chart) {
     for (int i = 0; i < cz_chart_count(page, chart); i++)
-        write_figure(page, chart, i);
+        cz_page_write_figure(page, chart, i);
 }
 
 static void open_figures(CzPage *page) {
-    cz_markup_open(&page->markup, "div");
-    cz_markup_attribute(&page->markup, "class", "figures");
+    cz_markup_open_class(&page->markup, "div", "figures");
     cz_markup_line(&page->markup);
 }
 
 static void close_figures(CzPage *page) {
-    cz_markup_close(&page->markup);
-    cz_markup_line(&page->markup);
+    cz_markup_end(&page->markup);
 }
 
 /* Who absorbs what in the runs beside the page's own, such as the design before. */
@@ -75,7 +72,7 @@ static void write_motion(CzPage *page) {
     write_all(page, CZ_CHART_VELOCITY);
     write_all(page, CZ_CHART_ACCELERATION);
     if (n > 0)
-        write_figure(page, CZ_CHART_CAR_ACCELERATION, hardest);
+        cz_page_write_figure(page, CZ_CHART_CAR_ACCELERATION, hardest);
     close_figures(page);
     if (n > 1) {
         cz_markup_open(&page->markup, "details");
@@ -83,7 +80,7 @@ static void write_motion(CzPage *page) {
         open_figures(page);
         for (int i = 0; i < n; i++)
             if (i != hardest)
-                write_figure(page, CZ_CHART_CAR_ACCELERATION, i);
+                cz_page_write_figure(page, CZ_CHART_CAR_ACCELERATION, i);
         close_figures(page);
         cz_markup_close(&page->markup);
     }

@@ -131,8 +131,7 @@ static void write_assumptions(CzPage *page) {
         snprintf(text, sizeof text, "Warning: %s", cz_problem_warning(page->problem, i)->message);
         cz_markup_element(markup, "li", text);
     }
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 /* ---- inputs ---- */
@@ -154,8 +153,7 @@ static void write_sources(CzPage *page) {
                  source->n_line - MOST_SOURCE_LINES);
         cz_markup_text(markup, source->n_line > MOST_SOURCE_LINES ? left_out : "");
         cz_markup_close(markup);
-        cz_markup_close(markup);
-        cz_markup_line(markup);
+        cz_markup_end(markup);
     }
 }
 

@@ -49,8 +49,7 @@ static void write_frame(CzPage *page, int interface, int sample) {
     cz_markup_open(markup, "figure");
     cz_markup_element(markup, "figcaption", title);
     draw_frame(page, interface, sample, title, markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 void cz_chart_write_frames(const CzPage *page, int interface, CzMarkup *markup) {
@@ -62,26 +61,22 @@ void cz_chart_write_frames(const CzPage *page, int interface, CzMarkup *markup) 
         name_frame(page, interface, sample, sizeof title, title);
         cz_svg_open_tile(markup, i, CZ_SCENE_HEIGHT, 4, title);
         draw_frame(page, interface, sample, title, markup);
-        cz_markup_close(markup);
-        cz_markup_line(markup);
+        cz_markup_end(markup);
     }
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 static void write_control(CzMarkup *markup, const char *element, const char *id,
                           const char *label) {
     cz_markup_open(markup, element);
-    cz_markup_attribute(markup, "id", id);
-    cz_markup_attribute(markup, "aria-label", label);
+    cz_markup_attributes(markup, "id", id, "aria-label", label, NULL);
 }
 
 /* Controls, hidden until the script shows them. */
 static void write_controls(CzPage *page) {
     static const char *const speeds[] = {"0.02", "0.05", "0.1", "0.25", "1"};
     CzMarkup *markup = &page->markup;
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "controls");
+    cz_markup_open_class(markup, "div", "controls");
     write_control(markup, "button", "play", "play or pause");
     cz_markup_attribute(markup, "type", "button");
     cz_markup_text(markup, "Play");
@@ -113,17 +108,13 @@ static void write_controls(CzPage *page) {
     cz_markup_close(markup);
     cz_markup_close(markup);
     write_control(markup, "input", "scrub", "time");
-    cz_markup_attribute(markup, "type", "range");
-    cz_markup_attribute(markup, "min", "0");
-    cz_markup_attribute(markup, "max", "1");
-    cz_markup_attribute(markup, "value", "0");
+    cz_markup_attributes(markup, "type", "range", "min", "0", "max", "1", "value", "0", NULL);
     cz_markup_close(markup);
     cz_markup_open(markup, "output");
     cz_markup_attribute(markup, "id", "now");
     cz_markup_text(markup, "");
     cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 void cz_page_write_animation(CzPage *page) {
@@ -137,19 +128,16 @@ void cz_page_write_animation(CzPage *page) {
                       "times as large. Orange: crush zones of the car ends, red: anti-climbers, "
                       "bars below: couplers.");
     cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "id", "stage");
-    cz_markup_attribute(markup, "class", "script wide");
+    cz_markup_attributes(markup, "id", "stage", "class", "script wide", NULL);
     write_controls(page);
     cz_svg_open(markup, "animation of the collision", WIDTH, CZ_SCENE_HEIGHT);
     cz_markup_attribute(markup, "class", "animation");
-    cz_markup_number(markup, "data-scale", 1, CZ_SCENE_SCALE);
-    cz_markup_number(markup, "data-magnify", 1, CZ_SCENE_MAGNIFY);
+    cz_markup_numbers(markup, 1, "data-scale data-magnify",
+                      (const double[]){CZ_SCENE_SCALE, CZ_SCENE_MAGNIFY});
     cz_scene_write(page, interface, 0, WIDTH, true, markup);
     cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "figures strip");
+    cz_markup_end(markup);
+    cz_markup_open_class(markup, "div", "figures strip");
     for (int i = 0; i < N_FRAME; i++)
         write_frame(page, interface, sample_of(page, interface, i));
     cz_markup_close(markup);

@@ -41,12 +41,10 @@ void cz_svg_open(CzMarkup *markup, const char *title, double width, double heigh
     fputc(' ', markup->stream);
     cz_markup_write_number(markup->stream, 1, height);
     fputc('"', markup->stream);
-    cz_markup_attribute(markup, "role", "img");
-    cz_markup_attribute(markup, "aria-label", title);
-    cz_markup_attribute(markup, "font-family", "system-ui, sans-serif");
+    cz_markup_attributes(markup, "role", "img", "aria-label", title, "font-family",
+                         "system-ui, sans-serif", NULL);
     cz_markup_number(markup, "font-size", 1, FONT_SIZE);
-    cz_markup_attribute(markup, "fill", "none");
-    cz_markup_attribute(markup, "stroke-linejoin", "round");
+    cz_markup_attributes(markup, "fill", "none", "stroke-linejoin", "round", NULL);
     if (markup->depth == 1) /* by itself: black on white, whatever it is shown on */
         cz_markup_attribute(markup, "style", "background:#fff");
 }
@@ -63,16 +61,13 @@ void cz_svg_open_tile(CzMarkup *markup, int i, double height, double inset, cons
     const double x = i % 2 * (CZ_PLOT_WIDTH + TILE_GAP), y = i / 2 * (TILE_HEADING + height);
     cz_svg_text(markup, x + inset, y + 15, "start", heading);
     cz_markup_open(markup, "svg");
-    cz_markup_number(markup, "x", 1, x);
-    cz_markup_number(markup, "y", 1, y + TILE_HEADING);
-    cz_markup_number(markup, "width", 1, CZ_PLOT_WIDTH);
-    cz_markup_number(markup, "height", 1, height);
+    cz_markup_numbers(markup, 1, "x y width height",
+                      (const double[]){x, y + TILE_HEADING, CZ_PLOT_WIDTH, height});
 }
 
 void cz_svg_text(CzMarkup *markup, double x, double y, const char *anchor, const char *text) {
     cz_markup_open(markup, "text");
-    cz_markup_number(markup, "x", 1, x);
-    cz_markup_number(markup, "y", 1, y);
+    cz_markup_numbers(markup, 1, "x y", (const double[]){x, y});
     if (strcmp(anchor, "start") != 0)
         cz_markup_attribute(markup, "text-anchor", anchor);
     cz_markup_attribute(markup, "fill", "currentColor");
@@ -153,10 +148,7 @@ static Frame frame_of(const CzPlot *plot) {
 
 static void write_line(CzMarkup *markup, double x1, double y1, double x2, double y2) {
     cz_markup_open(markup, "line");
-    cz_markup_number(markup, "x1", 1, x1);
-    cz_markup_number(markup, "y1", 1, y1);
-    cz_markup_number(markup, "x2", 1, x2);
-    cz_markup_number(markup, "y2", 1, y2);
+    cz_markup_numbers(markup, 1, "x1 y1 x2 y2", (const double[]){x1, y1, x2, y2});
 }
 
 /* ---- axes ---- */
@@ -175,8 +167,7 @@ static void write_x_axis(const CzPlot *plot, const Frame *frame, CzMarkup *marku
         char text[CZ_FIGURE_ROOM];
         const double x = paper_x(frame, i * step);
         write_line(markup, x, TOP, x, bottom);
-        cz_markup_attribute(markup, "stroke", "currentColor");
-        cz_markup_attribute(markup, "stroke-opacity", ".13");
+        cz_markup_attributes(markup, "stroke", "currentColor", "stroke-opacity", ".13", NULL);
         cz_markup_close(markup);
         tick_text(text, i * step, step);
         const double last = CZ_PLOT_WIDTH - 0.5 * FONT_SIZE * cz_text_width(text);
@@ -191,18 +182,16 @@ static void write_y_axis(const CzPlot *plot, const Frame *frame, CzMarkup *marku
         char text[CZ_FIGURE_ROOM];
         const double y = paper_y(frame, i * step);
         write_line(markup, LEFT, y, LEFT + frame->width, y);
-        cz_markup_attribute(markup, "stroke", "currentColor");
-        cz_markup_attribute(markup, "stroke-opacity", i == 0 ? ".5" : ".13");
+        cz_markup_attributes(markup, "stroke", "currentColor", "stroke-opacity",
+                             i == 0 ? ".5" : ".13", NULL);
         cz_markup_close(markup);
         tick_text(text, i * step, step);
         cz_svg_text(markup, LEFT - 5, y + 3.8, "end", text);
     }
     cz_markup_open(markup, "text");
     cz_markup_attribute(markup, "transform", "rotate(-90)");
-    cz_markup_number(markup, "x", 1, -(TOP + frame->height / 2));
-    cz_markup_number(markup, "y", 1, 12);
-    cz_markup_attribute(markup, "text-anchor", "middle");
-    cz_markup_attribute(markup, "fill", "currentColor");
+    cz_markup_numbers(markup, 1, "x y", (const double[]){-(TOP + frame->height / 2), 12});
+    cz_markup_attributes(markup, "text-anchor", "middle", "fill", "currentColor", NULL);
     cz_markup_text(markup, plot->y_label);
     cz_markup_close(markup);
 }
@@ -288,12 +277,10 @@ static void write_bands(const CzPlot *plot, const Frame *frame, CzMarkup *markup
         const double from = paper_x(frame, fmax(plot->band[i].from, frame->x_min));
         const double to = paper_x(frame, fmin(plot->band[i].to, frame->x_max));
         cz_markup_open(markup, "rect");
-        cz_markup_number(markup, "x", 1, from);
-        cz_markup_number(markup, "y", 1, TOP);
-        cz_markup_number(markup, "width", 1, fmax(to - from, 0.5));
-        cz_markup_number(markup, "height", 1, frame->height);
-        cz_markup_attribute(markup, "fill", cz_plot_colour(plot->band[i].colour));
-        cz_markup_attribute(markup, "fill-opacity", ".16");
+        cz_markup_numbers(markup, 1, "x y width height",
+                          (const double[]){from, TOP, fmax(to - from, 0.5), frame->height});
+        cz_markup_attributes(markup, "fill", cz_plot_colour(plot->band[i].colour), "fill-opacity",
+                             ".16", NULL);
         cz_markup_close(markup);
     }
 }
@@ -302,18 +289,15 @@ static void write_limits(const CzPlot *plot, const Frame *frame, CzMarkup *marku
     for (int i = 0; i < plot->n_limit; i++) {
         const double y = paper_y(frame, plot->limit[i].at);
         write_line(markup, LEFT, y, LEFT + frame->width, y);
-        cz_markup_attribute(markup, "class", "limit");
-        cz_markup_attribute(markup, "stroke", "#d0021b");
-        cz_markup_attribute(markup, "stroke-width", "1.5");
-        cz_markup_attribute(markup, "stroke-dasharray", "10 4");
+        cz_markup_attributes(markup, "class", "limit", "stroke", "#d0021b", "stroke-width", "1.5",
+                             "stroke-dasharray", "10 4", NULL);
         cz_markup_close(markup);
     }
 }
 
 static void write_curves(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
     cz_markup_open(markup, "g");
-    cz_markup_attribute(markup, "transform", "scale(.1)");
-    cz_markup_attribute(markup, "stroke-width", "14");
+    cz_markup_attributes(markup, "transform", "scale(.1)", "stroke-width", "14", NULL);
     for (int i = 0; i < plot->n_series; i++)
         write_curve(frame, &plot->series[i], markup);
     cz_markup_close(markup);
@@ -344,8 +328,7 @@ static void put_line(Legend *legend, const char *name, const char *colour, const
         return;
     const double x = legend->x - FONT_SIZE * cz_text_width(name) - 12;
     write_line(legend->markup, x - SAMPLE_WIDTH, legend->y - 4, x - 5, legend->y - 4);
-    cz_markup_attribute(legend->markup, "stroke", colour);
-    cz_markup_attribute(legend->markup, "stroke-width", "2");
+    cz_markup_attributes(legend->markup, "stroke", colour, "stroke-width", "2", NULL);
     if (dash != NULL)
         cz_markup_attribute(legend->markup, "stroke-dasharray", dash);
     cz_markup_close(legend->markup);
@@ -363,12 +346,9 @@ static void put_band(Legend *legend, const CzPlotBand *band) {
         return;
     const double x = legend->x - FONT_SIZE * cz_text_width(band->name) - 12;
     cz_markup_open(legend->markup, "rect");
-    cz_markup_number(legend->markup, "x", 1, x - SAMPLE_WIDTH);
-    cz_markup_number(legend->markup, "y", 1, legend->y - 10);
-    cz_markup_attribute(legend->markup, "width", "18");
-    cz_markup_attribute(legend->markup, "height", "11");
-    cz_markup_attribute(legend->markup, "fill", cz_plot_colour(band->colour));
-    cz_markup_attribute(legend->markup, "fill-opacity", ".3");
+    cz_markup_numbers(legend->markup, 1, "x y", (const double[]){x - SAMPLE_WIDTH, legend->y - 10});
+    cz_markup_attributes(legend->markup, "width", "18", "height", "11", "fill",
+                         cz_plot_colour(band->colour), "fill-opacity", ".3", NULL);
     cz_markup_close(legend->markup);
 }
 
@@ -399,8 +379,8 @@ void cz_plot_write(const CzPlot *plot, CzMarkup *markup) {
     const double bottom = TOP + frame.height + BELOW_AXIS;
     char range[4][CZ_FIGURE_ROOM];
     cz_svg_open(markup, plot->title, CZ_PLOT_WIDTH, bottom + write_legend(plot, bottom, NULL));
-    cz_markup_attribute(markup, "preserveAspectRatio", "xMidYMin");
-    cz_markup_attribute(markup, "class", plot->is_time ? "plot time" : "plot");
+    cz_markup_attributes(markup, "preserveAspectRatio", "xMidYMin", "class",
+                         plot->is_time ? "plot time" : "plot", NULL);
     cz_markup_format(markup, "data-box", "%d %d %d %d", (int)LEFT, (int)TOP, (int)frame.width,
                      (int)frame.height);
     cz_markup_format(
@@ -416,6 +396,5 @@ void cz_plot_write(const CzPlot *plot, CzMarkup *markup) {
     write_curves(plot, &frame, markup);
     cz_markup_line(markup);
     write_legend(plot, bottom, markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }

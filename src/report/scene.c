@@ -94,10 +94,8 @@ static void write_part(CzMarkup *markup, const char *kind, int side, double from
     const double sign = side == FRONT ? S : -S;
     cz_markup_open(markup, "line");
     cz_markup_format(markup, "class", "%s %s", kind, side == FRONT ? "front" : "rear");
-    cz_markup_number(markup, "x1", 2, sign * from);
-    cz_markup_number(markup, "x2", 2, sign * to);
-    cz_markup_number(markup, "y1", 1, -S * height);
-    cz_markup_number(markup, "y2", 1, -S * height);
+    cz_markup_numbers(markup, 2, "x1 x2", (const double[]){sign * from, sign * to});
+    cz_markup_numbers(markup, 1, "y1 y2", (const double[]){-S * height, -S * height});
     cz_markup_attribute(markup, "stroke", colour);
     cz_markup_number(markup, "stroke-width", 1, S * thickness);
     cz_markup_close(markup);
@@ -134,17 +132,15 @@ static void write_wheels(const CzPage *page, int car, const Pose *pose, CzMarkup
         const double side = i < 2 ? -1 : 1, axle = i % 2 == 0 ? -1 : 1;
         const double x = side * vehicle->bogie_spacing / 2 + axle * bogie->axle_spacing / 2;
         if (i % 2 == 0) {
-            cz_markup_open(markup, "line");
-            cz_markup_attribute(markup, "class", "frame");
-            cz_markup_number(markup, "x1", 1, S * x - 6);
-            cz_markup_number(markup, "x2", 1, S * (x + bogie->axle_spacing) + 6);
-            cz_markup_number(markup, "y1", 2,
-                             -S * (bogie->cg_height + CZ_SCENE_MAGNIFY * pose->lift[i]));
-            cz_markup_number(markup, "y2", 2,
-                             -S * (bogie->cg_height + CZ_SCENE_MAGNIFY * pose->lift[i + 1]));
-            cz_markup_attribute(markup, "stroke", "currentColor");
-            cz_markup_attribute(markup, "stroke-opacity", ".6");
-            cz_markup_attribute(markup, "stroke-width", "4");
+            cz_markup_open_class(markup, "line", "frame");
+            cz_markup_numbers(markup, 1, "x1 x2",
+                              (const double[]){S * x - 6, S * (x + bogie->axle_spacing) + 6});
+            cz_markup_numbers(
+                markup, 2, "y1 y2",
+                (const double[]){-S * (bogie->cg_height + CZ_SCENE_MAGNIFY * pose->lift[i]),
+                                 -S * (bogie->cg_height + CZ_SCENE_MAGNIFY * pose->lift[i + 1])});
+            cz_markup_attributes(markup, "stroke", "currentColor", "stroke-opacity", ".6",
+                                 "stroke-width", "4", NULL);
             cz_markup_close(markup);
         }
         cz_markup_open(markup, "circle");
@@ -152,9 +148,8 @@ static void write_wheels(const CzPage *page, int car, const Pose *pose, CzMarkup
         cz_markup_number(markup, "cy", 2,
                          -S * (bogie->wheel_radius + CZ_SCENE_MAGNIFY * pose->lift[i]));
         cz_markup_number(markup, "r", 1, S * bogie->wheel_radius);
-        cz_markup_attribute(markup, "stroke", "currentColor");
-        cz_markup_attribute(markup, "stroke-width", "2");
-        cz_markup_attribute(markup, "class", "wheel");
+        cz_markup_attributes(markup, "stroke", "currentColor", "stroke-width", "2", "class",
+                             "wheel", NULL);
         cz_markup_close(markup);
     }
 }
@@ -163,13 +158,12 @@ static void write_body(const CzPage *page, int car, const Outline outline[2], Cz
     const CzCar *description = &page->model->car[car];
     const double top = S * ROOF;
     cz_markup_open(markup, "rect");
-    cz_markup_number(markup, "x", 1, -S * outline[REAR].body);
-    cz_markup_number(markup, "y", 1, -top);
-    cz_markup_number(markup, "width", 1, S * (outline[REAR].body + outline[FRONT].body));
-    cz_markup_number(markup, "height", 1, S * (ROOF - FLOOR));
-    cz_markup_attribute(markup, "fill", cz_plot_colour(description->train == 0 ? 0 : 2));
-    cz_markup_attribute(markup, "fill-opacity", ".25");
-    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_numbers(markup, 1, "x y width height",
+                      (const double[]){-S * outline[REAR].body, -top,
+                                       S * (outline[REAR].body + outline[FRONT].body),
+                                       S * (ROOF - FLOOR)});
+    cz_markup_attributes(markup, "fill", cz_plot_colour(description->train == 0 ? 0 : 2),
+                         "fill-opacity", ".25", "stroke", "currentColor", NULL);
     cz_markup_close(markup);
     for (int side = -1; side <= 1; side++)
         cz_svg_text(markup, side * 0.62 * S * outline[side > 0 ? FRONT : REAR].body,
@@ -201,8 +195,7 @@ static void write_car(const CzPage *page, int car, int sample, double origin, bo
     const double cg =
         isnan(vehicle_of(page, car)->cg_height) ? 1 : vehicle_of(page, car)->cg_height;
     char x[CZ_FIGURE_ROOM], z[CZ_FIGURE_ROOM], turn[CZ_FIGURE_ROOM], pivot[CZ_FIGURE_ROOM];
-    cz_markup_open(markup, "g");
-    cz_markup_attribute(markup, "class", "car");
+    cz_markup_open_class(markup, "g", "car");
     cz_markup_format(markup, "transform", "translate(%s 0)",
                      cz_figure_fixed(x, 2, S * (page->stand[car].x + pose.x - origin)));
     if (moves) {
@@ -216,15 +209,14 @@ static void write_car(const CzPage *page, int car, int sample, double origin, bo
                 cz_markup_number(markup, front ? "data-front-face" : "data-rear-face", 4,
                                  outline[side].face);
             if (isfinite(outline[side].pivot)) {
-                cz_markup_number(markup, front ? "data-front-pivot" : "data-rear-pivot", 4,
-                                 outline[side].pivot);
-                cz_markup_number(markup, front ? "data-front-tip" : "data-rear-tip", 4,
-                                 outline[side].tip);
+                cz_markup_numbers(markup, 4,
+                                  front ? "data-front-pivot data-front-tip"
+                                        : "data-rear-pivot data-rear-tip",
+                                  (const double[]){outline[side].pivot, outline[side].tip});
             }
         }
     }
-    cz_markup_open(markup, "g");
-    cz_markup_attribute(markup, "class", "body");
+    cz_markup_open_class(markup, "g", "body");
     cz_markup_format(markup, "transform", "translate(0 %s) rotate(%s 0 %s)",
                      cz_figure_fixed(z, 2, -S * CZ_SCENE_MAGNIFY * pose.z),
                      cz_figure_fixed(turn, 3, -CZ_SCENE_MAGNIFY * pose.pitch * DEGREES_PER_RAD),
@@ -234,8 +226,7 @@ static void write_car(const CzPage *page, int car, int sample, double origin, bo
     write_body(page, car, outline, markup);
     cz_markup_close(markup);
     write_wheels(page, car, &pose, markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 /* Where the faces of an interface meet: halfway between the bare ends as they stand [m]. */
@@ -253,22 +244,17 @@ static double meeting_place(const CzPage *page, int interface, int sample) {
 void cz_scene_write(const CzPage *page, int interface, int sample, double width, bool moves,
                     CzMarkup *markup) {
     const double origin = meeting_place(page, interface, sample);
-    cz_markup_open(markup, "g");
-    cz_markup_attribute(markup, "class", "scene");
+    cz_markup_open_class(markup, "g", "scene");
     cz_markup_format(markup, "transform", "translate(%d %d)", (int)(width / 2), (int)CZ_SCENE_RAIL);
-    cz_markup_open(markup, "path");
-    cz_markup_attribute(markup, "class", "rail");
+    cz_markup_open_class(markup, "path", "rail");
     cz_markup_format(markup, "d", "M%d 2H%d", (int)(-width / 2), (int)(width / 2));
-    cz_markup_attribute(markup, "stroke", "currentColor");
-    cz_markup_attribute(markup, "stroke-width", "3");
+    cz_markup_attributes(markup, "stroke", "currentColor", "stroke-width", "3", NULL);
     cz_markup_close(markup);
     cz_markup_open(markup, "path"); /* sleepers every 0.6 m, fixed to the ground */
     cz_markup_attribute(markup, "class", "sleepers");
     cz_markup_format(markup, "d", "M%d 7H%d", (int)(-width / 2), (int)(width / 2));
-    cz_markup_attribute(markup, "stroke", "currentColor");
-    cz_markup_attribute(markup, "stroke-opacity", ".5");
-    cz_markup_attribute(markup, "stroke-width", "5");
-    cz_markup_attribute(markup, "stroke-dasharray", "6 8.4");
+    cz_markup_attributes(markup, "stroke", "currentColor", "stroke-opacity", ".5", "stroke-width",
+                         "5", "stroke-dasharray", "6 8.4", NULL);
     cz_markup_number(markup, "stroke-dashoffset", 2, S * (origin - width / 2 / S));
     cz_markup_close(markup);
     for (int car = 0; car < page->model->n_car; car++) {

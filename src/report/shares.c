@@ -21,13 +21,9 @@ static double energy_of_kind(const CzInterfaceResult *interface, int kind) {
 
 static void write_bar(CzMarkup *markup, double x, double y, double width, double height, int kind) {
     cz_markup_open(markup, "rect");
-    cz_markup_number(markup, "x", 1, x);
-    cz_markup_number(markup, "y", 1, y);
-    cz_markup_number(markup, "width", 1, width);
-    cz_markup_number(markup, "height", 1, height);
-    cz_markup_attribute(markup, "fill", cz_plot_colour(kind));
-    cz_markup_attribute(markup, "stroke", "currentColor");
-    cz_markup_attribute(markup, "stroke-width", ".5");
+    cz_markup_numbers(markup, 1, "x y width height", (const double[]){x, y, width, height});
+    cz_markup_attributes(markup, "fill", cz_plot_colour(kind), "stroke", "currentColor",
+                         "stroke-width", ".5", NULL);
     cz_markup_element(markup, "title", cz_element_text((CzElementKind)kind));
     cz_markup_close(markup);
 }
@@ -81,6 +77,5 @@ void cz_chart_write_shares(const CzPage *page, CzMarkup *markup) {
         cz_svg_text(markup, x + 16, bottom + 17, "start", name);
         x += 16 + 11 * cz_text_width(name) + 14;
     }
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }

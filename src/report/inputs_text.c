@@ -206,7 +206,6 @@ void cz_inputs_text_write_defaults(const CzInputsText *inputs, CzMarkup *markup)
     for (int i = 0; i < n; i++)
         put_default(&table, &list[i]);
     cz_table_write_page(&table, markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
     free(list);
 }

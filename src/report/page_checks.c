@@ -34,8 +34,7 @@ static void write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation) 
         cz_markup_text(markup, evaluation->not_covered[i]);
     }
     cz_markup_text(markup, ".");
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
@@ -61,8 +60,7 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
     cz_markup_open(markup, "details");
     cz_markup_element(markup, "summary", text);
     cz_checks_write_rows(markup, evaluation, before, true);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]) {
@@ -123,8 +121,7 @@ static void write_scenarios(CzPage *page, bool is_top) {
         write_others(page);
         cz_markup_text(markup, ".");
     }
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
     if (!is_top || n_other <= MOST_LINKS)
         return;
     char text[64];
@@ -132,8 +129,7 @@ static void write_scenarios(CzPage *page, bool is_top) {
     cz_markup_open(markup, "details");
     cz_markup_element(markup, "summary", text);
     write_others(page);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 /* What must be known before any number is believed. */
@@ -212,8 +208,7 @@ void cz_page_write_verdict(CzPage *page, bool is_top) {
     char text[256];
     write_count(evaluation->n_check, n, sizeof text, text);
     cz_markup_element(markup, "p", text);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
     cz_page_write_contents(page, false);
     cz_page_open_section(markup, "checks", "Checks");
     write_scenarios(page, is_top);

@@ -64,8 +64,8 @@ static void write_designs(CzMarkup *markup, const Axes *axes, bool feasible, con
         return;
     const long most = n < MOST_LINES / 2 ? n : MOST_LINES / 2;
     cz_markup_open(markup, "path");
-    cz_markup_attribute(markup, "stroke", cz_plot_colour(feasible ? 0 : CZ_PLOT_QUIET));
-    cz_markup_attribute(markup, "stroke-opacity", feasible ? ".55" : ".4");
+    cz_markup_attributes(markup, "stroke", cz_plot_colour(feasible ? 0 : CZ_PLOT_QUIET),
+                         "stroke-opacity", feasible ? ".55" : ".4", NULL);
     fputs(" d=\"", markup->stream);
     for (long i = 0; i < outcome->n_trial; i++) {
         const CzTrial *trial = &outcome->trial[i];
@@ -84,8 +84,8 @@ static void write_designs(CzMarkup *markup, const Axes *axes, bool feasible, con
 static void write_one(CzMarkup *markup, const Axes *axes, const double *x, double objective,
                       bool is_best) {
     cz_markup_open(markup, "path");
-    cz_markup_attribute(markup, "stroke", cz_plot_colour(is_best ? 2 : 1));
-    cz_markup_attribute(markup, "stroke-width", is_best ? "3" : "2");
+    cz_markup_attributes(markup, "stroke", cz_plot_colour(is_best ? 2 : 1), "stroke-width",
+                         is_best ? "3" : "2", NULL);
     if (!is_best)
         cz_markup_attribute(markup, "stroke-dasharray", cz_plot_dash(1));
     fputs(" d=\"", markup->stream);
@@ -114,11 +114,9 @@ static void write_axis(CzMarkup *markup, const Axes *axes, int axis) {
     else
         snprintf(text, sizeof text, "%d", axis + 1);
     cz_markup_open(markup, "text");
-    cz_markup_number(markup, "x", 1, x);
-    cz_markup_number(markup, "y", 1, TOP + HEIGHT + 32);
-    cz_markup_attribute(markup, "text-anchor", "middle");
-    cz_markup_attribute(markup, "font-weight", "bold");
-    cz_markup_attribute(markup, "fill", "currentColor");
+    cz_markup_numbers(markup, 1, "x y", (const double[]){x, TOP + HEIGHT + 32});
+    cz_markup_attributes(markup, "text-anchor", "middle", "font-weight", "bold", "fill",
+                         "currentColor", NULL);
     cz_markup_text(markup, text);
     cz_markup_close(markup);
 }
@@ -135,8 +133,7 @@ static void write_figure(CzMarkup *markup, const Axes *axes, double start, doubl
         write_axis(markup, axes, axis);
     write_one(markup, axes, axes->outcome->start, start, false);
     write_one(markup, axes, axes->outcome->best, best, true);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 /* The better end of the objective's axis is its upper one; what is far worse lies at its lower. */
@@ -158,15 +155,13 @@ static void find_range(Axes *axes, double start, double best) {
 
 static void write_names(CzMarkup *markup, const CzEvaluator *evaluator, int n) {
     char text[CZ_SENTENCE_ROOM];
-    cz_markup_open(markup, "p");
-    cz_markup_attribute(markup, "class", "axes");
+    cz_markup_open_class(markup, "p", "axes");
     for (int i = 0; i < n; i++) {
         const CzVariableInfo *variable = cz_evaluator_variable(evaluator, i);
         snprintf(text, sizeof text, "%s%d %s", i > 0 ? " · " : "", i + 1, variable->name);
         cz_markup_text(markup, text);
     }
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
@@ -192,8 +187,7 @@ CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
                       "bounds. Grey violates a constraint, blue is feasible, orange dashes are the "
                       "start, green is the best. Objectives far below the start lie at the end of "
                       "their axis.");
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open_class(markup, "div", "wide");
     write_figure(markup, &axes, start, best);
     cz_markup_close(markup);
     write_names(markup, evaluator, outcome->n_variable);

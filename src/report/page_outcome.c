@@ -56,8 +56,7 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
                                 "(" CZ_FIGURE_MARK_MEANS ")."
                               : "The design before the search climbs: its numbers are beyond model "
                                 "validity (" CZ_FIGURE_MARK_MEANS ").");
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 /* ---- variables ---- */
@@ -111,8 +110,7 @@ static void write_course(CzMarkup *markup, const CzPlot *plot) {
     cz_markup_open(markup, "figure");
     cz_markup_element(markup, "figcaption", plot->title);
     cz_plot_write(plot, markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
@@ -159,8 +157,7 @@ static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
          .series = &violation,
          .from_zero = true}};
     cz_page_open_section(markup, "search", "The search");
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "figures");
+    cz_markup_open_class(markup, "div", "figures");
     write_course(markup, &plots[0]);
     write_course(markup, &plots[1]);
     cz_markup_close(markup);

@@ -55,8 +55,7 @@ static void write_curve(CzMarkup *markup, const CzSweep *sweep, const char *titl
     cz_markup_open(markup, "figure");
     cz_markup_element(markup, "figcaption", title);
     cz_plot_write(&plot, markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *error) {
@@ -98,14 +97,9 @@ static void write_cell(CzMarkup *markup, const CzSweepPoint *point, double x, do
                        double width, double height) {
     const CzPointLook look = cz_point_look(point);
     cz_markup_open(markup, "rect");
-    cz_markup_number(markup, "x", 1, x);
-    cz_markup_number(markup, "y", 1, y);
-    cz_markup_number(markup, "width", 1, width);
-    cz_markup_number(markup, "height", 1, height);
-    cz_markup_attribute(markup, "fill", look.colour);
-    cz_markup_attribute(markup, "fill-opacity", ".75");
-    cz_markup_attribute(markup, "stroke", "currentColor");
-    cz_markup_attribute(markup, "stroke-width", ".4");
+    cz_markup_numbers(markup, 1, "x y width height", (const double[]){x, y, width, height});
+    cz_markup_attributes(markup, "fill", look.colour, "fill-opacity", ".75", "stroke",
+                         "currentColor", "stroke-width", ".4", NULL);
     cz_markup_close(markup);
     if (width >= 8 && height >= 10)
         cz_svg_text(markup, x + width / 2, y + height / 2 + 4, "middle",
@@ -149,8 +143,7 @@ static void write_map(CzMarkup *markup, const CzSweep *sweep) {
     cz_svg_text(markup, MAP_LEFT, bottom + 64, "start",
                 "+ pass   ~ provisional   X FAIL   ? not checked   ! run failed   - invalid");
     cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
 }
 
 CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error) {
@@ -167,8 +160,7 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
                           "Override: some points went beyond model validity (" CZ_FIGURE_MARK_MEANS
                           ").");
     cz_page_open_section(&markup, "figures", sweep->n_axis == 1 ? "Over the value" : "Map");
-    cz_markup_open(&markup, "div");
-    cz_markup_attribute(&markup, "class", "figures");
+    cz_markup_open_class(&markup, "div", "figures");
     if (sweep->n_axis == 1)
         CZ_TRY(write_curves(&markup, sweep, error));
     else

@@ -23,14 +23,10 @@ static void write_car(const CzPage *page, int car, double x, double y, CzMarkup 
     const CzCar *description = &page->model->car[car];
     char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 8];
     cz_markup_open(markup, "rect");
-    cz_markup_number(markup, "x", 1, x);
-    cz_markup_number(markup, "y", 1, y + CAR_TOP);
-    cz_markup_number(markup, "width", 1, CAR_WIDTH);
-    cz_markup_number(markup, "height", 1, CAR_HEIGHT);
-    cz_markup_attribute(markup, "rx", "4");
-    cz_markup_attribute(markup, "fill", cz_plot_colour(description->train == 0 ? 0 : 1));
-    cz_markup_attribute(markup, "fill-opacity", ".15");
-    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_numbers(markup, 1, "x y width height",
+                      (const double[]){x, y + CAR_TOP, CAR_WIDTH, CAR_HEIGHT});
+    cz_markup_attributes(markup, "rx", "4", "fill", cz_plot_colour(description->train == 0 ? 0 : 1),
+                         "fill-opacity", ".15", "stroke", "currentColor", NULL);
     cz_markup_close(markup);
     cz_svg_text(markup, x + CAR_WIDTH / 2, y + CAR_TOP + 13, "middle", description->name);
     const double mass = page->model->facts[car].mass;
@@ -60,8 +56,8 @@ static void write_interface(const CzPage *page, int index, double x, double y, C
     cz_markup_open(markup, "path");
     cz_markup_format(markup, "d", "M%d %dH%d", (int)(x - BETWEEN / 2), (int)(y + CAR_TOP + 22),
                      (int)(x + BETWEEN / 2));
-    cz_markup_attribute(markup, "stroke", interface->bottomed_out ? "#d0021b" : "currentColor");
-    cz_markup_attribute(markup, "stroke-width", collides ? "5" : "2");
+    cz_markup_attributes(markup, "stroke", interface->bottomed_out ? "#d0021b" : "currentColor",
+                         "stroke-width", collides ? "5" : "2", NULL);
     cz_markup_close(markup);
     cz_svg_text(markup, x, y + CAR_TOP + 14, "middle", interface->name);
     for (int i = 0; i < n_line; i++) {
@@ -76,11 +72,10 @@ static void write_interface(const CzPage *page, int index, double x, double y, C
     }
     if (interface->bottomed_out) {
         cz_markup_open(markup, "text");
-        cz_markup_number(markup, "x", 1, x);
-        cz_markup_number(markup, "y", 1, y + CAR_TOP + CAR_HEIGHT + 16 + 14 * n_line);
-        cz_markup_attribute(markup, "text-anchor", "middle");
-        cz_markup_attribute(markup, "fill", "#d0021b");
-        cz_markup_attribute(markup, "font-weight", "bold");
+        cz_markup_numbers(markup, 1, "x y",
+                          (const double[]){x, y + CAR_TOP + CAR_HEIGHT + 16 + 14 * n_line});
+        cz_markup_attributes(markup, "text-anchor", "middle", "fill", "#d0021b", "font-weight",
+                             "bold", NULL);
         cz_markup_text(markup, "bottomed");
         cz_markup_close(markup);
     }
@@ -174,19 +169,14 @@ void cz_page_write_trains(CzPage *page) {
                       "stroke used, energy dissipated, share of all that was dissipated. The first "
                       "table has the elements that "
                       "dissipated more than 0.1 kJ.");
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open_class(markup, "div", "wide");
     write_diagram(page, markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
     cz_markup_element(markup, "h3", "The two ends that collide, at rest, to scale");
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open_class(markup, "div", "wide");
     cz_elevation_write(page->model, page->stand, markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "tables");
+    cz_markup_end(markup);
+    cz_markup_open_class(markup, "div", "tables");
     write_elements(page, markup);
     write_vehicles(page, markup);
     cz_markup_close(markup);

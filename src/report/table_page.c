@@ -6,8 +6,7 @@
 
 static void write_bar(CzMarkup *markup, const CzBar *bar, double share) {
     const double size = bar->half * fmin(fabs(share), 1);
-    cz_markup_open(markup, "svg");
-    cz_markup_attribute(markup, "class", bar->class_name);
+    cz_markup_open_class(markup, "svg", bar->class_name);
     cz_markup_format(markup, "viewBox", "0 0 %g 10", 2 * bar->middle);
     cz_markup_attribute(markup, "aria-hidden", "true");
     cz_markup_open(markup, "rect");
@@ -16,8 +15,7 @@ static void write_bar(CzMarkup *markup, const CzBar *bar, double share) {
     cz_markup_number(markup, "x", 1, share < 0 ? bar->middle - size : bar->middle);
     cz_markup_attribute(markup, "y", "1");
     cz_markup_number(markup, "width", 1, fmax(size, 0.6));
-    cz_markup_attribute(markup, "height", "8");
-    cz_markup_attribute(markup, "fill", share < 0 ? bar->below : bar->above);
+    cz_markup_attributes(markup, "height", "8", "fill", share < 0 ? bar->below : bar->above, NULL);
     cz_markup_close(markup);
     cz_markup_open(markup, "path");
     cz_markup_format(markup, "d", "M%g 0v10", bar->middle);
@@ -29,23 +27,19 @@ static void write_bar(CzMarkup *markup, const CzBar *bar, double share) {
 static void write_mark(CzMarkup *markup, double at, bool is_best) {
     cz_markup_open(markup, "circle");
     cz_markup_number(markup, "cx", 1, 8 + 104 * fmin(fmax(at, 0), 1));
-    cz_markup_attribute(markup, "cy", "8");
-    cz_markup_attribute(markup, "r", is_best ? "5" : "4");
-    cz_markup_attribute(markup, "fill", is_best ? "#0072b2" : "none");
-    cz_markup_attribute(markup, "stroke", is_best ? "#0072b2" : "#d55e00");
-    cz_markup_attribute(markup, "stroke-width", "2");
+    cz_markup_attributes(markup, "cy", "8", "r", is_best ? "5" : "4", "fill",
+                         is_best ? "#0072b2" : "none", "stroke", is_best ? "#0072b2" : "#d55e00",
+                         "stroke-width", "2", NULL);
     cz_markup_close(markup);
 }
 
 /* Start (a ring) and best (a dot) between the bounds. */
 static void write_range(CzMarkup *markup, const double share[2]) {
     cz_markup_open(markup, "svg");
-    cz_markup_attribute(markup, "class", "place");
-    cz_markup_attribute(markup, "viewBox", "0 0 120 16");
-    cz_markup_attribute(markup, "aria-hidden", "true");
+    cz_markup_attributes(markup, "class", "place", "viewBox", "0 0 120 16", "aria-hidden", "true",
+                         NULL);
     cz_markup_open(markup, "path");
-    cz_markup_attribute(markup, "d", "M8 8H112M8 3V13M112 3V13");
-    cz_markup_attribute(markup, "stroke", "currentColor");
+    cz_markup_attributes(markup, "d", "M8 8H112M8 3V13M112 3V13", "stroke", "currentColor", NULL);
     cz_markup_close(markup);
     for (int i = 0; i < 2; i++)
         if (!isnan(share[i]))
@@ -93,8 +87,7 @@ static void write_cell(CzMarkup *markup, const CzReportCell *cell, bool is_numbe
 
 void cz_table_write_page(CzReportTable *table, CzMarkup *markup) {
     markup->failed |= table->failed;
-    cz_markup_open(markup, "div");
-    cz_markup_attribute(markup, "class", "wide");
+    cz_markup_open_class(markup, "div", "wide");
     cz_markup_open(markup, "table");
     if (table->class_name != NULL)
         cz_markup_attribute(markup, "class", table->class_name);
@@ -102,18 +95,15 @@ void cz_table_write_page(CzReportTable *table, CzMarkup *markup) {
     for (int k = 0; k < table->n_column; k++)
         if (table->column[k].head != NULL)
             write_head(markup, table->column[k].head, table->column[k].is_number);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
     for (int i = 0; i + table->n_column <= table->n_cell; i += table->n_column) {
         cz_markup_open(markup, "tr");
         for (int k = 0; k < table->n_column; k++)
             if (table->column[k].head != NULL)
                 write_cell(markup, &table->cell[i + k], table->column[k].is_number);
-        cz_markup_close(markup);
-        cz_markup_line(markup);
+        cz_markup_end(markup);
     }
     cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_end(markup);
     cz_table_free(table);
 }

@@ -150,6 +150,17 @@ static double survival_energy(const CzPlace *place) {
     return place->element->zone_energy[CZ_ZONE_SURVIVAL];
 }
 
+/* Of all vehicles that are judged. */
+static double judged_survival(const CzPlace *place) {
+    const CzRunSummary *run = place->run;
+    double energy = 0.0;
+    for (int i = 0; i < run->n_interface; i++)
+        for (int k = 0; k < run->interface[i].n_element; k++)
+            if (is_judged(place, run->interface[i].element[k].vehicle))
+                energy += run->interface[i].element[k].zone_energy[CZ_ZONE_SURVIVAL];
+    return energy;
+}
+
 /* Largest force of a coupler of the interface; NaN when it has none. */
 static double coupler_force(const CzPlace *place) {
     double force = NAN;

@@ -117,11 +117,12 @@ obstacle() {
     judged A1 pass && says out.txt 'Not judged: lorry, taken for an obstacle' && json out/summary.json not_judged.0.train lorry &&
         json out/summary.json not_judged.0.inferred true && says out/report.html 'Not judged: lorry' &&
         grep -qE '^bottoming out .* pass' out.txt && grep -qE '^anything used up .* pass' out.txt && grep -qE '^section force / proof strength .* A1 .* pass' out.txt &&
+        grep -qE '^energy in survival space .* pass' out.txt &&
         says out.txt 'end L BOTTOMED OUT'
 }
 check "an obstacle is not judged, and the table says so" obstacle
 declared() {
-    judged L FAIL --set trains.lorry.role=train && ! grep -q 'Not judged' out.txt && grep -qE '^bottoming out .* FAIL' out.txt &&
+    judged L FAIL --set trains.lorry.role=train && ! grep -q 'Not judged' out.txt && grep -qE '^bottoming out .* FAIL' out.txt && grep -qE '^energy in survival space .* FAIL' out.txt &&
         judged A1 '' --set trains.lorry.role=obstacle --set trains.lorry.vehicles.L.mass_t=30 && says out.txt 'Not judged: lorry, its role' && json out/summary.json not_judged.0.inferred false
 }
 check "a role outweighs what a train looks like" declared

@@ -2,7 +2,10 @@
 set(CZ_SOURCES_dynamics
     dynamics.c
     equilibrium.c
+    equipment.c
+    face_moment.c
     lay_track.c
+    slow_closing.c
     stored.c
     track.c
     track_elements.c

@@ -131,6 +131,43 @@ double cz_hinge_stored(const CzDynamics *dynamics, size_t lane, int side) {
                       cz_stop_energy(stop, range, swing));
 }
 
+/* In the compliance of the tubes of a chain. */
+static double tubes_stored(const CzDynamics *dynamics, size_t lane, int compliance, int force) {
+    const double f = memory(dynamics, force, lane);
+    return 0.5 * parameter(dynamics, compliance, lane) * f * f;
+}
+
+double cz_coupler_tubes_stored(const CzDynamics *dynamics, size_t lane) {
+    return tubes_stored(dynamics, lane, CZ_PARAMETER(coupler.compliance), CZ_MEMORY(coupler.force));
+}
+
+double cz_side_tubes_stored(const CzDynamics *dynamics, size_t lane) {
+    return tubes_stored(dynamics, lane, CZ_PARAMETER(side_buffers.compliance),
+                        CZ_MEMORY(side_buffers.force));
+}
+
+/* Force that a buffer rises by in a step that touches it, times the stroke of that step. */
+static double touch(const CzDynamics *dynamics, size_t lane, int curve, int transition,
+                    double stroke) {
+    const double rise = parameter(dynamics, transition, lane) * stroke;
+    return (dynamics->lanes->curve[curve].start[lane] + rise) * stroke;
+}
+
+double cz_coupler_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke) {
+    return touch(dynamics, lane, CZ_CURVE(buffer[side]),
+                 CZ_PARAMETER(coupler.side[side].buffer.transition), stroke);
+}
+
+double cz_side_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke) {
+    return touch(dynamics, lane, CZ_CURVE(side_buffer[side]),
+                 CZ_PARAMETER(side_buffers.side[side].buffer.transition), stroke);
+}
+
+double cz_superstructure_stored(const CzDynamics *dynamics, size_t lane) {
+    const double force = published(dynamics, CZ_PUBLISHED(superstructure.force), lane);
+    return 0.5 * force * force / parameter(dynamics, CZ_PARAMETER(superstructure.stiffness), lane);
+}
+
 double cz_face_stored(const CzDynamics *dynamics, size_t lane) {
     const double held = 1.0 - memory(dynamics, CZ_MEMORY(face.lost), lane);
     const double force = memory(dynamics, CZ_MEMORY(face.force), lane);

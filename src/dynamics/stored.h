@@ -11,6 +11,16 @@
 double cz_coupler_stored(const CzDynamics *dynamics, size_t lane, int side);
 double cz_side_stored(const CzDynamics *dynamics, size_t lane, int side);
 
+/* Tubes of both sides, in their elasticity; superstructures of both sides, where there are. */
+double cz_coupler_tubes_stored(const CzDynamics *dynamics, size_t lane);
+double cz_side_tubes_stored(const CzDynamics *dynamics, size_t lane);
+double cz_superstructure_stored(const CzDynamics *dynamics, size_t lane);
+
+/* What a step of a stroke that touches the buffer of one side may be off by: the force that it
+ * rises by, preload and transition, times the stroke. */
+double cz_coupler_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke);
+double cz_side_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke);
+
 /* Hinge and swing stop of one side. */
 double cz_hinge_stored(const CzDynamics *dynamics, size_t lane, int side);
 

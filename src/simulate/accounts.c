@@ -25,32 +25,17 @@ static CzAccount share_of(double share, CzAccount a) {
     return (CzAccount){share * a.received, share * a.stored};
 }
 
-static bool has_coupler(const CzBatch *batch, size_t lane, int side) {
-    return cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) >= 0.5 &&
-           cz_parameter(batch, CZ_PARAMETER(coupler.side[side].buffer.transition), lane) <=
-               CZ_MISSING;
-}
-
-static bool has_side_buffers(const CzBatch *batch, size_t lane, int side) {
-    return cz_parameter(batch, CZ_PARAMETER(side_buffers.exists), lane) >= 0.5 &&
-           cz_parameter(batch, CZ_PARAMETER(side_buffers.side[side].buffer.transition), lane) <=
-               CZ_MISSING;
-}
-
-static bool has_anti_climber(const CzBatch *batch, size_t lane, int side) {
-    return batch->lanes->curve[CZ_CURVE(face[side])].start[lane] <= CZ_MISSING;
-}
-
 bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind kind) {
+    const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
     switch (kind) {
     case CZ_ELEMENT_COUPLER:
-        return has_coupler(batch, lane, side);
+        return of.side[side].has_coupler;
     case CZ_ELEMENT_ANTI_CLIMBER:
-        return has_anti_climber(batch, lane, side);
+        return of.side[side].has_anti_climber;
     case CZ_ELEMENT_SIDE_BUFFERS:
-        return has_side_buffers(batch, lane, side);
+        return of.side[side].has_side_buffers;
     case CZ_ELEMENT_SUPERSTRUCTURE:
-        return cz_parameter(batch, CZ_PARAMETER(superstructure.strength), lane) > 0.0;
+        return of.has_superstructures;
     default:
         return false;
     }
@@ -61,10 +46,8 @@ static double half_of(const CzBatch *batch, size_t lane, int side, CzElementKind
     return cz_has_element(batch, lane, 1 - side, kind) ? 0.5 : 1.0;
 }
 
-/* A compliance that stores C F^2 / 2 and gives back all of it. */
-static CzAccount compliance(const CzBatch *batch, size_t lane, int parameter, int force) {
-    const double f = cz_memory(batch, force, lane);
-    const double stored = 0.5 * cz_parameter(batch, parameter, lane) * f * f;
+/* What stores and gives back all of it. */
+static CzAccount elastic(double stored) {
     return (CzAccount){stored, stored};
 }
 
@@ -74,10 +57,9 @@ CzAccount cz_coupler_account(const CzBatch *batch, size_t lane, int side) {
                                cz_coupler_stored(dynamics, lane, side)};
     const CzAccount hinge = {cz_work(batch, CZ_LEDGER(hinge[side]), lane),
                              cz_hinge_stored(dynamics, lane, side)};
-    const CzAccount elastic =
-        compliance(batch, lane, CZ_PARAMETER(coupler.compliance), CZ_MEMORY(coupler.force));
+    const CzAccount tubes = elastic(cz_coupler_tubes_stored(dynamics, lane));
     const double share = half_of(batch, lane, side, CZ_ELEMENT_COUPLER);
-    return sum_of(sum_of(members, hinge), share_of(share, elastic));
+    return sum_of(sum_of(members, hinge), share_of(share, tubes));
 }
 
 CzAccount cz_side_account(const CzBatch *batch, size_t lane, int side) {
@@ -86,20 +68,19 @@ CzAccount cz_side_account(const CzBatch *batch, size_t lane, int side) {
                                cz_side_stored(dynamics, lane, side)};
     const CzAccount sliding = {cz_work(batch, CZ_LEDGER(side_sliding), lane),
                                cz_side_sliding_stored(dynamics, lane)};
-    const CzAccount elastic = compliance(batch, lane, CZ_PARAMETER(side_buffers.compliance),
-                                         CZ_MEMORY(side_buffers.force));
+    const CzAccount tubes = elastic(cz_side_tubes_stored(dynamics, lane));
     const double share = half_of(batch, lane, side, CZ_ELEMENT_SIDE_BUFFERS);
-    return sum_of(members, share_of(share, sum_of(sliding, elastic)));
+    return sum_of(members, share_of(share, sum_of(sliding, tubes)));
 }
 
 /* What both faces of an interface are one element for: compliance, damping, ribs and friction. */
 static CzAccount faces_account(const CzBatch *batch, size_t lane) {
     const CzDynamics *dynamics = batch->dynamics;
-    const CzAccount elastic = {cz_memory(batch, CZ_MEMORY(face.strain), lane),
-                               cz_face_stored(dynamics, lane)};
+    const CzAccount strain = {cz_memory(batch, CZ_MEMORY(face.strain), lane),
+                              cz_face_stored(dynamics, lane)};
     const CzAccount sliding = {cz_work(batch, CZ_LEDGER(face_sliding), lane),
                                cz_face_sliding_stored(dynamics, lane)};
-    return sum_of(sum_of(elastic, sliding), lost(cz_work(batch, CZ_LEDGER(face_damping), lane)));
+    return sum_of(sum_of(strain, sliding), lost(cz_work(batch, CZ_LEDGER(face_damping), lane)));
 }
 
 CzAccount cz_anti_climber_account(const CzBatch *batch, size_t lane, int side) {
@@ -109,15 +90,14 @@ CzAccount cz_anti_climber_account(const CzBatch *batch, size_t lane, int side) {
 }
 
 CzAccount cz_bare_faces_account(const CzBatch *batch, size_t lane) {
-    const bool bare = !has_anti_climber(batch, lane, 0) && !has_anti_climber(batch, lane, 1);
+    const bool bare = !cz_has_element(batch, lane, 0, CZ_ELEMENT_ANTI_CLIMBER) &&
+                      !cz_has_element(batch, lane, 1, CZ_ELEMENT_ANTI_CLIMBER);
     return bare ? faces_account(batch, lane) : (CzAccount){0.0, 0.0};
 }
 
 CzAccount cz_superstructure_account(const CzBatch *batch, size_t lane) {
-    const double force = cz_published(batch, CZ_PUBLISHED(superstructure.force), lane);
-    const double stored =
-        0.5 * force * force / cz_parameter(batch, CZ_PARAMETER(superstructure.stiffness), lane);
-    return share_of(0.5, (CzAccount){cz_work(batch, CZ_LEDGER(superstructure), lane), stored});
+    return share_of(0.5, (CzAccount){cz_work(batch, CZ_LEDGER(superstructure), lane),
+                                     cz_superstructure_stored(batch->dynamics, lane)});
 }
 
 CzAccount cz_crush_account(const CzBatch *batch, size_t lane, int end) {
@@ -147,10 +127,8 @@ CzAccount cz_massless_account(const CzBatch *batch, size_t lane, int side) {
 
 CzAccount cz_chains_account(const CzBatch *batch, size_t lane) {
     const CzDynamics *dynamics = batch->dynamics;
-    CzAccount sum =
-        sum_of(compliance(batch, lane, CZ_PARAMETER(coupler.compliance), CZ_MEMORY(coupler.force)),
-               compliance(batch, lane, CZ_PARAMETER(side_buffers.compliance),
-                          CZ_MEMORY(side_buffers.force)));
+    CzAccount sum = sum_of(elastic(cz_coupler_tubes_stored(dynamics, lane)),
+                           elastic(cz_side_tubes_stored(dynamics, lane)));
     sum = sum_of(sum, (CzAccount){cz_memory(batch, CZ_MEMORY(face.strain), lane),
                                   cz_face_stored(dynamics, lane)});
     for (int side = 0; side < 2; ++side) {
@@ -182,7 +160,7 @@ CzAccount cz_springs_account(const CzBatch *batch, size_t lane) {
     const CzDynamics *dynamics = batch->dynamics;
     double stored = cz_face_sliding_stored(dynamics, lane) +
                     cz_side_sliding_stored(dynamics, lane) + cz_slide_stored(dynamics, lane);
-    if (cz_parameter(batch, CZ_PARAMETER(superstructure.strength), lane) > 0.0)
+    if (cz_has_element(batch, lane, 0, CZ_ELEMENT_SUPERSTRUCTURE))
         stored += 2.0 * cz_superstructure_account(batch, lane).stored;
     for (int side = 0; side < 2; ++side)
         stored += cz_hinge_stored(dynamics, lane, side) + cz_fold_stored(dynamics, lane, side);

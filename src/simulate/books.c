@@ -36,23 +36,15 @@ typedef struct Fault {
     char where[64], what[96];
 } Fault;
 
-/* Force that a buffer rises by in a step that touches it, times the stroke of that step. */
-static double touch_of(const CzBatch *batch, size_t lane, int curve, int transition) {
-    const double stroke = fabs(batch->closing_speed) * batch->step;
-    const double rise = cz_parameter(batch, transition, lane) * stroke;
-    return (batch->lanes->curve[curve].start[lane] + rise) * stroke;
-}
-
 /* What an element of side A (0) or B (1) of the interface in a lane may seem to give. */
 static double may_give(const CzBatch *batch, const CzElementResult *element, size_t lane,
                        int side) {
     const double corners = CORNERS * fmax(element->energy + element->stored, 0.0);
+    const double stroke = fabs(batch->closing_speed) * batch->step;
     if (element->kind == CZ_ELEMENT_COUPLER)
-        return corners + touch_of(batch, lane, CZ_CURVE(buffer[side]),
-                                  CZ_PARAMETER(coupler.side[side].buffer.transition));
+        return corners + cz_coupler_touch(batch->dynamics, lane, side, stroke);
     if (element->kind == CZ_ELEMENT_SIDE_BUFFERS)
-        return corners + touch_of(batch, lane, CZ_CURVE(side_buffer[side]),
-                                  CZ_PARAMETER(side_buffers.side[side].buffer.transition));
+        return corners + cz_side_touch(batch->dynamics, lane, side, stroke);
     return corners;
 }
 

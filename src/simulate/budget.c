@@ -6,6 +6,7 @@
  */
 #include <math.h>
 
+#include "dynamics/face_moment.h"
 #include "simulate/run.h"
 
 #define SMALLEST_LIFT 1e-4 /* of a wheel that counts as lifting [m] (ours) */
@@ -74,29 +75,6 @@ static const CzBudgetRows *rows_of(const CzBatch *batch, size_t lane, size_t *pl
     return cz_block_of(batch->dynamics, lane)->budget;
 }
 
-/* What the faces of one end do, about the body: their point of action is known from the end mass.
- */
-static void face_of(const CzBatch *batch, int car, int side, double *lift, double *moment) {
-    const int interface = side == 0 ? car : car - 1, end = side == 0 ? 1 : 0;
-    size_t i;
-    const CzBudgetRows *rows = rows_of(batch, cz_lane(batch, interface, 0), &i);
-    if (rows->face_x[i] == 0.0 && rows->face_z[i] == 0.0)
-        return; /* most of the time; both are zero as they came */
-    const size_t own = cz_lane(batch, car, 0);
-    const double sign = side == 0 ? -1.0 : 1.0;
-    const double x = cz_parameter(batch, CZ_PARAMETER(end[end].x), own);
-    const double z = cz_parameter(batch, CZ_PARAMETER(end[end].body_z), own) -
-                     cz_parameter(batch, CZ_PARAMETER(end[end].mass_z), own);
-    const double moved_x =
-        cz_position(batch, CZ_DOF(end[end].x), own) - cz_position(batch, CZ_DOF(body.x), own);
-    const double moved_z =
-        cz_position(batch, CZ_DOF(end[end].z), own) - cz_position(batch, CZ_DOF(body.z), own);
-    const double arm_x = x + moved_x + rows->face_arm_x[side][i];
-    const double arm_z = z + moved_z + rows->face_arm_z[side][i];
-    *lift = sign * rows->face_z[i];
-    *moment = sign * (arm_x * rows->face_z[i] - arm_z * rows->face_x[i]);
-}
-
 /* Forces and moments of all sources on the body of a car, now. */
 static void look(const CzBatch *batch, int car, double lift[CZ_N_BUDGET],
                  double moment[CZ_N_BUDGET]) {
@@ -124,8 +102,10 @@ static void look(const CzBatch *batch, int car, double lift[CZ_N_BUDGET],
         moment[CZ_BUDGET_COUPLER_REAR + end] = rows->coupler_moment[side][k];
         lift[CZ_BUDGET_HINGE_REAR + end] = rows->hinge_lift[side][k];
         moment[CZ_BUDGET_HINGE_REAR + end] = rows->hinge_moment[side][k];
-        face_of(batch, car, side, &lift[CZ_BUDGET_FACE_REAR + end],
-                &moment[CZ_BUDGET_FACE_REAR + end]);
+        const CzFacePush face = cz_face_push(batch->dynamics, cz_lane(batch, interface, 0),
+                                             cz_lane(batch, car, 0), side);
+        lift[CZ_BUDGET_FACE_REAR + end] = face.lift;
+        moment[CZ_BUDGET_FACE_REAR + end] = face.moment;
     }
 }
 

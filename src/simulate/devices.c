@@ -4,7 +4,7 @@
 #include <math.h>
 
 typedef enum { MEMORY, EXTREME, OF_CAR, OF_SLIDE } Source;
-typedef enum { CURVE, PARAMETER } Limit;
+typedef enum { CURVE, RETRACTION_SPACE, SLIDE_LENGTH } Limit;
 typedef enum { REVERSIBLE, COLLAPSES } Kind;
 
 typedef struct {
@@ -13,7 +13,7 @@ typedef struct {
     Source source;
     int row[2];
     Limit limit;
-    int of[2]; /* CzCurveId or CzParameter */
+    int of[2]; /* CzCurveId */
     CzDeviceClass follower;
     Kind kind;
 } Class;
@@ -30,10 +30,11 @@ static bool has_element(const CzBatch *batch, size_t lane, int car, CzDeviceClas
     const bool full = batch->model->car[car].model == CZ_MODEL_FULL;
     if (class == CZ_DEVICE_END || class == CZ_DEVICE_MASSLESS_END)
         return full == (class == CZ_DEVICE_END);
+    const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
     if (classes[class].element == CZ_ELEMENT_COUPLER)
-        return cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) > 0.5;
+        return of.has_couplers;
     if (classes[class].element == CZ_ELEMENT_SIDE_BUFFERS)
-        return cz_parameter(batch, CZ_PARAMETER(side_buffers.exists), lane) > 0.5;
+        return of.has_side_buffers;
     return true;
 }
 
@@ -42,6 +43,19 @@ static bool has_slide(const CzBatch *batch, int car, int design, int side) {
     const CzVehicle *vehicle = &batch->vehicles[design][batch->model->car[car].vehicle];
     const CzEnd *end = side == 0 ? &vehicle->front : &vehicle->rear;
     return end->given && end->slide.given;
+}
+
+/* Stroke of a device of a side, or an end, in its lane. */
+static double usable_of(const CzBatch *batch, const Class *kind, int which, size_t lane) {
+    switch (kind->limit) {
+    case CURVE:
+        break;
+    case RETRACTION_SPACE:
+        return cz_interface_equipment(batch->lanes, lane).side[which].retraction_space;
+    case SLIDE_LENGTH:
+        return cz_car_equipment(batch->lanes, lane).slide_length;
+    }
+    return batch->lanes->curve[kind->of[which]].usable[lane];
 }
 
 /* A device of a side; its usable stroke is infinite when it is not there. */
@@ -53,8 +67,7 @@ static CzDevice device_of(const CzBatch *batch, int interface, int design, int s
     const bool of_car = kind->source == OF_CAR || slides;
     const int which = slides ? 0 : of_car ? 1 - side : side; /* side A is a front end */
     const size_t own = cz_lane(batch, of_car ? car : interface, design);
-    const double usable = kind->limit == CURVE ? batch->lanes->curve[kind->of[which]].usable[own]
-                                               : cz_parameter(batch, kind->of[which], own);
+    const double usable = usable_of(batch, kind, which, own);
     const bool is_there = usable < CZ_MISSING &&
                           has_element(batch, cz_lane(batch, interface, design), car, class) &&
                           (!slides || has_slide(batch, car, design, side));

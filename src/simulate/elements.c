@@ -33,14 +33,12 @@ static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
     result->vehicle = car;
     const double tube = cz_memory(batch, CZ_MEMORY(coupler.side[side].tube), lane);
     const double second = cz_memory(batch, CZ_MEMORY(coupler.side[side].second_tube), lane);
-    const double travel = cz_memory(batch, CZ_MEMORY(coupler.side[side].shear), lane);
     take(result, cz_coupler_account(batch, lane, side));
     result->tube_energy = cz_memory(batch, CZ_MEMORY(coupler.side[side].tube_energy), lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
     result->stroke = tube + second;
     result->peak_force = cz_extreme(batch, CZ_EXTREME(coupler_force), lane);
-    result->sheared =
-        travel >= cz_parameter(batch, CZ_PARAMETER(coupler.side[side].shear.softening), lane);
+    result->sheared = cz_coupler_is_sheared(batch->dynamics, lane, side);
     return true;
 }
 
@@ -257,24 +255,21 @@ static void fill_climbing(const CzBatch *batch, int interface, int design,
                           CzInterfaceResult *result) {
     const size_t lane = cz_lane(batch, interface, design);
     const bool pushed = !isnan(result->min_overlap);
-    const bool has_couplers = cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) > 0.5;
-    const bool on_ends = cz_parameter(batch, CZ_PARAMETER(coupler.side[0].on_end), lane) +
-                             cz_parameter(batch, CZ_PARAMETER(coupler.side[1].on_end), lane) >
-                         0.5;
+    const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
     result->overlap_time = pushed ? cz_extreme(batch, CZ_EXTREME(face_overlap_time), lane) : NAN;
     result->margin_time = isnan(result->vertical_margin)
                               ? NAN
                               : cz_extreme(batch, CZ_EXTREME(face_margin_time), lane);
     result->ramp = pushed ? cz_extreme(batch, CZ_EXTREME(face_ramp), lane) : NAN;
-    result->friction = pushed ? cz_parameter(batch, CZ_PARAMETER(face.friction), lane) : NAN;
-    result->underframe_rise =
-        has_couplers && !on_ends ? cz_extreme(batch, CZ_EXTREME(underframe_rise), lane) : NAN;
+    result->friction = pushed ? of.friction : NAN;
+    result->underframe_rise = of.has_couplers && !of.couplers_on_ends
+                                  ? cz_extreme(batch, CZ_EXTREME(underframe_rise), lane)
+                                  : NAN;
     for (int side = 0; side < 2; ++side) {
-        const double stop =
-            cz_parameter(batch, CZ_PARAMETER(coupler.side[side].hinge_vertical.stop), lane);
+        const double stop = of.side[side].swing_stop;
         result->swing[side] =
-            has_couplers ? cz_extreme(batch, CZ_EXTREME(swing_vertical[side]), lane) : NAN;
-        result->swing_stop[side] = has_couplers && stop < CZ_MISSING ? stop : NAN;
+            of.has_couplers ? cz_extreme(batch, CZ_EXTREME(swing_vertical[side]), lane) : NAN;
+        result->swing_stop[side] = of.has_couplers && isfinite(stop) ? stop : NAN;
     }
 }
 
@@ -290,7 +285,7 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
         cz_extreme(batch, CZ_EXTREME(section[0]), cz_lane(batch, interface + 1, design));
     const double lost_overlap = cz_extreme(batch, CZ_EXTREME(face_lost_overlap), lane);
     const double lost_margin = cz_extreme(batch, CZ_EXTREME(face_lost_margin), lane);
-    const bool can_climb = cz_parameter(batch, CZ_PARAMETER(face.overlap), lane) < CZ_MISSING;
+    const bool can_climb = cz_interface_equipment(batch->lanes, lane).can_climb;
     result->min_overlap = can_climb && lost_overlap > CZ_NOT_YET ? -lost_overlap : NAN;
     result->vertical_margin = can_climb && lost_margin > CZ_NOT_YET ? -lost_margin : NAN;
     result->vertical_demand = cz_extreme(batch, CZ_EXTREME(face_demand_vertical), lane);

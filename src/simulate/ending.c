@@ -151,7 +151,7 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
         for (int side = 0; side < 2; ++side) {
             const size_t lane = cz_lane(batch, car, design);
             const double length =
-                cz_parameter(batch, CZ_PARAMETER(coupler.side[side].strut_length), lane);
+                cz_interface_equipment(batch->lanes, lane).side[side].strut_length;
             double shortened = 0.0;
             for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k)
                 shortened += cz_memory(batch, rows[k][side], lane);
@@ -213,11 +213,8 @@ static double rest_or_speed(const CzBatch *batch, int car, int design) {
     const bool is_slowed = car > 0 && rolling_resistance(batch, car, design) >
                                           rolling_resistance(batch, car - 1, design);
     const double speed = cz_velocity(batch, CZ_DOF(body.x), lane);
-    const bool brakes = cz_parameter(batch, CZ_PARAMETER(wheel.brake_moment[0]), lane) > 0.0 ||
-                        cz_parameter(batch, CZ_PARAMETER(wheel.brake_moment[3]), lane) > 0.0 ||
-                        cz_parameter(batch, CZ_PARAMETER(drag.brake), lane) > 0.0 ||
-                        cz_parameter(batch, CZ_PARAMETER(drag.slide), lane) > 0.0;
-    return brakes || is_slowed ? fmin(speed, 0.0) : speed;
+    const bool is_held = cz_car_equipment(batch->lanes, lane).is_held;
+    return is_held || is_slowed ? fmin(speed, 0.0) : speed;
 }
 
 /* Largest speed at which cars that are apart now can still meet: what is ahead may come to rest
@@ -239,7 +236,7 @@ static bool can_meet_again(const CzBatch *batch, int design) {
                                  CZ_MEMORY(side_buffers.force)};
     for (int car = 0; car + 1 < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        bool together = cz_parameter(batch, CZ_PARAMETER(coupler.coupled), lane) > 0.5;
+        bool together = cz_interface_equipment(batch->lanes, lane).is_coupled;
         for (size_t k = 0; k < sizeof forces / sizeof forces[0]; ++k)
             together |= cz_memory(batch, forces[k], lane) > 0.0;
         const double behind = cz_velocity(batch, CZ_DOF(body.x), lane);

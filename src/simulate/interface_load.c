@@ -35,10 +35,9 @@ CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena) 
 
 /* Whether nothing keeps the two sides from parting. */
 static bool can_open(const CzBatch *batch, size_t lane) {
-    bool whole = cz_parameter(batch, CZ_PARAMETER(coupler.coupled), lane) > 0.5;
+    bool whole = cz_interface_equipment(batch->lanes, lane).is_coupled;
     for (int side = 0; side < 2; ++side)
-        whole &= cz_memory(batch, CZ_MEMORY(coupler.side[side].shear), lane) <
-                 cz_parameter(batch, CZ_PARAMETER(coupler.side[side].shear.softening), lane);
+        whole &= !cz_coupler_is_sheared(batch->dynamics, lane, side);
     return !whole;
 }
 
@@ -63,8 +62,8 @@ static bool is_to_be_unloaded(CzInterfaceLoad *load, double largest, bool stores
 
 /* Kinetic energy of two cars about their common motion. */
 static double relative_energy(const CzBatch *batch, size_t lane, size_t ahead) {
-    const double inverse = cz_parameter(batch, CZ_PARAMETER(inverse.body.mass), lane) +
-                           cz_parameter(batch, CZ_PARAMETER(inverse.body.mass), ahead);
+    const double inverse = cz_car_equipment(batch->lanes, lane).inverse_mass +
+                           cz_car_equipment(batch->lanes, ahead).inverse_mass;
     const double rate =
         cz_velocity(batch, CZ_DOF(body.x), lane) - cz_velocity(batch, CZ_DOF(body.x), ahead);
     return inverse > 0.0 ? 0.5 * rate * rate / inverse : 0.0;

@@ -54,7 +54,7 @@ static bool moves(const CzBatch *batch, int row, size_t lane) {
     const CzLanes *lanes = batch->lanes;
     const bool is_end = row == CZ_DOF(end[0].x) || row == CZ_DOF(end[1].x);
     return *cz_lane_mass(lanes, row, lane) > 0.0 ||
-           (is_end && cz_parameter(batch, CZ_PARAMETER(slaved_ends), lane) > 0.5);
+           (is_end && cz_car_equipment(lanes, lane).has_slaved_ends);
 }
 
 /* Fills the places of all that moves, and of the impulse of each car, or only counts them. */
@@ -170,8 +170,7 @@ static int list_drops(const CzBatch *batch, Drop *drop) {
     for (int car = 0; car + 1 < batch->model->n_car; car++)
         for (int side = 0; side < 2; side++) {
             const size_t lane = cz_lane(batch, car, 0);
-            if (cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) < 0.5 ||
-                cz_parameter(batch, CZ_PARAMETER(coupler.side[side].shear.force), lane) >= CZ_NEVER)
+            if (!cz_interface_equipment(batch->lanes, lane).side[side].shears_off)
                 continue;
             if (drop != NULL)
                 drop[n] =

@@ -5,6 +5,7 @@
 #include "base/arena.h"
 #include "crushzone/simulate.h"
 #include "dynamics/dynamics.h"
+#include "dynamics/equipment.h"
 #include "dynamics/stored.h"
 #include "model/model.h"
 
@@ -90,9 +91,6 @@ static inline double cz_extreme(const CzBatch *batch, int row, size_t lane) {
 static inline double cz_work(const CzBatch *batch, int row, size_t lane) {
     return cz_row_of(&cz_block_of(batch->dynamics, lane)->work, row)[lane % CZ_LANE_BLOCK];
 }
-static inline double cz_parameter(const CzBatch *batch, CzParameter row, size_t lane) {
-    return *cz_lane_parameter(batch->lanes, row, lane);
-}
 static inline double cz_published(const CzBatch *batch, int row, size_t lane) {
     return cz_row_of(&cz_block_of(batch->dynamics, lane)->published, row)[lane % CZ_LANE_BLOCK];
 }
@@ -100,8 +98,6 @@ static inline double cz_published(const CzBatch *batch, int row, size_t lane) {
 /* Rows of both ends of a car, or both sides of an interface. */
 #define CZ_MEMORY_PAIR(pair, member)                                                               \
     { CZ_MEMORY(pair[0].member), CZ_MEMORY(pair[1].member) }
-#define CZ_PARAMETER_PAIR(pair, member)                                                            \
-    { CZ_PARAMETER(pair[0].member), CZ_PARAMETER(pair[1].member) }
 #define CZ_EXTREME_PAIR(pair)                                                                      \
     { CZ_EXTREME(pair[0]), CZ_EXTREME(pair[1]) }
 #define CZ_CURVE_PAIR(pair)                                                                        \

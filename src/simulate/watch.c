@@ -79,6 +79,7 @@ static void watch_devices(CzWatch *list, const CzBatch *batch, int interface, in
 
 static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int side) {
     const size_t lane = cz_lane(batch, interface, 0), own = cz_lane(batch, interface + side, 0);
+    const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
     const char *name = batch->model->car[interface + side].name;
     const int which = side == 0 ? 1 : 0;
     watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY, CZ_MEMORY(coupler.side[side].tube),
@@ -90,7 +91,7 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
     watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY,
           CZ_MEMORY(side_buffers.side[side].tube), lane, FLOWED, "side buffers", name);
     watch_devices(list, batch, interface, side);
-    if (cz_parameter(batch, CZ_PARAMETER(face.side[side].has_massless), lane) > 0.5) {
+    if (of.side[side].has_massless_end) {
         const int massless = CZ_CURVE(massless[side]);
         watch(list, batch, CZ_EVENT_END_CRUSH, FROM_MEMORY,
               CZ_MEMORY(face.side[side].massless.peak), lane, first_stage(batch, massless, lane),
@@ -101,10 +102,9 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
         watch(list, batch, CZ_EVENT_END_CRUSH, FROM_MEMORY, CZ_MEMORY(end[which].peak), own,
               first_stage(batch, end, own), "end", name);
     }
-    if (cz_parameter(batch, CZ_PARAMETER(coupler.exists), lane) > 0.5)
+    if (of.has_couplers)
         watch(list, batch, CZ_EVENT_SWING_STOP, FROM_EXTREME, CZ_EXTREME(swing_vertical[side]),
-              lane, cz_parameter(batch, CZ_PARAMETER(coupler.side[side].hinge_vertical.stop), lane),
-              "coupler", name);
+              lane, of.side[side].swing_stop, "coupler", name);
 }
 
 static void watch_interface(CzWatch *list, const CzBatch *batch, int interface) {
@@ -138,13 +138,12 @@ static void watch_car(CzWatch *list, const CzBatch *batch, int car) {
                   batch->vehicles[0][description->vehicle].bogie.flange_height, kind,
                   description->name);
     }
+    const CzCarEquipment of = cz_car_equipment(batch->lanes, lane);
     for (int bogie = 0; bogie < 2; ++bogie) {
-        watch(list, batch, CZ_EVENT_LIFT_STOP, FROM_LIFT_STOP, bogie, lane,
-              cz_parameter(batch, CZ_PARAMETER(secondary.lift_gap), lane), bogie_name[bogie],
-              description->name);
-        watch(list, batch, CZ_EVENT_BUMP_STOP, FROM_BUMP_STOP, bogie, lane,
-              cz_parameter(batch, CZ_PARAMETER(secondary.bump_gap), lane), bogie_name[bogie],
-              description->name);
+        watch(list, batch, CZ_EVENT_LIFT_STOP, FROM_LIFT_STOP, bogie, lane, of.lift_stop,
+              bogie_name[bogie], description->name);
+        watch(list, batch, CZ_EVENT_BUMP_STOP, FROM_BUMP_STOP, bogie, lane, of.bump_stop,
+              bogie_name[bogie], description->name);
     }
 }
 

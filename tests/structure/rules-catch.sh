@@ -88,6 +88,19 @@ for line in 2 3; do
 done
 check "a heading is let through" sh -c '! grep -q by_hand.c:4 found.txt'
 check "printing in the library is found" finds '^src/report/table.c:4:' library_manners
+put src/simulate/bends.c '/* n */
+double a = cz_lane_value(lanes, car, row);
+double b = *cz_lane_parameter(lanes, CZ_PARAMETER(tilts), lane);
+double c = block->turned.body.sine[0];
+double d = sin(pitch);
+double e = cz_published(batch, row, lane);'
+put src/dynamics/bends.c '/* n */
+double a = cz_lane_value(lanes, car, row);'
+mechanics_outside_dynamics >bends.txt
+for line in 2 3 4 5; do
+    check "mechanics outside dynamics is found: line $line" grep -q "^src/simulate/bends.c:$line:" bends.txt
+done
+check "what the kernel publishes is let through" sh -c '! grep -qE "bends.c:6|src/dynamics" bends.txt'
 check "a comparison of floats is found" finds '^tests/model/test_list.c:2:' float_comparisons
 check "a file without a purpose is found" finds '^src/report/other.c:1:' missing_purposes
 check "a version without a changelog entry is found" finds '2.3.4' changelog_gaps

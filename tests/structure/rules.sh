@@ -233,6 +233,15 @@ float_comparisons() {
     c_files tests | xargs grep -HnE 'assert_(not_)?(float|double)_(not_)?(equal)' | grep -v '^tests/support/check.h:'
 }
 
+# What a run tells of its mechanics comes from what the kernel publishes, or from functions of dynamics: who simulates,
+# judges and reports reads no parameter of a law and no sine or cosine of a body.
+mechanics_outside_dynamics() {
+    for folder in simulate evaluate optimise report cli; do
+        c_files src/$folder | xargs grep -HnE 'CZ_PARAMETER|cz_lane_(parameter|value)\(|(\.|->)turned\b|\b(sin|cos|tan)\(' /dev/null |
+            grep -vE ':[0-9]+: +\* ' # the text of a comment
+    done
+}
+
 # Every file says on its first line what it is for.
 missing_purposes() {
     for file in $(c_files src include tests examples); do

@@ -20,6 +20,7 @@ nothing "the report computes nothing while it draws" report_that_computes
 nothing "a key of the results is written by the list alone" keys_by_hand
 nothing "the library does not print, exit, or depend on locale and environment" library_manners
 nothing "doubles are not compared as floats" float_comparisons
+nothing "no parameter of a law and no angle is read outside dynamics" mechanics_outside_dynamics
 nothing "every file begins with what it is for" missing_purposes
 nothing "the changelog knows the version" changelog_gaps
 nothing "public headers stand on their own" headers_that_need_others

@@ -1,0 +1,46 @@
+/* What interfaces and cars are equipped with, as their laws have it, for those who report on them
+ * and know no parameter of a law. */
+#ifndef CZ_DYNAMICS_EQUIPMENT_H
+#define CZ_DYNAMICS_EQUIPMENT_H
+
+#include "dynamics/dynamics.h"
+
+/* Of the interface whose rear car is in a lane; side 0 is its front end, 1 the rear end of the car
+ * ahead. */
+typedef struct CzInterfaceEquipment {
+    bool has_couplers;     /* that meet, or one of which meets what cannot move */
+    bool is_coupled;       /* they carry tension */
+    bool couplers_on_ends; /* one of them at least is fixed to an end mass */
+    bool has_side_buffers; /* likewise */
+    bool has_superstructures;
+    bool can_climb;  /* its faces overlap by so much and no more */
+    double friction; /* of the faces [-] */
+    struct {
+        bool has_coupler, has_anti_climber, has_side_buffers; /* of its own */
+        bool shears_off;
+        bool has_massless_end;
+        double retraction_space; /* with the softening length of the shear-off; CZ_NEVER without
+                                    [m] */
+        double swing_stop;       /* infinite without [rad] */
+        double strut_length; /* by which the coupler cannot shorten; CZ_NEVER where its line is that
+                                of the track [m] */
+    } side[2];
+} CzInterfaceEquipment;
+
+CzInterfaceEquipment cz_interface_equipment(const CzLanes *lanes, size_t lane);
+
+/* Of the car in a lane. */
+typedef struct CzCarEquipment {
+    bool has_slaved_ends;        /* they move with the body */
+    bool is_held;                /* by brakes or friction jaws */
+    double lift_stop, bump_stop; /* extension and compression of the secondary suspension [m] */
+    double slide_length;         /* CZ_NEVER without [m] */
+    double inverse_mass;         /* of the body; 0 where it cannot move [1/kg] */
+} CzCarEquipment;
+
+CzCarEquipment cz_car_equipment(const CzLanes *lanes, size_t lane);
+
+/* Whether the coupler of a side has sheared off. */
+bool cz_coupler_is_sheared(const CzDynamics *dynamics, size_t lane, int side);
+
+#endif

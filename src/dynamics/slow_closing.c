@@ -1,0 +1,140 @@
+/* A load path is a row of members, each with a force over its stroke. Closed slowly, the weakest
+ * deflects: of all members the one with the smallest force at its own stroke moves on, and the path
+ * carries that force. Paths side by side add up.
+ */
+#include "dynamics/slow_closing.h"
+
+#include <math.h>
+
+#include "dynamics/stored.h"
+#include "laws/shear_off.h"
+#include "model/kinks.h"
+#include "model/own_design.h"
+
+enum { MOST_MEMBERS = 8 };
+
+typedef struct Member {
+    CzCurveId curve;
+    size_t lane;
+    double stroke; /* so far [m] */
+} Member;
+
+typedef struct Path {
+    const CzLanes *lanes;
+    int n_member;
+    Member member[MOST_MEMBERS];
+    double starts_at; /* closure at which it touches [m] */
+    CzShearOffLaw shear_off;
+    double released_at; /* closure at which it began to shear; NaN before [m] */
+} Path;
+
+static double strength(const Path *path, const Member *member) {
+    return cz_curve_value(&path->lanes->curve[member->curve], path->lanes->stride, member->lane,
+                          member->stroke);
+}
+
+/* Adds a member unless it is one that never deflects. */
+static void add(Path *path, CzCurveId curve, size_t lane) {
+    const Member member = {curve, lane, 1e-6};
+    if (strength(path, &member) < 1e20 * member.stroke)
+        path->member[path->n_member++] = (Member){curve, lane, 0.0};
+}
+
+static double advance(Path *path, double closure, double step) {
+    if (path->n_member == 0 || closure < path->starts_at)
+        return 0.0;
+    if (!isnan(path->released_at))
+        return cz_shear_off(&path->shear_off, closure - path->released_at).strength;
+    Member *weakest = &path->member[0];
+    for (int i = 1; i < path->n_member; i++)
+        if (strength(path, &path->member[i]) < strength(path, weakest))
+            weakest = &path->member[i];
+    const double force = strength(path, weakest);
+    if (force > path->shear_off.force) {
+        path->released_at = closure;
+        return path->shear_off.force;
+    }
+    weakest->stroke += step;
+    return force;
+}
+
+/* The retraction space behind a shear-off is left out: another path carries on. */
+static Path path_of(const CzLanes *lanes) {
+    return (Path){
+        .lanes = lanes, .released_at = NAN, .shear_off = {.force = INFINITY, .space = CZ_NEVER}};
+}
+
+static Path coupler_path(const CzLanes *lanes, int interface) {
+    Path path = path_of(lanes);
+    const size_t lane = (size_t)interface;
+    if (cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.exists)) < 0.5)
+        return path;
+    path.starts_at = cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.pivot.distance)) -
+                     cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.length));
+    for (int side = 0; side < 2; side++) {
+        const int car = interface + side;
+        add(&path, CZ_CURVE(buffer[side]), lane);
+        add(&path, CZ_CURVE(tube[side]), lane);
+        add(&path, CZ_CURVE(second_tube[side]), lane);
+        if (cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].on_end)) > 0.5)
+            add(&path, side == 0 ? CZ_CURVE(end[1]) : CZ_CURVE(end[0]), (size_t)car);
+        const double force =
+            cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].shear.force));
+        const double softening =
+            cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].shear.softening));
+        CzShearOffLaw *weaker = &path.shear_off;
+        if (force < weaker->force || (force == weaker->force && softening > weaker->softening)) {
+            weaker->softening = softening; /* of the weaker one: a wall has none that counts */
+            weaker->residual =
+                cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].shear.residual));
+        }
+        weaker->force = fmin(weaker->force, force);
+    }
+    return path;
+}
+
+/* Crush zones that stand behind what presses on the end of a car. */
+static void add_ends(Path *path, const CzModel *model, int interface) {
+    for (int side = 0; side < 2; side++) {
+        const int car = interface + side;
+        if (model->car[car].model == CZ_MODEL_FULL)
+            add(path, side == 0 ? CZ_CURVE(end[1]) : CZ_CURVE(end[0]), (size_t)car);
+    }
+}
+
+static Path face_path(const CzModel *model, const CzLanes *lanes, int interface) {
+    Path path = path_of(lanes);
+    path.starts_at = cz_lane_value(lanes, interface, CZ_PARAMETER(face.contact.distance));
+    for (int side = 0; side < 2; side++) {
+        add(&path, CZ_CURVE(face[side]), (size_t)interface);
+        add(&path, CZ_CURVE(massless[side]), (size_t)interface);
+    }
+    add_ends(&path, model, interface);
+    return path;
+}
+
+static Path side_path(const CzModel *model, const CzLanes *lanes, int interface) {
+    Path path = path_of(lanes);
+    if (cz_lane_value(lanes, interface, CZ_PARAMETER(side_buffers.exists)) < 0.5)
+        return path;
+    path.starts_at = cz_lane_value(lanes, interface, CZ_PARAMETER(side_buffers.contact.distance));
+    for (int side = 0; side < 2; side++) {
+        add(&path, CZ_CURVE(side_buffer[side]), (size_t)interface);
+        add(&path, CZ_CURVE(side_tube[side]), (size_t)interface);
+    }
+    add_ends(&path, model, interface);
+    return path;
+}
+
+void cz_slow_closing(const CzModel *model, const CzLanes *lanes, int interface, double longest,
+                     int n, double *closure, double *force) {
+    Path path[3] = {coupler_path(lanes, interface), face_path(model, lanes, interface),
+                    side_path(model, lanes, interface)};
+    const double step = longest / (n - 1);
+    for (int i = 0; i < n; i++) {
+        closure[i] = i * step;
+        force[i] = 0.0;
+        for (int k = 0; k < 3; k++)
+            force[i] += advance(&path[k], closure[i], step);
+    }
+}

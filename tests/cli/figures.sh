@@ -167,7 +167,7 @@ at() { exits 0 "$C" plot first --at A3-A4 --svg - && says out.txt 'aria-label="F
 check "plot takes an interface or a car, and a problem file" at
 unknown_figure() { exits 2 "$C" plot first --what enrgy && says err.txt "did you mean 'energy'" && exits 2 "$C" plot first --at A9 && says err.txt "no interface 'A9'"; }
 check "plot tells what there is not" unknown_figure
-nothing_to_lift() { exits 2 "$C" plot first --what lift && says err.txt "nothing to show as 'lift'"; }
+nothing_to_lift() { exits 2 "$C" plot first --what lift && says err.txt "this run has no data for the figure 'lift'"; }
 check "rigid cars have no wheels to lift" nothing_to_lift
 no_room() { exits 4 "$C" plot first --svg /nowhere/a.svg && says err.txt 'cannot be written' && [ ! -e /nowhere/a.svg.tmp ]; }
 check "a figure that cannot be written is told" no_room

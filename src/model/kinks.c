@@ -21,10 +21,15 @@ double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *table) 
     return stroke;
 }
 
+/* Adds a kink in order of stroke: a trigger may end within the ramp to the next plateau. */
 static void add(CzKinks *kinks, double at, double slope_change) {
-    kinks->at[kinks->n] = at;
-    kinks->slope_change[kinks->n] = slope_change;
-    kinks->n++;
+    int k = kinks->n++;
+    for (; k > 0 && kinks->at[k - 1] > at; k--) {
+        kinks->at[k] = kinks->at[k - 1];
+        kinks->slope_change[k] = kinks->slope_change[k - 1];
+    }
+    kinks->at[k] = at;
+    kinks->slope_change[k] = slope_change;
 }
 
 /* Straight lines through the points of a table; constant before the first. */

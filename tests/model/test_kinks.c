@@ -82,6 +82,19 @@ static void the_trigger_adds_a_triangle(void **state) {
     assert_int_equal(peaked.n, plain.n);
 }
 
+/* Also where the trigger ends within the ramp to the next plateau. */
+static void kinks_are_in_order_of_stroke(void **state) {
+    (void)state;
+    const CzStage stage[] = {level(0.012, 5e5), level(0.2, 4e5)};
+    for (double length = 0.008; length < 0.02; length += 0.0005) {
+        CzKinks kinks;
+        cz_kinks_strength(&kinks, stage, 2, &no_table, 8e5, length, 1e9);
+        assert_near(cz_kinks_value(&kinks, 0.15), 4e5, 1e-9, 0.0);
+        for (int k = 1; k < kinks.n; k++)
+            assert_true(kinks.at[k] >= kinks.at[k - 1]);
+    }
+}
+
 static void loading_stages_pass_through_their_end_forces(void **state) {
     (void)state;
     const CzStage stage[] = {level(0.02, 1.2e6), level(0.06, 1.0e6), level(0.32, 1.5e6),
@@ -148,6 +161,7 @@ int main(void) {
         cmocka_unit_test(long_plateaus_have_ramps_of_five_millimetres),
         cmocka_unit_test(sloping_plateaus_start_and_end_where_they_say),
         cmocka_unit_test(the_trigger_adds_a_triangle),
+        cmocka_unit_test(kinks_are_in_order_of_stroke),
         cmocka_unit_test(loading_stages_pass_through_their_end_forces),
         cmocka_unit_test(a_buffer_starts_at_its_preload),
         cmocka_unit_test(a_table_passes_through_every_point),

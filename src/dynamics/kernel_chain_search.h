@@ -59,9 +59,10 @@ typedef struct Resistance {
     double start, gain, stiffness;
 } Resistance;
 
-/* First stroke from `from` on at which a strength with what the step adds begins to fall, or where
- * it does not fall any more (`rises`); infinite where there is none. The slope of the sum falls
- * along a falling part of the curve, so one root says where. */
+/* First stroke from `from` on at which a strength with what the step adds begins to fall, or, where
+ * it falls at `from`, at which it rises again (`rises`); infinite where there is none. The slope of
+ * the sum falls along a falling part of the curve: one root says where it begins to fall, and it
+ * does not rise again before the part ends. */
 static double curve_turns_at(const CzBlockCurve *curve, size_t lane, double from, int rises,
                              const Resistance *added) {
     double slope = 0.0, value = curve->start[lane], begin = 0.0;
@@ -73,7 +74,8 @@ static double curve_turns_at(const CzBlockCurve *curve, size_t lane, double from
             const double at_first = value + slope * (first - begin);
             const double sum =
                 slope * (1.0 + gain * (first - added->start)) + at_first * gain + added->stiffness;
-            if (rises ? sum >= 0.0 : sum < 0.0)
+            const int falls_on = slope < 0.0 && begin <= from;
+            if (rises ? sum >= 0.0 && !falls_on : sum < 0.0)
                 return first;
             const double root =
                 slope < 0.0 && gain > 0.0 ? first - sum / (2.0 * slope * gain) : INFINITY;

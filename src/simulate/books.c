@@ -14,17 +14,21 @@
  *   CORNERS * energy + (preload + transition * v h) * v h        v: closing speed of the trains
  *
  * the latter where buffers are, whose preload is met within a step: four corners at a hundredth of
- * the stroke, a touch and four corners more. Crush zones, guidances and tubes have no such error:
- * they receive what follows from their state, or flow under a force that is never negative. Of 400
- * random designs and all shipped problems none came near.
+ * the stroke, a touch and four corners more. One that has bottomed out may seem to give STOP of its
+ * largest force times its largest stroke, what a step of h = 0.1 ms leaves in a stop of k = 1 GN/m
+ * before an end mass of m = 1 t: h^2 k / (12 m). Crush zones, guidances and tubes have no such
+ * error: they receive what follows from their state, or flow under a force that is never negative.
+ * Of 2,000 random designs and all shipped problems none came near.
  */
+#include "simulate/devices.h"
 #include "simulate/run.h"
 
 #include <math.h>
 #include <stdio.h>
 
 #define SUM_SHARE 1e-9 /* of the initial energy: rounding of some hundred thousand sums */
-#define CORNERS 1e-4   /* of the largest energy that an element has held, as above */
+#define CORNERS 1e-4   /* of the energy of an element, as above */
+#define STOP 1e-3      /* as above */
 /* Of the initial energy: springs of the running gear, whose power is summed over oscillations of up
  * to half the largest stable step; four times the largest of 400 random designs (ours). */
 #define SPRINGS_SHARE 1e-5
@@ -36,9 +40,10 @@ typedef struct Fault {
     char where[64], what[96];
 } Fault;
 
-/* What an element of side A (0) or B (1) of the interface in a lane may seem to give. */
-static double may_give(const CzBatch *batch, const CzElementResult *element, size_t lane,
-                       int side) {
+/* What an element of side A (0) or B (1) of an interface may seem to give. */
+static double may_give(const CzBatch *batch, const CzElementResult *element, int interface,
+                       int design, int side) {
+    const size_t lane = cz_lane(batch, interface, design);
     const double corners = CORNERS * fmax(element->energy + element->stored, 0.0);
     const double stroke = fabs(batch->closing_speed) * batch->step;
     if (element->kind == CZ_ELEMENT_COUPLER)
@@ -46,6 +51,13 @@ static double may_give(const CzBatch *batch, const CzElementResult *element, siz
     if (element->kind == CZ_ELEMENT_SIDE_BUFFERS)
         return corners + cz_side_touch(batch->dynamics, lane, side, stroke);
     return corners;
+}
+
+/* The same of one that has bottomed out. */
+static double may_give_at_stop(const CzBatch *batch, CzElementResult *element, int interface,
+                               int design, int side) {
+    cz_devices_judge(batch, interface, design, side, 1, element);
+    return element->bottomed_out ? STOP * element->peak_force * element->stroke : 0.0;
 }
 
 /* Whether an element has given more than it took, beyond what is allowed, or stores less than
@@ -74,8 +86,10 @@ static bool some_element_gives(const CzBatch *batch, int design, double rounding
     for (int i = 0; i + 1 < batch->model->n_car; ++i) {
         const int n = cz_interface_elements(batch, i, design, element);
         for (int k = 0; k < n; ++k) {
-            const double allowed =
-                may_give(batch, &element[k], cz_lane(batch, i, design), element[k].vehicle - i);
+            const int side = element[k].vehicle - i;
+            double allowed = may_give(batch, &element[k], i, design, side);
+            if (element[k].energy < -allowed - rounding)
+                allowed = may_give_at_stop(batch, &element[k], i, design, side);
             *sum += element[k].energy;
             found = found || gives(batch, &element[k], allowed, rounding, fault);
         }

@@ -22,7 +22,7 @@
     CZ_PROPERTY(NUMBERS, "a completed run has a number wherever one is asked for")                 \
     CZ_PROPERTY(VERDICTS, "table, JSON and exit code give one verdict")                            \
     CZ_PROPERTY(FAILED, "no run fails but for a strut that has no length left")                    \
-    CZ_PROPERTY(BALANCE, "energy and momentum balance")                                            \
+    CZ_PROPERTY(BALANCE, "energy and momentum balance, or the run is marked as one that does not") \
     CZ_PROPERTY(PASSIVE, "no element gives energy, all dissipate no more than there was")          \
     CZ_PROPERTY(SUMS, "the energies of the elements add up to that of the absorbers")              \
     CZ_PROPERTY(STROKES, "no stroke exceeds the closure of its interface")                         \
@@ -48,7 +48,8 @@ typedef struct {
     unsigned long long number; /* of the design */
     long n_broken[N_PROPERTY];
     long n_tried[N_PROPERTY];
-    bool keep; /* the design breaks something: its file stays */
+    bool is_poor; /* the program says that the balance of energy is poor */
+    bool keep;    /* the design breaks something: its file stays */
 } Trial;
 
 /* Notes whether a property holds; prints the breach. */
@@ -188,6 +189,7 @@ static void try_program(Trial *trial) {
     char *table = output_of(trial, "check", &code_of_table);
     char *text = output_of(trial, "check --json", &code_of_json);
     json_t *json = json_loads(text, 0, &error);
+    trial->is_poor = strstr(text, "error of the energy balance is above 0.1 %") != NULL;
     expect(trial, CODES, code_of_table >= 0 && code_of_table <= 3, "check", code_of_table, 3);
     expect(trial, CODES, code_of_json == code_of_table, "check --json", code_of_json,
            code_of_table);
@@ -216,6 +218,10 @@ static void try_program(Trial *trial) {
  * them passed at a hundredth of the stroke. */
 #define CORNERS 1e-4
 
+/* The same in a stop of k = 1 GN/m before an end mass of m = 1 t, at a step h of 0.1 ms:
+ * h^2 k / (12 m), rounded up. */
+#define STOP 1e-3
+
 /* What a step that touches a preloaded buffer may seem to give, as a share of the energy that was
  * there. The program itself knows the preload and allows less. */
 #define TOUCH 1e-5
@@ -231,8 +237,9 @@ static void try_interface(Trial *trial, const CzRunSummary *summary,
     for (int k = 0; k < interface->n_element; k++) {
         const CzElementResult *element = &interface->element[k];
         *sum += element->energy;
-        const double given = rounding + TOUCH * summary->energy.initial +
-                             CORNERS * element->peak_force * element->stroke;
+        const double given =
+            rounding + TOUCH * summary->energy.initial +
+            (element->bottomed_out ? STOP : CORNERS) * element->peak_force * element->stroke;
         expect(trial, PASSIVE, element->energy >= -given, element->name, element->energy, -given);
         expect(trial, PASSIVE, element->stored >= -rounding, element->name, element->stored,
                -rounding);
@@ -316,8 +323,8 @@ static void try_run(Trial *trial, const CzModel *model) {
         const CzEnergy *energy = &summary->energy;
         const double rounding = ROUNDING * energy->initial;
         double sum = 0.0;
-        expect(trial, BALANCE, energy->balance_error <= 1e-3, "energy", energy->balance_error,
-               1e-3);
+        expect(trial, BALANCE, energy->balance_error <= 1e-3 || trial->is_poor, "energy",
+               energy->balance_error, 1e-3);
         expect(trial, BALANCE, summary->momentum_error <= 1e-9, "momentum", summary->momentum_error,
                1e-9);
         expect(trial, PASSIVE,

@@ -22,7 +22,7 @@ CZ_API const char *cz_cause_doc(CzCause cause);
 /* One value of the vehicles, changed in all of them alike while everything else stays, and the
  * smallest change found that turns the verdict on climbing round: that restores a margin that is
  * broken, or breaks one that is kept. */
-typedef struct CzLever {
+typedef struct CzCandidateChange {
     const char *name; /* such as "height of the anti-climber faces"; static */
     const char *key;  /* as a file spells it, such as "face_height_mm"; static */
     CzCause cause;
@@ -33,17 +33,17 @@ typedef struct CzLever {
     double change;  /* relative change to there, signed; of a value near 0, over its reference */
     double not_yet; /* largest change tried on the way that does not turn it yet; NaN without */
     double margin;  /* smallest climbing margin there */
-} CzLever;
+} CzCandidateChange;
 
-/* What is known of an interface or element at the time of the climb: a sign of a cause. */
-typedef struct CzSign {
+/* What is known of an interface or element at the time of the climb: a indicator of a cause. */
+typedef struct CzIndicator {
     CzCause cause;
     char what[CZ_WHERE_ROOM + 96]; /* a sentence without its time */
     double time;                   /* [s]; NaN when it is about the whole run */
-} CzSign;
+} CzIndicator;
 
-/* The signs of one run that a cause is at work. */
-enum { CZ_MOST_SIGNS = 24 };
+/* The indicators of one run that a cause is at work. */
+enum { CZ_MOST_INDICATORS = 24 };
 
 /* Open result, owns its memory; texts are borrowed from the evaluator. */
 typedef struct CzExplanation {
@@ -54,22 +54,23 @@ typedef struct CzExplanation {
     CzCheckResult worst; /* the check with the smallest climbing margin */
     int vehicle;         /* whose body the budget of the run is about: that of the worst check, or
                             behind its interface */
-    int n_sign;
-    CzSign sign[CZ_MOST_SIGNS]; /* in order of time */
-    int n_lever;
-    CzLever *lever; /* those that turn the verdict by the size of the change, then the rest by the
-                       margin that they reach (n_lever) */
-    bool has_cause; /* some change turns the verdict */
-    CzCause cause; /* of the smallest change that does, among the causes that the run shows signs of
-                      (stops aside, which are met in the end whatever lifts the wheels), else among
-                      all */
+    int n_indicator;
+    CzIndicator indicator[CZ_MOST_INDICATORS]; /* in order of time */
+    int n_candidate;
+    CzCandidateChange *candidate; /* those that turn the verdict by the size of the change, then the
+                       rest by the margin that they reach (n_candidate) */
+    bool has_cause;               /* some change turns the verdict */
+    CzCause cause; /* of the smallest change that does, among the causes that the run shows
+                      indicators of (stops aside, which are met in the end whatever lifts the
+                      wheels), else among all */
     CzRun *run;    /* of the scenario, with its events */
     long n_run;    /* collisions run for the search */
     double wall_s;
 } CzExplanation;
 
 typedef struct CzExplainOptions {
-    bool search; /* look for the changes that would turn the verdict round; else signs alone */
+    bool search; /* search for the changes that would turn the verdict round; else indicators alone
+                  */
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */
     void (*progress)(int n_done, int n_all, void *data); /* NULL when none */
     void *progress_data;

@@ -140,7 +140,7 @@ typedef struct CzCurveColumns {
     char decimal;                        /* decimal sign, '.' or ','; 0: what the numbers show */
 } CzCurveColumns;
 
-/* A measured curve as it stands in a file. Open, owns its memory. */
+/* A measured curve as it is in a file. Open, owns its memory. */
 typedef struct CzCurve {
     int n;
     double *x, *y; /* [SI] (n) */

@@ -26,19 +26,19 @@ CZ_API const char *cz_model_interface_name(const CzModel *model, int interface);
 CZ_API int cz_model_colliding_interface(const CzModel *model);
 
 /* What is known of a full vehicle before it runs. */
-typedef struct CzVehicleFacts {
+typedef struct CzVehicleProperties {
     double mass;                    /* total with payload and absorbers [kg] */
     double axle_load[4];            /* static wheelset loads on the rail, rear to front [N] */
     double secondary_deflection[2]; /* static deflection, rear and front [m] */
     double primary_deflection[4];   /* [m] */
     double bounce_frequency;        /* lowest body bounce, wheels fixed [Hz] */
     double pitch_frequency;         /* lowest body pitch, wheels fixed [Hz] */
-} CzVehicleFacts;
+} CzVehicleProperties;
 /* Facts of a vehicle; NaN throughout for rigid and fixed ones. */
-CZ_API CzVehicleFacts cz_model_vehicle_facts(const CzModel *model, int vehicle);
+CZ_API CzVehicleProperties cz_model_vehicle_properties(const CzModel *model, int vehicle);
 
 /* What is known of an interface before it runs. */
-typedef struct CzInterfaceFacts {
+typedef struct CzInterfaceProperties {
     double strut_length;   /* pivot to pivot at rest [m]; NaN without couplers */
     double critical_force; /* F_crit, the axial force at which both trains, a chain of coupler
                               struts, fold in the lowest shape that goes through this interface
@@ -46,8 +46,8 @@ typedef struct CzInterfaceFacts {
     double tube_force;     /* largest plastic force of the weaker coupler before shear-off [N]; NaN
                               without tubes */
     double anti_climber_gap; /* closure at which the anti-climbers touch [m]; NaN without */
-} CzInterfaceFacts;
-CZ_API CzInterfaceFacts cz_model_interface_facts(const CzModel *model, int interface);
+} CzInterfaceProperties;
+CZ_API CzInterfaceProperties cz_model_interface_properties(const CzModel *model, int interface);
 
 /* Time step: the one in force and the bounds it was chosen from, smallest first. */
 typedef struct CzStepBound {

@@ -70,7 +70,7 @@ typedef struct CzElementResult {
     double peak_force;  /* unfiltered largest force over all steps [N] */
     double tube_energy; /* part of a coupler's energy that its tubes and shear-off took [J]; all of
                            it for the others */
-    bool sheared;       /* coupler: shear-off has let go */
+    bool sheared;       /* coupler: shear-off has been released */
     bool bottomed_out;  /* a device used its whole stroke, and no other of the element took over */
     double zone_energy[3]; /* plastic energy by zone: crush, temporary, survival [J] */
 } CzElementResult;
@@ -220,7 +220,7 @@ typedef struct CzSimulateOptions {
     double time_step; /* [s]; 0 takes the model's */
     bool record;      /* keep channels at the output step */
     const char *isa;  /* "auto", or one of cz_isa_name: for tests and benchmarks */
-    bool brief;       /* for a search: also end once nothing flows any more and no cars can meet
+    bool brief;       /* for a search: also end once nothing crushes any more and no cars can meet
                          again at more than 0.4 of the first closing speed; the run has then
                          CZ_ENDED_SETTLED and is no record */
     CzTrackUse track;

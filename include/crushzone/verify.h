@@ -57,9 +57,9 @@ typedef struct CzVerification {
     CzStatus status;    /* CZ_OK, or CZ_STATUS_RUN_FAILED when a run of any method failed or is
                            incomplete */
     char failure[320];  /* which method, scenario and why; empty otherwise */
-    double solver_step; /* as it was asked for */
+    double solver_step; /* as it was requested */
     double limit;
-    unsigned methods; /* that were asked for and apply here: bit 1 << CzVerifyMethod each */
+    unsigned methods; /* that were requested and apply here: bit 1 << CzVerifyMethod each */
     int n_value;
     CzVerifiedValue *value;                    /* (n_value) */
     bool is_done[CZ_N_VERIFY_METHOD];          /* this method was gone to its end */
@@ -67,7 +67,7 @@ typedef struct CzVerification {
     int worst[CZ_N_VERIFY_METHOD];             /* value with that change; -1 when none */
     int n_flip[CZ_N_VERIFY_METHOD];            /* changed verdicts */
     double wall_s[CZ_N_VERIFY_METHOD];         /* for run_info only */
-    CzVerdict verdict; /* pass: every method asked for is done, changes at most the limit and flips
+    CzVerdict verdict; /* pass: every method requested is done, changes at most the limit and flips
                           no verdict */
 } CzVerification;
 

@@ -7,7 +7,7 @@
 double cz_increment_not_above(double step, double value);
 double cz_increment_not_below(double step, double value);
 
-/* How many multiples of a step lie between two bounds; 2 stands for more. */
+/* How many multiples of a step lie between two bounds; 2 represents more. */
 int cz_increment_count(double step, double min, double max);
 
 #endif

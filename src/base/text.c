@@ -1,4 +1,4 @@
-/* What may stand in texts and names. */
+/* What may be in texts and names. */
 #include "base/text.h"
 
 #include "crushzone/names.h"

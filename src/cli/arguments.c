@@ -266,8 +266,8 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     return CZ_OK;
 }
 
-/* Names of files and folders are texts like any other (base/text.h): what is no text cannot be told
- * in a message, a log or a document. */
+/* Names of files and folders are texts like any other (base/text.h): what is no text cannot be
+ * reported in a message, a log or a document. */
 static CzStatus check_file_name(const char *name, CzError *error) {
     char what[CZ_FAULT_ROOM];
     size_t at;

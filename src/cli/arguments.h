@@ -36,7 +36,7 @@ extern const CzOptionInfo cz_options[CZ_N_OPTION];
 
 typedef enum CzColour { CZ_COLOUR_AUTO, CZ_COLOUR_ALWAYS, CZ_COLOUR_NEVER } CzColour;
 
-/* What was asked for. Texts are borrowed from argv; arrays are owned. */
+/* What was requested. Texts are borrowed from argv; arrays are owned. */
 typedef struct CzArguments {
     bool nothing; /* no command at all */
     CzCommand command;
@@ -51,7 +51,7 @@ typedef struct CzArguments {
     int n_metric;
     const char **check; /* names (n_check) */
     int n_check;
-    char time_step[64]; /* room for the setting that --time-step-ms stands for */
+    char time_step[64]; /* room for the setting that --time-step-ms represents */
     int n_job;          /* 0: as many as there are processors */
     long evaluations;   /* 0: the file's */
     long seed;          /* -1: the file's */

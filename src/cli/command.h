@@ -20,7 +20,7 @@ int cz_command_schema(const CzArguments *arguments);
 int cz_command_help(const CzArguments *arguments);
 int cz_command_version(const CzArguments *arguments);
 
-/* The five lines of a program that was asked for nothing, and the help of one command. */
+/* The five lines of a program that was given no command, and the help of one command. */
 void cz_help_write_greeting(void);
 void cz_help_write_command(CzCommand command);
 

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Interfaces that have been told of, by name; several scenarios have the same ones. */
+/* Interfaces that have been reported, by name; several scenarios have the same ones. */
 typedef struct Told {
     char names[8192]; /* each between line ends */
 } Told;
@@ -29,22 +29,22 @@ static bool is_told(Told *told, const char *name) {
  * train before they have done their work. */
 static void tell_folding(const CzArguments *arguments, const CzModel *model, Told *told) {
     for (int i = 0; i < cz_model_n_interface(model); i++) {
-        const CzInterfaceFacts facts = cz_model_interface_facts(model, i);
+        const CzInterfaceProperties properties = cz_model_interface_properties(model, i);
         const char *name = cz_model_interface_name(model, i);
-        if (isnan(facts.critical_force) || is_told(told, name))
+        if (isnan(properties.critical_force) || is_told(told, name))
             continue;
         if (arguments->text[CZ_OPTION_JSON] == NULL) {
-            printf("  interface %s: F_crit %.1f kN", name, 1e-3 * facts.critical_force);
-            if (!isnan(facts.tube_force))
-                printf(", tubes up to %.1f kN", 1e-3 * facts.tube_force);
+            printf("  interface %s: F_crit %.1f kN", name, 1e-3 * properties.critical_force);
+            if (!isnan(properties.tube_force))
+                printf(", tubes up to %.1f kN", 1e-3 * properties.tube_force);
             putchar('\n');
         }
-        if (facts.tube_force > facts.critical_force)
+        if (properties.tube_force > properties.critical_force)
             cz_tell(arguments,
                     "warning: interface %s: the collapse tubes carry up to %.1f kN, more than "
                     "F_crit, %.1f kN, at which the train folds there; weaker tubes or stiffer "
                     "coupler hinges avoid it",
-                    name, 1e-3 * facts.tube_force, 1e-3 * facts.critical_force);
+                    name, 1e-3 * properties.tube_force, 1e-3 * properties.critical_force);
     }
 }
 
@@ -139,15 +139,15 @@ static void show_vehicles(const CzModel *model) {
     printf("#\n# %-9s %9s %9s %9s %9s %9s %9s %9s %9s %9s\n", "vehicle", "mass t", "axle 1 kN",
            "axle 2 kN", "axle 3 kN", "axle 4 kN", "prim. mm", "sec. mm", "bounce Hz", "pitch Hz");
     for (int i = 0; i < cz_model_n_vehicle(model); i++) {
-        const CzVehicleFacts facts = cz_model_vehicle_facts(model, i);
+        const CzVehicleProperties properties = cz_model_vehicle_properties(model, i);
         printf("# %-9s", cz_model_vehicle_name(model, i));
-        put_number(facts.mass, 1e3, 3);
+        put_number(properties.mass, 1e3, 3);
         for (int axle = 0; axle < 4; axle++)
-            put_number(facts.axle_load[axle], 1e3, 1);
-        put_number(facts.primary_deflection[0], 1e-3, 1);
-        put_number(facts.secondary_deflection[0], 1e-3, 1);
-        put_number(facts.bounce_frequency, 1, 3);
-        put_number(facts.pitch_frequency, 1, 3);
+            put_number(properties.axle_load[axle], 1e3, 1);
+        put_number(properties.primary_deflection[0], 1e-3, 1);
+        put_number(properties.secondary_deflection[0], 1e-3, 1);
+        put_number(properties.bounce_frequency, 1, 3);
+        put_number(properties.pitch_frequency, 1, 3);
         putchar('\n');
     }
 }
@@ -172,7 +172,7 @@ static int show_rest(const CzSession *session, const CzModel *model) {
         put_number(rest[i].indentation[0], 1e-3, 3);
         if (isnan(rest[i].residual))
             printf(" %9s\n", "-");
-        else /* rounding decides the digits, so only its size is told */
+        else /* rounding decides the digits, so only its size is reported */
             printf(" %9s\n", rest[i].residual < 1e-10 ? "< 1e-10" : ">= 1e-10");
     }
     free(rest);
@@ -183,14 +183,14 @@ static void show_interfaces(const CzModel *model) {
     printf("#\n# %-11s %9s %9s %9s %9s\n", "interface", "strut mm", "F_crit kN", "tube kN",
            "gap mm");
     for (int i = 0; i < cz_model_n_interface(model); i++) {
-        const CzInterfaceFacts facts = cz_model_interface_facts(model, i);
+        const CzInterfaceProperties properties = cz_model_interface_properties(model, i);
         printf("# %-11s", cz_model_interface_name(model, i));
-        put_number(facts.strut_length, 1e-3, 0);
-        put_number(facts.critical_force, 1e3, 1);
-        put_number(facts.tube_force, 1e3, 1);
-        put_number(facts.anti_climber_gap, 1e-3, 0);
+        put_number(properties.strut_length, 1e-3, 0);
+        put_number(properties.critical_force, 1e3, 1);
+        put_number(properties.tube_force, 1e3, 1);
+        put_number(properties.anti_climber_gap, 1e-3, 0);
         printf("%s\n", i == cz_model_colliding_interface(model) ? "   colliding" : "");
-        if (facts.tube_force > facts.critical_force)
+        if (properties.tube_force > properties.critical_force)
             printf("#   warning: the collapse tubes carry more than F_crit, at which the train "
                    "folds there\n");
     }
@@ -215,7 +215,7 @@ static CzStatus write_elevation(const void *data, FILE *stream, CzError *error) 
     return cz_report_write_elevation(elevation->problem, elevation->scenario, stream, error);
 }
 
-static int show_facts(const CzSession *session) {
+static int show_properties(const CzSession *session) {
     CzModel *model = NULL;
     CzError error = {0};
     const char *asked_for = session->arguments->text[CZ_OPTION_SCENARIO];
@@ -250,7 +250,7 @@ int cz_command_show(const CzArguments *arguments) {
     CzSession session;
     int code = cz_session_read(&session, arguments, arguments->operand[0]);
     if (code == 0)
-        code = show_facts(&session);
+        code = show_properties(&session);
     cz_session_end(&session);
     return code;
 }

@@ -123,7 +123,7 @@ static int run_file(const CzArguments *arguments, const char *file) {
 }
 
 /* Whether two of the files would be written to the same folder, which the second would replace.
- * Where the file system tells no capitals they are one folder too. */
+ * Where the file system reports no capitals they are one folder too. */
 static int check_folders(const CzArguments *arguments) {
     char first[4096], second[4096];
     for (int i = 0; i < arguments->n_operand; i++)

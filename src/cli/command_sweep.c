@@ -69,7 +69,7 @@ static int answer(const CzSession *session, const CzSweep *sweep) {
     return judge(arguments, sweep);
 }
 
-/* What absorber suppliers show over the speed, for one path and nothing else asked for. */
+/* What absorber suppliers show over the speed, for one path and nothing else requested. */
 static const char *const usual_metrics[] = {"elements.stroke_used", "interfaces.peak_force_kN",
                                             "energy.absorbers_kJ", "vehicles.max_wheel_lift_mm"};
 
@@ -113,7 +113,7 @@ int cz_command_sweep(const CzArguments *arguments) {
     int code = read_axes(arguments, axis);
     if (code != 0)
         return code;
-    code = cz_session_read(&session, arguments, arguments->operand[0]); /* tells every mistake */
+    code = cz_session_read(&session, arguments, arguments->operand[0]); /* reports every mistake */
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
     const CzReportOptions options = {.replaces_search = arguments->text[CZ_OPTION_REPLACE] != NULL};
     if (code == 0 && folder != NULL &&

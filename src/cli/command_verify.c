@@ -1,4 +1,4 @@
-/* `verify`: the numbers of a problem once more with half the step and by two other solvers. */
+/* `verify`: the numbers of a problem once more with a halved time step and by two other solvers. */
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/messages.h"

@@ -26,7 +26,7 @@ const char *cz_verdict_rule_word(int index);
 const char *cz_verdict_rule_text(int index);
 extern const char cz_verdict_remark[];
 
-/* Codes that commands end with, a line each, with what stands before it. */
+/* Codes that commands end with, a line each, with what is before it. */
 int cz_n_exit_code(void);
 const char *cz_exit_code_number(int index);
 const char *cz_exit_code_text(int index);

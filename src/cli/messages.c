@@ -1,4 +1,4 @@
-/* Mistakes with the line they stand in and a caret under the place. */
+/* Mistakes with the line they are in and a caret under the place. */
 #include "cli/messages.h"
 
 #include "crushzone/report.h"
@@ -111,7 +111,7 @@ void cz_tell_warnings(const CzArguments *arguments, const CzProblem *problem) {
 void cz_tell(const CzArguments *arguments, const char *format, ...) {
     if (is_silent(arguments))
         return;
-    fflush(stdout); /* what was said first stands first */
+    fflush(stdout); /* what was said first is first */
     va_list values;
     va_start(values, format);
     vfprintf(stderr, format, values);

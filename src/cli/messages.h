@@ -8,14 +8,14 @@
 /* Whether a stream gets colours: on a terminal, unless NO_COLOR or a dumb TERM forbids it. */
 bool cz_wants_colour(const CzArguments *arguments, int descriptor);
 
-/* Tells one error, as JSON on standard output with --json, else on standard error. Returns its exit
- * code. */
+/* Reports one error, as JSON on standard output with --json, else on standard error. Returns its
+ * exit code. */
 int cz_tell_error(const CzArguments *arguments, const CzError *error);
 
-/* Tells all mistakes of a problem; `error` when there are none. `problem` may be NULL. */
+/* Reports all mistakes of a problem; `error` when there are none. `problem` may be NULL. */
 int cz_tell_mistakes(const CzArguments *arguments, const CzProblem *problem, const CzError *error);
 
-/* Tells the warnings of a problem, unless --quiet or --json. */
+/* Reports the warnings of a problem, unless --quiet or --json. */
 void cz_tell_warnings(const CzArguments *arguments, const CzProblem *problem);
 
 /* One line on standard error, unless --quiet or --json. */
@@ -26,7 +26,7 @@ void cz_tell(const CzArguments *arguments, const char *format, ...)
 void cz_print_mistake(const CzArguments *arguments, const char *kind, const CzProblem *problem,
                       const CzError *mistake);
 
-/* Flushes standard output; a failure is told, and its exit code returned instead of `code`. */
+/* Flushes standard output; a failure is reported, and its exit code returned instead of `code`. */
 int cz_end_output(const CzArguments *arguments, int code);
 
 /* What became of a table: its status, with the sentence of a failure in the error. */

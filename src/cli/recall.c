@@ -134,7 +134,7 @@ static bool read_history(FILE *stream, History *history) {
     char *line = malloc(LONGEST_LINE);
     bool fits = line != NULL && fgets(line, LONGEST_LINE, stream) != NULL;
     static const char first[] = "evaluation";
-    if (fits) { /* the first line tells the separator and how many columns there are */
+    if (fits) { /* the first line reports the separator and how many columns there are */
         history->separator = strncmp(line, first, strlen(first)) == 0 ? line[strlen(first)] : '\0';
         int n_column = 1;
         bool in_quotes = false; /* a variable's name may hold the separator */

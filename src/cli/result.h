@@ -16,7 +16,7 @@ typedef struct CzResult {
 
 /* Runs what a folder holds, or a problem file, with everything recorded: the same bytes come out as
  * when the folder was written, so nothing that a figure needs has to be stored. Before that it is
- * tried whether `output` can be written, NULL for none. Tells what is wrong and returns the exit
+ * tried whether `output` can be written, NULL for none. Reports what is wrong and returns the exit
  * code, 0 when all is well; end with cz_result_end in any case. */
 CZ_MUST_CHECK int cz_result_begin(CzResult *result, const CzArguments *arguments,
                                   const char *operand, const char *output);

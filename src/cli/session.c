@@ -98,7 +98,7 @@ void cz_session_end(CzSession *session) {
     session->problem = NULL;
 }
 
-/* Threads that were at work: as many as asked for, else as there are processors. */
+/* Threads that were at work: as many as requested, else as there are processors. */
 static int n_job_of(const CzArguments *arguments) {
     const long n_processor = sysconf(_SC_NPROCESSORS_ONLN);
     return arguments->n_job > 0 ? arguments->n_job : n_processor > 0 ? (int)n_processor : 0;
@@ -122,7 +122,8 @@ CzReportOptions cz_session_report_options(const CzSession *session, double wall_
     return options;
 }
 
-/* Mistakes that were found while reading are told all; later ones alone, with their source line. */
+/* Mistakes that were found while reading are reported all; later ones alone, with their source
+ * line. */
 int cz_session_fail(const CzSession *session, const CzError *error) {
     if (session->problem == NULL || cz_problem_n_mistake(session->problem) > 0 ||
         session->arguments->text[CZ_OPTION_JSON] != NULL)

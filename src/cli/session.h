@@ -23,7 +23,7 @@ extern const char *const cz_share_folder;
 /* How this program reads problem files: settings of the command line, shipped data. */
 CzProblemOptions cz_session_problem_options(const CzArguments *arguments);
 
-/* Reads a problem file with the settings of the command line and tells its mistakes and warnings.
+/* Reads a problem file with the settings of the command line and reports its mistakes and warnings.
  * Returns the exit code, 0 when all is well; end with cz_session_end in any case. */
 CZ_MUST_CHECK int cz_session_read(CzSession *session, const CzArguments *arguments,
                                   const char *file);
@@ -36,7 +36,7 @@ void cz_session_end(CzSession *session);
 /* How the results of this session are written. */
 CzReportOptions cz_session_report_options(const CzSession *session, double wall_s);
 
-/* Tells a failure of this session's problem; returns its exit code. */
+/* Reports a failure of this session's problem; returns its exit code. */
 int cz_session_fail(const CzSession *session, const CzError *error);
 
 #endif

@@ -1,7 +1,7 @@
 /* The moving part of a run: state, memory, work and extremes of all lanes, and the force
  * evaluation.
  *
- * Lanes stand in blocks of CZ_LANE_BLOCK, and a block holds all of its rows. One step is: the
+ * Lanes are in blocks of CZ_LANE_BLOCK, and a block holds all of its rows. One step is: the
  * integrator advances position and velocity, the evaluation turns them into accelerations and the
  * next memory, the commit accepts them.
  */
@@ -79,13 +79,13 @@ typedef struct CzRailRows {
 
 #define CZ_FALLING (-1.0) /* slope below which a curve falls, others are level [N/m] (ours) */
 
-/* A curve in the lanes of a block, without the kinks that change no lane. */
+/* A curve in the lanes of a block, without the breakpoints that change no lane. */
 typedef struct CzBlockCurve {
     _Alignas(64) CzRow start; /* value at 0 [N] */
     CzRow usable;             /* stroke at which it bottoms out [m] */
     int n_kink;
     int falls;         /* some lane has a falling part */
-    int is_there;      /* some lane's value is below CZ_NEVER: a plastic member can flow */
+    int is_there;      /* some lane's value is below CZ_NEVER: a plastic member can crush */
     const CzRow *kink; /* place [m] and change of slope [N/m], in turn (2 n_kink) */
 } CzBlockCurve;
 
@@ -156,7 +156,7 @@ typedef struct CzCoRunningStep {
 typedef struct CzDynamics {
     const CzLanes *lanes; /* borrowed */
     int n_block;
-    CzBlock *block; /* (n_block), and one more of zeros that stands for all lanes beyond them */
+    CzBlock *block; /* (n_block), and one more of zeros that represents all lanes beyond them */
     /* What lies under each lane; at most one of them is there. */
     CzTrackMotion *track;
     CzElements *elements;

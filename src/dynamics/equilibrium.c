@@ -70,7 +70,7 @@ static Car car_of(const CzLanes *lanes, size_t lane) {
     return car;
 }
 
-/* What the rail gives way under each wheel per force under each. */
+/* What the rail deflects under each wheel per force under each. */
 static bool find_influence(Car *car, const CzTrackModes *modes) {
     CzArena arena = {0};
     CzTrackMotion *track = cz_track_motion_create(modes, 0.0, 4, &arena);

@@ -4,12 +4,12 @@
  * is the solution of a step.
  *
  *   sum over springs of (x + (F - F_x) c(F))
- *       + sum over plastic members of (s + flow(F)) + C F = closure
+ *       + sum over plastic members of (s + crush(F)) + C F = closure
  *
  * The left side grows with F and is piecewise linear, so Newton's method with a bracket finds F in
- * as many steps as kinks are passed. F never falls below what the chain can pull (0 where nothing
- * couples). Lanes that have arrived are left alone, so that a lane's answer does not depend on its
- * neighbours.
+ * as many steps as breakpoints are passed. F never falls below what the chain can pull (0 where
+ * nothing couples). Lanes that have arrived are left alone, so that a lane's answer does not depend
+ * on its neighbours.
  */
 #ifndef CZ_DYNAMICS_KERNEL_CHAIN_H
 #define CZ_DYNAMICS_KERNEL_CHAIN_H
@@ -59,10 +59,10 @@ typedef struct {
 
 /* A plastic member linearised. */
 typedef struct {
-    CzRow strength, flow; /* flow: compliance of the step beyond the strength */
+    CzRow strength, flow; /* crush: compliance of the step beyond the strength */
 } PlasticState;
 
-/* Where a chain stands in its solution. */
+/* Where a chain is in its solution. */
 typedef struct {
     _Alignas(64) CzRow force;
     CzRow lowest;    /* smallest force that it can carry */
@@ -286,7 +286,7 @@ static double relinearise_plastic(Chain *chain, int number) {
         curve.slope[i] *= 1.0 + rise[i];
     }
     const double n_changed = accept_plastic(chain, number, stroke, &curve);
-    chain->falls |= n_changed > 0.0; /* may: a kink upwards is taken too */
+    chain->falls |= n_changed > 0.0; /* may: a breakpoint upwards is taken too */
     return n_changed;
 }
 

@@ -5,7 +5,7 @@
  *
  *   sum over members of x_j(F) + C F = closure
  *
- * found within a bracket that only shrinks. Where the closure asks for more, the member that begins
+ * found within a bracket that only shrinks. Where the closure requires more, the member that begins
  * to fall first is shortened further: F is its law at its own stroke, the others follow back along
  * their rising parts, until the closure is made up or its law rises again. From there on all laws
  * rise once more, up to the smallest force at which one begins to fall, and so on. That is the
@@ -29,7 +29,7 @@ enum {
 #define SEARCH_STIFFNESS 1.0 /* so that level parts have one answer [N/m] (ours) */
 #define SEARCH_CLOSURE 1e-14 /* closure that may be left open [m] */
 #define SEARCH_FORCE 1e-7    /* force by which a stroke may miss its law [N] */
-#define RIGID 1e25           /* a stiffness or strength from here on never gives way */
+#define RIGID 1e25           /* a stiffness or strength from here on never deflects */
 #define ALIKE 1e-9           /* relative difference of members that are alike */
 #define BEYOND_FALL 1e-4     /* stroke beyond the fall at which they are compared [m] (ours) */
 
@@ -303,7 +303,7 @@ static Search search_of(const Chain *chain, int holds, size_t lane) {
     return s;
 }
 
-/* The answer between two forces, all laws rising; false where the closure asks for more. */
+/* The answer between two forces, all laws rising; false where the closure requires more. */
 static int search_rising(const Search *s, double least, double most, double *force,
                          double *stroke) {
     *force = least;
@@ -331,7 +331,7 @@ static int search_rising(const Search *s, double least, double most, double *for
 }
 
 /* The answer while the first member falls, up to `most` beyond where it begins to; false where the
- * closure asks for more. Doubling strokes bracket the first one that closes the chain. */
+ * closure requires more. Doubling strokes bracket the first one that closes the chain. */
 static int search_falling(const Search *s, const int *goes_on, int first, double most,
                           double *force, double *stroke) {
     double low = 0.0, high = cz_smaller(most, 1e-6 * s->reach);
@@ -384,7 +384,7 @@ static void search_branch(Search *s, double *force, double *stroke) {
     }
 }
 
-/* How far the members of a lane are from their laws at the strokes and the force that stand in the
+/* How far the members of a lane are from their laws at the strokes and the force that are in the
  * block [N]. */
 static double distance_of(const Search *s, const double *stroke, double force) {
     double distance = 0.0;

@@ -10,7 +10,9 @@
 
 #include "dynamics/kernel_chain_search.h"
 
-enum { CHAIN_PASSES = 12 }; /* linearisations of one step: more kinks than a step passes (ours) */
+enum {
+    CHAIN_PASSES = 12
+}; /* linearisations of one step: more breakpoints than a step passes (ours) */
 
 /* Linearises all members about their committed strokes and finds the force that balances them. What
  * the chain can carry, where it exists and the plastic members that have no curve are set before.

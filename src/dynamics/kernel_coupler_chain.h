@@ -7,7 +7,7 @@
 #include "dynamics/kernel_release.h"
 
 #define LARGEST_PULL                                                                               \
-    1e8 /* tension that whole coupled couplers carry [N]: more than any train asks for (ours) */
+    1e8 /* tension that whole coupled couplers carry [N]: more than any train requires (ours) */
 
 /* The members of the couplers of a block in this step. */
 static void list_couplers(CzBlock *d, const CouplerLine *line, double step, CouplerChain *of) {

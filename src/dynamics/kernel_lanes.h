@@ -81,7 +81,7 @@ static void count_turns(const CzBlockCurve *curve, const double *restrict from,
     }
 }
 
-/* Largest shortening within the stages of a crush zone: beyond the last one it stands on its stop.
+/* Largest shortening within the stages of a crush zone: beyond the last one it is on its stop.
  */
 static void largest_of_stages(const CzBlockCurve *curve, const double *restrict largest,
                               double *restrict within) {

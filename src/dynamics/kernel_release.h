@@ -7,7 +7,7 @@
  *   theta (F_last + F_x) / 2 + (1 - theta) (s (F_x + F_end) / 2 + (1 - s) F_end)
  *
  * theta is the share of the step before F_x, s that of the rest in which the force falls: it falls
- * over a closure of softening - compliance F_x, at once where the chain gives way faster than the
+ * over a closure of softening - compliance F_x, at once where the chain deflects faster than the
  * shear-off softens. The integrator takes a step's impulse as the mean of the forces at its ends;
  * what that leaves out is added to the force on the bodies, once. Without it an outcome would not
  * depend on F_x but in jumps from step to step.

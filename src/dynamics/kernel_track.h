@@ -94,7 +94,7 @@ static void look_at_rails(const CzDynamics *dynamics, int block) {
 }
 
 /* One step of the rails under the forces of the last evaluation. These held for a step about its
- * time, and their work is what the rail gave way from half a step before to half a step after. */
+ * time, and their work is what the rail deflected from half a step before to half a step after. */
 static void advance_modes(const CzTrackMotion *track, CzBlock *d, int block) {
     for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
         CzTrackUnder *under = &track->under[block * CZ_LANE_BLOCK + i];
@@ -167,7 +167,7 @@ static void advance_rails(const CzDynamics *dynamics, int block) {
         advance_co_running(dynamics->co_running, d);
 }
 
-/* Whether the rails give way. */
+/* Whether the rails deflect. */
 static bool is_elastic(const CzDynamics *dynamics) {
     return dynamics->track != NULL || dynamics->elements != NULL || dynamics->co_running != NULL;
 }

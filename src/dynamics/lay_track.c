@@ -1,7 +1,7 @@
 /* Laying the track under the cars at t = 0, and what it holds of energy. */
 #include "dynamics/dynamics.h"
 
-/* A wheelset's place and load at rest, and what a car's track gives way under all four. */
+/* A wheelset's place and load at rest, and what a car's track deflects under all four. */
 typedef struct Standing {
     double place[4], load[4], deflection[4], flexibility[4];
 } Standing;

@@ -1,4 +1,4 @@
-/* What an evaluation tells others, by element: forces, strokes, contacts. */
+/* What an evaluation reports others, by element: forces, strokes, contacts. */
 #ifndef CZ_DYNAMICS_PUBLISHED_H
 #define CZ_DYNAMICS_PUBLISHED_H
 

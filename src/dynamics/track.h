@@ -84,7 +84,7 @@ bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], con
 void cz_track_look(const CzTrackMotion *track, size_t index, const double place[4],
                    double deflection[4], double flexibility[4]);
 
-/* Half a step before the time that the state stands at, when the last forces had just ended: energy
+/* Half a step before the time that the state is at, when the last forces had just ended: energy
  * of the track under a car, kinetic and potential above the unloaded track [J], and the power that
  * pads, ballast and subgrade turn into heat [W]. */
 double cz_track_energy(const CzTrackMotion *track, size_t index);
@@ -92,7 +92,7 @@ double cz_track_loss(const CzTrackMotion *track, size_t index);
 
 /* ---- the same track for a solver of ordinary differential equations ----
  *
- * A track that is laid for a step of 0 stands still until somebody sets its state, the real and
+ * A track that is laid for a step of 0 is at rest until somebody sets its state, the real and
  * imaginary parts of its modes; its flexibility is that of continuous time. A solver that carries
  * these states beside the vehicles' co-ordinates does in its right-hand side
  *

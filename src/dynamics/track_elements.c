@@ -1,6 +1,6 @@
 /* Timoshenko elements on seats: matrices, a banded solver, steps.
  *
- * Unknowns of a bay stand together: the seat's rail deflection and rotation, sleeper, ballast
+ * Unknowns of a bay are together: the seat's rail deflection and rotation, sleeper, ballast
  * block, then deflection and rotation of the bay's other nodes. The first and last seat are pinned.
  */
 #include "dynamics/track_elements.h"
@@ -46,7 +46,7 @@ static void shape_slope_of(const CzSeats *seats, double l, double x, double slop
     slope[3] = scale * (3.0 * x * x - 2.0 * x - 0.5 * f * (1.0 - 2.0 * x));
 }
 
-/* What an element with held nodes gives way at a share x of it: its two parts in parallel. */
+/* What an element with held nodes deflects at a share x of it: its two parts in parallel. */
 static double held_flexibility(const CzSeats *seats, double l, double x) {
     if (x < 1e-6 || x > 1.0 - 1e-6)
         return 0.0;

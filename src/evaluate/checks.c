@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What stands for the margin of a yes or no in a search. It is a step, which no search can follow;
+/* What represents the margin of a yes or no in a search. It is a step, which no search can follow;
  * the continuous checks beside it show the direction. */
 static const double satisfied_flag = 1, broken_flag = -0.01;
 
@@ -93,7 +93,7 @@ double cz_check_constraint(const CzCheckResult *result, double required_margin) 
     return required_margin - (fails ? broken_flag : satisfied_flag);
 }
 
-/* Whether each place stands for itself. */
+/* Whether each place represents itself. */
 static bool is_by_place(const CzCheck *check) {
     const CzAggregate aggregate = check->metric.aggregate;
     return check->scenario != CZ_NO_SCENARIO &&

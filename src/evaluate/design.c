@@ -280,7 +280,7 @@ static void settle_fixed(CzVariableInfo *info) {
         info->fixed_at = by_bounds ? info->min : cz_increment_not_below(info->increment, info->min);
 }
 
-/* A start that misses a bound by what the conversion of units leaves stands on it. */
+/* A start that misses a bound by what the conversion of units leaves is on it. */
 static void settle_start(CzVariableInfo *info) {
     const double bounds[2] = {info->min, info->max};
     for (int i = 0; i < 2; i++)

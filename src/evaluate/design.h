@@ -15,7 +15,7 @@
 typedef struct CzDesignPlace {
     int vehicle;   /* index into the vehicle array; -1 for a number elsewhere, in a fit */
     size_t offset; /* of the double, or of the buffer that is chosen, in CzVehicle [byte]; elsewhere
-                      what tells it from others */
+                      what distinguishes it from others */
     double scale;  /* SI value of one unit of the variable */
 } CzDesignPlace;
 

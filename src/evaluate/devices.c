@@ -93,7 +93,7 @@ static int list_devices(const CzEnd *end, Device device[MOST_DEVICES]) {
     return n;
 }
 
-/* Length that a device takes up when new. */
+/* Length that a device absorbs. */
 static double installed_length(const Device *device) {
     return isnan(device->installed_length) ? device->stroke / device->efficiency
                                            : device->installed_length;
@@ -140,7 +140,7 @@ double cz_retraction_used(const CzEnd *end) {
     return needed > 0 ? needed / coupler->shear_off.retraction_space : 0;
 }
 
-/* Largest plastic force of a tube at a rate of flow, all devices side by side; 0 when absent. */
+/* Largest plastic force of a tube at a crush rate, all devices side by side; 0 when absent. */
 static double tube_force(const CzTube *tube, double rate) {
     if (!tube->given)
         return 0;

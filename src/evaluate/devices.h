@@ -14,7 +14,7 @@ double cz_anti_climber_stroke(const CzAntiClimber *anti_climber);
 double cz_end_stroke(const CzEnd *end);
 
 /* Largest force of an element before anything bottoms out, all devices of an end together, plastic
- * parts flowing at `rate` [m/s]; 0 when it is absent [N]. */
+ * parts crushing at `rate` [m/s]; 0 when it is absent [N]. */
 double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate);
 
 /* Each of these is a share that may be at most 1, NaN when an end declares too little for it. */
@@ -23,7 +23,7 @@ double cz_length_used(const CzEnd *end);
 double cz_coupler_length_used(const CzEnd *end);
 double cz_retraction_used(const CzEnd *end);
 
-/* The force ladder. `rate` is the rate of flow that the tube's force is taken at [m/s]. */
+/* The force ladder. `rate` is the crush rate that the tube's force is taken at [m/s]. */
 double cz_tube_over_shear_off(const CzEnd *end, double rate);
 double cz_shear_off_over_strength(const CzEnd *end);
 

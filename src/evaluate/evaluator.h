@@ -48,8 +48,8 @@ void cz_evaluator_set_combination(const CzEvaluator *evaluator, int combination,
 void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *stop);
 
 /* Details are constraints before the worst place is taken: one per place, smooth where the worst of
- * all places has kinks. Without yes and no. The details of a fit are its residuals instead, whose
- * squares add up to the objective. */
+ * all places has breakpoints. Without yes and no. The details of a fit are its residuals instead,
+ * whose squares add up to the objective. */
 int cz_evaluator_n_detail(const CzEvaluator *evaluator);
 
 /* As cz_evaluate without keeping runs, for a search: runs end once they have settled, and `detail`

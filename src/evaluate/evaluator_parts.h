@@ -23,7 +23,7 @@ struct CzEvaluator {
     CzModel *const *model;     /* its models; NULL for scenarios left out (n_scene) */
     const CzVehicle *vehicles; /* and its vehicles (n_vehicle) */
     int n_vehicle;
-    double rate; /* rate of flow that tube forces are judged at: half the largest closing speed
+    double rate; /* crush rate that tube forces are judged at: half the largest closing speed
                     [m/s] */
     CzDesign design;
     CzChecklist list;

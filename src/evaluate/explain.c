@@ -1,6 +1,7 @@
-/* Why it climbed: the run with the smallest climbing margin, its signs, and one-variable searches.
+/* Why it climbed: the run with the smallest climbing margin, its indicators, and one-variable
+ * searches.
  *
- * Each lever is tried at the steps of a ladder, both ways, and then between the last step that
+ * Each varied is tried at the steps of a ladder, both ways, and then between the last step that
  * leaves the verdict as it is and the first that turns it. All candidates of a round are designs of
  * one model and run side by side in lanes.
  */
@@ -14,8 +15,8 @@
 
 #include "base/error.h"
 #include "evaluate/climbing.h"
-#include "evaluate/levers.h"
-#include "evaluate/signs.h"
+#include "evaluate/candidate_changes.h"
+#include "evaluate/override_indicators.h"
 #include "evaluate/tasks.h"
 #include "simulate/batch.h"
 
@@ -28,7 +29,7 @@ enum {
     MOST_WIDTH = 64 /* designs of a batch */
 };
 
-/* One value of one lever, and what came of it. */
+/* One value of one varied, and what came of it. */
 typedef struct Candidate {
     int kind;
     double change, value;
@@ -73,7 +74,7 @@ static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzV
         CzVehicle *own = vehicles + (size_t)n_design * n_vehicle;
         memcpy(own, evaluator->vehicles, n_vehicle * sizeof *own);
         candidate[i].value =
-            cz_lever_apply(candidate[i].kind, candidate[i].change, own, evaluator->n_vehicle);
+            cz_candidate_apply(candidate[i].kind, candidate[i].change, own, evaluator->n_vehicle);
         candidate[i].margin = NAN;
         if (cz_problem_check_vehicles(evaluator->problem, own, NULL) != CZ_OK)
             continue;
@@ -82,7 +83,7 @@ static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzV
     }
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = false;
-    options.brief = true; /* what climbs does so long before all wheels stand still */
+    options.brief = true; /* what climbs does so long before all wheels are at rest */
     const CzStatus status =
         n_design > 0 ? cz_simulate_batch(model, n_design, design, &options, run, error) : CZ_OK;
     for (int i = 0; i < n_design; i++) {
@@ -142,7 +143,8 @@ static CzStatus run_round(Search *search, Candidate *candidate, int n, CzError *
     return status;
 }
 
-/* ---- one lever ------------------------------------------------------------------------------- */
+/* ---- one varied -------------------------------------------------------------------------------
+ */
 
 /* Size of a change, the same for a doubling and a halving. */
 static double size_of(double change) {
@@ -160,20 +162,20 @@ static bool is_better(const Search *search, double margin, double than) {
 /* Looks for the smallest change that turns the verdict among candidates that go one way, in order
  * of size, from `start` on, which does not turn it. */
 static void look(const Search *search, const Candidate *candidate, int n, double start,
-                 CzLever *lever) {
+                 CzCandidateChange *varied) {
     double last = start;
     for (int i = 0; i < n; i++) {
         const bool turned = turns(search, candidate[i].margin);
         const bool first =
-            turned && (!lever->turns || size_of(candidate[i].change) < size_of(lever->change));
-        const bool nearer = !turned && !lever->turns && !isnan(candidate[i].margin) &&
-                            is_better(search, candidate[i].margin, lever->margin);
+            turned && (!varied->turns || size_of(candidate[i].change) < size_of(varied->change));
+        const bool nearer = !turned && !varied->turns && !isnan(candidate[i].margin) &&
+                            is_better(search, candidate[i].margin, varied->margin);
         if (first || nearer) {
-            lever->turns = turned;
-            lever->needed = candidate[i].value;
-            lever->change = candidate[i].change;
-            lever->margin = candidate[i].margin;
-            lever->not_yet = turned ? last : NAN;
+            varied->turns = turned;
+            varied->needed = candidate[i].value;
+            varied->change = candidate[i].change;
+            varied->margin = candidate[i].margin;
+            varied->not_yet = turned ? last : NAN;
         }
         if (turned)
             return;
@@ -181,12 +183,12 @@ static void look(const Search *search, const Candidate *candidate, int n, double
     }
 }
 
-/* The ladder of every lever, both ways. */
-static CzStatus climb_ladders(Search *search, int n, const int *kind, CzLever *lever,
+/* The ladder of every varied, both ways. */
+static CzStatus climb_ladders(Search *search, int n, const int *kind, CzCandidateChange *varied,
                               CzError *error) {
     Candidate *candidate = calloc((size_t)n * 2 * N_STEP + 1, sizeof *candidate);
     if (candidate == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d levers", n);
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d candidate changes", n);
     for (int i = 0; i < n * 2 * N_STEP; i++) {
         const int step = i % N_STEP;
         candidate[i].kind = kind[i / (2 * N_STEP)];
@@ -194,23 +196,24 @@ static CzStatus climb_ladders(Search *search, int n, const int *kind, CzLever *l
     }
     const CzStatus status = run_round(search, candidate, n * 2 * N_STEP, error);
     for (int i = 0; status == CZ_OK && i < 2 * n; i++)
-        look(search, &candidate[i * N_STEP], N_STEP, 0, &lever[i / 2]);
+        look(search, &candidate[i * N_STEP], N_STEP, 0, &varied[i / 2]);
     free(candidate);
     return status;
 }
 
-/* Between the steps where a lever turns the verdict. */
-static CzStatus refine(Search *search, int n, const int *kind, CzLever *lever, CzError *error) {
+/* Between the steps where a varied turns the verdict. */
+static CzStatus refine(Search *search, int n, const int *kind, CzCandidateChange *varied,
+                       CzError *error) {
     Candidate *candidate = calloc((size_t)n * N_BETWEEN + 1, sizeof *candidate);
     int *of = calloc((size_t)n + 1, sizeof *of);
     int n_turning = 0;
     CzStatus status = CZ_OK;
     if (candidate == NULL || of == NULL)
-        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d levers", n);
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d candidate changes", n);
     for (int i = 0; status == CZ_OK && i < n; i++) {
-        if (!lever[i].turns)
+        if (!varied[i].turns)
             continue;
-        const double from = lever[i].not_yet, way = lever[i].change - from;
+        const double from = varied[i].not_yet, way = varied[i].change - from;
         for (int k = 0; k < N_BETWEEN; k++) {
             Candidate *next = &candidate[n_turning * N_BETWEEN + k];
             next->kind = kind[i];
@@ -221,7 +224,7 @@ static CzStatus refine(Search *search, int n, const int *kind, CzLever *lever, C
     if (status == CZ_OK)
         status = run_round(search, candidate, n_turning * N_BETWEEN, error);
     for (int i = 0; status == CZ_OK && i < n_turning; i++) {
-        CzLever *found = &lever[of[i]];
+        CzCandidateChange *found = &varied[of[i]];
         const double before = found->not_yet;
         const Candidate *between = &candidate[i * N_BETWEEN];
         look(search, between, N_BETWEEN, before, found);
@@ -233,11 +236,13 @@ static CzStatus refine(Search *search, int n, const int *kind, CzLever *lever, C
     return status;
 }
 
-/* ---- all levers ------------------------------------------------------------------------------ */
+/* ---- all candidate changes
+ * ------------------------------------------------------------------------------ */
 
-/* Whether a lever stands before another: the smaller change that turns the verdict, then the margin
- * that comes nearest to turning it. */
-static bool goes_before(const Search *search, const CzLever *a, const CzLever *b) {
+/* Whether a varied is before another: the smaller change that turns the verdict, then the
+ * margin that comes nearest to turning it. */
+static bool goes_before(const Search *search, const CzCandidateChange *a,
+                        const CzCandidateChange *b) {
     if (a->turns != b->turns)
         return a->turns;
     if (a->turns)
@@ -245,56 +250,57 @@ static bool goes_before(const Search *search, const CzLever *a, const CzLever *b
     return is_better(search, a->margin, b->margin);
 }
 
-static void sort(const Search *search, int n, CzLever *lever) {
+static void sort(const Search *search, int n, CzCandidateChange *varied) {
     for (int i = 1; i < n; i++)
-        for (int k = i; k > 0 && goes_before(search, &lever[k], &lever[k - 1]); k--) {
-            const CzLever swapped = lever[k];
-            lever[k] = lever[k - 1];
-            lever[k - 1] = swapped;
+        for (int k = i; k > 0 && goes_before(search, &varied[k], &varied[k - 1]); k--) {
+            const CzCandidateChange swapped = varied[k];
+            varied[k] = varied[k - 1];
+            varied[k - 1] = swapped;
         }
 }
 
 /* Whether the run shows that a cause is at work. Stops are met in the end whatever lifts a body. */
 static bool shows(const CzExplanation *explanation, CzCause cause) {
-    for (int i = 0; i < explanation->n_sign; i++)
-        if (explanation->sign[i].cause == cause && cause != CZ_CAUSE_SUSPENSION)
+    for (int i = 0; i < explanation->n_indicator; i++)
+        if (explanation->indicator[i].cause == cause && cause != CZ_CAUSE_SUSPENSION)
             return true;
     return false;
 }
 
-/* The levers stand in order of their changes. */
+/* The candidate changes are in order of their changes. */
 static void name_cause(CzExplanation *explanation) {
     for (int pass = 0; pass < 2 && !explanation->has_cause; pass++)
-        for (int i = 0; i < explanation->n_lever && !explanation->has_cause; i++) {
-            const CzLever *lever = &explanation->lever[i];
-            if (!lever->turns || (pass == 0 && !shows(explanation, lever->cause)))
+        for (int i = 0; i < explanation->n_candidate && !explanation->has_cause; i++) {
+            const CzCandidateChange *varied = &explanation->candidate[i];
+            if (!varied->turns || (pass == 0 && !shows(explanation, varied->cause)))
                 continue;
             explanation->has_cause = true;
-            explanation->cause = lever->cause;
+            explanation->cause = varied->cause;
         }
 }
 
-static CzStatus search_levers(Search *search, CzExplanation *explanation, CzError *error) {
+static CzStatus search_changes(Search *search, CzExplanation *explanation, CzError *error) {
     const CzEvaluator *evaluator = search->evaluator;
     int kind[64], n = 0;
-    explanation->lever = calloc((size_t)cz_n_lever_kind() + 1, sizeof *explanation->lever);
-    if (explanation->lever == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the levers");
-    for (int k = 0; k < cz_n_lever_kind() && n < 64; k++) {
-        CzLever *lever = &explanation->lever[n];
-        if (!cz_lever_find(k, evaluator->vehicles, evaluator->n_vehicle, lever))
+    explanation->candidate =
+        calloc((size_t)cz_n_candidate_kind() + 1, sizeof *explanation->candidate);
+    if (explanation->candidate == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the candidate changes");
+    for (int k = 0; k < cz_n_candidate_kind() && n < 64; k++) {
+        CzCandidateChange *varied = &explanation->candidate[n];
+        if (!cz_candidate_find(k, evaluator->vehicles, evaluator->n_vehicle, varied))
             continue;
-        lever->needed = lever->change = lever->not_yet = NAN;
-        lever->margin = explanation->worst.margin;
+        varied->needed = varied->change = varied->not_yet = NAN;
+        varied->margin = explanation->worst.margin;
         kind[n++] = k;
     }
     search->n_all = n * (2 * N_STEP + N_BETWEEN);
-    CzStatus status = climb_ladders(search, n, kind, explanation->lever, error);
+    CzStatus status = climb_ladders(search, n, kind, explanation->candidate, error);
     if (status == CZ_OK)
-        status = refine(search, n, kind, explanation->lever, error);
+        status = refine(search, n, kind, explanation->candidate, error);
     if (status == CZ_OK)
-        sort(search, n, explanation->lever);
-    explanation->n_lever = n;
+        sort(search, n, explanation->candidate);
+    explanation->n_candidate = n;
     if (status == CZ_OK)
         name_cause(explanation);
     return status;
@@ -352,7 +358,7 @@ static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluatio
     explanation->climb_time = summary->beyond_validity_time;
     explanation->verdict = summary->beyond_validity ? CZ_VERDICT_FAIL : explanation->worst.verdict;
     search->is_broken = explanation->worst.margin < 0;
-    cz_signs_find(summary, explanation);
+    cz_override_indicators_find(summary, explanation);
     return CZ_OK;
 }
 
@@ -365,7 +371,7 @@ static CzStatus explain(CzEvaluator *evaluator, const CzExplainOptions *options,
     CzStatus status = choose_run(evaluator, &evaluation, &search, explanation, error);
     cz_evaluation_free(&evaluation);
     if (status == CZ_OK && options->search)
-        status = search_levers(&search, explanation, error);
+        status = search_changes(&search, explanation, error);
     explanation->n_run = search.n_run;
     return status;
 }
@@ -397,6 +403,6 @@ void cz_explanation_free(CzExplanation *explanation) {
     if (explanation == NULL)
         return;
     cz_run_free(explanation->run);
-    free(explanation->lever);
+    free(explanation->candidate);
     free(explanation);
 }

@@ -115,7 +115,7 @@ static void add_place(const CzPlace *place, void *data) {
     if (first || (sum->seeks_max ? value > sum->extreme : value < sum->extreme)) {
         sum->extreme = value;
         memcpy(sum->where, place->name, sizeof sum->where);
-        cz_metric_when(sum->kind, place, sum->when);
+        cz_metric_time_window(sum->kind, place, sum->when);
     }
 }
 

@@ -2,7 +2,7 @@
  *
  *   LEVEL [. SELECTOR] . NAME [. max|min|sum|mean]
  *
- * The selector picks places by name, with `*` and `?`; `colliding` stands for the interface between
+ * The selector picks places by name, with `*` and `?`; `colliding` represents the interface between
  * the trains and `inner` for all others. Elements are picked by their name ("coupler A4", "coupler
  * *") or by interface and name ("A4-B1 coupler A4", "colliding coupler *"). Without a word at the
  * end the worst place counts: the largest for an upper limit, the smallest for a lower one.
@@ -38,7 +38,7 @@ typedef struct CzPlace {
     int n_record;
     const CzEnd *end;
     double section_force; /* [N] */
-    double rate;          /* rate of flow that tube forces are taken at [m/s] */
+    double rate;          /* crush rate that tube forces are taken at [m/s] */
     bool must_declare;    /* a full vehicle: what it does not declare is unknown, not absent */
     char name[CZ_WHERE_ROOM];
 } CzPlace;
@@ -85,7 +85,7 @@ typedef struct CzSubject {
     int n_vehicle;
     int n_first_train;       /* the first n vehicles of the array are the first train */
     const CzInput *input;    /* for names of trains */
-    double rate;             /* rate of flow that tube forces are taken at [m/s] */
+    double rate;             /* crush rate that tube forces are taken at [m/s] */
     const bool *is_obstacle; /* whether a vehicle is part of an obstacle (n_vehicle); NULL: none */
 } CzSubject;
 
@@ -100,7 +100,7 @@ typedef struct CzMetricValue {
     double value;              /* in the metric's unit */
     char where[CZ_WHERE_ROOM]; /* place of the worst value */
     double when[2];            /* begin and end of the time that it was reached in [s]; NaN when no
-                                  place stands for the value, or its time is not kept */
+                                  place represents the value, or its time is not kept */
     char unknown_where[CZ_WHERE_ROOM]; /* first place that does not declare enough; empty when none
                                         */
     const char *why;                   /* when not known; static */
@@ -115,7 +115,7 @@ CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, 
 /* Its value at one place, in its unit. */
 double cz_metric_at(const CzMetricKind *kind, const CzPlace *place);
 /* When the value was reached at a place [s]: begin and end, NaN when that is not kept. */
-void cz_metric_when(const CzMetricKind *kind, const CzPlace *place, double when[2]);
+void cz_metric_time_window(const CzMetricKind *kind, const CzPlace *place, double when[2]);
 
 /* Whether the selector picks anything in this scene, as written. */
 bool cz_metric_picks(const CzMetric *metric, const CzScene *scene);

@@ -4,7 +4,7 @@
  * of a rail vehicle is about it: one rigid vehicle of at most 20 t (the reference obstacles at
  * level crossings have 3 t and 15 t, EN 15227 from memory; the bound is ours) without coupler, side
  * buffers, anti-climber or survival space, which is never the train behind. A train behind that
- * looks like it is no help to tell them apart, and both are then judged; so is the partner of one
+ * looks like it is no help to distinguish them, and both are then judged; so is the partner of one
  * that is fixed or an obstacle by its role, else nothing would be judged.
  */
 #include "base/error.h"

@@ -4,7 +4,7 @@
 
 #include "evaluate/metric.h"
 
-/* Whether a text matches a pattern in which `*` stands for any text and `?` for any letter. */
+/* Whether a text matches a pattern in which `*` represents any text and `?` for any letter. */
 bool cz_matches(const char *pattern, const char *text);
 
 /* Walks the places of a level that a selector picks. `visit` gets each in a fixed order. Returns

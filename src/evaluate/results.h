@@ -23,7 +23,7 @@ extern const CzResultUnit cz_result_units[CZ_N_RESULT_UNIT];
 /* The number of units that a document or table has of an SI value. */
 double cz_result_in_unit(const CzResultUnit *unit, double si);
 
-/* The name of a metric is this, by the record of results.def that it is in, and its key. */
+/* The name of a metric is this, by the production run of results.def that it is in, and its key. */
 #define CZ_METRIC_PREFIX_RUN ""
 #define CZ_METRIC_PREFIX_ENERGY "energy."
 #define CZ_METRIC_PREFIX_INTERFACE "interfaces."

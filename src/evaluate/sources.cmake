@@ -10,7 +10,7 @@ set(CZ_SOURCES_evaluate
     devices.c
     evaluator.c
     explain.c
-    levers.c
+    candidate_changes.c
     match.c
     metric.c
     metric_values.c
@@ -19,12 +19,12 @@ set(CZ_SOURCES_evaluate
     result_units.c
     runs.c
     scene.c
-    signs.c
+    override_indicators.c
     sweep.c
     sweep_axis.c
     tasks.c
     variant.c
     verdict.c
     verify.c
-    when.c
+    time_windows.c
 )

@@ -26,7 +26,7 @@
 
 #define LIMIT 0.01 /* largest change that passes (ours) */
 /* A factor on the step that puts it elsewhere on every event and moves its error by 6 % of itself;
- * with 33 steps for 32 the end of a run is looked for at the same moments (ours). */
+ * with 33 steps for 32 the end of a run is searched for at the same moments (ours). */
 #define NUDGE (32.0 / 33.0)
 
 static const char *const keys[] = {

@@ -4,7 +4,7 @@
 
 #include "evaluate/metric.h"
 
-/* The functions that results.def names; NO_TIME stands for none. */
+/* The functions that results.def names; NO_TIME represents none. */
 #define cz_when_NO_TIME NULL
 void cz_when_peak_time(const CzPlace *place, double window[2]);
 void cz_when_bottomed_time(const CzPlace *place, double window[2]);

@@ -230,7 +230,7 @@ static CzStatus fit_members(CzFit *fit, const CzBranch *branch, int n_stage, Par
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
     CZ_TRY(fit_buffer(fit, &before, error));
 
-    /* The tube flows once the buffer has come to its last force, not before. */
+    /* The tube crushes once the buffer has come to its last force, not before. */
     const double flows =
         isnan(fit->member.trigger) ? fit->member.stage[0].force : fit->member.trigger;
     fit->buffer.preload = fmin(fit->buffer.preload, flows);

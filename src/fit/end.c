@@ -128,8 +128,8 @@ static double mean_unloading(const CzTrace *trace, double peak) {
     return (peak * peak - low * low) / (-2.0 * cz_trace_work(trace, top, last));
 }
 
-/* Whether one line of that stiffness tells the measured unloading well enough. A second stage would
- * then follow the noise of the peak, with a stiffness that asks for tiny time steps. */
+/* Whether one line of that stiffness reports the measured unloading well enough. A second stage
+ * would then follow the noise of the peak, with a stiffness that requires tiny time steps. */
 static bool one_line_will_do(const CzTrace *trace, double peak, double stiffness) {
     const int top = trace->n_loading - 1;
     double squares = 0.0, weights = 0.0;

@@ -1,4 +1,4 @@
-/* From a curve to the values of a law: reading, fitting by kind, rounding, telling. */
+/* From a curve to the values of a law: reading, fitting by kind, rounding, reporting. */
 #include "fit/fit.h"
 
 #include <stdarg.h>
@@ -138,7 +138,7 @@ static void scale_forces(CzStaged *staged, int stage, double factor) {
 }
 
 /* Newton's method with a slope by differences: the energy is almost linear in a force. Returns the
- * factor that the forces got; stage -1 stands for all. */
+ * factor that the forces got; stage -1 represents all. */
 static double settle_energy(CzFit *fit, CzStaged *staged, int stage) {
     const CzStaged found = *staged;
     double factor = 1.0;
@@ -366,7 +366,7 @@ static CzStatus fit_law(CzFit *fit, int n_stage, CzError *error) {
     return check_values(fit, error);
 }
 
-/* Name of the part: the one asked for, or the file's without folder and ending; in letters, digits,
+/* Name of the part: the one requested, or the file's without folder and ending; in letters, digits,
  * '-' and '_'. */
 static const char *part_name(CzArena *arena, const char *path, const CzFitOptions *options) {
     const char *slash = path != NULL ? strrchr(path, '/') : NULL;

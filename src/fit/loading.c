@@ -2,10 +2,10 @@
  *
  *   d = x_b(F) + s + F / k
  *
- * The members of a coupler lie in series: the buffer x_b gives way until it stands on its stop or
- * the tube begins to flow, then the tube flows by s until its stroke is used up, then the force
- * rises along the tube's stop until the shear-off lets go. What a buffer gives back while the force
- * of the tube falls is left out.
+ * The members of a coupler lie in series: the buffer x_b deflects until it is on its stop or
+ * the tube begins to crush, then the tube crushes by s until its stroke is exhausted, then the
+ * force rises along the tube's stop until the shear-off releases. What a buffer gives back while
+ * the force of the tube falls is left out.
  */
 #include "fit/fit.h"
 

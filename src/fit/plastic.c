@@ -37,7 +37,7 @@ static double stiffness_of_unloading(const CzTrace *trace) {
 }
 
 /* Stiffness from the rise to the first force; INFINITY when the rise is no longer than what can be
- * told from a jump. */
+ * reported from a jump. */
 static double stiffness_of_rise(const CzBranch *curve, double first, double last) {
     const double low = stroke_of(curve, RISE_LOW * first);
     const double high = stroke_of(curve, RISE_HIGH * first);

@@ -13,10 +13,10 @@
 #include "problem/reduce_curve.h"
 
 enum {
-    CELLS = 240,     /* of the grid that plateaus are looked for on */
-    SAMPLES = 600,   /* of a curve whose likely strokes are looked for */
+    CELLS = 240,     /* of the grid that plateaus are searched for on */
+    SAMPLES = 600,   /* of a curve whose likely strokes are searched for */
     LIKELY = 40,     /* strokes that lines are tried between */
-    MOST_OF_OWN = 4, /* stages that are taken without being asked for */
+    MOST_OF_OWN = 4, /* stages that are taken without being requested */
     MOST_LINES = 4
 };
 

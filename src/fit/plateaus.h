@@ -25,7 +25,7 @@ bool cz_fit_lines(CzArena *arena, const CzBranch *branch, const CzLines *lines, 
 double cz_fit_left_by_line(const CzBranch *branch, double to);
 
 /* Stroke at which one line before and plateaus behind (`n_stage`, -1: the most that are taken
- * without being asked for) leave the least squares. False without memory. */
+ * without being requested) leave the least squares. False without memory. */
 bool cz_fit_split(CzArena *arena, const CzBranch *branch, int n_stage, double *at);
 
 /* Number of stages beyond which further ones do not pay, from the integrals left by 1 to n. */

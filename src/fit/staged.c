@@ -34,7 +34,8 @@ double cz_staged_stroke(const CzStaged *staged) {
     return cz_total_stroke(staged->stage, staged->n_stage, &none);
 }
 
-/* Strokes where a curve of these kinks bends: its kinks and both ends, each once, in order. */
+/* Strokes where a curve of these breakpoints breakpoints: its breakpoints and both ends, each once,
+ * in order. */
 static int bends_of(const CzKinks *kinks, double stroke, double at[CZ_MOST_BENDS]) {
     int n = 0;
     at[n++] = 0.0;
@@ -73,7 +74,7 @@ double cz_staged_energy(const CzStaged *staged) {
 
 /* ---- forces for given strokes ---- */
 
-/* Values of the fixed part and of every phi at the bends. */
+/* Values of the fixed part and of every phi at the breakpoints. */
 typedef struct Terms {
     int n_bend, n_term;
     double at[CZ_MOST_BENDS];
@@ -105,7 +106,7 @@ static void make_terms(const CzStaged *staged, Terms *terms) {
     }
 }
 
-/* Integral of a product of two polylines over the bends. */
+/* Integral of a product of two polylines over the breakpoints. */
 static double product(const Terms *terms, const double *a, const double *b) {
     double sum = 0.0;
     for (int i = 1; i < terms->n_bend; i++)
@@ -114,7 +115,7 @@ static double product(const Terms *terms, const double *a, const double *b) {
     return sum;
 }
 
-/* Integral of a polyline times the measured force; `sums` of the branch at the bends. */
+/* Integral of a polyline times the measured force; `sums` of the branch at the breakpoints. */
 static double product_with(const Terms *terms, const CzBranchSums *sums, const double *a) {
     double sum = 0.0;
     for (int i = 1; i < terms->n_bend; i++) {
@@ -190,7 +191,7 @@ static double take_forces(CzStaged *staged, const Terms *terms, const CzBranchSu
  *
  *   minimise c'A c / 2 - b'c   under   p'c = e,   c_i >= least
  *
- * by an active set: forces that would be lower are held at the bound, and let go again where the
+ * by an active set: forces that would be lower are held at the bound, and released again where the
  * multiplier m = A c + l p - b says that they want to rise (Karush, Kuhn and Tucker: m >= 0). */
 typedef struct Problem {
     int n;
@@ -241,7 +242,7 @@ static bool hold_low_ones(Problem *problem) {
     return is_low;
 }
 
-/* Lets the force go that most wants to rise; false when none does. */
+/* Lets the force go that most needs to rise; false when none does. */
 static bool let_one_go(Problem *problem) {
     double lowest = 0.0;
     int which = -1;
@@ -268,7 +269,7 @@ static bool solve_bounded(Problem *problem) {
         if (!hold_low_ones(problem) && !let_one_go(problem))
             return true;
     }
-    return false; /* forces that are held and let go in turn, by rounding */
+    return false; /* forces that are held and released in turn, by rounding */
 }
 
 double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy) {

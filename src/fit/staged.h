@@ -2,8 +2,8 @@
  *
  *   g(x) = fixed(x) + sum over i of c_i phi_i(x)
  *
- * is what the model makes of stages (model/kinks.h): phi_i is the curve whose i-th force is 1 N
- * and whose others are none. Given the strokes of the stages, the forces c that minimise
+ * is what the model makes of stages (model/breakpoints.h): phi_i is the curve whose i-th force is 1
+ * N and whose others are none. Given the strokes of the stages, the forces c that minimise
  *
  *   integral of (f(x) - g(x))^2 dx     under     integral of g(x) dx = energy
  *
@@ -41,7 +41,7 @@ double cz_staged_stroke(const CzStaged *staged);
 /* Energy of using up the stroke [J]. */
 double cz_staged_energy(const CzStaged *staged);
 
-/* Strokes at which the curve bends, from 0 to its end, rising; returns how many. */
+/* Strokes at which the curve breakpoints, from 0 to its end, rising; returns how many. */
 enum { CZ_MOST_BENDS = 2 * CZ_MAX_STAGES + 4 };
 int cz_staged_bends(const CzStaged *staged, double at[CZ_MOST_BENDS]);
 

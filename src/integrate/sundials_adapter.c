@@ -286,7 +286,7 @@ static bool allocate(CzSolver *solver, const double *state) {
     return solver->memory != NULL && (solver->method == CZ_METHOD_ERK || solver->iteration != NULL);
 }
 
-/* Whether there is memory for all that SUNDIALS asks for in pieces: where one is refused it may end
+/* Whether there is memory for all that SUNDIALS requires in pieces: where one is refused it may end
  * the program instead of saying so. */
 static bool has_room(size_t n_unknown) {
     enum { MOST_VECTORS = 40, MOST_ELSE = 1 << 18 /* [byte] */ };
@@ -421,7 +421,8 @@ static int newton_solve(Newton *newton, CzEquations *equations, double tolerance
     flag |= KINSetFuncNormTol(memory, tolerance);
     flag |= KINSetScaledStepTol(memory, 1e-16);
     flag |= KINSetNumMaxIters(memory, NEWTON_ITERATIONS);
-    flag |= KINSetMaxSetupCalls(memory, 1); /* a new Jacobian every time: contacts have kinks */
+    flag |=
+        KINSetMaxSetupCalls(memory, 1); /* a new Jacobian every time: contacts have breakpoints */
     if (flag != 0)
         return flag;
     return KINSol(memory, newton->unknown, KIN_LINESEARCH, newton->unknown_weight,

@@ -19,7 +19,7 @@
  * stroke that is `moved` beyond the committed one: over one step of length h,
  * x_next = x + (F - force) * compliance,  with one compliance for loading and one for unloading.
  * |x'| in the hydraulic damping is the committed rate. Each compliance is the exact tangent of the
- * law, so a step that passes a kink is solved by linearising again about where it led.
+ * law, so a step that passes a breakpoint is solved by linearising again about where it led.
  */
 #ifndef CZ_LAWS_BUFFER_H
 #define CZ_LAWS_BUFFER_H

@@ -1,13 +1,13 @@
 /* Plastic member of a series chain: collapse tube, anti-climber, shear-off. It is rigid until the
- * chain's force reaches its strength, then it flows; its elasticity is the chain's compliance.
+ * chain's force reaches its strength, then it crushes; its elasticity is the chain's compliance.
  *
- *   over one step:  flow(F) = max(F - strength(s), 0) / resistance,   s' = s + flow
+ *   over one step:  crush(F) = max(F - strength(s), 0) / resistance,   s' = s + crush
  *   resistance = max(strength'(s), 0) + strength * rate_factor / h + smallest
  *
  * The strength is taken at the committed stroke s, so a falling strength (trigger peak, shear-off)
- * releases the chain's elastic energy over a few steps; the rate factor acts on plastic flow alone.
- * The smallest resistance (ours) makes the split between equal members unique and costs a force of
- * resistance * flow per step, some ten newtons.
+ * releases the chain's elastic energy over a few steps; the rate factor acts on plastic stroke
+ * alone. The smallest resistance (ours) makes the split between equal members unique and costs a
+ * force of resistance * crush per step, some ten newtons.
  */
 #ifndef CZ_LAWS_PLASTIC_MEMBER_H
 #define CZ_LAWS_PLASTIC_MEMBER_H

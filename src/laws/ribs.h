@@ -10,7 +10,7 @@
  * tip to tip slide over each other, held by friction, until the next valley takes them. A rib is
  * gone once the faces have slipped by half a pitch against it (ours).
  *
- * Faces that just touch, or just part, carry next to nothing, and that little hangs on the moment
+ * Faces that just touch, or just part, carry next to nothing, and that little depends on the moment
  * at which one looks. What they have left is therefore counted from `ready`: what the same ribs
  * hold once they are wholly in each other and pressed by a force that can lift a car at all (ours).
  */

@@ -7,7 +7,7 @@
  *              F = -K_t (x_res - x)            below, where the end is still attached
  *
  * Reloading follows the unloading path. F_m = backbone(x_m); x_m is the largest shortening so far,
- * but not beyond the end of the last stage: from there on the end stands on a stop that gives back
+ * but not beyond the end of the last stage: from there on the end is on a stop that gives back
  * what it took. The unloading path is never above backbone(x), and x_res never below zero, so that
  * the elastic part of the backbone gives back no more than it took. For the same reason no stage
  * may rise faster than cz_vehicle_end_steepest says.

@@ -3,7 +3,7 @@
  *
  *   N = H d^(3/2) for an indentation d > 0, else 0
  *
- * is Zhai's vertical law, for the two wheels of a wheelset: H = 2 G^-1.5. A rail that gives way by
+ * is Zhai's vertical law, for the two wheels of a wheelset: H = 2 G^-1.5. A rail that deflects by
  * r N at once lies in series with it: with an approach A of wheel and rail, s = sqrt(d) solves
  *
  *   s^2 + r H s^3 = A

@@ -231,8 +231,8 @@ static CzStatus choose_step(CzModel *model, CzError *error) {
 static void choose_hold(CzModel *model) {
     model->hold = SHORTEST_HOLD;
     for (int car = 0; car < model->n_car; car++)
-        if (model->facts[car].pitch_frequency > 0.0)
-            model->hold = fmax(model->hold, 1.0 / model->facts[car].pitch_frequency);
+        if (model->properties[car].pitch_frequency > 0.0)
+            model->hold = fmax(model->hold, 1.0 / model->properties[car].pitch_frequency);
 }
 
 /* Facts and bounds are read off the lanes of the problem's own design. */
@@ -242,7 +242,7 @@ static CzStatus look_at_own_design(CzModel *model, const CzVehicle *vehicles, Cz
     if (lanes == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the model");
     CZ_TRY(cz_model_fill(model, vehicles, 0, lanes, error));
-    CZ_TRY(cz_model_find_facts(model, lanes, error));
+    CZ_TRY(cz_model_find_properties(model, lanes, error));
     CZ_TRY(cz_model_find_bounds(model, lanes, error));
     CZ_TRY(choose_step(model, error));
     choose_hold(model);
@@ -307,12 +307,12 @@ int cz_model_colliding_interface(const CzModel *model) {
     return model->colliding;
 }
 
-CzVehicleFacts cz_model_vehicle_facts(const CzModel *model, int vehicle) {
-    return model->facts[vehicle];
+CzVehicleProperties cz_model_vehicle_properties(const CzModel *model, int vehicle) {
+    return model->properties[vehicle];
 }
 
-CzInterfaceFacts cz_model_interface_facts(const CzModel *model, int interface) {
-    return model->interface_facts[interface];
+CzInterfaceProperties cz_model_interface_properties(const CzModel *model, int interface) {
+    return model->interface_properties[interface];
 }
 
 double cz_model_time_step(const CzModel *model) {

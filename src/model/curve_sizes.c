@@ -1,4 +1,4 @@
-/* How many kinks each curve of the lanes needs: counted over all cars and both ends. */
+/* How many breakpoints each curve of the lanes needs: counted over all cars and both ends. */
 #include "model/curve_sizes.h"
 
 #include "model/fill.h"

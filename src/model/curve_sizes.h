@@ -1,4 +1,4 @@
-/* How many kinks each curve of the lanes needs. */
+/* How many breakpoints each curve of the lanes needs. */
 #ifndef CZ_MODEL_CURVE_SIZES_H
 #define CZ_MODEL_CURVE_SIZES_H
 

@@ -37,7 +37,8 @@ CzStatus cz_fill_curve(const CzFill *fill, CzPartName part, const void *field, C
     curve->start[lane] = kinks->start;
     curve->usable[lane] = kinks->usable;
 
-    /* The last kink stays last; spare ones stand at its place before it, so kinks are in order. */
+    /* The last breakpoint stays last; spare ones are at its place before it, so breakpoints are in
+     * order. */
     const int last = kinks->n - 1;
     for (int i = 0; i < curve->n_kink && last >= 0; i++) {
         const size_t slot = (size_t)i * stride + lane;

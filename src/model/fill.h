@@ -60,7 +60,7 @@ static inline void cz_put(const CzFill *fill, int car, CzParameter parameter, do
 CzStatus cz_fill_refuse(const CzFill *fill, CzPartName part, const void *field, const char *format,
                         ...) __attribute__((format(printf, 4, 5)));
 
-/* Puts a curve into a lane; fails when it has more kinks than the problem's own. */
+/* Puts a curve into a lane; fails when it has more breakpoints than the problem's own. */
 CZ_MUST_CHECK CzStatus cz_fill_curve(const CzFill *fill, CzPartName part, const void *field,
                                      CzCurveId id, const CzKinks *kinks);
 

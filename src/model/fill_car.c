@@ -217,7 +217,7 @@ static void fill_wheels(const CzFill *fill, int car, const CzStatics *statics) {
 
 /* ---- cars without running gear ---- */
 
-/* Brakes that ask for more than the peak friction lock the wheels. */
+/* Brakes that require more than the peak friction lock the wheels. */
 static void fill_drag(const CzFill *fill, int car, const CzStatics *statics) {
     const CzCar *place = &fill->model->car[car];
     const CzVehicle *vehicle = cz_fill_vehicle(fill, car);

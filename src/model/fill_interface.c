@@ -1,4 +1,4 @@
-/* Numbers of one interface: where the two ends stand at t = 0, and what they are made of.
+/* Numbers of one interface: where the two ends are at t = 0, and what they are made of.
  *
  *   distance of a pair of parts = distance of the foremost planes + gap_A + gap_B
  *
@@ -12,7 +12,7 @@
 
 #define BARE_COMPLIANCE 1e-9 /* of two ends without anti-climbers [m/N] (ours) */
 #define SMALLEST_COMPLIANCE                                                                        \
-    1e-14                      /* where a crush zone in series gives way instead [m/N] (ours)      \
+    1e-14                      /* where a crush zone in series deflects instead [m/N] (ours)       \
                                 */
 #define OVERLAP_TOLERANCE 1e-9 /* of rounding [m] */
 
@@ -348,7 +348,7 @@ static void fill_ribs(const Pair *pair) {
         put(pair, CZ_PARAMETER(face.rib_depth), fmax(a->rib_depth, b->rib_depth));
     if (!pair->side[CZ_SIDE_A].is_full || !pair->side[CZ_SIDE_B].is_full)
         return;
-    /* The faces let go over one pitch as their overlap runs out, whatever their ribs carry. */
+    /* The faces released over one pitch as their overlap runs out, whatever their ribs carry. */
     put(pair, CZ_PARAMETER(face.rib_pitch),
         fmax(a->face_height / a->rib_count, b->face_height / b->rib_count));
     put(pair, CZ_PARAMETER(face.overlap), (a->face_height + b->face_height) / 2.0);

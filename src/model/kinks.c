@@ -1,4 +1,4 @@
-/* Force-stroke curves as start value and kinks: from plateaus, stage ends and tables. */
+/* Force-stroke curves as start value and breakpoints: from plateaus, stage ends and tables. */
 #include "model/kinks.h"
 
 #define LONGEST_RAMP 5e-3 /* between two plateaus [m] (ours) */

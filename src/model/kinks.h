@@ -1,4 +1,4 @@
-/* Force-stroke curves as start value and kinks, made from stages or from a table of points.
+/* Force-stroke curves as start value and breakpoints, made from stages or from a table of points.
  *
  *   y(x) = start + sum of slope_change_i * max(x - at_i, 0)
  *
@@ -10,7 +10,8 @@
  *
  * Buffers and vehicle ends: straight lines through the forces at the ends of the stages.
  *
- * The last kink is the one where the stroke is used up and the slope becomes the bottom stiffness.
+ * The last breakpoint is the one where the stroke is exhausted and the slope becomes the bottom
+ * stiffness.
  */
 #ifndef CZ_MODEL_KINKS_H
 #define CZ_MODEL_KINKS_H
@@ -40,7 +41,7 @@ void cz_kinks_strength(CzKinks *kinks, const CzStage *stage, int n_stage, const 
 void cz_kinks_loading(CzKinks *kinks, double first, const CzStage *stage, int n_stage,
                       const CzTable *table, double bottom_stiffness);
 
-/* A plastic member that never flows, and a spring of one stiffness (CZ_NEVER: it never gives way).
+/* A plastic member that never crushes, and a spring of one stiffness (CZ_NEVER: it never deflects).
  */
 void cz_kinks_rigid_member(CzKinks *kinks);
 void cz_kinks_spring(CzKinks *kinks, double stiffness);

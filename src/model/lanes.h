@@ -12,10 +12,11 @@
 
 /* Force-stroke curves of a lane, by name, such as CZ_CURVE(tube[0]).
  *
- * A curve is y(x) = start + sum over its kinks of slope_change * max(x - at, 0). The last kink is
- * where the element bottoms out and the slope becomes the bottom stiffness. Forces are of all
- * devices of the side together. For a missing member: start CZ_NEVER for plastic members (they
- * never yield) and no kinks; start 0 and one kink at 0 of slope CZ_NEVER for springs.
+ * A curve is y(x) = start + sum over its breakpoints of slope_change * max(x - at, 0). The last
+ * breakpoint is where the element bottoms out and the slope becomes the bottom stiffness. Forces
+ * are of all devices of the side together. For a missing member: start CZ_NEVER for plastic members
+ * (they never yield) and no breakpoints; start 0 and one breakpoint at 0 of slope CZ_NEVER for
+ * springs.
  */
 typedef struct CzCurveNames {
     char end[2];         /* backbone of the rear and the front crush zone over its shortening */
@@ -33,9 +34,9 @@ enum { CZ_N_CURVE = sizeof(CzCurveNames) };
 
 /* One curve in all lanes. */
 typedef struct CzCurveLanes {
-    int n_kink;           /* kinks in every lane; spare ones have slope_change 0 */
+    int n_kink;           /* breakpoints in every lane; spare ones have slope_change 0 */
     double *start;        /* value at 0 [N] (stride) */
-    double *at;           /* place of a kink [m] (n_kink x stride) */
+    double *at;           /* place of a breakpoint [m] (n_kink x stride) */
     double *slope_change; /* [N/m] (n_kink x stride) */
     double *usable;       /* stroke at which it bottoms out [m] (stride) */
 } CzCurveLanes;

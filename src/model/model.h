@@ -42,10 +42,10 @@ struct CzModel {
                     period; 0.02 s without full cars (ours) [s] */
     int n_bound;
     CzStepBound *bound;     /* smallest first */
-    int n_kink[CZ_N_CURVE]; /* kinks that hold every design: counted from the number of stages or
-                               points */
-    CzVehicleFacts *facts;  /* (n_car) */
-    CzInterfaceFacts *interface_facts; /* (n_car - 1) */
+    int n_kink[CZ_N_CURVE]; /* breakpoints that hold every design: counted from the number of stages
+                               or points */
+    CzVehicleProperties *properties;             /* (n_car) */
+    CzInterfaceProperties *interface_properties; /* (n_car - 1) */
 };
 
 /* Memory for the lanes of n_design designs, neutral everywhere; NULL when there is none. */

@@ -16,11 +16,11 @@ static inline double cz_lane_value(const CzLanes *lanes, int lane, CzParameter p
 CZ_MUST_CHECK CzStatus cz_critical_forces(const CzModel *model, const CzLanes *lanes, int design,
                                           double *force, CzError *error);
 
-/* Sets model->facts and model->interface_facts. Statuses: CZ_OK, CZ_STATUS_INPUT,
+/* Sets model->facts and model->interface_properties. Statuses: CZ_OK, CZ_STATUS_INPUT,
  * CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_model_find_facts(CzModel *model, CzLanes *lanes, CzError *error);
+CZ_MUST_CHECK CzStatus cz_model_find_properties(CzModel *model, CzLanes *lanes, CzError *error);
 
-/* Sets model->bound, smallest first; needs the facts. Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
+/* Sets model->bound, smallest first; needs the properties. Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_model_find_bounds(CzModel *model, const CzLanes *lanes, CzError *error);
 
 #endif

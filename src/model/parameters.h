@@ -1,6 +1,6 @@
 /* Law parameters and geometry of the lanes. [SI]
  *
- * A lane is one car of one design. Parameters of an interface stand in the lane of its rear car:
+ * A lane is one car of one design. Parameters of an interface are in the lane of its rear car:
  * side 0 (A) is the front end of that car, side 1 (B) the rear end of the car ahead. Ends and
  * bogies are counted rear first, axles from the rear. Positions of material points are seen from
  * the centre of gravity of the body that carries them: _x forward, _z up. Parameters of things that

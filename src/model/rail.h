@@ -16,7 +16,7 @@
 #include "problem/input.h"
 
 /* Rail and what carries it at each seat. The numbers of a file are those of one rail; a wheelset
- * stands on two, so the model's are twice these throughout, from the rail to the subgrade. */
+ * is on two, so the model's are twice these throughout, from the rail to the subgrade. */
 typedef struct CzSeats {
     double bending;            /* E I [N m2] */
     double shear;              /* kappa G A [N] */

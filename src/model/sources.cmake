@@ -4,14 +4,14 @@ set(CZ_SOURCES_model
     co_running.c
     critical_force.c
     curve_sizes.c
-    facts.c
+    properties.c
     fill.c
     fill_car.c
     fill_interface.c
     kinks.c
     lanes.c
     rail.c
-    stand.c
+    layout.c
     statics.c
     step_bounds.c
     strut_chain.c

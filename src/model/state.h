@@ -9,7 +9,7 @@ enum { CZ_LANE_BLOCK = 8 };
 /* One quantity of all lanes of a block. */
 typedef double CzRow[CZ_LANE_BLOCK];
 
-/* What stands for a thing that is not there. */
+/* What represents a thing that is not there. */
 #define CZ_NEVER 1e30   /* a force, gap or stiffness that nothing reaches */
 #define CZ_MISSING 1e29 /* strengths, strokes and gaps from here on are never reached */
 

@@ -309,7 +309,7 @@ static void note_swing(const Car *car, const char *name, const Carrier carrier[2
 
 /* Force that the coupler's tubes and shear-offs let through. */
 static double weakest_member(const Car *car) {
-    const double tubes = car->model->interface_facts[car->car].tube_force;
+    const double tubes = car->model->interface_properties[car->car].tube_force;
     const double shear = fmin(value(car, CZ_PARAMETER(coupler.side[0].shear.force)),
                               value(car, CZ_PARAMETER(coupler.side[1].shear.force)));
     return isnan(tubes) ? shear : fmin(tubes, shear);

@@ -12,13 +12,13 @@
  *
  * with the bending branch of the waves at hand (h_k = p_k / (M_k (s^2 + w_k^2)), c_k = n_j h_k), R
  * the static flexibility of all other waves and branches at the seats, and B what sleeper and
- * ballast give way. The block's eigenvalues are the roots of F, found at once (Aberth) and tested;
+ * ballast deflect. The block's eigenvalues are the roots of F, found at once (Aberth) and tested;
  * the deflection at x under a force at y is the sum over them of g(x) g(y) / (s - lambda) with
  *
  *   g(x) = sum_k sqrt(-n_j / F'(lambda)) h_k(lambda) (cosine or sine of K_k x)
  *
  * Nothing is assumed of the damping. Eigenvalues beyond the cut are left out, and what they and the
- * other waves would give way at rest is a flexibility under the force itself: one number that
+ * other waves would deflect at rest is a flexibility under the force itself: one number that
  * varies with the place between two seats.
  */
 #ifndef CZ_MODEL_TRACK_H
@@ -72,9 +72,9 @@ CzTrackOptions cz_track_options_default(double span);
 CZ_MUST_CHECK CzStatus cz_track_build(const CzRoadbed *roadbed, const CzTrackOptions *options,
                                       CzArena *arena, CzTrackModes **modes, CzError *error);
 
-/* A function of the place between two seats, a share xi of the spacing past the last one: kink
- * |sin(pi xi)| + sum of term[k] times the k-th power of cos(2 pi xi). Over a seat the rail's shear
- * has a jump, so the statics have a kink there. */
+/* A function of the place between two seats, a share xi of the spacing past the last one:
+ * breakpoint |sin(pi xi)| + sum of term[k] times the k-th power of cos(2 pi xi). Over a seat the
+ * rail's shear has a jump, so the statics have a breakpoint there. */
 typedef struct CzTrackFlexibility {
     double kink;                      /* [m/N] */
     double term[CZ_TRACK_FLEX_TERMS]; /* [m/N] */
@@ -93,7 +93,7 @@ CzTrackFlexibility cz_track_flexibility(const CzTrackModes *modes, double step);
 
 /* Mean and swing, over the place between two seats, of the sum of g(x)^2 times an answer of each
  * mode: mean + swing cos(2 pi xi). In the two copies of a block cosine and sine of its waves'
- * squares add up to one; the blocks at the edges stand alone. */
+ * squares add up to one; the blocks at the edges are alone. */
 typedef CzComplex CzTrackAnswer(CzComplex lambda, double step);
 void cz_track_add_modes(const CzTrackModes *modes, CzTrackAnswer *answer, double step,
                         double sum[2]);

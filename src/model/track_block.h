@@ -30,7 +30,7 @@ typedef struct CzSecular {
 } CzSecular;
 CzSecular cz_track_secular(const CzTrackBlock *block, CzComplex s);
 
-/* What sleeper and ballast block give way to a force on the sleeper at rate s [m/N]: B and its
+/* What sleeper and ballast block deflect to a force on the sleeper at rate s [m/N]: B and its
  * fellow. */
 typedef struct CzTrackBelow {
     CzComplex sleeper, ballast;

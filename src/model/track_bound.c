@@ -3,7 +3,7 @@
  * A motion that changes its sign with every step is the first to grow. Then a force P of
  * alternating sign moves the wheel by -h^2 / (4 m - h^2 k) P, k the spring above it, and the modes
  * by the sum of -g^2 (2 / lambda) sinh(lambda h / 2) e / (1 + e) P with e = exp(lambda h), while
- * contact and the flexibility beside the modes give way by (1 / k_c + r(h)) P. The step is stable
+ * contact and the flexibility beside the modes deflect by (1 / k_c + r(h)) P. The step is stable
  * while
  *
  *   1 / k_c + r(h) > h^2 / (4 m - h^2 k) + sum of g^2 (2 / lambda) sinh(lambda h / 2) e / (1 + e)

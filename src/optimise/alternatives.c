@@ -1,5 +1,5 @@
 /* Further parameter sets that fit about as well: a fit that has more parameters than measurements,
- * or insensitive ones, has many answers, and telling only one would hide it.
+ * or insensitive ones, has many answers, and reporting only one would hide it.
  */
 #include "optimise/alternatives.h"
 #include "base/error.h"
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sets that are told at most, how much worse than the best they may be when it misses a tolerance,
- * and how far apart they lie: root mean square share of the ranges (all ours). */
+/* Sets that are reported at most, how much worse than the best they may be when it misses a
+ * tolerance, and how far apart they lie: root mean square share of the ranges (all ours). */
 enum { MOST = 5 };
 static const double about_as_well = 1.2;
 static const double apart = 0.1;

@@ -1,6 +1,6 @@
 /* NLopt, and everything about it that needs care.
  *
- * It asks for the objective and for the constraints one after another at the same point, so the
+ * It requires the objective and for the constraints one after another at the same point, so the
  * last point is remembered and one evaluation serves both. Gradients are secants: n more designs
  * evaluated side by side. It is never given a number that is not finite, always has a limit and a
  * tolerance, and what it returns is not trusted: the search keeps the best design itself.
@@ -122,7 +122,7 @@ static void ask_to_stop(const Bridge *bridge) {
     nlopt_force_stop(bridge->opt);
 }
 
-/* Evaluates n_point designs of bridge->x unless this run's share is used up. */
+/* Evaluates n_point designs of bridge->x unless this run's share is exhausted. */
 static bool evaluate(Bridge *bridge, int n_point) {
     if (bridge->search->n_record + n_point > bridge->limit ||
         !cz_search_evaluate(bridge->search, bridge->run->phase, n_point, bridge->x, bridge->many_f,

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "evaluate/evaluator.h"
 #include "optimise/alternatives.h"
-#include "optimise/hunt.h"
+#include "optimise/combinations.h"
 #include "optimise/nlopt_adapter.h"
 #include "optimise/outcome.h"
 #include "optimise/sensitivity.h"
@@ -29,10 +29,10 @@ CzOptimiseOptions cz_optimise_options_default(void) {
 
 /* ---- the outcome ----------------------------------------------------------------------------- */
 
-static CzStatus copy_history(const CzHunt *hunt, int n_variable, CzOutcome *outcome,
+static CzStatus copy_history(const CzCombinations *combinations, int n_variable, CzOutcome *outcome,
                              CzError *error) {
-    for (int k = 0; k < hunt->n; k++)
-        outcome->n_trial += hunt->search[k].n_record;
+    for (int k = 0; k < combinations->n; k++)
+        outcome->n_trial += combinations->search[k].n_record;
     outcome->n_evaluation = outcome->n_trial;
     outcome->trial = calloc((size_t)outcome->n_trial + 1, sizeof *outcome->trial);
     outcome->trial_x =
@@ -41,10 +41,11 @@ static CzStatus copy_history(const CzHunt *hunt, int n_variable, CzOutcome *outc
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the history");
     CzTrial *trial = outcome->trial;
     double *x = outcome->trial_x;
-    for (int k = 0; k < hunt->n; k++)
-        for (long i = 0; i < hunt->search[k].n_record; i++) {
-            const CzRecord *record = &hunt->search[k].record[i];
-            cz_subspace_expand(&hunt->subspace[k], cz_search_x(&hunt->search[k], i), x);
+    for (int k = 0; k < combinations->n; k++)
+        for (long i = 0; i < combinations->search[k].n_record; i++) {
+            const CzRecord *record = &combinations->search[k].record[i];
+            cz_subspace_expand(&combinations->subspace[k], cz_search_x(&combinations->search[k], i),
+                               x);
             x += n_variable;
             *trial++ = (CzTrial){.objective = record->objective,
                                  .violation = record->violation,
@@ -151,7 +152,7 @@ static CzStatus find_passing(const Ranking *ranking, CzOutcome *outcome, CzError
  * run finds a violation that this left out, the next best designs take their turn. */
 static CzStatus confirm_best(Ranking *ranking, CzOutcome *outcome, CzError *error) {
     const CzSearch *search = ranking->search;
-    const long record = cz_hunt_record(search);
+    const long record = cz_combinations_record(search);
     /* Without a record the start is known to be readable, the nearest increments are not. */
     CZ_TRY(evaluate_record(ranking->evaluator, ranking->subspace,
                            record < 0 ? search->function->start : cz_search_x(search, record),
@@ -179,8 +180,8 @@ void cz_outcome_mark_bounds(const CzEvaluator *evaluator, CzOutcome *outcome) {
 }
 
 /* Evaluates start and best once more, from the file's numbers, with everything recorded. */
-static CzStatus confirm(CzEvaluator *evaluator, const CzHunt *hunt, CzOutcome *outcome,
-                        CzError *error) {
+static CzStatus confirm(CzEvaluator *evaluator, const CzCombinations *combinations,
+                        CzOutcome *outcome, CzError *error) {
     outcome->n_variable = cz_evaluator_n_variable(evaluator);
     const size_t n = (size_t)outcome->n_variable;
     outcome->start = calloc(n, sizeof *outcome->start);
@@ -195,11 +196,12 @@ static CzStatus confirm(CzEvaluator *evaluator, const CzHunt *hunt, CzOutcome *o
             outcome->start[i] = cz_evaluator_variable(evaluator, i)->start;
         status = cz_evaluate(evaluator, 1, outcome->start, true, &outcome->start_evaluation, error);
         if (status == CZ_OK)
-            status = confirm_best(&(Ranking){.evaluator = evaluator,
-                                             .search = &hunt->search[hunt->chosen],
-                                             .subspace = &hunt->subspace[hunt->chosen],
-                                             .x = x},
-                                  outcome, error);
+            status =
+                confirm_best(&(Ranking){.evaluator = evaluator,
+                                        .search = &combinations->search[combinations->chosen],
+                                        .subspace = &combinations->subspace[combinations->chosen],
+                                        .x = x},
+                             outcome, error);
     }
     if (status == CZ_OK)
         cz_outcome_mark_bounds(evaluator, outcome);
@@ -208,9 +210,9 @@ static CzStatus confirm(CzEvaluator *evaluator, const CzHunt *hunt, CzOutcome *o
 }
 
 /* Whether the best design misses a catalogue increment. */
-static bool is_between_steps(const CzHunt *hunt, const CzOutcome *outcome) {
-    const CzSubspace *subspace = &hunt->subspace[hunt->chosen];
-    const CzSearch *search = &hunt->search[hunt->chosen];
+static bool is_between_steps(const CzCombinations *combinations, const CzOutcome *outcome) {
+    const CzSubspace *subspace = &combinations->subspace[combinations->chosen];
+    const CzSearch *search = &combinations->search[combinations->chosen];
     for (long record = 0; record < search->n_record; record++) {
         bool is_best = true;
         for (int i = 0; i < subspace->function.n_variable && is_best; i++)
@@ -222,16 +224,16 @@ static bool is_between_steps(const CzHunt *hunt, const CzOutcome *outcome) {
 }
 
 /* Why the last search ended, to the digit. */
-static void tell_end(const CzHunt *hunt, long limit, const CzOutcome *outcome, size_t room,
-                     char *text) {
-    const CzSearch *search = &hunt->search[hunt->n - 1];
+static void tell_end(const CzCombinations *combinations, long limit, const CzOutcome *outcome,
+                     size_t room, char *text) {
+    const CzSearch *search = &combinations->search[combinations->n - 1];
     const long left = limit - outcome->n_evaluation;
     const CzEvaluation *start = &outcome->start_evaluation;
     if (start->status == CZ_OK && isnan(start->objective) && search->best < 0)
         snprintf(text, room, "the objective has no value in any design");
     else if (search->why[0] != '\0')
         snprintf(text, room, "%s", search->why);
-    else if (search->function->n_variable == 0 && hunt->n == 1)
+    else if (search->function->n_variable == 0 && combinations->n == 1)
         snprintf(text, room, "no variable can vary: each has one value within its bounds");
     else if (search->is_spent && left <= 0)
         snprintf(text, room, "the limit of %ld evaluations is reached", limit);
@@ -243,8 +245,8 @@ static void tell_end(const CzHunt *hunt, long limit, const CzOutcome *outcome, s
         snprintf(text, room, "no further improvement");
 }
 
-static void conclude(const CzHunt *hunt, long limit, CzOutcome *outcome) {
-    const CzSearch *search = &hunt->search[hunt->n - 1];
+static void conclude(const CzCombinations *combinations, long limit, CzOutcome *outcome) {
+    const CzSearch *search = &combinations->search[combinations->n - 1];
     char end[sizeof outcome->why_stopped];
     const bool feasible = outcome->best_evaluation.status == CZ_OK &&
                           outcome->best_evaluation.violation <= 0 &&
@@ -252,10 +254,11 @@ static void conclude(const CzHunt *hunt, long limit, CzOutcome *outcome) {
     outcome->status = feasible ? CZ_OUTCOME_FEASIBLE : CZ_OUTCOME_INFEASIBLE;
     if (search->status == CZ_STATUS_INTERRUPTED)
         outcome->status = CZ_OUTCOME_INTERRUPTED;
-    tell_end(hunt, limit, outcome, sizeof end, end);
+    tell_end(combinations, limit, outcome, sizeof end, end);
     snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%.100s%s", end,
-             is_between_steps(hunt, outcome) ? "; the best design is between catalogue increments"
-                                             : "");
+             is_between_steps(combinations, outcome)
+                 ? "; the best design is between catalogue increments"
+                 : "");
 }
 
 CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
@@ -317,28 +320,29 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
     CzOptimiseOptions options;
     CZ_TRY(settle_options(evaluator, given, &options, error));
     const double began = now_s();
-    CzHunt hunt = {0};
+    CzCombinations combinations = {0};
     CzOutcome *made = calloc(1, sizeof *made);
     if (made == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the search");
     cz_evaluator_set_stop(evaluator, options.stop);
-    CzStatus status = cz_hunt(evaluator, &options, &hunt, error);
+    CzStatus status = cz_combinations(evaluator, &options, &combinations, error);
     cz_evaluator_set_stop(evaluator, NULL); /* what was found is evaluated in any case */
     if (status == CZ_OK)
-        status = copy_history(&hunt, cz_evaluator_n_variable(evaluator), made, error);
+        status = copy_history(&combinations, cz_evaluator_n_variable(evaluator), made, error);
     if (status == CZ_OK)
-        status = confirm(evaluator, &hunt, made, error);
+        status = confirm(evaluator, &combinations, made, error);
     if (status == CZ_OK && cz_evaluator_is_fit(evaluator))
-        status = cz_alternatives_find(&hunt.subspace[hunt.chosen], &hunt.search[hunt.chosen],
-                                      cz_hunt_record(&hunt.search[hunt.chosen]), made, error);
+        status = cz_alternatives_find(
+            &combinations.subspace[combinations.chosen], &combinations.search[combinations.chosen],
+            cz_combinations_record(&combinations.search[combinations.chosen]), made, error);
     if (status == CZ_OK)
-        conclude(&hunt, options.evaluations, made);
+        conclude(&combinations, options.evaluations, made);
     if (status == CZ_OK)
         status = cz_outcome_verify(evaluator, &options, made, error);
     if (status == CZ_OK)
         status = cz_sensitivity_take(evaluator, options.stop, made, error);
     made->wall_s = now_s() - began;
-    cz_hunt_free(&hunt);
+    cz_combinations_free(&combinations);
     if (status != CZ_OK) {
         cz_outcome_free(made);
         return status;

@@ -1,5 +1,5 @@
-/* An outcome once more, from what a search wrote down: nothing is searched again, and what is told
- * of the start and the best design is computed anew. */
+/* An outcome once more, from what a search wrote down: nothing is searched again, and what is
+ * reported the start and the best design is computed anew. */
 #include "crushzone/optimise.h"
 
 #include "base/error.h"

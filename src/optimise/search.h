@@ -22,8 +22,8 @@ typedef struct CzFunction {
     const bool *is_rule; /* constraints without which a design could not be written down and read
                             back (n_constraint), NULL for none: one that breaks them is never the
                             best while another was seen */
-    int n_detail; /* constraints again, place by place and so without the kinks of the worst one; 0
-                     when there are none */
+    int n_detail; /* constraints again, place by place and so without the breakpoints of the worst
+                     one; 0 when there are none */
     bool is_minimax; /* the objective is the largest constraint, up to a constant */
     bool is_fit;     /* the objective is a sum of squares, the details its residuals, and the flags
                         say whether they are small enough */
@@ -89,7 +89,7 @@ bool cz_search_is_stopped(CzSearch *search);
 /* Goes on after a pause, from the best design. */
 void cz_search_resume(CzSearch *search);
 
-/* Memory for n numbers of the search; without any the search ends, which it tells. */
+/* Memory for n numbers of the search; without any the search ends, which it reports. */
 double *cz_search_numbers(CzSearch *search, size_t n);
 
 /* Evaluates n designs, x in the variables' units (n x n_variable), in order. objective (n) and
@@ -100,7 +100,7 @@ bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double
                         double *objective, double *constraint);
 
 /* The same with the details as they are (n x cz_search_n_detail), uncompressed; the constraints
- * stand in for a function that has none. */
+ * are in for a function that has none. */
 bool cz_search_evaluate_details(CzSearch *search, const char *phase, int n, const double *x,
                                 double *objective, double *constraint, double *detail);
 int cz_search_n_detail(const CzSearch *search);

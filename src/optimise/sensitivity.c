@@ -4,8 +4,8 @@
  *
  * where h_j is one catalogue increment or more, at least 2 % of the range, and goes down where
  * there is no room upwards. A step of this size sees what a person would change; a derivative would
- * see the rattle of a long train. Both designs are run as in a search, so that their difference is
- * that of the design alone.
+ * see the chaotic response of a long train. Both designs are run as in a search, so that their
+ * difference is that of the design alone.
  */
 #include "optimise/sensitivity.h"
 

@@ -71,7 +71,7 @@ static double distance_from_base(const CzSurface *surface, const double *u) {
     return square;
 }
 
-/* The listed design that the planes cannot tell from the one behind the list: they differ in what
+/* The listed design that the planes cannot report from the one behind the list: they differ in what
  * decides nothing here, and simulating both would teach the same. -1 when there is none. */
 static int find_alike(const Shortlist *list) {
     const double close = 1e-3; /* of a margin; ours */

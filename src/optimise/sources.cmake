@@ -2,7 +2,7 @@
 set(CZ_SOURCES_optimise
     alternatives.c
     gauss_newton.c
-    hunt.c
+    combinations.c
     nlopt_adapter.c
     optimise.c
     recall.c

@@ -11,7 +11,7 @@
  * Statuses as below. */
 CZ_MUST_CHECK CzStatus cz_strategy_fit(CzSearch *search, unsigned long seed, CzError *error);
 
-/* Screen, descend, polish, snap. Statuses of the NLopt adapter; how the search ended stands in it.
+/* Screen, descend, polish, snap. Statuses of the NLopt adapter; how the search ended is in it.
  */
 CZ_MUST_CHECK CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, CzError *error);
 

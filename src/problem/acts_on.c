@@ -55,8 +55,8 @@ static const char *idle_record(const CzProblem *problem, const CzPlace *place) {
     return (const char *)place->address - place->key->offset;
 }
 
-/* One warning for the fields of one record, at the first of them. A vehicle's places stand
- * together, up to `end`. */
+/* One warning for the fields of one record, at the first of them. A vehicle's places are together,
+ * up to `end`. */
 static void warn(CzProblem *problem, int first, int end) {
     CzReader *reader = &problem->reader;
     const CzPlace *place = problem->places.place;

@@ -86,7 +86,7 @@ static void set_other(Meeting *meeting, const CzVehicle *other) {
     meeting->opposite = meeting->end == &meeting->own->front ? &other->rear : &other->front;
 }
 
-/* Whether an end meets in some scenario what `holds` asks for. */
+/* Whether an end meets in some scenario what `holds` requires. */
 static bool meets(const CzInput *input, Meeting *meeting, bool (*holds)(const Meeting *)) {
     const CzTrain *train = train_of(input, meeting->own);
     if (train == NULL || holds(meeting))

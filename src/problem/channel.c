@@ -36,7 +36,7 @@ int cz_first_place(CzChannelAt at, int index) {
     return index * n_place[at];
 }
 
-/* What stands for a part of a pattern in braces, which begins with that letter. */
+/* What represents a part of a pattern in braces, which begins with that letter. */
 static const char *word_for(char part, const CzChannelInfo *info, int place, const char *name) {
     static const char *const wheelsets[] = {"1", "2", "3", "4"};
     static const char *const ends[] = {"rear", "front"};
@@ -60,7 +60,7 @@ const char *cz_channel_name(const CzChannelInfo *info, int place, const char *na
     return text;
 }
 
-/* A text that is looked for, and what was found. */
+/* A text that is searched for, and what was found. */
 typedef struct Search {
     const char *text;
     CzColumn *column;

@@ -27,7 +27,7 @@ typedef struct CzPlacedRecord {
 
 /* Zero-initialise it and set the arena. */
 typedef struct CzPlaces {
-    CzArena *arena; /* is told when memory is short */
+    CzArena *arena; /* is reported when memory is short */
     int n_place, n_allocated;
     CzPlace *place;
     int n_slot; /* fields by address */

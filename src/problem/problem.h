@@ -19,7 +19,7 @@ CzTrack cz_problem_track(const CzProblem *problem);
  * when nothing was. */
 const struct CzSource *cz_problem_first_source(const CzProblem *problem);
 
-/* Name of a file as results tell it: one that was given from the root of the file system by its
+/* Name of a file as results report it: one that was given from the root of the file system by its
  * place beside the problem file or in the share folder, so that results are the same wherever a
  * tree stands. Borrowed. */
 const char *cz_problem_told_name(const CzProblem *problem, const char *name);

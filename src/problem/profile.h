@@ -1,4 +1,4 @@
-/* Profiles of limits: reading one and keeping what its category asks for. */
+/* Profiles of limits: reading one and keeping what its category requires. */
 #ifndef CZ_PROBLEM_PROFILE_H
 #define CZ_PROBLEM_PROFILE_H
 

@@ -65,7 +65,7 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     cz_acts_with_check(problem);
 }
 
-/* Sorts what was found and tells the first mistake. */
+/* Sorts what was found and reports the first mistake. */
 static CzStatus finish(CzProblem *problem, CzError *error) {
     CzReader *reader = &problem->reader;
     snprintf(problem->hash, sizeof problem->hash, "%016" PRIx64, reader->sources.hash);

@@ -14,7 +14,7 @@ CzRules cz_rules_of(CzProblem *problem) {
         &reader->warnings, NULL};
 }
 
-/* Place of a field; a candidate's values stand where the problem's own were written. */
+/* Place of a field; a candidate's values are where the problem's own were written. */
 static const CzPlace *find_place(const CzRules *rules, const void *field) {
     const uintptr_t at = (uintptr_t)field, start = (uintptr_t)rules->vehicle;
     const size_t n_byte = (size_t)rules->problem->n_vehicle * sizeof(CzVehicle);

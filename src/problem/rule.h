@@ -1,5 +1,5 @@
-/* What a rule between values looks at and tells with. Each rule is a small function that looks at
- * one record and tells what does not hold. */
+/* What a rule between values looks at and reports with. Each rule is a small function that looks at
+ * one record and shows what does not hold. */
 #ifndef CZ_PROBLEM_RULE_H
 #define CZ_PROBLEM_RULE_H
 
@@ -10,24 +10,25 @@ typedef struct CzRules {
     const CzReader *reader;
     const CzInput *input;
     const CzVehicle *vehicle;        /* those that are judged: the problem's own or a candidate's */
-    CzMistakes *mistakes, *warnings; /* where to tell; both may be NULL */
+    CzMistakes *mistakes, *warnings; /* where to report; both may be NULL */
     double *ratio;                   /* how near each rule comes to being broken, the largest so far
                                         (CZ_N_VALUE_RULE); NULL when nobody asks */
 } CzRules;
 
-/* Rules that judge a problem as it is and tell its reader. */
+/* Rules that judge a problem as it is and report its reader. */
 CzRules cz_rules_of(CzProblem *problem);
 
 /* Notes that a rule limits a number, in SI, to at most another. */
 void cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most);
 
-/* Tells a mistake at the place where a field was written, or at its record when it was not. */
+/* Reports a mistake at the place where a field was written, or at its record when it was not. */
 void cz_rule_broken(const CzRules *rules, const void *field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* The same as a warning. */
 void cz_rule_warning(const CzRules *rules, const void *field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* Tells that something is absent; not told when it may stand in a record that could not be read. */
+/* Reports that something is absent; not reported when it may be in a record that could not be read.
+ */
 void cz_rule_absent(const CzRules *rules, const void *field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* Whether a field was written in a file, rightly or not. */

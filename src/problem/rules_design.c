@@ -93,7 +93,7 @@ static int find(const CzRules *rules, const char *path, CzTargets *targets, CzEr
     return all != NULL ? n_found : 0;
 }
 
-/* Tells why a path names nothing, or a choice cannot be made. */
+/* Reports why a path names nothing, or a choice cannot be made. */
 static void tell_error(const CzRules *rules, const void *field, const char *before,
                        const CzError *error) {
     cz_rule_broken(rules, field, "%s%s", before, error->message);
@@ -194,7 +194,7 @@ static void check_choices(const CzRules *rules, const CzVariable *variable, CzTa
     if (is_fit(rules))
         cz_rule_broken(rules, &variable->choices, "a fit has no choices");
     if (rules->reader->has_holes || rules->mistakes->n_mistake > 0)
-        return; /* reading again would tell other mistakes once more */
+        return; /* reading again would report other mistakes once more */
     if (variable->path != NULL && find_buffers(rules, &variable->path, targets))
         check_each_choice(rules, variable, &variable->path);
     for (int i = 0; i < variable->paths.n_text; i++)

@@ -44,7 +44,7 @@ static void check_forces(const CzRules *rules, const CzStage *stages, int n_stag
     }
 }
 
-/* The peak that starts the flow is no lower than what follows. */
+/* The peak that starts the crush is no lower than what follows. */
 static void check_trigger(const CzRules *rules, const double *trigger, const CzStage *stages,
                           int n_stage, const CzTable *curve) {
     char peak[48], first[48];

@@ -9,7 +9,7 @@
 
 /* ---- what they hold ---- */
 
-/* Names stand in paths, columns, files and folders. */
+/* Names are in paths, columns, files and folders. */
 static void check_name(const CzRules *rules, const char *const *name, const char *what,
                        const char *further) {
     char fault[CZ_FAULT_ROOM];
@@ -119,7 +119,7 @@ static void add_columns(Names *names, bool of_interface, const char *name,
 }
 
 /* Vehicles whose names make one name of two columns, such as A-B and C beside A and B-C, where they
- * stand beside one another. */
+ * are beside one another. */
 static void check_columns(const CzRules *rules) {
     Names names = names_of(rules);
     const CzVehicle *vehicle = rules->problem->vehicle;
@@ -138,7 +138,7 @@ static void check_columns(const CzRules *rules) {
 
 /* ---- scenarios ---- */
 
-/* Names in small letters: some file systems tell no others. */
+/* Names in small letters: some file systems report no others. */
 static const char *small(const CzRules *rules, const char *name) {
     char *copy = cz_arena_copy_text(rules->mistakes->arena, name, strlen(name));
     for (char *c = copy; c != NULL && *c != '\0'; c++)

@@ -76,7 +76,7 @@ static bool gives_way(const CzEnd *end) {
     return end->given && (has_device || end->n_stages > 0 || end->curve.given);
 }
 
-/* Two ends that face one another: one of them at least must give way. */
+/* Two ends that face one another: one of them at least must deflect. */
 static void check_facing(const CzRules *rules, const CzVehicle *behind, const CzVehicle *ahead) {
     if (behind->given && ahead->given && !gives_way(&behind->front) && !gives_way(&ahead->rear))
         cz_rule_absent(rules, ahead,

@@ -2,7 +2,7 @@
 set(CZ_SOURCES_problem
     acts_on.c
     acts_with.c
-    again.c
+    reread.c
     bind.c
     bind_curve_file.c
     bind_table.c

@@ -43,7 +43,7 @@ static void convert(CzReader *reader, const CzNode *node, const CzTrail *trail, 
                    "for it");
 }
 
-/* A curve over plastic strokes begins with the force that starts the flow. */
+/* A curve over plastic strokes begins with the force that starts the crush. */
 static void bind_plastic(CzReader *reader, const CzNode *node, const CzTrail *trail, CzTable *curve,
                          double stiffness) {
     if (curve->strokes == CZ_STROKES_TOTAL)
@@ -59,7 +59,7 @@ static void bind_plastic(CzReader *reader, const CzNode *node, const CzTrail *tr
 void cz_bind_strokes(CzReader *reader, const CzRecord *record, const CzNode *node,
                      const CzTrail *trail, void *memory) {
     const CzEntry *entry = cz_node_find(node, "curve");
-    if (entry != NULL) { /* what is told is told there */
+    if (entry != NULL) { /* what is reported is reported there */
         node = entry->value;
         trail = cz_entry_trail(entry, trail);
     }

@@ -11,7 +11,7 @@
 #define STROKE_NOISE 0.01 /* of the largest stroke that it may go back while loading (ours) */
 #define FORCE_NOISE 0.02  /* of the largest force: less is none (ours) */
 #define CONTACT 0.01      /* of the largest force: where it begins (ours) */
-#define FREE_TRAVEL 0.05  /* of the stroke: more without force is told (ours) */
+#define FREE_TRAVEL 0.05  /* of the stroke: more without force is reported (ours) */
 #define UNLOADED 0.8      /* an unloading ends below this share of the force (ours) */
 #define UNLOADING 1e-3    /* of the stroke: one that goes back less is none (ours) */
 
@@ -77,7 +77,7 @@ static void flip(double *value, int n) {
         value[i] = 0.0 - value[i];
 }
 
-static bool set_signs(Making *making) {
+static bool set_indicators(Making *making) {
     char from[CZ_NUMBER_TEXT], to[CZ_NUMBER_TEXT];
     CzTrace *trace = making->trace;
     const CzTraceShape *shape = making->shape;
@@ -319,7 +319,8 @@ static void note_free_travel(CzTrace *trace) {
 bool cz_trace_make(CzMistakes *mistakes, const CzSource *source, const CzTraceShape *shape,
                    double unit, CzTrace *trace) {
     Making making = {mistakes, source, shape, unit, trace};
-    if (!set_signs(&making) || !take_part(&making) || !set_zero(&making) || !check_sizes(&making))
+    if (!set_indicators(&making) || !take_part(&making) || !set_zero(&making) ||
+        !check_sizes(&making))
         return false;
 
     /* Of points at the largest stroke the one with the largest force ends the loading. */

@@ -3,7 +3,7 @@
  *
  * Compression counts positive and a curve begins at stroke 0. A file in which both columns are
  * negative has counted it the other way, and one that begins without force somewhere else has
- * another zero: both are corrected and told. What could be meant in two ways is refused.
+ * another zero: both are corrected and reported. What could be meant in two ways is refused.
  */
 #ifndef CZ_PROBLEM_TRACE_H
 #define CZ_PROBLEM_TRACE_H

@@ -15,7 +15,7 @@ void cz_draw_cars(CzSheet *sheet, CzDrawn drawn) {
     }
 }
 
-/* Closure of an interface, and what gives way at it: side A is the front of the car behind. */
+/* Closure of an interface, and what deflects at it: side A is the front of the car behind. */
 void cz_draw_shortening(CzSheet *sheet, int interface) {
     const CzRunSummary *run = sheet->page->summary;
     static const struct {

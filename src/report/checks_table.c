@@ -36,7 +36,8 @@ void cz_checks_format_limit(const CzCheckResult *check, size_t room, char *text)
         snprintf(text, room, "-");
         return;
     }
-    double shown; /* a limit that was typed is told as it was, one that was computed is rounded */
+    double
+        shown; /* a limit that was typed is reported as it was, one that was computed is rounded */
     cz_figure_digits(number, 6, check->limit);
     if (cz_number_parse(number, &shown) != NULL || shown != check->limit)
         cz_figure_digits(number, 4, check->limit);
@@ -286,7 +287,7 @@ static void write_omitted(const CzEvaluation *evaluation, bool colour, FILE *str
     fputs(".\n", stream);
 }
 
-/* Whom no limit judges, and what the profile asks for and no check is made of. */
+/* Whom no limit judges, and what the profile requires and no check is made of. */
 static void write_not_covered(const CzEvaluation *evaluation, bool colour, FILE *stream) {
     for (int i = 0; i < evaluation->n_not_judged; i++) {
         fputs("Not judged: ", stream);

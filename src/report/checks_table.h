@@ -38,7 +38,7 @@ int cz_checks_n_omitted(const CzEvaluation *evaluation);
 const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome);
 
 /* A value or bound of a variable: a bound to its last digit, any other value with six, or with all
- * of them where six would read as a bound that it does not stand on. */
+ * of them where six would read as a bound that it is not at. */
 const char *cz_outcome_number(char text[CZ_FIGURE_ROOM], const CzVariableInfo *variable,
                               double value);
 

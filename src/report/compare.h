@@ -10,7 +10,7 @@
 
 enum { CZ_MOST_COMPARED = 8 };
 
-/* The scenario of run[i] that is compared: for the first the one that was asked for, or that has
+/* The scenario of run[i] that is compared: for the first the one that was requested, or that has
  * the smallest margin; for the others the one of the same name, or else theirs with the smallest
  * margin. -1 when none ran. */
 int cz_compared_scenario(const CzReportRun *run, int i);

@@ -252,7 +252,7 @@ static void write_chains(CzMarkup *markup, const Side *side) {
 
 /* ---- the drawing ---- */
 
-/* The car's name, and how its end stands at this interface. */
+/* The car's name, and how its end is at this interface. */
 static void write_name(CzMarkup *markup, const Side *side) {
     char text[128], number[CZ_FIGURE_ROOM];
     snprintf(text, sizeof text, "%s", side->name);
@@ -271,7 +271,7 @@ static double offset_of(const CzModel *model, int which) {
     return which == 1 && isfinite(of_scenario) ? of_scenario : train->height_offset;
 }
 
-static Side make_side(const CzModel *model, const CzStand *stand, int which, double origin) {
+static Side make_side(const CzModel *model, const CzLayout *stand, int which, double origin) {
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
     const int car = model->colliding + which;
@@ -286,8 +286,8 @@ static Side make_side(const CzModel *model, const CzStand *stand, int which, dou
                   .rise = offset_of(model, which)};
 }
 
-void cz_elevation_write(const CzModel *model, const CzStand *stand, CzMarkup *markup) {
-    const CzStand *a = &stand[model->colliding], *b = a + 1;
+void cz_elevation_write(const CzModel *model, const CzLayout *stand, CzMarkup *markup) {
+    const CzLayout *a = &stand[model->colliding], *b = a + 1;
     const double origin = (a->x + a->plane[FRONT] + b->x - b->plane[REAR]) / 2;
     cz_svg_open(markup, "The two ends that collide, to scale, with heights and strokes", WIDTH,
                 CHAIN_TOP + 3 * CHAIN_ROW);

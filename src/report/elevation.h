@@ -3,12 +3,12 @@
 #define CZ_REPORT_ELEVATION_H
 
 #include "model/model.h"
-#include "model/stand.h"
+#include "model/layout.h"
 #include "report/markup.h"
 
 /* Writes an element `svg`: both ends of the colliding interface to scale at first contact, heights
  * above rail, and below each end what is there in front of the survival space against the strokes
  * that want to fit in. */
-void cz_elevation_write(const CzModel *model, const CzStand *stand, CzMarkup *markup);
+void cz_elevation_write(const CzModel *model, const CzLayout *stand, CzMarkup *markup);
 
 #endif

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_SHOWN = 12 }; /* levers on a terminal */
+enum { MOST_SHOWN = 12 }; /* candidates on a terminal */
 
 static const char *unit_of(const char *key) {
     const char *const suffix[] = {"_mm", "_kN", "_mrad", "_kNm", "_kNm_rad", "_MNm_rad", "_MN_m"};
@@ -50,21 +50,22 @@ static void write_head(const CzExplanation *explanation, bool colour, FILE *stre
             worst->where, value, limit, cz_figure_margin(margin, worst->margin));
 }
 
-static bool write_signs(const CzExplanation *explanation, bool colour, FILE *stream) {
-    static const char *const heads[] = {"signs", ">ms", ""};
-    if (explanation->n_sign == 0)
+static bool write_indicators(const CzExplanation *explanation, bool colour, FILE *stream) {
+    static const char *const heads[] = {"indicators", ">ms", ""};
+    if (explanation->n_indicator == 0)
         return true;
     CzReportTable table;
     cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
-    for (int i = 0; i < explanation->n_sign; i++) {
-        const CzSign *sign = &explanation->sign[i];
+    for (int i = 0; i < explanation->n_indicator; i++) {
+        const CzIndicator *indicator = &explanation->indicator[i];
         char time[CZ_FIGURE_ROOM];
-        cz_table_put(&table, cz_cause_text(sign->cause), CZ_STYLE_PLAIN);
+        cz_table_put(&table, cz_cause_text(indicator->cause), CZ_STYLE_PLAIN);
         cz_table_put(&table,
-                     isnan(sign->time) ? ""
-                                       : cz_figure_fixed(time, 0, sign->time * CZ_MILLI_PER_UNIT),
+                     isnan(indicator->time)
+                         ? ""
+                         : cz_figure_fixed(time, 0, indicator->time * CZ_MILLI_PER_UNIT),
                      CZ_STYLE_PLAIN);
-        cz_table_put(&table, sign->what, CZ_STYLE_PLAIN);
+        cz_table_put(&table, indicator->what, CZ_STYLE_PLAIN);
     }
     fputc('\n', stream);
     return cz_table_write_text(&table, colour, stream);
@@ -99,23 +100,23 @@ static bool write_budget(const CzExplanation *explanation, bool colour, FILE *st
     return cz_table_write_text(&table, colour, stream);
 }
 
-static void put_lever(CzReportTable *table, const CzLever *lever) {
+static void put_candidate(CzReportTable *table, const CzCandidateChange *candidate) {
     char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 16];
-    const char *unit = unit_of(lever->key);
-    cz_table_put(table, cz_cause_text(lever->cause), CZ_STYLE_PLAIN);
-    cz_table_put(table, lever->name, CZ_STYLE_PLAIN);
-    snprintf(text, sizeof text, "%s %s", cz_figure_digits(number, 4, lever->value), unit);
+    const char *unit = unit_of(candidate->key);
+    cz_table_put(table, cz_cause_text(candidate->cause), CZ_STYLE_PLAIN);
+    cz_table_put(table, candidate->name, CZ_STYLE_PLAIN);
+    snprintf(text, sizeof text, "%s %s", cz_figure_digits(number, 4, candidate->value), unit);
     cz_table_put(table, text, CZ_STYLE_PLAIN);
-    snprintf(text, sizeof text, "%s %s", cz_figure_digits(number, 4, lever->needed), unit);
-    cz_table_put(table, isnan(lever->needed) ? "-" : text,
-                 lever->turns ? CZ_STYLE_GOOD : CZ_STYLE_PLAIN);
-    cz_table_put(table, cz_figure_margin(number, lever->change), CZ_STYLE_PLAIN);
-    cz_table_put(table, cz_figure_margin(number, lever->margin), CZ_STYLE_PLAIN);
+    snprintf(text, sizeof text, "%s %s", cz_figure_digits(number, 4, candidate->needed), unit);
+    cz_table_put(table, isnan(candidate->needed) ? "-" : text,
+                 candidate->turns ? CZ_STYLE_GOOD : CZ_STYLE_PLAIN);
+    cz_table_put(table, cz_figure_margin(number, candidate->change), CZ_STYLE_PLAIN);
+    cz_table_put(table, cz_figure_margin(number, candidate->margin), CZ_STYLE_PLAIN);
 }
 
 /* Those that turn the verdict, or those that do not. */
-static bool write_levers(const CzExplanation *explanation, bool turning, bool colour,
-                         FILE *stream) {
+static bool write_candidates(const CzExplanation *explanation, bool turning, bool colour,
+                             FILE *stream) {
     const bool broken = explanation->worst.margin < 0;
     static const char *const titles[2][2] = {
         {"No single change of these values violates the limit; the worst of those tried:",
@@ -126,9 +127,10 @@ static bool write_levers(const CzExplanation *explanation, bool turning, bool co
     CzReportTable table;
     int n = 0;
     cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
-    for (int i = 0; i < explanation->n_lever && n < MOST_SHOWN; i++)
-        if (explanation->lever[i].turns == turning && !isnan(explanation->lever[i].needed)) {
-            put_lever(&table, &explanation->lever[i]);
+    for (int i = 0; i < explanation->n_candidate && n < MOST_SHOWN; i++)
+        if (explanation->candidate[i].turns == turning &&
+            !isnan(explanation->candidate[i].needed)) {
+            put_candidate(&table, &explanation->candidate[i]);
             n++;
         }
     if (n == 0) {
@@ -143,10 +145,10 @@ CzStatus cz_report_write_explanation_table(const CzExplanation *explanation, boo
                                            FILE *stream) {
     bool is_whole = true;
     write_head(explanation, colour, stream);
-    is_whole &= write_signs(explanation, colour, stream);
+    is_whole &= write_indicators(explanation, colour, stream);
     is_whole &= write_budget(explanation, colour, stream);
-    is_whole &= write_levers(explanation, true, colour, stream);
-    is_whole &= write_levers(explanation, false, colour, stream);
+    is_whole &= write_candidates(explanation, true, colour, stream);
+    is_whole &= write_candidates(explanation, false, colour, stream);
     if (explanation->has_cause)
         fprintf(stream, "\n%s: %s: %s.\n",
                 explanation->worst.margin < 0 ? "First cause" : "First to fail",

@@ -1,4 +1,4 @@
-/* The resolved problem as a reader wants it: once per different car, and the defaults by
+/* The resolved problem as a reader needs it: once per different car, and the defaults by
  * themselves.
  */
 #ifndef CZ_REPORT_INPUTS_TEXT_H

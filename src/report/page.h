@@ -1,6 +1,6 @@
 /* The report of a run as one page: what its parts share.
  *
- * A page is a pure function of finished results: no time, host or thread stands in it, so the same
+ * A page is a pure function of finished results: no time, host or thread is in it, so the same
  * run gives the same bytes.
  */
 #ifndef CZ_REPORT_PAGE_H
@@ -10,7 +10,7 @@
 #include "base/memory_text.h"
 #include "crushzone/names.h"
 #include "model/model.h"
-#include "model/stand.h"
+#include "model/layout.h"
 #include "report/drawn.h"
 #include "report/inputs_text.h"
 #include "report/markup.h"
@@ -46,7 +46,7 @@ typedef struct CzPage {
     const CzRun *run;
     const CzRunSummary *summary;
     CzModel *model;
-    CzStand *stand;     /* (n_vehicle) */
+    CzLayout *stand;    /* (n_vehicle) */
     const double *time; /* [ms] (n_sample) */
     int n_sample;
     CzMadeCurves made;
@@ -79,7 +79,7 @@ int cz_page_deciding(const CzEvaluation *evaluation);
 const double *cz_page_values(const CzPage *page, CzDrawn drawn, int place);
 
 /* Writes the whole report of a run: the checks of all scenarios and the figures of one. At the top
- * of a result folder it names the reports of the other scenarios, which stand in their folders.
+ * of a result folder it names the reports of the other scenarios, which are in their folders.
  * Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation,
                                          int scenario, bool is_top, const CzReportOptions *options,
@@ -102,7 +102,7 @@ CZ_MUST_CHECK CzStatus cz_page_finish(CzPage *page, FILE *stream, CzError *error
 /* The first and last lines of a page. */
 void cz_page_write_head(CzMarkup *markup, const char *title);
 void cz_page_write_foot(CzMarkup *markup);
-/* Links to the sections of a page about a run; of a search to what stands before it, too. */
+/* Links to the sections of a page about a run; of a search to what is before it, too. */
 void cz_page_write_contents(CzPage *page, bool of_search);
 /* Opens a section with its heading; closes it. */
 void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading);

@@ -1,4 +1,4 @@
-/* Verdict and checks: the first thing that a reader looks for. */
+/* Verdict and checks: the first thing that a reader searches for. */
 #include "report/page.h"
 
 #include "report/checks_table.h"
@@ -9,14 +9,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_LINKS = 12 }; /* to other reports that stand in plain view */
+enum { MOST_LINKS = 12 }; /* to other reports that are in plain view */
 
 static const char *const verdict_title[] = {[CZ_VERDICT_PASS] = "PASS",
                                             [CZ_VERDICT_PROVISIONAL] = "PROVISIONAL PASS",
                                             [CZ_VERDICT_FAIL] = "FAIL",
                                             [CZ_VERDICT_NOT_CHECKED] = "NOT CHECKED"};
 
-/* Whom no limit judges, and what the profile asks for and no check is made of. */
+/* Whom no limit judges, and what the profile requires and no check is made of. */
 static void write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation) {
     char text[512];
     for (int i = 0; i < evaluation->n_not_judged; i++) {

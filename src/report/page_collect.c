@@ -102,7 +102,7 @@ static CzStatus collect_model(CzPage *page, CzError *error) {
             page->flange_height =
                 fmin(page->flange_height,
                      page->vehicles[page->model->car[car].vehicle].bogie.flange_height);
-    return cz_model_stand(page->model, page->stand, error);
+    return cz_model_layout(page->model, page->stand, error);
 }
 
 CzStatus cz_page_begin(CzPage *page, CzError *error) {

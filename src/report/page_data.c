@@ -60,7 +60,7 @@ static void take_extremes(const double *value, int n, bool *taken) {
     taken[high] = taken[low] = true;
 }
 
-/* Rows that the cursor can stand at in any case: evenly spread, every extreme of a force or an
+/* Rows that the cursor can be at in any case: evenly spread, every extreme of a force or an
  * acceleration, every event. */
 static void choose(const CzPage *page, bool *taken) {
     const int n = page->n_sample;
@@ -81,7 +81,7 @@ static void choose(const CzPage *page, bool *taken) {
     }
 }
 
-/* Fewest decimals that tell every row's time, as far as FINEST_TIME. */
+/* Fewest decimals that report every row's time, as far as FINEST_TIME. */
 static int decimals_of_time(const double *time, int n) {
     double unit = 1;
     int decimals = 0;
@@ -111,7 +111,7 @@ static int decimals_for(CzDrawn drawn, const double *value, int n) {
     return decimals;
 }
 
-/* A JSON string that cannot end the script element it stands in. */
+/* A JSON string that cannot end the script element it is in. */
 static void write_json_text(FILE *stream, const char *text) {
     fputc('"', stream);
     for (; *text != '\0'; text++) {
@@ -222,7 +222,7 @@ static bool fill(const CzPage *page, Rows *rows, CzMemoryText *text) {
     return is_whole && make_text(page, rows, text);
 }
 
-/* Which rows the cursor stands at; for people, at the end of the page. */
+/* Which rows the cursor is at; for people, at the end of the page. */
 static void write_rows(CzPage *page, const Rows *rows) {
     CzMarkup *markup = &page->markup;
     char until[CZ_FIGURE_ROOM], every[CZ_FIGURE_ROOM], text[400];
@@ -274,7 +274,7 @@ void cz_page_write_data(CzPage *page) {
     cz_markup_attribute(markup, "id", "data");
     cz_markup_raw(markup, "{");
     write_events(page, markup->stream);
-    fflush(markup->stream); /* which tells how long the page is */
+    fflush(markup->stream); /* which shows how long the page is */
     if (later != NULL)
         choose(page, later);
     if (later == NULL || !fill(page, &rows, &text))

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* One figure with its heading; what is under the cursor stands below it. */
+/* One figure with its heading; what is under the cursor is below it. */
 static void write_titled(const CzPage *page, CzChart chart, int index, const char *title,
                          CzMarkup *markup) {
     cz_markup_open(markup, "figure");

@@ -17,7 +17,7 @@
 
 #define MOST_PERCENT 100.0 /* margins and violations beyond are drawn at this */
 
-enum { MOST_CONSTRAINTS = 8 }; /* that are told of as those that hold the optimum */
+enum { MOST_CONSTRAINTS = 8 }; /* that are reported as those that hold the optimum */
 
 static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const CzProblem *problem,
                          const CzOutcome *outcome) {

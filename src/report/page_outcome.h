@@ -4,7 +4,7 @@
 
 #include "report/page.h"
 
-/* The constraint with least left that has not been told of; -1 when there is none. */
+/* The constraint with least left that has not been reported; -1 when there is none. */
 int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const int *told);
 
 /* All designs that were looked at, as lines over the variables (page_designs.c). Nothing for fewer

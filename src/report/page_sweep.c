@@ -82,7 +82,7 @@ static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *er
             char title[CZ_SENTENCE_ROOM];
             snprintf(title, sizeof title, "%c%s", toupper((unsigned char)*sweep->metric_doc[k]),
                      sweep->metric_doc[k] + 1);
-            if (is_known) /* the table tells of those that are not */
+            if (is_known) /* the table reports of those that are not */
                 write_curve(markup, sweep, title, sweep->metric[k], false, x, y, n_band, band);
         }
     }

@@ -29,7 +29,7 @@ static void write_car(const CzPage *page, int car, double x, double y, CzMarkup 
                          "fill-opacity", ".15", "stroke", "currentColor", NULL);
     cz_markup_close(markup);
     cz_svg_text(markup, x + CAR_WIDTH / 2, y + CAR_TOP + 13, "middle", description->name);
-    const double mass = page->model->facts[car].mass;
+    const double mass = page->model->properties[car].mass;
     const double known = isfinite(mass) ? mass : page->vehicles[description->vehicle].mass;
     if (description->model == CZ_MODEL_FIXED)
         snprintf(text, sizeof text, "fixed");
@@ -81,8 +81,8 @@ static void write_interface(const CzPage *page, int index, double x, double y, C
     }
 }
 
-/* Cars in as many rows as a page needs, of about the same length; what lies between two rows stands
- * at the end of the first. */
+/* Cars in as many rows as a page needs, of about the same length; what lies between two rows is at
+ * the end of the first. */
 static void write_diagram(const CzPage *page, CzMarkup *markup) {
     const int n = page->model->n_car;
     const int n_row = (n + MOST_IN_ROW - 1) / MOST_IN_ROW, n_in_row = (n + n_row - 1) / n_row;

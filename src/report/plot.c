@@ -2,7 +2,7 @@
 #include "report/plot.h"
 
 #include "report/figure.h"
-#include "report/thin.h"
+#include "report/decimation.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 #define LEGEND_ROW 17.0
 #define SAMPLE_WIDTH 24.0 /* of a line in the legend, with its space */
 #define FONT_SIZE 11.0
-#define TOLERANCE 0.25 /* of thinning, in the units of the diagram */
+#define TOLERANCE 0.25 /* of decimation, in the units of the diagram */
 #define FINER 10.0     /* paths are written in tenths of a unit, as whole numbers */
 
 const char *cz_plot_colour(int colour) {
@@ -202,7 +202,7 @@ static void write_move(FILE *stream, char command, long x, long y) {
     fprintf(stream, "%c%ld%s%ld", command, x, y < 0 ? "" : " ", y);
 }
 
-/* Points from one gap to the next: those that thinning keeps, as steps on the finer grid. False
+/* Points from one gap to the next: those that decimation keeps, as steps on the finer grid. False
  * without memory. */
 static bool write_piece(const Frame *frame, const CzSeries *series, int from, int to,
                         FILE *stream) {
@@ -215,7 +215,7 @@ static bool write_piece(const Frame *frame, const CzSeries *series, int from, in
         paper[n + i] = paper_y(frame, series->y[from + i]);
     }
     if (fits)
-        fits = cz_thin(n, paper, paper + n, TOLERANCE, CZ_PLOT_MOST_POINTS, keep) >= 0;
+        fits = cz_decimate(n, paper, paper + n, TOLERANCE, CZ_PLOT_MOST_POINTS, keep) >= 0;
     long last_x = 0, last_y = 0;
     for (int i = 0; fits && i < n; i++) {
         if (!keep[i])

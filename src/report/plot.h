@@ -1,8 +1,8 @@
 /* Diagrams of curves as SVG: axes, limits, shaded windows, a legend below the axes where it hides
  * nothing.
  *
- * Colours are those of Okabe and Ito, which people with any colour vision tell apart; dashes tell
- * curves apart without colour. Ink is `currentColor`, so that a page may be light or dark.
+ * Colours are those of Okabe and Ito, which people with any colour vision distinguish; dashes
+ * report curves apart without colour. Ink is `currentColor`, so that a page may be light or dark.
  */
 #ifndef CZ_REPORT_PLOT_H
 #define CZ_REPORT_PLOT_H

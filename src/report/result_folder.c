@@ -23,7 +23,7 @@ typedef struct Results {
                                   the best values; NULL when it cannot be read again */
     int scenario;              /* at hand */
     bool has_report;           /* the figures' problem could be read */
-    bool is_top;               /* its files stand at the top of the folder */
+    bool is_top;               /* its files are at the top of the folder */
     const CzRun *run;          /* of the scenario at hand */
     const char *folder;        /* final path */
     const CzSource *input;     /* file to copy, at hand */
@@ -139,7 +139,7 @@ static CzStatus write_file(CzFolder *folder, const char *name, Writer writer,
     if (status != CZ_OK)
         return status;
     status = writer(results, stream, error);
-    /* What could not be written is told with the name of the file. */
+    /* What could not be written is reported with the name of the file. */
     const bool tells = status == CZ_OK || status == CZ_STATUS_OUTPUT;
     const CzStatus closed = cz_folder_close(folder, tells ? error : NULL);
     return status != CZ_OK ? status : closed;
@@ -165,7 +165,7 @@ static CzStatus write_run(CzFolder *folder, Results *results, int i, CzError *er
                : status;
 }
 
-/* Profiles stand in the folder as they are looked for beside a problem file. */
+/* Profiles are in the folder as they are searched for beside a problem file. */
 static CzStatus write_profiles(CzFolder *folder, Results *results, CzError *error) {
     CzStatus status = CZ_OK;
     for (const CzSource *source = cz_problem_first_source(results->problem);
@@ -284,7 +284,7 @@ CzStatus cz_report_write_outcome_folder(const CzProblem *problem, const CzEvalua
     const CzStatus status = write_folder(&results, error);
     cz_problem_free(best);
     if (status == CZ_OK &&
-        read == CZ_STATUS_NO_MEMORY) /* the best design is kept, and it is told */
+        read == CZ_STATUS_NO_MEMORY) /* the best design is kept, and it is reported */
         return cz_fail(error, read,
                        "no memory for the report of %.300s; crushzone report %.100s "
                        "writes it",

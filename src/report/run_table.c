@@ -80,7 +80,7 @@ static void write_run_head(const CzProblem *problem, const CzRunSummary *run, bo
     fputc('\n', stream);
 }
 
-/* What was overrun or let go at an interface, and when. */
+/* What was overrun or released at an interface, and when. */
 static void describe_damage(const CzRunSummary *run, int interface, size_t room, char *text) {
     size_t used = 0;
     text[0] = '\0';
@@ -195,7 +195,7 @@ static const CzCheckResult *worst_check(const CzProblem *problem, const CzEvalua
     return worst;
 }
 
-/* The run that stands for a family: one that failed or was cut short, else the one with the worst
+/* The run that represents a family: one that failed or was cut short, else the one with the worst
  * check. */
 static int worst_member(const CzProblem *problem, const CzEvaluation *evaluation,
                         const char *family) {
@@ -233,7 +233,7 @@ static void write_family(const CzProblem *problem, const CzEvaluation *evaluatio
     fputc('\n', stream);
 }
 
-/* Whether a run is told: each one of its own, and of each family the worst member. */
+/* Whether a run is reported: each one of its own, and of each family the worst member. */
 static bool is_told(const CzProblem *problem, const CzEvaluation *evaluation, int index) {
     const char *family = family_of(problem, cz_kept_run(evaluation, index)->scenario);
     return family == NULL || worst_member(problem, evaluation, family) == index;

@@ -28,7 +28,7 @@ typedef struct Outline {
     double tip;   /* coupling face at rest */
 } Outline;
 
-/* How a car stands at a sample [m, rad]. */
+/* How a car is at a sample [m, rad]. */
 typedef struct Pose {
     double x, z, pitch, lift[4];
     double end[2], anti_climber[2]; /* strokes */

@@ -1,4 +1,4 @@
-/* Cars from the side, to scale, as they stand at one sample of a run. */
+/* Cars from the side, to scale, as they are at one sample of a run. */
 #ifndef CZ_REPORT_SCENE_H
 #define CZ_REPORT_SCENE_H
 

@@ -81,7 +81,7 @@ CzSeries *cz_sheet_split_beyond(CzSheet *sheet, CzSeries *series) {
         return NULL;
     double *part = cz_arena_allocate(&sheet->arena, 2 * (size_t)series->n, sizeof *part);
     if (part == NULL)
-        return NULL; /* told by finish */
+        return NULL; /* reported by finish */
     const double from = page->summary->beyond_validity_time * CZ_MILLI_PER_UNIT;
     for (int i = 0; i < series->n; i++) {
         const bool late = page->time[i] > from;

@@ -1,6 +1,6 @@
 # Sources of src/report, one per line.
 set(CZ_SOURCES_report
-    alone.c
+    standalone_figure.c
     chart.c
     chart_curves.c
     charts.c
@@ -47,7 +47,7 @@ set(CZ_SOURCES_report
     results.c
     run_table.c
     scene.c
-    shares.c
+    energy_distribution.c
     sheet.c
     single_file.c
     sweep_folder.c
@@ -55,6 +55,6 @@ set(CZ_SOURCES_report
     table.c
     table_page.c
     temporary.c
-    thin.c
+    decimation.c
     verification.c
 )

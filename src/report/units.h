@@ -9,7 +9,7 @@
 #define CZ_KM_H_PER_M_S 3.6
 #define CZ_GRAVITY 9.80665 /* standard gravity [m/s2] */
 
-/* Times are multiples of a step whose decimals are no binary fractions; they are told to the
+/* Times are multiples of a step whose decimals are no binary fractions; they are reported to the
  * nanosecond, a thousandth of the shortest step that one would take, so that 46.3 ms reads 46.3. */
 static inline double cz_seconds(double time) {
     return round(time * 1e9) / 1e9;

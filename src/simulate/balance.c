@@ -1,4 +1,5 @@
-/* Energy and momentum of a design: kinetic energy, work, what is stored, what the books leave open.
+/* Energy and momentum of a design: kinetic energy, work, what is stored, what the energy balance
+ * leaves open.
  */
 #include "simulate/run.h"
 

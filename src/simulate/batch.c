@@ -13,7 +13,7 @@
 
 enum {
     STEPS_BETWEEN_LOOKS = 32, /* of the model: energy and end of run are looked at this often, so
-                                 that a run with half the step ends at the same time (ours) */
+                                 that a run with a halved time step ends at the same time (ours) */
     LANES_THAT_FILL = 96,     /* lanes of a batch that still stay in the first caches (measured) */
     MOST_STEPS = 100000       /* of a reference within one step of the model: more is a storm of
                                  events (ours) */
@@ -61,7 +61,7 @@ static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *erro
     return CZ_OK;
 }
 
-/* A run for a search takes the cheap track; the record is run with the file's own. */
+/* A run for a search takes the cheap track; the production run is run with the file's own. */
 static CzTrack track_of(const CzBatch *batch, CzTrackUse use) {
     const CzTrack own = (CzTrack)batch->model->simulation->track;
     if (own == CZ_TRACK_RIGID)

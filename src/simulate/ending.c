@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { LOOKS_BETWEEN_BOOKS = 64 }; /* looks at the end between two at the books (ours) */
+enum { LOOKS_BETWEEN_ENERGY_CHECKS = 64 }; /* looks at the end between two at the books (ours) */
 
 #define CLOSING_SPEED 0.1      /* [m/s] */
 #define MEETING_SHARE 0.4      /* a sixth of the first impact's energy (ours) */
@@ -81,11 +81,11 @@ static bool fails_to_balance(CzBatch *batch, int design) {
 }
 
 /* Fails the design when its energies cannot be: looked at now and then, and at the end. */
-static void fail_its_books(CzBatch *batch, int design) {
+static void fail_its_energy_checks(CzBatch *batch, int design) {
     char where[CZ_FAULT_ROOM], what[CZ_FAULT_ROOM];
     CzProgressOfDesign *progress = &batch->design[design];
-    const bool is_time = progress->n_look++ % LOOKS_BETWEEN_BOOKS == 0;
-    if ((progress->over || is_time) && cz_books_are_wrong(batch, design, where, what))
+    const bool is_time = progress->n_look++ % LOOKS_BETWEEN_ENERGY_CHECKS == 0;
+    if ((progress->over || is_time) && cz_energy_checks_fail(batch, design, where, what))
         fail(batch, design, where, "energy", what);
 }
 
@@ -324,7 +324,7 @@ static void look_at(CzBatch *batch, int design) {
         progress->ended = CZ_ENDED_INCOMPLETE;
         progress->over = true;
     }
-    fail_its_books(batch, design);
+    fail_its_energy_checks(batch, design);
 }
 
 bool cz_ending_look(CzBatch *batch) {

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 
 #define PI 3.14159265358979323846
-#define SAMPLES_PER_CYCLE 10.0 /* as SAE J211-1 asks for */
+#define SAMPLES_PER_CYCLE 10.0 /* as SAE J211-1 requires */
 
 int cz_filter_fits(double class_hz, double step) {
     return step > 0.0 && SAMPLES_PER_CYCLE * class_hz * step <= 1.0 + 1e-9;

@@ -6,7 +6,7 @@
  * A trial state is evaluated from the committed memory, with the time since the commit as the step
  * of the laws; memory is committed where a step is accepted. The laws answer by return mapping, so
  * force and next memory are continuous there. What depends on that step (creep, hydraulic stroke,
- * rate of flow) is advanced implicitly over it and converges as steps shrink, to the same limit as
+ * crush rate) is advanced implicitly over it and converges as steps shrink, to the same limit as
  * under the fixed-step scheme.
  */
 #ifndef CZ_SIMULATE_REFERENCE_H
@@ -17,7 +17,7 @@
 
 typedef struct CzReference CzReference;
 
-/* A reference for a batch of one design that stands at t = 0, allocated in its arena; free with
+/* A reference for a batch of one design that is at t = 0, allocated in its arena; free with
  * cz_reference_free. `tolerance` scales what cz_reference_step allows as local error: 1 m/s and
  * 1 rad/s times it in velocities, 10 mm and 10 mrad in displacements. A modal track was laid for a
  * step of 0. Statuses: CZ_OK, CZ_STATUS_INPUT for a track that it does not know,

@@ -139,10 +139,11 @@ CzAccount cz_gear_account(const CzBatch *batch, size_t lane);
 /* What the sliders and stops of a lane store; their powers are in the ledger. */
 CzAccount cz_springs_account(const CzBatch *batch, size_t lane);
 
-/* books.c: whether the energies of a design do not hold what they must, and where and what that is.
+/* checks.c: whether the energies of a design do not hold what they must, and where and what that
+ * is.
  */
 enum { CZ_FAULT_ROOM = 96 };
-bool cz_books_are_wrong(const CzBatch *batch, int design, char *where, char *what);
+bool cz_energy_checks_fail(const CzBatch *batch, int design, char *where, char *what);
 
 /* balance.c */
 double cz_kinetic_energy(const CzBatch *batch, int design);

@@ -3,7 +3,7 @@ set(CZ_SOURCES_simulate
     accounts.c
     balance.c
     batch.c
-    books.c
+    energy_checks.c
     budget.c
     channels.c
     devices.c

@@ -20,7 +20,7 @@ typedef struct {
 
 /* What stays as it is while no coupler, face or side buffer does anything; and what limits guard.
  */
-typedef enum { WHILE_PUSHED, GUARDED, N_WHEN } When;
+typedef enum { WHILE_PUSHED, GUARDED, N_TIME_WINDOW } When;
 
 /* The lowest thresholds of what is still watched in the lanes of a block. */
 typedef struct {
@@ -30,9 +30,9 @@ typedef struct {
 } Limits;
 
 struct CzWatch {
-    int n_watched[N_WHEN], n_named, n_event;
+    int n_watched[N_TIME_WINDOW], n_named, n_event;
     int interface; /* that is being listed; -1 when it is a vehicle */
-    Watched *watched[N_WHEN];
+    Watched *watched[N_TIME_WINDOW];
     CzEvent *named; /* (n_named): kind, place and interface of what is watched */
     Limits *limits; /* (n_block) */
     CzEvent *event;
@@ -183,7 +183,7 @@ CzWatch *cz_watch_begin(CzBatch *batch, CzArena *arena) {
     const size_t most = (size_t)batch->model->n_car * MOST_PER_CAR;
     if (list == NULL)
         return NULL;
-    for (int when = 0; when < N_WHEN; ++when) {
+    for (int when = 0; when < N_TIME_WINDOW; ++when) {
         list->watched[when] = cz_arena_allocate(arena, most, sizeof *list->watched[when]);
         if (list->watched[when] == NULL)
             return NULL;

@@ -98,7 +98,7 @@ static bool is_bracket(char c) {
     return c == '[' || c == '(';
 }
 
-/* Whether a blank parts two fields. One in front of a bracket stands between a title and its unit,
+/* Whether a blank parts two fields. One in front of a bracket is between a title and its unit,
  * unless the field is a unit in brackets itself. */
 static bool blank_parts(const char *start, const char *at) {
     const char *next = skip_blanks(at);

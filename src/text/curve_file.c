@@ -164,7 +164,7 @@ static void refuse_number(const CzCurveReading *reading, int line, int i, const 
 }
 
 /* A line with too many or too few fields: with decimal commas between commas both readings are
- * told. */
+ * reported. */
 static void refuse_count(const CzCurveReading *reading, int line, int n) {
     cz_mistake_at(reading->mistakes, &reading->source, line + 1, 1,
                   "this line has %d %s, the %s %d", n, n == 1 ? "column" : "columns",

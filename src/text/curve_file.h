@@ -19,7 +19,7 @@ bool cz_curve_points_read(CzSources *sources, CzMistakes *mistakes, const char *
                           const CzNode *place, const CzCurveRequest *request,
                           CzCurvePoints *points);
 
-/* Reads a file ("-" is standard input), and the same from memory, which `name` stands for in
+/* Reads a file ("-" is standard input), and the same from memory, which `name` represents in
  * messages. Statuses: CZ_OK, CZ_STATUS_INPUT with the first mistake, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_curve_points_read_file(CzArena *arena, const char *path,
                                                  const CzCurveRequest *request,
@@ -29,7 +29,7 @@ CZ_MUST_CHECK CzStatus cz_curve_points_read_memory(CzArena *arena, const char *n
                                                    const CzCurveRequest *request,
                                                    CzCurvePoints *points, CzError *error);
 
-/* The line of titles of a file, and the separator of its fields, which is looked for unless it is
+/* The line of titles of a file, and the separator of its fields, which is searched for unless it is
  * given. Statuses as above. */
 CZ_MUST_CHECK CzStatus cz_curve_titles_read(CzArena *arena, const char *path, char *separator,
                                             const char **titles, CzError *error);

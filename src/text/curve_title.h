@@ -27,7 +27,7 @@ void cz_curve_unit_list(CzDimension dimension, char *text, size_t size);
 typedef struct CzCurveColumn {
     const char *name; /* of the quantity, such as "stroke": what titles begin with */
     CzDimension dimension;
-    const char *title; /* the title or number that was asked for; NULL: by the quantity */
+    const char *title; /* the title or number that was requested; NULL: by the quantity */
     const char *unit;  /* that was given; NULL: from the title or the row of units */
     double without;    /* SI value of a unit that is not written; 0: it must be */
     double largest;    /* size beyond which no number can be meant [SI]; 0: any can be */

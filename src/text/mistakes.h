@@ -16,7 +16,7 @@ typedef struct CzMistake {
 /* Zero-initialise it and set the arena. */
 typedef struct CzMistakes {
     CzArena *arena;
-    CzMistake *mistake[CZ_MAX_MISTAKES + 1]; /* one more tells how many are left out */
+    CzMistake *mistake[CZ_MAX_MISTAKES + 1]; /* one more shows how many are left out */
     int n_mistake;
     int n_left_out;
     CzMistake *last; /* the one added last; NULL when it was known before or left out */

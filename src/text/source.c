@@ -150,7 +150,7 @@ static void refuse_file(CzMistakes *mistakes, const char *path, const CzNode *pl
         cz_mistake_help(mistakes, "the problem of a result folder is its %s", resolved);
 }
 
-/* Folder of a path: what stands before its last slash, "." without one. */
+/* Folder of a path: what is before its last slash, "." without one. */
 static const char *folder_of(CzArena *arena, const char *path) {
     const char *slash = strrchr(path, '/');
     if (slash == NULL)

@@ -18,7 +18,7 @@ typedef struct CzValue {
 bool cz_value_is_there(CzValue value);
 
 /* A number in a unit between two limits [SI]; NaN and false with a mistake when it is none. A node
- * that stands for any number leaves `number` alone. */
+ * that represents any number leaves `number` alone. */
 bool cz_value_number(CzValue value, const CzUnit *unit, double lo, double hi, double *number);
 
 /* A whole number between two limits; false with a mistake when it is none. */

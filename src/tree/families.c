@@ -172,7 +172,7 @@ typedef struct Scenarios {
     const CzTree *tree;
     int n;
     CzEntry *entry; /* (n) */
-    bool is_full;   /* there are too many, which was told */
+    bool is_full;   /* there are too many, which was reported */
 } Scenarios;
 
 /* Whether there may be n more. */
@@ -208,7 +208,7 @@ static bool append_scenario(Scenarios *scenarios, const CzEntry *entry) {
         *item = *entry;
         if (is_family)
             item->value = member_node(&family, name, i);
-        else if (family.sweep != NULL) /* its mistake was told */
+        else if (family.sweep != NULL) /* its mistake was reported */
             item->value = cz_node_without(&reader->arena, scenario, "sweep");
         if (item->value == NULL)
             return false;

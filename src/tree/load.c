@@ -86,7 +86,7 @@ static bool is_part(CzReader *reader, const CzEntry *entry) {
     return false;
 }
 
-/* Parts of a catalogue; a name may stand in one catalogue only. */
+/* Parts of a catalogue; a name may be in one catalogue only. */
 static void gather_catalogue_parts(Loader *loader, const CzNode *parts) {
     for (int i = 0; i < parts->n_entry; i++) {
         const CzEntry *entry = &parts->entry[i];

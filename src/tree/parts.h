@@ -20,13 +20,15 @@ typedef struct CzTree {
     int n_part;
     CzPart *part;     /* (n_part) */
     CzIndex by_name;  /* of the parts */
-    bool lacks_parts; /* a catalogue could not be read: what a part is missing for is told there */
+    bool lacks_parts; /* a catalogue could not be read: what a part is missing for is reported there
+                       */
 } CzTree;
 
 /* The part whose name is the first n bytes of a text; NULL when there is none. */
 CzPart *cz_tree_part(const CzTree *tree, const char *name, size_t n);
 
-/* Finds how deep parts use one another, each part once; tells circles and chains that are too deep.
+/* Finds how deep parts use one another, each part once; reports circles and chains that are too
+ * deep.
  */
 void cz_parts_measure(CzReader *reader, CzTree *tree);
 

@@ -18,7 +18,7 @@ typedef struct CzMatches {
 } CzMatches;
 
 /* Puts a value under a path, which may name several places; with `matches` each place gets a node
- * of its own that stands for any number. False, with a mistake, when the path names none. */
+ * of its own that represents any number. False, with a mistake, when the path names none. */
 bool cz_path_put(CzReader *reader, CzTree *tree, const char *path, const CzNode *place,
                  const CzNode *value, CzMatches *matches);
 

@@ -8,7 +8,7 @@
  *   rules     what must hold between values
  *
  * The first four are in this folder, the others in src/problem. All of them go on after a mistake,
- * so that one pass tells every mistake. When memory is short they return NULL or leave; the arena
+ * so that one pass reports every mistake. When memory is short they return NULL or leave; the arena
  * knows that a request failed.
  */
 #ifndef CZ_TREE_READER_H

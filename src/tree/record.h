@@ -1,5 +1,5 @@
 /* What a mapping may hold: the types of the tables of keys, and looking up in them. The tables
- * themselves stand in problem/keys.h. */
+ * themselves are in problem/keys.h. */
 #ifndef CZ_TREE_RECORD_H
 #define CZ_TREE_RECORD_H
 

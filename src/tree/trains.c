@@ -27,7 +27,7 @@ typedef struct {
     const CzTrail *trail;
     const char *name; /* NULL when it has none */
     const CzEntry *copy;
-    bool is_refused; /* a mistake was told about its vehicles */
+    bool is_refused; /* a mistake was reported about its vehicles */
     int n_vehicle;
     Vehicle *vehicle;
 } Train;
@@ -313,7 +313,7 @@ static const CzNode *vehicle_node(CzReader *reader, const Vehicle *vehicle) {
     return node;
 }
 
-/* The list of a train's vehicles, or a node that is passed over when its mistake was told. */
+/* The list of a train's vehicles, or a node that is passed over when its mistake was reported. */
 static const CzNode *vehicles_node(CzReader *reader, const Train *train, const CzNode *place) {
     CzNode *list = cz_arena_allocate(&reader->arena, 1, sizeof *list);
     CzEntry *entry = cz_arena_allocate(&reader->arena, (size_t)train->n_vehicle, sizeof *entry);
@@ -350,7 +350,8 @@ static const CzNode *train_node(CzReader *reader, const Train *train) {
             !(entry == own && is_written_out))
             node->entry[node->n_entry++] = *entry;
     }
-    if (!is_written_out) /* no list, or none that holds vehicles: told when the records are read */
+    if (!is_written_out) /* no list, or none that holds vehicles: reported when the records are read
+                          */
         return node;
     const CzNode *place = own != NULL ? own->key : train->copy->key;
     const CzEntry vehicles = {cz_node_text(&reader->arena, "vehicles", place),

@@ -133,7 +133,7 @@ static void values_that_make_no_sense_are_refused(void **state) {
 static void files_are_counted(void **state) {
     (void)state;
     refuses("run", "'crushzone run' needs FILE...", "");
-    refuses("optimise a.yaml b.yaml", "does not know what to do with 'b.yaml'", "");
+    refuses("optimise a.yaml b.yaml", "takes no argument 'b.yaml'", "");
     refuses("run a.yaml b.yaml --json", "with --json 'crushzone run' takes one FILE", "");
     CzArguments arguments;
     CzError error = {0};

@@ -51,7 +51,7 @@ static Collision meet(const Ends *ends) {
     return collision;
 }
 
-/* Stroke at which the weaker end has taken up an energy: F s + F x - k x^2 / 2 with the slope k of
+/* Stroke at which the weaker end has absorbed an energy: F s + F x - k x^2 / 2 with the slope k of
  * the second stage. */
 static double stroke_for(const Ends *ends, double weaker_last, double energy) {
     const double first = 1e3 * ends->first, stroke = 1e-3 * ends->stroke;
@@ -60,7 +60,7 @@ static double stroke_for(const Ends *ends, double weaker_last, double energy) {
     return stroke + (first - sqrt(first * first - 2.0 * slope * left)) / slope;
 }
 
-/* The stronger end takes up its first stage at most, F s; what that leaves open in the closed form
+/* The stronger end absorbs its first stage at most, F s; what that leaves open in the closed form
  * is its share, and some 0.1 mm of elastic rise. */
 static void check_weaker_is_crushed(const Ends *ends) {
     Collision collision = meet(ends);
@@ -110,7 +110,7 @@ static void the_end_that_is_crushed_does_not_depend_on_the_step(void **state) {
 }
 
 /* The weaker end falls up to its stop; the other one then begins to fall in the same step. Until
- * then the stronger end has taken up its first stage at most; the stop gives way by some 0.1 mm. */
+ * then the stronger end has absorbed its first stage at most; the stop deflects by some 0.1 mm. */
 static void once_the_weaker_end_has_bottomed_out_the_other_one_is_crushed(void **state) {
     (void)state;
     const Ends ends = {8.0, 450.0, 1.0, {340.0, 260.0}, 2e-4};

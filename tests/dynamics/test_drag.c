@@ -198,7 +198,7 @@ static void a_buffer_stop_is_dragged_with_its_frame(void **state) {
     }
 }
 
-/* It stops short where its way ends, and that is told. */
+/* It stops short where its way ends, and that is reported. */
 static void a_buffer_stop_at_the_end_of_its_way_bottoms_out(void **state) {
     (void)state;
     Collision collision = collide(slide, WITH("parts.jaws.length_m=0.5"), 0);

@@ -20,19 +20,21 @@ static void check_closed_form(const char *const *set) {
     Collision collision = collision_model(file, set, 0);
     for (int vehicle = 0; vehicle < 2; vehicle++) {
         const CzRest rest = rest_in(&collision, vehicle);
-        const CzVehicleFacts facts = cz_model_vehicle_facts(collision.model, vehicle);
+        const CzVehicleProperties properties =
+            cz_model_vehicle_properties(collision.model, vehicle);
         assert_near(rest.residual, 0.0, 0.0, 1e-10);
         for (int bogie = 0; bogie < 2; bogie++)
-            assert_near(rest.secondary_deflection[bogie], facts.secondary_deflection[bogie], 1e-9,
-                        0.0);
+            assert_near(rest.secondary_deflection[bogie], properties.secondary_deflection[bogie],
+                        1e-9, 0.0);
         for (int axle = 0; axle < 4; axle++) {
-            assert_near(rest.axle_load[axle], facts.axle_load[axle], 1e-9, 0.0);
-            assert_near(rest.primary_deflection[axle], facts.primary_deflection[axle], 1e-9, 0.0);
+            assert_near(rest.axle_load[axle], properties.axle_load[axle], 1e-9, 0.0);
+            assert_near(rest.primary_deflection[axle], properties.primary_deflection[axle], 1e-9,
+                        0.0);
             assert_near(rest.rail_deflection[axle], 0.0, 0.0, 0.0);
         }
         const double sum =
             rest.axle_load[0] + rest.axle_load[1] + rest.axle_load[2] + rest.axle_load[3];
-        assert_near(sum, facts.mass * 9.80665, 1e-10, 0.0);
+        assert_near(sum, properties.mass * 9.80665, 1e-10, 0.0);
     }
     collision_free(&collision);
 }
@@ -66,8 +68,8 @@ static void an_elastic_track_takes_the_wheels_down(void **state) {
         cz_dynamics_lay_track(motion.dynamics, model->track, CZ_TRACK_MODAL, 0.0, &motion.arena));
     for (int axle = 0; axle < 4; axle++) {
         const double approach = motion.dynamics->block[0].constant.wheel_rest[axle][0];
-        assert_near(rest.axle_load[axle], cz_model_vehicle_facts(model, 0).axle_load[axle], 1e-9,
-                    0.0);
+        assert_near(rest.axle_load[axle], cz_model_vehicle_properties(model, 0).axle_load[axle],
+                    1e-9, 0.0);
         assert_true(rest.rail_deflection[axle] > 1e-4);
         assert_near(rest.rail_deflection[axle] + rest.indentation[axle], approach, 1e-9, 0.0);
     }
@@ -75,7 +77,7 @@ static void an_elastic_track_takes_the_wheels_down(void **state) {
     motion_close(&motion);
 }
 
-/* What is at rest by the laws is at rest in the kernel: no force moves a car that stands still. */
+/* What is at rest by the laws is at rest in the kernel: no force moves a car that is at rest. */
 static void the_kernel_moves_nothing_at_rest(void **state) {
     (void)state;
     const char *const tracks[] = {"simulation.track=rigid", "simulation.track=modal"};
@@ -85,7 +87,7 @@ static void the_kernel_moves_nothing_at_rest(void **state) {
             for (int car = 0; car < 2; car++)
                 *cz_lane_velocity(motion.lanes, dof, (size_t)car) = 0.0;
         motion_start(&motion);
-        const double weight = cz_model_vehicle_facts(motion.collision.model, 0).mass * 9.80665;
+        const double weight = cz_model_vehicle_properties(motion.collision.model, 0).mass * 9.80665;
         for (int dof = CZ_DOF(body.z); dof < CZ_N_DOF; dof++)
             assert_near(force(&motion, dof, 0), 0.0, 0.0, 1e-9 * weight);
         motion_close(&motion);

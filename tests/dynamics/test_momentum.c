@@ -219,7 +219,7 @@ static void angular_momentum_is_kept_at_the_order_of_the_step(void **state) {
     assert_true(fine < 0.5 * coarse);
 }
 
-/* What the elements take up is what the bodies lose; the share that is missing. */
+/* What the elements absorb is what the bodies lose; the share that is missing. */
 static double missing_energy(const char *step, int n_step) {
     Motion motion = collision_in_space(step);
     const double before = motion_kinetic_energy(&motion);
@@ -236,7 +236,7 @@ static double missing_energy(const char *step, int n_step) {
     return missing;
 }
 
-static void the_energy_books_close_with_the_step(void **state) {
+static void the_energy_balance_closes_with_the_step(void **state) {
     (void)state;
     const double coarse = missing_energy("simulation.time_step_ms=0.04", 5000);
     const double fine = missing_energy("simulation.time_step_ms=0.01", 20000);
@@ -252,7 +252,7 @@ int main(void) {
         cmocka_unit_test(they_do_with_couplers_on_the_end_masses_too),
         cmocka_unit_test(every_element_took_part),
         cmocka_unit_test(angular_momentum_is_kept_at_the_order_of_the_step),
-        cmocka_unit_test(the_energy_books_close_with_the_step),
+        cmocka_unit_test(the_energy_balance_closes_with_the_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,7 +21,7 @@ static void lead(const Motion *motion, int dof, double size, double shift, int i
 
 /* The front bogie turns by up to a radian each way while its body and its axles move out of step
  * with it. The trapezoidal rule over 20,000 steps of a loop is off by some 1e-7 of what goes in and
- * out, the springs' kinks by a little more. */
+ * out, the springs' breakpoints by a little more. */
 static void springs_of_a_bogie_that_turns_give_back_what_they_took(void **state) {
     (void)state;
     static const int rows[] = {CZ_LEDGER(primary), CZ_LEDGER(axle_guidance)};

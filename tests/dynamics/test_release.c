@@ -1,11 +1,11 @@
-/* A shear-off lets go inside a step: its force is the peak, and outcomes follow it smoothly. */
+/* A shear-off releases inside a step: its force is the peak, and outcomes follow it smoothly. */
 #include "physics/collision.h"
 
 #define MASS 40e3      /* [kg] */
 #define STIFFNESS 20e6 /* of the buffer [N/m] */
 #define FORCE 0.6e6    /* of the shear-off [N] */
 
-/* One mass onto a wall: the coupler takes a F^2 + b F until it has let go at the force F. */
+/* One mass onto a wall: the coupler takes a F^2 + b F until it has been released at the force F. */
 typedef struct {
     const char *speed, *softening; /* settings */
     double before;                 /* [m/s] */
@@ -37,7 +37,8 @@ static double speed_after(const Case *c, double force, const char *step) {
     return speed;
 }
 
-/* The force rises by k v h = 2 kN in a step of 0.1 ms: the crossing is looked for all over a step.
+/* The force rises by k v h = 2 kN in a step of 0.1 ms: the crossing is searched for all over a
+ * step.
  */
 static void the_peak_is_the_force_of_the_shear_off(void **state) {
     (void)state;
@@ -86,7 +87,7 @@ static void two_full_cars_let_go_at_the_force_that_is_set(void **state) {
     collision_free(&collision);
 }
 
-/* The closing speed at the end of a step stands for that in it: a relative error of a h / v in the
+/* The closing speed at the end of a step represents that in it: a relative error of a h / v in the
  * time that is left after the release, so in the derivative. What is left of the force after the
  * release is some ten newtons, by the smallest resistance of a plastic member: 1e-5 of the speed.
  */

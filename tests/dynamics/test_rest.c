@@ -74,9 +74,9 @@ static double work_of(const Motion *motion, int row) {
 
 /* Wheels that roll over sleepers work on pads and ballast, and the model keeps them at their speed:
  * what the track turns into heat is what the moving load brings in, and no car slows down, but for
- * the creep under a load that swings by a part in a thousand. Without that term the books would be
- * short by all of it. Work is summed over steps of a hundredth of a bay's passage, to second order:
- * a part in a thousand. */
+ * the creep under a load that swings by a part in a thousand. Without that term the energy balance
+ * would be short by all of it. Work is summed over steps of a hundredth of a bay's passage, to
+ * second order: a part in a thousand. */
 static void rails_that_give_way_brake_nobody_and_the_moving_load_pays_for_them(void **state) {
     (void)state;
     static const char *const tracks[] = {"simulation.track=modal", "simulation.track=fe"};
@@ -146,7 +146,7 @@ static void assert_failed(const Collision *collision) {
     assert_true(isnan(summary->energy.dissipated));
 }
 
-/* The model refuses such steps; a caller of the library may still ask for one. */
+/* The model refuses such steps; a caller of the library may still require one. */
 static void an_absurd_time_step_ends_as_failed(void **state) {
     (void)state;
     static const double steps[] = {0.6e-3, 1e-3, 5e-3, 0.1};

@@ -27,7 +27,7 @@ static CzTrackMotion *track_under(const double place[4], const double load[4], d
 
 /* Modes and the flexibility under the force make the exact statics, whatever the cut and the step,
  * at every place in a bay. What the flexibility's four powers leave out of the statics falls with
- * their fourth power from the 0.9 % that the first stands for: 1e-2 / 5^4. */
+ * their fourth power from the 0.9 % that the first represents: 1e-2 / 5^4. */
 static void a_load_at_rest_deflects_the_track_as_its_statics(void **state) {
     (void)state;
     static const double cut[] = {1000.0, 1500.0, 3000.0};
@@ -257,7 +257,7 @@ static void cars_at_rest_on_any_track_stay_at_rest(void **state) {
 }
 
 /* A standing car whose first wheel is nudged by a nanometre, in steps of a share of the bound: how
- * far a wheel is off in the end. Its wheels stand over sleepers, where the rail gives way least,
+ * far a wheel is off in the end. Its wheels stand over sleepers, where the rail deflects least,
  * and their contact is as good as rigid. */
 static double swing_after(double share) {
     Motion motion =

@@ -1,7 +1,7 @@
 /* A stand-in for the simulator: two rigid cars whose collision has a closed form.
  *
  * Half of the energy m v^2 / 4 goes into each side: first into the coupler's tube, which shears off
- * when it is used up or too strong, then into the anti-climber, then into the end. It replaces
+ * when it is exhausted or too strong, then into the anti-climber, then into the end. It replaces
  * model and simulator in a test program, so that evaluator and optimiser are tested without them.
  */
 #ifndef CZ_TESTS_STAND_IN_H

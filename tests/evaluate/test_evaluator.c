@@ -128,7 +128,7 @@ static void design_rules_judge_the_design_and_every_scenario(void **state) {
     Case made = begin("");
     evaluate(&made, NULL);
     const CzEvaluation *evaluation = &made.evaluation;
-    /* the tube is used up at 25 km/h and the coupler shears, as it may; at 15 km/h it must not */
+    /* the tube is exhausted at 25 km/h and the coupler shears, as it may; at 15 km/h it must not */
     assert_int_equal(find(evaluation, "no shear-off at 15 km/h (service)", "service")->verdict,
                      CZ_VERDICT_PASS);
     assert_null(find(evaluation, "no shear-off at 15 km/h (service)", "crash"));
@@ -261,7 +261,7 @@ static void required_margin_is_part_of_the_constraint(void **state) {
     assert_int_equal(made.evaluation.n_check, 0);
     assert_near(made.evaluation.constraint[0], 0.1 - 50.0 / 150, 1e-9, 0);
     assert_true(made.evaluation.n_constraint > 2);
-    for (int i = 1; i < made.evaluation.n_constraint; i++) /* rules of files ask for no reserve */
+    for (int i = 1; i < made.evaluation.n_constraint; i++) /* rules of files require no reserve */
         assert_near(made.evaluation.constraint[i],
                     isnan(made.evaluation.constraint_check[i].margin)
                         ? -1

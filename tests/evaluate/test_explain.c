@@ -50,11 +50,11 @@ static int free_climb(void **state) {
     return 0;
 }
 
-static const CzLever *lever_of(const CzExplanation *explanation, const char *name) {
-    for (int i = 0; i < explanation->n_lever; i++)
-        if (strcmp(explanation->lever[i].name, name) == 0)
-            return &explanation->lever[i];
-    fail_msg("no lever '%s'", name);
+static const CzCandidateChange *lever_of(const CzExplanation *explanation, const char *name) {
+    for (int i = 0; i < explanation->n_candidate; i++)
+        if (strcmp(explanation->candidate[i].name, name) == 0)
+            return &explanation->candidate[i];
+    fail_msg("no candidate '%s'", name);
     return NULL;
 }
 
@@ -84,37 +84,39 @@ static void the_change_that_restores_the_margin_does_so_in_the_file(void **state
     assert_true(climb.explanation->climbed);
     assert_int_equal(climb.explanation->verdict, CZ_VERDICT_FAIL);
     assert_true(climb.explanation->worst.margin < 0);
-    const CzLever *lever = lever_of(climb.explanation, "height of the traction links");
-    assert_true(lever->turns);
-    assert_true(lever->margin >= 0);
-    assert_true(holds_with_link_height(lever->needed));
+    const CzCandidateChange *candidate =
+        lever_of(climb.explanation, "height of the traction links");
+    assert_true(candidate->turns);
+    assert_true(candidate->margin >= 0);
+    assert_true(holds_with_link_height(candidate->needed));
     /* One step of the search nearer to the file's value it still climbs. */
-    assert_true(fabs(lever->not_yet) < fabs(lever->change));
-    assert_false(holds_with_link_height(lever->value * (1 + lever->not_yet)));
+    assert_true(fabs(candidate->not_yet) < fabs(candidate->change));
+    assert_false(holds_with_link_height(candidate->value * (1 + candidate->not_yet)));
 }
 
 static void levers_stand_in_order(void **state) {
     (void)state;
     const CzExplanation *explanation = climb.explanation;
-    assert_true(explanation->n_lever > 10);
-    for (int i = 1; i < explanation->n_lever; i++) {
-        const CzLever *before = &explanation->lever[i - 1], *lever = &explanation->lever[i];
-        assert_true(before->turns || !lever->turns);
-        if (lever->turns)
-            assert_true(fabs(log1p(before->change)) <= fabs(log1p(lever->change)));
+    assert_true(explanation->n_candidate > 10);
+    for (int i = 1; i < explanation->n_candidate; i++) {
+        const CzCandidateChange *before = &explanation->candidate[i - 1],
+                                *candidate = &explanation->candidate[i];
+        assert_true(before->turns || !candidate->turns);
+        if (candidate->turns)
+            assert_true(fabs(log1p(before->change)) <= fabs(log1p(candidate->change)));
         else if (!before->turns)
-            assert_true(before->margin >= lever->margin);
-        assert_true(lever->margin >= explanation->worst.margin);
+            assert_true(before->margin >= candidate->margin);
+        assert_true(candidate->margin >= explanation->worst.margin);
     }
 }
 
 static void signs_are_of_the_time_before_the_climb(void **state) {
     (void)state;
     bool bottoms = false;
-    for (int i = 0; i < climb.explanation->n_sign; i++) {
-        const CzSign *sign = &climb.explanation->sign[i];
-        assert_false(sign->time > climb.explanation->climb_time);
-        bottoms |= sign->cause == CZ_CAUSE_BOTTOMING;
+    for (int i = 0; i < climb.explanation->n_indicator; i++) {
+        const CzIndicator *indicator = &climb.explanation->indicator[i];
+        assert_false(indicator->time > climb.explanation->climb_time);
+        bottoms |= indicator->cause == CZ_CAUSE_BOTTOMING;
     }
     assert_true(bottoms);
 }
@@ -124,8 +126,8 @@ static void what_holds_is_told_what_breaks_it(void **state) {
     Case made = begin("title: as it is");
     assert_false(made.explanation->climbed);
     assert_true(made.explanation->worst.margin >= 0);
-    assert_true(made.explanation->lever[0].turns);
-    assert_true(made.explanation->lever[0].margin < 0);
+    assert_true(made.explanation->candidate[0].turns);
+    assert_true(made.explanation->candidate[0].margin < 0);
     end(&made);
 }
 

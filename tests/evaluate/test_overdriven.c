@@ -1,5 +1,5 @@
 /* Every class of device is driven beyond its stroke, on either side of an interface, by rigid and
- * by full cars, against a car and a wall, and lets go again: what the results say is the largest
+ * by full cars, against a car and a wall, and releases again: what the results say is the largest
  * stroke of the run, not the one that is left. */
 #include "support/check.h"
 

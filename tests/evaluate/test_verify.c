@@ -121,8 +121,8 @@ static void a_change_beyond_the_limit_does_not_pass(void **state) {
     end(&made);
 }
 
-/* A limit between the record's closure and that of half the step: the verdict hangs on the step,
- * however small the change. */
+/* A limit between the production run's closure and that of a halved time step: the verdict depends
+ * on the step, however small the change. */
 static void a_verdict_that_flips_does_not_pass(void **state) {
     (void)state;
     Case made = begin(limits);
@@ -187,7 +187,7 @@ static void a_fit_is_verified_by_what_it_matches(void **state) {
     end(&made);
 }
 
-/* Only the ways that are asked for are gone, and only they count. */
+/* Only the ways that are requested are gone, and only they count. */
 static void ways_are_chosen(void **state) {
     (void)state;
     Case made = begin(limits);

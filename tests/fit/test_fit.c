@@ -107,7 +107,7 @@ static void more_stages_come_closer(void **state) {
     assert_true(before < 1e6 / 36.0 * sqrt((1 + 9 + 25 + 49 + 81 + 121) / 6.0 / 12.0));
 }
 
-/* The least squares of one plateau is the mean force, and so is what the energy asks for. */
+/* The least squares of one plateau is the mean force, and so is what the energy requires. */
 static void one_plateau_is_the_mean_force(void **state) {
     (void)state;
     curve.n = 0;
@@ -178,7 +178,7 @@ static void a_noisy_end_keeps_its_energies(void **state) {
 }
 
 /* A peak that noise has cut off is no first stage of unloading: it would be hundreds of times as
- * stiff as the line, and ask for time steps as much shorter. The 0.1 mm by which the curve falls
+ * stiff as the line, and require time steps as much shorter. The 0.1 mm by which the curve falls
  * from its peak add 150 J to the 5625 J of the line. */
 static void a_straight_unloading_stays_one_line(void **state) {
     (void)state;
@@ -322,7 +322,7 @@ static void expect_refusal(const double points[][2], int n, int line, const char
         expect_refusal(points, (int)(sizeof points / sizeof *points), line, sentence);             \
     } while (0)
 
-/* A rise of 1 mm to 90 MN asks for a transition stiffness that no problem file takes. */
+/* A rise of 1 mm to 90 MN requires a transition stiffness that no problem file takes. */
 static void a_law_beyond_the_ranges_of_a_problem_file_is_refused(void **state) {
     (void)state;
     CzFit *fit = NULL;

@@ -6,7 +6,7 @@
 
 static int n_request;    /* so far */
 static int failing = -1; /* number of the request that fails; -1: none */
-static int n_live;       /* pieces that nobody has freed, of those asked for while counting */
+static int n_live;       /* pieces that nobody has freed, of those requested while counting */
 static bool counting;
 
 void *__real_calloc(size_t n, size_t size);
@@ -65,7 +65,7 @@ static void every_lack_of_memory_is_reported(void **state) {
     }
 }
 
-/* Titles stand in the first line that is no comment, with or without quotes. What is read is not
+/* Titles are in the first line that is no comment, with or without quotes. What is read is not
  * counted: only requests that the linker sends here are. */
 static void titles_are_read_or_the_lack_of_memory_is_told(void **state) {
     (void)state;

@@ -214,7 +214,7 @@ static double left_with(const CzStaged *staged, const CzBranch *branch) {
 }
 
 /* No pair of forces can be moved against each other at equal energy, within the bound, without
- * leaving more: what Karush, Kuhn and Tucker ask for, tried out. */
+ * leaving more: what Karush, Kuhn and Tucker require, tried out. */
 static void bounded_forces_are_the_least_squares(void **state) {
     (void)state;
     CzArena arena = {0};

@@ -179,7 +179,7 @@ static void a_solver_that_gives_up_says_when_and_why(void **state) {
 
 /* ---- equations ---- */
 
-/* x^2 + y^2 = 2 and x = y^3, with a kink where x is negative: (1, 1). */
+/* x^2 + y^2 = 2 and x = y^3, with a breakpoint where x is negative: (1, 1). */
 static void circle_and_cube(CzEquations *equations, const double *q, double *residual) {
     (void)equations;
     residual[0] = q[0] * q[0] + q[1] * q[1] - 2.0;

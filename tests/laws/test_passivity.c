@@ -121,7 +121,7 @@ static const Walk walks[] = {
 enum { N_WALK = sizeof walks / sizeof walks[0], N_SEED = 5, N_TURN = 60 };
 
 /* Whether dissipation never falls from turn to turn of one walk. A few parts in a million of the
- * work are lost to the trapezoids at kinks. */
+ * work are lost to the trapezoids at breakpoints. */
 static bool only_takes(const Walk *walk, uint64_t seed) {
     Element element = {.force = walk->force, .law = walk->law, .backbone = walk->backbone};
     element.f = element.force(&element, 0.0);

@@ -1,4 +1,4 @@
-/* What flows or yields: tubes, shear-off, sliders, stops. */
+/* What crushes or yields: tubes, shear-off, sliders, stops. */
 #include "support/check.h"
 
 #include <stdbool.h>

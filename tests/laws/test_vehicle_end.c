@@ -110,7 +110,7 @@ static void the_backbone_absorbs_the_area_below_it(void **state) {
     assert_near(drive(&end, 0.60, 1e-5), area, 1e-9, 0.0);
 }
 
-/* Beyond the last stage the end stands on its stop: 5 mm more cost and give back the same, and
+/* Beyond the last stage the end is on its stop: 5 mm more cost and give back the same, and
  * what the crush zone itself gives back stays what it was. */
 static void bottoming_out_is_stiff_and_gives_back_what_it_took(void **state) {
     (void)state;

@@ -1,4 +1,4 @@
-/* Curves as kinks: values at every point, energies, spare kinks and limits. */
+/* Curves as breakpoints: values at every point, energies, spare breakpoints and limits. */
 #include "support/check.h"
 
 #include "model/kinks.h"
@@ -7,7 +7,7 @@ static CzStage level(double stroke, double force) {
     return (CzStage){.given = true, .stroke = stroke, .force = force, .end_force = NAN};
 }
 
-/* Integral from 0 to x, exact for straight pieces between the sorted kinks. */
+/* Integral from 0 to x, exact for straight pieces between the sorted breakpoints. */
 static double energy(const CzKinks *kinks, double x) {
     double sum = kinks->start * x;
     for (int i = 0; i < kinks->n; i++) {

@@ -146,7 +146,7 @@ static void the_last_kink_is_where_the_stroke_is_used_up(void **state) {
     free_model(&built);
 }
 
-/* Whatever the other lanes have: a lane with fewer stages has spare kinks. */
+/* Whatever the other lanes have: a lane with fewer stages has spare breakpoints. */
 static void kinks_of_a_lane_are_in_order_of_stroke(void **state) {
     (void)state;
     make_problem();

@@ -95,7 +95,8 @@ static void load_absorbers_and_mass_factor_go_into_the_body(void **state) {
     const double body = 30000.0 * 1.1 + 4000.0 + 120.0 * 2 * 0.3 + 60.0 * 0.25;
     assert_near(mass_of(&built, 0, CZ_DOF(body.x)), body, 1e-14, 0.0);
     assert_near(mass_of(&built, 0, CZ_DOF(body.pitch)), car.pitch_inertia * 1.1, 1e-14, 0.0);
-    assert_near(cz_model_vehicle_facts(built.model, 0).mass, body + car.mass - 30000.0, 1e-14, 0.0);
+    assert_near(cz_model_vehicle_properties(built.model, 0).mass, body + car.mass - 30000.0, 1e-14,
+                0.0);
     free_model(&built);
 }
 
@@ -107,10 +108,10 @@ static void loads_at_rest_carry_the_weight_and_its_moment(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &car, 10.0);
     Built built = build_model(&problem);
-    const CzVehicleFacts facts = cz_model_vehicle_facts(built.model, 0);
+    const CzVehicleProperties properties = cz_model_vehicle_properties(built.model, 0);
     double sum = 0.0;
     for (int axle = 0; axle < 4; axle++)
-        sum += facts.axle_load[axle];
+        sum += properties.axle_load[axle];
     assert_near(sum, car.mass * GRAVITY, 1e-14, 0.0);
     const double moment = (2500.0 * 10.0 - 1000.0 * 10.6) * GRAVITY;
     const double front = parameter(&built, 0, CZ_PARAMETER(secondary_preload[1]));
@@ -118,8 +119,9 @@ static void loads_at_rest_carry_the_weight_and_its_moment(void **state) {
     assert_near((front - rear) * 9.5, moment, 1e-12, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(primary_preload[3])),
                 (front + 2615.0 * GRAVITY) / 2.0, 1e-14, 0.0);
-    assert_near(facts.secondary_deflection[1], front / 8.6e5, 1e-14, 0.0);
-    assert_near(facts.primary_deflection[0], (rear + 2615.0 * GRAVITY) / 2.0 / 2.4e6, 1e-14, 0.0);
+    assert_near(properties.secondary_deflection[1], front / 8.6e5, 1e-14, 0.0);
+    assert_near(properties.primary_deflection[0], (rear + 2615.0 * GRAVITY) / 2.0 / 2.4e6, 1e-14,
+                0.0);
     free_model(&built);
 }
 
@@ -135,7 +137,7 @@ static void the_wheels_stand_on_the_rails_with_their_load(void **state) {
     assert_near(hertz / 2.0, 1.140e11, 1e-3, 0.0);
     for (int axle = 0; axle < 4; axle++) {
         const double d = parameter(&built, 0, CZ_PARAMETER(wheel.indentation[axle]));
-        const double load = cz_model_vehicle_facts(built.model, 0).axle_load[axle];
+        const double load = cz_model_vehicle_properties(built.model, 0).axle_load[axle];
         assert_near(hertz * d * sqrt(d), load, 1e-14, 0.0);
     }
     free_model(&built);
@@ -158,7 +160,7 @@ static void brakes_hold_the_axles_from_the_front_on(void **state) {
     problem.train[0].brake.axle_share = 1.0;
     problem.scenario[0].brake_ratio = 0.2;
     Built built = build_model(&problem);
-    const double load = cz_model_vehicle_facts(built.model, 0).axle_load[0];
+    const double load = cz_model_vehicle_properties(built.model, 0).axle_load[0];
     for (int axle = 0; axle < 4; axle++) {
         const CzParameter moment = CZ_PARAMETER(wheel.brake_moment[axle]);
         assert_near(parameter(&built, 0, moment), 0.2 * load * 0.43, 1e-14, 0.0);
@@ -177,7 +179,7 @@ static void a_scenarios_friction_keeps_the_share_left_in_sliding(void **state) {
     Built built = build_model(&problem);
     assert_near(parameter(&built, 0, CZ_PARAMETER(wheel.friction_peak)), 0.3, 0.0, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(wheel.friction_sliding)), 0.15, 1e-15, 0.0);
-    const double load = cz_model_vehicle_facts(built.model, 0).axle_load[0];
+    const double load = cz_model_vehicle_properties(built.model, 0).axle_load[0];
     assert_near(parameter(&built, 0, CZ_PARAMETER(wheel.creep_stiffness)),
                 0.3 * load / (0.01 * 0.006), 1e-14, 0.0);
     free_model(&built);

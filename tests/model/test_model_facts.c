@@ -44,7 +44,8 @@ static void assert_folds_as(const Built *built, int n_car, const CzChainCar *car
     assert_int_equal(cz_strut_chain_fold(n_car, car, strut, &scratch, force), CZ_OK);
     cz_arena_free(&scratch);
     for (int i = 0; i < n_car - 1; i++)
-        assert_near(cz_model_interface_facts(built->model, i).critical_force, force[i], 1e-12, 0.0);
+        assert_near(cz_model_interface_properties(built->model, i).critical_force, force[i], 1e-12,
+                    0.0);
 }
 
 static void the_critical_forces_are_those_of_the_chain_of_both_trains(void **state) {
@@ -64,7 +65,7 @@ static void the_critical_forces_are_those_of_the_chain_of_both_trains(void **sta
         {2.8, true, {{.hinge = hinge, .body_arm = arm}, {.hinge = hinge, .body_arm = arm}}},
         {2.8, true, {{.hinge = hinge, .body_arm = arm}, {.hinge = 2e5, .body_arm = arm}}}};
     assert_folds_as(&built, 3, chain_car, strut);
-    assert_near(cz_model_interface_facts(built.model, 1).strut_length, 2.8, 1e-15, 0.0);
+    assert_near(cz_model_interface_properties(built.model, 1).strut_length, 2.8, 1e-15, 0.0);
     free_model(&built);
 
     /* A pivot on an end mass, which its guidance and its folding hold. */
@@ -98,36 +99,36 @@ static void the_tube_force_is_that_of_the_weaker_coupler_before_it_shears(void *
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &strong, 1, &weak, 10.0);
     Built built = build_model(&problem);
-    assert_near(cz_model_interface_facts(built.model, 0).tube_force, 7e5, 1e-12, 0.0);
+    assert_near(cz_model_interface_properties(built.model, 0).tube_force, 7e5, 1e-12, 0.0);
     free_model(&built);
 
     problem.vehicle[1].rear.coupler.shear_off.force = 6.5e5;
     built = build_model(&problem);
-    assert_near(cz_model_interface_facts(built.model, 0).tube_force, 6.5e5, 1e-12, 0.0);
+    assert_near(cz_model_interface_properties(built.model, 0).tube_force, 6.5e5, 1e-12, 0.0);
     free_model(&built);
 
     problem.vehicle[0].front.coupler.tube.given = false;
     problem.vehicle[1].rear.coupler.tube.given = false;
     problem.vehicle[1].rear.coupler.second_tube.given = false;
     built = build_model(&problem);
-    assert_true(isnan(cz_model_interface_facts(built.model, 0).tube_force));
+    assert_true(isnan(cz_model_interface_properties(built.model, 0).tube_force));
     free_model(&built);
 }
 
-static void rigid_and_fixed_vehicles_have_no_facts(void **state) {
+static void rigid_and_fixed_vehicles_have_no_properties(void **state) {
     (void)state;
     const CzVehicle car = typed_rigid(40e3), wall = typed_wall();
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &wall, 10.0);
     Built built = build_model(&problem);
     for (int i = 0; i < 2; i++) {
-        const CzVehicleFacts facts = cz_model_vehicle_facts(built.model, i);
-        assert_true(isnan(facts.mass) && isnan(facts.bounce_frequency));
-        assert_true(isnan(facts.axle_load[3]) && isnan(facts.secondary_deflection[1]));
+        const CzVehicleProperties properties = cz_model_vehicle_properties(built.model, i);
+        assert_true(isnan(properties.mass) && isnan(properties.bounce_frequency));
+        assert_true(isnan(properties.axle_load[3]) && isnan(properties.secondary_deflection[1]));
     }
-    const CzInterfaceFacts facts = cz_model_interface_facts(built.model, 0);
-    assert_true(isnan(facts.strut_length) && isnan(facts.critical_force));
-    assert_true(isnan(facts.anti_climber_gap));
+    const CzInterfaceProperties properties = cz_model_interface_properties(built.model, 0);
+    assert_true(isnan(properties.strut_length) && isnan(properties.critical_force));
+    assert_true(isnan(properties.anti_climber_gap));
     assert_near(built.model->hold, 0.02, 0.0, 0.0);
     free_model(&built);
 }
@@ -137,7 +138,7 @@ int main(void) {
         cmocka_unit_test(unequal_ends_keep_the_sum_of_the_squares),
         cmocka_unit_test(the_critical_forces_are_those_of_the_chain_of_both_trains),
         cmocka_unit_test(the_tube_force_is_that_of_the_weaker_coupler_before_it_shears),
-        cmocka_unit_test(rigid_and_fixed_vehicles_have_no_facts),
+        cmocka_unit_test(rigid_and_fixed_vehicles_have_no_properties),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

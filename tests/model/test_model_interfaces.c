@@ -1,4 +1,4 @@
-/* Interfaces of a model: where the ends stand at t = 0, and what acts between them. */
+/* Interfaces of a model: where the ends are at t = 0, and what acts between them. */
 #include "model/built_model.h"
 
 static void the_nearest_pair_of_the_colliding_ends_touches(void **state) {
@@ -10,7 +10,7 @@ static void the_nearest_pair_of_the_colliding_ends_touches(void **state) {
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.distance)), 2.8, 1e-15, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.length)), 2.8, 1e-15, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.64, 1e-15, 0.0);
-    assert_near(cz_model_interface_facts(built.model, 0).anti_climber_gap, 0.64, 1e-15, 0.0);
+    assert_near(cz_model_interface_properties(built.model, 0).anti_climber_gap, 0.64, 1e-15, 0.0);
     free_model(&built);
 
     problem.vehicle[0].front.coupler.gap = 0.5; /* now the anti-climbers are nearer */
@@ -64,7 +64,7 @@ static void inner_couplers_are_coupled_face_to_face(void **state) {
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.exists)), 0.0, 0.0, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.coupled)), 0.0, 0.0, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.64, 1e-14, 0.0);
-    assert_true(isnan(cz_model_interface_facts(built.model, 0).strut_length));
+    assert_true(isnan(cz_model_interface_properties(built.model, 0).strut_length));
     free_model(&built);
 }
 

@@ -17,15 +17,15 @@ static CzProblem *read_shipped(const char *name) {
 
 static void check_vehicles(const CzModel *model) {
     for (int i = 0; i < cz_model_n_vehicle(model); i++) {
-        const CzVehicleFacts facts = cz_model_vehicle_facts(model, i);
-        if (isnan(facts.mass))
+        const CzVehicleProperties properties = cz_model_vehicle_properties(model, i);
+        if (isnan(properties.mass))
             continue; /* rigid or fixed */
         double load = 0.0;
         for (int axle = 0; axle < 4; axle++)
-            load += facts.axle_load[axle];
-        assert_near(load, facts.mass * 9.80665, 1e-12, 0.0);
-        assert_true(facts.bounce_frequency > 0.5 && facts.bounce_frequency < 3.0);
-        assert_true(facts.pitch_frequency > 0.5 && facts.pitch_frequency < 3.0);
+            load += properties.axle_load[axle];
+        assert_near(load, properties.mass * 9.80665, 1e-12, 0.0);
+        assert_true(properties.bounce_frequency > 0.5 && properties.bounce_frequency < 3.0);
+        assert_true(properties.pitch_frequency > 0.5 && properties.pitch_frequency < 3.0);
     }
 }
 

@@ -103,7 +103,7 @@ static void wheel_and_rail_are_taken_at_four_times_the_static_load(void **state)
     problem.input.simulation.track = CZ_TRACK_RIGID;
     Built built = build_model(&problem);
     const double hertz = parameter(&built, 0, CZ_PARAMETER(wheel.hertz));
-    const double load = 4.0 * cz_model_vehicle_facts(built.model, 0).axle_load[0];
+    const double load = 4.0 * cz_model_vehicle_properties(built.model, 0).axle_load[0];
     const double tangent = 1.5 * pow(hertz, 2.0 / 3.0) * pow(load, 1.0 / 3.0);
     const double square = (tangent + 2.4e6 + 2e7) / 1813.0, rate = 8e3 / 1813.0;
     assert_near(bound_of(built.model, "wheel-rail contact A1")->bound,

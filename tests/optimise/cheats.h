@@ -1,4 +1,4 @@
-/* Ways to win on paper, each of which an optimiser is invited to take: it does when the closing
+/* Ways to win on paper, each of which an optimiser is invited to take: it does when the design
  * rules are off, and does not when they are on. Run on the stand-in and on the simulator itself.
  */
 #ifndef CZ_TESTS_CHEATS_H

@@ -195,7 +195,7 @@ static void parameter_that_would_go_further_is_said_to_be_at_its_bound(void **st
     end(&made);
 }
 
-/* One number cannot tell two parameters apart. */
+/* One number cannot report two parameters apart. */
 static void sets_that_fit_as_well_are_told(void **state) {
     (void)state;
     Case made = begin_fit("{name: touch, event: anti_climber_contact, value: 50, tolerance: 1}",

@@ -260,7 +260,7 @@ static void search_in_which_most_designs_fail_ends_as_failed(void **state) {
     end(&made);
 }
 
-/* ---- cheats that need a simulator that can be told what to answer --------------------------- */
+/* ---- cheats that need a simulator that can be given what to answer --------------------------- */
 
 static void optimiser_cannot_win_by_crushing_the_survival_space(void **state) {
     (void)state;

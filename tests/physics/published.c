@@ -35,18 +35,18 @@ void rows_of_coaches(Rows *rows) {
     const CzVehicle *vehicle = cz_problem_vehicles(collision.problem, &n_vehicle);
     rows_of_modes(rows, &vehicle[0], "Manchester coach", manchester);
     rows_of_modes(rows, &vehicle[1], "Velaro coach", velaro);
-    const CzVehicleFacts facts = cz_model_vehicle_facts(collision.model, 0);
-    ROW(rows, "Hz", facts.bounce_frequency, manchester[0], 0.0, 5e-5,
+    const CzVehicleProperties properties = cz_model_vehicle_properties(collision.model, 0);
+    ROW(rows, "Hz", properties.bounce_frequency, manchester[0], 0.0, 5e-5,
         "Manchester coach: bounce, as told before a run");
-    ROW(rows, "Hz", facts.pitch_frequency, manchester[1], 0.0, 5e-5,
+    ROW(rows, "Hz", properties.pitch_frequency, manchester[1], 0.0, 5e-5,
         "Manchester coach: pitch, as told before a run");
     for (int axle = 0; axle < 4; axle++)
-        ROW(rows, "kN", 1e-3 * facts.axle_load[axle], 91.275 + 17.779, 0.0, 1e-3,
+        ROW(rows, "kN", 1e-3 * properties.axle_load[axle], 91.275 + 17.779, 0.0, 1e-3,
             "Manchester coach: load of axle %d", axle + 1);
     collision_free(&collision);
 }
 
-/* 1 MN at 0.8 m from the centre of gravity asks for 0.8 MN m, that is 42.105 kN more on one bogie
+/* 1 MN at 0.8 m from the centre of gravity requires 0.8 MN m, that is 42.105 kN more on one bogie
  * and less on the other at 19 m; on secondary and primary springs in series the body then pitches
  * by 6.077 mrad. The pitch is imposed on the kernel, each bogie is put where its link is not
  * stretched and its springs balance, and the kernel's own forces are read. */
@@ -95,7 +95,7 @@ void rows_of_pitch_by_force(Rows *rows) {
 void rows_of_step_force(Rows *rows) {
     const double pitch = 6.077e-3;
     Motion motion = motion_open(coaches, AS_WRITTEN);
-    /* The links would pull at bogies that stand where they stood. */
+    /* The links would pull at bogies that are where they stood. */
     static const CzParameter none[] = {
         CZ_PARAMETER(link.strut.stiffness), CZ_PARAMETER(link.strut.damping),
         CZ_PARAMETER(secondary.damping), CZ_PARAMETER(primary.damping)};
@@ -127,7 +127,8 @@ void rows_of_step_force(Rows *rows) {
 
 /* FRA, 31 January 2002: two trains of about 635 kip (288 t) at 30 mph onto rest; the cab car was
  * crushed by about 20 ft. The mean force is that of the published energy over the published crush,
- * so it is put in and not found; what is found is that the books of momentum and energy agree. */
+ * so it is put in and not found; what is found is that the energy balance of momentum and energy
+ * agree. */
 void rows_of_train_to_train(Rows *rows) {
     const double v = 30.0 * MPH, mean = 12.95e6 / (20.0 * FOOT);
     char speed[64], force[96];
@@ -191,9 +192,9 @@ void rows_of_crush_of_single_cars(Rows *rows) {
     collision_free(&pair);
 }
 
-/* FRA coupling tests, October 2017: of six speeds only the last made the push-back coupler give
- * way. With an elastic draft gear the peak force grows with the speed, so the trigger lies between
- * the peaks of the last two; it is put between them here, and the run must sort the speeds so. */
+/* FRA coupling tests, October 2017: of six speeds only the last made the push-back coupler deflect.
+ * With an elastic draft gear the peak force grows with the speed, so the trigger lies between the
+ * peaks of the last two; it is put between them here, and the run must sort the speeds so. */
 void rows_of_coupling_speeds(Rows *rows) {
     static const double speeds[] = {1.8, 3.74, 5.66, 6.84, 7.63, 8.85};
     const double mass = 0.5 * 117.9e3, stiffness = 5e6; /* two masses, two gears in series */

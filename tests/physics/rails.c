@@ -61,17 +61,18 @@ void rows_of_rest(Rows *rows) {
         assert_int_equal(cz_rest_find(collision.model, rest, &error), CZ_OK);
         for (int vehicle = 0; vehicle < 2; ++vehicle) {
             const char *name = vehicle == 0 ? "Manchester coach" : "Velaro coach";
-            const CzVehicleFacts facts = cz_model_vehicle_facts(collision.model, vehicle);
+            const CzVehicleProperties properties =
+                cz_model_vehicle_properties(collision.model, vehicle);
             ROW_UP_TO(rows, "", rest[vehicle].residual, 1e-10, "%s, %s track: residual", name,
                       tracks[t]);
-            ROW(rows, "kN", 1e-3 * rest[vehicle].axle_load[0], 1e-3 * facts.axle_load[0], 1e-9, 0.0,
-                "%s, %s track: load of an axle", name, tracks[t]);
+            ROW(rows, "kN", 1e-3 * rest[vehicle].axle_load[0], 1e-3 * properties.axle_load[0], 1e-9,
+                0.0, "%s, %s track: load of an axle", name, tracks[t]);
             ROW(rows, "mm", 1e3 * rest[vehicle].primary_deflection[0],
-                1e3 * facts.primary_deflection[0], 1e-9, 0.0, "%s, %s track: primary springs", name,
-                tracks[t]);
-            ROW(rows, "mm", 1e3 * rest[vehicle].secondary_deflection[0],
-                1e3 * facts.secondary_deflection[0], 1e-9, 0.0, "%s, %s track: secondary springs",
+                1e3 * properties.primary_deflection[0], 1e-9, 0.0, "%s, %s track: primary springs",
                 name, tracks[t]);
+            ROW(rows, "mm", 1e3 * rest[vehicle].secondary_deflection[0],
+                1e3 * properties.secondary_deflection[0], 1e-9, 0.0,
+                "%s, %s track: secondary springs", name, tracks[t]);
         }
         collision_free(&collision);
     }
@@ -160,7 +161,7 @@ void rows_of_mode_convergence(Rows *rows) {
             missing = fmax(missing, fabs(of_modes - 1.0));
         }
         /* What the flexibility's four powers leave out falls with their fourth power from the 0.9 %
-         * that the first stands for: 1e-2 / 5^4. */
+         * that the first represents: 1e-2 / 5^4. */
         ROW_UP_TO(rows, "", largest, 2e-5,
                   "modes to %g Hz and what they leave: error of the static deflection", cuts[c]);
         ROW_UP_TO(rows, "", missing, missing_before,
@@ -170,8 +171,8 @@ void rows_of_mode_convergence(Rows *rows) {
     }
 }
 
-/* The known statics once more, by what runs: the record's modes and the flexibility beside them,
- * and finite elements, to half a per cent. */
+/* The known statics once more, by what runs: the production run's modes and the flexibility beside
+ * them, and finite elements, to half a per cent. */
 void rows_of_running_tracks(Rows *rows) {
     static const double known[] = {0.8980, 0.9194};
     for (int i = 0; i < 2; ++i) {
@@ -330,7 +331,7 @@ static double impact(int step) {
     return phase < 0.5 ? 100e3 * cz_turned(phase).im : 0.0;
 }
 
-/* How far the rail gives way under it [m], by the modes up to a cut and what they leave. */
+/* How far the rail deflects under it [m], by the modes up to a cut and what they leave. */
 static void impact_on_modes(double cut, double way[N_IMPACT]) {
     const double at[4] = {OFF_THE_SEATS, 0.0, 0.0, 0.0}, none[4] = {0.0};
     CzArena arena = {0};

@@ -30,7 +30,7 @@ void rows_of_rest(Rows *rows);
 void rows_of_element_frequencies(Rows *rows);
 void rows_of_element_statics(Rows *rows);
 
-/* The same statics by the models that run, the record's modes and finite elements. */
+/* The same statics by the models that run, the production run's modes and finite elements. */
 void rows_of_running_tracks(Rows *rows);
 
 /* The rail under a force that swings, against layers that are smeared out. */

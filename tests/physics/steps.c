@@ -1,4 +1,4 @@
-/* Time steps, energy books, other solvers, and the equivalence of a wall and an identical partner.
+/* Time steps, energy checks, other solvers, and the equivalence of a wall and an identical partner.
  */
 #include "physics/steps.h"
 
@@ -100,25 +100,25 @@ void rows_of_step_convergence(Rows *rows) {
     }
 }
 
-/* Worst errors of the books of a file's first scenarios. */
-typedef struct Books {
+/* Worst errors of the energy balance of a file's first scenarios. */
+typedef struct EnergyChecks {
     int n_scenario;
     double balance, momentum, sum;
-} Books;
+} EnergyChecks;
 
-static Books books_of(const char *file, const char *const *set, int n_scenario) {
-    Books books = {.n_scenario = n_scenario};
-    for (int scenario = 0; scenario < books.n_scenario; scenario++) {
+static EnergyChecks energy_checks_of(const char *file, const char *const *set, int n_scenario) {
+    EnergyChecks checks = {.n_scenario = n_scenario};
+    for (int scenario = 0; scenario < checks.n_scenario; scenario++) {
         Collision collision = collide(file, set, scenario);
         assert_completed(&collision);
         const CzEnergy *energy = &collision.summary->energy;
         const double parts = energy->final_kinetic + energy->dissipated + energy->stored;
-        books.balance = fmax(books.balance, fabs(energy->balance_error));
-        books.momentum = fmax(books.momentum, fabs(collision.summary->momentum_error));
-        books.sum = fmax(books.sum, fabs(parts / energy->initial - 1.0));
+        checks.balance = fmax(checks.balance, fabs(energy->balance_error));
+        checks.momentum = fmax(checks.momentum, fabs(collision.summary->momentum_error));
+        checks.sum = fmax(checks.sum, fabs(parts / energy->initial - 1.0));
         collision_free(&collision);
     }
-    return books;
+    return checks;
 }
 
 /* Of a family of perturbed scenarios, which are the same trains at other heights, one is looked at.
@@ -132,18 +132,19 @@ static int n_looked_at(const char *file) {
     return n > MOST_SCENARIOS ? OF_A_FAMILY : n;
 }
 
-void rows_of_books(Rows *rows) {
+void rows_of_balances(Rows *rows) {
     const Shipped shipped = shipped_problems();
     for (int i = 0; i < shipped.n; i++) {
         const char *name = shipped.name[i];
         char file[SHIPPED_ROOM + 16];
         snprintf(file, sizeof file, "problems/%s", name);
-        const Books books = books_of(file, WITH("simulation.track=modal"), n_looked_at(file));
-        ROW_UP_TO(rows, "", books.balance, 1e-4, "%s: energy balance, worst of %d scenario%s", name,
-                  books.n_scenario, books.n_scenario > 1 ? "s" : "");
-        ROW_UP_TO(rows, "", books.sum, 1e-4,
+        const EnergyChecks checks =
+            energy_checks_of(file, WITH("simulation.track=modal"), n_looked_at(file));
+        ROW_UP_TO(rows, "", checks.balance, 1e-4, "%s: energy balance, worst of %d scenario%s",
+                  name, checks.n_scenario, checks.n_scenario > 1 ? "s" : "");
+        ROW_UP_TO(rows, "", checks.sum, 1e-4,
                   "%s: kinetic + dissipated + stored over initial energy", name);
-        ROW_UP_TO(rows, "", books.momentum, 1e-9, "%s: momentum", name);
+        ROW_UP_TO(rows, "", checks.momentum, 1e-9, "%s: momentum", name);
     }
 }
 
@@ -160,7 +161,7 @@ static double bound_on_rigid_rails(const char *name) {
     return strcmp(name, "override-bottoming-lifts.yaml") == 0 ? 1e-3 : 1e-4;
 }
 
-void rows_of_books_on_rigid_rails(Rows *rows) {
+void rows_of_balances_on_rigid_rails(Rows *rows) {
     const Shipped shipped = shipped_problems();
     for (int i = 0; i < shipped.n; i++) {
         const char *name = shipped.name[i];
@@ -168,10 +169,10 @@ void rows_of_books_on_rigid_rails(Rows *rows) {
         snprintf(file, sizeof file, "problems/%s", name);
         if (!asks_for_rigid_rails(file))
             continue;
-        const Books books = books_of(file, AS_WRITTEN, n_looked_at(file));
-        ROW_UP_TO(rows, "", books.balance, bound_on_rigid_rails(name),
+        const EnergyChecks checks = energy_checks_of(file, AS_WRITTEN, n_looked_at(file));
+        ROW_UP_TO(rows, "", checks.balance, bound_on_rigid_rails(name),
                   "%s, rigid rails: energy balance", name);
-        ROW_UP_TO(rows, "", books.momentum, 1e-9, "%s, rigid rails: momentum", name);
+        ROW_UP_TO(rows, "", checks.momentum, 1e-9, "%s, rigid rails: momentum", name);
     }
 }
 
@@ -208,9 +209,9 @@ Difference difference_of(const CzRunSummary *a, const CzRunSummary *b, double sh
     return d;
 }
 
-/* A file with the step of the record and the time up to which solvers are compared [s]: 0 are the
- * file's own. Where trains go on rolling with their brakes on, all that is compared is over long
- * before they stand. */
+/* A file with the step of the production run and the time up to which solvers are compared [s]: 0
+ * are the file's own. Where trains go on rolling with their brakes on, all that is compared is over
+ * long before they stand. */
 typedef struct Compared {
     const char *file;
     double step, until;
@@ -228,8 +229,8 @@ static Collision collide_by(CzIntegrator integrator, const Compared *compared, d
     return collision;
 }
 
-/* How far the record is from both references, within these tolerances; `motion` NaN leaves that
- * out. With a step of its own the record is named by it. */
+/* How far the production run is from both references, within these tolerances; `motion` NaN leaves
+ * that out. With a step of its own the production run is named by it. */
 static void solvers(Rows *rows, const Compared *compared, double share, const Difference *allowed) {
     Collision zhai = collide_by(CZ_INTEGRATOR_ZHAI, compared, compared->step);
     char of[64];
@@ -284,7 +285,7 @@ void rows_of_solvers_for_short_trains(Rows *rows) {
 /* Six and six cars rattle, so single values scatter: forces and strokes within 2 %, energies within
  * 1 % of all that is dissipated. The fixed-step scheme itself, at steps of 0.05 to 0.1 ms, scatters
  * by 2 % in the energy of one inner interface and by 0.3 % in its closure, because two cars that
- * have parted do or do not flow once more when they meet again seconds later. */
+ * have parted do or do not crush once more when they meet again seconds later. */
 void rows_of_solvers_for_the_metro(Rows *rows) {
     const Difference allowed = {2e-2, 2e-2, 1e-2, NAN};
     const Compared metro = {"problems/metro-6-car.yaml", 0.0, 3.0};

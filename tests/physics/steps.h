@@ -1,4 +1,4 @@
-/* How results depend on the time step, how well the energy books of shipped problems close, and
+/* How results depend on the time step, how well the energy balance of shipped problems close, and
  * how far other solvers are: as rows. */
 #ifndef CZ_TESTS_PHYSICS_STEPS_H
 #define CZ_TESTS_PHYSICS_STEPS_H
@@ -12,8 +12,8 @@ Collision collide_with(const char *file, int scenario, double step);
 void rows_of_elastic_order(Rows *rows);
 void rows_of_elastic_exchange(Rows *rows);
 void rows_of_step_convergence(Rows *rows);
-void rows_of_books(Rows *rows);
-void rows_of_books_on_rigid_rails(Rows *rows); /* those that ask for them */
+void rows_of_balances(Rows *rows);
+void rows_of_balances_on_rigid_rails(Rows *rows); /* those that require them */
 
 /* Largest relative differences in what a collision is judged by, of one run from another. Small
  * values count against a floor (10 kN, 1 mm, 10 mm of an element's stroke, a `share` of all

@@ -258,7 +258,7 @@ static void lift_is_the_rise_of_the_seat_less_the_gaps(void **state) {
     const CzVehicleResult *car = &run.summary->vehicle[0];
     const double seat = 15.7 / 2 * car->max_pitch, gaps = 0.030 + 0.025;
     const double mean = 0.5 * (car->wheel_lift[0] + car->wheel_lift[1]);
-    const double frequency = cz_model_vehicle_facts(run.model, 0).pitch_frequency;
+    const double frequency = cz_model_vehicle_properties(run.model, 0).pitch_frequency;
     const double speed = 2.0 * 3.14159265358979 * frequency * seat;
     const double flight = speed * speed / (2.0 * 9.80665);
     if (getenv("CZ_TOL_SCALE") != NULL)

@@ -1,4 +1,4 @@
-/* How results depend on the time step. How well the energy books of all shipped problems close,
+/* How results depend on the time step. How well the energy balance of all shipped problems close,
  * some forty runs, is held by the verification page alone (tests/verification). */
 #include "physics/steps.h"
 

@@ -74,7 +74,7 @@ static void every_integrator_exchanges_the_speeds_of_equal_masses(void **state) 
     }
 }
 
-/* The coupler of sequence.yaml lets go once its tube of 299.5 mm is used up and 0.1 mm of its
+/* The coupler of sequence.yaml releases once its tube of 299.5 mm is exhausted and 0.1 mm of its
  * softening length is gone, so where its energy says that the car has this speed:
  * v^2 = v0^2 - 2 * 0.6 MN * 0.2996 m / 40 t, after (v0 - v) m / F. The buffer's 0.06 mm are left
  * out; they are gone in 9 us. */
@@ -95,7 +95,7 @@ static void every_integrator_finds_the_time_at_which_a_coupler_shears_off(void *
     }
 }
 
-/* The located time does not hang on the step: a reference at 0.1 ms finds it within a tenth of
+/* The located time does not depend on the step: a reference at 0.1 ms finds it within a tenth of
  * that, which is what the way there differs by, where the fixed step sees it at the end of a step.
  */
 static void a_located_drop_does_not_hang_on_the_step(void **state) {
@@ -119,9 +119,9 @@ static void a_located_drop_does_not_hang_on_the_step(void **state) {
  * (tests/verification), which takes its time.
  */
 
-/* The track's modes are advanced exactly by the record, and as differential equations by the
- * references. What the track takes up is some joules, most of it in the first milliseconds of each
- * contact: two per cent. */
+/* The track's modes are advanced exactly by the production run, and as differential equations by
+ * the references. What the track absorbs is some joules, most of it in the first milliseconds of
+ * each contact: two per cent. */
 static void two_cars_on_an_elastic_track_agree(void **state) {
     (void)state;
     const char *file = "problems/two-cars-25kmh.yaml";

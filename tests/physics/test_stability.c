@@ -20,9 +20,10 @@ static double rise_of_pivots(const Motion *motion) {
 /* Pushes one car slowly towards the other, whose places along the track are given, while the tubes
  * hold a constant force; returns the largest rise of the pivots, or 0.1 m once it is that large. */
 static double fold(const char *hinge, const char *length, double share_of_critical) {
-    Motion facts = motion_open("tests/physics/cases/fold.yaml", WITH(hinge, length));
-    const double critical = cz_model_interface_facts(facts.collision.model, 0).critical_force;
-    motion_close(&facts);
+    Motion properties = motion_open("tests/physics/cases/fold.yaml", WITH(hinge, length));
+    const double critical =
+        cz_model_interface_properties(properties.collision.model, 0).critical_force;
+    motion_close(&properties);
     char tubes[96];
     snprintf(tubes, sizeof tubes, "parts.strut.tube.stages[0].force_N=%.0f",
              share_of_critical * critical);
@@ -108,9 +109,10 @@ static void a_train_of_twelve_cars_folds_at_1040_kn_and_stays_at_1000(void **sta
 
 /* Half a percent on either side; the bound is 1 / sqrt(0.005) = 14 then. */
 static void assert_folds_at_the_printed_force(const char *const *set) {
-    Motion facts = motion_open("tests/physics/cases/fold-train.yaml", set);
-    const double critical = cz_model_interface_facts(facts.collision.model, 3).critical_force;
-    motion_close(&facts);
+    Motion properties = motion_open("tests/physics/cases/fold-train.yaml", set);
+    const double critical =
+        cz_model_interface_properties(properties.collision.model, 3).critical_force;
+    motion_close(&properties);
     double grown[2];
     for (int i = 0; i < 2; i++) {
         char tubes[96];
@@ -207,7 +209,7 @@ static void gaps_that_are_not_used_up_lift_nothing(void **state) {
     motion_close(&motion);
 }
 
-/* Without lift stops the bogie stays on the rail: the spring just lets go. */
+/* Without lift stops the bogie stays on the rail: the spring just releases. */
 static void without_stops_wheels_stay_down(void **state) {
     (void)state;
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);

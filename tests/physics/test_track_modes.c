@@ -59,7 +59,7 @@ static void the_pinned_pinned_mode_is_among_the_modes(void **state) {
 /* ---- modes ---- */
 
 /* P(s) of a block, straight from the masses, springs and dampers: det of (pad, sleeper, ballast)
- * with the rail waves condensed is what F stands for. Here: residual of all equations for the
+ * with the rail waves condensed is what F represents. Here: residual of all equations for the
  * mode's amplitudes, each relative to its own terms. */
 static double residual_of(const CzTrackBlock *block, CzComplex s) {
     const CzSeats *seats = block->seats;
@@ -158,7 +158,7 @@ static void an_impact_deflects_modes_and_elements_alike(void **state) {
     assert_rows_of(rows_of_impact);
 }
 
-static void shipped_problems_keep_their_books_on_rails(void **state) {
+static void shipped_problems_keep_their_energy_balance_on_rails(void **state) {
     (void)state;
     assert_rows_of(rows_of_runs_on_rails);
 }
@@ -196,7 +196,7 @@ int main(void) {
         cmocka_unit_test(what_runs_gives_way_as_published_numbers_do),
         cmocka_unit_test(a_force_that_swings_finds_the_track_of_smeared_layers),
         cmocka_unit_test(an_impact_deflects_modes_and_elements_alike),
-        cmocka_unit_test(shipped_problems_keep_their_books_on_rails),
+        cmocka_unit_test(shipped_problems_keep_their_energy_balance_on_rails),
         cmocka_unit_test(a_track_with_overdamped_modes_is_built),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,7 +10,7 @@
 
 #define GOOD_FOLDER CZ_SOURCE_FOLDER "/tests/problem/good"
 
-/* Prints what was told of a problem. */
+/* Prints what was reported a problem. */
 static inline void print_mistakes(const CzProblem *problem) {
     for (int i = 0; i < cz_problem_n_mistake(problem); i++) {
         const CzError *error = cz_problem_mistake(problem, i);

@@ -1,5 +1,5 @@
 /* Every rule that can reject a problem file has a file in tests/problem/bad that breaks it.
- * Comments at the file's end say what must be told:
+ * Comments at the file's end say what must be reported:
  *
  *   # expect: [file:]line:column: sentence
  *   # help: hint of the mistake above

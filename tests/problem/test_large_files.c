@@ -76,7 +76,7 @@ static double time_of(const Text *text) {
 }
 
 /* Ten times the file may take 25 times the time, where caches are left; the square would be a
- * hundred. Below two milliseconds nothing can be told. */
+ * hundred. Below two milliseconds nothing can be reported. */
 static void reading_takes_a_time_that_grows_with_the_file_and_no_faster(void **state) {
     (void)state;
     Text text = {0};
@@ -91,7 +91,7 @@ static void reading_takes_a_time_that_grows_with_the_file_and_no_faster(void **s
     free(text.text);
 }
 
-/* What is told of a file, all in one text. */
+/* What is reported a file, all in one text. */
 static void tell(const Text *text, char *told, size_t room) {
     CzProblem *problem = NULL;
     told[0] = '\0';

@@ -130,7 +130,7 @@ static void instruction_sets_agree_on_two_trains(void **state) {
     check_instruction_sets("first-collision.yaml", NULL);
 }
 
-/* On rails that give way, and wheels that leave them. */
+/* On rails that deflect, and wheels that leave them. */
 static const char *const elastic[] = {"simulation.track=modal", "simulation.track=co-running"};
 
 static void instruction_sets_agree_on_elastic_rails(void **state) {

@@ -5,7 +5,7 @@
 
 #include "report/markup.h"
 #include "report/plot.h"
-#include "report/thin.h"
+#include "report/decimation.h"
 #include "report/well_formed.h"
 
 typedef struct Text {
@@ -72,7 +72,7 @@ static void numbers_are_short_and_follow_no_locale(void **state) {
         print_message("no locale with a decimal comma here: tried in C only\n");
 }
 
-/* ---- thinning ---- */
+/* ---- decimation ---- */
 
 enum { N = 5000 };
 
@@ -85,7 +85,7 @@ static void thinning_keeps_a_peak_of_one_sample(void **state) {
         y[i] = 100;
     }
     y[1234] = 5;
-    assert_true(cz_thin(N, x, y, 0.25, 2000, keep) > 0);
+    assert_true(cz_decimate(N, x, y, 0.25, 2000, keep) > 0);
     assert_true(keep[0] && keep[N - 1] && keep[1233] && keep[1234] && keep[1235]);
     int n = 0;
     for (int i = 0; i < N; i++)
@@ -105,7 +105,7 @@ static void a_thinned_loop_keeps_its_path(void **state) {
         x[i] = 300 * (up ? part : 1 - part);
         y[i] = up ? 200 * part * part : 150 * (1 - part) * (1 - part) * (1 - part);
     }
-    const double tolerance = cz_thin(N, x, y, 0.25, 2000, keep);
+    const double tolerance = cz_decimate(N, x, y, 0.25, 2000, keep);
     assert_near(tolerance, 0.25, 0, 0);
     int from = 0, n_kept = 1;
     for (int to = 1; to < N; to++) {
@@ -129,7 +129,7 @@ static void a_rattling_curve_is_kept_below_the_most_points(void **state) {
         y[i] = (i * 7919 % 101) * 2.0;
     }
     y[77] = 900;
-    cz_thin(N, x, y, 0.25, 500, keep);
+    cz_decimate(N, x, y, 0.25, 500, keep);
     int n = 0;
     for (int i = 0; i < N; i++)
         n += keep[i];

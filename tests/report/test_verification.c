@@ -76,7 +76,7 @@ static void a_verification_is_a_table_with_the_largest_change_first(void **state
     assert_true(strstr(text, "interface force") < strstr(text, "stroke used"));
     assert_non_null(strstr(text, "CHANGED"));
     assert_non_null(strstr(text, "not done"));
-    assert_null(strstr(text, "full_track")); /* a way that does not apply is not told */
+    assert_null(strstr(text, "full_track")); /* a way that does not apply is not reported */
     assert_non_null(strstr(text, "Verification: FAIL (2 results, limit 1 %)"));
     free(text);
 }

@@ -59,7 +59,7 @@ static inline bool is_well_formed(const char *c) {
     return depth == 0;
 }
 
-/* How often a part stands in a text. */
+/* How often a part is in a text. */
 static inline int count_of(const char *text, const char *part) {
     int n = 0;
     for (text = strstr(text, part); text != NULL; text = strstr(text + 1, part))

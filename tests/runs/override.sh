@@ -59,7 +59,7 @@ told() {
 check "a climb gets its causes" told
 document() {
     exits 0 "$C" explain "$cars" --set trains.A.speed_km_h=45 --json && json out.txt format crushzone.explanation && json out.txt climbed true &&
-        json out.txt levers.0.turns true && json out.txt signs.0.cause bottoming
+        json out.txt changes.0.turns true && json out.txt indicators.0.cause bottoming
 }
 check "explain --json prints one document" document
 overload() { exits 1 "$C" check "$sized" --scenario overload && grep -q '^bottoming out under overload .* pass' out.txt && ! grep -q FAIL out.txt; }

@@ -169,7 +169,7 @@ static void a_damped_end_that_meets_nothing_takes_nothing(void **state) {
 }
 
 /* Pressed at its plateau P against a wall, an anti-climber of stiffness k stores P^2 / 2 k. The
- * smallest resistance of the flow adds some ten newtons to P. */
+ * smallest resistance of the crush adds some ten newtons to P. */
 static void an_anti_climber_against_a_wall_stores_f_squared_over_2k(void **state) {
     (void)state;
     static const char text[] =

@@ -65,7 +65,7 @@ static void every_kind_of_event_happens_and_none_but_contact_at_walking_pace(voi
     }
 }
 
-/* Couplers of one interface stand at unequal heights, so that they are turned from the start. */
+/* Couplers of one interface are at unequal heights, so that they are turned from the start. */
 static void a_swing_stop_is_met_just_when_the_largest_swing_is_beyond_it(void **state) {
     (void)state;
     static const char *const stops[] = {

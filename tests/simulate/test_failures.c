@@ -29,7 +29,7 @@ static void assert_failed(const Collision *collision, const char *where, const c
 }
 
 /* One and a half times the largest stable step multiplies the fastest motion by a few a step: the
- * books are off by more than 1 % long before a number overflows. */
+ * energy balance are off by more than 1 % long before a number overflows. */
 static void a_run_that_loses_its_energy_balance_fails(void **state) {
     (void)state;
     Collision collision =

@@ -17,7 +17,7 @@ struct CzProblem {
     CzTrain train[2];
     CzVehicle vehicle[TYPED_MAX_VEHICLE];
     CzScenario scenario[TYPED_MAX_SCENARIO];
-    const void *asked; /* field whose place was asked for last */
+    const void *asked; /* field whose place was requested last */
 };
 
 /* Two trains of equal or unequal vehicles; speeds in m/s. The names are A1, A2, ... and B1, ... */

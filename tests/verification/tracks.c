@@ -1,6 +1,6 @@
 /* Prints docs/track.md: what each model of the track costs, and how far its results are from those
- * of the record. With the argument `costs` it measures, which takes a minute; without, the table of
- * costs is left empty. */
+ * of the production run. With the argument `costs` it measures, which takes a minute; without, the
+ * table of costs is left empty. */
 #include "physics/collision.h"
 
 #include <time.h>

@@ -9,7 +9,7 @@
 static Rows rows; /* of the section at hand */
 static int n_row, n_wrong;
 
-/* Six digits are enough to compare; more would tell compilers and machines apart. */
+/* Six digits are enough to compare; more would report compilers and machines apart. */
 static void put_value(double value) {
     if (value != 0.0 && (fabs(value) < 1e-3 || fabs(value) >= 1e6))
         printf("%.2e", value);
@@ -289,8 +289,8 @@ static void put_numerics(void) {
     begin("C5. Energy and momentum of every shipped problem",
           "On the elastic track of the record, then on rigid rails where the file asks for them. "
           "Errors as shares of the energy before, and of the sum of mass times speed.");
-    rows_of_books(&rows);
-    rows_of_books_on_rigid_rails(&rows);
+    rows_of_balances(&rows);
+    rows_of_balances_on_rigid_rails(&rows);
     put_table();
 }
 

@@ -1,12 +1,12 @@
-/* Levers: where their records stand, and how they are changed. */
-#include "evaluate/levers.h"
+/* Candidate changes: where their records stand, and how they are changed. */
+#include "evaluate/candidate_changes.h"
 
 #include <math.h>
 #include <stddef.h>
 
 #include "problem/keys.h"
 
-typedef enum LeverPlace {
+typedef enum CandidatePlace {
     FACE,
     FACE_STAGES,
     TUBE_STAGES,
@@ -17,23 +17,23 @@ typedef enum LeverPlace {
     BODY,
     PRIMARY,
     SECONDARY
-} LeverPlace;
+} CandidatePlace;
 
-typedef struct LeverKind {
+typedef struct CandidateKind {
     CzCause cause;
-    LeverPlace place;
+    CandidatePlace place;
     CzRecordId record;
     const char *key;
     double reference; /* in the key's unit */
     const char *name;
-} LeverKind;
+} CandidateKind;
 
-#define CZ_LEVER(cause, place, record, key, reference, name)                                       \
+#define CZ_CANDIDATE(cause, place, record, key, reference, name)                                   \
     {CZ_CAUSE_##cause, place, CZ_RECORD_##record, key, reference, name},
-static const LeverKind kinds[] = {
-#include "evaluate/levers.def"
+static const CandidateKind kinds[] = {
+#include "evaluate/candidate_changes.def"
 };
-#undef CZ_LEVER
+#undef CZ_CANDIDATE
 
 enum { MOST_RECORDS = 4 * CZ_MAX_STAGES }; /* of one kind in a vehicle */
 
@@ -53,7 +53,7 @@ static void add_stages(Records *records, CzStage *stage, int n) {
         add(records, &stage[i], true);
 }
 
-static void add_of_end(Records *records, LeverPlace place, CzEnd *end) {
+static void add_of_end(Records *records, CandidatePlace place, CzEnd *end) {
     CzCoupler *coupler = &end->coupler;
     if (!end->given)
         return;
@@ -76,7 +76,7 @@ static void add_of_end(Records *records, LeverPlace place, CzEnd *end) {
 }
 
 /* Only full vehicles can climb. */
-static Records records_of(LeverPlace place, CzVehicle *vehicle) {
+static Records records_of(CandidatePlace place, CzVehicle *vehicle) {
     Records records = {0};
     if (vehicle->model != CZ_MODEL_FULL)
         return records;
@@ -97,12 +97,13 @@ static double *field_of(void *record, const CzKey *key) {
     return (double *)(void *)((char *)record + key->offset);
 }
 
-int cz_n_lever_kind(void) {
+int cz_n_candidate_kind(void) {
     return (int)(sizeof kinds / sizeof kinds[0]);
 }
 
-bool cz_lever_find(int kind, const CzVehicle *vehicles, int n_vehicle, CzLever *lever) {
-    const LeverKind *found = &kinds[kind];
+bool cz_candidate_find(int kind, const CzVehicle *vehicles, int n_vehicle,
+                       CzCandidateChange *candidate) {
+    const CandidateKind *found = &kinds[kind];
     const CzUnit *unit = NULL;
     const CzKey *key = cz_record_match(&cz_records[found->record], found->key, &unit);
     for (int v = 0; v < n_vehicle; v++) {
@@ -112,18 +113,18 @@ bool cz_lever_find(int kind, const CzVehicle *vehicles, int n_vehicle, CzLever *
             const double value = *field_of(records.record[i], key);
             if (isnan(value))
                 continue;
-            *lever = (CzLever){.name = found->name,
-                               .key = found->key,
-                               .cause = found->cause,
-                               .value = value / unit->si};
+            *candidate = (CzCandidateChange){.name = found->name,
+                                             .key = found->key,
+                                             .cause = found->cause,
+                                             .value = value / unit->si};
             return true;
         }
     }
     return false;
 }
 
-double cz_lever_apply(int kind, double change, CzVehicle *vehicles, int n_vehicle) {
-    const LeverKind *found = &kinds[kind];
+double cz_candidate_apply(int kind, double change, CzVehicle *vehicles, int n_vehicle) {
+    const CandidateKind *found = &kinds[kind];
     const CzUnit *unit = NULL;
     const CzKey *key = cz_record_match(&cz_records[found->record], found->key, &unit);
     double first = NAN;

@@ -3,7 +3,7 @@
  *
  *   x_B - x_A = (plane_A - gap_A) + gap of the faces + (plane_B - gap_B)
  */
-#include "model/stand.h"
+#include "model/layout.h"
 
 #include "base/error.h"
 #include "model/fill.h"
@@ -29,7 +29,7 @@ static double face(const CzModel *model, const CzVehicle *vehicles, const CzLane
            (isnan(vehicle->length) ? drawn_half(model, place) : 0.0);
 }
 
-CzStatus cz_model_stand(const CzModel *model, CzStand *stand, CzError *error) {
+CzStatus cz_model_layout(const CzModel *model, CzLayout *stand, CzError *error) {
     CzArena arena = {0};
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
@@ -38,7 +38,7 @@ CzStatus cz_model_stand(const CzModel *model, CzStand *stand, CzError *error) {
                                     : cz_model_fill(model, vehicles, 0, lanes, error);
     for (int car = 0; status == CZ_OK && car < model->n_car; car++) {
         const double length = vehicles[model->car[car].vehicle].length;
-        stand[car] = (CzStand){0};
+        stand[car] = (CzLayout){0};
         for (int end = CZ_REAR; end <= CZ_FRONT; end++)
             stand[car].plane[end] = isnan(length) ? drawn_half(model, car) : length / 2.0;
         if (car == 0)

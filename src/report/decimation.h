@@ -1,6 +1,6 @@
 /* Fewer points for a curve that looks the same: Douglas and Peucker's algorithm along the path. */
-#ifndef CZ_REPORT_THIN_H
-#define CZ_REPORT_THIN_H
+#ifndef CZ_REPORT_DECIMATION_H
+#define CZ_REPORT_DECIMATION_H
 
 #include <stdbool.h>
 
@@ -8,6 +8,6 @@
  * point that is left out lies further than the tolerance from the line that replaces it, so peaks
  * stay and loops keep their path. Where more than `most` points would stay the tolerance is
  * doubled. Coordinates are finite. Returns the tolerance that was used; negative without memory. */
-double cz_thin(int n, const double *x, const double *y, double tolerance, int most, bool *keep);
+double cz_decimate(int n, const double *x, const double *y, double tolerance, int most, bool *keep);
 
 #endif

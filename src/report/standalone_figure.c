@@ -120,11 +120,11 @@ CzStatus cz_report_write_elevation(const CzProblem *problem, int scenario, FILE 
                                    CzError *error) {
     CzMarkup markup = {.stream = stream};
     CzModel *model = NULL;
-    CzStand *stand = NULL;
+    CzLayout *stand = NULL;
     CzStatus status = cz_model_build(problem, scenario, &model, error);
     if (status == CZ_OK) {
         stand = calloc((size_t)model->n_car, sizeof *stand);
-        status = stand != NULL ? cz_model_stand(model, stand, error)
+        status = stand != NULL ? cz_model_layout(model, stand, error)
                                : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a figure");
     }
     if (status == CZ_OK) {

@@ -1,28 +1,28 @@
 /* All searches of one optimisation: one for each combination of choices, and one more from the best
  * of them. Without choices it is a single search.
  */
-#ifndef CZ_OPTIMISE_HUNT_H
-#define CZ_OPTIMISE_HUNT_H
+#ifndef CZ_OPTIMISE_COMBINATIONS_H
+#define CZ_OPTIMISE_COMBINATIONS_H
 
 #include "optimise/subspace.h"
 
-typedef struct CzHunt {
+typedef struct CzCombinations {
     CzArena arena;
     int n;                /* searches that were begun */
     CzSubspace *subspace; /* (n) */
     CzSearch *search;     /* (n) */
     int chosen;           /* search with the best design */
-} CzHunt;
+} CzCombinations;
 
 /* Leads all searches; options are settled. Statuses: CZ_OK, also when stopped;
  * CZ_STATUS_RUN_FAILED when designs of every combination failed, CZ_STATUS_INPUT,
- * CZ_STATUS_NO_MEMORY. The caller frees the hunt in any case. */
-CZ_MUST_CHECK CzStatus cz_hunt(CzEvaluator *evaluator, const CzOptimiseOptions *options,
-                               CzHunt *hunt, CzError *error);
-void cz_hunt_free(CzHunt *hunt);
+ * CZ_STATUS_NO_MEMORY. The caller frees the combinations in any case. */
+CZ_MUST_CHECK CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *options,
+                                       CzCombinations *combinations, CzError *error);
+void cz_combinations_free(CzCombinations *combinations);
 
 /* The record of a search that counts: the best on the catalogue increments when there are any. -1
  * when no design that a file may hold was seen without a failure. */
-long cz_hunt_record(const CzSearch *search);
+long cz_combinations_record(const CzSearch *search);
 
 #endif

@@ -4,30 +4,30 @@
 #include "model/own_design.h"
 #include "model/vertical_modes.h"
 
-static CzVehicleFacts no_vehicle_facts(void) {
-    CzVehicleFacts facts = {.mass = NAN, .bounce_frequency = NAN, .pitch_frequency = NAN};
+static CzVehicleProperties no_vehicle_properties(void) {
+    CzVehicleProperties properties = {.mass = NAN, .bounce_frequency = NAN, .pitch_frequency = NAN};
     for (int bogie = 0; bogie < 2; bogie++)
-        facts.secondary_deflection[bogie] = NAN;
+        properties.secondary_deflection[bogie] = NAN;
     for (int axle = 0; axle < 4; axle++) {
-        facts.axle_load[axle] = NAN;
-        facts.primary_deflection[axle] = NAN;
+        properties.axle_load[axle] = NAN;
+        properties.primary_deflection[axle] = NAN;
     }
-    return facts;
+    return properties;
 }
 
-static CzVehicleFacts vehicle_facts(const CzVehicle *vehicle, const CzStatics *statics) {
+static CzVehicleProperties vehicle_properties(const CzVehicle *vehicle, const CzStatics *statics) {
     const CzVerticalModes modes = cz_vertical_modes(vehicle, statics);
-    CzVehicleFacts facts = {
+    CzVehicleProperties properties = {
         .mass = statics->mass, .bounce_frequency = modes.bounce, .pitch_frequency = modes.pitch};
     for (int bogie = 0; bogie < 2; bogie++)
-        facts.secondary_deflection[bogie] =
+        properties.secondary_deflection[bogie] =
             statics->secondary_load[bogie] / vehicle->bogie.secondary.stiffness;
     for (int axle = 0; axle < 4; axle++) {
-        facts.axle_load[axle] = statics->wheel_load[axle];
-        facts.primary_deflection[axle] =
+        properties.axle_load[axle] = statics->wheel_load[axle];
+        properties.primary_deflection[axle] =
             statics->primary_load[axle] / vehicle->bogie.primary.stiffness;
     }
-    return facts;
+    return properties;
 }
 
 /* ---- couplers ---- */
@@ -69,54 +69,55 @@ static double tube_force(const CzLanes *lanes, int interface, int side) {
     return fmin(largest, shear);
 }
 
-static CzInterfaceFacts interface_facts(const CzModel *model, const CzLanes *lanes,
-                                        const CzVehicle *vehicles, int interface,
-                                        double critical_force) {
-    CzInterfaceFacts facts = {.strut_length = NAN,
-                              .critical_force = critical_force,
-                              .tube_force = NAN,
-                              .anti_climber_gap = NAN};
+static CzInterfaceProperties interface_properties(const CzModel *model, const CzLanes *lanes,
+                                                  const CzVehicle *vehicles, int interface,
+                                                  double critical_force) {
+    CzInterfaceProperties properties = {.strut_length = NAN,
+                                        .critical_force = critical_force,
+                                        .tube_force = NAN,
+                                        .anti_climber_gap = NAN};
     if (cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.exists)) > 0.0) {
         if (cz_lane_value(lanes, interface, CZ_PARAMETER(tilts)) > 0.0)
-            facts.strut_length = cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.length));
-        facts.tube_force = smaller(tube_force(lanes, interface, CZ_SIDE_A),
-                                   tube_force(lanes, interface, CZ_SIDE_B));
+            properties.strut_length = cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.length));
+        properties.tube_force = smaller(tube_force(lanes, interface, CZ_SIDE_A),
+                                        tube_force(lanes, interface, CZ_SIDE_B));
     }
     const CzEnd *a = &vehicles[model->car[interface].vehicle].front;
     const CzEnd *b = &vehicles[model->car[interface + 1].vehicle].rear;
     if ((a->given && a->anti_climber.given) || (b->given && b->anti_climber.given))
-        facts.anti_climber_gap =
+        properties.anti_climber_gap =
             cz_lane_value(lanes, interface, CZ_PARAMETER(face.contact.distance));
-    return facts;
+    return properties;
 }
 
-static CzStatus find_interface_facts(CzModel *model, const CzLanes *lanes,
-                                     const CzVehicle *vehicles, CzError *error) {
+static CzStatus find_interface_properties(CzModel *model, const CzLanes *lanes,
+                                          const CzVehicle *vehicles, CzError *error) {
     double *force = cz_arena_allocate(&model->arena, (size_t)model->n_car, sizeof *force);
     if (force == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d cars", model->n_car);
     CZ_TRY(cz_critical_forces(model, lanes, 0, force, error));
     for (int i = 0; i < model->n_car - 1; i++)
-        model->interface_facts[i] = interface_facts(model, lanes, vehicles, i, force[i]);
+        model->interface_properties[i] = interface_properties(model, lanes, vehicles, i, force[i]);
     return CZ_OK;
 }
 
-CzStatus cz_model_find_facts(CzModel *model, CzLanes *lanes, CzError *error) {
+CzStatus cz_model_find_properties(CzModel *model, CzLanes *lanes, CzError *error) {
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
     const CzFill fill = {
         .model = model, .vehicles = vehicles, .baseline = vehicles, .lanes = lanes, .error = error};
     const size_t n = (size_t)model->n_car;
-    model->facts = cz_arena_allocate(&model->arena, n, sizeof *model->facts);
-    model->interface_facts = cz_arena_allocate(&model->arena, n, sizeof *model->interface_facts);
-    if (model->facts == NULL || model->interface_facts == NULL)
+    model->properties = cz_arena_allocate(&model->arena, n, sizeof *model->properties);
+    model->interface_properties =
+        cz_arena_allocate(&model->arena, n, sizeof *model->interface_properties);
+    if (model->properties == NULL || model->interface_properties == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d cars", model->n_car);
     for (int car = 0; car < model->n_car; car++) {
         CzStatics statics;
         CZ_TRY(cz_fill_statics(&fill, car, &statics));
-        model->facts[car] = model->car[car].model == CZ_MODEL_FULL
-                                ? vehicle_facts(cz_fill_vehicle(&fill, car), &statics)
-                                : no_vehicle_facts();
+        model->properties[car] = model->car[car].model == CZ_MODEL_FULL
+                                     ? vehicle_properties(cz_fill_vehicle(&fill, car), &statics)
+                                     : no_vehicle_properties();
     }
-    return find_interface_facts(model, lanes, vehicles, error);
+    return find_interface_properties(model, lanes, vehicles, error);
 }

@@ -1,5 +1,5 @@
 /* All searches of one optimisation. */
-#include "optimise/hunt.h"
+#include "optimise/combinations.h"
 #include "base/error.h"
 #include "evaluate/evaluator.h"
 #include "optimise/strategy.h"
@@ -21,7 +21,7 @@ static long best_record(const CzSearch *search) {
     return passes_only_between || reads_only_between ? best : on_grid;
 }
 
-long cz_hunt_record(const CzSearch *search) {
+long cz_combinations_record(const CzSearch *search) {
     const long record = best_record(search);
     return record >= 0 && search->record[record].is_barred ? -1 : record;
 }
@@ -62,7 +62,7 @@ static CzStatus lead(CzSearch *search, bool is_fit, const CzOptimiseOptions *opt
 
 /* Whether the best design of one search is better than that of another. */
 static bool is_better(const CzSearch *search, const CzSearch *other) {
-    const long a = cz_hunt_record(search), b = cz_hunt_record(other);
+    const long a = cz_combinations_record(search), b = cz_combinations_record(other);
     if (a < 0 || b < 0)
         return a >= 0;
     const CzRecord *mine = &search->record[a], *theirs = &other->record[b];
@@ -73,65 +73,69 @@ static bool is_better(const CzSearch *search, const CzSearch *other) {
 }
 
 /* Begins and leads one more search. */
-static CzStatus begin(CzHunt *hunt, CzEvaluator *evaluator, int combination, const double *start,
-                      long evaluations, const CzOptimiseOptions *options, CzError *error) {
-    CzSubspace *subspace = &hunt->subspace[hunt->n];
-    CzSearch *search = &hunt->search[hunt->n];
+static CzStatus begin(CzCombinations *combinations, CzEvaluator *evaluator, int combination,
+                      const double *start, long evaluations, const CzOptimiseOptions *options,
+                      CzError *error) {
+    CzSubspace *subspace = &combinations->subspace[combinations->n];
+    CzSearch *search = &combinations->search[combinations->n];
     CzOptimiseOptions own = *options;
     long n_earlier = 0;
-    for (int i = 0; i < hunt->n; i++)
-        n_earlier += hunt->search[i].n_record;
+    for (int i = 0; i < combinations->n; i++)
+        n_earlier += combinations->search[i].n_record;
     own.evaluations = evaluations;
-    if (!cz_subspace_create(evaluator, combination, start, &hunt->arena, subspace))
+    if (!cz_subspace_create(evaluator, combination, start, &combinations->arena, subspace))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a search");
     cz_search_init(search, &subspace->function, &own);
     search->n_earlier = n_earlier;
     search->most_in_all = options->evaluations;
-    hunt->n++;
+    combinations->n++;
     const CzStatus status = lead(search, cz_evaluator_is_fit(evaluator), &own, error);
-    if (is_better(search, &hunt->search[hunt->chosen]))
-        hunt->chosen = hunt->n - 1;
+    if (is_better(search, &combinations->search[combinations->chosen]))
+        combinations->chosen = combinations->n - 1;
     return status;
 }
 
 /* A short search of every combination, then all that is left for the best one. */
-static CzStatus hunt_choices(CzEvaluator *evaluator, int n, const CzOptimiseOptions *options,
-                             CzHunt *hunt, CzError *error) {
+static CzStatus search_choices(CzEvaluator *evaluator, int n, const CzOptimiseOptions *options,
+                               CzCombinations *combinations, CzError *error) {
     const long half = options->evaluations / (2 * (long)n);
     long left = options->evaluations;
     int n_failed = 0;
     for (int combination = 0; combination < n && left > 0; combination++) {
         const CzStatus status =
-            begin(hunt, evaluator, combination, NULL, half > 0 ? half : 1, options, error);
+            begin(combinations, evaluator, combination, NULL, half > 0 ? half : 1, options, error);
         n_failed += status == CZ_STATUS_RUN_FAILED;
         if (status != CZ_OK && (status != CZ_STATUS_RUN_FAILED || n_failed == n))
             return status;
-        left -= hunt->search[hunt->n - 1].n_record;
-        if (hunt->search[hunt->n - 1].status == CZ_STATUS_INTERRUPTED)
+        left -= combinations->search[combinations->n - 1].n_record;
+        if (combinations->search[combinations->n - 1].status == CZ_STATUS_INTERRUPTED)
             return CZ_OK;
     }
-    const CzSearch *best = &hunt->search[hunt->chosen];
-    const long record = cz_hunt_record(best);
+    const CzSearch *best = &combinations->search[combinations->chosen];
+    const long record = cz_combinations_record(best);
     if (record < 0 || left < 1 || best->function->n_variable == 0)
         return CZ_OK;
-    return begin(hunt, evaluator, hunt->chosen, cz_search_x(best, record), left, options, error);
+    return begin(combinations, evaluator, combinations->chosen, cz_search_x(best, record), left,
+                 options, error);
 }
 
-CzStatus cz_hunt(CzEvaluator *evaluator, const CzOptimiseOptions *options, CzHunt *hunt,
-                 CzError *error) {
+CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *options,
+                         CzCombinations *combinations, CzError *error) {
     const int n = cz_evaluator_n_combination(evaluator);
-    *hunt = (CzHunt){0};
-    hunt->subspace = cz_arena_allocate(&hunt->arena, (size_t)n + 1, sizeof *hunt->subspace);
-    hunt->search = cz_arena_allocate(&hunt->arena, (size_t)n + 1, sizeof *hunt->search);
-    if (hunt->subspace == NULL || hunt->search == NULL)
+    *combinations = (CzCombinations){0};
+    combinations->subspace =
+        cz_arena_allocate(&combinations->arena, (size_t)n + 1, sizeof *combinations->subspace);
+    combinations->search =
+        cz_arena_allocate(&combinations->arena, (size_t)n + 1, sizeof *combinations->search);
+    if (combinations->subspace == NULL || combinations->search == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the search");
     if (n > 1)
-        return hunt_choices(evaluator, n, options, hunt, error);
-    return begin(hunt, evaluator, 0, NULL, options->evaluations, options, error);
+        return search_choices(evaluator, n, options, combinations, error);
+    return begin(combinations, evaluator, 0, NULL, options->evaluations, options, error);
 }
 
-void cz_hunt_free(CzHunt *hunt) {
-    for (int i = 0; i < hunt->n; i++)
-        cz_search_free(&hunt->search[i]);
-    cz_arena_free(&hunt->arena);
+void cz_combinations_free(CzCombinations *combinations) {
+    for (int i = 0; i < combinations->n; i++)
+        cz_search_free(&combinations->search[i]);
+    cz_arena_free(&combinations->arena);
 }

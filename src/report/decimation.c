@@ -1,6 +1,6 @@
 /* Thinning of curves: split where the path is furthest from its chord, until no point is too far.
  */
-#include "report/thin.h"
+#include "report/decimation.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -56,7 +56,8 @@ static int thin_once(int n, const double *x, const double *y, double tolerance, 
     return n_kept;
 }
 
-double cz_thin(int n, const double *x, const double *y, double tolerance, int most, bool *keep) {
+double cz_decimate(int n, const double *x, const double *y, double tolerance, int most,
+                   bool *keep) {
     if (n <= 0)
         return tolerance;
     Span *stack = malloc((size_t)(n + 1) * sizeof *stack);

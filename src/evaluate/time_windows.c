@@ -77,7 +77,7 @@ void cz_when_climb_time(const CzPlace *place, double window[2]) {
     at(place->run->beyond_validity_time, window);
 }
 
-void cz_metric_when(const CzMetricKind *kind, const CzPlace *place, double when[2]) {
+void cz_metric_time_window(const CzMetricKind *kind, const CzPlace *place, double when[2]) {
     when[0] = when[1] = NAN;
     if (kind->when != NULL)
         kind->when(place, when);

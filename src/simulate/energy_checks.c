@@ -163,7 +163,7 @@ static bool bodies_differ(const CzBatch *batch, int design, double allowed, Faul
     return false;
 }
 
-bool cz_books_are_wrong(const CzBatch *batch, int design, char *where, char *what) {
+bool cz_energy_checks_fail(const CzBatch *batch, int design, char *where, char *what) {
     const CzEnergy energy = cz_energy_fill(batch, design);
     const double rounding = SUM_SHARE * energy.initial;
     Fault fault = {"", ""};

@@ -1,5 +1,5 @@
-/* Signs: events before the climb, and forces beyond what a part can hold. */
-#include "evaluate/signs.h"
+/* Indicators: events before the climb, and forces beyond what a part can hold. */
+#include "evaluate/override_indicators.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -7,14 +7,14 @@
 
 __attribute__((format(printf, 4, 5))) static void add(CzExplanation *explanation, CzCause cause,
                                                       double time, const char *format, ...) {
-    if (explanation->n_sign == CZ_MOST_SIGNS)
+    if (explanation->n_indicator == CZ_MOST_INDICATORS)
         return;
-    CzSign *sign = &explanation->sign[explanation->n_sign++];
-    sign->cause = cause;
-    sign->time = time;
+    CzIndicator *indicator = &explanation->indicator[explanation->n_indicator++];
+    indicator->cause = cause;
+    indicator->time = time;
     va_list values;
     va_start(values, format);
-    vsnprintf(sign->what, sizeof sign->what, format, values);
+    vsnprintf(indicator->what, sizeof indicator->what, format, values);
     va_end(values);
 }
 
@@ -59,7 +59,7 @@ static void add_of_interface(CzExplanation *explanation, const CzInterfaceResult
             interface->name);
 }
 
-void cz_signs_find(const CzRunSummary *run, CzExplanation *explanation) {
+void cz_override_indicators_find(const CzRunSummary *run, CzExplanation *explanation) {
     const double until = run->beyond_validity ? run->beyond_validity_time : INFINITY;
     for (int i = 0; i < run->n_interface; i++)
         add_of_interface(explanation, &run->interface[i]);

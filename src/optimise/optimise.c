@@ -240,7 +240,7 @@ static void tell_end(const CzCombinations *combinations, long limit, const CzOut
     else if (search->is_spent)
         snprintf(text, room, "%ld of %ld evaluations left, %s", left, limit,
                  cz_search_has_steps(search) ? "all reserved for the increments"
-                                             : "too few to go on searching");
+                                             : "too few to continue the search");
     else
         snprintf(text, room, "no further improvement");
 }

@@ -138,11 +138,11 @@ static void the_reason_of_the_end_is_true_to_the_digit(void **state) {
         const char *why = made.outcome->why_stopped;
         snprintf(text, sizeof text, "the limit of %ld evaluations is reached", limit);
         const bool at_limit = strncmp(why, text, strlen(text)) == 0;
-        snprintf(text, sizeof text, "%ld of %ld evaluations left, all kept", left, limit);
+        snprintf(text, sizeof text, "%ld of %ld evaluations left, all reserved", left, limit);
         assert_true(left >= 0);
-        assert_true(left == 0 ? at_limit || strstr(why, "nothing was left") == why
+        assert_true(left == 0 ? at_limit || strstr(why, "no further improvement") == why
                               : strncmp(why, text, strlen(text)) == 0 ||
-                                    strstr(why, "nothing was left") == why);
+                                    strstr(why, "no further improvement") == why);
         end(&made);
     }
 }

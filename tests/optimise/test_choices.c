@@ -157,7 +157,7 @@ static void refused(const char *variables, const char *sentence) {
 static void choices_that_are_none_are_refused_by_name(void **state) {
     (void)state;
     refused("{path: parts.head.coupler.buffer, choices: [short, long, same-as-long]}",
-            "makes no difference between 'long' and 'same-as-long'");
+            "gives 'long' and 'same-as-long' the same values");
     refused("{path: parts.head.coupler.buffer, choices: [two-stage, long]}",
             "the buffer of the file at 'parts.head.coupler.buffer' is none of the choices");
     refused(HEAD ", {path: \"parts.head.coupler.buffer.stages[0].force_kN\", min: 300, max: 500}",

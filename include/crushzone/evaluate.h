@@ -97,7 +97,7 @@ typedef struct CzEvaluation {
     CzCheckResult *check; /* the matches of a fit last (n_check) */
     CzVerdict verdict;    /* over all checks: cz_verdict_over */
     bool beyond_validity; /* something climbed in a run */
-    int n_not_covered;    /* what the profile asks for and this program cannot compute, which is no
+    int n_not_covered;    /* what the profile requires and this program cannot compute, which is no
                              check and counts in no verdict */
     const char *const *not_covered; /* borrowed from the evaluator (n_not_covered) */
     int n_not_judged;
@@ -105,7 +105,7 @@ typedef struct CzEvaluation {
     int n_match;                   /* the last constraints belong to them */
     CzMatchResult *match;          /* of a fit (n_match) */
     int n_run;
-    CzRun **run; /* one per scenario when asked for, else NULL */
+    CzRun **run; /* one per scenario when requested, else NULL */
 } CzEvaluation;
 CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
 
@@ -116,7 +116,7 @@ CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
 CZ_API CzVerdict cz_verdict_over(const CzEvaluation *evaluation, int n_name,
                                  const char *const *name);
 
-/* Whether a check comes before another when the worst is looked for: fails by margin, broken
+/* Whether a check comes before another when the worst is searched for: fails by margin, broken
  * yes-or-no checks, what was not checked, passes by margin, what does not apply. */
 CZ_API bool cz_check_is_worse(const CzCheckResult *check, const CzCheckResult *other);
 

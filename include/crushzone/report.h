@@ -156,7 +156,7 @@ typedef struct CzChartOptions {
                          with the largest mean deceleration; no meaning for figures of the whole
                          run */
     const char *measured; /* CSV file with curves that are laid over it, in any of the units of its
-                             axes; NULL for none. What they are over stands in its first column */
+                             axes; NULL for none. What they are over is in its first column */
     const char *column;   /* of the values: titles or numbers from 1, with commas between them;
                              NULL: the second, of panels all. Over panels a title begins as a
                              channel does: F_, v_, x_, d_ */
@@ -203,8 +203,8 @@ CZ_API bool cz_report_restore_folder(const char *folder);
 
 /* Writes a single file whole or not at all: to a temporary name first, renamed at the end. A link
  * is replaced and not followed; a pipe or a device is written to. `write` puts the content into a
- * stream. cz_report_check_file tells beforehand whether that can be, and refuses to replace a file
- * that the problem was read from (NULL: of no problem) or that belongs to a result folder;
+ * stream. cz_report_check_file reports beforehand whether that can be, and refuses to replace a
+ * file that the problem was read from (NULL: of no problem) or that belongs to a result folder;
  * cz_report_check_page lets the page of the folder that the problem was read from be replaced.
  * Statuses: CZ_STATUS_OUTPUT, those of `write`. */
 typedef CzStatus CzReportWriter(const void *data, FILE *stream, CzError *error);

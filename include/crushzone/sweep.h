@@ -38,7 +38,7 @@ typedef struct CzSweepOptions {
     const CzSweepAxis *axis; /* one or two (n_axis) */
     int n_metric;
     const char *const
-        *metric; /* to be told of each point, such as "vehicles.bogie_lift_mm"; without
+        *metric; /* to be reported each point, such as "vehicles.bogie_lift_mm"; without
                     a word at the end the largest of all places and scenarios, with
                     ".min" the smallest (n_metric) */
     int n_check;
@@ -65,7 +65,7 @@ CZ_API const char *cz_sweep_state_text(CzSweepState state);
 typedef struct CzSweepPoint {
     double value[CZ_MOST_AXES]; /* in the units of the paths */
     CzSweepState state;
-    CzVerdict verdict; /* over the checks asked for; CZ_VERDICT_NOT_CHECKED unless done */
+    CzVerdict verdict; /* over the checks requested; CZ_VERDICT_NOT_CHECKED unless done */
     double margin;     /* smallest of them; NaN when none has one, or a yes or no alone fails */
     char check[CZ_LABEL_ROOM]; /* the check with that margin, or the yes or no that fails, its
                                   scenario and place; empty when none */

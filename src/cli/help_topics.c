@@ -189,7 +189,7 @@ static void write_profiles(void) {
          "you; what\nsatisfies any other is PROVISIONAL ('crushzone help verdicts').");
 }
 
-/* Example of a channel's name: A1 stands for any vehicle, A4-B1 for any interface. */
+/* Example of a channel's name: A1 represents any vehicle, A4-B1 for any interface. */
 static const char *channel_example(const CzChannelInfo *info, char text[CZ_CHANNEL_ROOM]) {
     const bool of_end = info->at == CZ_AT_END;
     return cz_channel_name(info, of_end ? cz_end_place(0, 1) : 0,

@@ -5,7 +5,7 @@
 
 #include "model/lanes.h"
 
-/* Rows of a block. Those of an interface stand in the lane of the car behind it: side A is the
+/* Rows of a block. Those of an interface are in the lane of the car behind it: side A is the
  * front end of that car, side B the rear end of the car ahead. */
 typedef struct CzBudgetRows {
     double coupler_lift[2][CZ_LANE_BLOCK]; /* vertical force on the body, side A, side B [N] */

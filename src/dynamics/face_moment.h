@@ -9,7 +9,7 @@ typedef struct CzFacePush {
 } CzFacePush;
 
 /* `lane` is the interface's, `own` that of the car whose front (side 0) or rear end (1) meets it.
- * The faces know their point of action from the end mass, and how that stands on its body is known
+ * The faces know their point of action from the end mass, and how that is on its body is known
  * in the lane of the body alone, so that the kernel cannot note it. */
 CzFacePush cz_face_push(const CzDynamics *dynamics, size_t lane, size_t own, int side);
 

@@ -93,7 +93,7 @@ static Path coupler_path(const CzLanes *lanes, int interface) {
     return path;
 }
 
-/* Crush zones that stand behind what presses on the end of a car. */
+/* Crush zones that are behind what presses on the end of a car. */
 static void add_ends(Path *path, const CzModel *model, int interface) {
     for (int side = 0; side < 2; side++) {
         const int car = interface + side;

@@ -45,7 +45,7 @@ double cz_primary_stored(const CzDynamics *dynamics, size_t lane);
 double cz_link_stored(const CzDynamics *dynamics, size_t lane);
 double cz_axle_guidance_stored(const CzDynamics *dynamics, size_t lane);
 
-/* Contact of the wheels with a rail that does not give way, and their weight. */
+/* Contact of the wheels with a rail that does not deflect, and their weight. */
 double cz_wheels_stored(const CzDynamics *dynamics, size_t lane);
 
 /* Guidance of an end mass across the axis, and its hinge. */

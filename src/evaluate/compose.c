@@ -51,7 +51,7 @@ static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *ve
 }
 
 /* The smallest margin of all constraints, negative: what is maximised when nothing is minimised.
- * A yes or no has no margin to enlarge, and a rule of files asks for none. */
+ * A yes or no has no margin to enlarge, and a rule of files requires none. */
 static double margin_objective(const CzEvaluator *evaluator, const CzEvaluation *evaluation) {
     double smallest = INFINITY;
     for (int j = 0; j < evaluation->n_constraint; j++) {

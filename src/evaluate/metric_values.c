@@ -12,7 +12,7 @@ static double share_of(double part, double whole) {
 }
 
 /* What a run has left to collide with. The rule that ends a run waits until for a pitch period none
- * closes in; what neighbours then still do is rattle, of another size at every step. */
+ * closes in; what neighbours then still do is chatter, of another size at every step. */
 static double left_to_close(const CzPlace *place) {
     const CzRunSummary *run = place->run;
     const bool over = run->ended == CZ_ENDED_BY_RULE || run->ended == CZ_ENDED_SETTLED;
@@ -89,14 +89,14 @@ static double energy_behind(const CzPlace *place) {
 }
 
 /* What bottomed out used its stroke up and hardly more, however hard it was hit. So beyond the last
- * point two things stand for the stroke that was missing: the rise of the force F over the largest
+ * point two things represent the stroke that was missing: the rise of the force F over the largest
  * plastic one P, up to a tenth of the stroke, and behind an anti-climber the energy E that the end
  * structure had to take in its place:
  *
  *   demand = used + 0.1 (1 - P / F) + E / (P stroke)
  *
- * It does not jump at the last point. A coupler with a shear-off asks for nothing until it lets go:
- * its tubes may be used up. */
+ * It does not jump at the last point. A coupler with a shear-off requires nothing until it
+ * releases: its tubes may be exhausted. */
 static double stroke_demand(const CzPlace *place) {
     const CzElementResult *element = place->element;
     if (element->kind == CZ_ELEMENT_COUPLER && place->end->coupler.shear_off.given &&

@@ -1,7 +1,7 @@
 /* Sweeps: each point is the problem read anew with other values, and run alone.
  *
- * Points are tasks of one thread each. They are handed out in waves, between which progress is told
- * and the stop flag is looked at.
+ * Points are tasks of one thread each. They are handed out in waves, between which progress is
+ * reported and the stop flag is looked at.
  */
 #include "crushzone/sweep.h"
 
@@ -108,7 +108,7 @@ static bool is_nearer(const CzCheckResult *check, const CzCheckResult *other) {
     return !isnan(check->value) && (other == NULL || cz_check_is_worse(check, other));
 }
 
-/* Verdict over the checks that were asked for, and which of them decides. */
+/* Verdict over the checks that were requested, and which of them decides. */
 static CzStatus judge(const CzSweepOptions *options, const CzEvaluation *evaluation,
                       CzSweepPoint *point, CzError *error) {
     const CzCheckResult *deciding = NULL;
@@ -250,7 +250,7 @@ static void run_all(Sweeping *sweeping) {
     sweeping->sweep->is_interrupted = is_stopped(options);
 }
 
-/* What a point is ordered by when the worst is looked for: run failures first, then points that
+/* What a point is ordered by when the worst is searched for: run failures first, then points that
  * fail by their margins, those that fail by a yes or no behind them, then the rest by margin; NaN
  * for a point without a margin. */
 static double order_of(const CzSweepPoint *point) {

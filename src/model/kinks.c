@@ -21,7 +21,7 @@ double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *table) 
     return stroke;
 }
 
-/* Adds a kink in order of stroke: a trigger may end within the ramp to the next plateau. */
+/* Adds a breakpoint in order of stroke: a trigger may end within the ramp to the next plateau. */
 static void add(CzKinks *kinks, double at, double slope_change) {
     int k = kinks->n++;
     for (; k > 0 && kinks->at[k - 1] > at; k--) {

@@ -18,7 +18,7 @@ typedef struct {
     const CzTrail *trail;
     char *memory;
     const CzNode *seen[MOST_KEYS]; /* key as typed, NULL when not there yet (n_key) */
-    bool meant[MOST_KEYS];         /* a mistyped key stands for it (n_key) */
+    bool meant[MOST_KEYS];         /* a mistyped key represents it (n_key) */
 } Record;
 
 static void bind_record(CzBinder binder, const CzRecord *of, const CzNode *node,
@@ -311,7 +311,7 @@ static void bind_value(CzBinder binder, const Record *record, const CzKey *key, 
         break;
     case CZ_KEY_CHOICE:
         if (!bind_choice(value, key->words, field))
-            reader->has_holes = true; /* another word might have asked for less */
+            reader->has_holes = true; /* another word might have requested less */
         break;
     case CZ_KEY_FLAG:
         cz_value_flag(value, field);

@@ -8,7 +8,7 @@
 #include "problem/acts_with.h"
 #include "problem/usual.h"
 
-/* Writes what may stand for a key: "stroke_m or stroke_mm". */
+/* Writes what may represent a key: "stroke_m or stroke_mm". */
 static void spell(char *text, size_t size, const CzKey *key) {
     if (key->kind == CZ_KEY_NUMBER)
         cz_key_spellings(text, size, key->stem, key->dimension);

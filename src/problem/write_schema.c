@@ -1,7 +1,7 @@
 /* JSON schema (draft-07) of a problem file, for completion and checks in editors.
  *
  * Overrides beside `use` and overlays leave keys out, so only a stage, which is always whole, has
- * required keys. No stem may stand in two units.
+ * required keys. No stem may be in two units.
  */
 #include <stdio.h>
 #include <string.h>

@@ -103,7 +103,7 @@ static bool is_empty_folder(const char *path) {
     return n == 2; /* . and .. */
 }
 
-/* The path without slashes at its end. What it cannot be is told. */
+/* The path without slashes at its end. What it cannot be is reported. */
 static CzStatus clean_path(const char *path, char clean[PATH_MAX], CzError *error) {
     enum { ROOM_INSIDE = 256 }; /* for the longest name of a file in it */
     char what[CZ_FAULT_ROOM];

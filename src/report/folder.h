@@ -3,7 +3,7 @@
  * Files are written into a folder of a temporary name beside the final one, which is renamed at the
  * end. A folder that is there already is replaced only when we wrote it: it holds a marker that
  * lists its files, and nothing that the marker does not list. The result of a search is replaced
- * only by another search, or when that is asked for.
+ * only by another search, or when that is requested.
  */
 #ifndef CZ_REPORT_FOLDER_H
 #define CZ_REPORT_FOLDER_H

@@ -79,7 +79,7 @@ const char *const cz_record_docs[CZ_N_RECORD] = {
 #define TITLE(in_comparisons, in_tables, how)                                                      \
     .title = in_comparisons, .heading = in_tables, .format = CZ_FORMAT_##how
 
-/* One row of the table; what it is made of stands in the same order in every kind of line. */
+/* One row of the table; what it is made of is in the same order in every kind of line. */
 #define ENTRY(record_of, key_of, form_of, text)                                                    \
     .record = CZ_RECORD_##record_of, .key = #key_of, .form = CZ_FORM_##form_of, .doc = text
 #define NUMBER(unit_of, dimension_of)                                                              \

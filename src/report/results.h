@@ -98,10 +98,10 @@ typedef struct CzResultContext {
     const char *yaml; /* of the fit */
     int n_mistake;
     const CzError *const *mistake;
-    const struct CzResult *at; /* the one whose numbers are asked for */
+    const struct CzResult *at; /* the one whose numbers are requested */
     int n_order;               /* sources of a budget that are written, and in which order; */
     const int *order;          /* NULL: all of them, in their own */
-    CzRunInfo info;            /* made, until the next is asked for; so are the others */
+    CzRunInfo info;            /* made, until the next is requested; so are the others */
     CzImpulse impulse;
     CzVariableRow variable;
     CzConstraintRow constraint;

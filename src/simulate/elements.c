@@ -70,7 +70,7 @@ static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int c
     return true;
 }
 
-/* Both sides share one contact; what it crushes is room that people stand in. */
+/* Both sides share one contact; what it crushes is room that people are in. */
 static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
                                 CzElementResult *result) {
     if (!cz_has_element(batch, lane, 0, CZ_ELEMENT_SUPERSTRUCTURE))

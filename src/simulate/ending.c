@@ -2,8 +2,8 @@
  *
  * By rule: no neighbouring cars close in or can meet again faster than CLOSING_SPEED, no interface
  * that can open carries a force, none stores more than CZ_STORED_SHARE of the initial energy, no
- * plastic element has flowed, every wheel is on the rail, and all of that for one body pitch
- * period. A brief run also ends when nothing has flowed for that long, no cars can meet again at
+ * plastic element has crushed, every wheel is on the rail, and all of that for one body pitch
+ * period. A brief run also ends when nothing has crushed for that long, no cars can meet again at
  * more than MEETING_SHARE of the first closing speed, and no interface stores what could make them.
  */
 #include "simulate/run.h"
@@ -11,11 +11,13 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { LOOKS_BETWEEN_ENERGY_CHECKS = 64 }; /* looks at the end between two at the books (ours) */
+enum {
+    LOOKS_BETWEEN_ENERGY_CHECKS = 64
+}; /* looks at the end between two at the energy balance (ours) */
 
-#define CLOSING_SPEED 0.1      /* [m/s] */
-#define MEETING_SHARE 0.4      /* a sixth of the first impact's energy (ours) */
-#define FLOW 1e-6              /* growth of the plastic strokes that counts as flow [m] (ours) */
+#define CLOSING_SPEED 0.1 /* [m/s] */
+#define MEETING_SHARE 0.4 /* a sixth of the first impact's energy (ours) */
+#define FLOW 1e-6         /* growth of the plastic strokes that counts as crushing [m] (ours) */
 #define LARGEST_IMBALANCE 1e-2 /* of the initial energy */
 #define LARGEST_RESIDUAL 1e-6  /* closure that a chain may leave unbalanced [m] (ours) */
 #define LARGEST_LAW_ERROR                                                                          \
@@ -56,7 +58,7 @@ static bool fails_to_be_finite(CzBatch *batch, int design) {
     return false;
 }
 
-/* Fails the design when the energy books do not close; names the kind of element with the most
+/* Fails the design when the energy balance does not close; names the kind of element with the most
  * work. */
 static bool fails_to_balance(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
@@ -167,7 +169,7 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
     return false;
 }
 
-/* Sum of all plastic strokes: it grows while anything flows. */
+/* Sum of all plastic strokes: it grows while anything crushes. */
 static double plastic_strokes(const CzBatch *batch, int design) {
     static const int rows[] = {CZ_MEMORY(coupler.side[0].tube),
                                CZ_MEMORY(coupler.side[1].tube),
@@ -252,7 +254,7 @@ static double holds_since(bool holds, double since, double now) {
 }
 
 /* Looks at the wheels: off the rail now, and higher than their flange ever. Without stops a body
- * lifts its wheels by any amount or none, which tells nothing of a climb. */
+ * lifts its wheels by any amount or none, which says nothing of a climb. */
 static bool wheels_are_off(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
     bool off = false;

@@ -17,7 +17,7 @@
  * the stroke, a touch and four corners more. One that has bottomed out may seem to give STOP of its
  * largest force times its largest stroke, what a step of h = 0.1 ms leaves in a stop of k = 1 GN/m
  * before an end mass of m = 1 t: h^2 k / (12 m). Crush zones, guidances and tubes have no such
- * error: they receive what follows from their state, or flow under a force that is never negative.
+ * error: they receive what follows from their state, or crush under a force that is never negative.
  * Of 2,000 random designs and all shipped problems none came near.
  */
 #include "simulate/devices.h"

@@ -15,7 +15,7 @@
 #define DISPLACEMENT_SCALE 0.01 /* [m, rad] (ours) */
 #define TRACK_SCALE 10.0  /* of a mode's state, that moves a wheel by 10 mm [sqrt(J s)] (ours) */
 #define IMPULSE_SCALE 1e3 /* of external forces [N s] (ours) */
-#define SHEARED 1e-4      /* travel at which a shear-off counts as let go [m] (ours) */
+#define SHEARED 1e-4      /* travel at which a shear-off counts as released [m] (ours) */
 
 /* A degree of freedom in its block. */
 typedef struct Place {
@@ -23,12 +23,12 @@ typedef struct Place {
     const double *acceleration;
 } Place;
 
-/* A shear-off that has not let go yet. */
+/* A shear-off that has not released yet. */
 typedef struct Drop {
     const CzBlock *block;
     int side;    /* of the interface */
     size_t lane; /* within the block */
-    bool over;   /* it has let go: its function is masked, or it would fire for ever */
+    bool over;   /* it has been released: its function is masked, or it would fire for ever */
 } Drop;
 
 struct CzReference {
@@ -85,7 +85,7 @@ static size_t list_places(const CzBatch *batch, Place *place, double *allowed, d
     return n;
 }
 
-/* Fills the lanes of the cars that stand on an elastic track, or only counts them. */
+/* Fills the lanes of the cars that are on an elastic track, or only counts them. */
 static size_t list_track(const CzBatch *batch, size_t *lane) {
     const CzTrackMotion *track = batch->dynamics->track;
     size_t n = 0;

@@ -191,7 +191,7 @@ int cz_interface_elements(const CzBatch *batch, int interface, int design,
 /* The end that faces no other vehicle, at the rear (1) or the front (0) of all; false where it has
  * no mass. */
 bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResult *result);
-/* What the elements of an interface have dissipated so far [J], as cz_interface_fill tells it. */
+/* What the elements of an interface have dissipated so far [J], as cz_interface_fill reports it. */
 double cz_interface_energy(const CzBatch *batch, int interface, int design);
 /* Elastic energy in the elements of an interface [J]. */
 double cz_interface_stored(const CzBatch *batch, int interface, int design);

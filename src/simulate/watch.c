@@ -41,7 +41,7 @@ struct CzWatch {
 enum { MOST_PER_CAR = 64 };
 
 /* Whether a value can pass its threshold only while couplers, faces or side buffers push. Crush
- * zones behind an end mass also flow by its inertia. */
+ * zones behind an end mass also crush by its inertia. */
 static When when_it_moves(const CzWatch *list, Source source, int row) {
     const bool is_end =
         source == FROM_MEMORY && (row == CZ_MEMORY(end[0].peak) || row == CZ_MEMORY(end[1].peak));
@@ -58,7 +58,7 @@ static void watch(CzWatch *list, const CzBatch *batch, CzEventKind what, Source 
         source, row, lane, cz_block_of(batch->dynamics, lane), threshold, list->n_named++};
 }
 
-/* Place of the second kink: the end of the first stage. */
+/* Place of the second breakpoint: the end of the first stage. */
 static double first_stage(const CzBatch *batch, int curve, size_t lane) {
     const CzCurveLanes *lanes = &batch->lanes->curve[curve];
     return lanes->n_kink > 1 ? cz_row(lanes->at, batch->lanes->stride, 1)[lane] : INFINITY;

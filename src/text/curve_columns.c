@@ -29,7 +29,7 @@ int cz_reading_next(const CzCurveReading *reading, int line) {
     return line < reading->source.n_line ? reading->next[line] : reading->source.n_line;
 }
 
-/* Whether both columns are asked for by their numbers, so that titles need not name them. */
+/* Whether both columns are requested by their numbers, so that titles need not name them. */
 static bool is_by_number(const CzCurveReading *reading) {
     return cz_curve_column_number(&reading->request->column[0]) >= 0 &&
            cz_curve_column_number(&reading->request->column[1]) >= 0;

@@ -120,7 +120,7 @@ static Answer answer_by_name(const CzCurveColumn *column, const char *title) {
     return NOT;
 }
 
-/* A title that was asked for: as it is, in another case, or without its unit. */
+/* A title that was requested: as it is, in another case, or without its unit. */
 static Answer answer_to_title(const char *wanted, const char *title) {
     size_t n = 0;
     cz_curve_unit_of_title(title, &n);

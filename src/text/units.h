@@ -23,7 +23,7 @@ typedef struct CzUnit {
     double si;          /* SI value of one unit */
 } CzUnit;
 
-extern const CzUnit cz_units[]; /* those of one dimension stand together, the SI one first */
+extern const CzUnit cz_units[]; /* those of one dimension are together, the SI one first */
 extern const int cz_n_unit;
 extern const char *const cz_dimension_text[CZ_N_DIMENSION];
 

@@ -197,7 +197,7 @@ typedef struct {
     CzNode *last_key, *last_value; /* NULL at the first key */
 } Mapping;
 
-/* Whether a key is what stands behind a decimal comma, for {mass_t: 36,8} is two keys; the value
+/* Whether a key is what is behind a decimal comma, for {mass_t: 36,8} is two keys; the value
  * before it is then refused. */
 static bool is_behind_comma(Document *document, Mapping *mapping, const CzNode *key) {
     double number;
@@ -228,7 +228,7 @@ static CzNode *read_key(Document *document, Mapping *mapping, int depth, bool *i
     const size_t n = strlen(key->text);
     const int first = cz_index_find(lines, key->text, n);
     if (is_behind_comma(document, mapping, key)) {
-        /* told */
+        /* reported */
     } else if (strcmp(key->text, "<<") == 0) {
         cz_mistake(document->mistakes, key, NULL, "merge keys ('<<') are not read here");
         cz_mistake_help(document->mistakes, "name a part under 'parts:' and take it with 'use:'");

@@ -107,7 +107,7 @@ static bool read_path(Walk *walk, const char *path) {
     return false;
 }
 
-/* Tells what is wrong at a segment; nothing is put in any more. */
+/* Reports what is wrong at a segment; nothing is put in any more. */
 __attribute__((format(printf, 3, 4))) static void refuse(Walk *walk, int level, const char *format,
                                                          ...) {
     const CzNode place = place_of(walk, level);
@@ -151,7 +151,7 @@ static void leave(Walk *walk, size_t before) {
     walk->at[before] = '\0';
 }
 
-/* The value to put in: the setting's own, or a node that stands for any number. */
+/* The value to put in: the setting's own, or a node that represents any number. */
 static const CzNode *value_to_put(Walk *walk) {
     CzMatches *matches = walk->matches;
     walk->n_found++;
@@ -236,7 +236,7 @@ static void report_unknown(Walk *walk, const CzNode *mapping, Step step) {
     const char *name = walk->segment[step.level].name;
     CzSuggestion suggestion = {0};
     walk->failed = true;
-    if (mapping->is_partial) /* a part is not there, which is told where it is used */
+    if (mapping->is_partial) /* a part is not there, which is reported where it is used */
         return;
     for (int i = 0; i < mapping->n_entry; i++)
         cz_suggest(&suggestion, name, mapping->entry[i].key->text);

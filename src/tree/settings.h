@@ -13,7 +13,7 @@ typedef struct CzSetting {
     const char *path;
     const CzNode *place; /* of the path */
     const CzNode *value;
-    CzMatches *matches; /* gets the places of nodes that stand for any number; NULL: the value is
+    CzMatches *matches; /* gets the places of nodes that represent any number; NULL: the value is
                            put in */
 } CzSetting;
 

@@ -58,8 +58,8 @@ static void only_the_named_checks_and_limits_that_name_it_judge_a_scenario(void 
     end(&made);
 }
 
-/* 25 km/h is the largest speed that every check judges: its overload covers it, and 40 km/h asks
- * for none. */
+/* 25 km/h is the largest speed that every check judges: its overload covers it, and 40 km/h
+ * requires none. */
 static void it_is_no_design_speed(void **state) {
     (void)state;
     Case made = judge(fast);

@@ -2,7 +2,8 @@
  * entered.
  *
  * A scan along one input at a time finds the steepest pair of neighbours; halving the interval
- * towards the larger difference some fifty times makes a kink vanish and leaves a jump as it is.
+ * towards the larger difference some fifty times makes a breakpoint vanish and leaves a jump as it
+ * is.
  */
 #include "support/check.h"
 
@@ -316,7 +317,7 @@ static void no_output_jumps_along_any_input(void **state) {
     }
 }
 
-/* A coupler that lets go at once instead of over its softening length. */
+/* A coupler that releases at once instead of over its softening length. */
 static void sudden_shear_off_at(const double *input, double *output) {
     output[0] = input[0] < 0.0123456789 ? 9.11e5 : 0.0;
 }

@@ -88,7 +88,7 @@ static void stiffer_springs_lower_the_lift_and_a_higher_centre_of_gravity_raises
     assert_true(stiffer < 0.915 * lift && stiffer > 0.66 * lift);
     assert_true(softer > lift);
     /* The ends push 0.65 m below a centre of gravity of 1.6 m: 20 % of its height are 49 % of that
-     * lever, up or down, and so about of the pitch. The gaps of the stops take up 55 mm of the
+     * lever, up or down, and so about of the pitch. The gaps of the stops absorb 55 mm of the
      * seat's rise, so that 3 % more pitch double a lift of 2 mm, and half of it lifts nothing. At
      * 38 km/h the wheel would rise above its flange of 28 mm, at 31 km/h not yet. */
     speed = "trains.A.speed_km_h=31";
@@ -101,7 +101,7 @@ static void stiffer_springs_lower_the_lift_and_a_higher_centre_of_gravity_raises
     assert_true(lower < LEAST_LIFT);
 }
 
-/* Up to 30 km/h the gaps of the stops take up the pitch but for what is little more than a lift
+/* Up to 30 km/h the gaps of the stops absorb the pitch but for what is little more than a lift
  * that counts. Beyond, it rises more than in proportion to the speed in excess: more than two times
  * at twice the excess, and by more from step to step. */
 static void lift_rises_steeply_above_a_critical_closing_speed(void **state) {
@@ -190,9 +190,9 @@ static double bend_of(int n, const double *value, int every) {
 }
 
 /* Difference quotients of neighbours have one sign, so a search is led one way. Their change is
- * that of a smooth curve: half the distance makes it a quarter, at a kink a half; over a jump, and
- * where a value rattles, it stays what it was. */
-#define MOST_OF_A_JUMP 1.5 /* between the factors of a jump, 1, and of a kink, 2 */
+ * that of a smooth curve: half the distance makes it a quarter, at a breakpoint a half; over a
+ * jump, and where a value rattles, it stays what it was. */
+#define MOST_OF_A_JUMP 1.5 /* between the factors of a jump, 1, and of a breakpoint, 2 */
 static void assert_smooth(const char *name, const char *path, int n, const double *value) {
     const double bend = bend_of(n, value, 1), wide = bend_of(n, value, 2);
     if (getenv("CZ_TOL_SCALE") != NULL)
@@ -248,8 +248,8 @@ static void margins_follow_a_design_variable_without_jumps(void **state) {
 
 /* ---- claims ---------------------------------------------------------------------------------- */
 
-/* Lift over the stops by hand: the body's end rises by l_c x pitch, and what the stops do not take
- * up of it lifts the wheels. Less by what stops yield under a bogie that hangs in them, 9 mm by
+/* Lift over the stops by hand: the body's end rises by l_c x pitch, and what the stops do not
+ * absorb of it lifts the wheels. Less by what stops yield under a bogie that hangs in them, 9 mm by
  * hand (test_stability.c); more by how far a bogie flies on that its body throws up, which moves no
  * faster than it would swing freely to that pitch. */
 static void lift_is_the_rise_of_the_seat_less_the_gaps(void **state) {

@@ -92,7 +92,7 @@ static bool names_key(const char *warnings, const char *beginning, const CzKey *
     return false;
 }
 
-/* Where a record stands in the vehicle. */
+/* Where a record is in the vehicle. */
 typedef struct {
     int n;
     const char *name[MOST_DEPTH];

@@ -143,7 +143,7 @@ static void a_run_that_was_not_kept_has_no_page(void **state) {
 }
 
 /* The hand check of the problem file: each coupler takes 20 kN rising to 0.4 MN over 50 mm of its
- * buffer and 0.6 MN over 250 mm of its tube, two of them 321 kJ, then lets go at 911 kN; two
+ * buffer and 0.6 MN over 250 mm of its tube, two of them 321 kJ, then releases at 911 kN; two
  * anti-climbers push with 1 MN. Members advance by the spacing of the points, which is what the
  * areas are off by: one spacing times the force for each of six members. */
 static void the_input_curve_is_that_of_the_weakest_member(void **state) {
@@ -165,10 +165,10 @@ static void the_input_curve_is_that_of_the_weakest_member(void **state) {
         area += force[i] * step;
         largest = fmax(largest, force[i]);
     }
-    assert_near(closure[i], 0.6, 0, 8 * step + 2e-3); /* two buffers and tubes used up */
+    assert_near(closure[i], 0.6, 0, 8 * step + 2e-3); /* two buffers and tubes exhausted */
     assert_near(area, 321e3, 0, 6 * step * 911e3 + 2e-3 * 911e3);
     for (; force[i] > 0; i++)
-        assert_true(force[i] <= 911e3); /* it lets go */
+        assert_true(force[i] <= 911e3); /* it releases */
     while (force[i] < 990e3)
         i++;
     assert_near(force[i + 40], 1e6, 0.01, 0);
@@ -176,7 +176,7 @@ static void the_input_curve_is_that_of_the_weakest_member(void **state) {
     free_ran(&ran);
 }
 
-/* Against a wall one coupler gives way, over its own softening: then two anti-climbers push with
+/* Against a wall one coupler deflects, over its own softening: then two anti-climbers push with
  * 1 MN alone. */
 static void a_wall_does_not_hold_a_coupler_that_has_sheared_off(void **state) {
     (void)state;
@@ -298,7 +298,7 @@ static void rows_for_which_there_is_no_room_are_left_out_at_the_end(void **state
     int i = 1;
     while (time[i] - time[i - 1] < 0.1001)
         i++;
-    assert_near(time[i - 1], until, 1e-2, 0); /* told with three digits */
+    assert_near(time[i - 1], until, 1e-2, 0); /* reported with three digits */
     for (; i < n; i++)
         assert_true(time[i] - time[i - 1] < 1000.0 / 239 + 0.2);
     assert_near(time[n - 1], 1000, 1e-9, 0);

@@ -75,7 +75,8 @@ static const CzTrain *colliding_train(const CzInput *input, const CzScenario *sc
 static const CzTrain *train_of(const CzInput *input, const CzVehicle *vehicle) {
     for (int i = 0; i < input->n_trains; i++) {
         const CzTrain *train = &input->trains[i];
-        if (vehicle >= train->vehicles && vehicle < train->vehicles + train->n_vehicles)
+        if (train->n_vehicles > 0 && vehicle >= train->vehicles &&
+            vehicle < train->vehicles + train->n_vehicles)
             return train;
     }
     return NULL;

@@ -64,10 +64,11 @@ static CzStatus collect_input(const CzPage *page, int interface, CzInputCurve *i
     const double longest = closure != NULL ? largest(closure, page->n_sample) : 0;
     if (!(longest > 0) || force == NULL)
         return CZ_OK;
-    double *x = malloc(2 * INPUT_POINTS * sizeof *x), *y = x + INPUT_POINTS;
+    double *x = malloc(2 * INPUT_POINTS * sizeof *x);
     *input = (CzInputCurve){.points = x};
     if (x == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
+    double *y = x + INPUT_POINTS;
     CZ_TRY(cz_input_curve(page->model, interface, longest / CZ_MILLI_PER_UNIT, INPUT_POINTS, x, y,
                           error));
     const double highest = INPUT_ROOM * largest(force, page->n_sample);

@@ -13,21 +13,12 @@
  *
  *   CORNERS * energy + (preload + transition * v h) * v h        v: closing speed of the trains
  *
-<<<<<<< HEAD
- * the latter where buffers are, whose preload is met within a step: four corners at a hundredth of
- * the stroke, a touch and four corners more. One that has bottomed out may seem to give STOP of its
- * largest force times its largest stroke, what a step of h = 0.1 ms leaves in a stop of k = 1 GN/m
- * before an end mass of m = 1 t: h^2 k / (12 m). Crush zones, guidances and tubes have no such
- * error: they receive what follows from their state, or crush under a force that is never negative.
- * Of 2,000 random designs and all shipped problems none came near.
-=======
  * the latter where buffers or superstructures touch, whose force begins within a step: four corners
  * at a hundredth of the stroke, a touch and four corners more. One that has bottomed out may seem
  * to give STOP of its largest force times its largest stroke, what a step of h = 0.1 ms leaves in a
  * stop of k = 1 GN/m before an end mass of m = 1 t: h^2 k / (12 m). Crush zones, guidances and
- * tubes have no such error: they receive what follows from their state, or flow under a force that
+ * tubes have no such error: they receive what follows from their state, or crush under a force that
  * is never negative. Of 2,000 random designs and all shipped problems none came near.
->>>>>>> fc154b8 (simulate: let superstructures leave what their touches cannot resolve)
  */
 #include "simulate/devices.h"
 #include "simulate/run.h"

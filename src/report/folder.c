@@ -138,6 +138,8 @@ bool cz_folder_holds(const char *folder, const char *file) {
 static CzStatus check_content(const char *path, bool replaces_search, CzError *error) {
     char foreign[PATH_MAX];
     char *marker = cz_marker_read(path);
+    if (marker == NULL && access(path, F_OK) != 0)
+        return CZ_OK; /* not there any more, as in check_movable() */
     if (marker == NULL)
         return cz_fail(error, CZ_STATUS_OUTPUT,
                        "the folder %.200s exists and was not written by crushzone; choose "
@@ -169,14 +171,18 @@ static CzStatus check_movable(const char *path, const struct stat *info, CzError
             error, CZ_STATUS_OUTPUT,
             "the result folder %.200s cannot be replaced: it contains the current folder", path);
     if (rmdir(path) == 0)
-        return mkdir(path, info->st_mode & 07777) == 0 ? CZ_OK
-                                                       : cz_cannot_write(path, errno, error);
+        return mkdir(path, info->st_mode & 07777) == 0 || errno == EEXIST
+                   ? CZ_OK
+                   : cz_cannot_write(path, errno, error);
     if (errno == EBUSY)
         return cz_fail(error, CZ_STATUS_OUTPUT,
                        "the result folder %.200s cannot be replaced: a file system is mounted "
                        "there; choose a folder in it",
                        path);
-    return errno == ENOTEMPTY || errno == EEXIST ? CZ_OK : cz_cannot_write(path, errno, error);
+    /* Not there: another process is putting its result in its place. */
+    return errno == ENOTEMPTY || errno == EEXIST || errno == ENOENT
+               ? CZ_OK
+               : cz_cannot_write(path, errno, error);
 }
 
 static CzStatus check_target(const char *path, bool replaces_search, CzError *error) {

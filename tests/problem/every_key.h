@@ -59,6 +59,8 @@ static const Setting settings[] = {
      TRAINS(BARE("A1") ", " TESTED, BARE("B1")) GAPS},
     {CZ_MODEL_RIGID, "model: rigid, front: {anti_climber: {friction: 0}}",
      TRAINS(BARE("A1") ", " TESTED, BARE("B1")) GAPS},
+    {CZ_MODEL_RIGID, "model: rigid, front: {anti_climber: {friction: 0, rib_strength_N: 3000}}",
+     TRAINS(BARE("A1") ", " TESTED, BARE("B1")) GAPS},
     {CZ_MODEL_RIGID, "model: rigid, front: {anti_climber: null}",
      TRAINS(BARE("A1") ", " TESTED, BARE("B1")) GAPS},
     {CZ_MODEL_FULL, "model: full, " WITHOUT, TRAINS(BARE("A1") ", " TESTED, MASS("B1")) GAPS},

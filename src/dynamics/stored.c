@@ -163,10 +163,6 @@ double cz_side_touch(const CzDynamics *dynamics, size_t lane, int side, double s
                  CZ_PARAMETER(side_buffers.side[side].buffer.transition), stroke);
 }
 
-double cz_superstructure_touch(const CzDynamics *dynamics, size_t lane, double stroke) {
-    return parameter(dynamics, CZ_PARAMETER(superstructure.stiffness), lane) * stroke * stroke;
-}
-
 double cz_superstructure_stored(const CzDynamics *dynamics, size_t lane) {
     const double force = published(dynamics, CZ_PUBLISHED(superstructure.force), lane);
     return 0.5 * force * force / parameter(dynamics, CZ_PARAMETER(superstructure.stiffness), lane);

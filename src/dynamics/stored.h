@@ -20,7 +20,6 @@ double cz_superstructure_stored(const CzDynamics *dynamics, size_t lane);
  * rises by, preload and transition, times the stroke. */
 double cz_coupler_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke);
 double cz_side_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke);
-double cz_superstructure_touch(const CzDynamics *dynamics, size_t lane, double stroke);
 
 /* Hinge and swing stop of one side. */
 double cz_hinge_stored(const CzDynamics *dynamics, size_t lane, int side);

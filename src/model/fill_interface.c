@@ -32,7 +32,7 @@ typedef struct Pair {
     const CzFill *fill;
     int lane; /* car in whose lane the numbers stand */
     Side side[2];
-    bool has_couplers, has_side_buffers;
+    bool has_couplers, has_side_buffers, has_superstructures;
     bool tilts;      /* a car that moves up and down meets one that can move */
     double distance; /* of the foremost planes at t = 0 [m] */
 } Pair;
@@ -103,6 +103,10 @@ static double side_buffer_gap(const Side *side) {
     return has_side_buffers(side) ? side->end->side_buffers.gap : 0.0;
 }
 
+static double superstructure_gap(const Side *side) {
+    return side->end->superstructure.gap;
+}
+
 static double coupler_height(const Side *side) {
     return has_coupler(side) ? side->end->coupler.height : NAN;
 }
@@ -151,6 +155,8 @@ static CzStatus place_cars(Pair *pair) {
         nearest = fmin(nearest, couplers);
     if (pair->has_side_buffers)
         nearest = fmin(nearest, side_buffers);
+    if (pair->has_superstructures)
+        nearest = fmin(nearest, superstructure_gap(a) + superstructure_gap(b));
 
     if (pair->lane == model->colliding) {
         pair->distance = -nearest;
@@ -449,13 +455,13 @@ static void fill_superstructures(const Pair *pair) {
                                     CZ_PARAMETER(superstructure.contact.z[1])};
     const CzSuperstructure *a = &pair->side[CZ_SIDE_A].end->superstructure;
     const CzSuperstructure *b = &pair->side[CZ_SIDE_B].end->superstructure;
-    if (!has_superstructure(&pair->side[CZ_SIDE_A]) || !has_superstructure(&pair->side[CZ_SIDE_B]))
+    if (!pair->has_superstructures)
         return;
     const Heights heights = heights_of(pair, superstructure_height);
     for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
         const Side *side = &pair->side[which];
         const CzEnd *end = side->end;
-        put(pair, x[which], side->sign * (side->plane - end->superstructure.gap - end->distance));
+        put(pair, x[which], side->sign * (side->plane - superstructure_gap(side) - end->distance));
         put(pair, z[which], heights.side[which] - end->cg_height);
     }
     put(pair, CZ_PARAMETER(superstructure.contact.distance), pair->distance + a->gap + b->gap);
@@ -476,6 +482,7 @@ CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *b
     put(&pair, CZ_PARAMETER(tilts), pair.tilts);
     pair.has_couplers = pairs(pair.side, has_coupler);
     pair.has_side_buffers = pairs(pair.side, has_side_buffers);
+    pair.has_superstructures = has_superstructure(a) && has_superstructure(b);
     set_offsets(&pair);
     CZ_TRY(place_cars(&pair));
     CZ_TRY(fill_couplers(&pair));

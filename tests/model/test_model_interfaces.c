@@ -21,6 +21,16 @@ static void the_nearest_pair_of_the_colliding_ends_touches(void **state) {
                 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.length)), 2.8, 1e-15, 0.0);
     free_model(&built);
+
+    const CzSuperstructure foremost = {
+        .given = true, .gap = 0.1, .height = 2.0, .strength = 3e5, .stiffness = 5e7};
+    problem.vehicle[0].front.superstructure = foremost;
+    problem.vehicle[1].rear.superstructure = foremost;
+    built = build_model(&problem);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(superstructure.contact.distance)), 0.0, 0.0,
+                1e-15);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.64 - 0.2, 1e-14, 0.0);
+    free_model(&built);
 }
 
 static void arms_reach_from_the_carriers_to_the_parts(void **state) {

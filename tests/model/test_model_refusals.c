@@ -166,6 +166,12 @@ static void parts_must_not_overlap_where_couplers_touch(void **state) {
     make_problem();
     problem.vehicle[0].front.coupler.gap = 0.7;
     expect_refusal("other parts of interface A1-A2 overlap by 60 mm when its couplers touch", 1);
+    make_problem();
+    problem.vehicle[0].front.coupler.gap = 0.5;
+    const CzSuperstructure foremost = {
+        .given = true, .gap = 0.1, .height = 2.0, .strength = 3e5, .stiffness = 5e7};
+    problem.vehicle[0].front.superstructure = problem.vehicle[1].rear.superstructure = foremost;
+    expect_refusal("other parts of interface A1-A2 overlap by 300 mm when its couplers touch", 1);
 }
 
 static void a_time_step_above_a_bound_names_the_element(void **state) {

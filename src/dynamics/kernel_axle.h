@@ -27,7 +27,7 @@ static void axle_to_bogie(CzBlock *d, int axle) {
         const CzSight seen = line_up_axle(frame, at_axle, rate, rest, i);
         const StrutStrokes at = strokes_seen(seen, rest);
 
-        const CzSuspensionLaw law = suspension_law(&rows->primary, preload, i);
+        const CzSuspensionLaw law = cz_suspension_at(&rows->primary, preload, i);
         const double spring = cz_suspension_spring(&law, at.compression);
         const double damper = cz_suspension_damper(&law, at.rate);
         const double lifted = spring + damper;

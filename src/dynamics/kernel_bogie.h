@@ -8,16 +8,7 @@
 #define CZ_DYNAMICS_KERNEL_BOGIE_H
 
 #include "dynamics/kernel_bogie_line.h"
-#include "laws/suspension.h"
-
-static inline CzSuspensionLaw suspension_law(const CzSuspensionRows *rows, const double *preload,
-                                             size_t i) {
-    return (CzSuspensionLaw){rows->stiffness[i],     preload[i],
-                             rows->bump_gap[i],      rows->bump_stiffness[i],
-                             rows->lift_gap[i],      rows->lift_stiffness[i],
-                             rows->damping[i],       rows->blow_off_rate[i],
-                             rows->damping_beyond[i]};
-}
+#include "dynamics/suspension_rows.h"
 
 static void bogie_to_body(CzBlock *d, int bogie) {
     const double sign = bogie == 0 ? -1.0 : 1.0;
@@ -32,7 +23,7 @@ static void bogie_to_body(CzBlock *d, int bogie) {
         const BogieLine line = line_up_bogie(body, frame, rows, rest, i);
         const StrutStrokes at = strokes_seen(line.seen, rest);
 
-        const CzSuspensionLaw law = suspension_law(&rows->secondary, preload, i);
+        const CzSuspensionLaw law = cz_suspension_at(&rows->secondary, preload, i);
         const double spring = cz_suspension_spring(&law, at.compression);
         const double damper = cz_suspension_damper(&law, at.rate);
         const double lifted = spring + damper;

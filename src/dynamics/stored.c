@@ -3,8 +3,8 @@
 
 #include <math.h>
 
+#include "dynamics/suspension_rows.h"
 #include "laws/slider.h"
-#include "laws/suspension.h"
 #include "laws/vehicle_end.h"
 
 #define SMALL_STROKE 1e-7 /* of a buffer, within its first stage [m] */
@@ -185,33 +185,25 @@ double cz_side_sliding_stored(const CzDynamics *dynamics, size_t lane) {
 }
 
 double cz_secondary_stored(const CzDynamics *dynamics, size_t lane) {
+    const CzBlock *block = cz_block_of(dynamics, lane);
+    const size_t i = lane % CZ_LANE_BLOCK;
     double stored = 0.0;
     for (int bogie = 0; bogie < 2; ++bogie) {
-        const CzSuspensionLaw law = {
-            .stiffness = parameter(dynamics, CZ_PARAMETER(secondary.stiffness), lane),
-            .preload = parameter(dynamics, CZ_PARAMETER(secondary_preload[bogie]), lane),
-            .bump_gap = parameter(dynamics, CZ_PARAMETER(secondary.bump_gap), lane),
-            .bump_stiffness = parameter(dynamics, CZ_PARAMETER(secondary.bump_stiffness), lane),
-            .lift_gap = parameter(dynamics, CZ_PARAMETER(secondary.lift_gap), lane),
-            .lift_stiffness = parameter(dynamics, CZ_PARAMETER(secondary.lift_stiffness), lane)};
-        stored += cz_suspension_stored(
-            &law, published(dynamics, CZ_PUBLISHED(secondary[bogie].compression), lane));
+        const CzSuspensionLaw law = cz_suspension_at(&block->parameter.secondary,
+                                                     block->parameter.secondary_preload[bogie], i);
+        stored += cz_suspension_stored(&law, block->published.secondary[bogie].compression[i]);
     }
     return stored;
 }
 
 double cz_primary_stored(const CzDynamics *dynamics, size_t lane) {
+    const CzBlock *block = cz_block_of(dynamics, lane);
+    const size_t i = lane % CZ_LANE_BLOCK;
     double stored = 0.0;
     for (int axle = 0; axle < 4; ++axle) {
-        const CzSuspensionLaw law = {
-            .stiffness = parameter(dynamics, CZ_PARAMETER(primary.stiffness), lane),
-            .preload = parameter(dynamics, CZ_PARAMETER(primary_preload[axle]), lane),
-            .bump_gap = parameter(dynamics, CZ_PARAMETER(primary.bump_gap), lane),
-            .bump_stiffness = parameter(dynamics, CZ_PARAMETER(primary.bump_stiffness), lane),
-            .lift_gap = parameter(dynamics, CZ_PARAMETER(primary.lift_gap), lane),
-            .lift_stiffness = parameter(dynamics, CZ_PARAMETER(primary.lift_stiffness), lane)};
-        stored += cz_suspension_stored(
-            &law, published(dynamics, CZ_PUBLISHED(primary[axle].compression), lane));
+        const CzSuspensionLaw law =
+            cz_suspension_at(&block->parameter.primary, block->parameter.primary_preload[axle], i);
+        stored += cz_suspension_stored(&law, block->published.primary[axle].compression[i]);
     }
     return stored;
 }

@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "evaluate/choices.h"
 #include "model/kinks.h"
+#include "problem/strokes.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,6 +1,8 @@
 /* Least squares of staged curves. */
 #include "fit/staged.h"
 
+#include "problem/strokes.h"
+
 enum {
     MOST_TERMS = CZ_MAX_STAGES + 1, /* forces of the stages and a preload */
     SWEEPS = 28,

@@ -12,15 +12,6 @@ int cz_kinks_in_loading(int n_stage, const CzTable *table) {
     return table->given ? table->n_point : n_stage + 1;
 }
 
-double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *table) {
-    if (table->given)
-        return table->x[table->n_point - 1];
-    double stroke = 0.0;
-    for (int i = 0; i < n_stage; i++)
-        stroke += stage[i].stroke;
-    return stroke;
-}
-
 /* Adds a breakpoint in order of stroke: a trigger may end within the ramp to the next plateau. */
 static void add(CzKinks *kinks, double at, double slope_change) {
     int k = kinks->n++;

@@ -51,7 +51,4 @@ void cz_kinks_scale(CzKinks *kinks, double count);
 
 double cz_kinks_value(const CzKinks *kinks, double x);
 
-/* Sum of the strokes of the stages, or the last point of the table [m]. */
-double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *table);
-
 #endif

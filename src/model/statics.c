@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/gravity.h"
+#include "problem/strokes.h"
 
 static double tube_mass(const CzTube *tube, int count) {
     if (!tube->given)

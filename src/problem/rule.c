@@ -69,15 +69,6 @@ const char *cz_rule_text(char text[48], double si, const char *unit, double unit
     return text;
 }
 
-double cz_rule_stroke(const CzStage *stages, int n_stage, const CzTable *curve) {
-    if (curve != NULL && curve->given)
-        return curve->x[curve->n_point - 1];
-    double stroke = 0;
-    for (int i = 0; i < n_stage; i++)
-        stroke += stages[i].stroke;
-    return stroke;
-}
-
 const char *cz_value_rule_name(CzValueRule rule) {
     static const char *const names[] = {
 #define CZ_VALUE_RULE(constant, name, doc) name,

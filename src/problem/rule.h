@@ -39,7 +39,4 @@ const char *cz_rule_text(char text[48], double si, const char *unit, double unit
 #define CZ_MM(text, si) cz_rule_text((text), (si), "mm", 1e-3)
 #define CZ_KN(text, si) cz_rule_text((text), (si), "kN", 1e3)
 
-/* Usable stroke of stages or a curve [m]. */
-double cz_rule_stroke(const CzStage *stages, int n_stage, const CzTable *curve);
-
 #endif

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "problem/rules.h"
+#include "problem/strokes.h"
 
 enum { MOST_END_STAGES = 4 };
 
@@ -99,15 +100,15 @@ static void check_tube(const CzRules *rules, const CzTube *tube) {
     check_trigger(rules, &tube->trigger, tube->stages, tube->n_stages, &tube->curve);
     check_rate(rules, &tube->rate_factor, &tube->curve);
     check_installed(rules, &tube->installed_length, tube->efficiency,
-                    cz_rule_stroke(tube->stages, tube->n_stages, &tube->curve));
+                    cz_total_stroke(tube->stages, tube->n_stages, &tube->curve));
 }
 
 static double tube_stroke(const CzTube *tube) {
-    return tube->given ? cz_rule_stroke(tube->stages, tube->n_stages, &tube->curve) : 0;
+    return tube->given ? cz_total_stroke(tube->stages, tube->n_stages, &tube->curve) : 0;
 }
 
 static double coupler_stroke(const CzCoupler *coupler) {
-    return cz_rule_stroke(coupler->buffer.stages, coupler->buffer.n_stages, NULL) +
+    return cz_total_stroke(coupler->buffer.stages, coupler->buffer.n_stages, NULL) +
            tube_stroke(&coupler->tube) + tube_stroke(&coupler->second_tube);
 }
 
@@ -140,7 +141,7 @@ static void check_anti_climber(const CzRules *rules, const CzAntiClimber *device
     check_rate(rules, &device->rate_factor, &device->curve);
     check_rate(rules, &device->speed_factor, &device->curve);
     check_installed(rules, &device->installed_length, device->efficiency,
-                    cz_rule_stroke(device->stages, device->n_stages, &device->curve));
+                    cz_total_stroke(device->stages, device->n_stages, &device->curve));
 }
 
 /* ---- the crushable structure ---- */
@@ -201,7 +202,7 @@ static void check_available(const CzRules *rules, const CzEnd *end) {
     const CzAntiClimber *device = &end->anti_climber;
     double stroke = free_stroke(end);
     if (device->given)
-        stroke += cz_rule_stroke(device->stages, device->n_stages, &device->curve);
+        stroke += cz_total_stroke(device->stages, device->n_stages, &device->curve);
     cz_rule_note(rules, CZ_VALUE_RULE_AVAILABLE, stroke, end->available_length);
     if (stroke > end->available_length * (1 + 1e-12))
         cz_rule_broken(

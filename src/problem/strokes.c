@@ -9,6 +9,15 @@
 #define APART 1e-6        /* of the stroke: points that are no closer (ours) */
 #define WITHOUT_FORCE 0.2 /* of the mean force: a curve that begins below begins without (ours) */
 
+double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *curve) {
+    if (curve != NULL && curve->given)
+        return curve->x[curve->n_point - 1];
+    double stroke = 0.0;
+    for (int i = 0; i < n_stage; i++)
+        stroke += stage[i].stroke;
+    return stroke;
+}
+
 static double mean_force(const CzTable *curve) {
     double area = 0;
     for (int i = 1; i < curve->n_point; i++)

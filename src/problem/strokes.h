@@ -11,6 +11,10 @@
 #include "problem/input.h"
 #include "tree/reader.h"
 
+/* Usable stroke [m]: the last point of a curve that is given, or the sum of the stages. NULL: there
+ * is no curve. */
+double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *curve);
+
 /* Makes the strokes of a device's curve those that its law is over: plastic ones of a tube or
  * anti-climber, total ones of an end. Other records are left alone. */
 void cz_bind_strokes(CzReader *reader, const CzRecord *record, const CzNode *node,

@@ -7,6 +7,7 @@
 
 #include "crushzone/fit.h"
 #include "model/kinks.h"
+#include "problem/strokes.h"
 
 enum { MOST_POINTS = 4000 };
 

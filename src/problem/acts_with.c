@@ -119,26 +119,12 @@ static const struct {
     const char *reason;
 } meetings[] = {
 #define CZ_MEETING(meeting, predicate, reason) {predicate, reason},
-#define CZ_ACTS_BESIDE(type, stem, sibling)
-#define CZ_ACTS_AT(type, stem, sibling, constant, word)
-#define CZ_ACTS_AGAINST(type, stem, meeting)
 #include "problem/acts_with.def"
-#undef CZ_MEETING
-#undef CZ_ACTS_BESIDE
-#undef CZ_ACTS_AT
-#undef CZ_ACTS_AGAINST
 };
 
 enum {
 #define CZ_MEETING(meeting, predicate, reason) MEETING_##meeting,
-#define CZ_ACTS_BESIDE(type, stem, sibling)
-#define CZ_ACTS_AT(type, stem, sibling, constant, word)
-#define CZ_ACTS_AGAINST(type, stem, meeting)
 #include "problem/acts_with.def"
-#undef CZ_MEETING
-#undef CZ_ACTS_BESIDE
-#undef CZ_ACTS_AT
-#undef CZ_ACTS_AGAINST
     NO_MEETING = -1,
     ANY_WORD = -1
 };
@@ -152,7 +138,6 @@ typedef struct Condition {
 } Condition;
 
 static const Condition conditions[] = {
-#define CZ_MEETING(meeting, predicate, reason)
 #define CZ_ACTS_BESIDE(type, stem, sibling)                                                        \
     {CZ_RECORD_##type, #stem, #sibling, ANY_WORD, NULL, NO_MEETING},
 #define CZ_ACTS_AT(type, stem, sibling, constant, word)                                            \
@@ -160,10 +145,6 @@ static const Condition conditions[] = {
 #define CZ_ACTS_AGAINST(type, stem, meeting)                                                       \
     {CZ_RECORD_##type, #stem, NULL, ANY_WORD, NULL, MEETING_##meeting},
 #include "problem/acts_with.def"
-#undef CZ_MEETING
-#undef CZ_ACTS_BESIDE
-#undef CZ_ACTS_AT
-#undef CZ_ACTS_AGAINST
 };
 enum { N_CONDITION = sizeof conditions / sizeof conditions[0], LONGEST_LIST = 240 };
 

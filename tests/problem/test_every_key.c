@@ -302,15 +302,10 @@ static int count_conditions_without_case(bool lacked[CZ_N_RECORD][MOST_KEYS]) {
         CzRecordId record;
         const char *stem;
     } conditions[] = {
-#define CZ_MEETING(meeting, predicate, reason)
 #define CZ_ACTS_BESIDE(type, stem, sibling) {CZ_RECORD_##type, #stem},
 #define CZ_ACTS_AT(type, stem, sibling, constant, word) {CZ_RECORD_##type, #stem},
 #define CZ_ACTS_AGAINST(type, stem, meeting) {CZ_RECORD_##type, #stem},
 #include "problem/acts_with.def"
-#undef CZ_MEETING
-#undef CZ_ACTS_BESIDE
-#undef CZ_ACTS_AT
-#undef CZ_ACTS_AGAINST
     };
     int n = 0;
     for (size_t i = 0; i < sizeof conditions / sizeof conditions[0]; i++) {

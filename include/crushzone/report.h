@@ -198,7 +198,8 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_check_folder(const CzProblem *problem, c
                                                      CzError *error);
 
 /* Puts back a result folder that a process which died while replacing it has left under a hidden
- * name beside it; whether it did. */
+ * name beside it, the old one or the new one; whether it did. Nothing is done while there is such a
+ * folder. */
 CZ_API bool cz_report_restore_folder(const char *folder);
 
 /* Writes a single file whole or not at all: to a temporary name first, renamed at the end. A link

@@ -1,4 +1,5 @@
 /* Units of results. */
+#include "base/gravity.h"
 #include "evaluate/results.h"
 
 #include <math.h>

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "crushzone/report.h"
 #include "report/temporary.h"
 
 #include <dirent.h>
@@ -239,7 +240,7 @@ static CzStatus check_parents(const char *path, CzError *error) {
 CzStatus cz_folder_check(const char *path, bool replaces_search, CzError *error) {
     char clean[PATH_MAX];
     CZ_TRY(clean_path(path, clean, error));
-    (void)cz_folder_restore(clean);
+    (void)cz_report_restore_folder(clean);
     CZ_TRY(check_target(clean, replaces_search, error));
     return check_parents(clean, error);
 }

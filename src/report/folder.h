@@ -33,10 +33,6 @@ bool cz_folder_holds(const char *folder, const char *file);
 /* Whether a file is one that we wrote into a result folder. */
 bool cz_folder_lists(const char *file);
 
-/* Puts back the folder that a process which died in between had moved away, or was about to put in
- * its place; whether it did. Nothing is done while there is such a folder. */
-bool cz_folder_restore(const char *path);
-
 /* Starts a folder; the folders above it are made when they are not there. After a success the
  * caller ends with cz_folder_finish or cz_folder_abandon. Statuses: CZ_STATUS_OUTPUT,
  * CZ_STATUS_NO_MEMORY. */

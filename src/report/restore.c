@@ -45,7 +45,7 @@ static bool put_back(const char *from, const char *to) {
     return is_back;
 }
 
-bool cz_folder_restore(const char *path) {
+bool cz_report_restore_folder(const char *path) {
     char parent[PATH_MAX], clean[PATH_MAX];
     struct stat info;
     Left left = {"", ""};
@@ -68,8 +68,4 @@ bool cz_folder_restore(const char *path) {
     if (is_back && left.moved[0] != '\0')
         cz_remove_listed(left.moved);
     return is_back;
-}
-
-bool cz_report_restore_folder(const char *folder) {
-    return cz_folder_restore(folder);
 }

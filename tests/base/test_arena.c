@@ -1,4 +1,5 @@
-/* The arena: zeroed, aligned, refuses what cannot be, frees everything at once. */
+/* The arena: memory is zeroed and aligned, impossible sizes are refused, everything is freed at
+ * once. */
 #include "support/check.h"
 
 #include "base/arena.h"

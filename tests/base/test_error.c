@@ -1,4 +1,4 @@
-/* Statuses and the one sentence of a failure. */
+/* Statuses, and the sentence that describes a failure. */
 #include "support/check.h"
 
 #include "base/error.h"
@@ -17,7 +17,7 @@ static void every_status_has_a_text_and_an_exit_code(void **state) {
     }
 }
 
-static void a_failure_holds_its_sentence_and_nothing_of_the_last_one(void **state) {
+static void a_failure_has_its_own_sentence_and_nothing_of_an_earlier_one(void **state) {
     (void)state;
     CzError error = {.line = 7, .column = 3};
     strcpy(error.file, "old.yaml");
@@ -30,14 +30,14 @@ static void a_failure_holds_its_sentence_and_nothing_of_the_last_one(void **stat
     assert_int_equal(error.line, 0);
 }
 
-static void a_sentence_too_long_is_cut_and_stays_a_text(void **state) {
+static void a_sentence_that_is_too_long_is_cut_and_stays_terminated(void **state) {
     (void)state;
     CzError error;
     assert_int_equal(cz_fail(&error, CZ_STATUS_INPUT, "%0999d", 1), CZ_STATUS_INPUT);
     assert_int_equal(strlen(error.message), sizeof error.message - 1);
 }
 
-static void nobody_has_to_listen(void **state) {
+static void an_error_pointer_may_be_null(void **state) {
     (void)state;
     assert_int_equal(cz_fail(NULL, CZ_STATUS_NO_MEMORY, "no memory"), CZ_STATUS_NO_MEMORY);
 }
@@ -45,9 +45,9 @@ static void nobody_has_to_listen(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_status_has_a_text_and_an_exit_code),
-        cmocka_unit_test(a_failure_holds_its_sentence_and_nothing_of_the_last_one),
-        cmocka_unit_test(a_sentence_too_long_is_cut_and_stays_a_text),
-        cmocka_unit_test(nobody_has_to_listen),
+        cmocka_unit_test(a_failure_has_its_own_sentence_and_nothing_of_an_earlier_one),
+        cmocka_unit_test(a_sentence_that_is_too_long_is_cut_and_stays_terminated),
+        cmocka_unit_test(an_error_pointer_may_be_null),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

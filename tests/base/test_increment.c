@@ -1,4 +1,4 @@
-/* Multiples of a step. */
+/* Multiples of an increment. */
 #include "support/check.h"
 
 #include "base/increment.h"
@@ -11,8 +11,8 @@ static void multiples_next_to_a_value_are_found(void **state) {
     assert_near(cz_increment_not_below(10, -11), -10, 0, 0);
 }
 
-/* 0.1 is no binary fraction, and yet ten of it are 1. */
-static void a_multiple_but_for_the_last_bits_is_one(void **state) {
+/* 0.1 is no binary fraction, but ten times 0.1 counts as 1. */
+static void a_value_within_rounding_of_a_multiple_counts_as_a_multiple(void **state) {
     (void)state;
     for (int i = 1; i < 1000; i++) {
         const double value = 0.1 * i;
@@ -35,7 +35,7 @@ static void increments_within_bounds_are_counted_up_to_two(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(multiples_next_to_a_value_are_found),
-        cmocka_unit_test(a_multiple_but_for_the_last_bits_is_one),
+        cmocka_unit_test(a_value_within_rounding_of_a_multiple_counts_as_a_multiple),
         cmocka_unit_test(increments_within_bounds_are_counted_up_to_two)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,7 +28,7 @@ static void good_numbers_are_read_to_the_nearest_double(void **state) {
     }
 }
 
-static void what_is_no_number_is_refused_with_a_reason(void **state) {
+static void text_that_is_no_number_is_refused_with_a_reason(void **state) {
     (void)state;
     static const char *const bad[] = {"",      "-",     "abc", "1_000", "012",   "-01",
                                       "1:30",  ".nan",  "NaN", "inf",   "-.Inf", "0x10",
@@ -67,7 +67,7 @@ static void written_numbers_read_back_to_the_same_bits(void **state) {
     }
 }
 
-static void numbers_are_written_as_people_write_them(void **state) {
+static void written_numbers_have_a_readable_form(void **state) {
     (void)state;
     char text[CZ_NUMBER_TEXT];
     assert_string_equal(cz_number_print(text, 38700), "38700");
@@ -96,7 +96,7 @@ static void the_nearest_word_is_suggested(void **state) {
     assert_string_equal(suggest("gap", 5, known), "gap");
 }
 
-static void a_word_that_is_far_from_all_is_left_alone(void **state) {
+static void a_word_that_resembles_none_gets_no_suggestion(void **state) {
     (void)state;
     static const char *const known[] = {"force_N", "gap", "x"};
     assert_null(suggest("weather", 3, known));
@@ -107,11 +107,11 @@ static void a_word_that_is_far_from_all_is_left_alone(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(good_numbers_are_read_to_the_nearest_double),
-        cmocka_unit_test(what_is_no_number_is_refused_with_a_reason),
+        cmocka_unit_test(text_that_is_no_number_is_refused_with_a_reason),
         cmocka_unit_test(written_numbers_read_back_to_the_same_bits),
-        cmocka_unit_test(numbers_are_written_as_people_write_them),
+        cmocka_unit_test(written_numbers_have_a_readable_form),
         cmocka_unit_test(the_nearest_word_is_suggested),
-        cmocka_unit_test(a_word_that_is_far_from_all_is_left_alone),
+        cmocka_unit_test(a_word_that_resembles_none_gets_no_suggestion),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Symmetric matrices: eigenvalues that are known, factors that multiply back. */
+/* Symmetric matrices: known eigenvalues, and factors whose product is the matrix. */
 #include "support/check.h"
 
 #include "base/symmetric.h"

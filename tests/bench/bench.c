@@ -1,5 +1,6 @@
 /* How long a step takes: two cars, and a train as wide batches of designs, on every instruction set
- * that this processor has. Prints processor times as JSON; judges nothing, because machines differ.
+ * that this processor has. Prints processor times as JSON; no test compares them, because machines
+ * differ.
  *
  *   bench [--short]     from the project's root; --short runs everything once
  */

@@ -1,4 +1,4 @@
-# The report in a real browser: Debian's chromium, driven by playwright-core from npm. What is missing is told.
+# The report in a real browser: Debian's chromium, driven by playwright-core from npm. Missing packages are reported.
 . "$SOURCE/tests/support/cases.sh"
 
 folders="metro pair rigid search long"

@@ -33,7 +33,7 @@ function readChannels(folder) {
 /* Whether a curve was filtered by the report, so that only its shape can be looked at. */
 const isFiltered = name => /^c_.*_g$/.test(name);
 
-/* What sums of columns with nine digits may be off by. */
+/* Tolerance of sums of columns that have nine digits. */
 const nine = value => 5e-9 * Math.abs(value);
 
 /* Half of the last digit that a number was written with. */
@@ -73,7 +73,7 @@ async function isWellFormed(page, file) {
   }, fs.readFileSync(file, 'utf8'));
 }
 
-/* Moves the mouse over a time plot and compares what stands below it with the row of that time. */
+/* Moves the mouse over a time plot and compares the values below it with the row of that time. */
 async function cursorShowsChannels(page, channels, prefix, shares) {
   const plot = page.locator(`svg.plot:has(path[data-y^="${prefix}"]:not([data-x]))`).first();
   await plot.scrollIntoViewIfNeeded();
@@ -105,7 +105,7 @@ async function pointAt(page, plot, x, y) {
   await page.mouse.move(place[0], place[1]);
 }
 
-/* Over a loop the nearest point of it counts; force and closure are of one row. */
+/* Over a loop the nearest point is selected; force and closure are of the same row. */
 async function cursorFollowsLoops(page, channels) {
   for (const plot of await page.locator('svg.plot:has(path[data-x])').all()) {
     await plot.scrollIntoViewIfNeeded();
@@ -122,7 +122,8 @@ async function cursorFollowsLoops(page, channels) {
   }
 }
 
-/* What stands below each figure at rows of channels.csv, as far as the page says that it has every one of them. */
+/* The values below each figure at rows of channels.csv, up to the last row that the page contains
+ * without gaps. */
 async function everyRowIsThere(page, channels) {
   const told = await page.locator('p', {hasText: 'Cursor and animation cover'}).textContent();
   const until = told.includes('every row') ? Number(told.match(/until ([\d.]+) ms/)[1]) * 0.995 : Infinity; // told with three digits
@@ -155,7 +156,7 @@ async function everyRowIsThere(page, channels) {
   if (times.length < 300 || plots.length < 8) return `only ${times.length} rows of ${plots.length} figures`;
 }
 
-/* The dot of a curve lies where its value is: on one of the straight lines that the curve is made of. */
+/* The dot of a curve is at its value, on one of the line segments of the curve. */
 async function dotsLieOnCurves(page) {
   return page.evaluate(() => {
     const distance = (px, py, x, y, dx, dy) => {
@@ -285,15 +286,15 @@ async function prints(page) {
 async function lookAtPage(browser, file) {
   const name = path.basename(file, '.html'), page = await open(browser, file);
   const n = await page.locator('figure svg').count();
-  await check(`${name}: the page asks for nothing and says nothing on the console`, () => isQuiet(page));
-  await check(`${name}: it has figures, and as many without scripts`, async () => {
+  await check(`${name}: the page loads nothing and prints nothing on the console`, () => isQuiet(page));
+  await check(`${name}: it has figures, and the same number without scripts`, async () => {
     const plain = await open(browser, file, {javaScriptEnabled: false});
     const others = await plain.locator('figure svg').count();
     await plain.context().close();
     return n > 0 && others === n ? '' : `${n} figures, ${others} without scripts`;
   });
-  await check(`${name}: an XML parser takes it`, () => isWellFormed(page, file));
-  await check(`${name}: labels keep apart`, () => labelsKeepApart(page));
+  await check(`${name}: an XML parser accepts it`, () => isWellFormed(page, file));
+  await check(`${name}: labels do not overlap`, () => labelsKeepApart(page));
   await check(`${name}: it fits 1280 pixels`, () => fits(browser, file, 1280, `${name}-1280.png`, 'light'));
   await check(`${name}: it fits 400 pixels, in the dark`, () => fits(browser, file, 400, `${name}-400.png`, 'dark'));
   await page.context().close();
@@ -303,20 +304,20 @@ async function look(browser, folder) {
   const file = path.join(folder, 'report.html'), channels = readChannels(folder);
   const page = await open(browser, file);
   const n = await page.locator('svg.plot path[d]').count();
-  await check(`${folder}: the report asks for nothing and says nothing on the console`, () => movesQuietly(page));
-  await check(`${folder}: an XML parser takes it`, () => isWellFormed(page, file));
+  await check(`${folder}: the report loads nothing and prints nothing on the console`, () => movesQuietly(page));
+  await check(`${folder}: an XML parser accepts it`, () => isWellFormed(page, file));
   await check(`${folder}: it is smaller than 1 MB`, () => (fs.statSync(file).size <= 1e6 ? '' : `${fs.statSync(file).size} bytes`));
-  await check(`${folder}: speeds under the cursor are those of channels.csv`, () => cursorShowsChannels(page, channels, 'v_', [0.001, 0.1, 0.37, 0.8, 0.999]));
-  await check(`${folder}: forces under the cursor are those of channels.csv`, () => cursorShowsChannels(page, channels, 'F_', [0.02, 0.3, 0.9]));
-  await check(`${folder}: energies under the cursor are those of channels.csv`, () => cursorShowsChannels(page, channels, 'E_kinetic', [0.05, 0.5]));
-  await check(`${folder}: closure and force under the cursor belong together`, () => cursorFollowsLoops(page, channels));
-  await check(`${folder}: the cursor stands at every row that the page says`, () => everyRowIsThere(page, channels));
-  await check(`${folder}: dots lie on their curves`, () => dotsLieOnCurves(page));
-  await check(`${folder}: cars, ends and wheels move as the channels say`, () => animationFollowsChannels(page, channels));
-  await check(`${folder}: the animation plays, stops and looks elsewhere`, () => playsAndStops(page));
-  await check(`${folder}: labels keep apart and legends out of the axes`, () => labelsKeepApart(page));
+  await check(`${folder}: speeds at the cursor equal those of channels.csv`, () => cursorShowsChannels(page, channels, 'v_', [0.001, 0.1, 0.37, 0.8, 0.999]));
+  await check(`${folder}: forces at the cursor equal those of channels.csv`, () => cursorShowsChannels(page, channels, 'F_', [0.02, 0.3, 0.9]));
+  await check(`${folder}: energies at the cursor equal those of channels.csv`, () => cursorShowsChannels(page, channels, 'E_kinetic', [0.05, 0.5]));
+  await check(`${folder}: closure and force at the cursor belong to one row`, () => cursorFollowsLoops(page, channels));
+  await check(`${folder}: the cursor shows every row up to the last one of the page`, () => everyRowIsThere(page, channels));
+  await check(`${folder}: dots are on their curves`, () => dotsLieOnCurves(page));
+  await check(`${folder}: cars, ends and wheels move as in the channels`, () => animationFollowsChannels(page, channels));
+  await check(`${folder}: the animation plays, stops and changes its view`, () => playsAndStops(page));
+  await check(`${folder}: labels do not overlap and legends are outside the axes`, () => labelsKeepApart(page));
   await check(`${folder}: it prints`, () => prints(page));
-  await check(`${folder}: it is whole without its script`, () => isWholeWithoutScript(browser, file, n));
+  await check(`${folder}: it is complete without its script`, () => isWholeWithoutScript(browser, file, n));
   await check(`${folder}: it fits 1280 pixels`, () => fits(browser, file, 1280, `${folder}-1280.png`, 'light'));
   await check(`${folder}: it fits 400 pixels, in the dark`, () => fits(browser, file, 400, `${folder}-400.png`, 'dark'));
   await page.context().close();

@@ -1,4 +1,4 @@
-# Words that the scripts of this folder share; sourced after support/cases.sh.
+# Commands that the scripts of this folder share; sourced after support/cases.sh.
 C=$PROGRAM
 export TERM=xterm LC_ALL=C
 unset NO_COLOR

@@ -3,7 +3,7 @@
 . "$SOURCE/tests/cli/cli.sh"
 
 greeting() { exits 0 "$C" && [ "$(wc -l <out.txt)" = 5 ] && says out.txt 'crushzone new two-trains'; }
-check "the program alone says in five lines what it is" greeting
+check "the program without arguments describes itself in five lines" greeting
 overview() { exits 0 "$C" help && for word in run check optimise validate show fit new schema version; do says out.txt "  $word " || return 1; done; }
 check "help lists every command" overview
 same_help() { exits 0 "$C" run --help && mv out.txt a && exits 0 "$C" help run && cmp a out.txt && says a '--set PATH=VALUE'; }
@@ -19,13 +19,13 @@ told_channels() { # every column of a run of full cars, with any car, interface,
     exits 0 "$C" run "$SOURCE/problems/metro-6-car.yaml" --scenario 8-km-h -o columns -q && "$C" help channels >told.txt &&
         head -1 columns/channels.csv | tr -d '\r' | tr ',' '\n' | sed 's/[AB][1-6]-[AB][1-6]/A4-B1/; s/_kJ.*/_kJ/; s/_[AB][1-6]_/_A1_/; s/_w[1-4]_/_w1_/; s/_rear_/_front_/' |
         sort -u | while read -r column; do
-            stem=$(echo "$column" | sed 's/_A4-B1_.*//; s/_kJ$//') # of coupler, anti-climber and energies the stem is told
+            stem=$(echo "$column" | sed 's/_A4-B1_.*//; s/_kJ$//') # of coupler, anti-climber and energies the stem is listed
             grep -qF "$column" told.txt || grep -qw -- "$stem" told.txt || { echo "$column is not told"; exit 1; }
         done
 }
-check "help channels tells every column of a run" told_channels
+check "help channels lists every column of a run" told_channels
 told_profiles() { for file in "$SOURCE"/problems/profiles/*.yaml; do "$C" help profiles | grep -qw -- "$(basename "$file" .yaml)" || return 1; done; }
-check "help profiles tells every shipped profile" told_profiles
+check "help profiles lists every shipped profile" told_profiles
 manual() { exits 0 "$C" help --man && for word in run optimise '\\-\\-json' 'exit\\-codes' 130; do grep -q -- "$word" out.txt || return 1; done; }
 check "the manual page has commands, options, topics and exit codes" manual
 completes() { # completes WANTED WORD...: bash offers WANTED for the last word
@@ -42,7 +42,7 @@ completion() {
 }
 if command -v bash >bash.txt; then check "bash completes commands, options, choices, topics and files" completion; fi
 version() { exits 0 "$C" version && says out.txt 'crushzone ' && exits 0 "$C" --version && exits 0 "$C" version --json && json out.txt version; }
-check "version tells versions, as JSON too" version
+check "version prints versions, also as JSON" version
 schema() { exits 0 "$C" schema && json out.txt '$schema'; }
 check "schema is a JSON document" schema
 
@@ -50,21 +50,21 @@ new() { exits 0 "$C" new two-trains && [ -s two-trains.yaml ]; }
 check "new writes an example" new
 check "the example is valid" exits 0 "$C" validate two-trains.yaml
 keeps() { exits 4 "$C" new two-trains && says err.txt 'the file exists'; }
-check "new keeps a file that is there" keeps
+check "new does not replace an existing file" keeps
 to_stdout() { exits 0 "$C" new -o - && cmp out.txt two-trains.yaml; }
 check "new writes to standard output" to_stdout
 template_slip() { exits 2 "$C" new two-train && says err.txt "did you mean 'two-trains'?"; }
 check "a mistyped template gets a suggestion" template_slip
 listed() { exits 0 "$C" help new && for template in two-trains buffer-stop wagon override; do says out.txt "$template" || return 1; done; }
 check "help lists the templates" listed
-# Each is valid and comes to its end; what it says of its verdict is what there is to learn.
+# Each file is valid and its run ends; the verdict is part of the example.
 for template in buffer-stop wagon override; do
     usable() { exits 0 "$C" new $template && exits 0 "$C" validate $template.yaml && exits "$1" "$C" check $template.yaml && ! says out.txt INCOMPLETE; }
     [ $template = buffer-stop ] && code=0 || code=1
     check "template $template runs" usable $code
 done
 stroke() { exits 0 "$C" sweep override.yaml --scenario worst --vary 'parts.anti-climber.stages[0].stroke_mm=200:500:4' && grep -q '200   FAIL' out.txt && grep -q '500 .* +.* wheel lift / flange height' out.txt && ! says out.txt 'RUN FAILED'; }
-check "a longer anti-climber keeps the cars of the template down, as it says" stroke
+check "a longer anti-climber prevents override in the template, as its comment says" stroke
 sized() { exits 0 "$C" optimise wagon.yaml -o wagon && says out.txt 'FEASIBLE after' && says out.txt 'verification pass'; }
 check "the wagon's crash buffers can be sized" sized
 
@@ -80,7 +80,7 @@ check "check of a passing design ends with 0" exits 0 "$C" check two-trains.yaml
 unjudged() { sed '/^  limits:/,/^$/d' two-trains.yaml >unjudged.yaml && exits 1 "$C" check unjudged.yaml && says out.txt 'NO CHECKS'; }
 check "check of a problem without checks is no pass" unjudged
 incomplete() { exits 3 "$C" run two-trains.yaml --set simulation.longest_ms=50 && says out.txt 'INCOMPLETE: end criterion not met within simulation.longest_s = 0.05' && says err.txt "scenario 'collision' has not met its end criterion after 0.05" && says err.txt 'such as --set simulation.longest_s=0.1'; }
-check "a run that did not come to its end ends with 3" incomplete
+check "a run that did not meet its end criterion ends with 3" incomplete
 check "an incomplete check ends with 3" exits 3 "$C" check two-trains.yaml --set simulation.longest_ms=50
 several() { cp two-trains.yaml other.yaml && exits 1 "$C" check two-trains.yaml other.yaml -o many && [ -f many/two-trains/summary.json ] && [ -f many/other/summary.json ]; }
 check "check takes several files, each with a folder of its own" several
@@ -103,11 +103,11 @@ check "--integrator adams runs on the elastic track" on_rails adams
 not_on() { # not_on TRACK
     exits 2 "$C" run "$SOURCE/problems/paper-25kmh.yaml" --integrator erk --set "simulation.track=$1" && says err.txt 'the second solver knows the track models modal and rigid only'
 }
-check "--integrator erk on masses that run along is refused" not_on co-running
+check "--integrator erk on the co-running track is refused" not_on co-running
 check "--integrator erk on finite elements is refused" not_on fe
 verified_on_rails() { exits 0 "$C" verify "$SOURCE/problems/paper-25kmh.yaml" --json && json out.txt methods.full_track.done true && json out.txt methods.adams.flips 0 && json out.txt verdict pass; }
 check "verify passes the published example, which runs on the elastic track, by all four methods" verified_on_rails
-track_energy() { # track_energy FILE: nine digits of what the track took up
+track_energy() { # track_energy FILE: energy that the track absorbed, with nine digits
     "$C" run "$1" --quiet --json --set simulation.duration_ms=60 >track.json && printf '%.9g' "$("$BUILD/tests/read_json" track.json scenarios.0.energy.track_kJ)"
 }
 on_track() { # on_track TRACK: the published example on a track of the catalogue
@@ -115,38 +115,38 @@ on_track() { # on_track TRACK: the published example on a track of the catalogue
     track_energy on-track.yaml
 }
 same_track() { [ "$(on_track '{use: zhai-2004}')" = "$(track_energy "$SOURCE/problems/paper-25kmh.yaml")" ]; }
-check "the track of the catalogue is the one that a problem has without any" same_track
+check "the track of the catalogue is the default track" same_track
 other_rail() { [ "$(on_track '{use: zhai-2004, rail: {use: 60e1}}')" != "$(on_track '{use: zhai-2004}')" ]; }
-check "another rail of the catalogue is another track" other_rail
+check "another rail of the catalogue changes the results" other_rail
 no_integrator() { exits 2 "$C" run two-trains.yaml --integrator euler && says err.txt 'it takes zhai or erk or adams'; }
 check "an unknown integrator is refused" no_integrator
 from_stdin() { "$C" check - --json <two-trains.yaml >stdin.json; [ $? = 1 ] && json stdin.json problem.file '<standard input>'; }
 check "a dash reads standard input" from_stdin
 verbose() { exits 0 "$C" run two-trains.yaml -v && says err.txt 'steps of'; }
-check "-v says how each scenario was computed" verbose
+check "-v prints how each scenario was computed" verbose
 quiet() { exits 0 "$C" run two-trains.yaml --quiet && [ ! -s err.txt ]; }
 check "--quiet leaves standard error empty" quiet
 
 sed 's/^checks:/scenarios: [{name: fast}, {name: slow, speed_km_h: 10}]\nchecks:/' two-trains.yaml >two.yaml
 one_scenario() { exits 0 "$C" run two.yaml --scenario slow --json && json out.txt scenarios.0.name slow && ! json out.txt scenarios.1; }
-check "--scenario runs one only" one_scenario
+check "--scenario runs one scenario only" one_scenario
 omitted() { exits 0 "$C" run two.yaml --scenario slow --json && json out.txt verdict 'not checked' || json out.txt verdict fail; }
 check "an omitted scenario is no pass" omitted
 one_line() { exits 0 "$C" run two.yaml --scenario slow && says out.txt 'of scenarios that were not run: NOT CHECKED.' && ! says out.txt 'this scenario was not run'; }
-check "what was not run is one line of the table" one_line
+check "omitted scenarios are one line of the table" one_line
 no_number() { exits 0 "$C" verify two.yaml --scenario slow && says out.txt slow && ! says out.txt fast; }
-check "nor is it a number that verify counts" no_number
+check "verify does not count omitted scenarios" no_number
 cut_short() { "$C" sweep two.yaml --scenario slow --vary simulation.longest_s=0.05:0.06:2 --json >out.txt; json out.txt points.0.message 'slow: the run of this scenario did not meet its end criterion within simulation.longest_s'; }
-check "a sweep of one scenario says why that one failed" cut_short
+check "a sweep of one scenario reports why it failed" cut_short
 no_scenario() { exits 2 "$C" run two.yaml --scenario slwo && says err.txt "there is no scenario 'slwo'"; }
 check "an unknown scenario is refused" no_scenario
 near() { exits 2 "$C" show two.yaml --scenario solw && says err.txt "did you mean 'slow'?"; }
-check "and the nearest one named" near
+check "the nearest scenario name is suggested" near
 of_family() { exits 0 "$C" show "$SOURCE/problems/metro-6-car-override.yaml" --scenario inner && says out.txt 'Known before the run, scenario inner_5km_h_A5-A6_-50mm'; }
 check "show takes a family, and shows its first scenario" of_family
 
 rest() { exits 0 "$C" show "$SOURCE/problems/two-cars-25kmh.yaml" && says out.txt 'at rest by the laws' && says out.txt '< 1e-10'; }
-check "show tells the rest of the cars, solved from the laws" rest
+check "show prints the equilibrium of the cars, solved from the laws" rest
 shown() { exits 0 "$C" show two-trains.yaml && says out.txt 'time step' && mv out.txt shown.yaml && exits 0 "$C" validate shown.yaml; }
 check "show prints a problem that is valid itself" shown
 same_numbers() {
@@ -159,25 +159,25 @@ check "the shown problem gives the same numbers to the last bit" same_numbers
 show_other() { exits 0 "$C" show two.yaml --scenario slow && says out.txt 'scenario slow'; }
 check "show takes a scenario" show_other
 validated() { exits 0 "$C" validate two.yaml two-trains.yaml && [ "$(grep -c ': ok, ' out.txt)" = 2 ] && says out.txt '2 scenarios, 8 vehicles, 5 design variables'; }
-check "validate takes several files and counts what is in them" validated
+check "validate takes several files and counts their content" validated
 bad_algorithm() { exits 2 "$C" validate two-trains.yaml --set optimise.algorithm=LN_COBILA && says err.txt "did you mean 'LN_COBYLA'?"; }
-check "validate tells an algorithm that does not exist" bad_algorithm
+check "validate reports an unknown algorithm" bad_algorithm
 folding() { exits 0 "$C" validate "$SOURCE/problems/two-cars-25kmh.yaml" && says out.txt 'interface A1-B1: F_crit'; }
-check "validate tells the force at which a coupler folds" folding
+check "validate prints the force at which a coupler folds" folding
 warned() { exits 0 "$C" validate "$SOURCE/problems/metro-6-car.yaml" && says err.txt 'interface A1-A2: the collapse tubes carry up to 1100.0 kN, more than F_crit, 1015.5 kN' && ! says err.txt 'interface A2-A3' >/dev/null; }
 check "validate warns of tubes that carry more than the force at which a train folds" warned
 verified() { exits 0 "$C" verify two-trains.yaml && says out.txt 'Verification: pass' && says out.txt 'Runge-Kutta'; }
-check "verify passes numbers that hang on no step and no solver" verified
+check "verify passes numbers that depend on no step and no solver" verified
 verified_json() { exits 0 "$C" verify two-trains.yaml --json && json out.txt format crushzone.verification && json out.txt verdict pass && json out.txt methods.adams.flips 0; }
 check "verify --json prints one document" verified_json
 check "verify of a run that does not end ends with 3" exits 3 "$C" verify two-trains.yaml --set simulation.longest_ms=50
-between() { # the limit on the force halfway between the record and half the step
+between() { # the limit on the force halfway between the production run and the halved time step
     "$C" verify two-trains.yaml --json >verified.json
     awk -v a="$("$BUILD/tests/read_json" verified.json values.1.production)" \
         -v b="$("$BUILD/tests/read_json" verified.json values.1.half_step.value)" 'BEGIN { printf "%.9g", (a + b) / 2 }'
 }
 hanging() { exits 1 "$C" verify two-trains.yaml --set "checks.limits[0].max=$(between)" && says out.txt CHANGED && says out.txt 'Verification: FAIL'; }
-check "verify of a verdict that hangs on the step ends with 1" hanging
+check "verify of a verdict that depends on the step ends with 1" hanging
 facts() { exits 0 "$C" show "$SOURCE/problems/two-cars-25kmh.yaml" && ! grep '^# A1 .* nan' out.txt && says out.txt 'bounce Hz' && says out.txt 'F_crit kN'; }
-check "show tells axle loads, deflections, frequencies and F_crit" facts
+check "show prints axle loads, deflections, frequencies and F_crit" facts
 finish

@@ -1,17 +1,17 @@
-# explain: what holds and what would break it, what is not known, how it is cut short and interrupted.
+# explain: satisfied limits and the changes that would violate them, unknown values, short and interrupted runs.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 cars=$SOURCE/problems/two-cars-25kmh.yaml
 
 holds() { exits 0 "$C" explain "$cars" && says out.txt 'no override' && says out.txt 'violates the limit' && says out.txt 'First to fail'; }
-check "what holds is told what would break it" holds
+check "explain of a satisfied limit gives the change that violates it" holds
 unchecked() {
     printf 'extends: %s\nparts: {paper-car: {bogie: {secondary: {lift_gap_mm: null}}}}\n' "$cars" >no-stops.yaml
     exits 0 "$C" explain no-stops.yaml && says out.txt 'NOT CHECKED in full' && ! grep -q 'no override' out.txt
 }
-check "without declared stops it says what is not known" unchecked
+check "explain without declared stops reports that override is not checked" unchecked
 cut() { exits 3 "$C" explain "$cars" --set simulation.longest_s=0.1 && says err.txt 'did not meet its end criterion within simulation.longest_s = 0.1'; }
-check "a run that is cut short explains nothing" cut
+check "an incomplete run has no explanation" cut
 interrupted() {
     "$C" explain "$SOURCE/problems/metro-6-car.yaml" >out.txt 2>err.txt &
     process=$!

@@ -1,4 +1,4 @@
-# Results looked at again: report, plot, compare, show --svg.
+# Commands on existing results: report, plot, compare, show --svg.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 
@@ -18,7 +18,7 @@ the_same_again() { # the command that a report names gives its results again
 }
 check "a report names the command that gives it again" the_same_again
 no_times() { ! grep -qiE 'wall|computed in|[0-9]{4}-[0-9]{2}-[0-9]{2}T' first/report.html && ! grep -q "$(uname -n)" first/report.html; }
-check "no time and no host stands in the report" no_times
+check "the report contains no time and no host" no_times
 small_script() { [ "$(wc -c <"$SOURCE/src/report/report.js")" -le 10240 ]; }
 check "the script has at most 10 KB" small_script
 hash_of() { sha256sum "$SOURCE/src/report/report.$1" | cut -c1-64 | tr a-f A-F | basenc --base16 -d | base64; }
@@ -32,7 +32,7 @@ anew() {
         tail -n +12 kept.html >a && tail -n +12 first/report.html >b && # the file's name differs
         [ "$(grep -c '<path' a)" = "$(grep -c '<path' b)" ] && [ "$(grep -c '<section' b)" -ge 8 ]
 }
-check "report writes the page of a folder anew" anew
+check "report writes the page of a folder again" anew
 still_ours() { exits 0 "$C" run two-trains.yaml -o first; }
 check "the folder is still the program's own" still_ours
 one_scenario() {
@@ -40,12 +40,12 @@ one_scenario() {
         says slow.html '<title>6-car metro onto an identical standing train, 8-km-h</title>'
 }
 check "a folder of one scenario is run with that one" one_scenario
-moved() { # all that a folder needs is in it, wherever the files that it was made from are
+moved() { # the folder contains all that it needs, also when its input files have moved
     mkdir -p there && cp -r "$SOURCE/problems" there/problems && (cd there && exits 0 "$C" run problems/first-collision.yaml -o made -q) &&
         cp -r there/made elsewhere && rm -r there && exits 0 "$C" report elsewhere -o moved.html -q && says moved.html 'en15227-2020a1' &&
         exits 0 "$C" run elsewhere/resolved.yaml -o once-more -q && cmp elsewhere/channels.csv once-more/channels.csv
 }
-check "a result folder that was moved runs by itself" moved
+check "a moved result folder runs by itself" moved
 same_elsewhere() { # the same tree in two places gives the same bytes outside run_info
     for place in here yonder; do
         mkdir -p $place && cp -r "$SOURCE/problems" $place/problems
@@ -56,11 +56,11 @@ same_elsewhere() { # the same tree in two places gives the same bytes outside ru
     done
     diff -r here/made yonder/made && diff -r here/by-root yonder/by-root && ! grep -rq "$PWD" here/by-root
 }
-check "results do not tell where the tree stood" same_elsewhere
+check "results do not depend on the place of the tree" same_elsewhere
 other_version() { sed -i '1s/crushzone [0-9.]*/crushzone 0.0.0/' again/run.log && exits 0 "$C" report again -o x.html && says err.txt 'another version'; }
-check "results of another version are told" other_version
+check "results of another version are reported" other_version
 no_folder() { mkdir -p empty && exits 2 "$C" report empty && says err.txt 'no resolved.yaml'; }
-check "a folder without results is told" no_folder
+check "a folder without results is reported" no_folder
 part_of() { sed -n "/<section id=\"$2\"/,/<\/section>/p" "$1"; }
 search() { # the report of a search is made anew from its folder, but for the digits of its history
     exits 1 "$C" optimise two-trains.yaml --evaluations 3 -o search -q || exits 0 true
@@ -70,10 +70,10 @@ search() { # the report of a search is made anew from its folder, but for the di
     done
     part_of search/report.html search | grep -q 'evaluation' && part_of search/report.html designs | grep -q '<path'
 }
-check "the report of a search is made anew from its folder" search
+check "the report of a search is made again from its folder" search
 searched_elsewhere() { rm -rf gone && cp -r search gone && sed -i 's/^extends.*/extends: "nowhere.yaml"/' gone/optimised.yaml && exits 0 "$C" report gone -q && part_of gone/report.html values | grep -q 'trains.A.vehicles'; }
-check "so it is without the file that was searched for" searched_elsewhere
-fit_elsewhere() { # a fit's time histories are in its folder, wherever they were
+check "the report of a search does not need the original problem file" searched_elsewhere
+fit_elsewhere() { # a fit's folder contains its time histories
     mkdir -p tests/a tests/b && for name in a b; do cp first/channels.csv "tests/$name/test 12.csv"; done
     sed '/^optimise:/,$d' two-trains.yaml >tests/fit.yaml && cat >>tests/fit.yaml <<'END'
 optimise:
@@ -94,7 +94,7 @@ check "a fit that was moved has its time histories with it" fit_elsewhere
 best_alone() { exits 0 "$C" report search -o best.html && ! grep -q 'id="variables"' best.html; }
 check "the best design of a search has a report of its own with -o" best_alone
 spoilt() { rm -rf bad && cp -r search bad && echo x >bad/history.csv && exits 2 "$C" report bad && says err.txt 'history.csv cannot be read'; }
-check "a history that is none is told" spoilt
+check "an invalid history is reported" spoilt
 links_lead() { # links_lead FILE N: at least N links, each to a section that is there
     [ "$(grep -o 'href="#[a-z]*"' "$1" | wc -l)" -ge "$2" ] && for id in $(grep -o 'href="#[a-z]*"' "$1" | sed 's/.*#//; s/"//'); do
         grep -q "id=\"$id\"" "$1" || { echo "no section $id"; return 1; }
@@ -108,7 +108,7 @@ each_figure() {
     done
 }
 check "plot writes each figure" each_figure
-panels() { # four figures, each with its letter; all curves of the single figures stand in it
+panels() { # four figures, each with its letter, with all curves of the single figures
     [ "$(grep -o '>([abcd]) ' panels.svg | wc -l)" = 4 ] && n=0 && for what in force velocity displacement shortening; do n=$((n + $(grep -o '<path' $what.svg | wc -l))); done &&
         [ "$(grep -o '<path' panels.svg | wc -l)" = $n ]
 }
@@ -119,7 +119,7 @@ measured() {
         [ "$(grep -o '<path' over.svg | wc -l)" = $(($(grep -o '<path' velocity.svg | wc -l) + 1)) ]
 }
 check "a measured curve is laid over a figure" measured
-same_measured() { # one's own channels, laid over the figure that they were recorded for, give the same path again
+same_measured() { # recorded channels drawn as measured curves give the same path as the figure
     exits 0 "$C" plot first --what velocity --measured first/channels.csv --column v_A4_m_s --svg own.svg &&
         [ "$(grep -o ' d="M[^"]*"' own.svg | sort | uniq -d | wc -l)" = 1 ]
 }
@@ -130,13 +130,13 @@ no_overlay() { exits 2 "$C" plot first --what shares --measured test.csv && says
 check "bars take no measured curve" no_overlay
 printf '# of a test\nt_ms,F_test_kN,v_A4_test [km/h],v_B1_test_km/h,x_A4_m,d_test_mm\n0,0,25,0,0,0\n100,650,20,4,0.6,500\n200,500,16,8,1.1,900\n' >four.csv
 curves_of() { grep -o '<path' "$1" | wc -l; }
-measured_panels() { # each curve stands in its own panel: force, two speeds, displacement, shortening
+measured_panels() { # each curve is in its own panel: force, two speeds, displacement, shortening
     exits 0 "$C" plot first --what panels --measured four.csv --svg all.svg && [ "$(curves_of all.svg)" = $(($(curves_of panels.svg) + 5)) ] &&
         for panel in 1:measured '2:v_A4_test<' '2:v_B1_test<' 3:measured 4:measured; do
             awk -v panel="${panel%%:*}" 'BEGIN { RS = "<svg " } NR == 2 * panel + 2' all.svg | grep -q "<title>${panel##*:}" || { echo "panel $panel"; return 1; }
         done && exits 0 "$C" plot first --what panels --measured four.csv --column F_test_kN,6 --svg two.svg && [ "$(curves_of two.svg)" = $(($(curves_of panels.svg) + 2)) ]
 }
-check "measured curves stand in the panels that their titles say" measured_panels
+check "measured curves are in the panels of their titles" measured_panels
 own_panels() { # recorded channels over their own panels give their own paths
     exits 0 "$C" plot first --what panels --measured first/channels.csv --column F_A4-B1_kN,v_A1_m_s,x_B2_m --svg own.svg &&
         [ "$(grep -o ' d="M[^"]*"' own.svg | sort | uniq -d | wc -l)" -ge $((3 + $(grep -o ' d="M[^"]*"' panels.svg | sort | uniq -d | wc -l))) ]
@@ -157,7 +157,7 @@ wrong_columns() {
         awk 'BEGIN { printf "t_ms"; for (i = 0; i < 14; i++) printf ",F_%d_kN", i; for (k = 0; k < 2; k++) { printf "\n%d", k; for (i = 0; i < 14; i++) printf ",1" } print "" }' >many.csv &&
         exits 2 "$C" plot first --what panels --measured many.csv && says err.txt 'too many' && exits 2 "$C" plot first --what panels --measured - <four.csv && says err.txt 'not from standard input'
 }
-check "columns that do not fit the panels are told" wrong_columns
+check "columns that fit no panel are reported" wrong_columns
 offset() { # the heights at which the ends meet, and by how much one was put higher
     exits 0 "$C" show "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h-partner-low --svg low.svg -q && says low.svg 'B1, its end 40 mm lower' && says low.svg 'anti-climber 0.910 m' && says low.svg 'anti-climber 0.950 m' &&
         exits 0 "$C" show "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h --svg level.svg -q && ! grep -q 'its end' level.svg && [ "$(grep -o 'anti-climber 0.950 m' level.svg | wc -l)" = 2 ]
@@ -166,32 +166,32 @@ check "the side elevation shows an offset in height" offset
 at() { exits 0 "$C" plot first --at A3-A4 --svg - && says out.txt 'aria-label="Force over closure, A3-A4"' && exits 0 "$C" plot two-trains.yaml --what car-acceleration --at B2 && says out.txt 'Acceleration, B2'; }
 check "plot takes an interface or a car, and a problem file" at
 unknown_figure() { exits 2 "$C" plot first --what enrgy && says err.txt "did you mean 'energy'" && exits 2 "$C" plot first --at A9 && says err.txt "no interface 'A9'"; }
-check "plot tells what there is not" unknown_figure
+check "plot reports a place that does not exist" unknown_figure
 nothing_to_lift() { exits 2 "$C" plot first --what lift && says err.txt "this run has no data for the figure 'lift'"; }
-check "rigid cars have no wheels to lift" nothing_to_lift
+check "wheel lift of rigid cars is refused" nothing_to_lift
 no_room() { exits 4 "$C" plot first --svg /nowhere/a.svg && says err.txt 'cannot be written' && [ ! -e /nowhere/a.svg.tmp ]; }
-check "a figure that cannot be written is told" no_room
+check "a figure that cannot be written is reported" no_room
 
 json_of() { "$BUILD/tests/read_json" "$1" "$2"; }
-told_when() { # the check of the largest force tells the time of the interface's peak, in JSON and in the table
+told_when() { # the check of the largest force reports the time of the interface's peak, in JSON and in the table
     at=$(json_of first/summary.json checks.0.from_ms) && [ "$at" = "$(json_of first/summary.json scenarios.0.interfaces.2.peak_time_ms)" ] &&
         [ "$at" = "$(json_of first/summary.json checks.0.to_ms)" ] && grep -q "<td class=\"number\">$(printf %.0f "$at")<" first/report.html
 }
-check "a check tells when its value was reached" told_when
+check "a check has the time of its value" told_when
 window() { # a mean over 120 ms or more has a begin and an end that far apart
     from=$(json_of first/summary.json checks.1.from_ms) && to=$(json_of first/summary.json checks.1.to_ms) && awk -v a="$from" -v b="$to" 'BEGIN { exit !(b - a > 119.9) }'
 }
-check "a mean tells its window" window
-turned() { # the report tells the budget of a full car by the same numbers as the summary
+check "a mean has its window" window
+turned() { # the report shows the budget of a full car with the numbers of the summary
     exits 0 "$C" run "$SOURCE/problems/two-cars-25kmh.yaml" -o turned -q && grep -q 'id="budget"' turned/report.html && ! grep -q 'id="budget"' first/report.html &&
         grep -q 'front coupler\|wheel and rail' turned/report.html
 }
-check "the report of full cars tells what turned them, that of rigid ones does not" turned
+check "the report of full cars has the budget of their pitch, that of rigid ones does not" turned
 check "the links at the top of a report lead to its sections" contents
 compared() { exits 0 "$C" compare first second && says out.txt 'interface force, collision' && grep -q 'A4-B1 *peak force kN' out.txt && grep -q 'first *second' out.txt; }
-check "compare tells what differs" compared
+check "compare lists the differences" compared
 compared_same() { exits 0 "$C" compare first first && says out.txt '5 checks are the same'; }
-check "a run does not differ from itself" compared_same
+check "a run equals itself" compared_same
 compared_json() { # the numbers of both summaries, side by side
     exits 0 "$C" compare first second --json && mv out.txt both.json && json both.json format crushzone.comparison && json both.json runs.1.label second &&
         json both.json checks.0.name 'interface force' && json both.json checks.0.runs.1.value "$(json_of second/summary.json checks.0.value)" || return 1

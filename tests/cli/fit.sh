@@ -1,4 +1,4 @@
-# `fit` turns curves into laws that problem files take, and refuses what is no curve with its place.
+# `fit` converts curves into laws for problem files, and refuses other files with line and reason.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 
@@ -53,20 +53,20 @@ trains:
     vehicles: [{name: wall, model: fixed}]
 END
 check "a problem file that names the laws as its catalogue is valid" exits 0 "$C" validate problem.yaml
-check "and it runs" exits 0 "$C" run problem.yaml
+check "a problem with the laws runs" exits 0 "$C" run problem.yaml
 pasted() { { sed '/^catalogue/d' problem.yaml; grep -v '^parts:' tube.yaml | sed '1i parts:'; grep -hv '^parts:\|^#' zone.yaml coupler.yaml; } >pasted.yaml && exits 0 "$C" validate pasted.yaml; }
 check "the same parts pasted into the file are valid" pasted
 sane() { exits 0 "$C" run problem.yaml --json && json out.txt scenarios.0.interfaces.0.elements.0.energy_kJ; }
-check "its elements take energy" sane
+check "its elements absorb energy" sane
 
 as_json() { exits 0 "$C" fit tube.csv --as anti-climber --basis static --json && json out.txt format crushzone.fit && json out.txt values.trigger_kN 800.0 && json out.txt yaml && json out.txt energy_error; }
 check "--json prints one document with values by path" as_json
 named() { exits 0 "$C" fit tube.csv --as anti-climber --basis static --name 'cab: tube' --stages 1 && says out.txt '  cab--tube:' && [ "$(grep -c stroke_mm: out.txt)" = 1 ]; }
-check "--name and --stages are followed" named
+check "--name and --stages are used" named
 from_stdin() { "$C" fit - --as end --basis static <zone.csv >stdin.yaml && says stdin.yaml '  end:'; }
 check "a dash reads standard input" from_stdin
 
-# Whether the law is like the curve.
+# Quality of the law.
 printf 'stroke_mm,force_kN\n0,0\n1,1000\n200,5\n' >triangle.csv
 unlike() {
     exits 1 "$C" fit triangle.csv --as anti-climber --basis static --stages 1 --svg triangle.svg && [ ! -s out.txt ] || return 1
@@ -74,7 +74,7 @@ unlike() {
     says triangle.svg 'REFUSED' || return 1
     exits 1 "$C" fit triangle.csv --as anti-climber --basis static --stages 1 --json && json out.txt verdict refused && json out.txt yaml null
 }
-check "a law that is not like its curve is refused with exit code 1, and drawn" unlike
+check "a law far from its curve is refused with exit code 1, and drawn" unlike
 printf 'stroke_mm,force_kN\n0,0\n60,60\n120,250\n200,580\n230,700\n233,70\n270,110\n' >rupture.csv
 rupture() { exits 0 "$C" fit rupture.csv --as coupler --basis static && says err.txt 'warning: the force falls from 700 to' && says out.txt '# DOUBTFUL: the force falls' && exits 0 "$C" fit rupture.csv --as coupler --basis static --json && json out.txt verdict doubtful; }
 check "a curve that ruptures is doubtful, on standard error and in the law" rupture
@@ -99,20 +99,20 @@ bare() { exits 0 "$C" fit bare.csv --as anti-climber --basis static --csv-sep ta
 check "a file without titles is read by number and unit" bare
 sed 's/;/X/; s/\./,/g; s/X/;/' zone.csv >german.csv
 german() { exits 0 "$C" fit german.csv --as end --basis static --csv-sep ';' --csv-decimal , && says out.txt '{stroke_mm: 20, force_kN: 1200}'; }
-check "decimal commas are read when they are announced" german
+check "decimal commas are read with --csv-decimal" german
 german_alone() { exits 0 "$C" fit german.csv --as end --basis static --csv-decimal , && says out.txt '{stroke_mm: 20, force_kN: 1200}'; }
 check "--csv-decimal , alone takes ; between the columns" german_alone
 printf '\357\273\277' | cat - tube.csv | sed 's/$/\r/' >excel.csv
-check "byte order mark and line ends of other systems do no harm" exits 0 "$C" fit excel.csv --as anti-climber --basis static
+check "byte order mark and line ends of other systems are accepted" exits 0 "$C" fit excel.csv --as anti-climber --basis static
 
-# A curve that was read well and has no law ends as a law that is refused does, and names its file.
+# A valid curve without a law ends like a refused law, and the message names the file.
 printf 'stroke_mm,force_kN\n0,0\n1,9000\n2,100\n300,100\n' >spike.csv
 spike() { exits 1 "$C" fit spike.csv --as coupler --basis static && says err.txt 'spike.csv: error: no law as coupler fits this curve' && [ ! -s out.txt ] &&
     exits 1 "$C" fit spike.csv --as anti-climber --basis static --json && json out.txt error.file spike.csv; }
 check "a curve that no law follows ends with 1 and names its file" spike
 printf 'stroke_mm,force_kN\n37.5,0\n39.5,400\n41.5,600\n87.5,605\n137.5,610\n237.5,620\n337.5,630\n' >exact.csv
 exact() { exits 0 "$C" fit exact.csv --as end --basis static && says out.txt 'differs by at most 0 kN, at 0 mm; root mean square 0 kN'; }
-check "what rounding left of no difference is 0" exact
+check "a difference of rounding is 0" exact
 { printf 'stroke_mm,force_kN\n'; awk 'BEGIN { for (i = 0; i <= 300; i++) print i "," (i % 20 < 19 ? 50 * (i % 20) : 900) }'; } >saw.csv
 saw() {
     printf 'schema: 1\ntitle: saw\ntrains:\n  - {name: A, speed_km_h: 9, vehicles: [{model: rigid, mass_t: 30, front: {face_gap_mm: 0, unloading_stiffness_MN_m: 500, curve: {file: saw.csv, basis: static}}}]}\n  - {name: W, vehicles: [{model: fixed}]}\n' >saw.yaml
@@ -130,9 +130,9 @@ unknown_unit() {
         matched 'time,v\nms,-\n0,5\n100,4\n' v && exits 0 "$C" validate matched.yaml &&
         matched 't_ms,v (A1)\n0,5\n100,4\n' 'v (A1)' && exits 0 "$C" validate matched.yaml
 }
-check "a unit that is none is not taken for the channel's" unknown_unit
+check "an invalid unit is refused" unknown_unit
 
-# What testing machines write: the same tube, out of their files, gives the same law.
+# Files of testing machines: the same tube gives the same law.
 "$C" fit tube.csv --as anti-climber --basis static --json >plain.json
 number() { grep -F "\"$2\":" "$1" | sed 's/.*: //; s/,$//'; }
 like_plain() { # like_plain FILE [OPTION...]
@@ -183,7 +183,7 @@ check "the code page and the line ends of older machines are read" like_plain ol
 refused_shape() { exits 2 "$C" fit tube.csv --as end --basis static --zero now && says err.txt 'start, contact or a stroke' && exits 2 "$C" fit tube.csv --as end --basis static --flip up && exits 2 "$C" fit tube.csv --as end --basis static --scale 0 && exits 2 "$C" fit tube.csv --as end --basis static --from 600 && says err.txt 'no stroke is left: those of the file go from 0 to 463.5 mm'; }
 check "options about the curve are checked" refused_shape
 
-# What is no curve.
+# Files without a curve.
 refused() { # refused FILE TEXT [OPTION...]
     file=$1
     text=$2
@@ -196,11 +196,11 @@ put() { printf '%b' "$1" >bad.csv; }
 check "an empty file is refused" refused empty.csv 'empty.csv: error: cannot read'
 mkdir folder.csv
 check "a folder is refused" refused folder.csv 'it is a folder'
-check "a file that is not there is refused" refused nowhere.csv 'there is no such file'
+check "a missing file is refused" refused nowhere.csv 'there is no such file'
 head -c 20000000 /dev/zero | tr '\0' '1' >large.csv
 check "a file of 20 MB is refused" refused large.csv 'it is larger than 16 MiB'
 head -c 5000 /dev/urandom >noise.csv
-check "noise is refused" refused noise.csv 'noise.csv:'
+check "random bytes are refused" refused noise.csv 'noise.csv:'
 put 'stroke_mm\n0\n1\n'
 check "one column is refused" refused bad.csv 'bad.csv:1:1: error: no line of this file has two numbers'
 put 'stroke_mm,force_kN\n'
@@ -235,7 +235,7 @@ check "grouped thousands that may be decimals are refused with both readings" th
 put 'way_mm;load_kN;load_kN\n0;0;0\n1;2;2\n'
 check "two columns that may both be the force are refused" refused bad.csv "more than one column may be the force; the titles are 'way_mm', 'load_kN', 'load_kN'"
 put 'way,temperature\n0,0\n1,2\n'
-check "titles that say nothing are refused" refused bad.csv "no column is the stroke; the titles are 'way', 'temperature'"
+check "titles without a known quantity are refused" refused bad.csv "no column is the stroke; the titles are 'way', 'temperature'"
 put 'stroke_mm,force_kN\nmm,N\n0,0\n1,2\n'
 check "a title and a row of units that differ are refused" refused bad.csv "the force has two units: kN in its title 'force_kN' and N in the row below"
 put 'stroke_mm,force_kN\n0,0\n10,-60\n300,-65\n'
@@ -246,8 +246,8 @@ put 'stroke_mm,force_kN\n0,0\n10,60\nEnd of test\n'
 check "a line of text behind the points is refused" refused bad.csv 'bad.csv:4:1: error: this line has 1 column'
 put 'stroke,force_kN\n0,0\n1,2\n'
 check "a column without unit is refused" refused bad.csv "the unit of column 'stroke', the stroke, is not known"
-check "a unit that is none is refused" refused tube.csv "'furlong' is no unit of the stroke" --stroke-unit furlong
-check "a column that is not there is refused" refused tube.csv "no column is '7'; the titles are" --force 7
+check "an unknown unit is refused" refused tube.csv "'furlong' is no unit of the stroke" --stroke-unit furlong
+check "a missing column is refused" refused tube.csv "no column is '7'; the titles are" --force 7
 put '0,0\n1,2\n'
 check "a file without titles needs its columns" refused bad.csv 'no line of titles above says which column is the stroke'
 put 'stroke_mm,force_kN\n0,0\n1000000,2\n'
@@ -257,7 +257,7 @@ check "too many stages are refused" refused tube.csv '9 stages; a law as anti-cl
 no_kind() { exits 2 "$C" fit tube.csv --basis static && says err.txt "needs '--as KIND'" && exits 2 "$C" fit tube.csv --as ends --basis static && says err.txt "did you mean 'end'?"; }
 check "--as must be given and known" no_kind
 no_basis() { exits 2 "$C" fit tube.csv --as end && says err.txt "'--basis static' or '--basis dynamic'" && exits 2 "$C" fit tube.csv --as end --basis fast; }
-check "static or dynamic must be said" no_basis
+check "static or dynamic must be given" no_basis
 same() { "$C" fit tube.csv --as anti-climber --basis static >a && "$C" fit tube.csv --as anti-climber --basis static >b && cmp a b && LC_ALL=de_DE.UTF-8 "$C" fit tube.csv --as anti-climber --basis static >c && cmp a c; }
 check "the same curve gives the same bytes, in any locale" same
 finish

@@ -1,4 +1,4 @@
-# Result folders and files: what is replaced and what never, several processes at once, and processes that were killed.
+# Result folders and files: which are replaced and which never, several processes at once, and killed processes.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 # A small problem whose search takes a moment.
@@ -22,7 +22,7 @@ optimise:
 EOF
 leftovers() { find . -name '.crushzone-*'; }
 
-# ---- what holds a search ----
+# ---- folders that contain a search ----
 default() { exits 0 "$C" optimise small.yaml -q && [ -f out-optimised/outcome.json ] && [ ! -e out ]; }
 check "optimise writes to out-optimised" default
 kept() {
@@ -34,15 +34,15 @@ kept() {
 }
 check "the result of a search is replaced by no other command" kept
 again() { exits 0 "$C" optimise small.yaml -q && [ -f out-optimised/optimised.yaml ]; }
-check "it is replaced by another search" again
+check "the result of a search is replaced by another search" again
 forced() { exits 0 "$C" run small.yaml -o out-optimised -q --force && [ ! -e out-optimised/outcome.json ] && [ -f out-optimised/summary.json ]; }
-check "and by a run with --force" forced
+check "the result of a search is replaced by a run with --force" forced
 named() {
     sed 's/{path: "parts.end/{name: "=tube, inner", path: "parts.end/' small.yaml >named.yaml && exits 0 "$C" optimise named.yaml -q -o named && says named/history.csv "\"'=tube, inner\"" && exits 0 "$C" report named -q
 }
 check "a search whose variable has a comma in its name can be reported again" named
 column() { exits 2 "$C" optimise small.yaml --force && says err.txt "takes no option '--force'" && printf 's,f\n0,0\n' >c.csv && ! "$C" fit c.csv --as end --basis static --force f >out.txt 2>err.txt && ! grep -q 'takes no value' err.txt; }
-check "--force of fit is its column" column
+check "--force of fit names a column" column
 
 # ---- inputs ----
 own() {
@@ -51,18 +51,18 @@ own() {
     mkdir -p deep && exits 0 "$C" optimise small.yaml -q -o search && echo 'extends: search/optimised.yaml' >over.yaml &&
         exits 4 "$C" optimise over.yaml -o search -q && says err.txt 'search/optimised.yaml, which this problem is read from' && [ -f search/optimised.yaml ]
 }
-check "a folder that holds an input is refused, the file or one that it is built on" own
+check "a folder that contains the input or its base file is refused" own
 out_of_nowhere() {
     exits 0 "$C" run small.yaml -q -o built && exits 4 "$C" run built/resolved.yaml -o nowhere/../built -q && says err.txt 'leads out of a folder that does not exist' &&
         [ ! -e nowhere ] && mkdir nowhere && exits 4 "$C" run built/resolved.yaml -o nowhere/../built -q && says err.txt 'which this problem is read from'
 }
-check "nor is it reached through a folder that is not there yet" out_of_nowhere
+check "such a folder is refused also through a path that does not exist yet" out_of_nowhere
 input_file() {
     cp small.yaml kept.yaml
     exits 4 "$C" plot small.yaml --svg small.yaml && says err.txt 'is read and would be replaced' && exits 4 "$C" report out -o out/resolved.yaml -q &&
         exits 4 "$C" show small.yaml --svg ./small.yaml && cmp small.yaml kept.yaml
 }
-check "a file that is an input is not written over" input_file
+check "an input file is not overwritten" input_file
 two() {
     mkdir -p a b && cp small.yaml a/x.yaml && cp small.yaml b/X.yaml && exits 4 "$C" run a/x.yaml b/X.yaml -o many -q && says err.txt 'would be written to the same folder' && [ ! -e many ]
 }
@@ -70,9 +70,9 @@ check "two inputs of one name are refused before anything is computed" two
 scenario() {
     sed 's/^checks:/scenarios: [{name: Report.html}, {name: b}]\nchecks:/' small.yaml >bad.yaml && exits 2 "$C" run bad.yaml -q -o bad && says err.txt 'cannot be called' && [ ! -e bad ]
 }
-check "a scenario cannot be called like a file of a result folder" scenario
+check "a scenario cannot have the name of a result file" scenario
 
-# ---- what cannot be written is told before anything is computed ----
+# ---- impossible outputs are reported before the computation ----
 slow="--set simulation.time_step_ms=0.0001 --set simulation.longest_s=50"
 early() { # early OUTPUT TEXT: refused at once, though the run would take minutes
     # shellcheck disable=SC2086
@@ -84,14 +84,14 @@ early_ones() {
         early "$long" 'File name too long' && early "deep/$long/out" 'File name too long' && early file/out 'is no folder' && early file/a/out 'is no folder' && early file 'is no folder' &&
         early "../$(basename "$PWD")" 'was not written by crushzone' && early '' empty
 }
-check "names that cannot be folders are told at once" early_ones
+check "invalid folder names are reported before the run" early_ones
 inside() {
     mkdir -p work && cd work && exits 0 "$C" run ../small.yaml -q && cd out || return 1
     code=0
     "$C" run ../../small.yaml -o ../out -q 2>../../err.txt || code=$?
     cd ../.. && [ "$code" = 4 ] && says err.txt 'contains the current folder'
 }
-check "the folder that it was started in is not replaced" inside
+check "the current folder is not replaced" inside
 files() {
     for output in "$long" "deep/none/a.html" file/a.html deep out/; do
         exits 4 timeout 20 "$C" report out -q -o "$output" && says err.txt "cannot be written" || return 1
@@ -99,17 +99,17 @@ files() {
     # shellcheck disable=SC2086
     exits 4 timeout 20 "$C" plot small.yaml $slow --svg deep/none/a.svg
 }
-check "so are files" files
+check "impossible files are reported before the run" files
 if [ "$(id -u)" = 0 ] && mkdir -p disk && mount -t tmpfs -o size=64k tmpfs disk 2>/dev/null; then
     mounted() { early disk 'a file system is mounted' && early disk/. 'give it a name'; }
-    check "a folder where a file system is mounted is told at once" mounted
+    check "a mounted folder is reported before the run" mounted
     full() { exits 4 "$C" run small.yaml -o disk/out -q && says err.txt 'disk/out/' && says err.txt 'No space left on device' && [ -z "$(ls -A disk)" ]; }
-    check "a full disk leaves nothing, and is told as that" full
+    check "a full disk leaves nothing, and is reported" full
     full_file() { exits 4 "$C" report out -o disk/a.html -q && says err.txt 'disk/a.html cannot be written: No space left on device' && [ -z "$(ls -A disk)" ]; }
-    check "nor does it leave half a file" full_file
+    check "a full disk leaves no half file" full_file
     mount -o remount,ro disk
     locked() { early disk/out 'Read-only file system' && exits 4 "$C" plot out --svg disk/a.svg && says err.txt 'Read-only file system'; }
-    check "a disk that cannot be written to is told at once" locked
+    check "a read-only disk is reported before the run" locked
     umount disk
 else
     skipped "a full, a locked and a mounted disk" "no file system can be mounted here"
@@ -135,7 +135,7 @@ at_once() { # the same folder from several processes, over and over
         [ ! -s err.txt ] && json shared/summary.json format crushzone.summary && says shared/report.html '</html>' && [ -z "$(leftovers)" ] || { echo "round $round"; cat err.txt; leftovers; return 1; }
     done
 }
-check "several runs into one folder leave one whole result" at_once
+check "several runs into one folder leave one complete result" at_once
 reports() {
     for round in 1 2 3 4 5; do
         "$C" report shared -q 2>e1 & first=$!
@@ -144,7 +144,7 @@ reports() {
         says shared/report.html '</html>' && [ -z "$(leftovers)" ] || return 1
     done
 }
-check "so do several reports" reports
+check "several reports into one folder leave one complete page" reports
 killed() {
     n_left=0
     for delay in 0.002 0.004 0.006 0.008 0.01 0.012 0.015 0.02 0.025 0.03; do
@@ -158,8 +158,8 @@ killed() {
     exits 0 "$C" run small.yaml -o dies -q && [ -z "$(leftovers)" ] || { leftovers; return 1; }
     echo "$n_left left something"
 }
-check "a run that was killed leaves no half folder, and the next clears what it left" killed
-made_up() { # as a killed process would leave them: a file, a folder with half its files, one without a marker
+check "a killed run leaves no half folder, and the next run clears its remains" killed
+made_up() { # as a killed process leaves them: a file, a folder with half its files, a folder without a marker
     mkdir -p left && cd left || return 1
     echo half >.crushzone-0123456789abcdef && mkdir .crushzone-0123456789abcdee .crushzone-0123456789abcded .crushzone-mine .crushzone-0123456789abcdec &&
         printf 'crushzone results\nsummary.json\n25/channels.csv\n' >.crushzone-0123456789abcdee/.crushzone && echo >.crushzone-0123456789abcdee/summary.json && mkdir .crushzone-0123456789abcdee/25 &&
@@ -167,8 +167,8 @@ made_up() { # as a killed process would leave them: a file, a folder with half i
     exits 0 "$C" run ../small.yaml -q && [ "$(ls -A | tr '\n' ' ')" = ".crushzone-0123456789abcdec .crushzone-mine err.txt out out.txt " ] || { ls -A; cd ..; return 1; }
     cd .. && rm -rf left
 }
-check "what dead processes left is cleared, and nothing else" made_up
-stopped() { # while a process holds its temporary folder, nobody clears it
+check "remains of dead processes are cleared, and nothing else" made_up
+stopped() { # while a process has locked its temporary folder, no other process clears it
     # shellcheck disable=SC2086
     "$C" optimise small.yaml --evaluations 100000 -o busy -q >o1 2>e1 & busy=$!
     sleep 0.3
@@ -179,7 +179,7 @@ stopped() { # while a process holds its temporary folder, nobody clears it
 }
 check "processes side by side do not clear each other's work" stopped
 
-# ---- files of a result folder, and what is read ----
+# ---- files of a result folder, and input files ----
 overwritten() { # no file of a result folder is replaced by another command, its report by `report` alone
     exits 0 "$C" run small.yaml -o whole -q && cp -r whole before || return 1
     for file in summary.json resolved.yaml channels.csv run.log checks.csv; do
@@ -195,7 +195,7 @@ inputs() {
         printf 'stroke_mm,force_kN\n0,0\n1,100\n50,100\n' >curve.csv && cp curve.csv kept-curve.csv && exits 4 "$C" fit curve.csv --as anti-climber --basis static --svg curve.csv && says err.txt 'is read and would be replaced' &&
         exits 4 "$C" show small.yaml --svg small.yaml -q && exits 4 "$C" new -o small.yaml -q && cmp laid.csv kept.csv && cmp curve.csv kept-curve.csv
 }
-check "nothing that a command reads is replaced by what it writes" inputs
+check "no command replaces a file that it reads" inputs
 
 # ---- a process that dies while it replaces a folder ----
 halfway() { # between the two renames: the old results and the new ones under hidden names
@@ -205,15 +205,15 @@ halfway() { # between the two renames: the old results and the new ones under hi
 next_report() { halfway && exits 0 "$C" report swap && says err.txt 'restored swap' && grep -q 'speed_m_s: 4.44' swap/resolved.yaml && [ -z "$(leftovers)" ]; }
 next_run() { halfway && exits 0 "$C" run small.yaml -o swap -q && [ -f swap/summary.json ] && [ -z "$(leftovers)" ]; }
 old_alone() { halfway && rm -r .crushzone-fedcba9876543210 && exits 0 "$C" compare swap swap -q && [ -f swap/summary.json ] && [ -z "$(leftovers)" ]; }
-after() { # behind the second rename the old results go
+after() { # after the second rename the old results are removed
     halfway && mv .crushzone-fedcba9876543210 swap && exits 0 "$C" run small.yaml -o swap -q && [ -z "$(leftovers)" ]
 }
-search() { # what a search found is put back before it is looked at whether it may be replaced
+search() { # the result of a search is put back before the check whether it may be replaced
     rm -rf found && exits 0 "$C" optimise small.yaml -o found -q && mv found .crushzone-0123456789abcdef && exits 4 "$C" run small.yaml -o found -q && says err.txt 'the result of a search' && [ -f found/optimised.yaml ]
 }
 check "the next report restores the new results" next_report
 check "the next run replaces them" next_run
 check "the old results are restored where there are no new ones" old_alone
 check "old results that were replaced are cleared" after
-check "a search that was being put in place is kept from other commands" search
+check "a search that was being renamed is kept from other commands" search
 finish

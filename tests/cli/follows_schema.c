@@ -1,5 +1,5 @@
-/* follows_schema SCHEMA DOCUMENT...: fails, and says where, when a JSON document does not follow a
- * schema. Knows the words that our schemas use: $ref into $defs, type, enum, properties, required,
+/* follows_schema SCHEMA DOCUMENT...: fails with the path when a JSON document violates a schema.
+ * Supports the keywords that our schemas use: $ref into $defs, type, enum, properties, required,
  * additionalProperties, items, minItems, maxItems. */
 #include <stdbool.h>
 #include <stdio.h>

@@ -19,15 +19,15 @@ change() { sed "$1" good.yaml >changed.yaml; }
 check "an empty file is refused" refused empty.yaml 'it is empty'
 mkdir folder
 check "a folder is refused" refused folder 'it is a folder'
-check "a file that is not there is refused" refused nowhere.yaml 'there is no such file'
+check "a missing file is refused" refused nowhere.yaml 'there is no such file'
 head -c 20000000 /dev/zero | tr '\0' '#' >large.yaml
 check "a file of 20 MB is refused" refused large.yaml large.yaml
 head -c 5000 /dev/urandom >noise.yaml
-check "noise is refused" refused noise.yaml noise.yaml
+check "random bytes are refused" refused noise.yaml noise.yaml
 printf 'a: &x 1\nb: *x\n' >alias.yaml
 check "aliases are refused" refused alias.yaml alias.yaml
 printf '[%.0s' $(seq 2000) >deep.yaml
-check "a deep file is refused" refused deep.yaml deep.yaml
+check "deep nesting is refused" refused deep.yaml deep.yaml
 printf '\377\376s\0c\0' >utf16.yaml
 check "a file in UTF-16 is refused" refused utf16.yaml utf16.yaml
 
@@ -40,7 +40,7 @@ check "a mass of 1e308 is refused" refused changed.yaml 'mass_t: 1e308'
 change 's/mass_t: 38/mass: 38/'
 check "a mass without a unit is refused" refused changed.yaml mass_t
 change 's/speed_km_h: 25/speed_km_h: 25\n    speed_km_h: 26/'
-check "a key that stands twice is refused" refused changed.yaml 'twice'
+check "a repeated key is refused" refused changed.yaml 'twice'
 
 located() {
     change 's/count: 2 /cuont: 2 /; s/mass_t: 38/mass_t: -38/'
@@ -49,13 +49,13 @@ located() {
     says err.txt "changed.yaml:$line:7: error: unknown key 'cuont'" &&
         says err.txt "      cuont: 2" && says err.txt "did you mean 'count'?" && says err.txt 'mass_t: -38' && says err.txt '2 mistakes'
 }
-check "all mistakes are told with line, column, source line and suggestion" located
+check "all mistakes are reported with line, column, source line and suggestion" located
 caret() { grep -A2 "unknown key 'cuont'" err.txt | tail -1 | grep -q '^        ^$'; }
-check "a caret stands under the place" caret
+check "a caret marks the place" caret
 as_json() {
     exits 2 "$C" run changed.yaml --json && json out.txt errors.1.message && json out.txt error.help "did you mean 'count'?" && json out.txt error.column 7
 }
-check "the same as one JSON document" as_json
+check "all mistakes are one JSON document" as_json
 
 set_path() { exits 2 "$C" run good.yaml --set trains.A.sped_km_h=3 && says err.txt 'sped_km_h' && says err.txt "did you mean 'speed_km_h'?"; }
 check "a mistyped path of --set gets a suggestion" set_path

@@ -1,4 +1,4 @@
-# Names of the longest that are allowed: no output cuts one or loses a figure. The same problem with short names tells what
+# The longest names that are allowed: no output cuts one or loses a figure. The same problem with short names shows what
 # there must be, because names are all that differs.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
@@ -54,17 +54,17 @@ problem long.yaml
 valid() { exits 0 "$C" validate long.yaml; }
 check "names of 48 letters, labels of 96 and a title of 900 are valid" valid
 table() { run_both run FILE -o DIR -q && same long.txt short.txt; }
-check "the table is that of short names" table
+check "the table equals that of short names" table
 for file in interfaces.csv channels.csv; do
     csv() { same "long/$scenario/$file" "short/qsc/$file"; }
-    check "$file is that of short names" csv
+    check "$file equals that of short names" csv
 done
 csv() { same long/checks.csv short/checks.csv; }
-check "checks.csv is that of short names" csv
+check "checks.csv equals that of short names" csv
 documents() {
     same long/summary.json short/summary.json
 }
-check "summary.json is that of short names" documents
+check "summary.json equals that of short names" documents
 figures() { # the same elements of the page, and each name as often
     for page in report.html "SCENARIO/report.html"; do
         long=$(echo "$page" | sed "s/SCENARIO/$scenario/") short=$(echo "$page" | sed "s/SCENARIO/qsc/")
@@ -82,13 +82,13 @@ figures() { # the same elements of the page, and each name as often
 }
 check "the report has every figure and every name" figures
 again() { run_both report DIR -q && figures; }
-check "so has a report that is written anew" again
+check "a report that is written again has them too" again
 explained() { run_both explain FILE -q && same long.txt short.txt; }
-check "explain is that of short names" explained
+check "explain gives the same as with short names" explained
 shown() { run_both show FILE -q && same long.txt short.txt; }
-check "show is that of short names" shown
+check "show gives the same as with short names" shown
 validated() { run_both validate FILE -q && same long.txt short.txt; }
-check "validate is that of short names" validated
+check "validate gives the same as with short names" validated
 swept() {
     for which in long short; do
         [ $which = long ] && path=trains.$train_a.speed_km_h || path=trains.qta.speed_km_h
@@ -96,12 +96,12 @@ swept() {
     done
     same long.txt short.txt && same long-sweep/sweep.csv short-sweep/sweep.csv
 }
-check "sweep is that of short names" swept
+check "sweep gives the same as with short names" swept
 compared() {
     "$C" run long.yaml -q -o long-2 --set 'checks.limits[0].max=3000' >out.txt && "$C" run short.yaml -q -o short-2 --set 'checks.limits[0].max=3000' >out.txt
     "$C" compare long long-2 >l && "$C" compare short short-2 >s && sed 's/long/short/g' l >long.txt && same long.txt s
 }
-check "compare is that of short names" compared
+check "compare gives the same as with short names" compared
 plotted() {
     for which in long short; do
         [ $which = long ] && at=$car_a-$car_b || at=qca-qcb
@@ -110,7 +110,7 @@ plotted() {
     [ "$(grep -o '<path' long.svg | wc -l)" = "$(grep -o '<path' short.svg | wc -l)" ] && grep -q "$at" short.svg && grep -q "$car_a-$car_b" long.svg
 }
 check "plot finds an interface of long names" plotted
-words() { # names that look like something else are names, in what is written too
+words() { # names that look like other values stay names, also in written files
     cp short.yaml words.yaml
     for name in null true 12 1e3 no; do
         sed "s/name: qca/name: \"$name\"/;s/interfaces.qca/interfaces.$name/;s/name: qsc/name: \"$name\"/" short.yaml >words.yaml
@@ -119,10 +119,10 @@ words() { # names that look like something else are names, in what is written to
     done
     grep -q '"name": "no"' words/summary.json
 }
-check "null, true, 12, 1e3 and no are names like any other" words
+check "null, true, 12, 1e3 and no are valid names" words
 no_text() {
     cp short.yaml "$(printf 'a\001b.yaml')" && exits 2 "$C" validate "$(printf 'a\001b.yaml')" && says err.txt 'U+0001' || return 1
     exits 2 "$C" validate "$(printf 'a\377.yaml')" --json && json out.txt error.message && exits 2 "$C" run short.yaml -o "$(printf 'a\342\200\256b')" && says err.txt 'U+202E'
 }
-check "names of files that are no text are refused" no_text
+check "file names that are no text are refused" no_text
 finish

@@ -1,4 +1,4 @@
-# optimise: what it answers, what it writes, how it is interrupted.
+# optimise: its results, its files, and interruption.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 "$C" new -q
@@ -7,9 +7,9 @@ found() { exits 0 "$C" optimise two-trains.yaml && says out.txt FEASIBLE && says
 check "a design that passes is found" found
 check "outcome.json is feasible" json out-optimised/outcome.json status feasible
 verified() { json out-optimised/outcome.json verification.verdict pass && json out-optimised/outcome.json verification.half_step_change && says out.txt 'Largest changes: halved time step'; }
-check "the optimum is verified by half the step and by another solver" verified
+check "the optimum is verified with a halved time step and another solver" verified
 files() { for file in summary.json checks.csv outcome.json optimised.yaml history.csv resolved.yaml run.log; do [ -s out-optimised/$file ] || return 1; done; }
-check "the result folder holds the outcome, the optimum and the history" files
+check "the result folder contains the outcome, the optimum and the history" files
 replayed() { # the last feasible design of the history gives its objective again
     row=$(tr -d '\r' <out-optimised/history.csv | awk -F, '$5 == "yes"' | tail -1) && set -- && i=6
     for path in $(head -1 out-optimised/history.csv | tr -d '\r' | cut -d, -f6- | tr ',' ' '); do
@@ -26,8 +26,8 @@ strip() { tr -d '\n' <"$1" | sed 's/"run_info": *{[^}]*}//g; s/"problem": *{[^}]
 same() { strip out-optimised/summary.json >a; strip checked/summary.json >b; cmp a b; }
 check "the optimum gives the same numbers to the last bit" same
 resolved() { exits 0 "$C" check out-optimised/resolved.yaml -o alone && strip alone/summary.json >c && cmp a c; }
-check "so does the resolved problem beside it" resolved
-# A longer anti-climber makes a longer car: the overlay says which stroke the car is drawn for.
+check "the resolved problem beside it gives the same numbers" resolved
+# A longer anti-climber makes a longer car: the overlay gives the stroke that the car is drawn for.
 cat >longer.yaml <<END
 schema: 1
 extends: $SOURCE/problems/two-cars-25kmh.yaml
@@ -50,18 +50,18 @@ again() {
     done
     cmp jobs-1/history.csv jobs-2/history.csv && cmp jobs-1/optimised.yaml jobs-2/optimised.yaml
 }
-check "one thread and two find the same design by the same way" again
+check "one thread and two find the same design with the same history" again
 
 spelled() { exits 1 "$C" optimize two-trains.yaml --evaluations 3 --json -q && json out.txt format crushzone.outcome && json out.txt evaluations && json out.txt variables.0.value; }
 check "optimize is the same command, --json prints one document" spelled
 infeasible() { exits 1 "$C" optimise two-trains.yaml --evaluations 3 -o few && says out.txt 'NO FEASIBLE DESIGN FOUND' && says out.txt violated && json few/outcome.json status infeasible && says few/optimised.yaml 'VIOLATES A CONSTRAINT'; }
-check "nothing feasible ends with 1 and lists what is violated" infeasible
+check "an infeasible search ends with 1 and lists the violated checks" infeasible
 nested() { mkdir -p deep/problems && cp two-trains.yaml deep/problems && exits 1 "$C" optimise deep/problems/two-trains.yaml --evaluations 3 -o results/a/b && says results/a/b/optimised.yaml 'extends: "../../../deep/problems/two-trains.yaml"' && exits 1 "$C" check results/a/b/optimised.yaml; }
 check "the optimum finds its problem from another folder" nested
 settings() { exits 1 "$C" optimise two-trains.yaml --evaluations 3 --set trains.A.speed_km_h=30 -o set && exits 1 "$C" check set/optimised.yaml -o set2 && strip set/summary.json >a && strip set2/summary.json >b && cmp a b; }
-check "the optimum holds the settings of the command line" settings
+check "the optimum contains the settings of the command line" settings
 piped() { "$C" optimise - --evaluations 3 -o piped <two-trains.yaml >out.txt 2>err.txt; [ $? = 1 ] && exits 1 "$C" check piped/optimised.yaml -o piped2 && strip piped/summary.json >a && strip piped2/summary.json >b && cmp a b; }
-check "the optimum of a problem from standard input stands alone" piped
+check "the optimum of a problem from standard input needs no other file" piped
 named() { exits 1 "$C" optimise two-trains.yaml --algorithm LN_NELDERMEAD --evaluations 5 -o named; }
 check "an NLopt algorithm is taken by name" named
 foreign() { mkdir -p mine && echo x >mine/thesis && exits 4 "$C" optimise two-trains.yaml -o mine && says err.txt 'was not written by crushzone'; }
@@ -71,7 +71,7 @@ interrupted() { # interrupted SIGNAL CODE OPTION...
     signal=$1 expected=$2
     shift 2
     rm -rf kept
-    # The file's own strategy may end early; this algorithm goes on for as long as it may.
+    # The file's own strategy may end early; this algorithm runs until it is interrupted.
     "$C" optimise two-trains.yaml --algorithm GN_CRS2_LM --evaluations 1000000 -o kept "$@" >out.txt 2>err.txt &
     process=$!
     sleep 1
@@ -81,12 +81,12 @@ interrupted() { # interrupted SIGNAL CODE OPTION...
     [ $code = "$expected" ] || { echo "exit code $code"; cat err.txt; return 1; }
 }
 ctrl_c() { interrupted INT 130 && says out.txt INTERRUPTED && json kept/outcome.json status interrupted && [ -s kept/optimised.yaml ] && exits 0 "$C" validate kept/optimised.yaml; }
-check "Ctrl-C keeps the best and ends with 130" ctrl_c
+check "Ctrl-C keeps the best design and ends with 130" ctrl_c
 terminated() { interrupted TERM 143 --json && json out.txt status interrupted && [ -s kept/optimised.yaml ]; }
-check "SIGTERM keeps the best and ends with 143" terminated
+check "SIGTERM keeps the best design and ends with 143" terminated
 no_progress() { plain err.txt && ! grep -q "^eval " err.txt; }
 check "a log gets no progress" no_progress
-# Bounds bind a search alone, and what it writes can be read whatever it found.
+# Bounds apply to searches only, and the files of a search can be read whatever it found.
 cat >bounded.yaml <<END
 schema: 1
 title: a tube under a trigger
@@ -113,7 +113,7 @@ unbound() {
         exits 0 "$C" sweep bounded.yaml --vary "$stroke=100:300:3" && ! says out.txt invalid >nothing.txt &&
         exits 2 "$C" optimise bounded.yaml --set "$stroke=199.9999999" -o bounded && says err.txt "the starting value 199.9999999 of '$stroke' lies outside its bounds, 200 to 900 mm"
 }
-check "run and sweep do not mind the bounds of a search, and a search tells the digits that differ" unbound
+check "run and sweep ignore the bounds of a search, and a search reports value and bound to the last digit" unbound
 readable() {
     exits 1 "$C" optimise bounded.yaml -o bounded && says out.txt 'NO FEASIBLE DESIGN FOUND' && says out.txt 'fixed: one increment within its bounds' &&
         json bounded/outcome.json variables.2.fixed true && json bounded/outcome.json constraints.3.name 'rule: trigger above the plateau, design' &&

@@ -1,4 +1,4 @@
-# What is written where: streams, colours, folders, full disks, closed pipes.
+# Output: streams, colours, folders, full disks, closed pipes.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 "$C" new -q
@@ -19,7 +19,7 @@ check "the table is the same from run to run" deterministic
 
 check "piped output has no escape codes" plain out.txt
 coloured() { exits 0 "$C" run two-trains.yaml --color always && ! plain out.txt; }
-check "--color always paints" coloured
+check "--color always gives colours" coloured
 if script -qec true /dev/null >/dev/null 2>&1; then
     terminal() { env "$@" script -qec "$C run two-trains.yaml" /dev/null >terminal.txt </dev/null; }
     on_terminal() { terminal TERM=xterm && ! plain terminal.txt; }
@@ -27,19 +27,19 @@ if script -qec true /dev/null >/dev/null 2>&1; then
     no_color() { terminal TERM=xterm NO_COLOR=1 && plain terminal.txt; }
     check "NO_COLOR is respected" no_color
     empty_no_color() { terminal TERM=xterm NO_COLOR= && ! plain terminal.txt; }
-    check "an empty NO_COLOR means nothing" empty_no_color
+    check "an empty NO_COLOR has no effect" empty_no_color
     dumb() { terminal TERM=dumb && plain terminal.txt; }
     check "a dumb terminal gets no escape codes" dumb
     progress() { script -qec "$C optimise two-trains.yaml --evaluations 200 -o progress" /dev/null >terminal.txt </dev/null; grep -q 'eval [0-9]* | ' terminal.txt; }
     check "a terminal shows progress" progress
     best() { grep -q 'eval [0-9]* | best margin +[0-9.]* % feasible | [0-9.]*/s | ETA [0-9]*:[0-9][0-9]' terminal.txt; }
-    check "progress tells the best margin, its sign as in the table" best
+    check "progress shows the best margin, its sign as in the table" best
 else
     reason="there is no command script; package bsdutils has it"
     ! command -v script >/dev/null 2>&1 || reason="script cannot open a terminal here; is /dev/pts mounted?"
     for sentence in "a terminal gets colours" "NO_COLOR is respected" "an empty NO_COLOR means nothing" \
         "a dumb terminal gets no escape codes" "a terminal shows progress" \
-        "progress tells the best margin, its sign as in the table"; do
+        "progress shows the best margin, its sign as in the table"; do
         skipped "$sentence" "$reason"
     done
 fi
@@ -51,14 +51,14 @@ check "CSV takes a decimal comma" continental
 resolved() { exits 0 "$C" run out/resolved.yaml -o again && cmp again/interfaces.csv out/interfaces.csv || { exits 0 "$C" run two-trains.yaml && cmp again/interfaces.csv out/interfaces.csv; }; }
 check "resolved.yaml gives the same results" resolved
 with_set() { exits 0 "$C" run two-trains.yaml --set trains.A.speed_km_h=20 -o set && exits 0 "$C" run set/resolved.yaml -o set2 && cmp set/interfaces.csv set2/interfaces.csv && says set/run.log 'set trains.A.speed_km_h=20'; }
-check "resolved.yaml holds the settings of the command line" with_set
+check "resolved.yaml contains the settings of the command line" with_set
 
 foreign() { mkdir -p mine && echo x >mine/thesis && exits 4 "$C" run two-trains.yaml -o mine && says err.txt 'was not written by crushzone' && [ -f mine/thesis ] && [ ! -s out.txt ]; }
 check "a folder that the program did not write is refused before the run" foreign
 coarse() { exits 0 "$C" run "$SOURCE/problems/wall.yaml" --set simulation.track=rigid --time-step-ms 1 -o coarse && says out.txt 'POOR: reduce the time step' && says coarse/summary.json 'error of the energy balance is above 0.1 %'; }
-check "a run whose energy balance is poor is warned of" coarse
+check "a large error of the energy balance gives a warning" coarse
 bad_first() { echo 'schema: 1' >bad.yaml && exits 2 "$C" run bad.yaml -o mine && exits 2 "$C" optimise bad.yaml -o mine && says err.txt "lacks 'trains'"; }
-check "a bad file is told before a folder that is refused" bad_first
+check "an invalid file is reported before a refused folder" bad_first
 notes() { exits 0 "$C" run two-trains.yaml && echo x >out/notes.txt && exits 4 "$C" run two-trains.yaml && says err.txt 'notes.txt' && rm out/notes.txt && exits 0 "$C" run two-trains.yaml; }
 check "a result folder with a file of the user's own is refused" notes
 no_parent() { exits 4 "$C" run two-trains.yaml -o two-trains.yaml/out && says err.txt 'is no folder'; }
@@ -83,7 +83,7 @@ closed_stream() {
     "$C" run two-trains.yaml -o shut >&- 2>err.txt || code=$?
     [ $code = 4 ] && says err.txt 'standard output cannot be written' && json shut/summary.json format crushzone.summary
 }
-check "a standard output that is closed ends with 4, and no result file is spoilt" closed_stream
+check "a closed standard output ends with 4, and no result file is damaged" closed_stream
 small_disk() { (ulimit -f 8; "$C" run two-trains.yaml -o small >out.txt 2>err.txt); code=$?; [ $code = 4 ] && says err.txt 'cannot be written' && [ ! -e small ] && [ -z "$(ls -d small* 2>/dev/null)" ]; }
 check "a full disk leaves no half folder" small_disk
 finish

@@ -1,4 +1,4 @@
-# Override on the command line: what it may claim without stops, cut short, and after a climb; what tells why.
+# Override on the command line: results without stops, of incomplete runs and after a climb, and the explanation.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 cars=$SOURCE/problems/two-cars-25kmh.yaml
@@ -11,7 +11,7 @@ line() {
         case $found in *"$word"*) ;; *) echo "no '$word' in: $found"; return 1 ;; esac
     done
 }
-# The pair that differs in strokes alone, without the four gaps of its stops.
+# The pair that differs in stroke only, without the four gaps of its stops.
 printf 'extends: %s\nparts: {bogie: {secondary: {%%s: null}}}\n' "$SOURCE/problems/override-bottoming-lifts.yaml" >pattern
 for gap in lift_gap_mm bump_gap_mm; do sed "s/%s/$gap/" pattern >no-$gap.yaml; done
 
@@ -26,28 +26,28 @@ never_passes() {
     printf 'extends: no-lift_gap_mm.yaml\ntrains: [{name: A, speed_km_h: 5}]\nchecks: {design_rules: false, limits: [{name: climbs, metric: override, max: 0}]}\n' >gentle.yaml
     exits 1 "$C" check gentle.yaml && says out.txt 'Verdict: NOT CHECKED'
 }
-check "a gentle collision without stops is no pass either" never_passes
+check "a slow collision without stops is no pass either" never_passes
 incomplete() {
     exits 3 "$C" check "$climbs" --set simulation.longest_s=0.06 && says out.txt INCOMPLETE && line out.txt 'override ' 'NOT CHECKED' 'did not meet its end criterion' &&
         ! says out.txt 'Verdict: PASS' >nothing.txt && exits 3 "$C" run "$climbs" --set simulation.longest_s=0.06 --json && json out.txt scenarios.0.ended incomplete
 }
-check "a run that is cut short is incomplete and no pass" incomplete
+check "a run with a short duration is incomplete and no pass" incomplete
 beyond() {
     exits 1 "$C" check "$climbs" && says out.txt OVERRIDE && says out.txt 'beyond model validity' && line out.txt 'override ' FAIL &&
         line out.txt 'section force / proof strength' 'beyond model validity' && says out.txt 'Verdict: FAIL' &&
         exits 1 "$C" check "$climbs" --json && json out.txt scenarios.0.beyond_validity true && json out.txt verdict fail
 }
-check "after a loss of engagement it fails and says what is beyond model validity" beyond
+check "after a loss of engagement the run fails and reports the time beyond model validity" beyond
 whatever() {
     printf 'extends: %s\nchecks: {design_rules: false, limits: [{name: force, metric: interfaces.peak_force_kN, max: 9000}]}\n' "$climbs" >asked.yaml
     exits 1 "$C" check asked.yaml && says out.txt ' pass. Verdict: FAIL' && ! grep -q ' FAIL,' out.txt
 }
-check "a climb fails whatever checks were asked for" whatever
+check "a climb fails whatever checks are selected" whatever
 stops() {
     for key in secondary.lift_gap_mm secondary.bump_gap_mm secondary.lift_stiffness_MN_m primary.lift_gap_mm; do
         printf 'extends: %s\noptimise: {minimise: vehicles.bogie_lift_mm, variables: [{path: parts.bogie.%s, min: 1, max: 90}]}\n' "$cars" $key >soft.yaml
         exits 2 "$C" optimise soft.yaml -o soft && says err.txt "$key" && says err.txt 'not a design variable' || return 1
     done
 }
-check "softer stops are no design: refused by name" stops
+check "softer stops as a variable are refused by name" stops
 finish

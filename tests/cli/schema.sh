@@ -1,5 +1,5 @@
-# schema: every JSON document follows its schema, for every shipped problem. Runs are cut after a few hundredths of a second:
-# what is looked at are keys and types.
+# schema: every JSON document follows its schema, for every shipped problem. Runs end after a few hundredths of a second:
+# only keys and types are checked.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 short="--set simulation.duration_ms=20"

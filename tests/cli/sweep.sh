@@ -1,10 +1,10 @@
-# sweep: one path and two, what it prints and writes, how it is interrupted.
+# sweep: one path and two paths, its output, and interruption.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 cars=$SOURCE/problems/two-cars-25kmh.yaml
 
 one() { exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:3 --metric vehicles.bogie_lift_mm --check override && says out.txt 'Worst: trains.A.speed_km_h = 50, FAIL: override' && says out.txt vehicles.bogie_lift_mm; }
-usual() { # without a metric the four that suppliers show; of single masses wheel lift is unknown and has no figure
+usual() { # without a metric the four that suppliers usually show; single masses have no wheel lift and so no figure of it
     exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:3 -o usual && for metric in elements.stroke_used interfaces.peak_force_kN energy.absorbers_kJ vehicles.max_wheel_lift_mm; do
         says out.txt $metric && [ "$(grep -o "<text[^>]*>$metric</text>" usual/report.html | wc -l)" = 1 ] || return 1
     done
@@ -21,16 +21,16 @@ check "--strict judges by exit code" strict
 folder() { exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 -o swept && json swept/sweep.json format crushzone.sweep && [ "$(grep -c . swept/sweep.csv)" = 3 ] && grep -q 'Smallest margin' swept/report.html && exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 -o swept; }
 again() { exits 2 "$C" report swept && says err.txt 'the folder of a sweep'; }
 check "-o writes sweep.json, sweep.csv and report.html, and replaces its own" folder
-check "report says that a sweep has one already" again
+check "report refuses a sweep, which has a page already" again
 cut() { exits 3 "$C" sweep "$cars" --vary simulation.longest_s=0.05:6:2 && says out.txt 'RUN FAILED'; }
-check "a run that is cut short ends with 3" cut
+check "an incomplete run ends with 3" cut
 why() { # in the table, the map, the document, the columns and the page
     reason='end criterion within simulation.longest_s' failed='coupler: shortened by'
     exits 3 "$C" sweep "$cars" --vary simulation.longest_s=0.05:6:2 -o why && says out.txt "$reason" && says why/sweep.json "$reason" && grep -q "^0.05,.*$reason" why/sweep.csv && says why/report.html "$reason" &&
         exits 3 "$C" sweep "$cars" --vary simulation.longest_s=0.05:6:2 --vary trains.A.speed_km_h=20:25:2 && says out.txt "! at 0.05, 20: " && says out.txt "$reason" &&
         exits 3 "$C" sweep "$cars" --vary trains.A.speed_km_h=25:300:2 -o failed && says out.txt "$failed" && says failed/sweep.json "$failed" && grep -q "^300,.*$failed" failed/sweep.csv && says failed/report.html "$failed"
 }
-check "a point that failed says why wherever it is shown" why
+check "a failed point has its reason in every output" why
 wrong() { exits 2 "$C" sweep "$cars" --vary trains.C.speed_km_h=1:2:2 && exits 2 "$C" sweep "$cars" && exits 2 "$C" sweep "$cars" --vary trains.A.speed_km_h=1 --json && json out.txt error.message; }
 check "a wrong path or range ends with 2" wrong
 piped() { "$C" new -q -o - | "$C" sweep - --vary trains.A.speed_km_h=10:20:2 >out.txt && says out.txt 'Worst: trains.A.speed_km_h'; }

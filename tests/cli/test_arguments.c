@@ -1,4 +1,4 @@
-/* The command line: what is taken, what is refused and with which sentence. */
+/* The command line: accepted and refused arguments, and the messages. */
 #include "support/check.h"
 
 #include "cli/arguments.h"
@@ -98,7 +98,7 @@ static void abbreviations_are_refused(void **state) {
     refuses("opti a.yaml", "there is no command 'opti'", "");
 }
 
-static void slips_of_the_hand_get_a_suggestion(void **state) {
+static void typing_mistakes_get_a_suggestion(void **state) {
     (void)state;
     refuses("rnu a.yaml", "there is no command 'rnu'", "did you mean 'crushzone run'?");
     refuses("xyzzy", "there is no command 'xyzzy'", "'crushzone help' lists the commands");
@@ -114,7 +114,7 @@ static void options_belong_to_commands(void **state) {
     refuses("check a.yaml -Z", "takes no option '-Z'", "'crushzone help check'");
 }
 
-static void values_that_make_no_sense_are_refused(void **state) {
+static void invalid_values_are_refused(void **state) {
     (void)state;
     refuses("run a.yaml --json=yes", "'--json' takes no value", "");
     refuses("run a.yaml --output", "'--output' needs a value: --output DIR", "");
@@ -163,9 +163,9 @@ int main(void) {
         cmocka_unit_test(defaults_are_the_files),
         cmocka_unit_test(values_are_read),
         cmocka_unit_test(abbreviations_are_refused),
-        cmocka_unit_test(slips_of_the_hand_get_a_suggestion),
+        cmocka_unit_test(typing_mistakes_get_a_suggestion),
         cmocka_unit_test(options_belong_to_commands),
-        cmocka_unit_test(values_that_make_no_sense_are_refused),
+        cmocka_unit_test(invalid_values_are_refused),
         cmocka_unit_test(files_are_counted),
         cmocka_unit_test(every_option_belongs_to_a_command_and_says_what_it_does),
     };

@@ -1,10 +1,10 @@
-/* Memory that runs out while the whole program works: every request of run, check, optimise, sweep,
- * explain, report, plot and compare fails once, those of the libraries and of stdio too. Either the
- * program says that there is no memory and ends with exit code 5, nothing half written left behind,
- * or what it wrote is what it writes with enough memory, to the last byte.
+/* Lack of memory in the whole program: every request of run, check, optimise, sweep, explain,
+ * report, plot and compare fails once, also those of libraries and stdio. Either the program
+ * reports that there is no memory, ends with exit code 5 and leaves nothing incomplete, or its
+ * output equals that with enough memory to the last byte.
  *
  * The program runs in a process of its own each time. With an argument a command is tried at every
- * request: test_memory long. Else at every n-th, so that all together take some seconds. */
+ * request: test_memory long. Otherwise at every n-th, so that all together take some seconds. */
 #define _GNU_SOURCE /* dladdr, mkdtemp, nftw */
 #include "support/check.h"
 
@@ -25,8 +25,8 @@ static long n_request;          /* so far */
 static long first_failing = -1; /* number of the request that fails; -1: none */
 static bool fails_on;           /* so do all later ones */
 
-/* SUNDIALS ends the program where a vector is refused, so it gets its memory: the adapter looks
- * beforehand whether there is enough. */
+/* SUNDIALS ends the program when it gets no memory for a vector, so its requests succeed: the
+ * adapter checks beforehand whether there is enough. */
 static bool is_of_sundials(const void *caller) {
     Dl_info info;
     return dladdr(caller, &info) != 0 && info.dli_fname != NULL &&
@@ -115,8 +115,8 @@ static int visit(const char *path, const struct stat *info, int type, struct FTW
     (void)info;
     if (place->level == 0)
         return 0;
-    n_visited +=
-        strncmp(path + place->base, ".crushzone-", 11) == 0; /* what is whole has its name */
+    n_visited += strncmp(path + place->base, ".crushzone-", 11) ==
+                 0; /* complete output has its final name */
     has_search |= strcmp(path + place->base, "optimised.yaml") == 0;
     if (type == FTW_F && strcmp(path + place->base, "stderr") != 0)
         sum += hash_text(hash_file(path), path + place->base, strlen(path + place->base));
@@ -130,7 +130,7 @@ static int erase(const char *path, const struct stat *info, int type, struct FTW
     return remove(path);
 }
 
-/* What the child does: the streams go to files, the command runs, nothing else. */
+/* The child process: the streams go to files and the command runs. */
 static void work(int n_word, char **word, long failing) {
     if (chdir("try") != 0)
         _exit(100);
@@ -222,30 +222,30 @@ static void fail_every_request(const char *line, int stride) {
     assert_int_equal(n_bad, 0);
 }
 
-static void run_tells_every_lack_of_memory(void **state) {
+static void run_reports_every_lack_of_memory(void **state) {
     (void)state;
     fail_every_request("run PROBLEM -q -j 1 -o out", 5);
     fail_every_request("check PROBLEM -q -j 1 --json", 11);
 }
 
-static void optimise_tells_every_lack_of_memory(void **state) {
+static void optimise_reports_every_lack_of_memory(void **state) {
     (void)state;
     fail_every_request("optimise PROBLEM -q -j 1 -o out", 37);
 }
 
-static void sweep_tells_every_lack_of_memory(void **state) {
+static void sweep_reports_every_lack_of_memory(void **state) {
     (void)state;
     fail_every_request("sweep PROBLEM -q -j 1 --vary trains.A.speed_km_h=14:15:2 -o out", 11);
 }
 
-static void report_tells_every_lack_of_memory(void **state) {
+static void report_reports_every_lack_of_memory(void **state) {
     (void)state;
     fail_every_request("report MADE -q -j 1 -o page.html", 11);
     fail_every_request("plot MADE -q -j 1 --what panels --svg figure.svg", 17);
     fail_every_request("compare MADE MADE -q -j 1 -o page.html", 41);
 }
 
-static void memory_that_stays_short_is_told_too(void **state) {
+static void a_lasting_lack_of_memory_is_reported_too(void **state) {
     (void)state;
     fails_on = true;
     fail_every_request("run PROBLEM -q -j 1 -o out", 47);
@@ -299,11 +299,11 @@ static int leave_work_folder(void **state) {
 int main(int argc, char **argv) {
     is_long = argc > 1 && strcmp(argv[1], "long") == 0;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(run_tells_every_lack_of_memory),
-        cmocka_unit_test(report_tells_every_lack_of_memory),
-        cmocka_unit_test(sweep_tells_every_lack_of_memory),
-        cmocka_unit_test(optimise_tells_every_lack_of_memory),
-        cmocka_unit_test(memory_that_stays_short_is_told_too),
+        cmocka_unit_test(run_reports_every_lack_of_memory),
+        cmocka_unit_test(report_reports_every_lack_of_memory),
+        cmocka_unit_test(sweep_reports_every_lack_of_memory),
+        cmocka_unit_test(optimise_reports_every_lack_of_memory),
+        cmocka_unit_test(a_lasting_lack_of_memory_is_reported_too),
     };
     return cmocka_run_group_tests(tests, enter_work_folder, leave_work_folder);
 }

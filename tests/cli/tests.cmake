@@ -13,7 +13,7 @@ if(CZ_IS_WHOLE AND NOT CMAKE_BUILD_TYPE STREQUAL Debug)
     cz_label(every_request_of_the_program long)
 endif()
 if(CZ_IS_WHOLE)
-    cz_script(cli_commands cli commands.sh) # words of cli.sh
+    cz_script(cli_commands cli commands.sh) # commands of cli.sh
     cz_script(cli_fit cli fit.sh)
     cz_script(cli_figures cli figures.sh)
     cz_script(cli_input cli input.sh)

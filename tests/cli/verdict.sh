@@ -22,7 +22,7 @@ trains:
   - {name: A, speed_km_h: 5, vehicles: [{use: car}]}
   - {name: B, vehicles: [{use: car}]}
 END
-# agree FILE CODE WORD JSON PROVISIONAL BADGE: all say the same of a problem.
+# agree FILE CODE WORD JSON PROVISIONAL BADGE: all give the same verdict of a problem.
 agree() {
     exits "$2" "$C" check "$1" -o out && says out.txt "Verdict: $3." &&
         json out/summary.json verdict "$4" && json out/summary.json provisional "$5" &&
@@ -34,17 +34,17 @@ from_memory() {
         json out/summary.json not_covered.1 'obstacle deflector' && says out/report.html 'vestibules; obstacle deflector' &&
         says out/checks.csv 'vestibules,' && ! grep -q 'NOT CHECKED' out.txt
 }
-check "a pass against a limit from memory is provisional, and what is not covered is listed apart" from_memory
+check "a pass against a limit from memory is provisional, and requirements that are not covered are listed apart" from_memory
 confirmed() {
     sed 's/M1/S1/' profiles/own.yaml >profiles/read.yaml && sed -i 's/name: own/name: read/' profiles/read.yaml &&
         sed 's/profile: own/profile: read/' elastic.yaml >read.yaml && agree read.yaml 0 pass pass false PASS
 }
-check "a pass against a limit that was read is a pass" confirmed
+check "a pass against a limit from the primary text is a pass" confirmed
 unchecked() {
     sed 's/design_rules: false/design_rules: true/' elastic.yaml >rules.yaml &&
         agree rules.yaml 1 'NOT CHECKED' 'not checked' false 'NOT CHECKED'
 }
-check "a check that could not be made makes no pass" unchecked
+check "a check that could not be made prevents a pass" unchecked
 failing() {
     sed 's/max: 3000/max: 300/' profiles/own.yaml >profiles/low.yaml && sed -i 's/name: own/name: low/' profiles/low.yaml &&
         sed 's/profile: own/profile: low/; s/design_rules: false/design_rules: true/' elastic.yaml >low.yaml &&
@@ -57,7 +57,7 @@ cut_short() {
         exits 3 "$C" check cut.yaml --set simulation.longest_s=0.02 && says out.txt 'Verdict: NOT CHECKED.' &&
         exits 3 "$C" check cut.yaml --set simulation.longest_s=0.02 --json && json out.txt verdict 'not checked'
 }
-check "a run that is cut short makes no pass, whatever the checks are about" cut_short
+check "an incomplete run prevents a pass, whatever the checks are about" cut_short
 sweep_agrees() {
     exits 0 "$C" sweep elastic.yaml --vary trains.A.speed_km_h=4:5:2 --json && json out.txt points.0.verdict pass &&
         json out.txt points.0.provisional true && exits 0 "$C" sweep rules.yaml --vary trains.A.speed_km_h=4:5:2 --json &&
@@ -65,26 +65,26 @@ sweep_agrees() {
         json out.txt points.1.verdict fail && "$C" run elastic.yaml -o one --quiet && "$C" run low.yaml -o two --quiet &&
         exits 0 "$C" compare one two --json && json out.txt runs.0.verdict pass && json out.txt runs.0.provisional true && json out.txt runs.1.verdict fail
 }
-check "sweeps and comparisons add checks up alike" sweep_agrees
+check "sweeps and comparisons combine checks by the same rule" sweep_agrees
 yes_or_no() {
     "$C" run low.yaml -o out >out.txt 2>err.txt && grep '^bottoming out  ' out.txt >row.txt && ! grep '%' row.txt &&
         json out/summary.json checks.2.name 'bottoming out' && json out/summary.json checks.2.margin null &&
         "$C" run "$SOURCE/problems/two-cars-25kmh.yaml" -o out >out.txt 2>err.txt &&
         grep -E '^(bottoming out|override)  ' out.txt >row.txt && ! grep '%' row.txt && grep FAIL row.txt
 }
-check "a yes or no has no percentage" yes_or_no
+check "a yes-or-no check has no percentage" yes_or_no
 many_times() {
     "$C" run low.yaml -o out --set trains.A.speed_km_h=60 >out.txt 2>err.txt
     grep '<-999 %' out.txt >row.txt && says out/report.html '&lt;-999 %' && ! grep -E ' [0-9]{4,} %' out.txt
 }
-check "what exceeds its limit many times over says so without a number" many_times
+check "a limit exceeded many times is marked without a number" many_times
 leftovers() {
     "$C" run rules.yaml -o out >out.txt 2>err.txt || return 1
     ! grep -nE '(^|[^0-9.])-0(\.0*)?([^0-9.]|$)|[0-9]e-1[0-9]' out.txt out/checks.csv out/interfaces.csv out/channels.csv &&
         ! grep -nE '"[a-z_]*_(kJ|kN|mm|km_h|g|mrad)": (-0\.0|-?[0-9.]+e-1[0-9])' out/summary.json &&
         ! sed 's/<script.*//' out/report.html | grep -nE '>-0(\.0*)?( |<)' && says out/summary.json '"energy_share": null'
 }
-check "no output has a negative zero or what rounding left of zero" leftovers
+check "no output has a negative zero or a rounding residue" leftovers
 verified() {
     exits 0 "$C" verify elastic.yaml && says out.txt 'Verification: pass' && ! grep -E '[0-9]e\+' out.txt
 }
@@ -120,18 +120,18 @@ obstacle() {
         grep -qE '^energy in survival space .* pass' out.txt &&
         says out.txt 'end L BOTTOMED OUT'
 }
-check "an obstacle is not judged, and the table says so" obstacle
+check "an obstacle is not judged, and the table names it" obstacle
 declared() {
     judged L FAIL --set trains.lorry.role=train && ! grep -q 'Not judged' out.txt && grep -qE '^bottoming out .* FAIL' out.txt && grep -qE '^energy in survival space .* FAIL' out.txt &&
         judged A1 '' --set trains.lorry.role=obstacle --set trains.lorry.vehicles.L.mass_t=30 && says out.txt 'Not judged: lorry, its role' && json out/summary.json not_judged.0.inferred false
 }
-check "a role outweighs what a train looks like" declared
+check "a role decides before mass and couplers" declared
 passengers() {
     judged L '' --set trains.lorry.vehicles.L.mass_t=20.1 && ! grep -q 'Not judged' out.txt &&
         printf 'extends: crossing.yaml\ntrains: [{name: lorry, vehicles: [{name: L, rear: {anti_climber: {gap_mm: -0, count: 1, stages: [{stroke_mm: 50, force_kN: 300}]}}}]}]\n' | sed 's/-0/0/; s/face_gap_mm: 0/face_gap_mm: 50/' >face.yaml &&
         exits 0 "$C" run face.yaml -o out --set trains.lorry.vehicles.L.rear.face_gap_mm=60 && ! grep -q 'Not judged' out.txt
 }
-check "what may carry people is judged" passengers
+check "a train that may carry people is judged" passengers
 twins() {
     sed 's/- {name: A, speed_km_h: 40, vehicles: .*/- {name: A, speed_km_h: 40, vehicles: [{name: A1, model: rigid, mass_t: 14, length_m: 5, front: {face_gap_mm: 0, stages: [{stroke_mm: 200, force_kN: 900}], unloading_stiffness_MN_m: 100}}]}/' crossing.yaml >twins.yaml &&
         exits 0 "$C" run twins.yaml -o out && ! grep -q 'Not judged' out.txt
@@ -150,9 +150,9 @@ alone() {
     judged L FAIL --set trains.A.role=obstacle && says out.txt 'Not judged: A, its role' && ! says out.txt 'Not judged: lorry'
 }
 check "the partner of an obstacle is judged, however light it is" alone
-no_objective() { # what a search would minimise is no matter of a check
+no_objective() { # the objective of a search does not influence checks
     printf 'extends: crossing.yaml\nchecks: {design_rules: false}\noptimise: {minimise: vehicles.max_wheel_lift_mm, evaluations: 9, variables: [{path: "parts.end.stages[0].force_kN", min: 500, max: 1600}]}\n' >aim.yaml
     agree aim.yaml 0 pass pass false PASS && exits 1 "$C" optimise aim.yaml -o aimed && says out.txt 'the objective has no value in any design' && json aimed/outcome.json best_is_feasible false
 }
-check "an objective without a value is no matter of a check, and ends a search as not feasible" no_objective
+check "an objective without a value does not influence checks, and a search ends as infeasible" no_objective
 finish

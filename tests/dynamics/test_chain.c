@@ -1,5 +1,5 @@
-/* Series chains: of all equilibria the one that a slow closing leads to, and members that keep
- * their laws. */
+/* Series chains: of several equilibria the one of slow closing, and members that satisfy their
+ * laws. */
 #include "support/check.h"
 
 #include <math.h>
@@ -7,8 +7,8 @@
 #include "physics/collision.h"
 #include "support/shipped.h"
 
-/* Two rigid cars whose ends meet: a first stage that one step may cross, and one behind it along
- * which the force falls. Forces in kN, strokes in mm. */
+/* Two rigid cars whose ends meet: a first stage shorter than a step, and a second stage whose force
+ * falls. Forces in kN, strokes in mm. */
 typedef struct Ends {
     double speed;   /* of A [m/s]; B stands */
     double first;   /* force of the first stage of both */
@@ -60,8 +60,8 @@ static double stroke_for(const Ends *ends, double weaker_last, double energy) {
     return stroke + (first - sqrt(first * first - 2.0 * slope * left)) / slope;
 }
 
-/* The stronger end absorbs its first stage at most, F s; what that leaves open in the closed form
- * is its share, and some 0.1 mm of elastic rise. */
+/* The stronger end absorbs at most its first stage, F s; this share and some 0.1 mm of elastic rise
+ * are the tolerance of the closed form. */
 static void check_weaker_is_crushed(const Ends *ends) {
     Collision collision = meet(ends);
     const CzInterfaceResult *interface = &collision.summary->interface[0];
@@ -72,7 +72,7 @@ static void check_weaker_is_crushed(const Ends *ends) {
     assert_int_equal(interface->n_element, 2);
     const CzElementResult *crushed = &interface->element[weaker],
                           *kept = &interface->element[1 - weaker];
-    /* Both ends give back F^2 / 2 k, and part with it. */
+    /* Both ends return F^2 / 2 k, and the cars part with this energy. */
     const double elastic = 1e6 * ends->first * ends->first / 1e10;
     assert_near(interface->energy, energy, 1e-3, elastic);
     assert_near(crushed->energy, energy - 0.5 * of_stage, 0.0,
@@ -134,7 +134,7 @@ static void once_the_weaker_end_has_bottomed_out_the_other_one_is_crushed(void *
 }
 
 /* A chain is solved until each member is within 1 N of its law. */
-static void members_of_chains_keep_their_laws_within_a_newton(void **state) {
+static void members_of_chains_satisfy_their_laws_within_a_newton(void **state) {
     (void)state;
     const Shipped shipped = shipped_problems();
     for (int i = 0; i < shipped.n; i++) {
@@ -152,8 +152,8 @@ static void members_of_chains_keep_their_laws_within_a_newton(void **state) {
 
 /* A crush zone whose force falls faster than the anti-climber in front of it can follow, against a
  * wall: along the elastic line through (x_1, F_1) it snaps to where its last stage meets that line.
- * What lies between the line and its backbone is dissipated by it; what is known of F_1 is known to
- * what the force rises by in a step. */
+ * The area between the line and the backbone is dissipated by the zone. F_1 is known to within the
+ * rise of the force in a step. */
 static void a_zone_that_snaps_dissipates_what_the_elasticity_released(void **state) {
     (void)state;
     static const char text[] =
@@ -206,7 +206,7 @@ int main(void) {
         cmocka_unit_test(the_same_end_is_crushed_on_the_other_side),
         cmocka_unit_test(the_end_that_is_crushed_does_not_depend_on_the_step),
         cmocka_unit_test(once_the_weaker_end_has_bottomed_out_the_other_one_is_crushed),
-        cmocka_unit_test(members_of_chains_keep_their_laws_within_a_newton),
+        cmocka_unit_test(members_of_chains_satisfy_their_laws_within_a_newton),
         cmocka_unit_test(a_zone_that_snaps_dissipates_what_the_elasticity_released),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
-/* What holds a train back along the track: brakes, rolling resistance, the jaws of a buffer stop;
- * and the damping of crush zones without end mass. */
+/* Resistance along the track: brakes, rolling resistance, the friction jaws of a buffer stop; and
+ * the damping of crush zones without end mass. */
 #include "physics/collision.h"
 
 #include "model/fill.h"
@@ -12,8 +12,8 @@ static const char *const slide = "tests/physics/cases/slide.yaml";
 
 /* ---- brakes ---- */
 
-/* v^2 / (2 a): the way of a mass that a constant drag of `share` of its weight brings to rest, and
- * nothing afterwards. All its energy is dissipated at the wheels. */
+/* v^2 / (2 a): the travel of a mass that a constant drag of `share` of its weight brings to rest;
+ * it stays there. All its energy is dissipated at the wheels. */
 static void assert_stops(const char *setting, double share) {
     Collision collision = collide(two_masses, WITH(setting, "trains.B.brake.ratio=0.1"), 0);
     const int last = n_sample(&collision) - 1;
@@ -29,7 +29,7 @@ static void assert_stops(const char *setting, double share) {
     collision_free(&collision);
 }
 
-static void a_braked_mass_stops_on_its_way_and_stays_there(void **state) {
+static void a_braked_mass_stops_at_its_braking_distance_and_stays_there(void **state) {
     (void)state;
     assert_stops("trains.A.brake.ratio=0.25", 0.25);
     assert_stops("trains.A.brake.ratio=0.3", 0.3);
@@ -92,8 +92,9 @@ static void rolling_resistance_slows_every_kind_of_car(void **state) {
     }
 }
 
-/* A car that is pushed with less than holds it does not creep, and one that rolls out stays. */
-static void what_stands_is_held(void **state) {
+/* A car pushed by less than its resistance does not creep, and a car that has rolled out stays at
+ * rest. */
+static void a_standing_car_is_held(void **state) {
     (void)state;
     static const char *const files[] = {two_masses, two_cars};
     for (int i = 0; i < 2; i++) {
@@ -179,7 +180,8 @@ static const CzElementResult *element_of(const Collision *collision, CzElementKi
     return NULL;
 }
 
-/* The drag does F s, whatever it was that pushed; the frame that goes along is never met. */
+/* The drag dissipates F s whatever pushes; the frame that slides with the buffer is never touched.
+ */
 static void a_buffer_stop_is_dragged_with_its_frame(void **state) {
     (void)state;
     for (int scenario = 0; scenario < 2; scenario++) {
@@ -198,8 +200,8 @@ static void a_buffer_stop_is_dragged_with_its_frame(void **state) {
     }
 }
 
-/* It stops short where its way ends, and that is reported. */
-static void a_buffer_stop_at_the_end_of_its_way_bottoms_out(void **state) {
+/* It stops abruptly at the end of its travel, and this is reported. */
+static void a_buffer_stop_at_the_end_of_its_travel_bottoms_out(void **state) {
     (void)state;
     Collision collision = collide(slide, WITH("parts.jaws.length_m=0.5"), 0);
     const CzElementResult *jaws = element_of(&collision, CZ_ELEMENT_SLIDE);
@@ -216,15 +218,15 @@ static void a_buffer_stop_at_the_end_of_its_way_bottoms_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_braked_mass_stops_on_its_way_and_stays_there),
+        cmocka_unit_test(a_braked_mass_stops_at_its_braking_distance_and_stays_there),
         cmocka_unit_test(brakes_beyond_the_friction_lock_the_wheels),
         cmocka_unit_test(the_share_of_braked_axles_is_one_of_the_weight),
         cmocka_unit_test(rolling_resistance_slows_every_kind_of_car),
-        cmocka_unit_test(what_stands_is_held),
+        cmocka_unit_test(a_standing_car_is_held),
         cmocka_unit_test(a_standing_train_sets_no_step),
         cmocka_unit_test(the_damping_of_a_crush_zone_without_end_mass_acts),
         cmocka_unit_test(a_buffer_stop_is_dragged_with_its_frame),
-        cmocka_unit_test(a_buffer_stop_at_the_end_of_its_way_bottoms_out),
+        cmocka_unit_test(a_buffer_stop_at_the_end_of_its_travel_bottoms_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,8 +55,9 @@ static void unequal_ends_share_the_load_by_their_levers(void **state) {
     collision_free(&collision);
 }
 
-/* On the elastic track a wheelset goes down by dent and rail together: by what the kernel has as
- * the approach at rest, which comes from another sum over the modes. The loads stay what they are.
+/* On the elastic track a wheelset goes down by the indentation of the contact and the deflection of
+ * the rail: the approach at rest of the kernel, which comes from another sum over the modes. The
+ * loads stay the same.
  */
 static void an_elastic_track_takes_the_wheels_down(void **state) {
     (void)state;
@@ -77,7 +78,7 @@ static void an_elastic_track_takes_the_wheels_down(void **state) {
     motion_close(&motion);
 }
 
-/* What is at rest by the laws is at rest in the kernel: no force moves a car that is at rest. */
+/* The equilibrium of the laws is the equilibrium of the kernel: no force moves a car at rest. */
 static void the_kernel_moves_nothing_at_rest(void **state) {
     (void)state;
     const char *const tracks[] = {"simulation.track=rigid", "simulation.track=modal"};
@@ -102,8 +103,8 @@ static void rigid_cars_and_walls_have_no_rest(void **state) {
     collision_free(&collision);
 }
 
-/* A mass with three zeros too many: the sentence has the vehicle, what does not come to rest, the
- * springs, and the place of the mass. */
+/* A mass with three zeros too many: the message names the vehicle, the part without equilibrium,
+ * the springs, and the place of the mass. */
 static void a_car_that_finds_no_rest_is_named_with_its_springs(void **state) {
     (void)state;
     Collision collision =
@@ -119,7 +120,7 @@ static void a_car_that_finds_no_rest_is_named_with_its_springs(void **state) {
     collision_free(&collision);
 }
 
-static void a_recorded_run_tells_its_residual(void **state) {
+static void a_recorded_run_reports_its_residual(void **state) {
     (void)state;
     Collision full = collide(file, AS_WRITTEN, 0);
     assert_near(full.summary->rest_residual, 0.0, 0.0, 1e-10);
@@ -137,7 +138,7 @@ int main(void) {
         cmocka_unit_test(the_kernel_moves_nothing_at_rest),
         cmocka_unit_test(rigid_cars_and_walls_have_no_rest),
         cmocka_unit_test(a_car_that_finds_no_rest_is_named_with_its_springs),
-        cmocka_unit_test(a_recorded_run_tells_its_residual),
+        cmocka_unit_test(a_recorded_run_reports_its_residual),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

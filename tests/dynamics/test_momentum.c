@@ -1,8 +1,7 @@
-/* Without gravity and rail, what is inside cannot push the whole: at every step of an offset
- * collision with every element active the forces and their moments about a fixed point add up to
- * nothing.
+/* Without gravity and rail there are internal forces only: at every step of an offset collision
+ * with every element active the forces and their moments about a fixed point add up to zero.
  *
- * Any lever arm that differs between the two bodies of an element shows here.
+ * A lever arm that differs between the two bodies of an element is found here.
  */
 #include "physics/motion.h"
 
@@ -10,7 +9,7 @@
 enum { N_BODY = 9, N_CAR = 4 };
 
 typedef struct {
-    int dof;     /* x; z and turning follow */
+    int dof;     /* x; z and pitch follow */
     bool wheel;  /* turns by spin, positive when rolling forward */
     double x, z; /* [m] */
 } Body;
@@ -41,7 +40,7 @@ static void place_bodies(const Motion *motion, int car, double x, double z, Body
     assert_int_equal(n, N_BODY);
 }
 
-/* What carries a pivot, end 0 the rear and 1 the front: the body, or the end mass. */
+/* The carrier of a pivot, end 0 the rear and 1 the front: the body, or the end mass. */
 static const Body *carrier(const Motion *motion, int interface, int end, const Body *body) {
     const CzParameter on_end =
         end == 1 ? CZ_PARAMETER(coupler.side[0].on_end) : CZ_PARAMETER(coupler.side[1].on_end);
@@ -154,19 +153,19 @@ static void assert_nothing_is_left(const char *const *set) {
     motion_close(&motion);
 }
 
-static void forces_and_moments_add_up_to_nothing_at_every_step(void **state) {
+static void forces_and_moments_add_up_to_zero_at_every_step(void **state) {
     (void)state;
     assert_nothing_is_left(WITH("simulation.time_step_ms=0.05"));
 }
 
-/* Pivots that ride on the end masses have other lever arms, of couplers and of hinges. */
-static void they_do_with_couplers_on_the_end_masses_too(void **state) {
+/* Pivots on end masses have other lever arms of couplers and hinges. */
+static void they_add_up_to_zero_with_couplers_on_the_end_masses(void **state) {
     (void)state;
     assert_nothing_is_left(WITH("simulation.time_step_ms=0.05", "parts.front-coupler.anchor=end",
                                 "parts.inner-coupler.anchor=end"));
 }
 
-/* Otherwise the sums above would say nothing. */
+/* Otherwise the sums above would prove nothing. */
 static void every_element_took_part(void **state) {
     (void)state;
     static const char *const names[] = {
@@ -187,7 +186,8 @@ static void every_element_took_part(void **state) {
         double work = 0.0;
         for (int car = 0; car < N_CAR; car++)
             work = fmax(work, fabs(work_at(&motion, row, car)));
-        if (!(work > 1e-4)) /* in springs of 20 MN/m: 60 N, where the sums see a millinewton */
+        if (!(work >
+              1e-4)) /* in springs of 20 MN/m: 60 N, where the sums are exact to a millinewton */
             fail_msg("%s did %g J", names[row], work);
     }
     motion_close(&motion);
@@ -208,8 +208,8 @@ static double drift_of_spin(const char *step, int n_step) {
     return fabs(after[2].sum - before[2].sum) / before[2].largest;
 }
 
-/* Arms move between two evaluations, so angular momentum is kept at the order of the step. */
-static void angular_momentum_is_kept_at_the_order_of_the_step(void **state) {
+/* Arms move between two evaluations, so angular momentum is conserved to the order of the step. */
+static void angular_momentum_is_conserved_to_the_order_of_the_step(void **state) {
     (void)state;
     const double coarse = drift_of_spin("simulation.time_step_ms=0.04", 5000);
     const double fine = drift_of_spin("simulation.time_step_ms=0.01", 20000);
@@ -219,7 +219,7 @@ static void angular_momentum_is_kept_at_the_order_of_the_step(void **state) {
     assert_true(fine < 0.5 * coarse);
 }
 
-/* What the elements absorb is what the bodies lose; the share that is missing. */
+/* Difference between the energy that the elements absorb and that the bodies lose, as a share. */
 static double missing_energy(const char *step, int n_step) {
     Motion motion = collision_in_space(step);
     const double before = motion_kinetic_energy(&motion);
@@ -248,10 +248,10 @@ static void the_energy_balance_closes_with_the_step(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forces_and_moments_add_up_to_nothing_at_every_step),
-        cmocka_unit_test(they_do_with_couplers_on_the_end_masses_too),
+        cmocka_unit_test(forces_and_moments_add_up_to_zero_at_every_step),
+        cmocka_unit_test(they_add_up_to_zero_with_couplers_on_the_end_masses),
         cmocka_unit_test(every_element_took_part),
-        cmocka_unit_test(angular_momentum_is_kept_at_the_order_of_the_step),
+        cmocka_unit_test(angular_momentum_is_conserved_to_the_order_of_the_step),
         cmocka_unit_test(the_energy_balance_closes_with_the_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

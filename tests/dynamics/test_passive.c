@@ -1,4 +1,5 @@
-/* No element gives energy: springs are led around closed loops, and give back what they took. */
+/* No element creates energy: springs are led around closed loops and return the work done on them.
+ */
 #include "physics/motion.h"
 
 #include <math.h>
@@ -19,7 +20,7 @@ typedef struct Leads {
 
 enum { MOST_LEADS = 6 };
 
-/* Puts the car where step `i` of a loop has it, everything else at rest. */
+/* Puts the car at its place in step `i` of a loop, everything else at rest. */
 static void lead_car(const Motion *motion, const Leads leads[MOST_LEADS], int i) {
     const double pi = 3.14159265358979323846, rate = 2.0 * pi / (N_STEP * motion->step);
     for (int dof = 0; dof < CZ_N_DOF; dof++)
@@ -56,7 +57,7 @@ static void check_loop(const Leads leads[MOST_LEADS], const int rows[2]) {
 
 /* The front bogie turns by up to a radian each way while its body and its axles move out of step
  * with it. */
-static void springs_of_a_bogie_that_turns_give_back_what_they_took(void **state) {
+static void springs_of_a_pitching_bogie_return_their_work(void **state) {
     (void)state;
     static const int rows[] = {CZ_LEDGER(primary), CZ_LEDGER(axle_guidance)};
     static const Leads leads[MOST_LEADS] = {{CZ_DOF(bogie[1].pitch), 1.0, 0.3},
@@ -68,7 +69,7 @@ static void springs_of_a_bogie_that_turns_give_back_what_they_took(void **state)
 }
 
 /* The body turns by up to a fifth of a radian each way while its front bogie moves out of step. */
-static void springs_of_a_body_that_turns_give_back_what_they_took(void **state) {
+static void springs_of_a_pitching_body_return_their_work(void **state) {
     (void)state;
     static const int rows[] = {CZ_LEDGER(secondary), CZ_LEDGER(link)};
     static const Leads leads[MOST_LEADS] = {{CZ_DOF(body.pitch), 0.2, 0.3},
@@ -79,9 +80,9 @@ static void springs_of_a_body_that_turns_give_back_what_they_took(void **state) 
     check_loop(leads, rows);
 }
 
-/* An end mass that is pushed up and comes back holds k z^2 / 2 in its guidance all the while, to
- * the rounding of that: what is added up of powers would leave less than nothing. */
-static void guidance_of_an_end_mass_stores_what_its_displacement_says(void **state) {
+/* An end mass that is pushed up and comes back stores k z^2 / 2 in its guidance at every step, to
+ * rounding; a sum of powers would end below zero. */
+static void guidance_of_an_end_mass_stores_the_energy_of_its_displacement(void **state) {
     (void)state;
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
     motion_start(&motion);
@@ -99,10 +100,10 @@ static void guidance_of_an_end_mass_stores_what_its_displacement_says(void **sta
 }
 
 /* Two cars whose couplers only push close to some 9 mm and part again while one of them turns out
- * of step with that, so that their faces part at another angle than that at which they met. What
- * the push that flattens them took the hinges give back, and what they store is what they took all
- * along, but for (2 pi h)^2 of the trapezoidal rule; moments stay below the hinges' capacity. */
-static void hinges_of_faces_that_meet_at_an_angle_give_back_what_they_took(void **state) {
+ * of step with that, so that their faces part at another angle than that at which they met. The
+ * hinges return the work of the push that flattens the faces, and store the work done on them,
+ * within (2 pi h)^2 of the trapezoidal rule; moments stay below the hinges' capacity. */
+static void hinges_of_faces_that_meet_at_an_angle_return_their_work(void **state) {
     (void)state;
     enum { OWN = 1, N_CAR = 4 };
     Motion motion = motion_open("tests/physics/cases/offset-collision.yaml", AS_WRITTEN);
@@ -137,10 +138,10 @@ static void hinges_of_faces_that_meet_at_an_angle_give_back_what_they_took(void 
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(springs_of_a_bogie_that_turns_give_back_what_they_took),
-        cmocka_unit_test(springs_of_a_body_that_turns_give_back_what_they_took),
-        cmocka_unit_test(hinges_of_faces_that_meet_at_an_angle_give_back_what_they_took),
-        cmocka_unit_test(guidance_of_an_end_mass_stores_what_its_displacement_says),
+        cmocka_unit_test(springs_of_a_pitching_bogie_return_their_work),
+        cmocka_unit_test(springs_of_a_pitching_body_return_their_work),
+        cmocka_unit_test(hinges_of_faces_that_meet_at_an_angle_return_their_work),
+        cmocka_unit_test(guidance_of_an_end_mass_stores_the_energy_of_its_displacement),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Faces that turned with their ends make a ramp: direction and size of what they push with, by
- * hand. */
+/* Faces that have turned with their ends form a ramp: direction and size of their force, by hand.
+ */
 #include "physics/motion.h"
 
 #define TURN 0.12 /* of an end [rad] */
@@ -29,14 +29,14 @@ static void move(Motion *motion, int axis, double way) {
     motion_evaluate(motion);
 }
 
-/* Slope of what the faces push on the end of car A with: vertical over horizontal. All else that
- * acts on the end is the same when the faces are apart. */
+/* Slope of the faces' force on the end of car A: vertical over horizontal. All other forces on the
+ * end are the same when the faces are apart. */
 static double slope_of_push(double a, double b, double slide) {
     double fx[2], fz[2];
     for (int touch = 0; touch < 2; touch++) {
         Motion motion = faces_apart();
         turn(&motion, a, b);
-        /* Couplers are out of the way: nothing of theirs acts on an end mass. */
+        /* Couplers do not act on an end mass here. */
         const double gap = *parameter(&motion, CZ_PARAMETER(face.contact.distance), 0);
         move(&motion, 0, touch ? gap + 0.05 : gap - 0.05);
         move(&motion, 1, slide);
@@ -58,7 +58,7 @@ static double ramp_of(double a, double b) {
 
 /* Faces that fold as mirror images stay upright on the whole; one alone makes half its turn. The
  * slope of a face is the tangent of its turn. */
-static void the_ramp_is_the_mean_turn_of_the_faces(void **state) {
+static void the_ramp_is_the_mean_rotation_of_the_faces(void **state) {
     (void)state;
     assert_near(ramp_of(0.0, 0.0), 0.0, 0.0, 1e-15);
     assert_near(ramp_of(TURN, TURN), tan(TURN), 1e-12, 0.0);
@@ -69,7 +69,7 @@ static void the_ramp_is_the_mean_turn_of_the_faces(void **state) {
 
 /* A body on an incline: its push leans by the slope of the incline less or more the angle of
  * friction, as it slides one way or the other. The difference of two forces loses some digits. */
-static void a_face_that_slides_on_a_ramp_leans_by_the_angle_of_friction(void **state) {
+static void the_force_on_a_sliding_face_is_inclined_by_the_angle_of_friction(void **state) {
     (void)state;
     const double incline = TURN, friction = atan(0.2);
     assert_near(slope_of_push(TURN, TURN, 0.03), tan(incline + friction), 1e-9, 0.0);
@@ -79,8 +79,8 @@ static void a_face_that_slides_on_a_ramp_leans_by_the_angle_of_friction(void **s
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_ramp_is_the_mean_turn_of_the_faces),
-        cmocka_unit_test(a_face_that_slides_on_a_ramp_leans_by_the_angle_of_friction),
+        cmocka_unit_test(the_ramp_is_the_mean_rotation_of_the_faces),
+        cmocka_unit_test(the_force_on_a_sliding_face_is_inclined_by_the_angle_of_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

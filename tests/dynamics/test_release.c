@@ -1,4 +1,4 @@
-/* A shear-off releases inside a step: its force is the peak, and outcomes follow it smoothly. */
+/* A shear-off releases within a step: its force is the peak, and results depend on it smoothly. */
 #include "physics/collision.h"
 
 #define MASS 40e3      /* [kg] */
@@ -12,8 +12,9 @@ typedef struct {
     double a, b;
 } Case;
 
-/* The softening is shorter than the buffer's way back, F / k: the force drops at once, and the
- * coupler has taken F^2 / (2 k). Where it is longer the force falls along it: F s / 2. */
+/* Where the softening is shorter than the buffer's return travel F / k, the force drops at once,
+ * and the coupler has absorbed F^2 / (2 k). Where it is longer the force falls along it: F s / 2.
+ */
 static const Case sudden = {"trains.A.speed_m_s=1.2",
                             "trains.A.vehicles.A1.front.coupler.shear_off.softening_length_mm=10",
                             1.2, 0.5 / STIFFNESS, 0.0};
@@ -56,7 +57,7 @@ static void the_peak_is_the_force_of_the_shear_off(void **state) {
 
 /* Ten steps take the strength from its trigger peak down to the plateau: the peak lies in the first
  * one, at its begin. */
-static void the_peak_of_a_trigger_is_the_force_that_is_set(void **state) {
+static void the_peak_of_a_trigger_is_the_given_force(void **state) {
     (void)state;
     static const char *const steps[] = {"simulation.time_step_ms=0.1",
                                         "simulation.time_step_ms=0.03"};
@@ -75,7 +76,7 @@ static void the_peak_of_a_trigger_is_the_force_that_is_set(void **state) {
 }
 
 /* In the paper's case the coupler's line is level to a few millionths. */
-static void two_full_cars_let_go_at_the_force_that_is_set(void **state) {
+static void couplers_of_two_full_cars_shear_off_at_the_given_force(void **state) {
     (void)state;
     Collision collision = collide("problems/two-cars-25kmh.yaml", AS_WRITTEN, 0);
     assert_completed(&collision);
@@ -88,8 +89,8 @@ static void two_full_cars_let_go_at_the_force_that_is_set(void **state) {
 }
 
 /* The closing speed at the end of a step represents that in it: a relative error of a h / v in the
- * time that is left after the release, so in the derivative. What is left of the force after the
- * release is some ten newtons, by the smallest resistance of a plastic member: 1e-5 of the speed.
+ * time that is left after the release, so in the derivative. The force after the release is some
+ * ten newtons, from the smallest resistance of a plastic member: 1e-5 of the speed.
  */
 static void follows(const Case *c, const char *step, double step_length) {
     for (int i = 0; i < 5; i++) {
@@ -120,8 +121,8 @@ static void the_speed_after_a_fall_follows_the_force_as_in_closed_form(void **st
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_peak_is_the_force_of_the_shear_off),
-        cmocka_unit_test(the_peak_of_a_trigger_is_the_force_that_is_set),
-        cmocka_unit_test(two_full_cars_let_go_at_the_force_that_is_set),
+        cmocka_unit_test(the_peak_of_a_trigger_is_the_given_force),
+        cmocka_unit_test(couplers_of_two_full_cars_shear_off_at_the_given_force),
         cmocka_unit_test(the_speed_after_a_drop_follows_the_force_as_in_closed_form),
         cmocka_unit_test(the_speed_after_a_fall_follows_the_force_as_in_closed_form),
     };

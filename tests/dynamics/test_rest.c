@@ -1,5 +1,4 @@
-/* What must not happen by itself: trains at rest stay at rest, rolling ones roll on, and a run that
- * cannot be right says so. */
+/* Trains at rest stay at rest, rolling trains keep rolling, and an invalid run fails. */
 #include "physics/motion.h"
 
 /* ---- rest and rolling ---- */
@@ -73,11 +72,11 @@ static double work_of(const Motion *motion, int row) {
 }
 
 /* Wheels that roll over sleepers work on pads and ballast, and the model keeps them at their speed:
- * what the track turns into heat is what the moving load brings in, and no car slows down, but for
- * the creep under a load that swings by a part in a thousand. Without that term the energy balance
- * would be short by all of it. Work is summed over steps of a hundredth of a bay's passage, to
- * second order: a part in a thousand. */
-static void rails_that_give_way_brake_nobody_and_the_moving_load_pays_for_them(void **state) {
+ * the track dissipates the work of the moving load, and no car slows down, except for the creep
+ * under a load that varies by a part in a thousand. Without that term all of it would be missing
+ * from the energy balance. Work is summed over steps of a hundredth of a bay's passage, to second
+ * order: a part in a thousand. */
+static void the_moving_load_does_the_work_on_elastic_rails(void **state) {
     (void)state;
     static const char *const tracks[] = {"simulation.track=modal", "simulation.track=fe"};
     for (int i = 0; i < 2; i++) {
@@ -91,7 +90,8 @@ static void rails_that_give_way_brake_nobody_and_the_moving_load_pays_for_them(v
             sum += work_of(&motion, row);
         const double paid = -work_of(&motion, CZ_LEDGER(moving_load));
         assert_true(paid > 100.0); /* [J] */
-        /* The flexibility under a wheel beside the modes counts with the contact. */
+        /* The flexibility under a wheel that the modes leave out is added to that of the contact.
+         */
         const double taken =
             work_of(&motion, CZ_LEDGER(track)) + work_of(&motion, CZ_LEDGER(wheel_normal));
         assert_near(taken, paid, 2e-3, 0.0);
@@ -100,8 +100,8 @@ static void rails_that_give_way_brake_nobody_and_the_moving_load_pays_for_them(v
     }
 }
 
-/* A brake of a tenth of the axle load on every axle slows a car by 0.1 g, less what its turning
- * wheels hold: 4 I / r^2 beside the mass. */
+/* A brake of a tenth of the axle load on every axle slows a car by 0.1 g, reduced by the inertia of
+ * its wheelsets: 4 I / r^2 beside the mass. */
 static void braked_trains_slow_down_by_their_brake_ratio(void **state) {
     (void)state;
     Motion motion = all_at(10.0, "trains.A.brake.ratio=0.1", "trains.A.brake.axle_share=1");
@@ -118,7 +118,7 @@ static void braked_trains_slow_down_by_their_brake_ratio(void **state) {
     motion_close(&motion);
 }
 
-/* At walking pace the push is more than a braked train holds for a moment; it moves by a little and
+/* At walking pace the push exceeds the brake force for a moment; the train moves a little and
  * stays. */
 static void a_standing_braked_train_holds_against_a_light_touch(void **state) {
     (void)state;
@@ -181,7 +181,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(trains_that_touch_at_rest_stay_at_rest),
         cmocka_unit_test(rolling_trains_roll_on),
-        cmocka_unit_test(rails_that_give_way_brake_nobody_and_the_moving_load_pays_for_them),
+        cmocka_unit_test(the_moving_load_does_the_work_on_elastic_rails),
         cmocka_unit_test(braked_trains_slow_down_by_their_brake_ratio),
         cmocka_unit_test(a_standing_braked_train_holds_against_a_light_touch),
         cmocka_unit_test(an_absurd_time_step_ends_as_failed),

@@ -1,4 +1,4 @@
-/* A coupler is a strut where a car can tilt, and a push along the track where none can. */
+/* A coupler is a strut where a car can pitch, and acts along the track where none can. */
 #include "physics/collision.h"
 
 #define FORCE 1e6
@@ -16,8 +16,8 @@ static const CzElementResult *coupler_of(const CzRunSummary *summary, const char
     return NULL;
 }
 
-/* The plateau carries until the energy is spent, 3 m on: further than any coupler is long. In the
- * scenario with a partner the hard buffer ahead takes some joules, which its own force allows. */
+/* The plateau carries until the energy is absorbed after 3 m, more than the length of any coupler.
+ * In the scenario with a partner the stiff buffer ahead absorbs some joules. */
 static void a_plateau_between_single_masses_carries_whatever_the_closure(void **state) {
     (void)state;
     const double stroke = (ENERGY - BUFFER - ELASTIC) / FORCE;
@@ -31,7 +31,7 @@ static void a_plateau_between_single_masses_carries_whatever_the_closure(void **
     }
 }
 
-/* Where no car tilts the length is no part of the motion. */
+/* Where no car pitches the length has no influence on the motion. */
 static void the_length_of_a_coupler_does_not_move_single_masses(void **state) {
     (void)state;
     static const char *const lengths[] = {"parts.head.coupler.length_m=4.9",
@@ -52,7 +52,7 @@ static void the_length_of_a_coupler_does_not_move_single_masses(void **state) {
     }
 }
 
-/* Couplers at different heights do not push masses up that have one co-ordinate. */
+/* Couplers at different heights do not lift masses that have one co-ordinate. */
 static void a_height_does_not_move_single_masses(void **state) {
     (void)state;
     Collision level = collide(long_tube, AS_WRITTEN, 2);
@@ -65,8 +65,8 @@ static void a_height_does_not_move_single_masses(void **state) {
     collision_free(&offset);
 }
 
-/* A released coupler of a full car retracts past its own pivot: there is no line left to push
- * along, whichever of two equal cars is asked. */
+/* A released coupler of a full car retracts past its own pivot: no line of action is left, on
+ * either of two equal cars. */
 static void a_coupler_that_closes_by_its_whole_length_fails_the_run(void **state) {
     (void)state;
     Collision collision = collide("problems/two-cars-25kmh.yaml",
@@ -80,7 +80,7 @@ static void a_coupler_that_closes_by_its_whole_length_fails_the_run(void **state
     collision_free(&collision);
 }
 
-/* Reproductionst a wall, which has no coupler to share the closure. */
+/* Against a wall, which has no coupler to share the closure. */
 static void a_coupler_that_a_wall_closes_by_its_whole_length_fails_the_run(void **state) {
     (void)state;
     Collision collision = collide("problems/wall.yaml",

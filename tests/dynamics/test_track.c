@@ -1,5 +1,5 @@
-/* The modal track in motion: at rest it rests, it deflects as its statics, its own energy is the
- * work put in, and neither window nor solver shows in what a wheel feels.
+/* The modal track in motion: it stays at rest, deflects as its statics, its energy is the work done
+ * on it, and the wheel forces depend neither on the window nor on the solver.
  */
 #include "physics/motion.h"
 #include "physics/rails.h"
@@ -25,9 +25,9 @@ static CzTrackMotion *track_under(const double place[4], const double load[4], d
     return track;
 }
 
-/* Modes and the flexibility under the force make the exact statics, whatever the cut and the step,
- * at every place in a bay. What the flexibility's four powers leave out of the statics falls with
- * their fourth power from the 0.9 % that the first represents: 1e-2 / 5^4. */
+/* Modes and the flexibility under the force add up to the exact statics for any cut and step, at
+ * every place in a bay. The error of the flexibility's four powers falls with the fourth power from
+ * the 0.9 % of the first: 1e-2 / 5^4. */
 static void a_load_at_rest_deflects_the_track_as_its_statics(void **state) {
     (void)state;
     static const double cut[] = {1000.0, 1500.0, 3000.0};
@@ -47,9 +47,9 @@ static void a_load_at_rest_deflects_the_track_as_its_statics(void **state) {
             }
 }
 
-/* Two wheels of a bogie, 2.56 m apart, feel each other through the modes alone: what the cut leaves
- * of a sum of waves that far from the load is less than 2 permille of the deflection under it. */
-static void wheels_feel_each_other_as_the_statics_say(void **state) {
+/* Two wheels of a bogie, 2.56 m apart, interact through the modes only: so far from the load the
+ * waves beyond the cut add less than 2 permille of the deflection under it. */
+static void wheels_interact_as_in_the_statics(void **state) {
     (void)state;
     CzArena arena = {0};
     const double load[4] = {70e3, 0.0, 0.0, 0.0};
@@ -63,9 +63,9 @@ static void wheels_feel_each_other_as_the_statics_say(void **state) {
     cz_arena_free(&arena);
 }
 
-/* Forces that vary smoothly and wheels that stand: what the forces do to the rail is the growth of
- * kinetic and potential energy and the losses of pads, ballast and subgrade, up to the sum of the
- * losses over steps, of second order. */
+/* Smoothly varying forces of standing wheels: their work on the rail is the growth of kinetic and
+ * potential energy plus the losses of pads, ballast and subgrade. The sum of the losses over steps
+ * is of second order. */
 static double energy_gap(double cut, double step) {
     CzArena arena = {0};
     const double load[4] = {70e3, 71e3, 72e3, 70e3};
@@ -94,7 +94,7 @@ static double energy_gap(double cut, double step) {
         size = fmax(size, lost);
     }
     const double grown = cz_track_energy(track, 0) - rest_energy;
-    assert_true(size > 5.0); /* [J]: the test sees something */
+    assert_true(size > 5.0); /* [J]: the test is sensitive */
     cz_arena_free(&arena);
     return (grown + lost - work) / size;
 }
@@ -106,10 +106,10 @@ static void work_on_the_track_is_its_energy_and_its_losses(void **state) {
     assert_near(energy_gap(8000.0, 2.5e-5), 0.0, 0.0, 5e-4);
 }
 
-/* Wheels roll once and a half round the ring; a ring of three times the seats makes no difference.
- * Slowest to die out along the track is what swings near 60 Hz, where sleepers and ballast resonate
- * on the subgrade: there the wave that has gone round is half a percent of what one wheel excites,
- * at any other frequency a tenth of that. */
+/* Wheels roll one and a half times round the ring; a ring with three times the seats gives the same
+ * result. Waves near 60 Hz decay slowest along the track, because sleepers and ballast resonate on
+ * the subgrade: after one turn around the ring such a wave has half a percent of its amplitude
+ * under the wheel, at any other frequency a tenth of that. */
 static void a_longer_window_changes_nothing(void **state) {
     (void)state;
     CzArena arena = {0};
@@ -140,7 +140,7 @@ static void a_longer_window_changes_nothing(void **state) {
     cz_arena_free(&arena);
 }
 
-/* Wheels that roll at 20 m/s and press with up to half more and less than at rest, at 200 Hz. */
+/* Wheels that roll at 20 m/s with a force that varies at 200 Hz by half of the static load. */
 static void press(double t, double place[4], double load[4]) {
     const double swell = t < 0.015 ? t / 0.015 : 1.0;
     for (int wheel = 0; wheel < 4; ++wheel) {
@@ -172,9 +172,9 @@ static void runge_kutta(CzTrackMotion *track, double t, double h, double *y, dou
     memcpy(y, sum, n * sizeof *sum);
 }
 
-/* The same modes carried by a solver of ordinary differential equations with a tenth of the step.
- * The track's own steps hold each force for h about its time: of a part at w they leave out (w h)^2
- * / 24, here 7e-4 of the half that swings at 200 Hz. */
+/* The same modes integrated by a solver of ordinary differential equations with a tenth of the
+ * step. The track's own steps take each force as constant over h: at an angular frequency w the
+ * error is (w h)^2 / 24, here 7e-4 of the part at 200 Hz. */
 static void a_solver_of_differential_equations_finds_the_same(void **state) {
     (void)state;
     enum { PARTS = 10 };
@@ -256,9 +256,9 @@ static void cars_at_rest_on_any_track_stay_at_rest(void **state) {
     stays_at_rest("simulation.track=fe");
 }
 
-/* A standing car whose first wheel is nudged by a nanometre, in steps of a share of the bound: how
- * far a wheel is off in the end. Its wheels stand over sleepers, where the rail deflects least,
- * and their contact is as good as rigid. */
+/* A standing car whose first wheel is nudged by a nanometre, in steps of a share of the bound: the
+ * displacement of a wheel at the end. Its wheels stand over sleepers, where the rail deflects
+ * least, with an almost rigid contact. */
 static double swing_after(double share) {
     Motion motion =
         motion_open("tests/physics/cases/standing.yaml", WITH("simulation.track=modal"));
@@ -303,14 +303,14 @@ static void elements_converge_to_the_pinned_pinned_frequency(void **state) {
     assert_rows_of(rows_of_element_frequencies);
 }
 
-static void elements_give_way_as_the_closed_form(void **state) {
+static void elements_deflect_as_the_closed_form(void **state) {
     (void)state;
     assert_rows_of(rows_of_element_statics);
 }
 
-/* Rolling wheels that press three times as hard as at rest in pulses of 6 ms: elements and modes
- * agree to 0.4 % of the deflection. Two permille are the modes' cut at 1.5 kHz. */
-static void modes_and_elements_feel_the_same(void **state) {
+/* Rolling wheels with pulses of 6 ms of three times the static force: elements and modes agree to
+ * 0.4 % of the deflection. Two permille are the modes' cut at 1.5 kHz. */
+static void modes_and_elements_deflect_alike(void **state) {
     (void)state;
     CzArena arena = {0};
     const double step = 5e-5, load[4] = {70e3, 70e3, 70e3, 70e3};
@@ -350,7 +350,7 @@ static void modes_and_elements_feel_the_same(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_load_at_rest_deflects_the_track_as_its_statics),
-        cmocka_unit_test(wheels_feel_each_other_as_the_statics_say),
+        cmocka_unit_test(wheels_interact_as_in_the_statics),
         cmocka_unit_test(work_on_the_track_is_its_energy_and_its_losses),
         cmocka_unit_test(a_longer_window_changes_nothing),
         cmocka_unit_test(a_solver_of_differential_equations_finds_the_same),
@@ -358,8 +358,8 @@ int main(void) {
         cmocka_unit_test(cars_at_rest_on_any_track_stay_at_rest),
         cmocka_unit_test(a_wheel_on_the_rail_is_stable_up_to_its_bound),
         cmocka_unit_test(elements_converge_to_the_pinned_pinned_frequency),
-        cmocka_unit_test(elements_give_way_as_the_closed_form),
-        cmocka_unit_test(modes_and_elements_feel_the_same),
+        cmocka_unit_test(elements_deflect_as_the_closed_form),
+        cmocka_unit_test(modes_and_elements_deflect_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

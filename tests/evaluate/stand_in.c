@@ -115,7 +115,7 @@ static void crush_side(CzInterfaceResult *interface, const CzVehicle *vehicle, i
     coupler->sheared = rest > 0;
     if (coupler->sheared) {
         coupler->peak_force = shear;
-        coupler->bottomed_out = false; /* letting go is what ends a tube */
+        coupler->bottomed_out = false; /* the shear-off ends the collapse of a tube */
         coupler->stroke_used = 0;
     }
     CzElementResult *face = add_element(interface, CZ_ELEMENT_ANTI_CLIMBER, index, vehicle->name);

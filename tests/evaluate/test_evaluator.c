@@ -52,7 +52,7 @@ static const CzCheckResult *find(const CzEvaluation *evaluation, const char *nam
 }
 
 /* 40 t at 25 km/h: 482 kJ are lost, 241 kJ on each side; the tube takes 200 kJ of them. */
-static void margin_is_the_room_over_the_limit(void **state) {
+static void margin_is_the_distance_to_the_limit_over_the_limit(void **state) {
     (void)state;
     Case made = begin("checks:\n"
                       "  design_rules: false\n"
@@ -143,14 +143,15 @@ static void design_rules_judge_the_design_and_every_scenario(void **state) {
                 0);
     assert_non_null(find(evaluation, "bottoming out under overload", "overload"));
     assert_null(find(evaluation, "bottoming out", "overload"));
-    /* no wheels, so nothing can be said of override: that is not a pass */
+    /* no wheels, so override is not checked, which is no pass */
     assert_int_equal(find(evaluation, "override", "crash")->verdict, CZ_VERDICT_NOT_CHECKED);
     end(&made);
 }
 
-/* 241 kJ on each side use 96 % of a tube of 1 MN x 0.25 m, and the shear-off behind it stays whole.
+/* 241 kJ on each side use 96 % of a tube of 1 MN x 0.25 m, and the shear-off behind it stays
+ * intact.
  */
-static void tube_in_front_of_a_shear_off_may_be_used_up(void **state) {
+static void tube_in_front_of_a_shear_off_may_be_exhausted(void **state) {
     (void)state;
     Case made = begin(variables);
     const double x[2] = {1000, 400};
@@ -161,7 +162,7 @@ static void tube_in_front_of_a_shear_off_may_be_used_up(void **state) {
     end(&made);
 }
 
-static void scenarios_that_a_rule_needs_and_nobody_wrote_are_not_checked(void **state) {
+static void rules_without_their_scenarios_are_not_checked(void **state) {
     (void)state;
     stand_in_reset();
     const char *const set[] = {"scenarios[0].speed_km_h=27.5", "scenarios[1].speed_km_h=27.5",
@@ -207,8 +208,8 @@ static void failed_run_is_infeasible_and_not_checked(void **state) {
     end(&made);
 }
 
-/* What cars still rattle by after a pitch period without collision is no closing speed. */
-static void a_collision_that_ended_by_rule_is_over(void **state) {
+/* The remaining oscillation after a pitch period without collision is no closing speed. */
+static void a_run_that_met_its_end_criterion_has_no_closing_speed(void **state) {
     (void)state;
     Case made = begin(variables);
     const double x[] = {800, 300};
@@ -273,7 +274,7 @@ static void required_margin_is_part_of_the_constraint(void **state) {
     end(&made);
 }
 
-static void answer_depends_neither_on_neighbours_nor_on_threads(void **state) {
+static void result_depends_neither_on_neighbours_nor_on_threads(void **state) {
     (void)state;
     enum { N = 150 };
     stand_in_reset();
@@ -443,7 +444,7 @@ static void design_that_could_not_be_read_back_is_infeasible(void **state) {
                         strcmp(name, "rules between values") == 0);
         }
     assert_true(n_broken >= 3);
-    assert_int_equal(made.evaluation.n_check, 0); /* nothing that is listed */
+    assert_int_equal(made.evaluation.n_check, 0); /* no metric of the list */
     end(&made);
 }
 
@@ -473,19 +474,19 @@ static void limit_of_a_family_is_judged_in_each_of_its_members(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(margin_is_the_room_over_the_limit),
+        cmocka_unit_test(margin_is_the_distance_to_the_limit_over_the_limit),
         cmocka_unit_test(limit_of_a_family_is_judged_in_each_of_its_members),
         cmocka_unit_test(minimum_is_judged_at_the_smallest_place),
         cmocka_unit_test(unconfirmed_limit_passes_provisionally_until_the_user_sets_it),
         cmocka_unit_test(design_rules_judge_the_design_and_every_scenario),
-        cmocka_unit_test(tube_in_front_of_a_shear_off_may_be_used_up),
-        cmocka_unit_test(scenarios_that_a_rule_needs_and_nobody_wrote_are_not_checked),
+        cmocka_unit_test(tube_in_front_of_a_shear_off_may_be_exhausted),
+        cmocka_unit_test(rules_without_their_scenarios_are_not_checked),
         cmocka_unit_test(failed_run_is_infeasible_and_not_checked),
-        cmocka_unit_test(a_collision_that_ended_by_rule_is_over),
+        cmocka_unit_test(a_run_that_met_its_end_criterion_has_no_closing_speed),
         cmocka_unit_test(incomplete_run_is_never_a_pass),
         cmocka_unit_test(default_objective_is_the_smallest_margin),
         cmocka_unit_test(required_margin_is_part_of_the_constraint),
-        cmocka_unit_test(answer_depends_neither_on_neighbours_nor_on_threads),
+        cmocka_unit_test(result_depends_neither_on_neighbours_nor_on_threads),
         cmocka_unit_test(details_are_the_constraints_before_the_worst_is_taken),
         cmocka_unit_test(own_objective_replaces_the_files),
         cmocka_unit_test(runs_are_kept_when_asked_for),

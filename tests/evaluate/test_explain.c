@@ -1,4 +1,4 @@
-/* Explanations: what they claim is checked by other ways into the same run. */
+/* Explanations: their statements are checked against runs and sweeps of the same problem. */
 #include "support/check.h"
 
 #include "crushzone/explain.h"
@@ -12,7 +12,7 @@ typedef struct Case {
     CzExplanation *explanation;
 } Case;
 
-/* The file with something laid over it. */
+/* The file with settings. */
 static Case begin(const char *over) {
     Case made = {0};
     CzError error = {0};
@@ -35,7 +35,7 @@ static void end(Case *made) {
     cz_problem_free(made->problem);
 }
 
-/* One explanation serves all that is said of a climb. */
+/* One explanation serves all tests of a climb. */
 static Case climb;
 
 static int make_climb(void **state) {
@@ -58,7 +58,7 @@ static const CzCandidateChange *lever_of(const CzExplanation *explanation, const
     return NULL;
 }
 
-/* Whether nothing climbs with a height of the links, by a sweep over the file's own path. */
+/* Whether no vehicle climbs at a height of the links, by a sweep over the file's own path. */
 static bool holds_with_link_height(double height) {
     static const char *const setting = "trains.A.speed_km_h=45";
     CzProblemOptions problem_options = cz_problem_options_default();
@@ -94,7 +94,7 @@ static void the_change_that_restores_the_margin_does_so_in_the_file(void **state
     assert_false(holds_with_link_height(candidate->value * (1 + candidate->not_yet)));
 }
 
-static void levers_stand_in_order(void **state) {
+static void candidate_changes_are_in_order(void **state) {
     (void)state;
     const CzExplanation *explanation = climb.explanation;
     assert_true(explanation->n_candidate > 10);
@@ -110,7 +110,7 @@ static void levers_stand_in_order(void **state) {
     }
 }
 
-static void signs_are_of_the_time_before_the_climb(void **state) {
+static void indicators_are_of_the_time_before_the_climb(void **state) {
     (void)state;
     bool bottoms = false;
     for (int i = 0; i < climb.explanation->n_indicator; i++) {
@@ -121,7 +121,7 @@ static void signs_are_of_the_time_before_the_climb(void **state) {
     assert_true(bottoms);
 }
 
-static void what_holds_is_told_what_breaks_it(void **state) {
+static void a_satisfied_limit_gets_the_change_that_violates_it(void **state) {
     (void)state;
     Case made = begin("title: as it is");
     assert_false(made.explanation->climbed);
@@ -142,9 +142,9 @@ static void a_vehicle_without_stops_is_not_checked(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_change_that_restores_the_margin_does_so_in_the_file),
-        cmocka_unit_test(levers_stand_in_order),
-        cmocka_unit_test(signs_are_of_the_time_before_the_climb),
-        cmocka_unit_test(what_holds_is_told_what_breaks_it),
+        cmocka_unit_test(candidate_changes_are_in_order),
+        cmocka_unit_test(indicators_are_of_the_time_before_the_climb),
+        cmocka_unit_test(a_satisfied_limit_gets_the_change_that_violates_it),
         cmocka_unit_test(a_vehicle_without_stops_is_not_checked),
     };
     return cmocka_run_group_tests(tests, make_climb, free_climb);

@@ -1,5 +1,5 @@
-/* Scenarios that name the checks by which they are judged: beyond the design speed strokes may run
- * out, and that must not loosen what holds up to it. */
+/* Scenarios that name the checks by which they are judged: beyond the design speed strokes may be
+ * exhausted, which must not relax the checks up to it. */
 #include "support/check.h"
 
 #include "evaluate/evaluator.h"
@@ -54,7 +54,7 @@ static void only_the_named_checks_and_limits_that_name_it_judge_a_scenario(void 
     for (int i = 0; i < made.evaluation.n_check; i++)
         n += strcmp(made.evaluation.check[i].scenario, "fast") == 0;
     assert_int_equal(n, 3);
-    assert_non_null(find(&made, "bottoming out", "crash")); /* others are judged as ever */
+    assert_non_null(find(&made, "bottoming out", "crash")); /* other scenarios have all checks */
     end(&made);
 }
 
@@ -72,7 +72,7 @@ static void it_is_no_design_speed(void **state) {
     end(&made);
 }
 
-/* The objective is of the design: a faster scenario beyond it does not count. */
+/* The objective belongs to the design case: a scenario beyond the design speed does not count. */
 static void the_objective_leaves_it_out(void **state) {
     (void)state;
     static const char objective[] = "%s"
@@ -90,7 +90,7 @@ static void the_objective_leaves_it_out(void **state) {
     end(&with);
 }
 
-/* Leaving a rule out everywhere is no way to pass it. */
+/* A rule that is left out everywhere is not passed. */
 static void a_rule_that_judges_nowhere_is_not_checked(void **state) {
     (void)state;
     static const char text[] =
@@ -154,7 +154,7 @@ static void a_family_alone_can_be_run(void **state) {
     cz_problem_free(problem);
 }
 
-/* Forces in series that are off the laws of their members can be limited as the energy balance is.
+/* The distance of series chains from their laws can be limited like the energy balance.
  */
 static void the_distance_from_the_laws_can_be_judged(void **state) {
     (void)state;

@@ -1,6 +1,6 @@
 /* Every class of device is driven beyond its stroke, on either side of an interface, by rigid and
- * by full cars, against a car and a wall, and releases again: what the results say is the largest
- * stroke of the run, not the one that is left. */
+ * by full cars, against a car and a wall, and releases again: the results give the largest stroke
+ * of the run, not the remaining one. */
 #include "support/check.h"
 
 #include <stdbool.h>
@@ -52,7 +52,7 @@ static const Class classes[] = {
      STRONG_BUFFERS},
 };
 
-/* What full cars need beside. */
+/* Further keys of full cars. */
 #define OF_RIGID_END "unloading_stiffness_MN_m: 200"
 #define OF_FULL_END                                                                                \
     OF_RIGID_END ", mass_t: 1, pitch_inertia_kg_m2: 600, cg_height_m: 1, crush_height_m: 1, "      \

@@ -1,4 +1,4 @@
-/* What an evaluator refuses: variables, bounds and limits without sense, each with its place. */
+/* Refusals of an evaluator: invalid variables, bounds and limits, each with its place. */
 #include "support/check.h"
 
 #include "evaluate/small_problem.h"
@@ -21,7 +21,7 @@ static void expect_refusal(const char *more, const char *words) {
     cz_problem_free(problem);
 }
 
-static void what_may_not_vary_is_refused_by_name(void **state) {
+static void a_variable_of_fixed_data_is_refused_by_name(void **state) {
     (void)state;
     expect_refusal(
         "optimise: {variables: [{path: parts.head.proof_strength_kN, min: 1, max: 9}]}\n",
@@ -54,7 +54,7 @@ static void bounds_and_starts_that_do_not_fit_are_refused(void **state) {
                    "two variables");
 }
 
-static void limits_that_name_nothing_are_refused(void **state) {
+static void limits_of_unknown_metrics_are_refused(void **state) {
     (void)state;
     expect_refusal("checks: {limits: [{name: a, metric: interfaces.peak_force, max: 1}]}\n",
                    "no metric 'interfaces.peak_force'");
@@ -72,10 +72,10 @@ static void limits_that_name_nothing_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_may_not_vary_is_refused_by_name),
+        cmocka_unit_test(a_variable_of_fixed_data_is_refused_by_name),
         cmocka_unit_test(softening_the_opponent_is_refused),
         cmocka_unit_test(bounds_and_starts_that_do_not_fit_are_refused),
-        cmocka_unit_test(limits_that_name_nothing_are_refused),
+        cmocka_unit_test(limits_of_unknown_metrics_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Sweeps: each point is the problem as it would be alone, whoever runs beside it. */
+/* Sweeps: each point equals the problem run alone, whatever other points there are. */
 #include "support/check.h"
 
 #include "crushzone/sweep.h"
@@ -106,8 +106,8 @@ static void only_the_checks_asked_for_judge(void **state) {
     assert_null(sweep);
 }
 
-/* Train B comes at 25 km/h: below -25 km/h the trains never meet, which no file may say. */
-static void values_that_no_file_may_hold_are_invalid_points(void **state) {
+/* Train B comes at 25 km/h: below -25 km/h the trains never meet, which the reader refuses. */
+static void values_that_the_reader_refuses_are_invalid_points(void **state) {
     (void)state;
     const CzSweepAxis axis = {"trains.A.speed_km_h", -40, 10, 2};
     const CzSweepOptions options = options_of(&axis, 1);
@@ -132,7 +132,7 @@ static void a_run_that_is_cut_short_is_no_point(void **state) {
     cz_sweep_free(sweep);
 }
 
-static void what_is_wrong_everywhere_is_refused(void **state) {
+static void a_problem_that_is_invalid_at_every_point_is_refused(void **state) {
     (void)state;
     CzSweep *sweep = NULL;
     CzError error = {0};
@@ -148,7 +148,7 @@ static void what_is_wrong_everywhere_is_refused(void **state) {
     assert_null(sweep);
 }
 
-static void a_raised_flag_leaves_points_that_were_not_run(void **state) {
+static void an_interrupted_sweep_has_points_that_were_not_run(void **state) {
     (void)state;
     const volatile sig_atomic_t stop = 1;
     CzSweepOptions options = options_of(&speed, 1);
@@ -181,10 +181,10 @@ int main(void) {
         cmocka_unit_test(a_point_is_the_problem_with_that_value),
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(only_the_checks_asked_for_judge),
-        cmocka_unit_test(values_that_no_file_may_hold_are_invalid_points),
+        cmocka_unit_test(values_that_the_reader_refuses_are_invalid_points),
         cmocka_unit_test(a_run_that_is_cut_short_is_no_point),
-        cmocka_unit_test(what_is_wrong_everywhere_is_refused),
-        cmocka_unit_test(a_raised_flag_leaves_points_that_were_not_run),
+        cmocka_unit_test(a_problem_that_is_invalid_at_every_point_is_refused),
+        cmocka_unit_test(an_interrupted_sweep_has_points_that_were_not_run),
         cmocka_unit_test(axes_are_read_from_text),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

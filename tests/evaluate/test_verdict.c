@@ -1,4 +1,4 @@
-/* How checks add up to a verdict, tried on every combination. */
+/* How checks combine to a verdict, tried on every combination. */
 #include "support/check.h"
 
 #include "crushzone/evaluate.h"
@@ -7,7 +7,7 @@
 
 static const char *const words[] = {"pass", "provisional", "fail", "not checked"};
 
-/* The rule once more, as a person would say it. */
+/* The rule, written independently. */
 static CzVerdict expected(unsigned present, bool failed, bool climbed) {
     if ((present >> CZ_VERDICT_FAIL & 1) != 0 || climbed)
         return CZ_VERDICT_FAIL;
@@ -16,7 +16,7 @@ static CzVerdict expected(unsigned present, bool failed, bool climbed) {
     return (present >> CZ_VERDICT_PROVISIONAL & 1) != 0 ? CZ_VERDICT_PROVISIONAL : CZ_VERDICT_PASS;
 }
 
-static void every_combination_of_checks_adds_up_by_one_rule(void **state) {
+static void every_combination_of_checks_follows_one_rule(void **state) {
     (void)state;
     for (unsigned present = 0; present < 16; present++)
         for (int failed = 0; failed < 2; failed++)
@@ -44,7 +44,7 @@ static void checks_that_were_not_asked_for_do_not_count(void **state) {
     assert_int_equal(cz_verdict_over(&evaluation, 0, NULL), CZ_VERDICT_FAIL);
     assert_int_equal(cz_verdict_over(&evaluation, 1, b), CZ_VERDICT_PROVISIONAL);
     assert_int_equal(cz_verdict_over(&evaluation, 1, c), CZ_VERDICT_NOT_CHECKED);
-    evaluation.beyond_validity = true; /* what climbed is beyond the model whatever is asked */
+    evaluation.beyond_validity = true; /* an override is beyond the model whatever was selected */
     assert_int_equal(cz_verdict_over(&evaluation, 1, b), CZ_VERDICT_FAIL);
 }
 
@@ -67,7 +67,7 @@ static void the_worst_check_is_the_one_that_decides(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_combination_of_checks_adds_up_by_one_rule),
+        cmocka_unit_test(every_combination_of_checks_follows_one_rule),
         cmocka_unit_test(checks_that_were_not_asked_for_do_not_count),
         cmocka_unit_test(the_worst_check_is_the_one_that_decides)};
     return cmocka_run_group_tests(tests, NULL, NULL);

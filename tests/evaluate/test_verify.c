@@ -1,4 +1,4 @@
-/* Verification: what is compared, what passes, what does not. */
+/* Verification: compared values, passes and failures. */
 #include "support/check.h"
 
 #include "crushzone/verify.h"
@@ -47,8 +47,8 @@ static const char limits[] = "checks:\n"
                              "  limits:\n"
                              "    - {name: closure, metric: interfaces.shortening_mm, max: 3000}\n";
 
-/* Rigid cars: all three ways agree to much better than 1 %. */
-static void numbers_that_do_not_hang_on_steps_and_solvers_pass(void **state) {
+/* Rigid cars: all three methods agree to much better than 1 %. */
+static void numbers_that_do_not_depend_on_step_and_solver_pass(void **state) {
     (void)state;
     Case made = begin(limits);
     verify(&made, NULL);
@@ -69,7 +69,7 @@ static void numbers_that_do_not_hang_on_steps_and_solvers_pass(void **state) {
 
 /* A check changes by its margin, so by the share of its limit; the bulk of a scenario by its own
  * size; the largest is the largest. */
-static void changes_are_relative_to_what_is_allowed(void **state) {
+static void changes_are_relative_to_the_limit(void **state) {
     (void)state;
     Case made = begin(limits);
     verify(&made, NULL);
@@ -93,8 +93,9 @@ static void changes_are_relative_to_what_is_allowed(void **state) {
     end(&made);
 }
 
-/* "Nothing", taken as 1 mm, is exceeded by a whole closure: what counts is the share of that. */
-static void a_limit_exceeded_many_times_changes_by_what_it_is_exceeded_by(void **state) {
+/* A limit of zero, taken as 1 mm, is exceeded by a whole closure: the change is taken over the
+ * excess. */
+static void changes_of_a_limit_exceeded_many_times_are_relative_to_the_excess(void **state) {
     (void)state;
     Case made = begin("checks:\n"
                       "  design_rules: false\n"
@@ -163,8 +164,8 @@ static void a_yes_or_no_counts_by_its_verdict_alone(void **state) {
     end(&made);
 }
 
-/* What is matched changes by the share of the measured value; the sum of squares, which may be
- * anything near nothing, does not count. */
+/* A matched value changes by the share of the measured value; the sum of squares, which may be
+ * close to zero, does not count. */
 static void a_fit_is_verified_by_what_it_matches(void **state) {
     (void)state;
     Case made = begin("optimise:\n"
@@ -187,8 +188,8 @@ static void a_fit_is_verified_by_what_it_matches(void **state) {
     end(&made);
 }
 
-/* Only the ways that are requested are gone, and only they count. */
-static void ways_are_chosen(void **state) {
+/* Only the requested methods are run, and only they count. */
+static void methods_can_be_chosen(void **state) {
     (void)state;
     Case made = begin(limits);
     CzVerifyOptions options = cz_verify_options_default();
@@ -204,7 +205,7 @@ static void ways_are_chosen(void **state) {
     end(&made);
 }
 
-static void a_record_that_did_not_end_is_a_failure(void **state) {
+static void a_production_run_that_did_not_end_is_a_failure(void **state) {
     (void)state;
     Case made = begin("simulation: {longest_ms: 20}\n");
     verify(&made, NULL);
@@ -245,15 +246,15 @@ static void an_objective_of_the_callers_own_is_verified_too(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_that_do_not_hang_on_steps_and_solvers_pass),
-        cmocka_unit_test(changes_are_relative_to_what_is_allowed),
-        cmocka_unit_test(a_limit_exceeded_many_times_changes_by_what_it_is_exceeded_by),
+        cmocka_unit_test(numbers_that_do_not_depend_on_step_and_solver_pass),
+        cmocka_unit_test(changes_are_relative_to_the_limit),
+        cmocka_unit_test(changes_of_a_limit_exceeded_many_times_are_relative_to_the_excess),
         cmocka_unit_test(a_change_beyond_the_limit_does_not_pass),
         cmocka_unit_test(a_verdict_that_flips_does_not_pass),
         cmocka_unit_test(a_yes_or_no_counts_by_its_verdict_alone),
         cmocka_unit_test(a_fit_is_verified_by_what_it_matches),
-        cmocka_unit_test(ways_are_chosen),
-        cmocka_unit_test(a_record_that_did_not_end_is_a_failure),
+        cmocka_unit_test(methods_can_be_chosen),
+        cmocka_unit_test(a_production_run_that_did_not_end_is_a_failure),
         cmocka_unit_test(a_flag_ends_it),
         cmocka_unit_test(an_objective_of_the_callers_own_is_verified_too),
     };

@@ -1,4 +1,4 @@
-/* Curves that known laws would be measured as: made from the model's own breakpoints, with noise.
+/* Measured curves of known laws: made from the model's own breakpoints, with noise.
  */
 #ifndef CZ_TESTS_FIT_CURVES_H
 #define CZ_TESTS_FIT_CURVES_H

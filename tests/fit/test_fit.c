@@ -1,7 +1,7 @@
-/* Curves of known laws are turned back into them; others keep their energy exactly. */
+/* Curves of known laws give these laws again; other curves keep their energy exactly. */
 #include "fit/curves.h"
 
-/* What the law takes is what the curve took: to the rounding of sums of some thousand terms. */
+/* The law absorbs the energy of the curve, to the rounding of sums of some thousand terms. */
 static void energy_is_equal(const CzFit *fit, double energy) {
     assert_near(cz_fit_summary(fit)->energy, energy, 1e-12, 0.0);
     assert_near(cz_fit_summary(fit)->law_energy, energy, 1e-12, 0.0);
@@ -25,8 +25,8 @@ static Curve curve; /* large; each test begins it anew */
 static const CzStage two_plateaus[] = {{.stroke = 0.2, .force = 5e5, .end_force = NAN},
                                        {.stroke = 0.25, .force = 7e5, .end_force = NAN}};
 
-/* A break is found where the curve has points, which is to half of the distance between two; it
- * takes the mean of a plateau along by the step of 200 kN over as much of its stroke. */
+/* A break is found at a point of the curve, so to half of the distance between two points; the same
+ * share of the step of 200 kN changes the mean of a plateau. */
 static void plateaus_and_their_trigger_are_found_again(void **state) {
     (void)state;
     curve.n = 0;
@@ -86,9 +86,10 @@ static void as_many_plateaus_are_made_as_are_asked_for(void **state) {
     }
 }
 
-/* More stages never leave more, because a stage can be cut in two; rounding to five digits aside.
+/* More stages never leave a larger residual, because a stage can be cut in two, apart from rounding
+ * to five digits.
  */
-static void more_stages_come_closer(void **state) {
+static void more_stages_give_a_smaller_residual(void **state) {
     (void)state;
     double before = INFINITY;
     for (int n = 1; n <= 6; n++) {
@@ -102,12 +103,12 @@ static void more_stages_come_closer(void **state) {
         before = left;
         cz_fit_free(fit);
     }
-    /* Six equal strokes of a curve of 1 MN x^2 rise by 1, 3, ... 11 parts of 36, and a plateau
-     * leaves its rise over the root of 12; the best strokes leave less. */
+    /* Six equal strokes of a curve of 1 MN x^2 rise by 1, 3, ... 11 parts of 36, and the residual
+     * of a plateau is its rise over the root of 12; the best strokes leave less. */
     assert_true(before < 1e6 / 36.0 * sqrt((1 + 9 + 25 + 49 + 81 + 121) / 6.0 / 12.0));
 }
 
-/* The least squares of one plateau is the mean force, and so is what the energy requires. */
+/* The mean force is the least squares of one plateau, and also follows from the energy. */
 static void one_plateau_is_the_mean_force(void **state) {
     (void)state;
     curve.n = 0;
@@ -127,7 +128,7 @@ static const CzStage end_stages[] = {{.stroke = 0.02, .force = 1.2e6},
                                      {.stroke = 0.32, .force = 1.5e6},
                                      {.stroke = 0.2, .force = 4.5e6}};
 
-/* From 4.5 MN along 100 MN/m to one half, then along 30 MN/m to nothing. */
+/* From 4.5 MN along 100 MN/m to one half, then along 30 MN/m to zero. */
 static void load_end(Curve *made) {
     made->n = 0;
     load_lines(made, 0.0, end_stages, 4, 1200);
@@ -141,7 +142,7 @@ static void load_end(Curve *made) {
     }
 }
 
-/* All breaks lie on points of the curve: what is left is rounding. */
+/* All breaks are points of the curve: the tolerance is rounding. */
 static void four_stages_and_two_unloading_stages_are_found_again(void **state) {
     (void)state;
     char path[40];
@@ -178,8 +179,8 @@ static void a_noisy_end_keeps_its_energies(void **state) {
 }
 
 /* A peak that noise has cut off is no first stage of unloading: it would be hundreds of times as
- * stiff as the line, and require time steps as much shorter. The 0.1 mm by which the curve falls
- * from its peak add 150 J to the 5625 J of the line. */
+ * stiff as the line and require a much shorter time step. The 0.1 mm by which the curve falls from
+ * its peak add 150 J to the 5625 J of the line. */
 static void a_straight_unloading_stays_one_line(void **state) {
     (void)state;
     curve.n = 0;
@@ -249,7 +250,7 @@ static void a_coupler_is_buffer_tube_and_shear_off(void **state) {
 }
 
 /* The steps between the members are ten times the noise, so strokes change by two points, the stop
- * and the noise of 0.1 mm; the tube has 1000 points, the peak of the shear-off is one. */
+ * and the noise of 0.1 mm; the tube has 1000 points, the peak of the shear-off one. */
 static void a_noisy_coupler_has_the_same_members(void **state) {
     (void)state;
     load_coupler(&curve);
@@ -264,8 +265,8 @@ static void a_noisy_coupler_has_the_same_members(void **state) {
     cz_fit_free(fit);
 }
 
-/* 600 kN in 80 mm with a preload, given back along 0.35 of it: nothing is plastic. */
-static void a_coupler_that_comes_back_is_a_buffer_alone(void **state) {
+/* 600 kN in 80 mm with a preload, unloading along 0.35 of it: nothing is plastic. */
+static void a_coupler_that_returns_completely_is_a_buffer_alone(void **state) {
     (void)state;
     curve.n = 0;
     const CzStage stage[] = {{.stroke = 0.08, .force = 6e5}};
@@ -284,8 +285,8 @@ static void a_coupler_that_comes_back_is_a_buffer_alone(void **state) {
 
 /* ---- curves as tests give them ---- */
 
-/* A force that jumps at one stroke, and points that stand twice, take no energy. The law rises
- * along its stiffness where the curve jumps, and its plateaus make up for the energy of that. */
+/* Jumps of the force at one stroke, and repeated points, absorb no energy. The law rises along its
+ * stiffness where the curve jumps, and its plateaus compensate the energy. */
 static void duplicate_strokes_are_jumps(void **state) {
     (void)state;
     curve.n = 0;
@@ -322,7 +323,7 @@ static void expect_refusal(const double points[][2], int n, int line, const char
         expect_refusal(points, (int)(sizeof points / sizeof *points), line, sentence);             \
     } while (0)
 
-/* A rise of 1 mm to 90 MN requires a transition stiffness that no problem file takes. */
+/* A rise of 1 mm to 90 MN requires a transition stiffness that the reader refuses. */
 static void a_law_beyond_the_ranges_of_a_problem_file_is_refused(void **state) {
     (void)state;
     CzFit *fit = NULL;
@@ -357,7 +358,7 @@ static void a_buffer_never_falls(void **state) {
     cz_fit_free(fit);
 }
 
-static void a_curve_that_is_none_is_refused_with_its_point(void **state) {
+static void an_invalid_curve_is_refused_with_its_point(void **state) {
     (void)state;
     REFUSED(2, "not finite", {{0, 0}, {0.1, NAN}});
     REFUSED(2, "not finite", {{0, 0}, {INFINITY, 1}});
@@ -385,7 +386,7 @@ static void a_curve_that_is_none_is_refused_with_its_point(void **state) {
     assert_non_null(strstr(error.message, "9 stages; a law as anti-climber has 1 to 8"));
 }
 
-/* Curves of any size and few points get through, with equal energy. */
+/* Curves of any size and few points are fitted with equal energy. */
 static void small_and_large_curves_are_fitted_alike(void **state) {
     (void)state;
     for (int power = -2; power <= 0; power++) {
@@ -408,7 +409,7 @@ int main(void) {
         cmocka_unit_test(plateaus_and_their_trigger_are_found_again),
         cmocka_unit_test(noise_moves_plateaus_a_little_and_costs_no_energy),
         cmocka_unit_test(as_many_plateaus_are_made_as_are_asked_for),
-        cmocka_unit_test(more_stages_come_closer),
+        cmocka_unit_test(more_stages_give_a_smaller_residual),
         cmocka_unit_test(one_plateau_is_the_mean_force),
         cmocka_unit_test(four_stages_and_two_unloading_stages_are_found_again),
         cmocka_unit_test(a_noisy_end_keeps_its_energies),
@@ -416,11 +417,11 @@ int main(void) {
         cmocka_unit_test(an_end_that_does_not_unload_gets_a_stiffness_that_the_law_allows),
         cmocka_unit_test(a_coupler_is_buffer_tube_and_shear_off),
         cmocka_unit_test(a_noisy_coupler_has_the_same_members),
-        cmocka_unit_test(a_coupler_that_comes_back_is_a_buffer_alone),
+        cmocka_unit_test(a_coupler_that_returns_completely_is_a_buffer_alone),
         cmocka_unit_test(duplicate_strokes_are_jumps),
         cmocka_unit_test(a_law_beyond_the_ranges_of_a_problem_file_is_refused),
         cmocka_unit_test(a_buffer_never_falls),
-        cmocka_unit_test(a_curve_that_is_none_is_refused_with_its_point),
+        cmocka_unit_test(an_invalid_curve_is_refused_with_its_point),
         cmocka_unit_test(small_and_large_curves_are_fitted_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,7 +6,7 @@
 
 static int n_request;    /* so far */
 static int failing = -1; /* number of the request that fails; -1: none */
-static int n_live;       /* pieces that nobody has freed, of those requested while counting */
+static int n_live;       /* pieces not yet freed, of those requested while counting */
 static bool counting;
 
 void *__real_calloc(size_t n, size_t size);
@@ -65,9 +65,9 @@ static void every_lack_of_memory_is_reported(void **state) {
     }
 }
 
-/* Titles are in the first line that is no comment, with or without quotes. What is read is not
- * counted: only requests that the linker sends here are. */
-static void titles_are_read_or_the_lack_of_memory_is_told(void **state) {
+/* Titles are in the first line that is no comment, with or without quotes. Only requests that the
+ * linker sends here are counted. */
+static void titles_are_read_or_the_lack_of_memory_is_reported(void **state) {
     (void)state;
     static const char path[] = "titles.csv";
     FILE *stream = fopen(path, "w");
@@ -103,7 +103,7 @@ static void titles_are_read_or_the_lack_of_memory_is_told(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_lack_of_memory_is_reported),
-        cmocka_unit_test(titles_are_read_or_the_lack_of_memory_is_told),
+        cmocka_unit_test(titles_are_read_or_the_lack_of_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Whether a law is like its curve: stops, shear-offs with a residual force, ruptures, bounds. */
+/* Quality of laws: stops, shear-offs with a residual force, ruptures, bounds. */
 #include "fit/curves.h"
 
 #include "fit/staged.h"
@@ -38,7 +38,7 @@ static void a_stage_ends_where_the_stop_begins(void **state) {
 }
 
 /* The rise as a whole: 1/6 of a GN/m of stop and elasticity in series. Noise of 3 % of the last
- * force and of 0.1 mm in its 15 mm of stroke are each some percent of it. */
+ * force, and of 0.1 mm in its 15 mm of stroke, each change it by some percent. */
 static void a_noisy_stop_is_found_too(void **state) {
     (void)state;
     for (int kind = 0; kind < CZ_N_FIT; kind++) {
@@ -59,7 +59,7 @@ static void a_noisy_stop_is_found_too(void **state) {
     }
 }
 
-/* A second plateau and a slow rise are stages, however high. */
+/* A second plateau and a slow rise are stages, whatever their force. */
 static void a_higher_stage_is_no_stop(void **state) {
     (void)state;
     const CzStage stage[] = {{.stroke = 0.2, .force = 5e5, .end_force = NAN},
@@ -73,7 +73,7 @@ static void a_higher_stage_is_no_stop(void **state) {
 }
 
 /* Buffer to 400 kN in 50 mm, its stop, tube of 600 kN x 250 mm, its stop, shear-off at 911 kN over
- * 10 mm that keeps `residual` over 200 mm; stops of 1 GN/m, all behind 200 MN/m. */
+ * 10 mm with the force `residual` over 200 mm behind it; stops of 1 GN/m, all behind 200 MN/m. */
 static void load_shear_off(double residual) {
     const double stop = 1e9;
     double u = 0.05;
@@ -128,7 +128,7 @@ static void a_rupture_is_doubtful_as_a_coupler(void **state) {
 }
 
 /* A plateau through a triangle: the root mean square is 1 / sqrt(3) of the mean. */
-static void a_law_that_is_not_like_its_curve_is_refused(void **state) {
+static void a_law_far_from_its_curve_is_refused(void **state) {
     (void)state;
     curve.n = 0;
     add_point(&curve, 0.0, 0.0);
@@ -150,8 +150,8 @@ static void a_law_that_is_not_like_its_curve_is_refused(void **state) {
     cz_fit_free(fit);
 }
 
-/* The first sample of a sensor: 5 kN at a micrometre are no 5 GN/m. */
-static void two_numbers_near_zero_make_no_stiffness(void **state) {
+/* The first sample of a sensor: 5 kN at one micrometre give no stiffness of 5 GN/m. */
+static void two_numbers_near_zero_give_no_stiffness(void **state) {
     (void)state;
     for (int with = 0; with < 2; with++) {
         load_shear_off(0.0);
@@ -178,9 +178,9 @@ static void a_load_that_drops_at_the_end_is_no_unloading(void **state) {
     cz_fit_free(fit);
 }
 
-/* 80 kN, 830 kN, nothing: the forces of an end are positive, and the lines as near as that lets
- * them be. Noise of 2 % is 1.2 % of the force in the mean square. */
-static void an_end_whose_force_falls_to_nothing_is_followed(void **state) {
+/* 80 kN, 830 kN, zero: the forces of an end are positive, and the lines as close as this allows.
+ * Noise of 2 % is 1.2 % of the force in the mean square. */
+static void an_end_whose_force_falls_to_zero_is_fitted(void **state) {
     (void)state;
     const CzStage stage[] = {{.stroke = 0.06, .force = 8e4},
                              {.stroke = 0.165, .force = 8.3e5},
@@ -213,8 +213,8 @@ static double left_with(const CzStaged *staged, const CzBranch *branch) {
     return squares;
 }
 
-/* No pair of forces can be moved against each other at equal energy, within the bound, without
- * leaving more: what Karush, Kuhn and Tucker require, tried out. */
+/* No exchange between two forces at equal energy, within the bound, reduces the residual: the
+ * condition of Karush, Kuhn and Tucker, by trial. */
 static void bounded_forces_are_the_least_squares(void **state) {
     (void)state;
     CzArena arena = {0};
@@ -254,10 +254,10 @@ int main(void) {
         cmocka_unit_test(a_higher_stage_is_no_stop),
         cmocka_unit_test(a_shear_off_keeps_its_residual_force),
         cmocka_unit_test(a_rupture_is_doubtful_as_a_coupler),
-        cmocka_unit_test(a_law_that_is_not_like_its_curve_is_refused),
-        cmocka_unit_test(two_numbers_near_zero_make_no_stiffness),
+        cmocka_unit_test(a_law_far_from_its_curve_is_refused),
+        cmocka_unit_test(two_numbers_near_zero_give_no_stiffness),
         cmocka_unit_test(a_load_that_drops_at_the_end_is_no_unloading),
-        cmocka_unit_test(an_end_whose_force_falls_to_nothing_is_followed),
+        cmocka_unit_test(an_end_whose_force_falls_to_zero_is_fitted),
         cmocka_unit_test(bounded_forces_are_the_least_squares),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

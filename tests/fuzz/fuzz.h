@@ -1,6 +1,6 @@
-/* What the fuzz targets share. A target is one source with LLVMFuzzerTestOneInput: it feeds one
- * input to one reader and demands what holds for every input. Linked with libFuzzer it searches for
- * inputs, linked with replay.c it tries given files. */
+/* What the fuzz targets share. A target is one source with LLVMFuzzerTestOneInput: it gives one
+ * input to one reader and checks what must be true for every input. Linked with libFuzzer it
+ * searches for inputs, linked with replay.c it tries given files. */
 #ifndef CZ_TESTS_FUZZ_H
 #define CZ_TESTS_FUZZ_H
 
@@ -12,7 +12,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_byte);
 
-/* Ends the program, as a crash does, when something does not hold. */
+/* Ends the program, as a crash does, when a condition is violated. */
 #define FUZZ_DEMAND(condition)                                                                     \
     do {                                                                                           \
         if (!(condition)) {                                                                        \
@@ -23,8 +23,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_byte);
 
 #define FUZZ_SHARE_FOLDER CZ_SOURCE_FOLDER "/problems"
 
-/* Demands that a status and what the problem holds agree: mistakes with place and sentence when it
- * was refused, none when it was read. */
+/* Checks that the status agrees with the problem: mistakes with place and sentence when it was
+ * refused, none when it was read. */
 void fuzz_check_told(const CzProblem *problem, CzStatus status, const CzError *error);
 
 /* Writes the input to a file in the current folder, for readers that take a path; returns it. */

@@ -1,7 +1,7 @@
 # A fuzz target under address and undefined-behaviour sanitizers: no crash, no leak, no input that takes 20 s
 # (0.5 s where nothing else runs: that is what sanitizers and a shared machine cost) or 1 GB.
 # A minute with a fixed seed; CZ_FUZZ_SECONDS asks for more, with another seed each time, and keeps in build/fuzz/corpus/
-# what it learned for the next time.
+# the corpus for the next time.
 . "$SOURCE/tests/support/cases.sh"
 target=$1
 seconds=${CZ_FUZZ_SECONDS:-60}
@@ -14,7 +14,7 @@ fi
 mkdir -p "$corpus"
 sh "$SOURCE/tests/fuzz/seeds.sh" "$target" seeds
 
-searched() { # what was found stands in the log, and the input in crash-..., timeout-..., oom-... or leak-...
+searched() { # findings are in the log, and the input in crash-..., timeout-..., oom-... or leak-...
     "$BUILD/tests/fuzz_words" >words.dict || return
     ASAN_OPTIONS=quarantine_size_mb=16 "$BUILD/tests/fuzz_$target" -seed=$seed -max_total_time="$seconds" -timeout=20 \
         -rss_limit_mb=1024 -max_len=24000 -use_cmp=0 -dict=words.dict -print_final_stats=1 "$corpus" seeds >log 2>&1 && return
@@ -22,7 +22,7 @@ searched() { # what was found stands in the log, and the input in crash-..., tim
     echo "The input is in $PWD; tests/fuzz/found/$target/ keeps it once it is read as it must be."
     return 1
 }
-check "$target: no input of $seconds s of fuzzing breaks the reader" searched
+check "$target: no input of $seconds s of fuzzing violates a condition" searched
 n_input=$(sed -n 's/^stat::number_of_executed_units: *//p' log)
 echo "$target: ${n_input:-no} inputs in $seconds s"
 check "$target: fuzzing tried inputs by the hundred" test "${n_input:-0}" -ge 100

@@ -27,7 +27,7 @@ static void check_refusal(CzStatus status, const CzError *error) {
     FUZZ_DEMAND(status == CZ_OK || error->message[0] != '\0');
 }
 
-/* The law of a fit is finite and takes the energy that the curve took. */
+/* The law of a fit is finite and absorbs the energy of the curve. */
 static void check_fit(const CzFit *fit) {
     const CzFitSummary *summary = cz_fit_summary(fit);
     FUZZ_DEMAND(isfinite(summary->stroke) && isfinite(summary->peak_force));

@@ -15,7 +15,7 @@ static CzStatus read_text(const char *text, size_t n_byte, CzProblem **problem, 
 /* Takes comments off, and then blanks at the ends of lines and empty lines. A comment begins with a
  * '#' outside quotes at the start of a line or behind a blank. */
 static void strip_comments(char *text) {
-    char *to = text, *line = text; /* line: where the one at hand begins */
+    char *to = text, *line = text; /* line: start of the current one */
     bool is_quoted = false;
     for (const char *at = text; *at != '\0'; at++) {
         if (*at == '#' && !is_quoted && (at == text || at[-1] == '\n' || at[-1] == ' '))

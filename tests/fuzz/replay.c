@@ -14,12 +14,12 @@ static void try_file(const char *path) {
     const long n_byte = ftell(file);
     FUZZ_DEMAND(n_byte >= 0);
     rewind(file);
-    /* Just as large as the input, so that reading beyond it is seen. */
+    /* Exactly as large as the input, so that reading beyond it is detected. */
     uint8_t *data = malloc(n_byte > 0 ? (size_t)n_byte : 1);
     FUZZ_DEMAND(data != NULL);
     FUZZ_DEMAND(fread(data, 1, (size_t)n_byte, file) == (size_t)n_byte);
     fclose(file);
-    fprintf(stderr, "%s\n", path); /* the last one is the one that ends the program */
+    fprintf(stderr, "%s\n", path); /* the last file named is the one that ended the program */
     LLVMFuzzerTestOneInput(data, (size_t)n_byte);
     free(data);
     n_input++;

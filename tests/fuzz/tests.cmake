@@ -1,5 +1,5 @@
 # Fuzz targets, one per reader. The preset `fuzz` links them with libFuzzer and lets each search for a minute; every other
-# build tries what they begin with and what they once found.
+# build tries their seeds and their earlier findings.
 function(cz_fuzz_target target source)
     if(CZ_FUZZ)
         cz_program(fuzz_${target} ${source} fuzz.c)

@@ -1,4 +1,4 @@
-/* The adaptive solvers on problems whose answer is known: Bathe's example of two degrees of
+/* The adaptive solvers on problems with a known solution: Bathe's example of two degrees of
  * freedom, an oscillator, a ball that meets a floor, equations. */
 #include "support/check.h"
 
@@ -16,7 +16,7 @@ static CzSolver *solver_of(CzMethod method, CzOde *ode, const double *state, dou
     return solver;
 }
 
-/* Goes on to a time; returns the state there. */
+/* Integrates to a time; returns the state. */
 static const double *go_to(CzSolver *solver, double time) {
     CzError error = {0};
     CzSolverStep step = {0};
@@ -61,8 +61,9 @@ static double error_of(CzMethod method, double tolerance) {
     return worst;
 }
 
-/* Local errors of one tolerance a step, a hundred steps or so, all of one sign at worst. */
-static void the_example_is_solved_as_well_as_the_tolerance_asks(void **state) {
+/* Local errors of one tolerance per step, about a hundred steps, in the worst case all of one sign.
+ */
+static void the_example_is_solved_to_the_tolerance(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++)
         for (double tolerance = 1e-3; tolerance > 1e-9; tolerance *= 0.1)
@@ -86,8 +87,9 @@ static bool oscillate(CzOde *ode, double time, const double *y, double *rate) {
     return true;
 }
 
-/* Runge-Kutta of order 3 takes (w h)^4 / 12 of the energy in a step: with steps of 0.01 at most
- * that is 5.2e-4 after 6283 radians, and Adams takes less. A free body is not braked at all. */
+/* Runge-Kutta of order 3 dissipates (w h)^4 / 12 of the energy in a step: with steps of at most
+ * 0.01 this is 5.2e-4 after 6283 radians, and Adams dissipates less. A free body is not slowed
+ * down. */
 static void oscillations_keep_their_energy_and_free_bodies_their_speed(void **state) {
     (void)state;
     const double allowed[] = {1e-8, 1e-8, 1e-8, 1e-8}, start[] = {1.0, 0.0, 0.0, 7.0};
@@ -159,7 +161,7 @@ static bool refuse(CzOde *ode, double time, const double *y, double *rate) {
     return time < 0.5;
 }
 
-static void a_solver_that_gives_up_says_when_and_why(void **state) {
+static void a_solver_that_fails_reports_time_and_reason(void **state) {
     (void)state;
     const double allowed[] = {1e-6}, start[] = {0.0};
     for (int i = 0; i < 2; i++) {
@@ -203,7 +205,7 @@ static void never_zero(CzEquations *equations, const double *q, double *residual
     residual[0] = 1.0 + q[0] * q[0];
 }
 
-static void equations_without_an_answer_are_a_failure(void **state) {
+static void equations_without_a_solution_are_a_failure(void **state) {
     (void)state;
     const double one[] = {1.0};
     CzEquations equations = {1, one, one, never_zero};
@@ -213,7 +215,7 @@ static void equations_without_an_answer_are_a_failure(void **state) {
     assert_non_null(strstr(error.message, "no equilibrium"));
 }
 
-static void the_library_tells_its_version(void **state) {
+static void the_library_returns_its_version(void **state) {
     (void)state;
     char text[32] = "";
     int major = 0, minor = 0;
@@ -224,14 +226,14 @@ static void the_library_tells_its_version(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_example_is_solved_as_well_as_the_tolerance_asks),
+        cmocka_unit_test(the_example_is_solved_to_the_tolerance),
         cmocka_unit_test(the_error_falls_with_the_tolerance),
         cmocka_unit_test(oscillations_keep_their_energy_and_free_bodies_their_speed),
         cmocka_unit_test(a_force_that_drops_does_so_at_its_time),
-        cmocka_unit_test(a_solver_that_gives_up_says_when_and_why),
+        cmocka_unit_test(a_solver_that_fails_reports_time_and_reason),
         cmocka_unit_test(equations_are_solved_to_their_tolerance),
-        cmocka_unit_test(equations_without_an_answer_are_a_failure),
-        cmocka_unit_test(the_library_tells_its_version),
+        cmocka_unit_test(equations_without_a_solution_are_a_failure),
+        cmocka_unit_test(the_library_returns_its_version),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@ static void the_exact_answer_is_the_published_one(void **state) {
     assert_rows_of(rows_of_published_answer);
 }
 
-static void the_errors_are_the_known_ones(void **state) {
+static void the_errors_are_the_published_ones(void **state) {
     (void)state;
     assert_rows_of(rows_of_known_errors);
 }
@@ -25,7 +25,7 @@ static void an_undamped_oscillator_is_stable_up_to_two(void **state) {
     assert_false(is_stable(2.001));
 }
 
-/* No numerical damping: the amplitude is what it was after ten thousand periods. */
+/* No numerical damping: the amplitude is unchanged after ten thousand periods. */
 static void the_scheme_does_not_damp(void **state) {
     (void)state;
     const double step = 0.1;
@@ -39,7 +39,7 @@ static void the_scheme_does_not_damp(void **state) {
     assert_near(largest[1], largest[0], 1e-6, 0.0);
 }
 
-static void a_wheelset_bounces_off_a_rail_as_hertz_says(void **state) {
+static void a_wheelset_bounces_off_a_rail_as_in_hertz_theory(void **state) {
     (void)state;
     assert_rows_of(rows_of_hertz_impact);
 }
@@ -47,11 +47,11 @@ static void a_wheelset_bounces_off_a_rail_as_hertz_says(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_exact_answer_is_the_published_one),
-        cmocka_unit_test(the_errors_are_the_known_ones),
+        cmocka_unit_test(the_errors_are_the_published_ones),
         cmocka_unit_test(the_order_is_two),
         cmocka_unit_test(an_undamped_oscillator_is_stable_up_to_two),
         cmocka_unit_test(the_scheme_does_not_damp),
-        cmocka_unit_test(a_wheelset_bounces_off_a_rail_as_hertz_says),
+        cmocka_unit_test(a_wheelset_bounces_off_a_rail_as_in_hertz_theory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,7 +50,7 @@ struct Element {
     double f; /* [N] */
 };
 
-/* Takes the element to x in small steps and returns the work done on it [J]. */
+/* Moves the element to x in small steps and returns the work done on it [J]. */
 static inline double drive(Element *element, double x, double step) {
     const double start = element->x;
     const double way = x - start;
@@ -65,7 +65,8 @@ static inline double drive(Element *element, double x, double step) {
     return work;
 }
 
-/* Energy that the element gives back on the way to zero force [J]; the element stays as it is. */
+/* Energy that the element returns while it unloads to zero force [J]; the element is not changed.
+ */
 static inline double recoverable(const Element *element, double step) {
     Element copy = *element;
     double work = 0.0;

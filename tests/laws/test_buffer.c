@@ -58,9 +58,9 @@ static void reloading_climbs_back_on_the_transition(void **state) {
     assert_near(buffer.f, 2e4 + 7.6e6 * 0.03, 1e-12, 0.0);
 }
 
-/* A curve k x up to X and its share back: back and forth take
- * k X^2 / 2 - (k X + s k x1) (X - x1) / 2 - s k x1^2 / 2 with x1 = X (k_t - k) / (k_t - s k). */
-static void a_whole_loop_takes_the_closed_form_energy(void **state) {
+/* A curve k x up to X, unloaded along its share: a whole loop dissipates k X^2 / 2 - (k X + s k x1)
+ * (X - x1) / 2 - s k x1^2 / 2 with x1 = X (k_t - k) / (k_t - s k). */
+static void a_whole_loop_dissipates_the_closed_form_energy(void **state) {
     (void)state;
     const Backbone linear = {2, {0, 0.10}, {0, 8e5}, 1e9};
     const CzBufferLaw law = {5e7, 0.35, 0.0, 0.0, 0.0, 0.0, 0.10};
@@ -82,7 +82,7 @@ static void pulling_is_free_within_the_slack_and_then_elastic(void **state) {
     assert_near(drive(&buffer, -0.01, 1e-6) + drive(&buffer, 0.0, 1e-6), 0.0, 0.0, 1e-6);
 }
 
-/* 2 mm into the stop of 1000 MN/m: 0.4 MN + 2 MN, and all of the stop comes back. */
+/* 2 mm into the stop of 1000 MN/m: 0.4 MN + 2 MN; the stop returns all of its energy. */
 static void bottoming_out_is_stiff_and_without_hysteresis(void **state) {
     (void)state;
     Element buffer = {.force = buffer_force, .law = &coupled, .backbone = &draft_gear};
@@ -99,7 +99,7 @@ static void the_compliances_are_the_tangents_of_the_force(void **state) {
     (void)state;
     const CzBufferLaw law = {5e7, 0.35, 0.0, 0.0, 2e7, 0.002, 0.05};
     const double small = 1e-8;
-    const double places[][2] = {/* stroke and offset: come to each curve, and between them */
+    const double places[][2] = {/* stroke and offset: on each curve, and between them */
                                 {0.02, 0.02 - 0.172e6 / 5e7 - 1e-6},
                                 {0.02, 0.02 - 0.0602e6 / 5e7 + 1e-6},
                                 {0.02, 0.02 - 0.1e6 / 5e7},
@@ -131,8 +131,8 @@ static void damping_adds_its_force_to_the_step(void **state) {
                 0.0);
 }
 
-/* Where a stroke has moved within the step, the force is one smooth function of it on both sides:
- * damping, and its fading in over the first 10 mm, included. */
+/* The force is one smooth function of a stroke that has moved within the step, with damping and its
+ * fading in over the first 10 mm. */
 static void a_stroke_that_moved_has_one_tangent(void **state) {
     (void)state;
     const CzBufferLaw law = {5e7, 0.35, 5e3, 3e4, 2e7, 0.002, 0.05};
@@ -149,8 +149,8 @@ static void a_stroke_that_moved_has_one_tangent(void **state) {
     }
 }
 
-/* A chain has one answer only where no force falls while its stroke moves on, back and forth across
- * zero, slack and stop included. */
+/* A chain has one solution only where no force falls while its stroke grows, also across zero,
+ * slack and stop. */
 static void the_force_of_a_step_never_falls_with_its_stroke(void **state) {
     (void)state;
     const CzBufferLaw law = {5e7, 0.35, 5e3, 3e4, 2e7, 0.002, 0.05};
@@ -172,9 +172,9 @@ static void the_force_of_a_step_never_falls_with_its_stroke(void **state) {
         }
 }
 
-/* On its way back from the draw a damper would push, and crush a tube behind it while nothing is
- * closed: force begins where the buffer does. */
-static void a_gear_that_is_drawn_out_pushes_nothing_before_it_is_back(void **state) {
+/* A damper that acts during the return from tension would push, and crush a tube behind it in an
+ * open interface: the force begins at zero stroke. */
+static void a_drawn_gear_does_not_push_before_it_has_returned(void **state) {
     (void)state;
     const CzBufferLaw law = {5e7, 0.35, 5e4, 8e4, 2e7, 0.002, 0.05};
     for (double x = -0.03; x < 0.0; x += 1e-4) {
@@ -191,8 +191,8 @@ static void a_gear_that_is_drawn_out_pushes_nothing_before_it_is_back(void **sta
     assert_near(back.force, 5e7 * just + 8.5e6 * just / CZ_FADE_LENGTH, 1e-9, 0.0);
 }
 
-/* Inside the slack a chain must still have one answer. */
-static void within_the_slack_the_smallest_stiffness_is_left(void **state) {
+/* Inside the slack a chain must have one solution too. */
+static void within_the_slack_the_smallest_stiffness_remains(void **state) {
     (void)state;
     const CzBufferLaw law = {5e7, 0.35, 0.0, 0.0, 2e7, 0.002, 0.05};
     const CzBufferResponse response = at(&law, &draft_gear, -0.001, 0, 0);
@@ -205,15 +205,15 @@ int main(void) {
         cmocka_unit_test(loading_follows_the_transition_and_then_the_curve),
         cmocka_unit_test(unloading_follows_the_transition_and_then_the_lower_curve),
         cmocka_unit_test(reloading_climbs_back_on_the_transition),
-        cmocka_unit_test(a_whole_loop_takes_the_closed_form_energy),
+        cmocka_unit_test(a_whole_loop_dissipates_the_closed_form_energy),
         cmocka_unit_test(pulling_is_free_within_the_slack_and_then_elastic),
         cmocka_unit_test(bottoming_out_is_stiff_and_without_hysteresis),
         cmocka_unit_test(the_compliances_are_the_tangents_of_the_force),
         cmocka_unit_test(damping_adds_its_force_to_the_step),
         cmocka_unit_test(a_stroke_that_moved_has_one_tangent),
         cmocka_unit_test(the_force_of_a_step_never_falls_with_its_stroke),
-        cmocka_unit_test(a_gear_that_is_drawn_out_pushes_nothing_before_it_is_back),
-        cmocka_unit_test(within_the_slack_the_smallest_stiffness_is_left),
+        cmocka_unit_test(a_drawn_gear_does_not_push_before_it_has_returned),
+        cmocka_unit_test(within_the_slack_the_smallest_stiffness_remains),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

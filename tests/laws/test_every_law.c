@@ -1,9 +1,8 @@
-/* What holds for every law: no output jumps when any input moves, whatever branch is left or
- * entered.
+/* Every law: no output jumps when an input changes, whatever branch is left or entered.
  *
  * A scan along one input at a time finds the steepest pair of neighbours; halving the interval
- * towards the larger difference some fifty times makes a breakpoint vanish and leaves a jump as it
- * is.
+ * towards the larger difference some fifty times makes the difference at a breakpoint vanish and
+ * that at a jump remain.
  */
 #include "support/check.h"
 
@@ -39,7 +38,7 @@ static const Backbone four_stages = {
     5, {0, 0.02, 0.08, 0.40, 0.60}, {0, 1.2e6, 1.0e6, 1.5e6, 4.5e6}, 1e9};
 static const Backbone draft_gear = {3, {0, 0.03, 0.08}, {2e4, 1e5, 6e5}, 1e9};
 
-/* Stroke, way moved, rate, offset, step. */
+/* Stroke, increment, rate, offset, step. */
 static void cz_buffer_at(const double *input, double *output) {
     const CzBufferLaw law = {5e7, 0.35, 5e3, 3e4, 2e7, 0.002, 0.08};
     const CzBufferResponse response = cz_buffer(&law, backbone_value(&draft_gear, input[0]),
@@ -275,7 +274,7 @@ static double difference(const Law *law, const double *base, int input, double f
     return largest;
 }
 
-/* The interval is halved towards the larger difference until it has no room left. */
+/* The interval is halved towards the larger difference until it cannot be halved again. */
 static double jump(const Law *law, const double *base, int input, double from, double to) {
     for (int i = 0; i < 60; i++) {
         const double middle = from + 0.5 * (to - from);
@@ -349,7 +348,7 @@ static void every_header_of_a_law_is_in_the_list(void **state) {
     closedir(folder);
 }
 
-/* Laws of signed quantities: which inputs turn round with the direction, and whether the outputs
+/* Laws of signed quantities: which inputs change sign with the direction, and whether the outputs
  * do.
  */
 static const struct {
@@ -363,7 +362,7 @@ static const struct {
 };
 
 /* To the last bit, and at zero of either sign. */
-static void laws_of_signed_quantities_know_no_direction(void **state) {
+static void laws_of_signed_quantities_are_odd(void **state) {
     (void)state;
     Law laws[N_LAW];
     list_laws(laws);
@@ -393,7 +392,7 @@ int main(void) {
         cmocka_unit_test(no_output_jumps_along_any_input),
         cmocka_unit_test(the_search_for_jumps_finds_one),
         cmocka_unit_test(every_header_of_a_law_is_in_the_list),
-        cmocka_unit_test(laws_of_signed_quantities_know_no_direction),
+        cmocka_unit_test(laws_of_signed_quantities_are_odd),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* What decides whether faces hold or climb: ribs, and the superstructure behind them. */
+/* Laws that decide on climbing: ribs, and the superstructure behind the faces. */
 #include "support/check.h"
 
 #include <stdbool.h>
@@ -34,7 +34,7 @@ static void ribs_seat_at_the_offset_modulo_the_pitch(void **state) {
         assert_near(cz_ribs(&ribs, valley + 0.01875, 0.1, 1e5, 0.0).mesh, 0.5, 0.0, 1e-12);
         assert_near(cz_ribs(&ribs, valley + 0.025, 0.1, 1e5, 0.0).mesh, 0.0, 0.0, 1e-12);
     }
-    /* 40 mm is 10 mm from a valley: what EN 15227 sets off by locks as if it stood there. */
+    /* 40 mm is 10 mm from a valley: the offset of EN 15227 locks as in the valley. */
     assert_near(cz_ribs(&ribs, 0.04, 0.1, 1e5, 0.0).mesh, 1.0, 0.0, 0.0);
 }
 
@@ -45,9 +45,9 @@ static void ribs_engage_over_their_depth(void **state) {
     assert_near(cz_ribs(&ribs, 0.0, 0.1, 0.5 * CZ_GRIP_FORCE, 0.0).engaged, 0.5, 1e-14, 0.0);
 }
 
-/* What is left is counted in full depth: the same above depth and force of full engagement, and
- * where faces just touch the ribs and the friction of the smallest force that counts. */
-static void capacity_in_full_engagement_does_not_hang_on_the_touch(void **state) {
+/* The residual capacity is that at full depth: the same above depth and force of full engagement,
+ * and for faces that just touch that of the ribs and of the friction at the smallest force. */
+static void residual_capacity_does_not_depend_on_the_first_touch(void **state) {
     (void)state;
     const CzRibsResponse deep = cz_ribs(&ribs, 0.01, 0.1, 5e5, 0.01);
     assert_near(deep.ready, deep.capacity, 1e-14, 0.0);
@@ -80,7 +80,7 @@ static double superstructure_force(Element *element, double x) {
 }
 
 /* 400 kN over 100 mm less the 8 mm that are elastic: 400 kN x (0.1 - 0.004) m in all. */
-static void superstructure_absorbs_its_strength_times_the_way(void **state) {
+static void superstructure_absorbs_its_strength_times_the_travel(void **state) {
     (void)state;
     Element element = {.force = superstructure_force};
     const double work = drive(&element, 0.1, 1e-5);
@@ -88,7 +88,7 @@ static void superstructure_absorbs_its_strength_times_the_way(void **state) {
     /* The trapezoidal rule misses at most k step^2 / 8 at the corner. */
     assert_near(work, 4e5 * (0.1 - 0.004), 0.0, 5e7 * 1e-10 / 8.0);
     assert_near(element.memory[0], 0.092, 1e-12, 0.0);
-    /* Unloading gives back the elastic part and no more; apart there is no force. */
+    /* Unloading returns the elastic energy only; apart there is no force. */
     assert_near(-drive(&element, 0.0, 1e-5), 0.5 * 4e5 * 0.008, 1e-5, 0.0);
     assert_near(element.f, 0.0, 0.0, 0.0);
     assert_near(element.memory[0], 0.092, 1e-12, 0.0);
@@ -97,12 +97,12 @@ static void superstructure_absorbs_its_strength_times_the_way(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(capacity_is_engaged_ribs_and_friction),
-        cmocka_unit_test(capacity_in_full_engagement_does_not_hang_on_the_touch),
+        cmocka_unit_test(residual_capacity_does_not_depend_on_the_first_touch),
         cmocka_unit_test(ribs_seat_at_the_offset_modulo_the_pitch),
         cmocka_unit_test(ribs_engage_over_their_depth),
         cmocka_unit_test(ribs_shear_off_over_half_a_pitch),
         cmocka_unit_test(nearest_whole_numbers),
-        cmocka_unit_test(superstructure_absorbs_its_strength_times_the_way),
+        cmocka_unit_test(superstructure_absorbs_its_strength_times_the_travel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* No law creates energy: on random walks the work done on an element, less what it can give back,
- * never falls. */
+/* No law creates energy: on random walks the work done on an element, less the energy that it can
+ * return, never falls. */
 #include "support/check.h"
 
 #include <stdbool.h>
@@ -120,14 +120,14 @@ static const Walk walks[] = {
 };
 enum { N_WALK = sizeof walks / sizeof walks[0], N_SEED = 5, N_TURN = 60 };
 
-/* Whether dissipation never falls from turn to turn of one walk. A few parts in a million of the
- * work are lost to the trapezoids at breakpoints. */
+/* Whether dissipation never falls from reversal to reversal of one walk. A few parts in a million
+ * of the work are lost to the trapezoids at breakpoints. */
 static bool only_takes(const Walk *walk, uint64_t seed) {
     Element element = {.force = walk->force, .law = walk->law, .backbone = walk->backbone};
     element.f = element.force(&element, 0.0);
     double work = 0.0, dissipated = 0.0, moved = 0.0;
     for (int turn = 0; turn < N_TURN; turn++) {
-        /* Half of the turns stay near the last place: small loops inside large ones. */
+        /* Half of the reversals are near the previous one: small loops inside large ones. */
         const double far = walk->low + next_random(&seed) * (walk->high - walk->low);
         const double near =
             element.x + 0.05 * (next_random(&seed) - 0.5) * (walk->high - walk->low);
@@ -143,7 +143,7 @@ static bool only_takes(const Walk *walk, uint64_t seed) {
     return true;
 }
 
-static void no_walk_makes_energy(void **state) {
+static void no_walk_creates_energy(void **state) {
     (void)state;
     for (int i = 0; i < N_WALK; i++) {
         for (uint64_t seed = 1; seed <= N_SEED; seed++) {
@@ -155,9 +155,9 @@ static void no_walk_makes_energy(void **state) {
     }
 }
 
-/* What the walks would find: a stop that is part of a curve with hysteresis, not parallel to it,
- * and a stage that rises faster than its unloading. */
-static void a_walk_finds_an_element_that_makes_energy(void **state) {
+/* Errors that the walks find: a stop that is part of a curve with hysteresis instead of parallel to
+ * it, and a stage that rises faster than its unloading. */
+static void a_walk_finds_an_element_that_creates_energy(void **state) {
     (void)state;
     CzBufferLaw stop_in_curve = coupled;
     stop_in_curve.usable = 1e30;
@@ -175,16 +175,16 @@ static void a_walk_finds_an_element_that_makes_energy(void **state) {
     }
 }
 
-/* The same for what only dissipates: force times rate is never negative. */
-static void a_damper_only_takes(void **state) {
+/* The same for dampers: force times rate is never negative. */
+static void a_damper_only_dissipates(void **state) {
     (void)state;
     for (double rate = -3.0; rate <= 3.0; rate += 0.01)
         assert_true(cz_suspension_damper(&suspension, rate) * rate >= 0.0);
 }
 
-/* Tangential contact: the spring's energy plus what the force takes out of the slip never grows by
- * itself, rolling, standing or reversing, with a normal force that comes and goes. */
-static void a_creeping_wheel_only_takes(void **state) {
+/* Tangential contact: the spring's energy less the work of the slip never grows, rolling, standing
+ * or reversing, with a varying normal force. */
+static void a_creeping_wheel_only_dissipates(void **state) {
     (void)state;
     const CzCreepLaw law = {3.5e8, 0.006, 0.3, 0.15, 3.0};
     uint64_t seed = 7;
@@ -205,10 +205,10 @@ static void a_creeping_wheel_only_takes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_walk_makes_energy),
-        cmocka_unit_test(a_walk_finds_an_element_that_makes_energy),
-        cmocka_unit_test(a_damper_only_takes),
-        cmocka_unit_test(a_creeping_wheel_only_takes),
+        cmocka_unit_test(no_walk_creates_energy),
+        cmocka_unit_test(a_walk_finds_an_element_that_creates_energy),
+        cmocka_unit_test(a_damper_only_dissipates),
+        cmocka_unit_test(a_creeping_wheel_only_dissipates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* What crushes or yields: tubes, shear-off, sliders, stops. */
+/* Members that crush or yield: tubes, shear-off, sliders, stops. */
 #include "support/check.h"
 
 #include <stdbool.h>
@@ -35,7 +35,7 @@ static double chain_force(Element *element, double x) {
     return force;
 }
 
-static void below_its_strength_a_member_does_not_flow(void **state) {
+static void below_its_strength_a_member_does_not_crush(void **state) {
     (void)state;
     const double compliance = cz_plastic_compliance(6e5, 0.0, 0.05, 1e-4);
     assert_near(cz_plastic_flow(-1e5, 6e5, compliance), 0.0, 0.0, 0.0);
@@ -43,7 +43,7 @@ static void below_its_strength_a_member_does_not_flow(void **state) {
     assert_true(cz_plastic_flow(6e5 + 1.0, 6e5, compliance) > 0.0);
 }
 
-static void a_missing_member_never_flows(void **state) {
+static void a_missing_member_never_crushes(void **state) {
     (void)state;
     assert_near(cz_plastic_flow(1e9, 1e30, cz_plastic_compliance(1e30, 0.0, 0.0, 1e-4)), 0.0, 0.0,
                 0.0);
@@ -83,7 +83,7 @@ static void beyond_its_stroke_a_tube_is_stiff(void **state) {
     assert_near(chain.f, 6e5 + (0.26 - 0.253) / (1.0 / 2e8 + 1.0 / 1e9), 2e-3, 0.0);
 }
 
-/* Flow at 2 m/s with 0.05 s/m raises 0.6 MN to 0.66 MN, at any step. */
+/* A crush rate of 2 m/s with 0.05 s/m raises 0.6 MN to 0.66 MN, at any step. */
 static void the_rate_factor_raises_the_plastic_force(void **state) {
     (void)state;
     for (double step = 1e-6; step < 1e-3; step *= 10.0) {
@@ -105,7 +105,7 @@ static void rates_do_not_act_on_elastic_unloading(void **state) {
 }
 
 /* F_s times half the softening length, beside the spring's own energy. */
-static void shearing_off_takes_half_force_times_softening_length(void **state) {
+static void shearing_off_absorbs_half_force_times_softening_length(void **state) {
     (void)state;
     const Member device = {.kind = SHEAR_OFF, .step = 1e-4};
     Element chain = {.force = chain_force, .law = &device};
@@ -114,8 +114,8 @@ static void shearing_off_takes_half_force_times_softening_length(void **state) {
     assert_near(chain.f, 0.0, 0.0, 1.0);
 }
 
-/* The trapezium of the fall, then what friction keeps over the rest of the travel. */
-static void a_residual_force_takes_energy_over_the_retraction_space(void **state) {
+/* The trapezium of the fall, then the friction over the rest of the travel. */
+static void a_residual_force_absorbs_energy_over_the_retraction_space(void **state) {
     (void)state;
     const CzShearOffLaw law = {9e5, 1.5e5, 0.01, 0.06, 1e9};
     double work = 0.0;
@@ -128,7 +128,7 @@ static void a_residual_force_takes_energy_over_the_retraction_space(void **state
     assert_near(cz_shear_off(&whole, 0.03).strength, 0.0, 0.0, 0.0);
 }
 
-static void shear_off_is_whole_then_damaged_then_gone(void **state) {
+static void shear_off_is_undamaged_then_damaged_then_broken(void **state) {
     (void)state;
     const double places[][3] = {/* travel, strength, damage */
                                 {0.0, 9e5, 0.0},
@@ -153,7 +153,7 @@ static void a_sheared_coupler_without_space_is_a_second_load_path(void **state) 
     assert_near(chain.f, 0.006 / (1.0 / 2e8 + 1.0 / 1e9), 1e-2, 0.0);
 }
 
-static void a_slider_holds_yields_and_holds_again(void **state) {
+static void a_slider_sticks_yields_and_sticks_again(void **state) {
     (void)state;
     CzSliderResponse held = cz_slider(2e7, 4e5, 0.01, 0.0);
     assert_near(held.force, 2e5, 1e-12, 0.0);
@@ -199,18 +199,18 @@ static void a_stop_is_free_within_its_range_and_the_same_on_both_sides(void **st
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(below_its_strength_a_member_does_not_flow),
-        cmocka_unit_test(a_missing_member_never_flows),
+        cmocka_unit_test(below_its_strength_a_member_does_not_crush),
+        cmocka_unit_test(a_missing_member_never_crushes),
         cmocka_unit_test(a_plateau_absorbs_the_closed_form_energy),
         cmocka_unit_test(a_trigger_peak_falls_over_its_length),
         cmocka_unit_test(beyond_its_stroke_a_tube_is_stiff),
         cmocka_unit_test(the_rate_factor_raises_the_plastic_force),
         cmocka_unit_test(rates_do_not_act_on_elastic_unloading),
-        cmocka_unit_test(a_residual_force_takes_energy_over_the_retraction_space),
-        cmocka_unit_test(shearing_off_takes_half_force_times_softening_length),
-        cmocka_unit_test(shear_off_is_whole_then_damaged_then_gone),
+        cmocka_unit_test(a_residual_force_absorbs_energy_over_the_retraction_space),
+        cmocka_unit_test(shearing_off_absorbs_half_force_times_softening_length),
+        cmocka_unit_test(shear_off_is_undamaged_then_damaged_then_broken),
         cmocka_unit_test(a_sheared_coupler_without_space_is_a_second_load_path),
-        cmocka_unit_test(a_slider_holds_yields_and_holds_again),
+        cmocka_unit_test(a_slider_sticks_yields_and_sticks_again),
         cmocka_unit_test(a_shrinking_capacity_only_dissipates),
         cmocka_unit_test(a_slider_without_stiffness_carries_nothing),
         cmocka_unit_test(a_stop_is_free_within_its_range_and_the_same_on_both_sides),

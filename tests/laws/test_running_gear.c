@@ -39,8 +39,8 @@ static void a_damper_is_soft_beyond_its_relief_valve(void **state) {
     assert_near(cz_suspension_damper(&secondary, -1.5), -2e4 - 4e3, 1e-12, 0.0);
 }
 
-/* G = 3.86 R^-0.115 1e-8 m/N^(2/3), per wheel, worn profile, R = 0.43 m: Zhai's constant, and what
- * follows from it. */
+/* G = 3.86 R^-0.115 1e-8 m/N^(2/3), per wheel, worn profile, R = 0.43 m: Zhai's constant and its
+ * consequence. */
 static double hertz_of_one_wheel(void) {
     const double g = 3.86e-8 * pow(0.43, -0.115);
     assert_near(g, 4.253e-8, 2e-4, 0.0);
@@ -59,7 +59,7 @@ static void the_hertz_constant_agrees_with_the_published_one(void **state) {
                             cz_wheel_normal_force(hertz, indentation - small)) /
                            (2.0 * small);
     assert_near(tangent, 1.45e9, 5e-3, 0.0);
-    /* An independent value, railFE: 1.0e11 N/m^1.5. */
+    /* An independent value, of railFE: 1.0e11 N/m^1.5. */
     assert_near(hertz, 1.0e11, 0.15, 0.0);
 }
 
@@ -126,8 +126,9 @@ static void the_force_over_creepage_rises_peaks_and_falls(void **state) {
     assert_false(rising);
 }
 
-/* Pushed by 1 um and left alone, a standing wheel is held for ever; a rolling one forgets. */
-static void a_standing_wheel_holds_and_a_rolling_one_forgets(void **state) {
+/* Displaced by 1 um and released, a standing wheel keeps its deflection; that of a rolling wheel
+ * decays. */
+static void a_standing_wheel_keeps_its_deflection_and_a_rolling_one_loses_it(void **state) {
     (void)state;
     const double pushed = after(0.0, 1e-3, 0.0, normal, 1e-3, 1);
     assert_near(pushed, 1e-6, 1e-12, 0.0);
@@ -147,7 +148,7 @@ static void a_lifted_wheel_or_none_has_no_tangential_force(void **state) {
     assert_near(cz_creep_deflection(&creep, 0.0, 0.0, 0.1, 5.0, normal, 1e-4), 0.0, 0.0, 0.0);
 }
 
-/* No step is too long for the law itself: it never overshoots its steady state. */
+/* The law never overshoots its steady state, at any step. */
 static void the_deflection_never_overshoots(void **state) {
     (void)state;
     const double steady = 0.005 * creep.length;
@@ -170,7 +171,7 @@ int main(void) {
         cmocka_unit_test(the_force_opposes_the_slip),
         cmocka_unit_test(large_slip_saturates_and_falls_to_sliding_friction),
         cmocka_unit_test(the_force_over_creepage_rises_peaks_and_falls),
-        cmocka_unit_test(a_standing_wheel_holds_and_a_rolling_one_forgets),
+        cmocka_unit_test(a_standing_wheel_keeps_its_deflection_and_a_rolling_one_loses_it),
         cmocka_unit_test(a_standing_wheel_slips_at_the_friction_limit),
         cmocka_unit_test(a_lifted_wheel_or_none_has_no_tangential_force),
         cmocka_unit_test(the_deflection_never_overshoots),

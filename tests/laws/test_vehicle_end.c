@@ -32,8 +32,8 @@ static void loading_follows_the_backbone(void **state) {
                     1e-6);
 }
 
-/* From 1.5 MN at 0.40 m: 0.75 MN at 7.5 mm back, nothing another 25 mm back. */
-static void unloading_has_two_stages_and_then_pulls(void **state) {
+/* From 1.5 MN at 0.40 m: 0.75 MN after 7.5 mm, zero after another 25 mm. */
+static void unloading_has_two_stages_and_then_tension(void **state) {
     (void)state;
     assert_near(end_at(0.396, 0.40).force, 1.1e6, 1e-12, 0.0);
     assert_near(end_at(0.3925, 0.40).force, 0.75e6, 1e-12, 0.0);
@@ -45,7 +45,7 @@ static void unloading_has_two_stages_and_then_pulls(void **state) {
     assert_near(end_at(0.3825, 0.40).slope, 3e7, 0.0, 0.0);
 }
 
-static void an_end_that_nothing_pulls_opens_without_force(void **state) {
+static void an_end_without_tension_opens_without_force(void **state) {
     (void)state;
     const CzVehicleEndLaw loose = {1e8, 0.5, 3e7, 0.0};
     for (double x = -0.1; x < 0.36; x += 0.01)
@@ -55,7 +55,7 @@ static void an_end_that_nothing_pulls_opens_without_force(void **state) {
 
 /* Strained by 10 mm of its elastic part, 60 MN/m, the path of the unloading stages lies below zero
  * at zero shortening: the backbone takes its place near zero, and no slack is left behind. */
-static void the_elastic_part_leaves_nothing_behind(void **state) {
+static void the_elastic_part_leaves_no_slack(void **state) {
     (void)state;
     assert_near(end_at(0.001, 0.01).force, 6e4, 1e-12, 0.0);
     assert_near(end_at(0.0, 0.01).force, 0.0, 0.0, 0.0);
@@ -78,7 +78,7 @@ static void reloading_follows_the_unloading_path_and_then_the_backbone(void **st
 }
 
 /* (1 - r^2) Fm^2 / (2 Ku1) + (r Fm)^2 / (2 Ku2). */
-static void unloading_gives_back_the_closed_form_energy(void **state) {
+static void unloading_returns_the_closed_form_energy(void **state) {
     (void)state;
     for (double largest = 0.10; largest <= 0.60; largest += 0.1) {
         Element end = new_end();
@@ -91,7 +91,7 @@ static void unloading_gives_back_the_closed_form_energy(void **state) {
     }
 }
 
-static void stored_energy_is_that_of_the_way_down_from_any_force(void **state) {
+static void stored_energy_is_that_of_the_unloading_from_any_force(void **state) {
     (void)state;
     Element end = new_end();
     drive(&end, 0.45, 1e-4);
@@ -110,9 +110,9 @@ static void the_backbone_absorbs_the_area_below_it(void **state) {
     assert_near(drive(&end, 0.60, 1e-5), area, 1e-9, 0.0);
 }
 
-/* Beyond the last stage the end is on its stop: 5 mm more cost and give back the same, and
- * what the crush zone itself gives back stays what it was. */
-static void bottoming_out_is_stiff_and_gives_back_what_it_took(void **state) {
+/* Beyond the last stage the end is on its stop: 5 mm more store and return the same energy, and the
+ * elastic energy of the crush zone itself does not change. */
+static void bottoming_out_is_stiff_and_elastic(void **state) {
     (void)state;
     Element end = new_end();
     drive(&end, 0.60, 1e-4);
@@ -167,14 +167,14 @@ static void a_mass_against_a_wall_rebounds_as_computed_independently(void **stat
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(loading_follows_the_backbone),
-        cmocka_unit_test(unloading_has_two_stages_and_then_pulls),
-        cmocka_unit_test(an_end_that_nothing_pulls_opens_without_force),
-        cmocka_unit_test(the_elastic_part_leaves_nothing_behind),
+        cmocka_unit_test(unloading_has_two_stages_and_then_tension),
+        cmocka_unit_test(an_end_without_tension_opens_without_force),
+        cmocka_unit_test(the_elastic_part_leaves_no_slack),
         cmocka_unit_test(reloading_follows_the_unloading_path_and_then_the_backbone),
-        cmocka_unit_test(unloading_gives_back_the_closed_form_energy),
-        cmocka_unit_test(stored_energy_is_that_of_the_way_down_from_any_force),
+        cmocka_unit_test(unloading_returns_the_closed_form_energy),
+        cmocka_unit_test(stored_energy_is_that_of_the_unloading_from_any_force),
         cmocka_unit_test(the_backbone_absorbs_the_area_below_it),
-        cmocka_unit_test(bottoming_out_is_stiff_and_gives_back_what_it_took),
+        cmocka_unit_test(bottoming_out_is_stiff_and_elastic),
         cmocka_unit_test(the_steepest_stage_stores_just_the_work_done_on_it),
         cmocka_unit_test(a_mass_against_a_wall_rebounds_as_computed_independently),
     };

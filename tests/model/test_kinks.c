@@ -83,7 +83,7 @@ static void the_trigger_adds_a_triangle(void **state) {
 }
 
 /* Also where the trigger ends within the ramp to the next plateau. */
-static void kinks_are_in_order_of_stroke(void **state) {
+static void breakpoints_are_in_order_of_stroke(void **state) {
     (void)state;
     const CzStage stage[] = {level(0.012, 5e5), level(0.2, 4e5)};
     for (double length = 0.008; length < 0.02; length += 0.0005) {
@@ -143,7 +143,7 @@ static void a_table_passes_through_every_point(void **state) {
     assert_near(kinks.usable, table.x[table.n_point - 1], 0.0, 0.0);
 }
 
-static void missing_members_never_give_way(void **state) {
+static void missing_members_never_yield(void **state) {
     (void)state;
     CzKinks kinks;
     cz_kinks_rigid_member(&kinks);
@@ -161,11 +161,11 @@ int main(void) {
         cmocka_unit_test(long_plateaus_have_ramps_of_five_millimetres),
         cmocka_unit_test(sloping_plateaus_start_and_end_where_they_say),
         cmocka_unit_test(the_trigger_adds_a_triangle),
-        cmocka_unit_test(kinks_are_in_order_of_stroke),
+        cmocka_unit_test(breakpoints_are_in_order_of_stroke),
         cmocka_unit_test(loading_stages_pass_through_their_end_forces),
         cmocka_unit_test(a_buffer_starts_at_its_preload),
         cmocka_unit_test(a_table_passes_through_every_point),
-        cmocka_unit_test(missing_members_never_give_way),
+        cmocka_unit_test(missing_members_never_yield),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* Candidate designs in lanes: what changes, what must not, and what comes back bit for bit. */
+/* Candidate designs in lanes: values that change, values that must not, and values that return bit
+ * for bit. */
 #include "model/built_model.h"
 
 static struct CzProblem problem;
@@ -47,7 +48,7 @@ static void assert_same_design(const CzLanes *a, int in_a, const CzLanes *b, int
     }
 }
 
-static void a_design_does_not_see_its_neighbours(void **state) {
+static void a_design_does_not_depend_on_its_neighbours(void **state) {
     (void)state;
     make_problem();
     Built built = build_model(&problem);
@@ -83,7 +84,7 @@ static void filling_again_forgets_the_last_candidate(void **state) {
     CzLanes *used = cz_lanes_create(built.model, 1, &arena);
     assert_int_equal(cz_model_fill(built.model, other, 0, used, NULL), CZ_OK);
     assert_true(*cz_lane_parameter(used, CZ_PARAMETER(coupler.side[0].shear.force), 1) == 1.2e6);
-    other[0].front.coupler.tube.stages[0].stroke = -1.0; /* fails half way */
+    other[0].front.coupler.tube.stages[0].stroke = -1.0; /* fails before all lanes are filled */
     assert_int_equal(cz_model_fill(built.model, other, 0, used, NULL), CZ_STATUS_INPUT);
     assert_int_equal(cz_model_fill(built.model, problem.vehicle, 0, used, NULL), CZ_OK);
     assert_same_design(used, 0, fresh, 0);
@@ -132,7 +133,7 @@ static void a_trigger_given_later_still_fits(void **state) {
     free_model(&built);
 }
 
-static void the_last_kink_is_where_the_stroke_is_used_up(void **state) {
+static void the_last_breakpoint_is_the_end_of_the_stroke(void **state) {
     (void)state;
     make_problem();
     Built built = build_model(&problem);
@@ -146,8 +147,8 @@ static void the_last_kink_is_where_the_stroke_is_used_up(void **state) {
     free_model(&built);
 }
 
-/* Whatever the other lanes have: a lane with fewer stages has spare breakpoints. */
-static void kinks_of_a_lane_are_in_order_of_stroke(void **state) {
+/* For any number of stages of the other lanes: a lane with fewer stages has spare breakpoints. */
+static void breakpoints_of_a_lane_are_in_order_of_stroke(void **state) {
     (void)state;
     make_problem();
     Built built = build_model(&problem);
@@ -164,12 +165,12 @@ static void kinks_of_a_lane_are_in_order_of_stroke(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_design_does_not_see_its_neighbours),
+        cmocka_unit_test(a_design_does_not_depend_on_its_neighbours),
         cmocka_unit_test(filling_again_forgets_the_last_candidate),
         cmocka_unit_test(a_longer_anti_climber_lengthens_its_end_of_the_car),
         cmocka_unit_test(a_trigger_given_later_still_fits),
-        cmocka_unit_test(the_last_kink_is_where_the_stroke_is_used_up),
-        cmocka_unit_test(kinks_of_a_lane_are_in_order_of_stroke),
+        cmocka_unit_test(the_last_breakpoint_is_the_end_of_the_stroke),
+        cmocka_unit_test(breakpoints_of_a_lane_are_in_order_of_stroke),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Facts before a run: frequencies, and the coupler as a strut. */
+/* Vehicle properties before a run: frequencies, and the coupler as a strut. */
 #include "model/built_model.h"
 
 #include "model/strut_chain.h"
@@ -68,7 +68,7 @@ static void the_critical_forces_are_those_of_the_chain_of_both_trains(void **sta
     assert_near(cz_model_interface_properties(built.model, 1).strut_length, 2.8, 1e-15, 0.0);
     free_model(&built);
 
-    /* A pivot on an end mass, which its guidance and its folding hold. */
+    /* A pivot on an end mass, which rests on its guidance and its folding stiffness. */
     problem.vehicle[2].rear.coupler.anchor = CZ_ANCHOR_END;
     built = build_model(&problem);
     strut[1].pivot[1] = (CzChainPivot){
@@ -80,7 +80,7 @@ static void the_critical_forces_are_those_of_the_chain_of_both_trains(void **sta
     assert_folds_as(&built, 3, chain_car, strut);
     free_model(&built);
 
-    /* A wall is smooth and held. */
+    /* A wall is smooth and fixed. */
     problem.vehicle[2] = typed_wall();
     built = build_model(&problem);
     chain_car[2].spring = 0.0;

@@ -1,4 +1,4 @@
-/* Interfaces of a model: where the ends are at t = 0, and what acts between them. */
+/* Interfaces of a model: the position of the ends at t = 0, and the elements between them. */
 #include "model/built_model.h"
 
 static void the_nearest_pair_of_the_colliding_ends_touches(void **state) {
@@ -106,7 +106,7 @@ static void height_offsets_raise_the_parts_ahead(void **state) {
     free_model(&built);
 }
 
-/* What a wall looks like from either side. */
+/* A wall, seen from either side. */
 static void check_wall_side(const Built *built, int side) {
     const CzParameter transition = side == 1 ? CZ_PARAMETER(coupler.side[1].buffer.transition)
                                              : CZ_PARAMETER(coupler.side[0].buffer.transition);
@@ -179,7 +179,7 @@ static void crush_zones_without_end_mass_lie_in_series_with_the_face(void **stat
     assert_near(parameter(&built, 0, CZ_PARAMETER(face.side[0].massless.second_unloading)), 8e7,
                 0.0, 0.0);
     assert_near(curve_at(built.lanes, 0, CZ_CURVE(massless[0]), 0.25), 5e5, 1e-14, 0.0);
-    /* The face is so stiff then that the stated loading curve is what one gets. */
+    /* The face is so stiff then that the interface follows the given loading curve. */
     assert_true(parameter(&built, 0, CZ_PARAMETER(face.compliance)) < 1e-6 / 2e6);
     free_model(&built);
 }

@@ -1,4 +1,4 @@
-/* What makes no model: every refusal with its sentence and its place. */
+/* Problems without a model: every refusal with its sentence and its place. */
 #include "model/built_model.h"
 
 /* Vehicles: 1, 2 full (train A), 3 full (train B); the stand-in reader gives the vehicle's number
@@ -19,7 +19,7 @@ static void expect_refusal(const char *sentence, int line) {
     if (strstr(error.message, sentence) == NULL)
         fail_msg("'%s' is not in '%s'", sentence, error.message);
     assert_int_equal(error.line, line);
-    /* Nobody has to ask why. */
+    /* The error pointer may be NULL. */
     assert_int_equal(cz_model_build(&problem, 0, &model, NULL), CZ_STATUS_INPUT);
 }
 
@@ -28,7 +28,7 @@ static CzVehicle *second(void) {
     return &problem.vehicle[1];
 }
 
-static void masses_must_leave_something_for_the_body(void **state) {
+static void the_body_must_have_a_mass_left(void **state) {
     (void)state;
     second()->mass = 14000.0;
     expect_refusal("car A2: mass 14000 kg leaves no mass for the body", 2);
@@ -83,7 +83,7 @@ static void buffers_must_not_create_energy(void **state) {
     expect_refusal("faster than the transition stiffness of 50 MN/m", 2);
 }
 
-static void ends_must_not_give_back_more_than_they_took(void **state) {
+static void ends_must_not_return_more_energy_than_they_absorb(void **state) {
     (void)state;
     second()->front.stages[3].stroke = 0.01; /* 300 MN/m */
     expect_refusal("car A2, front end: stage 4 rises by 300 MN/m", 2);
@@ -201,11 +201,11 @@ static void a_candidate_with_more_stages_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(masses_must_leave_something_for_the_body),
+        cmocka_unit_test(the_body_must_have_a_mass_left),
         cmocka_unit_test(a_full_car_needs_length_ends_and_bogies_under_it),
         cmocka_unit_test(stages_must_be_possible),
         cmocka_unit_test(buffers_must_not_create_energy),
-        cmocka_unit_test(ends_must_not_give_back_more_than_they_took),
+        cmocka_unit_test(ends_must_not_return_more_energy_than_they_absorb),
         cmocka_unit_test(curves_must_be_possible),
         cmocka_unit_test(trains_and_scenarios_must_be_there),
         cmocka_unit_test(walls_stand_still_and_alone),

@@ -1,4 +1,4 @@
-/* Models of the problems that ship, by way of their files. */
+/* Models of the shipped problems, from their files. */
 #include "support/check.h"
 
 #include "crushzone/model.h"
@@ -51,7 +51,7 @@ static void every_scenario_of_every_shipped_problem_makes_a_model(void **state) 
         check_scenarios(shipped.name[i]);
 }
 
-static void a_problem_that_makes_no_model_is_refused_at_its_place(void **state) {
+static void a_problem_without_a_model_is_refused_at_its_place(void **state) {
     (void)state;
     char path[512];
     snprintf(path, sizeof path, "%s/problems/metro-6-car.yaml", CZ_SOURCE_FOLDER);
@@ -73,7 +73,7 @@ static void a_problem_that_makes_no_model_is_refused_at_its_place(void **state) 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_scenario_of_every_shipped_problem_makes_a_model),
-        cmocka_unit_test(a_problem_that_makes_no_model_is_refused_at_its_place),
+        cmocka_unit_test(a_problem_without_a_model_is_refused_at_its_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

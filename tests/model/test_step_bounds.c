@@ -111,8 +111,8 @@ static void wheel_and_rail_are_taken_at_four_times_the_static_load(void **state)
     free_model(&built);
 }
 
-/* On an elastic rail a bound of the whole takes its place; the modes up to 1.5 kHz must be seen by
- * the step: 2 / (2 pi 1500 Hz). Contact and rail by themselves allow for more. */
+/* On an elastic rail one bound of contact and rail replaces it; the step must resolve the modes up
+ * to 1.5 kHz: 2 / (2 pi 1500 Hz). Contact and rail alone allow a longer step. */
 static void a_wheel_on_an_elastic_rail_has_a_bound_of_its_own(void **state) {
     (void)state;
     const CzVehicle car = typed_full();
@@ -127,8 +127,8 @@ static void a_wheel_on_an_elastic_rail_has_a_bound_of_its_own(void **state) {
     free_model(&built);
 }
 
-/* 2 c2 v, but with no larger v than the tube's 600 kN let it be. */
-static void hydraulic_damping_counts_as_far_as_the_tubes_let_it_act(void **state) {
+/* 2 c2 v, with v limited by the tube's 600 kN. */
+static void hydraulic_damping_counts_up_to_the_tube_force(void **state) {
     (void)state;
     CzVehicle car = typed_full();
     car.front.coupler.anchor = car.rear.coupler.anchor = CZ_ANCHOR_END;
@@ -178,7 +178,7 @@ int main(void) {
         cmocka_unit_test(every_element_of_a_full_car_is_named_and_the_smallest_comes_first),
         cmocka_unit_test(wheel_and_rail_are_taken_at_four_times_the_static_load),
         cmocka_unit_test(a_wheel_on_an_elastic_rail_has_a_bound_of_its_own),
-        cmocka_unit_test(hydraulic_damping_counts_as_far_as_the_tubes_let_it_act),
+        cmocka_unit_test(hydraulic_damping_counts_up_to_the_tube_force),
         cmocka_unit_test(the_step_is_half_the_smallest_bound_or_a_tenth_of_a_millisecond),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -64,9 +64,9 @@ static double endless_chain(void) {
     return (2.0 * k * lc * lc + 2.0 * h * g * g) / (2.0 * a * g);
 }
 
-/* F_saw: all cars turned alike. A train of n cars has half a wave of it, so that it folds above by
- * a part that falls with the square of n. */
-static void longer_trains_come_down_to_the_sawtooth_of_an_endless_chain(void **state) {
+/* F_saw: all cars turned alike. A train of n cars folds in half a wave of this shape, at a force
+ * that is higher by a part that falls with the square of n. */
+static void longer_trains_approach_the_sawtooth_of_an_endless_chain(void **state) {
     (void)state;
     double above[3];
     for (int i = 0; i < 3; i++) {
@@ -80,9 +80,9 @@ static void longer_trains_come_down_to_the_sawtooth_of_an_endless_chain(void **s
     assert_near(above[2], 0.0, 0.0, 2e-4 * endless_chain());
 }
 
-/* Against a smooth wall a car turns by itself: springs and one hinge against the shortening between
- * its two pivots. */
-static void a_car_against_a_wall_turns_by_itself(void **state) {
+/* Against a smooth wall a car turns alone: springs and one hinge against the shortening between its
+ * two pivots. */
+static void a_car_against_a_wall_turns_alone(void **state) {
     (void)state;
     Train train = equal_train(2);
     train.car[1].spring = 0.0;
@@ -93,7 +93,7 @@ static void a_car_against_a_wall_turns_by_itself(void **state) {
                 1e-12, 0.0);
 }
 
-static void cars_that_are_held_do_not_fold(void **state) {
+static void fixed_cars_do_not_fold(void **state) {
     (void)state;
     Train train = equal_train(3);
     train.car[0].spring = train.car[1].spring = 0.0;
@@ -144,7 +144,7 @@ static void pivot_at(const Train *train, double *u, int strut, int side, double 
         *turn = pitch + end[1];
         *energy +=
             0.5 * pivot->end_guide * end[0] * end[0] + 0.5 * pivot->end_fold * end[1] * end[1];
-    } else /* not an unknown of this chain */
+    } else /* no unknown of this chain */
         *energy += 0.5e6 * (end[0] * end[0] + end[1] * end[1]);
     at[0] =
         s * pivot->body_arm * cos(pitch) - across * sin(pitch) + s * pivot->end_arm * cos(*turn);
@@ -252,7 +252,7 @@ static void trains_against_a_wall_and_against_a_held_body_do_so(void **state) {
 
 /* ---- each strut has the lowest shape that goes through it ---- */
 
-static void a_soft_strut_says_nothing_of_one_far_from_it(void **state) {
+static void a_soft_strut_does_not_change_a_distant_one(void **state) {
     (void)state;
     Train train = equal_train(12), alone = equal_train(12);
     train.strut[9].pivot[0].hinge = train.strut[9].pivot[1].hinge = 0.1e6;
@@ -270,7 +270,7 @@ static void all_struts_of_a_train_of_equal_cars_fold_together(void **state) {
         assert_near(train.force[i], lowest(&train), 1e-12, 0.0);
 }
 
-static void unconnected_parts_of_a_chain_do_not_know_each_other(void **state) {
+static void unconnected_parts_of_a_chain_are_independent(void **state) {
     (void)state;
     Train train = equal_train(6), half = equal_train(3);
     train.strut[2].length = 0.0;
@@ -313,16 +313,16 @@ static void the_force_has_no_jump_where_another_shape_takes_over(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_cars_fold_at_their_closed_form),
-        cmocka_unit_test(longer_trains_come_down_to_the_sawtooth_of_an_endless_chain),
-        cmocka_unit_test(a_car_against_a_wall_turns_by_itself),
-        cmocka_unit_test(cars_that_are_held_do_not_fold),
+        cmocka_unit_test(longer_trains_approach_the_sawtooth_of_an_endless_chain),
+        cmocka_unit_test(a_car_against_a_wall_turns_alone),
+        cmocka_unit_test(fixed_cars_do_not_fold),
         cmocka_unit_test(a_pivot_on_a_stiff_end_is_one_on_the_body),
         cmocka_unit_test(unlike_cars_fold_where_their_energy_loses_its_minimum),
         cmocka_unit_test(cars_with_pivots_on_their_ends_fold_there_too),
         cmocka_unit_test(trains_against_a_wall_and_against_a_held_body_do_so),
-        cmocka_unit_test(a_soft_strut_says_nothing_of_one_far_from_it),
+        cmocka_unit_test(a_soft_strut_does_not_change_a_distant_one),
         cmocka_unit_test(all_struts_of_a_train_of_equal_cars_fold_together),
-        cmocka_unit_test(unconnected_parts_of_a_chain_do_not_know_each_other),
+        cmocka_unit_test(unconnected_parts_of_a_chain_are_independent),
         cmocka_unit_test(the_force_has_no_jump_where_another_shape_takes_over),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

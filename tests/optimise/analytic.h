@@ -1,4 +1,4 @@
-/* Problems with a known optimum that the optimiser is tried on in place of a train.
+/* Problems with a known optimum, which replace the train in tests of the optimiser.
  *
  * Numbers as in W. Hock and K. Schittkowski, Test Examples for Nonlinear Programming Codes (1981).
  */
@@ -52,7 +52,8 @@ static inline double three_planes(const double *x, double *c) {
     return fmax(c[0], fmax(c[1], c[2]));
 }
 
-/* Nothing can be right of 6 and left of 4, and the second counts less: the least penalty is at 6.
+/* No x is above 6 and below 4, and the second constraint has the smaller weight: the least penalty
+ * is at 6.
  */
 static inline double torn(const double *x, double *c) {
     c[0] = 6 - x[0];

@@ -1,5 +1,5 @@
-/* Ways to win on paper, each of which an optimiser is invited to take: it does when the design
- * rules are off, and does not when they are on. Run on the stand-in and on the simulator itself.
+/* Loopholes of the model: an optimiser uses each of them when the design rules are off, and none
+ * when they are on. Run on the stand-in and on the simulator itself.
  */
 #ifndef CZ_TESTS_CHEATS_H
 #define CZ_TESTS_CHEATS_H
@@ -59,10 +59,10 @@ static inline double value_of(const Case *made, const char *name, const char *sc
     return check->value;
 }
 
-/* What an optimiser is invited to do. */
+/* A loophole and the design rule that closes it. */
 typedef struct Cheat {
     const char *problem; /* all but checks and optimise; NULL: the two rigid cars */
-    const char *limits;  /* list entries of checks.limits that make the cheat visible */
+    const char *limits;  /* list entries of checks.limits that make the loophole visible */
     const char *minimise;
     const char *variables; /* list entries */
     const char *check;     /* design rule that must stop it */
@@ -86,7 +86,7 @@ static inline Case run_cheat(const Cheat *cheat, bool with_rules) {
     return made;
 }
 
-/* The limit named `visible` never binds: it only shows what the optimum did. */
+/* The limit named `visible` is never active: it only shows the value at the optimum. */
 static inline void check_cheat(const Cheat *cheat) {
     Case cheated = run_cheat(cheat, false);
     const double temptation = value_of(&cheated, "visible", cheat->scenario);
@@ -94,7 +94,8 @@ static inline void check_cheat(const Cheat *cheat) {
     const CzCheckResult *rule =
         find(&honest.outcome->best_evaluation, cheat->check, cheat->scenario);
     assert_non_null(rule);
-    /* without the rule the optimum breaks it, and that pays; with the rule it is kept */
+    /* without the rule the optimum violates it and has a better objective; with the rule it
+     * satisfies it */
     assert_true(rule->is_minimum ? temptation < rule->limit : temptation > rule->limit);
     assert_int_equal(rule->verdict, CZ_VERDICT_PASS);
     assert_int_equal(honest.outcome->status, CZ_OUTCOME_FEASIBLE);

@@ -1,4 +1,4 @@
-/* Optimality recomputed from the formulas, never taken from an optimiser's word.
+/* Optimality computed from the formulas, independently of the optimiser.
  *
  *   stationarity: gradient f + sum over active constraints and bounds of multiplier * gradient = 0,
  *   multipliers not negative

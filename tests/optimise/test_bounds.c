@@ -1,4 +1,4 @@
-/* Bounds of a search: whom they bind, what does not vary, what is said at the end; and rules
+/* Bounds of a search: which commands check them, fixed variables, the reason of the end; and rules
  * between values, which the best design of any search satisfies. On the stand-in simulator. */
 #include "support/check.h"
 
@@ -8,7 +8,7 @@
 
 /* ---- bounds bind the search alone ------------------------------------------------------------ */
 
-static void only_a_search_minds_bounds(void **state) {
+static void only_a_search_checks_bounds(void **state) {
     (void)state;
     stand_in_reset();
     static const char *const set[] = {"parts.tube.stages[0].stroke_mm=300.0000001"};
@@ -33,7 +33,7 @@ static void only_a_search_minds_bounds(void **state) {
     end(&made);
 }
 
-/* A stroke typed in mm is kept in m; what the way there and back leaves is no step over a bound. */
+/* A stroke typed in mm is stored in m; the rounding of the conversion does not violate a bound. */
 static void a_start_on_its_bound_is_within_it_whatever_the_unit(void **state) {
     (void)state;
     stand_in_reset();
@@ -56,7 +56,7 @@ static void a_start_on_its_bound_is_within_it_whatever_the_unit(void **state) {
     }
 }
 
-/* Bounds are in the unit of the first path, also where others have another. */
+/* Bounds are in the unit of the first path, also where other paths have another unit. */
 static void tied_places_of_other_units_share_the_bounds(void **state) {
     (void)state;
     stand_in_reset();
@@ -82,7 +82,7 @@ static void tied_places_of_other_units_share_the_bounds(void **state) {
     "    - {path: \"parts.anti-climber.stages[0].stroke_mm\", min: 100, max: 700, increment: "     \
     "10}\n"
 
-static void fixed_variables_cost_nothing_and_are_told(void **state) {
+static void fixed_variables_cost_no_evaluation_and_are_reported(void **state) {
     (void)state;
     stand_in_reset();
     Case alone = begin(VARIED, 1);
@@ -108,7 +108,7 @@ static void fixed_variables_cost_nothing_and_are_told(void **state) {
     end(&alone);
 }
 
-static void a_search_without_anything_to_vary_says_so(void **state) {
+static void a_search_without_free_variables_reports_it(void **state) {
     (void)state;
     stand_in_reset();
     Case made = begin(
@@ -124,7 +124,7 @@ static void a_search_without_anything_to_vary_says_so(void **state) {
 
 /* ---- why it ended ---------------------------------------------------------------------------- */
 
-static void the_reason_of_the_end_is_true_to_the_digit(void **state) {
+static void the_reason_of_the_end_has_exact_numbers(void **state) {
     (void)state;
     for (long limit = 1; limit < 90; limit += 4) {
         stand_in_reset();
@@ -168,7 +168,7 @@ static CzStatus read_back(const CzEvaluator *evaluator, const char *more, const 
     return status;
 }
 
-/* Every kind of value that may vary, within bounds that break every rule, under one limit. */
+/* Every kind of variable, within bounds that violate every rule, under one limit. */
 #define WIDELY(limit)                                                                              \
     "set:\n"                                                                                       \
     "  parts.tube.trigger_kN: 900\n"                                                               \
@@ -196,7 +196,7 @@ static unsigned long next_random(unsigned long *seed) {
     return *seed >> 33;
 }
 
-/* A named rule is broken exactly when the reader refuses the design. */
+/* A named rule is violated exactly when the reader refuses the design. */
 static void named_rules_are_those_of_the_reader(void **state) {
     (void)state;
     stand_in_reset();
@@ -240,15 +240,15 @@ static void named_rules_are_those_of_the_reader(void **state) {
     end(&made);
 }
 
-/* The smallest violation of what cannot be kept lies where rules are broken. */
+/* The smallest violation of an infeasible limit is at a design that violates rules. */
 static void best_design_of_a_search_without_success_can_be_read_back(void **state) {
     (void)state;
     static const char *const problems[] = {
-        /* as little force as there is: a tube without any */
+        /* the smallest force: a tube without any */
         WIDELY("interfaces.peak_force_kN, max: 1"),
         /* a tube of 5 MN under a trigger of 900 kN */
         WIDELY("elements.coupler *.peak_force_kN.min, min: 5000"),
-        /* heavy, so long devices */
+        /* a heavy design, so long devices */
         WIDELY("design.absorber_mass_kg, min: 1e6")};
     for (size_t i = 0; i < sizeof problems / sizeof problems[0]; i++)
         for (long evaluations = 20; evaluations <= 60; evaluations += 40) {
@@ -265,7 +265,7 @@ static void best_design_of_a_search_without_success_can_be_read_back(void **stat
         }
 }
 
-static void a_start_that_breaks_a_rule_is_refused(void **state) {
+static void a_start_that_violates_a_rule_is_refused(void **state) {
     (void)state;
     stand_in_reset();
     Case made = begin("set: {parts.tube.trigger_kN: 900}\n"
@@ -283,14 +283,14 @@ static void a_start_that_breaks_a_rule_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(only_a_search_minds_bounds),
+        cmocka_unit_test(only_a_search_checks_bounds),
         cmocka_unit_test(a_start_on_its_bound_is_within_it_whatever_the_unit),
         cmocka_unit_test(tied_places_of_other_units_share_the_bounds),
-        cmocka_unit_test(fixed_variables_cost_nothing_and_are_told),
-        cmocka_unit_test(a_search_without_anything_to_vary_says_so),
-        cmocka_unit_test(the_reason_of_the_end_is_true_to_the_digit),
+        cmocka_unit_test(fixed_variables_cost_no_evaluation_and_are_reported),
+        cmocka_unit_test(a_search_without_free_variables_reports_it),
+        cmocka_unit_test(the_reason_of_the_end_has_exact_numbers),
         cmocka_unit_test(named_rules_are_those_of_the_reader),
         cmocka_unit_test(best_design_of_a_search_without_success_can_be_read_back),
-        cmocka_unit_test(a_start_that_breaks_a_rule_is_refused)};
+        cmocka_unit_test(a_start_that_violates_a_rule_is_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* The ways to win on paper, on the simulator itself: two rigid cars, five scenarios. */
+/* Loopholes of the model, on the simulator itself: two rigid cars, five scenarios. */
 #include "optimise/cheats.h"
 
 int main(void) {

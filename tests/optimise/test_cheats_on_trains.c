@@ -1,11 +1,11 @@
-/* Ways to win on paper that only cars with running gear or an unlucky time step offer, tried on the
- * simulator itself. Every number of the problems is chosen so that the cheat pays: what a search
- * finds without the rule breaks it, and is better than what it finds with the rule.
+/* Loopholes that need cars with running gear or an unlucky time step, tried on the simulator
+ * itself. Every number of the problems is chosen so that the loophole pays: the optimum without the
+ * rule violates it, and is better than the optimum with the rule.
  */
 #include "optimise/cheats.h"
 
-/* Two trains of two full cars of the generic catalogue. Runs end after a time: what follows the
- * crash is no matter here. */
+/* Two trains of two full cars of the generic catalogue. Runs have a duration: the time after the
+ * crash is of no interest here. */
 #define TWO_AND_TWO(scenario, parts)                                                               \
     "schema: 1\n"                                                                                  \
     "title: two cars onto two\n"                                                                   \
@@ -22,9 +22,10 @@
     "    face_gap_mm: 1000\n"                                                                      \
     "    available_length_mm: 1800\n" parts
 
-/* Weak tubes between the cars spare the anti-climbers, and fold the gangways beyond their length.
+/* Weak tubes between the cars unload the anti-climbers, and close the gangways beyond their
+ * clearance.
  */
-static void optimiser_cannot_win_by_closing_inner_gaps_further_than_there_is_room(void **state) {
+static void optimiser_cannot_win_by_closing_inner_gaps_beyond_the_gangway(void **state) {
     (void)state;
     check_cheat(&(Cheat){
         .problem = TWO_AND_TWO("speed_km_h: 25, duration_ms: 600",
@@ -38,8 +39,8 @@ static void optimiser_cannot_win_by_closing_inner_gaps_further_than_there_is_roo
         .scenario = "crash"});
 }
 
-/* A strong front tube buckles the couplers upwards, the faces pass each other, and anti-climbers
- * that pass push no more. */
+/* A strong front tube folds the couplers upwards; the faces pass each other, and anti-climbers
+ * without overlap carry no force. */
 static void optimiser_cannot_win_by_climbing(void **state) {
     (void)state;
     check_cheat(
@@ -54,7 +55,7 @@ static void optimiser_cannot_win_by_climbing(void **state) {
                  .scenario = "crash"});
 }
 
-/* Faces that overlap by less than a rib push less. */
+/* Faces that overlap by less than a rib carry less force. */
 static void optimiser_cannot_win_by_losing_the_overlap_of_the_anti_climbers(void **state) {
     (void)state;
     check_cheat(&(Cheat){
@@ -67,7 +68,7 @@ static void optimiser_cannot_win_by_losing_the_overlap_of_the_anti_climbers(void
         .scenario = "crash"});
 }
 
-/* What the coupler takes is spared the anti-climbers, until they slip under its moment. */
+/* A strong coupler unloads the anti-climbers, until they slip under its moment. */
 static void optimiser_cannot_win_with_anti_climbers_that_slip(void **state) {
     (void)state;
     check_cheat(&(Cheat){
@@ -81,7 +82,7 @@ static void optimiser_cannot_win_with_anti_climbers_that_slip(void **state) {
         .scenario = "crash"});
 }
 
-/* A late anti-climber lets heavy bogies swing at their links, which then take what it should. */
+/* With a late anti-climber heavy bogies oscillate at their links, which then absorb its share. */
 static void optimiser_cannot_win_by_working_the_running_gear(void **state) {
     (void)state;
     check_cheat(&(Cheat){
@@ -96,7 +97,8 @@ static void optimiser_cannot_win_by_working_the_running_gear(void **state) {
         .scenario = "crash"});
 }
 
-/* A short anti-climber leaves the rest to the end, first to its crush zone and then to the cab. */
+/* A short anti-climber leaves the remaining energy to the end, first to its crush zone and then to
+ * the cab. */
 static void optimiser_cannot_win_by_crushing_the_survival_space(void **state) {
     (void)state;
     check_cheat(&(Cheat){
@@ -115,7 +117,7 @@ static void optimiser_cannot_win_by_crushing_the_survival_space(void **state) {
 
 /* ---- the mean deceleration ------------------------------------------------------------------- */
 
-/* A gentle coupler in front of a hard anti-climber makes the time of contact long and its mean
+/* A soft coupler in front of a stiff anti-climber makes the contact long and its mean deceleration
  * small. */
 static Case run_diluted(const char *subject) {
     char more[1024];
@@ -188,8 +190,8 @@ static void optimiser_cannot_win_with_a_tube_longer_than_its_coupler(void **stat
                  .scenario = "design"});
 }
 
-/* A soft tube spares the rest, and is spent at every coupling. */
-static void optimiser_cannot_win_with_a_tube_that_is_spent_in_service(void **state) {
+/* A soft tube unloads the other devices, and collapses at every coupling. */
+static void optimiser_cannot_win_with_a_tube_that_collapses_in_service(void **state) {
     (void)state;
     check_cheat(
         &(Cheat){.problem = TWO_RIGID("") AT("speed_km_h: 6"),
@@ -200,7 +202,7 @@ static void optimiser_cannot_win_with_a_tube_that_is_spent_in_service(void **sta
                  .scenario = "crash"});
 }
 
-/* A tube that is nearly strong enough puts off its last point until the run is over. */
+/* A tube that is almost strong enough reaches the end of its stroke after the end of the run. */
 static void optimiser_cannot_win_by_letting_the_collision_outlast_the_run(void **state) {
     (void)state;
     check_cheat(
@@ -212,7 +214,7 @@ static void optimiser_cannot_win_by_letting_the_collision_outlast_the_run(void *
                  .scenario = "crash"});
 }
 
-/* A short tube makes a short coupler and runs beyond its last point. */
+/* A short tube makes a short coupler and is compressed beyond its stroke. */
 static void optimiser_cannot_win_by_bottoming_out(void **state) {
     (void)state;
     check_cheat(
@@ -224,7 +226,7 @@ static void optimiser_cannot_win_by_bottoming_out(void **state) {
                  .scenario = "crash"});
 }
 
-/* Searches, and gives the evaluation of the value that would win if its run counted. */
+/* Searches, and returns the evaluation of the value that would be best if its run counted. */
 static Case run_failing(const char *problem, const char *minimise, const char *variable,
                         double winner, CzStatus *status) {
     char more[1024];
@@ -243,8 +245,8 @@ static Case run_failing(const char *problem, const char *minimise, const char *v
     return made;
 }
 
-/* The step of 10 ms just holds for the buffer as written; a shorter one is stiffer and its run
- * loses energy. */
+/* The step of 10 ms is just stable for the buffer of the file; a shorter buffer is stiffer, and its
+ * run violates the energy balance. */
 static void optimiser_cannot_win_where_the_run_fails(void **state) {
     (void)state;
     CzStatus status = CZ_OK;
@@ -259,7 +261,8 @@ static void optimiser_cannot_win_where_the_run_fails(void **state) {
     end(&made);
 }
 
-/* The strongest tube has the lowest peak behind it, and is not done within the longest time. */
+/* The strongest tube has the lowest peak behind it, and its run does not end within the longest
+ * time. */
 static void optimiser_cannot_win_with_a_run_that_does_not_end(void **state) {
     (void)state;
     CzStatus status = CZ_OK;
@@ -277,7 +280,7 @@ static void optimiser_cannot_win_with_a_run_that_does_not_end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(optimiser_cannot_win_by_closing_inner_gaps_further_than_there_is_room),
+        cmocka_unit_test(optimiser_cannot_win_by_closing_inner_gaps_beyond_the_gangway),
         cmocka_unit_test(optimiser_cannot_win_by_climbing),
         cmocka_unit_test(optimiser_cannot_win_by_losing_the_overlap_of_the_anti_climbers),
         cmocka_unit_test(optimiser_cannot_win_with_anti_climbers_that_slip),
@@ -285,7 +288,7 @@ int main(void) {
         cmocka_unit_test(optimiser_cannot_win_by_crushing_the_survival_space),
         cmocka_unit_test(optimiser_cannot_dilute_the_mean_deceleration),
         cmocka_unit_test(optimiser_cannot_win_with_a_tube_longer_than_its_coupler),
-        cmocka_unit_test(optimiser_cannot_win_with_a_tube_that_is_spent_in_service),
+        cmocka_unit_test(optimiser_cannot_win_with_a_tube_that_collapses_in_service),
         cmocka_unit_test(optimiser_cannot_win_by_letting_the_collision_outlast_the_run),
         cmocka_unit_test(optimiser_cannot_win_by_bottoming_out),
         cmocka_unit_test(optimiser_cannot_win_where_the_run_fails),

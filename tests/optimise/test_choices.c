@@ -1,4 +1,4 @@
-/* Variables that choose a buffer: two rigid cars that buff, and what each buffer makes of it. */
+/* Variables that choose a buffer: a buffing collision of two rigid cars with each buffer. */
 #include "optimise/cheats.h"
 
 static const char buffing[] =
@@ -55,8 +55,8 @@ static void choice_has_names_and_the_files_own_as_its_start(void **state) {
     end(&made);
 }
 
-/* Reading the file with the choice typed in is the oracle: not a bit may differ. */
-static void choice_is_what_the_file_with_it_would_be(void **state) {
+/* The reference is the file with the choice typed in: every bit is equal. */
+static void choice_equals_the_file_with_that_part(void **state) {
     (void)state;
     static const char *const names[] = {"two-stage", "short", "long"};
     Case made = begin_with(problem_of_text(buffing, CHOOSE(HEAD)), 1);
@@ -74,7 +74,7 @@ static void choice_is_what_the_file_with_it_would_be(void **state) {
     end(&made);
 }
 
-static void answer_does_not_depend_on_choices_beside_it(void **state) {
+static void result_does_not_depend_on_other_choices_of_the_batch(void **state) {
     (void)state;
     Case made = begin_with(problem_of_text(buffing, CHOOSE(HEAD TUBE)), 2);
     const double x[] = {2, 600, 0, 700, 1, 550, 2, 550, 0, 510, 1, 900, 1, 600};
@@ -90,7 +90,7 @@ static void answer_does_not_depend_on_choices_beside_it(void **state) {
     end(&made);
 }
 
-/* Every choice evaluated by hand is the oracle. */
+/* The reference is the evaluation of every choice. */
 static void best_of_the_choices_is_found(void **state) {
     (void)state;
     Case made = begin_with(problem_of_text(buffing, CHOOSE(HEAD)), 1);
@@ -105,7 +105,7 @@ static void best_of_the_choices_is_found(void **state) {
     optimise(&made, NULL);
     assert_near(made.outcome->best[0], best, 0, 0);
     assert_near(made.outcome->best_evaluation.objective, least, 0, 0);
-    assert_int_equal(made.outcome->n_evaluation, 3); /* there is nothing else to try */
+    assert_int_equal(made.outcome->n_evaluation, 3); /* no further combination exists */
     assert_false(made.outcome->at_bound[0]);
     end(&made);
 }
@@ -154,7 +154,7 @@ static void refused(const char *variables, const char *sentence) {
     cz_problem_free(problem);
 }
 
-static void choices_that_are_none_are_refused_by_name(void **state) {
+static void invalid_choices_are_refused_by_name(void **state) {
     (void)state;
     refused("{path: parts.head.coupler.buffer, choices: [short, long, same-as-long]}",
             "gives 'long' and 'same-as-long' the same values");
@@ -169,11 +169,11 @@ static void choices_that_are_none_are_refused_by_name(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(choice_has_names_and_the_files_own_as_its_start),
-        cmocka_unit_test(choice_is_what_the_file_with_it_would_be),
-        cmocka_unit_test(answer_does_not_depend_on_choices_beside_it),
+        cmocka_unit_test(choice_equals_the_file_with_that_part),
+        cmocka_unit_test(result_does_not_depend_on_other_choices_of_the_batch),
         cmocka_unit_test(best_of_the_choices_is_found),
         cmocka_unit_test(choice_and_number_are_found_together),
-        cmocka_unit_test(choices_that_are_none_are_refused_by_name),
+        cmocka_unit_test(invalid_choices_are_refused_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Fitting parameters to measurements: what was put into a run of our own is found again, and what
- * cannot be found is said. */
+/* Fits of parameters to measurements: the parameters of a run are found again, and parameters that
+ * cannot be identified are reported. */
 #include "optimise/cheats.h"
 
 #include <unistd.h>
@@ -72,7 +72,7 @@ static const char variables[] =
     "{path: simulation.adhesion.friction, min: 0.02, max: 0.5},\n"
     "{path: \"parts.anti-climber.stages[0].force_kN\", min: 300, max: 800}";
 
-/* Steps on residuals converge quadratically, so 300 evaluations leave nothing but the smallest
+/* Steps on residuals converge quadratically, so the error after 300 evaluations is the smallest
  * secant, 1e-6 of the range. */
 static void parameters_of_a_run_are_found_in_its_time_histories(void **state) {
     (void)state;
@@ -102,8 +102,8 @@ static void parameters_of_a_run_are_found_in_its_time_histories(void **state) {
     end(&made);
 }
 
-/* An evaluation by numbers is the run of the file with the numbers typed in, to the last bit. */
-static void parameters_are_what_the_file_with_them_would_be(void **state) {
+/* An evaluation equals the run of the file with the numbers typed in, to the last bit. */
+static void parameters_equal_the_file_with_these_numbers(void **state) {
     (void)state;
     Case fit = begin_fit("{name: peak, metric: interfaces.peak_force_kN, value: 0, tolerance: 1}",
                          variables, 10);
@@ -160,14 +160,14 @@ static void scalars_and_times_of_events_are_matched(void **state) {
     assert_near(run.match[1].residual, -0.5, 1e-9, 0);
     assert_near(run.match[2].residual, 0, 0, 1e-9);
     assert_near(run.objective, 0.25, 1e-9, 0);
-    assert_int_equal(run.n_constraint, 3); /* checks bind no fit */
+    assert_int_equal(run.n_constraint, 3); /* checks are no constraints of a fit */
     assert_near(run.constraint[1], -0.5, 1e-9, 0);
     assert_near(run.violation, 0, 0, 0);
     cz_evaluation_free(&run);
     end(&made);
 }
 
-static void what_a_run_does_not_show_is_far_off(void **state) {
+static void a_missing_value_counts_as_many_tolerances(void **state) {
     (void)state;
     Case made = begin_fit("{name: never, event: override, value: 199, tolerance: 5},\n"
                           "{name: early, event: override, value: 50, tolerance: 5}",
@@ -182,7 +182,7 @@ static void what_a_run_does_not_show_is_far_off(void **state) {
     end(&made);
 }
 
-static void parameter_that_would_go_further_is_said_to_be_at_its_bound(void **state) {
+static void parameter_at_its_bound_is_reported(void **state) {
     (void)state;
     char match[256];
     snprintf(match, sizeof match, "{name: speed, channel: v_A1_m_s, file: %s, tolerance: 0.02}",
@@ -195,8 +195,8 @@ static void parameter_that_would_go_further_is_said_to_be_at_its_bound(void **st
     end(&made);
 }
 
-/* One number cannot report two parameters apart. */
-static void sets_that_fit_as_well_are_told(void **state) {
+/* One number cannot identify two parameters. */
+static void sets_that_fit_equally_well_are_reported(void **state) {
     (void)state;
     Case made = begin_fit("{name: touch, event: anti_climber_contact, value: 50, tolerance: 1}",
                           "{path: parts.middle-car.mass_t, min: 30, max: 42},\n"
@@ -221,8 +221,8 @@ static void sets_that_fit_as_well_are_told(void **state) {
     end(&made);
 }
 
-/* The tube would not fit into the coupler any more: no run, no crash, never the best. */
-static void parameters_that_no_file_may_hold_are_failed_designs(void **state) {
+/* The tube no longer fits into the coupler: no run, and never the best design. */
+static void parameters_that_the_reader_refuses_are_failed_designs(void **state) {
     (void)state;
     Case made = begin_fit(
         "{name: peak, metric: interfaces.peak_force_kN, value: 3000, tolerance: 1e3}",
@@ -260,13 +260,13 @@ static void assert_refused(const char *match, const char *message, const char *h
     cz_problem_free(problem);
 }
 
-static void channel_that_is_none_is_told_with_its_place(void **state) {
+static void unknown_channel_is_reported_with_its_place(void **state) {
     (void)state;
     assert_refused("{name: speed, channel: v_A2_m_s, time_ms: 150, value: 1, tolerance: 0.1}",
                    "there is no channel 'v_A2_m_s'", "did you mean 'v_A1_m_s'?");
 }
 
-static void channel_that_these_vehicles_lack_is_told_with_its_place(void **state) {
+static void channel_that_these_vehicles_lack_is_reported_with_its_place(void **state) {
     (void)state;
     assert_refused(
         "{name: buffers, channel: F_side-buffers_A1-B1_kN, time_ms: 9, value: 1, tolerance: 1}",
@@ -281,14 +281,14 @@ static int remove_measured(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parameters_of_a_run_are_found_in_its_time_histories),
-        cmocka_unit_test(parameters_are_what_the_file_with_them_would_be),
+        cmocka_unit_test(parameters_equal_the_file_with_these_numbers),
         cmocka_unit_test(scalars_and_times_of_events_are_matched),
-        cmocka_unit_test(what_a_run_does_not_show_is_far_off),
-        cmocka_unit_test(parameter_that_would_go_further_is_said_to_be_at_its_bound),
-        cmocka_unit_test(sets_that_fit_as_well_are_told),
-        cmocka_unit_test(parameters_that_no_file_may_hold_are_failed_designs),
-        cmocka_unit_test(channel_that_is_none_is_told_with_its_place),
-        cmocka_unit_test(channel_that_these_vehicles_lack_is_told_with_its_place),
+        cmocka_unit_test(a_missing_value_counts_as_many_tolerances),
+        cmocka_unit_test(parameter_at_its_bound_is_reported),
+        cmocka_unit_test(sets_that_fit_equally_well_are_reported),
+        cmocka_unit_test(parameters_that_the_reader_refuses_are_failed_designs),
+        cmocka_unit_test(unknown_channel_is_reported_with_its_place),
+        cmocka_unit_test(channel_that_these_vehicles_lack_is_reported_with_its_place),
     };
     return cmocka_run_group_tests(tests, NULL, remove_measured);
 }

@@ -1,12 +1,12 @@
-/* The whole search, from a problem file to an outcome, on a stand-in simulator; and the ways to win
- * on paper, each of which an optimiser is invited to take. */
+/* The whole search, from a problem file to an outcome, on a stand-in simulator; and loopholes of
+ * the model that an optimiser would use. */
 #include "support/check.h"
 
 #include "evaluate/stand_in.h"
 #include "optimise/cheats.h"
 
-/* The start needs the ends at 27.5 km/h; its force limit and the reserve of strokes can be kept
- * with stronger anti-climbers. */
+/* The start needs the ends at 27.5 km/h; stronger anti-climbers satisfy its force limit and the
+ * reserve of strokes. */
 static const char sizing[] =
     "checks:\n"
     "  limits: [{name: force, metric: interfaces.peak_force_kN, max: 1400}]\n"
@@ -41,13 +41,13 @@ static void design_that_passes_is_found_on_the_catalogue_steps(void **state) {
     }
     assert_true(outcome->best_evaluation.violation <= 0);
     assert_int_equal(outcome->best_evaluation.n_run, 5);
-    /* 0.9 x tube + 0.9 x climbers must take 241 kJ a side at 25 km/h, all of it 321 kJ at overload;
-     * the strongest devices allowed are the shortest: the climbers give 1400 kN */
+    /* 0.9 x tube + 0.9 x climbers must take 241 kJ a side at 25 km/h, the whole 321 kJ at overload;
+     * the strongest devices allowed are the shortest: the anti-climbers carry 1400 kN */
     assert_true(outcome->best_evaluation.objective < outcome->start_evaluation.objective);
     end(&made);
 }
 
-/* Each step of a variable is evaluated once more from scratch. */
+/* Each increment of a variable is evaluated again from scratch. */
 static void sensitivities_are_differences_of_designs(void **state) {
     (void)state;
     stand_in_reset();
@@ -115,7 +115,7 @@ static void outcome_does_not_depend_on_the_number_of_threads(void **state) {
     end(&many);
 }
 
-static void nothing_feasible_is_said_and_the_least_violated_design_given(void **state) {
+static void an_infeasible_problem_gives_the_least_violated_design(void **state) {
     (void)state;
     stand_in_reset();
     Case made =
@@ -140,8 +140,9 @@ static void nothing_feasible_is_said_and_the_least_violated_design_given(void **
     end(&made);
 }
 
-/* No step of 50 kN holds the peak between 1030 and 1070 kN: two anti-climbers each. */
-static void what_passes_only_between_the_steps_is_given_and_said(void **state) {
+/* No increment of 50 kN gives a peak between 1030 and 1070 kN, as each end has two anti-climbers.
+ */
+static void a_design_that_passes_only_between_the_increments_is_given_and_reported(void **state) {
     (void)state;
     stand_in_reset();
     Case made =
@@ -193,12 +194,13 @@ static void interruption_gives_the_best_so_far(void **state) {
     for (long i = 0; i < outcome->n_trial; i++)
         if (outcome->trial[i].feasible)
             least = fmin(least, outcome->trial[i].objective);
-    assert_true(least < outcome->start_evaluation.objective); /* the start alone is on its steps */
+    assert_true(least <
+                outcome->start_evaluation.objective); /* only the start is on its increments */
     assert_near(outcome->best_evaluation.objective, least, 1e-12, 0);
     end(&made);
 }
 
-static void what_only_a_full_run_shows_is_never_called_success(void **state) {
+static void a_violation_in_the_full_run_is_never_reported_as_success(void **state) {
     (void)state;
     stand_in_reset();
     const char *more =
@@ -277,7 +279,7 @@ static void optimiser_cannot_win_by_crushing_the_survival_space(void **state) {
 static void optimiser_cannot_win_where_the_simulation_fails(void **state) {
     (void)state;
     stand_in_reset();
-    /* The lowest stroke used lies at the highest tube force, where every run fails. */
+    /* The lowest stroke used is at the highest tube force, where every run fails. */
     const char *more = "checks: {design_rules: false}\n"
                        "optimise:\n"
                        "  minimise: elements.anti-climber *.stroke_used\n"
@@ -298,7 +300,8 @@ static void optimiser_cannot_win_where_the_simulation_fails(void **state) {
 static void optimiser_cannot_dilute_the_mean_deceleration(void **state) {
     (void)state;
     stand_in_reset();
-    /* The stand-in's mean over 120 ms is a tenth above the one over the contact: the worse counts.
+    /* The stand-in's mean over 120 ms is a tenth above that over the contact: the larger one
+     * counts.
      */
     Case made =
         begin("checks:\n"
@@ -327,10 +330,10 @@ int main(void) {
         cmocka_unit_test(sensitivities_are_differences_of_designs),
         cmocka_unit_test(history_keeps_the_designs),
         cmocka_unit_test(outcome_does_not_depend_on_the_number_of_threads),
-        cmocka_unit_test(nothing_feasible_is_said_and_the_least_violated_design_given),
-        cmocka_unit_test(what_passes_only_between_the_steps_is_given_and_said),
+        cmocka_unit_test(an_infeasible_problem_gives_the_least_violated_design),
+        cmocka_unit_test(a_design_that_passes_only_between_the_increments_is_given_and_reported),
         cmocka_unit_test(interruption_gives_the_best_so_far),
-        cmocka_unit_test(what_only_a_full_run_shows_is_never_called_success),
+        cmocka_unit_test(a_violation_in_the_full_run_is_never_reported_as_success),
         cmocka_unit_test(problem_without_variables_is_refused),
         cmocka_unit_test(unknown_algorithm_is_refused_before_anything_runs),
         cmocka_unit_test(search_in_which_most_designs_fail_ends_as_failed),

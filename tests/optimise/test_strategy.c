@@ -15,8 +15,8 @@ static CzSearch run_auto(const CzFunction *function, long evaluations, unsigned 
     return search;
 }
 
-/* Secants of a hundredth of the range and constraints kept with a reserve of 1e-4 leave the optimum
- * by about that much: 2e-3 of the objective is what the method promises. */
+/* Secants of a hundredth of the range and constraints with a reserve of 1e-4 change the optimum by
+ * about as much: the method guarantees 2e-3 of the objective. */
 static void check_optimum(const Analytic *analytic) {
     const CzFunction function = analytic_function(analytic);
     CzSearch search = run_auto(&function, 1500, 1);
@@ -54,7 +54,7 @@ static void usual_strategy_finds_the_least_largest_constraint(void **state) {
     check_optimum(&analytic_planes);
 }
 
-static void kkt_residual_tells_an_optimum_from_another_point(void **state) {
+static void kkt_residual_distinguishes_an_optimum_from_another_point(void **state) {
     (void)state;
     assert_near(kkt_residual(&analytic_hs43, analytic_hs43.optimum, 1e-6), 0, 0, 1e-6);
     const double other[] = {0, 1, 1.9, -1};
@@ -82,7 +82,7 @@ static void failing_region_is_left_and_never_the_best(void **state) {
     cz_search_free(&search);
 }
 
-static void failed_designs_are_answered_by_finite_numbers_above_all_others(void **state) {
+static void failed_designs_have_finite_values_above_all_others(void **state) {
     (void)state;
     const CzFunction function = analytic_function(&analytic_failing);
     CzOptimiseOptions options = (CzOptimiseOptions){.seed = 1};
@@ -99,7 +99,7 @@ static void failed_designs_are_answered_by_finite_numbers_above_all_others(void 
     cz_search_free(&search);
 }
 
-static void search_that_only_fails_ends_with_a_sentence(void **state) {
+static void search_without_a_successful_design_ends_with_a_sentence(void **state) {
     (void)state;
     const CzFunction function = analytic_function(&analytic_always_failing);
     CzSearch search = run_auto(&function, 5000, 1);
@@ -208,7 +208,7 @@ static void every_algorithm_runs_by_name_within_its_limit(void **state) {
         assert_int_equal(status, CZ_OK);
         assert_true(search.n_record > 1 && search.n_record <= 400);
         const CzRecord *best = &search.record[search.best];
-        /* every one of them gets from a violation of 3.75 and an objective of 2.5 at least here */
+        /* from a violation of 3.75 and an objective of 2.5 every algorithm reaches at least this */
         if (!(best->violation <= 0.05 && best->objective < 3))
             print_message("%s: objective %g, violation %g after %ld\n", cz_algorithm_name(i),
                           best->objective, best->violation, search.n_record);
@@ -247,7 +247,7 @@ static void unknown_and_absent_algorithms_are_refused_with_a_sentence(void **sta
 /* ---- catalogue increments
  * ------------------------------------------------------------------------- */
 
-/* Best design of HS43 on steps of 0.25, by trying all. */
+/* Best design of HS43 on increments of 0.25, of all of them. */
 static double best_on_steps(void) {
     double best = INFINITY;
     for (int a = -12; a <= 16; a++)
@@ -263,7 +263,7 @@ static double best_on_steps(void) {
     return best;
 }
 
-static void optimum_lies_on_the_catalogue_steps(void **state) {
+static void optimum_is_on_the_catalogue_increments(void **state) {
     (void)state;
     Analytic stepped = analytic_hs43;
     for (int i = 0; i < 4; i++)
@@ -280,9 +280,9 @@ static void optimum_lies_on_the_catalogue_steps(void **state) {
     cz_search_free(&search);
 }
 
-/* A search too short for slopes still tries steps near its best design; the start, which lies on
- * the steps, is not taken for them. */
-static void few_evaluations_still_come_to_the_steps(void **state) {
+/* A search too short for slopes still tries increments near its best design; the start, which is on
+ * the increments, does not count. */
+static void few_evaluations_still_reach_the_increments(void **state) {
     (void)state;
     Analytic stepped = analytic_hs43;
     for (int i = 0; i < 4; i++)
@@ -336,15 +336,15 @@ static void sample_fills_the_box_evenly(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kkt_residual_tells_an_optimum_from_another_point),
+        cmocka_unit_test(kkt_residual_distinguishes_an_optimum_from_another_point),
         cmocka_unit_test(usual_strategy_reaches_the_optimum_of_hs22),
         cmocka_unit_test(usual_strategy_reaches_the_optimum_of_hs29),
         cmocka_unit_test(usual_strategy_reaches_the_optimum_of_hs43),
         cmocka_unit_test(usual_strategy_finds_the_least_largest_constraint),
         cmocka_unit_test(least_violated_design_is_kept_when_nothing_is_feasible),
         cmocka_unit_test(failing_region_is_left_and_never_the_best),
-        cmocka_unit_test(failed_designs_are_answered_by_finite_numbers_above_all_others),
-        cmocka_unit_test(search_that_only_fails_ends_with_a_sentence),
+        cmocka_unit_test(failed_designs_have_finite_values_above_all_others),
+        cmocka_unit_test(search_without_a_successful_design_ends_with_a_sentence),
         cmocka_unit_test(search_that_runs_into_failures_ends_with_the_best_and_a_sentence),
         cmocka_unit_test(limit_of_evaluations_is_kept),
         cmocka_unit_test(same_seed_gives_the_same_history_and_another_seed_another),
@@ -352,8 +352,8 @@ int main(void) {
         cmocka_unit_test(every_algorithm_runs_by_name_within_its_limit),
         cmocka_unit_test(algorithms_survive_failing_designs),
         cmocka_unit_test(unknown_and_absent_algorithms_are_refused_with_a_sentence),
-        cmocka_unit_test(optimum_lies_on_the_catalogue_steps),
-        cmocka_unit_test(few_evaluations_still_come_to_the_steps),
+        cmocka_unit_test(optimum_is_on_the_catalogue_increments),
+        cmocka_unit_test(few_evaluations_still_reach_the_increments),
         cmocka_unit_test(rounding_stays_within_the_bounds),
         cmocka_unit_test(sample_fills_the_box_evenly),
     };

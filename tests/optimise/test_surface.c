@@ -1,4 +1,4 @@
-/* Response surfaces: true on planes, kept true by corrections, and a way down. */
+/* Response surfaces: exact on planes, corrected by new designs, and the descent on them. */
 #include "support/check.h"
 #include "optimise/analytic.h"
 #include "optimise/surface.h"
@@ -59,7 +59,7 @@ static void corrections_make_a_plane_pass_through_the_new_design(void **state) {
     destroy(&surface, &search);
 }
 
-static void steps_too_short_to_tell_correct_nothing(void **state) {
+static void steps_below_the_noise_correct_nothing(void **state) {
     (void)state;
     const CzFunction function = analytic_function(&analytic_hs22);
     CzSearch search;
@@ -89,7 +89,7 @@ static void best_design_on_the_planes_is_the_corner_of_a_linear_program(void **s
     assert_near(4 * u[0], 0, 0, 1e-3); /* x at its bound, y at the constraint less the reserve */
     assert_near(8 * u[1], 4, 1e-3, 0);
     assert_true(cz_surface_best(&surface, 0.1, u));
-    assert_near(u[0], 0.15, 0, 1e-3); /* the box around the base binds */
+    assert_near(u[0], 0.15, 0, 1e-3); /* the box around the base is active */
     assert_near(u[1], 0.225, 0, 1e-3);
     assert_int_equal(search.n_record, n_record); /* planes cost no evaluation */
     destroy(&surface, &search);
@@ -107,7 +107,7 @@ static void descent_keeps_its_budget_and_ends_at_the_optimum(void **state) {
         cz_search_scale(&search, function.start, u);
         cz_surface_descend(&surface, "test", u, 150);
         assert_true(search.n_record <= 150);
-        /* planes alone follow a curved constraint slowly: a few per cent are what they promise */
+        /* planes alone follow a curved constraint slowly: a few per cent is their accuracy */
         assert_near(search.record[search.best].objective, problems[i]->best, 0.05, 0);
         destroy(&surface, &search);
     }
@@ -117,7 +117,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(planes_are_exact_where_everything_is_linear),
         cmocka_unit_test(corrections_make_a_plane_pass_through_the_new_design),
-        cmocka_unit_test(steps_too_short_to_tell_correct_nothing),
+        cmocka_unit_test(steps_below_the_noise_correct_nothing),
         cmocka_unit_test(best_design_on_the_planes_is_the_corner_of_a_linear_program),
         cmocka_unit_test(descent_keeps_its_budget_and_ends_at_the_optimum),
     };

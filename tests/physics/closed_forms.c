@@ -11,11 +11,11 @@ const Step default_step = {1e-4, "default step", 1e-3, NAN};
 const Step fine_step = {1e-5, "step 0.01 ms", 1e-4, NAN};
 
 /* An interface that begins to close from rest builds its force up over a quarter of an oscillation
- * on its elastic stiffness k, so what it does is late by a time that falls with the square root of
- * k only: at 8e11 N/m, the most that a file may say, crushes are off by 0.4 %. The closed forms
- * know no elasticity, so k is 1e14 N/m for a thousandth and 4e15 N/m for a ten-thousandth, with
- * steps below the bound 2 sqrt(m / 2k): shorter than 1e-5 s, at which no stiffness is both stable
- * and high enough. */
+ * on its elastic stiffness k, so its response is delayed by a time that falls with the square root
+ * of k only: at 8e11 N/m, the most that the reader accepts, crushes are wrong by 0.4 %. The closed
+ * forms know no elasticity, so k is 1e14 N/m for a thousandth and 4e15 N/m for a ten-thousandth,
+ * with steps below the bound 2 sqrt(m / 2k): shorter than 1e-5 s, at which no stiffness is both
+ * stable and high enough. */
 const Step stiff_step = {1e-5, "1e14 N/m, step 0.01 ms", 1e-3, 1e14};
 const Step stiffer_step = {2e-6, "4e15 N/m, step 0.002 ms", 1e-4, 4e15};
 
@@ -24,7 +24,7 @@ static void stiffen(CzVehicle *vehicle, double stiffness) {
 }
 
 /* Crush zones yield after a micrometre: a stiffness of 1.5e12 N/m and more, where a file begins at
- * a tenth of a millimetre. Half of the way over which the force builds up is lost to a plateau. */
+ * a tenth of a millimetre. A plateau loses half of the stroke over which the force builds up. */
 #define A_MICROMETRE 1e-6
 static void yield_at_once(CzVehicle *vehicle, double way) {
     CzEnd *const ends[] = {&vehicle->front, &vehicle->rear};
@@ -192,8 +192,8 @@ void rows_of_four_stages(Rows *rows) {
 
 /* ---- stages in sequence, trains ---- */
 
-/* Stage ends by the speed that is left: the energy of each stage fixes it, and the time at which
- * the car has slowed down to it is the end of the stage. */
+/* The ends of the stages from the remaining speed: the energy of each stage gives it, and the car
+ * has slowed down to it at the end of the stage. */
 void rows_of_sequence(Rows *rows, const Step *step) {
     static const struct {
         const char *name;

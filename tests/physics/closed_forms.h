@@ -8,12 +8,12 @@
 
 #include "physics/rows.h"
 
-/* A step and what it is good for. */
+/* A step and its tolerances. */
 typedef struct {
     double length; /* [s] */
     const char *name;
     double tolerance;
-    double stiffness; /* of interfaces that close from rest, where their elasticity counts [N/m] */
+    double stiffness; /* of interfaces that close from rest, where their elasticity matters [N/m] */
 } Step;
 
 extern const Step default_step, fine_step;

@@ -1,4 +1,4 @@
-/* Runs a problem file of tests/physics/cases, or of problems/, and reads what came out. */
+/* Runs a problem file of tests/physics/cases, or of problems/, and reads the results. */
 #ifndef CZ_TESTS_PHYSICS_COLLISION_H
 #define CZ_TESTS_PHYSICS_COLLISION_H
 
@@ -39,7 +39,7 @@ static inline Collision collision_model(const char *file, const char *const *set
     return collision;
 }
 
-/* Runs it in a manner of its own. */
+/* Runs it with the caller's options. */
 static inline Collision collide_so(const char *file, const char *const *set, int scenario,
                                    const CzSimulateOptions *options) {
     Collision collision = collision_model(file, set, scenario);
@@ -56,9 +56,9 @@ static inline Collision collide(const char *file, const char *const *set, int sc
     return collide_so(file, set, scenario, &options);
 }
 
-/* The same with vehicles that no file would have: `change` is given each vehicle and a value. What
- * a file may say is bounded by what devices are like, and closed forms are simplest far beyond
- * that. `step` is the caller's responsibility too [s]. */
+/* The same with vehicles outside the reader's ranges: `change` is called with each vehicle and a
+ * value. The ranges follow from real devices, and closed forms are simplest far beyond them. `step`
+ * is the caller's responsibility too [s]. */
 typedef void ChangeVehicle(CzVehicle *vehicle, double value);
 
 static inline Collision collide_changed(const char *file, const char *const *set,
@@ -89,7 +89,7 @@ static inline void collision_free(Collision *collision) {
     memset(collision, 0, sizeof *collision);
 }
 
-/* The run came to its end, and says so. */
+/* The run met its end criterion, and reports it. */
 static inline void assert_completed(const Collision *collision) {
     const CzRunSummary *summary = collision->summary;
     if (summary->status != CZ_OK || summary->ended == CZ_ENDED_INCOMPLETE)

@@ -1,4 +1,4 @@
-/* A model stepped by hand: the test may change the lanes before it starts and look at every force.
+/* A model stepped by the test, which may change the lanes before the start and read every force.
  */
 #ifndef CZ_TESTS_PHYSICS_MOTION_H
 #define CZ_TESTS_PHYSICS_MOTION_H
@@ -18,7 +18,7 @@ typedef struct {
     long n_step;
 } Motion;
 
-/* The lanes of one design, filled as the file says. */
+/* The lanes of one design, filled from the file. */
 static inline Motion motion_open(const char *file, const char *const *set) {
     Motion motion = {.collision = collision_model(file, set, 0)};
     int n_vehicle = 0;
@@ -33,7 +33,7 @@ static inline Motion motion_open(const char *file, const char *const *set) {
     return motion;
 }
 
-/* The state on its track, nothing evaluated yet. */
+/* The state on its track, not evaluated yet. */
 static inline void motion_lay(Motion *motion) {
     motion->dynamics = cz_dynamics_create(motion->lanes, &motion->arena);
     assert_non_null(motion->dynamics);

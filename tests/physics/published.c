@@ -48,7 +48,7 @@ void rows_of_coaches(Rows *rows) {
 
 /* 1 MN at 0.8 m from the centre of gravity requires 0.8 MN m, that is 42.105 kN more on one bogie
  * and less on the other at 19 m; on secondary and primary springs in series the body then pitches
- * by 6.077 mrad. The pitch is imposed on the kernel, each bogie is put where its link is not
+ * by 6.077 mrad. The pitch is imposed on the kernel, each bogie is placed so that its link is not
  * stretched and its springs balance, and the kernel's own forces are read. */
 void rows_of_pitch_by_force(Rows *rows) {
     const double pitch = 6.077e-3, force_wanted = 1e6, height = 0.8;
@@ -88,14 +88,14 @@ void rows_of_pitch_by_force(Rows *rows) {
     motion_close(&motion);
 }
 
-/* The same force switched on at once, and no dampers: the body swings about the static pitch, up to
- * twice of it. By linearity that is the way from there through rest and out again once the force
- * is gone, which is what is run. The bogies' own inertia takes part in it by some parts in a
+/* The same force applied suddenly, without dampers: the body oscillates about the static pitch, up
+ * to twice of it. By linearity this equals the free oscillation from the static pitch after the
+ * force is removed, which is run here. The bogies' own inertia changes it by some parts in a
  * thousand, as do their modes at 7 Hz. */
 void rows_of_step_force(Rows *rows) {
     const double pitch = 6.077e-3;
     Motion motion = motion_open(coaches, AS_WRITTEN);
-    /* The links would pull at bogies that are where they stood. */
+    /* The links would pull at bogies in their initial position. */
     static const CzParameter none[] = {
         CZ_PARAMETER(link.strut.stiffness), CZ_PARAMETER(link.strut.damping),
         CZ_PARAMETER(secondary.damping), CZ_PARAMETER(primary.damping)};
@@ -126,9 +126,8 @@ void rows_of_step_force(Rows *rows) {
 /* ---- full-scale tests ---- */
 
 /* FRA, 31 January 2002: two trains of about 635 kip (288 t) at 30 mph onto rest; the cab car was
- * crushed by about 20 ft. The mean force is that of the published energy over the published crush,
- * so it is put in and not found; what is found is that the energy balance of momentum and energy
- * agree. */
+ * crushed by about 20 ft. The mean force is the published energy over the published crush, so it is
+ * input; the result is that momentum and energy agree. */
 void rows_of_train_to_train(Rows *rows) {
     const double v = 30.0 * MPH, mean = 12.95e6 / (20.0 * FOOT);
     char speed[64], force[96];
@@ -170,8 +169,9 @@ static Collision into_wall(double speed, double lead, double between) {
 /* FRA crash energy management, a single car at 35 mph crushed by about 3 ft and two coupled cars at
  * 29 mph by about 3 ft in front and 2 ft between them. No mass and no curve is published, so forces
  * are per mass. With constant forces of the published means the cars would stop together without
- * any crush between them, because the interface would have to yield below half of the lead's force;
- * so the published crush says that the forces were not constant, and that is all that can be said.
+ * any crush between them, because the interface would have to yield below half of the leading car's
+ * force; so the published crush says that the forces were not constant, and that is all that can be
+ * said.
  */
 void rows_of_crush_of_single_cars(Rows *rows) {
     const double lead = pow(35.0 * MPH, 2.0) / (2.0 * 3.0 * FOOT);
@@ -179,7 +179,7 @@ void rows_of_crush_of_single_cars(Rows *rows) {
     const double between = (two - lead * 3.0 * FOOT) / (2.0 * FOOT);
     ROW(rows, "m/s2", lead, 133.9, 1e-3, 0.0, "lead force over mass, from the single car");
     ROW(rows, "m/s2", between, 74.9, 2e-3, 0.0, "interface force over mass, from two cars");
-    /* A single car is two that do not crush between them. */
+    /* A single car is represented by two that do not crush between them. */
     Collision single = into_wall(35.0 * MPH, 2.0 * lead, 1e3);
     ROW(rows, "m", single.summary->interface[1].shortening, 3.0 * FOOT, 2e-3, 0.0,
         "crush of the lead end at 35 mph with that force");
@@ -194,7 +194,8 @@ void rows_of_crush_of_single_cars(Rows *rows) {
 
 /* FRA coupling tests, October 2017: of six speeds only the last made the push-back coupler deflect.
  * With an elastic draft gear the peak force grows with the speed, so the trigger lies between the
- * peaks of the last two; it is put between them here, and the run must sort the speeds so. */
+ * peaks of the last two; it is placed between them here, and the runs must reproduce the outcome of
+ * each speed. */
 void rows_of_coupling_speeds(Rows *rows) {
     static const double speeds[] = {1.8, 3.74, 5.66, 6.84, 7.63, 8.85};
     const double mass = 0.5 * 117.9e3, stiffness = 5e6; /* two masses, two gears in series */

@@ -1,4 +1,4 @@
-/* What is published of vehicles and of full-scale tests, as far as it goes, as rows. */
+/* Published numbers of vehicles and of full-scale tests, as rows. */
 #ifndef CZ_TESTS_PHYSICS_PUBLISHED_H
 #define CZ_TESTS_PHYSICS_PUBLISHED_H
 
@@ -10,7 +10,7 @@ void rows_of_coaches(Rows *rows);
 /* A longitudinal force above or below the centre of gravity loads the bogies unequally. */
 void rows_of_pitch_by_force(Rows *rows);
 
-/* The same force switched on at once: twice the static pitch. */
+/* The same force applied suddenly: twice the static pitch. */
 void rows_of_step_force(Rows *rows);
 
 /* Full-scale tests of which masses, speeds and crush are published, but no curve. */

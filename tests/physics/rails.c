@@ -149,7 +149,7 @@ static void statics_with(double cut, double place, double *of_modes, double *of_
 }
 
 void rows_of_mode_convergence(Rows *rows) {
-    /* Blocks keep two rail waves each, so beyond some 3 kHz a higher cut adds nothing. */
+    /* Blocks have two rail waves each, so a cut above about 3 kHz has no effect. */
     static const double cuts[] = {500.0, 1000.0, 1500.0, 3000.0};
     double missing_before = 1.0; /* no modes leave all of it */
     for (size_t c = 0; c < sizeof cuts / sizeof cuts[0]; ++c) {
@@ -160,8 +160,8 @@ void rows_of_mode_convergence(Rows *rows) {
             largest = fmax(largest, fabs(of_both - 1.0));
             missing = fmax(missing, fabs(of_modes - 1.0));
         }
-        /* What the flexibility's four powers leave out falls with their fourth power from the 0.9 %
-         * that the first represents: 1e-2 / 5^4. */
+        /* The error of the flexibility's four powers falls with the fourth power from the 0.9 % of
+         * the first: 1e-2 / 5^4. */
         ROW_UP_TO(rows, "", largest, 2e-5,
                   "modes to %g Hz and what they leave: error of the static deflection", cuts[c]);
         ROW_UP_TO(rows, "", missing, missing_before,
@@ -171,8 +171,8 @@ void rows_of_mode_convergence(Rows *rows) {
     }
 }
 
-/* The known statics once more, by what runs: the production run's modes and the flexibility beside
- * them, and finite elements, to half a per cent. */
+/* The same statics by the models of a run: the production run's modes with their residual
+ * flexibility, and finite elements, to half a per cent. */
 void rows_of_running_tracks(Rows *rows) {
     static const double known[] = {0.8980, 0.9194};
     for (int i = 0; i < 2; ++i) {
@@ -228,9 +228,9 @@ static CzComplex smeared_receptance(const CzSeats *seats, double w) {
     return sum;
 }
 
-/* Seats of 0.6 m are nearly smeared out: the statics of both, 6.49 and 6.48 mm/MN as the mean over
- * a bay, differ by half a per cent, and that is the part of shear that a seat forces on the rail;
- * up to 200 Hz its share grows to no more than two. */
+/* Seats at 0.6 m act almost like a continuous support: the statics of both, 6.49 and 6.48 mm/MN as
+ * the mean over a bay, differ by half a per cent because of the shear at a seat; up to 200 Hz the
+ * difference grows to two per cent at most. */
 void rows_of_receptance(Rows *rows) {
     static const double frequency_of[] = {2.0, 20.0, 60.0, 100.0, 200.0};
     CzArena arena = {0};
@@ -322,7 +322,7 @@ void rows_of_element_statics(Rows *rows) {
 
 #define IMPACT 1e-3      /* duration of the push [s] */
 #define IMPACT_STEP 1e-5 /* [s] */
-enum { N_IMPACT = 300 }; /* steps that are looked at: the push, and 2 ms after it */
+enum { N_IMPACT = 300 }; /* compared steps: the push, and 2 ms after it */
 #define OFF_THE_SEATS 0.2
 
 /* A wheel that hits the rail: half a sine of 100 kN. */
@@ -331,7 +331,7 @@ static double impact(int step) {
     return phase < 0.5 ? 100e3 * cz_turned(phase).im : 0.0;
 }
 
-/* How far the rail deflects under it [m], by the modes up to a cut and what they leave. */
+/* Deflection of the rail under it [m], by the modes up to a cut and their residual flexibility. */
 static void impact_on_modes(double cut, double way[N_IMPACT]) {
     const double at[4] = {OFF_THE_SEATS, 0.0, 0.0, 0.0}, none[4] = {0.0};
     CzArena arena = {0};
@@ -369,7 +369,7 @@ static void impact_on_elements(int nodes, double way[N_IMPACT]) {
     cz_arena_free(&arena);
 }
 
-/* Largest difference of two ways over the largest of the second. */
+/* Largest difference of two methods over the largest value of the second. */
 static double difference_of_ways(const double *way, const double *other) {
     double largest = 0.0, size = 0.0;
     for (int i = 0; i < N_IMPACT; ++i) {
@@ -386,7 +386,7 @@ void rows_of_impact(Rows *rows) {
     impact_on_elements(16, finest);
     for (int nodes = 4; nodes <= 8; nodes *= 2) {
         impact_on_elements(nodes, way);
-        /* At most what the wave with its nodes at the sleepers is off by. */
+        /* At most the error of the wave with its nodes at the sleepers. */
         ROW_UP_TO(rows, "", difference_of_ways(way, finest), 0.0106 * 16.0 / (nodes * nodes),
                   "impact, elements with %d nodes a bay: difference from 16", nodes);
     }
@@ -396,7 +396,8 @@ void rows_of_impact(Rows *rows) {
         ROW_UP_TO(rows, "", difference, most,
                   "impact, modes to %g Hz and what they leave: difference from 16 nodes a bay",
                   cuts[c]);
-        most = 0.5 * difference; /* twice the cut: half of what is left, answering half as late */
+        most = 0.5 * difference; /* twice the cut: half of the residual flexibility, with half of
+                                    the delay */
     }
 }
 
@@ -415,7 +416,7 @@ static Collision run_on(const char *track, const char *file, double step) {
 static const char *const runs[] = {"problems/two-cars-25kmh.yaml", "problems/wall.yaml"};
 enum { N_RUN = sizeof runs / sizeof runs[0] };
 
-/* What a run on rails is judged by; the largest relative difference of two runs. */
+/* Compared results of a run on rails; the largest relative difference of two runs. */
 static double difference_of_runs(const Collision *a, const Collision *b) {
     const int at = cz_model_colliding_interface(a->model);
     const CzInterfaceResult *p = &a->summary->interface[at], *q = &b->summary->interface[at];

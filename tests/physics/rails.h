@@ -7,10 +7,10 @@
 
 #include "physics/rows.h"
 
-/* Seats smeared out: Winkler's foundation in closed form. */
+/* Continuous support: Winkler's foundation in closed form. */
 void rows_of_winkler(Rows *rows);
 
-/* Discrete seats, from an independent solution with 80 spans; the digits given are all there are.
+/* Discrete seats, from an independent solution with 80 spans, with all of its digits.
  */
 void rows_of_discrete_seats(Rows *rows);
 
@@ -20,7 +20,7 @@ void rows_of_rail_waves(Rows *rows);
 /* The wave with its nodes at the sleepers is a mode of the track. */
 void rows_of_pinned_mode(Rows *rows);
 
-/* Modes up to a cut and the flexibility that they leave, against the exact statics. */
+/* Modes up to a cut and their residual flexibility, against the exact statics. */
 void rows_of_mode_convergence(Rows *rows);
 
 /* A car at rest, solved from the laws, on the rigid and on the elastic track. */
@@ -30,10 +30,10 @@ void rows_of_rest(Rows *rows);
 void rows_of_element_frequencies(Rows *rows);
 void rows_of_element_statics(Rows *rows);
 
-/* The same statics by the models that run, the production run's modes and finite elements. */
+/* The same statics by the models of a run, the production run's modes and finite elements. */
 void rows_of_running_tracks(Rows *rows);
 
-/* The rail under a force that swings, against layers that are smeared out. */
+/* The rail under a harmonic force, against continuous layers. */
 void rows_of_receptance(Rows *rows);
 
 /* The rail under a short impact: modes up to a cut, and elements, against the finest elements. */

@@ -1,4 +1,4 @@
-/* The track that a problem file has when it says nothing about it. */
+/* The default track of a problem file. */
 #ifndef CZ_TESTS_PHYSICS_ROADBED_H
 #define CZ_TESTS_PHYSICS_ROADBED_H
 

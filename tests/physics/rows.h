@@ -1,5 +1,5 @@
-/* Rows of the verification: what is known beforehand beside what was computed. The tests hold every
- * row to its tolerance; the verification page prints them. */
+/* Rows of the verification: the expected value beside the computed one. The tests check the
+ * tolerance of every row; the verification page prints them. */
 #ifndef CZ_TESTS_PHYSICS_ROWS_H
 #define CZ_TESTS_PHYSICS_ROWS_H
 
@@ -10,7 +10,7 @@
 typedef struct Row {
     char what[120];      /* quantity and circumstances */
     const char *unit;    /* of both values; "" for none */
-    double expected;     /* known beforehand */
+    double expected;     /* expected */
     double computed;     /* by the program */
     double relative;     /* tolerance as a share of the expected value */
     double absolute;     /* tolerance in the unit */
@@ -53,14 +53,14 @@ static inline double row_allowed(const Row *row) {
     return row->absolute + row->relative * fabs(row->expected);
 }
 
-/* Whether a row holds; what is not a number does not. */
+/* Whether a row is within its tolerance; NaN is not. */
 static inline bool row_holds(const Row *row) {
     if (row->is_upper_bound)
         return row->computed <= row->expected;
     return fabs(row->computed - row->expected) <= row_allowed(row);
 }
 
-/* Fails with every row that does not hold. */
+/* Fails with every row outside its tolerance. */
 static inline void assert_rows(const Rows *rows) {
     const char *scale = getenv("CZ_TOL_SCALE");
     int n_wrong = 0;
@@ -76,7 +76,7 @@ static inline void assert_rows(const Rows *rows) {
     assert_int_equal(n_wrong, 0);
 }
 
-/* Gathers rows and holds them. */
+/* Collects rows and checks them. */
 static inline void assert_rows_of(void (*rows_of)(Rows *)) {
     static Rows rows; /* large */
     rows.n = 0;

@@ -58,8 +58,9 @@ void rows_of_order(Rows *rows) {
             "order, step %g to %g", 0.28 / n, 0.14 / n);
 }
 
-/* A wheelset that drops on a rail without springs: Hertz's impact (1882). The way in is (5 m v^2 /
- * (4 H))^(2/5), the duration 2.943275 times the way over the speed, and it leaves as it came. */
+/* A wheelset that drops on a rail without springs: Hertz's impact (1882). The approach is (5 m v^2
+ * / (4 H))^(2/5), the duration 2.943275 times the approach over the speed, and the rebound speed
+ * equals the impact speed. */
 void rows_of_hertz_impact(Rows *rows) {
     const double mass = 1000.0, speed = 0.2, step = 1e-6;
     const double g = 4.22e-8, hertz = 2.0 / (g * sqrt(g)); /* a worn tread of 0.46 m */

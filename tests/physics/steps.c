@@ -56,9 +56,9 @@ void rows_of_elastic_exchange(Rows *rows) {
 
 /* ---- shipped problems ---- */
 
-/* What yields at first contact costs half a step of its force, so shipped problems converge with
- * the step itself; where a change is below a few parts in ten thousand already, its order says
- * nothing. */
+/* A device that yields at first contact loses half a step of its impulse, so shipped problems
+ * converge with the first power of the step; the order of changes below a few parts in ten thousand
+ * has no meaning. */
 enum { N_VALUE = 3 };
 static const char *const value_names[N_VALUE] = {"closure of the colliding interface",
                                                  "dissipated energy", "largest pitch"};
@@ -66,7 +66,7 @@ static const char *const short_trains[] = {"problems/first-collision.yaml",
                                            "problems/two-cars-25kmh.yaml", "problems/wall.yaml"};
 enum { N_SHORT = sizeof short_trains / sizeof short_trains[0] };
 
-/* What a file is called in a row. */
+/* Name of a file in a row. */
 static const char *name_of(const char *file) {
     return file + strlen("problems/");
 }
@@ -121,7 +121,7 @@ static EnergyChecks energy_checks_of(const char *file, const char *const *set, i
     return checks;
 }
 
-/* Of a family of perturbed scenarios, which are the same trains at other heights, one is looked at.
+/* Of a family of scenarios with offsets, which are the same trains at other heights, one is run.
  */
 enum { MOST_SCENARIOS = 20, OF_A_FAMILY = 1 };
 
@@ -155,7 +155,8 @@ static bool asks_for_rigid_rails(const char *file) {
     return is_rigid;
 }
 
-/* A pair that bottoms out and climbs has wheels that hit unyielding rails; 1e-3 is worth a warning.
+/* In the pair that bottoms out and climbs, wheels hit rigid rails; 1e-3 is the limit of the
+ * warning.
  */
 static double bound_on_rigid_rails(const char *name) {
     return strcmp(name, "override-bottoming-lifts.yaml") == 0 ? 1e-3 : 1e-4;
@@ -210,7 +211,7 @@ Difference difference_of(const CzRunSummary *a, const CzRunSummary *b, double sh
 }
 
 /* A file with the step of the production run and the time up to which solvers are compared [s]: 0
- * are the file's own. Where trains go on rolling with their brakes on, all that is compared is over
+ * are the file's own. Where trains keep rolling with their brakes on, the compared values are final
  * long before they stand. */
 typedef struct Compared {
     const char *file;
@@ -229,8 +230,8 @@ static Collision collide_by(CzIntegrator integrator, const Compared *compared, d
     return collision;
 }
 
-/* How far the production run is from both references, within these tolerances; `motion` NaN leaves
- * that out. With a step of its own the production run is named by it. */
+/* Difference of the production run from both references, within these tolerances; `motion` NaN
+ * leaves that out. A production run with another step is named by it. */
 static void solvers(Rows *rows, const Compared *compared, double share, const Difference *allowed) {
     Collision zhai = collide_by(CZ_INTEGRATOR_ZHAI, compared, compared->step);
     char of[64];
@@ -260,7 +261,8 @@ static void solvers(Rows *rows, const Compared *compared, double share, const Di
 
 /* Few cars: both sides are accurate to some parts in ten thousand at the default step. Four of the
  * files have parts whose stroke or pitch the default step leaves at 1.2 to 1.4 parts in a thousand;
- * the error goes with the step, so they are held to the same bound at a half or a quarter of it. */
+ * the error goes with the step, so they have to satisfy the same bound at a half or a quarter of
+ * it. */
 void rows_of_solvers_for_short_trains(Rows *rows) {
     static const Compared compared[] = {
         {"problems/first-collision.yaml", 0.0, 0.0},
@@ -282,10 +284,10 @@ void rows_of_solvers_for_short_trains(Rows *rows) {
         solvers(rows, &compared[i], 0.01, &allowed);
 }
 
-/* Six and six cars rattle, so single values scatter: forces and strokes within 2 %, energies within
- * 1 % of all that is dissipated. The fixed-step scheme itself, at steps of 0.05 to 0.1 ms, scatters
- * by 2 % in the energy of one inner interface and by 0.3 % in its closure, because two cars that
- * have parted do or do not crush once more when they meet again seconds later. */
+/* The response of six and six cars is chaotic, so single values scatter: forces and strokes within
+ * 2 %, energies within 1 % of all that is dissipated. The fixed-step scheme itself, at steps of
+ * 0.05 to 0.1 ms, scatters by 2 % in the energy of one inner interface and by 0.3 % in its closure,
+ * because two cars that have parted may or may not crush again when they meet seconds later. */
 void rows_of_solvers_for_the_metro(Rows *rows) {
     const Difference allowed = {2e-2, 2e-2, 1e-2, NAN};
     const Compared metro = {"problems/metro-6-car.yaml", 0.0, 3.0};
@@ -294,9 +296,9 @@ void rows_of_solvers_for_the_metro(Rows *rows) {
 
 /* ---- a wall is half of an identical partner ---- */
 
-/* A car at v onto its like is the car at v / 2 against a wall: half the closure, half the energy,
- * the same force. The damping of anti-climbers sets in over the first 10 mm of closure, which is
- * twice as long for one as for two, so it is left out. */
+/* A car at v onto an identical one equals the car at v / 2 against a wall: half the closure, half
+ * the energy, the same force. The damping of anti-climbers sets in over the first 10 mm of closure,
+ * which is twice as long for one as for two, so it is left out. */
 void rows_of_equivalence(Rows *rows) {
     static const char *const names[] = {"coupler", "anti-climber", "end"};
     const char *const *set =

@@ -1,5 +1,5 @@
-/* How results depend on the time step, how well the energy balance of shipped problems close, and
- * how far other solvers are: as rows. */
+/* Dependence of results on the time step, energy balance of shipped problems, and differences of
+ * other solvers: as rows. */
 #ifndef CZ_TESTS_PHYSICS_STEPS_H
 #define CZ_TESTS_PHYSICS_STEPS_H
 
@@ -15,19 +15,19 @@ void rows_of_step_convergence(Rows *rows);
 void rows_of_balances(Rows *rows);
 void rows_of_balances_on_rigid_rails(Rows *rows); /* those that require them */
 
-/* Largest relative differences in what a collision is judged by, of one run from another. Small
- * values count against a floor (10 kN, 1 mm, 10 mm of an element's stroke, a `share` of all
- * dissipated energy, 1 mm/s2, 0.1 mrad). */
+/* Largest relative differences of the judged results of two runs. Small values count against a
+ * floor (10 kN, 1 mm, 10 mm of an element's stroke, a `share` of all dissipated energy, 1 mm/s2,
+ * 0.1 mrad). */
 typedef struct Difference {
     double force, stroke, energy, motion;
 } Difference;
 Difference difference_of(const CzRunSummary *a, const CzRunSummary *b, double share);
 
-/* The record against the adaptive solvers: short trains, and six and six cars. */
+/* The production run against the adaptive solvers: short trains, and six and six cars. */
 void rows_of_solvers_for_short_trains(Rows *rows);
 void rows_of_solvers_for_the_metro(Rows *rows);
 
-/* A rigid car onto its like, and the car at half the speed against a wall. */
+/* A rigid car onto an identical one, and the car at half the speed against a wall. */
 void rows_of_equivalence(Rows *rows);
 
 #endif

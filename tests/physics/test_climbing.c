@@ -1,5 +1,5 @@
-/* Climbing as a whole: pairs of problems that differ in one value, trends on two cars that bottom
- * out, and what a run may not claim. */
+/* Climbing: pairs of problems that differ in one value, trends on two cars that bottom out, and
+ * results beyond the model's validity. */
 #include "physics/collision.h"
 
 #include "crushzone/explain.h"
@@ -15,7 +15,7 @@ static bool climbs(const char *file) {
     return climbed;
 }
 
-/* All three climb within 0.4 s; what is explained is the first second. */
+/* All three climb within 0.4 s; the first second is explained. */
 static CzCause cause_of(const char *file) {
     CzProblem *problem = NULL;
     CzEvaluator *evaluator = NULL;
@@ -37,21 +37,21 @@ static CzCause cause_of(const char *file) {
     return cause;
 }
 
-static void faces_that_miss_each_other_climb_and_taller_ones_hold(void **state) {
+static void faces_that_miss_each_other_climb_and_taller_ones_do_not(void **state) {
     (void)state;
     assert_true(climbs("problems/override-overlap-climbs.yaml"));
     assert_false(climbs("problems/override-overlap-holds.yaml"));
     assert_int_equal(cause_of("problems/override-overlap-climbs.yaml"), CZ_CAUSE_OVERLAP);
 }
 
-static void short_strokes_lift_wheels_and_longer_ones_hold(void **state) {
+static void short_strokes_lift_wheels_and_longer_ones_do_not(void **state) {
     (void)state;
     assert_true(climbs("problems/override-bottoming-lifts.yaml"));
     assert_false(climbs("problems/override-bottoming-holds.yaml"));
     assert_int_equal(cause_of("problems/override-bottoming-lifts.yaml"), CZ_CAUSE_BOTTOMING);
 }
 
-static void soft_hinges_let_couplers_fold_and_stiffer_ones_hold(void **state) {
+static void soft_hinges_let_couplers_fold_and_stiffer_ones_do_not(void **state) {
     (void)state;
     assert_true(climbs("problems/override-hinge-folds.yaml"));
     assert_false(climbs("problems/override-hinge-holds.yaml"));
@@ -63,7 +63,7 @@ static void soft_hinges_let_couplers_fold_and_stiffer_ones_hold(void **state) {
 /* The pair that bottoms out, slower so that it does not climb: closing at 63 km/h. */
 static const char bottoming[] = "problems/override-bottoming-lifts.yaml";
 
-#define LEAST_LIFT 1e-3 /* from which on a wheelset counts as lifted [m] */
+#define LEAST_LIFT 1e-3 /* above which a wheelset counts as lifted [m] */
 
 /* Largest wheel lift of the rear bogie of the car behind [m]. */
 static double rear_lift(const char *setting, const char *other) {
@@ -84,7 +84,8 @@ static void stiffer_springs_lower_the_lift_and_a_higher_centre_of_gravity_raises
     const double softer = rear_lift(speed, "parts.bogie.secondary.stiffness_MN_m=0.688");
     if (getenv("CZ_TOL_SCALE") != NULL)
         print_message("lift %g, springs +20 %%: %g, -20 %%: %g\n", lift, stiffer, softer);
-    /* Published for a second bogie: -17 % of lift for +20 % of stiffness. Half to twice of it. */
+    /* Published for a second bogie: -17 % of lift for +20 % of stiffness. Accepted: half to twice
+     * of it. */
     assert_true(stiffer < 0.915 * lift && stiffer > 0.66 * lift);
     assert_true(softer > lift);
     /* The ends push 0.65 m below a centre of gravity of 1.6 m: 20 % of its height are 49 % of that
@@ -101,9 +102,9 @@ static void stiffer_springs_lower_the_lift_and_a_higher_centre_of_gravity_raises
     assert_true(lower < LEAST_LIFT);
 }
 
-/* Up to 30 km/h the gaps of the stops absorb the pitch but for what is little more than a lift
- * that counts. Beyond, it rises more than in proportion to the speed in excess: more than two times
- * at twice the excess, and by more from step to step. */
+/* Up to 30 km/h the gaps of the stops absorb the pitch up to little more than a countable lift.
+ * Above, the lift rises more than in proportion to the excess speed: more than two times at twice
+ * the excess, and by more from step to step. */
 static void lift_rises_steeply_above_a_critical_closing_speed(void **state) {
     (void)state;
     const double at_25 = rear_lift("trains.A.speed_km_h=25", NULL);
@@ -122,8 +123,8 @@ static double bogie_lift(const CzRunSummary *summary, int car, int bogie) {
 }
 
 /* EN 15227's 40 mm, either way. The faces meet between the heights of the two: the higher car is
- * pushed further below its centre of gravity, its nose goes down and its far bogie up, by more than
- * what counts as lifted more than when both are level. */
+ * pushed further below its centre of gravity, its nose goes down and its far bogie up, by at least
+ * a countable lift more than when both are level. */
 static void an_offset_of_40_mm_lifts_the_far_bogie_of_the_higher_car(void **state) {
     (void)state;
     static const char *const offsets[] = {"trains.B.height_offset_mm=-40",
@@ -142,9 +143,9 @@ static void an_offset_of_40_mm_lifts_the_far_bogie_of_the_higher_car(void **stat
     }
     assert_true(a[0] > a[1] + LEAST_LIFT && a[1] > a[2] + LEAST_LIFT);
     assert_true(b[2] > b[1] + LEAST_LIFT && b[1] > b[0] + LEAST_LIFT);
-    /* Mirror images, but for the train that moves faster over the rails. The step leaves one part
-     * in a thousand of a pitch (docs/verification.md, C1), so as much of the rise of the seat,
-     * which is the lift and the gaps of the stops. */
+    /* Mirror images, except for the train that moves faster over the rails. The error of the step
+     * is one part in a thousand of a pitch (docs/verification.md, C1), and the same share of the
+     * rise of the seat, which is the lift plus the gaps of the stops. */
     assert_near(a[0], b[2], 0.0, 1e-3 * (b[2] + 0.055));
 }
 
@@ -156,7 +157,7 @@ enum { N_PLACE = 13, MOST_METRICS = 3 };
 /* Metrics over a path, evenly spaced. */
 typedef struct Scan {
     const char *file, *setting;
-    const char *until; /* by which the values are reached; NULL is the end of the run */
+    const char *until; /* up to which the values are taken; NULL is the end of the run */
     CzSweepAxis axis;
     const char *metric[MOST_METRICS];
 } Scan;
@@ -191,7 +192,7 @@ static double bend_of(int n, const double *value, int every) {
 
 /* Difference quotients of neighbours have one sign, so a search is led one way. Their change is
  * that of a smooth curve: half the distance makes it a quarter, at a breakpoint a half; over a
- * jump, and where a value rattles, it stays what it was. */
+ * jump, and in a chaotic response, it does not fall. */
 #define MOST_OF_A_JUMP 1.5 /* between the factors of a jump, 1, and of a breakpoint, 2 */
 static void assert_smooth(const char *name, const char *path, int n, const double *value) {
     const double bend = bend_of(n, value, 1), wide = bend_of(n, value, 2);
@@ -206,7 +207,7 @@ static void assert_smooth(const char *name, const char *path, int n, const doubl
 static void margins_follow_a_design_variable_without_jumps(void **state) {
     (void)state;
     /* Ribs seat by the offset modulo their pitch, so over a wider range of forces the vertical
-     * capacity swings. */
+     * capacity rises and falls. */
     static const Scan scans[] = {
         {bottoming,
          "trains.A.speed_km_h=38",
@@ -248,10 +249,10 @@ static void margins_follow_a_design_variable_without_jumps(void **state) {
 
 /* ---- claims ---------------------------------------------------------------------------------- */
 
-/* Lift over the stops by hand: the body's end rises by l_c x pitch, and what the stops do not
- * absorb of it lifts the wheels. Less by what stops yield under a bogie that hangs in them, 9 mm by
- * hand (test_stability.c); more by how far a bogie flies on that its body throws up, which moves no
- * faster than it would swing freely to that pitch. */
+/* Lift over the stops by hand: the body's end rises by l_c x pitch, and the part that the stops do
+ * not absorb lifts the wheels. The deflection of the stops under a hanging bogie, 9 mm by hand
+ * (test_stability.c), reduces it; the free flight of the bogie increases it, whose speed is at most
+ * that of the body's free oscillation to that pitch. */
 static void lift_is_the_rise_of_the_seat_less_the_gaps(void **state) {
     (void)state;
     Collision run = collide(bottoming, WITH("trains.A.speed_km_h=40"), 0);
@@ -268,7 +269,7 @@ static void lift_is_the_rise_of_the_seat_less_the_gaps(void **state) {
     collision_free(&run);
 }
 
-static void what_climbed_is_marked_and_slides_on_to_the_end_walls(void **state) {
+static void a_climb_is_marked_and_the_cars_slide_to_the_end_walls(void **state) {
     (void)state;
     Collision run = collide("problems/override-overlap-climbs.yaml", AS_WRITTEN, 0);
     const CzRunSummary *summary = run.summary;
@@ -283,7 +284,7 @@ static void what_climbed_is_marked_and_slides_on_to_the_end_walls(void **state) 
         if (element->kind == CZ_ELEMENT_ANTI_CLIMBER)
             faces += element->energy;
     }
-    /* Anti-climbers that lost each other absorb nothing worth having: climbing does not pay. */
+    /* Anti-climbers without overlap absorb little energy: climbing does not pay. */
     assert_true(walls > 100e3);
     assert_true(faces < 0.1 * walls);
     assert_true(summary->energy.survival > 0.9 * walls);
@@ -293,15 +294,15 @@ static void what_climbed_is_marked_and_slides_on_to_the_end_walls(void **state) 
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(faces_that_miss_each_other_climb_and_taller_ones_hold),
-        cmocka_unit_test(short_strokes_lift_wheels_and_longer_ones_hold),
-        cmocka_unit_test(soft_hinges_let_couplers_fold_and_stiffer_ones_hold),
+        cmocka_unit_test(faces_that_miss_each_other_climb_and_taller_ones_do_not),
+        cmocka_unit_test(short_strokes_lift_wheels_and_longer_ones_do_not),
+        cmocka_unit_test(soft_hinges_let_couplers_fold_and_stiffer_ones_do_not),
         cmocka_unit_test(stiffer_springs_lower_the_lift_and_a_higher_centre_of_gravity_raises_it),
         cmocka_unit_test(lift_rises_steeply_above_a_critical_closing_speed),
         cmocka_unit_test(an_offset_of_40_mm_lifts_the_far_bogie_of_the_higher_car),
         cmocka_unit_test(margins_follow_a_design_variable_without_jumps),
         cmocka_unit_test(lift_is_the_rise_of_the_seat_less_the_gaps),
-        cmocka_unit_test(what_climbed_is_marked_and_slides_on_to_the_end_walls),
+        cmocka_unit_test(a_climb_is_marked_and_the_cars_slide_to_the_end_walls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* How results depend on the time step. How well the energy balance of all shipped problems close,
- * some forty runs, is held by the verification page alone (tests/verification). */
+/* Dependence of results on the time step. The energy balance of all shipped problems, some forty
+ * runs, is checked by the verification page alone (tests/verification). */
 #include "physics/steps.h"
 
 static void an_elastic_collision_converges_with_the_square_of_the_step(void **state) {

@@ -54,8 +54,8 @@ static void every_integrator_follows_four_stages_and_two_back(void **state) {
     }
 }
 
-/* Two masses of 40 t and 20 MN/m: v_A = 5 + 5 cos(w t) until they part, with w^2 = k / mu, and
- * 0 m/s ever after. The references locate nothing here: the force is continuous. */
+/* Two masses of 40 t and 20 MN/m: v_A = 5 + 5 cos(w t) until they part, with w^2 = k / mu, and 0
+ * m/s ever after. The references locate no event here: the force is continuous. */
 static void every_integrator_exchanges_the_speeds_of_equal_masses(void **state) {
     (void)state;
     for (int i = 0; i < 3; i++) {
@@ -67,17 +67,17 @@ static void every_integrator_exchanges_the_speeds_of_equal_masses(void **state) 
         assert_near(value_at(&elastic, v, 0.05), truth, 1e-5, 0.0);
         assert_near(elastic.summary->vehicle[0].final_speed, 0.0, 0.0, 1e-4);
         assert_near(elastic.summary->vehicle[1].final_speed, 10.0, 1e-5, 0.0);
-        /* Nothing brakes a body that moves freely. */
+        /* A freely moving body keeps its speed. */
         assert_near(last_value(&elastic, v), value_at(&elastic, v, 0.2), 0.0, 1e-12);
         assert_near(elastic.summary->momentum_error, 0.0, 0.0, 1e-12);
         collision_free(&elastic);
     }
 }
 
-/* The coupler of sequence.yaml releases once its tube of 299.5 mm is exhausted and 0.1 mm of its
- * softening length is gone, so where its energy says that the car has this speed:
- * v^2 = v0^2 - 2 * 0.6 MN * 0.2996 m / 40 t, after (v0 - v) m / F. The buffer's 0.06 mm are left
- * out; they are gone in 9 us. */
+/* The coupler of sequence.yaml releases when its tube of 299.5 mm is exhausted and 0.1 mm of its
+ * softening length is used, so at the speed that follows from its energy: v^2 = v0^2 - 2 * 0.6 MN *
+ * 0.2996 m / 40 t, after (v0 - v) m / F. The buffer's 0.06 mm are neglected; they take 9 us.
+ */
 static void every_integrator_finds_the_time_at_which_a_coupler_shears_off(void **state) {
     (void)state;
     const double start = 25.0 / 3.6, deceleration = 0.6e6 / 40e3;
@@ -96,9 +96,10 @@ static void every_integrator_finds_the_time_at_which_a_coupler_shears_off(void *
 }
 
 /* The located time does not depend on the step: a reference at 0.1 ms finds it within a tenth of
- * that, which is what the way there differs by, where the fixed step sees it at the end of a step.
+ * the step, the difference of the motion before it, while the fixed step reports it at the end of a
+ * step.
  */
-static void a_located_drop_does_not_hang_on_the_step(void **state) {
+static void a_located_drop_does_not_depend_on_the_step(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
         double time[2];
@@ -145,10 +146,10 @@ static void two_cars_on_an_elastic_track_agree(void **state) {
     collision_free(&zhai);
 }
 
-/* What two faces have left, of 276 kN when level: tip to tip, where they meet with friction alone,
- * and at 40 mm, where they lock. It is the smallest value of a function without jumps, so a step
- * changes it by what the faces move across each other in it, some hundredths of a millimetre. */
-static void what_faces_have_left_hangs_neither_on_the_step_nor_on_the_solver(void **state) {
+/* Residual capacity of two faces, of 276 kN when level: tip to tip, with friction alone, and at 40
+ * mm, where they lock. It is the smallest value of a continuous function, so a step changes it by
+ * the slip of the faces in that step, some hundredths of a millimetre. */
+static void residual_capacity_depends_neither_on_step_nor_on_solver(void **state) {
     (void)state;
     static const char *const offset[] = {"trains.B.height_offset_mm=25",
                                          "trains.B.height_offset_mm=40"};
@@ -173,7 +174,7 @@ static void what_faces_have_left_hangs_neither_on_the_step_nor_on_the_solver(voi
     }
 }
 
-static void a_track_that_a_reference_does_not_know_is_refused(void **state) {
+static void a_track_without_differential_equations_is_refused(void **state) {
     (void)state;
     Collision collision =
         collision_model("problems/two-cars-25kmh.yaml", WITH("simulation.track=co-running"), 0);
@@ -189,8 +190,8 @@ static void a_track_that_a_reference_does_not_know_is_refused(void **state) {
 
 /* ---- the reference itself ---- */
 
-/* Rate-dependent strokes and creep are advanced implicitly, so a reference converges with its step
- * at least in proportion, and to what the fixed-step scheme converges to. */
+/* Rate-dependent strokes and creep are advanced implicitly, so a reference converges at least with
+ * the first power of its step, and to the same limit as the fixed-step scheme. */
 static void a_reference_converges_to_the_limit_of_the_fixed_step(void **state) {
     (void)state;
     const char *file = "problems/two-cars-25kmh.yaml";
@@ -215,7 +216,7 @@ static void a_reference_converges_to_the_limit_of_the_fixed_step(void **state) {
     collision_free(&limit);
 }
 
-/* With steps that are too long for nobody, the tolerance decides: an elastic collision at 10 ms. */
+/* With a long largest step the tolerance decides: an elastic collision at 10 ms. */
 static void the_error_of_a_reference_falls_with_its_tolerance(void **state) {
     (void)state;
     const double truth = 5.0 + 5.0 * cos(sqrt(20e6 / 20e3) * 0.08);
@@ -243,10 +244,10 @@ int main(void) {
         cmocka_unit_test(every_integrator_follows_four_stages_and_two_back),
         cmocka_unit_test(every_integrator_exchanges_the_speeds_of_equal_masses),
         cmocka_unit_test(every_integrator_finds_the_time_at_which_a_coupler_shears_off),
-        cmocka_unit_test(a_located_drop_does_not_hang_on_the_step),
+        cmocka_unit_test(a_located_drop_does_not_depend_on_the_step),
         cmocka_unit_test(two_cars_on_an_elastic_track_agree),
-        cmocka_unit_test(what_faces_have_left_hangs_neither_on_the_step_nor_on_the_solver),
-        cmocka_unit_test(a_track_that_a_reference_does_not_know_is_refused),
+        cmocka_unit_test(residual_capacity_depends_neither_on_step_nor_on_solver),
+        cmocka_unit_test(a_track_without_differential_equations_is_refused),
         cmocka_unit_test(a_reference_converges_to_the_limit_of_the_fixed_step),
         cmocka_unit_test(the_error_of_a_reference_falls_with_its_tolerance),
     };

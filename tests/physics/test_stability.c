@@ -1,5 +1,5 @@
-/* What decides climbing, checked by hand: the force at which a coupler folds, and how far a
- * pitching car lifts its wheels. */
+/* Hand calculations of climbing: the force at which a coupler folds, and the wheel lift of a
+ * pitching car. */
 #include "physics/motion.h"
 
 /* ---- a coupler is a strut ---- */
@@ -43,8 +43,9 @@ static double fold(const char *hinge, const char *length, double share_of_critic
     return largest;
 }
 
-/* Whatever hinges and length. At nine tenths of F_crit an offset of 1 mm grows tenfold, and up to
- * twice that because the load comes at once; a tenth above it, it runs away within four seconds. */
+/* For all hinges and lengths. At nine tenths of F_crit an offset of 1 mm grows tenfold, and up to
+ * twice that because the load is sudden; a tenth above F_crit it grows without bound within four
+ * seconds. */
 static void a_coupler_folds_above_its_critical_force_and_not_below(void **state) {
     (void)state;
     static const char *const struts[][2] = {
@@ -65,8 +66,8 @@ static void a_coupler_folds_above_its_critical_force_and_not_below(void **state)
 /* ---- a train is a chain of struts ---- */
 
 #define IMPERFECTION 1e-6  /* pitch of every car at the start [rad] */
-#define RUNAWAY 1000.0     /* times that: far beyond what any swing below F_crit may reach [-] */
-#define LEAST_CLOSING 1e-3 /* of every interface, so that all tubes go on collapsing [m/s] */
+#define RUNAWAY 1000.0     /* times that: far beyond any oscillation below F_crit [-] */
+#define LEAST_CLOSING 1e-3 /* of every interface, so that all tubes keep collapsing [m/s] */
 
 /* The largest pitch of any car within `duration`, over the imperfection, while the tubes of all
  * interfaces push with one force. */
@@ -94,10 +95,10 @@ static double growth(const char *const *set, double duration) {
     return largest / IMPERFECTION;
 }
 
-/* F_crit of twelve equal cars is 1025 kN; two of them alone would hold 1120 kN. No damping hides a
- * slow growth. Below F_crit a pitch that begins to swing without a force is at most
- * 1 / sqrt(1 - F / F_crit) = 6.4 times as large with it. */
-static void a_train_of_twelve_cars_folds_at_1040_kn_and_stays_at_1000(void **state) {
+/* F_crit of twelve equal cars is 1025 kN; two of them alone fold at 1120 kN. There is no damping,
+ * so a slow growth is visible. Below F_crit a free oscillation in pitch is at most 1 / sqrt(1 - F /
+ * F_crit) = 6.4 times as large under the force. */
+static void a_train_of_twelve_cars_folds_at_1040_kn_and_not_at_1000(void **state) {
     (void)state;
     const double below = growth(WITH("parts.strut.tube.stages[0].force_kN=1000"), 15.0);
     const double above = growth(WITH("parts.strut.tube.stages[0].force_kN=1040"), 6.0);
@@ -135,8 +136,8 @@ static void the_printed_force_is_where_the_integration_folds(void **state) {
     assert_folds_at_the_printed_force(AS_WRITTEN);
 }
 
-/* The end masses turn and move across on springs of their own, and take F_crit down by 7 %. */
-static void it_is_so_for_couplers_on_the_ends_too(void **state) {
+/* The end masses pitch and move vertically on springs of their own, which lowers F_crit by 7 %. */
+static void the_printed_force_is_right_for_couplers_on_end_masses(void **state) {
     (void)state;
     assert_folds_at_the_printed_force(
         WITH("parts.end.coupler.anchor=end", "parts.end.mass_kg=500", "parts.end.vertical=free",
@@ -167,14 +168,13 @@ static double lift_at(Motion *motion, double pitch) {
 }
 
 /* Stretch of a suspension that hangs in its lift stop with a weight below it: the stop carries the
- * weight and what the spring still pushes. */
+ * weight and the remaining force of the spring. */
 static double hanging(double weight, double preload, double spring, double stop, double gap) {
     return (weight + preload + stop * gap) / (stop + spring);
 }
 
-/* By hand: l_c times pitch, less both gaps and what the stops yield; small angles leave out terms
- * of the second order, of points that lie no further than 1.6 m below the centre that is turned
- * about.
+/* By hand: l_c times pitch, less both gaps and the deflection of the stops; small angles neglect
+ * terms of the second order, of points at most 1.6 m below the centre of rotation.
  */
 static void a_pitching_car_lifts_its_wheels_by_its_stops(void **state) {
     (void)state;
@@ -197,12 +197,12 @@ static void a_pitching_car_lifts_its_wheels_by_its_stops(void **state) {
             print_message("%g mm at %g mrad: l_c pitch %g mm, less gaps %g mm\n", 1e3 * lift,
                           1e3 * pitches[i], 1e3 * way, 1e3 * (way - 0.055));
         assert_near(lift, way - secondary - primary, 0.0, 1.6 * pitches[i] * pitches[i]);
-        assert_true(lift < way - 0.055); /* stops that yield lift less than rigid ones */
+        assert_true(lift < way - 0.055); /* elastic stops lift less than rigid ones */
         motion_close(&motion);
     }
 }
 
-static void gaps_that_are_not_used_up_lift_nothing(void **state) {
+static void open_gaps_lift_no_wheel(void **state) {
     (void)state;
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
     assert_true(lift_at(&motion, 0.006) <= 0.0);
@@ -210,7 +210,7 @@ static void gaps_that_are_not_used_up_lift_nothing(void **state) {
 }
 
 /* Without lift stops the bogie stays on the rail: the spring just releases. */
-static void without_stops_wheels_stay_down(void **state) {
+static void without_stops_wheels_stay_on_the_rail(void **state) {
     (void)state;
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
     *parameter(&motion, CZ_PARAMETER(secondary.lift_gap), 0) = 1e30;
@@ -221,12 +221,12 @@ static void without_stops_wheels_stay_down(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_coupler_folds_above_its_critical_force_and_not_below),
-        cmocka_unit_test(a_train_of_twelve_cars_folds_at_1040_kn_and_stays_at_1000),
+        cmocka_unit_test(a_train_of_twelve_cars_folds_at_1040_kn_and_not_at_1000),
         cmocka_unit_test(the_printed_force_is_where_the_integration_folds),
-        cmocka_unit_test(it_is_so_for_couplers_on_the_ends_too),
+        cmocka_unit_test(the_printed_force_is_right_for_couplers_on_end_masses),
         cmocka_unit_test(a_pitching_car_lifts_its_wheels_by_its_stops),
-        cmocka_unit_test(gaps_that_are_not_used_up_lift_nothing),
-        cmocka_unit_test(without_stops_wheels_stay_down),
+        cmocka_unit_test(open_gaps_lift_no_wheel),
+        cmocka_unit_test(without_stops_wheels_stay_on_the_rail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
-/* What a collision must not depend on: the side from which it is seen, the speed of the observer,
- * whether the partner is a mirror image or the plane between the two. */
+/* Symmetries of a collision: mirror image, speed of the observer, and a wall in place of the plane
+ * between two identical cars. */
 #include "physics/steps.h"
 
-/* Results of one vehicle in a form that a mirror leaves alone. */
+/* Results of one vehicle that are equal in the mirror image. */
 static void assert_same_vehicle(const CzVehicleResult *a, const CzVehicleResult *b, double speed,
                                 bool mirrored, double tolerance) {
     assert_near(a->final_speed, mirrored ? -b->final_speed : b->final_speed + speed, tolerance,
@@ -54,7 +54,8 @@ static void a_mirrored_collision_is_the_mirror_image(void **state) {
     collision_free(&mirrored);
 }
 
-/* Galileo: without friction on the rail, both trains 4 m/s slower collide alike. */
+/* Galileo: without friction on the rail, two trains that are both 4 m/s slower collide in the same
+ * way. */
 static void the_speed_of_the_observer_does_not_matter(void **state) {
     (void)state;
     static const struct {
@@ -80,13 +81,13 @@ static void the_speed_of_the_observer_does_not_matter(void **state) {
     }
 }
 
-static void a_rigid_car_onto_its_like_is_a_car_at_half_the_speed_into_a_wall(void **state) {
+static void a_rigid_car_onto_an_identical_one_is_a_car_at_half_the_speed_into_a_wall(void **state) {
     (void)state;
     assert_rows_of(rows_of_equivalence);
 }
 
 /* The same with full cars: a wall is a mirror, so they do not differ in pitch or lift either. */
-static void a_full_car_onto_its_like_is_a_car_at_half_the_speed_into_a_wall(void **state) {
+static void a_full_car_onto_an_identical_one_is_a_car_at_half_the_speed_into_a_wall(void **state) {
     (void)state;
     const char *const *set = WITH("simulation.duration_s=0.4");
     Collision pair = collide("tests/physics/cases/full-pair.yaml", set, 0);
@@ -110,7 +111,7 @@ static void a_full_car_onto_its_like_is_a_car_at_half_the_speed_into_a_wall(void
 }
 
 /* Against a wall an interface has one side, and that one has all of the energy. */
-static void against_a_wall_nobodys_energy_is_lost(void **state) {
+static void against_a_wall_no_energy_is_missing(void **state) {
     (void)state;
     Collision wall = collide("tests/physics/cases/rigid-wall.yaml", AS_WRITTEN, 0);
     assert_completed(&wall);
@@ -122,8 +123,9 @@ static void against_a_wall_nobodys_energy_is_lost(void **state) {
     collision_free(&wall);
 }
 
-/* Smooth faces, without ribs or friction, push like any others: two anti-climbers of 0.5 MN. */
-static void faces_without_ribs_pass_on_all_of_their_force(void **state) {
+/* Smooth faces, without ribs or friction, carry the same axial force as others: two anti-climbers
+ * of 0.5 MN. */
+static void faces_without_ribs_carry_their_whole_axial_force(void **state) {
     (void)state;
     Collision pair =
         collide("tests/physics/cases/full-pair.yaml", WITH("simulation.duration_s=0.2"), 0);
@@ -135,10 +137,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mirrored_collision_is_the_mirror_image),
         cmocka_unit_test(the_speed_of_the_observer_does_not_matter),
-        cmocka_unit_test(a_rigid_car_onto_its_like_is_a_car_at_half_the_speed_into_a_wall),
-        cmocka_unit_test(a_full_car_onto_its_like_is_a_car_at_half_the_speed_into_a_wall),
-        cmocka_unit_test(against_a_wall_nobodys_energy_is_lost),
-        cmocka_unit_test(faces_without_ribs_pass_on_all_of_their_force),
+        cmocka_unit_test(a_rigid_car_onto_an_identical_one_is_a_car_at_half_the_speed_into_a_wall),
+        cmocka_unit_test(a_full_car_onto_an_identical_one_is_a_car_at_half_the_speed_into_a_wall),
+        cmocka_unit_test(against_a_wall_no_energy_is_missing),
+        cmocka_unit_test(faces_without_ribs_carry_their_whole_axial_force),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,12 +9,12 @@
 
 /* ---- statics ---- */
 
-static void seats_smeared_out_are_winklers_foundation(void **state) {
+static void a_continuous_support_is_winklers_foundation(void **state) {
     (void)state;
     assert_rows_of(rows_of_winkler);
 }
 
-static void discrete_seats_give_way_as_published_numbers_do(void **state) {
+static void discrete_seats_deflect_as_published(void **state) {
     (void)state;
     assert_rows_of(rows_of_discrete_seats);
 }
@@ -38,7 +38,7 @@ static void rail_waves_have_timoshenkos_frequencies(void **state) {
     assert_rows_of(rows_of_rail_waves);
 }
 
-static void both_branches_of_a_wave_give_way_as_its_statics(void **state) {
+static void both_branches_of_a_wave_deflect_as_its_statics(void **state) {
     (void)state;
     const CzRoadbed roadbed = usual_roadbed();
     const CzSeats seats = cz_seats(&roadbed, 2);
@@ -66,7 +66,8 @@ static double residual_of(const CzTrackBlock *block, CzComplex s) {
     const CzComplex s2 = cz_complex_product(s, s);
     const CzTrackBelow below = cz_track_below(block, s);
     double largest = 0.0;
-    /* f = 1. Rail at a seat: sum of the waves and the rest; pad: stretch = f / (k + s c). */
+    /* f = 1. Rail at a seat: sum of the waves and the remainder; pad: elongation = f / (k + s c).
+     */
     CzComplex rail = {-block->rest, 0.0};
     for (int w = 0; w < block->n_wave; ++w)
         rail = cz_complex_difference(
@@ -132,7 +133,7 @@ static void roots_solve_the_equations_of_rail_pads_sleepers_and_ballast(void **s
     }
 }
 
-static void cars_at_rest_stand_as_the_closed_form_says(void **state) {
+static void cars_at_rest_follow_the_closed_form(void **state) {
     (void)state;
     assert_rows_of(rows_of_rest);
 }
@@ -142,13 +143,13 @@ static void modes_converge_to_the_statics(void **state) {
     assert_rows_of(rows_of_mode_convergence);
 }
 
-static void what_runs_gives_way_as_published_numbers_do(void **state) {
+static void the_models_of_a_run_deflect_as_published(void **state) {
     (void)state;
     assert_rows_of(rows_of_running_tracks);
 }
 
-/* Below 200 Hz, where no half wave is as short as a bay, seats act as if they were smeared out. */
-static void a_force_that_swings_finds_the_track_of_smeared_layers(void **state) {
+/* Below 200 Hz, where no half wave is as short as a bay, seats act as a continuous support. */
+static void a_harmonic_force_finds_the_track_of_continuous_layers(void **state) {
     (void)state;
     assert_rows_of(rows_of_receptance);
 }
@@ -184,17 +185,17 @@ static void a_track_with_overdamped_modes_is_built(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(seats_smeared_out_are_winklers_foundation),
-        cmocka_unit_test(discrete_seats_give_way_as_published_numbers_do),
+        cmocka_unit_test(a_continuous_support_is_winklers_foundation),
+        cmocka_unit_test(discrete_seats_deflect_as_published),
         cmocka_unit_test(seats_carry_the_whole_load),
         cmocka_unit_test(rail_waves_have_timoshenkos_frequencies),
-        cmocka_unit_test(both_branches_of_a_wave_give_way_as_its_statics),
+        cmocka_unit_test(both_branches_of_a_wave_deflect_as_its_statics),
         cmocka_unit_test(the_pinned_pinned_mode_is_among_the_modes),
         cmocka_unit_test(roots_solve_the_equations_of_rail_pads_sleepers_and_ballast),
-        cmocka_unit_test(cars_at_rest_stand_as_the_closed_form_says),
+        cmocka_unit_test(cars_at_rest_follow_the_closed_form),
         cmocka_unit_test(modes_converge_to_the_statics),
-        cmocka_unit_test(what_runs_gives_way_as_published_numbers_do),
-        cmocka_unit_test(a_force_that_swings_finds_the_track_of_smeared_layers),
+        cmocka_unit_test(the_models_of_a_run_deflect_as_published),
+        cmocka_unit_test(a_harmonic_force_finds_the_track_of_continuous_layers),
         cmocka_unit_test(an_impact_deflects_modes_and_elements_alike),
         cmocka_unit_test(shipped_problems_keep_their_energy_balance_on_rails),
         cmocka_unit_test(a_track_with_overdamped_modes_is_built),

@@ -12,7 +12,7 @@ enum { LONGEST = 32768 };
 /* A collision that the tested vehicle T takes part in. */
 typedef struct {
     CzVehicleModel model;
-    const char *car; /* what makes the part `car` the tested one */
+    const char *car; /* settings that make the part `car` the tested one */
     const char *trains;
 } Setting;
 
@@ -40,7 +40,7 @@ typedef struct {
 #define TESTED "{name: T, use: tested}"
 #define SLIDE "slide: {mass_kg: 2000, force_N: 300000, length_m: 0.2, bottom_stiffness_N_m: 1.0e+9}"
 
-/* What other keys act with is gone. */
+/* Keys that other keys act with are removed. */
 #define WITHOUT                                                                                    \
     "front: {pitch: locked, vertical: locked, second_unloading_stiffness_N_m: null, "              \
     "anti_climber: "                                                                               \
@@ -88,7 +88,7 @@ static inline void read_base(void) {
     fclose(file);
 }
 
-/* The problem of a setting with something written for the tested vehicle; for the caller to free.
+/* The problem of a setting with a text for the tested vehicle; the caller frees it.
  */
 static inline char *problem_text(const Setting *setting, const char *written) {
     char *text = NULL;
@@ -108,7 +108,7 @@ static inline Answer answer_with(const Setting *setting, const char *written) {
     return answer;
 }
 
-/* The tested vehicle as it is read in a setting; the problem is for the caller to free. */
+/* The tested vehicle as it is read in a setting; the caller frees the problem. */
 static inline const CzVehicle *read_tested(const Setting *setting, CzProblem **read) {
     char *text = problem_text(setting, "");
     CzProblem *problem = NULL;

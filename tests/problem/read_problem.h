@@ -10,7 +10,7 @@
 
 #define GOOD_FOLDER CZ_SOURCE_FOLDER "/tests/problem/good"
 
-/* Prints what was reported a problem. */
+/* Prints the mistakes of a problem. */
 static inline void print_mistakes(const CzProblem *problem) {
     for (int i = 0; i < cz_problem_n_mistake(problem); i++) {
         const CzError *error = cz_problem_mistake(problem, i);
@@ -19,7 +19,7 @@ static inline void print_mistakes(const CzProblem *problem) {
     }
 }
 
-/* Reads a file of the good folder; it must be good. */
+/* Reads a file of the folder `good`, which must be valid. */
 static inline CzProblem *read_good(const char *name, int n_set, const char *const *set) {
     char path[300];
     CzProblemOptions options = cz_problem_options_default();

@@ -1,5 +1,5 @@
-/* Keys that lack what they act with are warned of at their place, once, and only where they act in
- * no place. What each of them needs is in acts_with.def, which problem-every-key goes through. */
+/* Keys that lack the key they act with are warned of once, at their place, and only where they act
+ * nowhere. acts_with.def lists the needs of each key, and problem-every-key tries all of them. */
 #include "problem/read_problem.h"
 
 #include <dirent.h>
@@ -64,7 +64,7 @@ static void friction_falls_only_to_a_sliding_friction(void **state) {
     "  end: {face_gap_m: 1, coupler: {buffer: {use: gear}}}\n"                                     \
     "  car: {model: rigid, mass_t: 40, front: {use: end}, rear: {use: end}}\n"
 
-static void what_acts_in_one_place_is_not_warned_of_in_others(void **state) {
+static void a_part_that_acts_in_one_place_is_not_warned_of_in_others(void **state) {
     (void)state;
     CzProblem *two =
         read_good_text(RIGID_TRAINS "trains:\n"
@@ -97,7 +97,7 @@ static void a_rigid_end_needs_no_unloading_and_is_warned_of_one(void **state) {
     cz_problem_free(problem);
 }
 
-/* Parts of a catalogue are for any problem. */
+/* Parts of a catalogue serve any problem. */
 static void shipped_problems_have_no_key_without_effect(void **state) {
     (void)state;
     static const char *const folder = CZ_SOURCE_FOLDER "/problems";
@@ -126,7 +126,7 @@ int main(void) {
         cmocka_unit_test(a_key_that_lacks_its_sibling_is_warned_of_at_its_place),
         cmocka_unit_test(a_key_beside_its_sibling_is_not_warned_of),
         cmocka_unit_test(friction_falls_only_to_a_sliding_friction),
-        cmocka_unit_test(what_acts_in_one_place_is_not_warned_of_in_others),
+        cmocka_unit_test(a_part_that_acts_in_one_place_is_not_warned_of_in_others),
         cmocka_unit_test(a_rigid_end_needs_no_unloading_and_is_warned_of_one),
         cmocka_unit_test(shipped_problems_have_no_key_without_effect),
     };

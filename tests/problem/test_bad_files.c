@@ -1,5 +1,5 @@
 /* Every rule that can reject a problem file has a file in tests/problem/bad that breaks it.
- * Comments at the file's end say what must be reported:
+ * Comments at the file's end give the expected report:
  *
  *   # expect: [file:]line:column: sentence
  *   # help: hint of the mistake above
@@ -61,7 +61,7 @@ static void read_told(const char *path, Story *story) {
     cz_problem_free(problem);
 }
 
-static void bad_file_is_refused_as_it_says(void **state) {
+static void bad_file_gets_the_expected_report(void **state) {
     static Story expected, told;
     const char *path = *state;
     expected.n_line = told.n_line = 0;
@@ -99,7 +99,7 @@ int main(void) {
             continue;
         char *name = strdup(file->d_name);
         tests[n_test++] =
-            (struct CMUnitTest){name, bad_file_is_refused_as_it_says, NULL, NULL, name};
+            (struct CMUnitTest){name, bad_file_gets_the_expected_report, NULL, NULL, name};
     }
     closedir(folder);
     qsort(tests, n_test, sizeof tests[0], compare_names);

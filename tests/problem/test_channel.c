@@ -1,10 +1,10 @@
-/* Names of channels: made of an entry and a place, and found again. */
+/* Names of channels: written from an entry and a place, and read again. */
 #include "crushzone/channel.h"
 #include "support/check.h"
 
 #include <string.h>
 
-/* As long as a name may be, but for its end. */
+/* Of the largest length, without its last letters. */
 #define LONG "a-vehicle-whose-name-takes-all-the-room-there_"
 
 static const char *const short_names[] = {"A1", "A2", "B1"};
@@ -47,7 +47,7 @@ static void every_place_of_every_channel_is_found_by_its_name(void **state) {
     find_all(3, long_names);
 }
 
-static void names_say_the_place(void **state) {
+static void names_contain_the_place(void **state) {
     (void)state;
     char name[CZ_CHANNEL_ROOM];
     const CzChannelInfo *lift = cz_channel_info(CZ_CHANNEL_WHEEL_LIFT);
@@ -59,7 +59,7 @@ static void names_say_the_place(void **state) {
     assert_string_equal(cz_channel_name(energy, 0, "", name), "E_stored_kJ");
 }
 
-/* The unit of an entry is the end of its names. */
+/* Names end with the unit of the entry. */
 static void units_are_those_of_the_names(void **state) {
     (void)state;
     for (CzChannel channel = 0; channel < CZ_N_CHANNEL; channel++) {
@@ -71,7 +71,7 @@ static void units_are_those_of_the_names(void **state) {
     }
 }
 
-static void a_slip_gets_the_nearest_name(void **state) {
+static void a_mistyped_name_gets_the_nearest_one(void **state) {
     (void)state;
     char nearest[CZ_CHANNEL_ROOM];
     CzColumn column = {CZ_CHANNEL_TIME, 7};
@@ -86,9 +86,9 @@ static void a_slip_gets_the_nearest_name(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_place_of_every_channel_is_found_by_its_name),
-        cmocka_unit_test(names_say_the_place),
+        cmocka_unit_test(names_contain_the_place),
         cmocka_unit_test(units_are_those_of_the_names),
-        cmocka_unit_test(a_slip_gets_the_nearest_name),
+        cmocka_unit_test(a_mistyped_name_gets_the_nearest_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

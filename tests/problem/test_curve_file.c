@@ -1,4 +1,4 @@
-/* The one reader of curve files: numbers, separators, titles, units, and files that are none. */
+/* The reader of curve files: numbers, separators, titles, units, and invalid files. */
 #include "support/check.h"
 
 #include <stdlib.h>
@@ -11,7 +11,7 @@ static const CzCurveRequest wanted = {
     .column = {{.name = "stroke", .dimension = CZ_DIMENSION_LENGTH, .largest = CZ_LARGEST_STROKE},
                {.name = "force", .dimension = CZ_DIMENSION_FORCE, .largest = CZ_LARGEST_FORCE}}};
 
-static void a_number_says_what_its_signs_can_be(void **state) {
+static void a_number_limits_the_meaning_of_its_signs(void **state) {
     static const struct {
         const char *text;
         CzDecimalSign sign;
@@ -71,7 +71,7 @@ static void a_number_says_what_its_signs_can_be(void **state) {
     }
 }
 
-/* Reads a text as a curve; the message is empty when it is one. */
+/* Reads a text as a curve; the message is empty when it is valid. */
 static CzStatus read(CzArena *arena, const char *text, size_t n_byte, CzCurvePoints *points,
                      CzError *error) {
     *error = (CzError){0};
@@ -108,7 +108,7 @@ static void one_curve_is_read_however_it_is_written(void **state) {
     }
 }
 
-static void what_can_be_read_in_two_ways_is_refused(void **state) {
+static void an_ambiguous_file_is_refused(void **state) {
     static const struct {
         const char *text;
         int line, column;
@@ -145,8 +145,8 @@ static void what_can_be_read_in_two_ways_is_refused(void **state) {
     }
 }
 
-/* A stroke of 463.5 m is no stroke, so the point parts decimals. */
-static void a_size_that_nothing_has_decides_the_decimal_sign(void **state) {
+/* A stroke of 463.5 m is impossible, so the point is the decimal sign. */
+static void an_impossible_size_decides_the_decimal_sign(void **state) {
     static const char text[] = "stroke_mm;force_kN\n0;0\n4.500;791.606\n463.500;693.100\n";
     CzArena arena = {0};
     CzCurvePoints points;
@@ -157,8 +157,8 @@ static void a_size_that_nothing_has_decides_the_decimal_sign(void **state) {
     cz_arena_free(&arena);
 }
 
-/* Bytes that are changed, dropped and doubled at random: the reader says yes or no. */
-static void no_text_is_too_bad_for_an_answer(void **state) {
+/* Bytes are changed, dropped and doubled at random: the reader accepts or refuses. */
+static void any_text_is_accepted_or_refused(void **state) {
     static const char seed_text[] = "sep=;\nTest \"a\";1,5\n\nWeg [mm];Kraft (N)\n(mm);N;\n"
                                     "0;\"1.050\";\n1,5;2.100\n# end\n3e0\t4;5\n-1'000;7\r8;9\n";
     static const char bytes[] = ";,\t \"'.#[]()0e-\n\r\xef\xbb\xbf\xff\xfe\x00\x1a";
@@ -181,7 +181,7 @@ static void no_text_is_too_bad_for_an_answer(void **state) {
                 n += n - at;
             }
         }
-        char *copy = malloc(n); /* so that reading beyond the end is seen */
+        char *copy = malloc(n); /* so that reading beyond the end is detected */
         memcpy(copy, text, n);
         CzArena arena = {0};
         CzCurvePoints points;
@@ -196,11 +196,11 @@ static void no_text_is_too_bad_for_an_answer(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_number_says_what_its_signs_can_be),
+        cmocka_unit_test(a_number_limits_the_meaning_of_its_signs),
         cmocka_unit_test(one_curve_is_read_however_it_is_written),
-        cmocka_unit_test(what_can_be_read_in_two_ways_is_refused),
-        cmocka_unit_test(a_size_that_nothing_has_decides_the_decimal_sign),
-        cmocka_unit_test(no_text_is_too_bad_for_an_answer),
+        cmocka_unit_test(an_ambiguous_file_is_refused),
+        cmocka_unit_test(an_impossible_size_decides_the_decimal_sign),
+        cmocka_unit_test(any_text_is_accepted_or_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -94,8 +94,8 @@ static void a_short_curve_stays_as_it_is(void **state) {
     assert_near(y[1], 5, 0, 0);
 }
 
-/* A tube's elastic part F / k is taken off total strokes and comes back as plastic ones do: the
- * same law, whichever way it is written. */
+/* A tube's elastic part F / k is subtracted from total strokes: the same law as of plastic strokes.
+ */
 static void total_strokes_lose_their_elastic_part(void **state) {
     static const char *const text[] = {
         "extends: rigid.yaml\n"
@@ -122,7 +122,7 @@ static void total_strokes_lose_their_elastic_part(void **state) {
     }
 }
 
-/* What the keys beside a file do, against the same curve by points. */
+/* The keys beside a file, against the same curve given by points. */
 static void keys_beside_a_file_shape_its_curve(void **state) {
     static const char content[] = "a test\nTime;Weg;Kraft A;Kraft B\ns;mm;N;N\n"
                                   "0;-120,5;0;9\n1;-125,5;-1.000.000;9\n2;-525,5;-2.400.000;9\n"

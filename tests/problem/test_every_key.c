@@ -1,6 +1,6 @@
 /* No key without effect: for every key of keys.def that a vehicle can have, on every model of
- * vehicle that it can be written for, a change of it changes what comes out of some collision, or
- * the reader refuses or warns. Other keys have a change of their own in every_key.def. A new key
+ * vehicle that it can be written for, a change of it changes the results of some collision, or the
+ * reader refuses or warns. Other keys have a change of their own in every_key.def. A new key
  * without either fails here. */
 #include "support/check.h"
 
@@ -12,7 +12,7 @@
 
 /* ---- changes ---- */
 
-/* Values for keys of which a quarter more or less of the value does nothing. */
+/* Values for keys of which a quarter more or less has no effect. */
 static const struct {
     CzRecordId record;
     const char *stem, *value;
@@ -40,7 +40,7 @@ static void add_number(Changes *changes, const CzKey *key, double value) {
              unit->suffix[0] != '\0' ? "_" : "", unit->suffix, value);
 }
 
-/* What may be written instead of a key's own value, which `record` holds. */
+/* Values to replace a key's own value, which `record` contains. */
 static Changes changes_of(CzRecordId id, const CzKey *key, const char *record) {
     Changes changes = {0};
     for (int i = 0; i < N_VALUE; i++)
@@ -75,7 +75,7 @@ typedef struct {
     const Setting *setting;
     const CzProblem *problem;
     int n_wrong;               /* warnings that are missing, or not true */
-    bool (*lacked)[MOST_KEYS]; /* keys that lacked what they act with, of every record */
+    bool (*lacked)[MOST_KEYS]; /* keys without the key they act with, of every record */
     Answer as_written;
     Found (*found)[MOST_KEYS][N_MODEL]; /* of every record (CZ_N_RECORD) */
 } Walk;
@@ -100,7 +100,8 @@ typedef struct {
 
 /* Whether two texts are the same but for the rounding of their numbers. */
 static bool is_same_but_rounding(const char *a, const char *b) {
-    static const double rounding = 1e-6; /* of a sum of thousands of steps, to what an answer is */
+    static const double rounding =
+        1e-6; /* of a sum of thousands of steps, relative to the result */
     while (*a != '\0' && *b != '\0') {
         char *end_a, *end_b;
         const double first = strtod(a, &end_a), second = strtod(b, &end_b);
@@ -115,7 +116,7 @@ static bool is_same_but_rounding(const char *a, const char *b) {
     return *a == *b;
 }
 
-/* What something that is written there does. */
+/* Effect of a text that is written there. */
 typedef enum { NOTHING, REFUSED, DIFFERENCE } Effect;
 static Effect effect_of(const Walk *walk, const Trail *trail, const char *written,
                         const CzKey *warned_of, bool *is_warned) {
@@ -147,7 +148,7 @@ static bool is_warned_of(const Walk *walk, const CzKey *key) {
     return names_key(walk->as_written.warnings, models[walk->setting->model], key);
 }
 
-/* Looks at a key that lacks what it acts with: it does nothing, and is warned of. */
+/* Checks a key without the key it acts with: it has no effect, and the reader warns. */
 static void look_at_lacking(Walk *walk, CzRecordId id, int index, const Changes *changes,
                             const Trail *trail) {
     const CzKey *key = &cz_records[id].key[index];
@@ -188,7 +189,7 @@ static void look_at_key(Walk *walk, CzRecordId id, int index, const char *record
     *found = is_well ? ACTS : IDLE;
 }
 
-/* Looks at a record inside that lacks what it acts with: it can go. */
+/* Checks an inner record without the key it acts with: it can be removed. */
 static void look_at_child(Walk *walk, CzRecordId id, int index, const Trail *trail) {
     char gone[64];
     const CzKey *key = &cz_records[id].key[index];
@@ -296,7 +297,7 @@ static bool is_of_vehicles(CzRecordId id, CzRecordId in) {
     return is_in;
 }
 
-/* How many lines of acts_with.def no setting shows. */
+/* Number of lines of acts_with.def that no setting shows. */
 static int count_conditions_without_case(bool lacked[CZ_N_RECORD][MOST_KEYS]) {
     static const struct {
         CzRecordId record;

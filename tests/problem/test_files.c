@@ -1,4 +1,4 @@
-/* Files that are no problem files at all: each gives a sentence, none a crash. */
+/* Files that are no problem files: each gives a message, none a crash. */
 #include "problem/read_problem.h"
 
 #include <locale.h>
@@ -28,22 +28,22 @@ static void check_text_refused(const char *text, size_t n_byte, int line, int co
     cz_problem_free(problem);
 }
 
-static void a_missing_file_is_told(void **state) {
+static void a_missing_file_is_reported(void **state) {
     (void)state;
     check_refused("no-such-file.yaml", "cannot read 'no-such-file.yaml': there is no such file");
 }
 
-static void a_folder_is_told(void **state) {
+static void a_folder_is_reported(void **state) {
     (void)state;
     check_refused("/", "cannot read '/': it is a folder");
 }
 
-static void a_device_is_told(void **state) {
+static void a_device_is_reported(void **state) {
     (void)state;
     check_refused("/dev/zero", "cannot read '/dev/zero': it is not a regular file");
 }
 
-static void an_empty_file_is_told(void **state) {
+static void an_empty_file_is_reported(void **state) {
     char path[] = "/tmp/crushzone-empty-XXXXXX";
     char sentence[100];
     const int file = mkstemp(path);
@@ -56,7 +56,7 @@ static void an_empty_file_is_told(void **state) {
     check_text_refused("", 0, 0, 0, "cannot read 'text': it is empty");
 }
 
-static void a_file_of_20_megabytes_is_told(void **state) {
+static void a_file_of_20_megabytes_is_reported(void **state) {
     char path[] = "/tmp/crushzone-large-XXXXXX";
     char sentence[100];
     const int file = mkstemp(path);
@@ -69,7 +69,7 @@ static void a_file_of_20_megabytes_is_told(void **state) {
     unlink(path);
 }
 
-static void a_file_without_permission_is_told(void **state) {
+static void a_file_without_permission_is_reported(void **state) {
     char path[] = "/tmp/crushzone-locked-XXXXXX";
     char sentence[100];
     const int file = mkstemp(path);
@@ -84,7 +84,7 @@ static void a_file_without_permission_is_told(void **state) {
     unlink(path);
 }
 
-static void bytes_that_are_no_text_are_told_with_their_place(void **state) {
+static void bytes_that_are_no_text_are_reported_with_their_place(void **state) {
     (void)state;
     check_text_refused("title: a\nb: \xff\xfe\n", 15, 2, 4,
                        "the file contains byte 0xff, which begins no character of UTF-8");
@@ -98,7 +98,7 @@ static void bytes_that_are_no_text_are_told_with_their_place(void **state) {
                        "the file contains byte 0xed, which begins no character of UTF-8");
 }
 
-static void a_byte_order_mark_is_passed_over(void **state) {
+static void a_byte_order_mark_is_ignored(void **state) {
     (void)state;
     CzProblem *problem = read_good_text("\xef\xbb\xbf"
                                         "extends: rigid.yaml\n");
@@ -120,8 +120,8 @@ static void lines_may_end_as_on_windows(void **state) {
     cz_problem_free(problem);
 }
 
-/* All that YAML ends a line with ends one in messages, or their picture shows another line. */
-static void lines_are_counted_as_yaml_counts_them(void **state) {
+/* Every line end of YAML is one in messages, otherwise their excerpt shows another line. */
+static void lines_are_counted_as_in_yaml(void **state) {
     static const char *const ends[] = {"\n", "\r\n", "\r"};
     (void)state;
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
@@ -138,7 +138,7 @@ static void lines_are_counted_as_yaml_counts_them(void **state) {
     }
 }
 
-/* They end a line for YAML and cannot be seen, so a comment could hold a key. */
+/* They end a line for YAML and are invisible, so a comment could contain a key. */
 static void other_separators_of_lines_are_refused(void **state) {
     static const char *const ends[] = {"\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"};
     static const char *const told[] = {"the file contains the control character U+0085",
@@ -172,7 +172,7 @@ static void very_many_mistakes_are_counted(void **state) {
     cz_problem_free(problem);
 }
 
-/* A text of n copies of a piece between a beginning and an end. */
+/* A text of n copies of a piece between a head and a tail. */
 static void check_long_text_refused(const char *begin, const char *piece, int n, const char *end,
                                     const char *sentence) {
     const size_t n_piece = strlen(piece);
@@ -193,7 +193,7 @@ static void check_long_text_refused(const char *begin, const char *piece, int n,
     free(text);
 }
 
-static void files_that_would_take_very_long_are_told(void **state) {
+static void files_that_would_take_very_long_are_reported(void **state) {
     (void)state;
     check_long_text_refused("a: [", "1,", 30000, "1]", "a list has more than 20000 items");
     check_long_text_refused("a:\n", "- [1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1]\n", 15000, "",
@@ -207,7 +207,7 @@ static void files_that_would_take_very_long_are_told(void **state) {
     free(keys);
 }
 
-static void a_curve_of_very_many_lines_is_told(void **state) {
+static void a_curve_of_very_many_lines_is_reported(void **state) {
     char path[] = "/tmp/crushzone-curve-XXXXXX";
     char text[300];
     const int descriptor = mkstemp(path);
@@ -231,7 +231,7 @@ static void a_curve_of_very_many_lines_is_told(void **state) {
     unlink(path);
 }
 
-static void a_setting_that_is_none_is_told_with_its_place(void **state) {
+static void an_invalid_setting_is_reported_with_its_place(void **state) {
     static const char *const set[] = {"trains.A.speed_km_h=30", "trains.A.speed_km_h",
                                       "trains.A.speed_km_h=fast", "=3", "trains.A.sped_km_h=3"};
     CzProblemOptions options = cz_problem_options_default();
@@ -288,21 +288,21 @@ static void the_locale_of_the_host_changes_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_missing_file_is_told),
-        cmocka_unit_test(a_folder_is_told),
-        cmocka_unit_test(a_device_is_told),
-        cmocka_unit_test(an_empty_file_is_told),
-        cmocka_unit_test(a_file_of_20_megabytes_is_told),
-        cmocka_unit_test(a_file_without_permission_is_told),
-        cmocka_unit_test(bytes_that_are_no_text_are_told_with_their_place),
-        cmocka_unit_test(a_byte_order_mark_is_passed_over),
+        cmocka_unit_test(a_missing_file_is_reported),
+        cmocka_unit_test(a_folder_is_reported),
+        cmocka_unit_test(a_device_is_reported),
+        cmocka_unit_test(an_empty_file_is_reported),
+        cmocka_unit_test(a_file_of_20_megabytes_is_reported),
+        cmocka_unit_test(a_file_without_permission_is_reported),
+        cmocka_unit_test(bytes_that_are_no_text_are_reported_with_their_place),
+        cmocka_unit_test(a_byte_order_mark_is_ignored),
         cmocka_unit_test(lines_may_end_as_on_windows),
-        cmocka_unit_test(lines_are_counted_as_yaml_counts_them),
+        cmocka_unit_test(lines_are_counted_as_in_yaml),
         cmocka_unit_test(other_separators_of_lines_are_refused),
         cmocka_unit_test(very_many_mistakes_are_counted),
-        cmocka_unit_test(files_that_would_take_very_long_are_told),
-        cmocka_unit_test(a_curve_of_very_many_lines_is_told),
-        cmocka_unit_test(a_setting_that_is_none_is_told_with_its_place),
+        cmocka_unit_test(files_that_would_take_very_long_are_reported),
+        cmocka_unit_test(a_curve_of_very_many_lines_is_reported),
+        cmocka_unit_test(an_invalid_setting_is_reported_with_its_place),
         cmocka_unit_test(the_locale_of_the_host_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -61,7 +61,7 @@ static void a_path_through_a_vehicle_names_its_repeats_and_copies_too(void **sta
     check_found("trains.A.vehicles.A2.front.stages[0].force_kN", 4, expected);
 }
 
-static void beyond_a_star_items_without_the_record_are_passed_over(void **state) {
+static void behind_a_star_items_without_the_record_are_skipped(void **state) {
     (void)state;
     const size_t front = offsetof(CzVehicle, front.coupler.shear_off.force);
     const size_t rear = offsetof(CzVehicle, rear.coupler.shear_off.force);
@@ -96,7 +96,7 @@ static void a_target_knows_its_unit_and_its_concrete_path(void **state) {
     cz_problem_free(problem);
 }
 
-static void finding_and_setting_mean_the_same_places(void **state) {
+static void finding_and_setting_use_the_same_places(void **state) {
     (void)state;
     static const char *const paths[] = {"parts.cab-end.anti_climber.gap_mm",
                                         "parts.end.stages[1].force_kN",
@@ -143,7 +143,7 @@ static void settings_before_are_kept_while_finding(void **state) {
     cz_problem_free(problem);
 }
 
-static void a_path_to_nowhere_is_told_with_a_did_you_mean(void **state) {
+static void an_unknown_path_is_reported_with_a_suggestion(void **state) {
     (void)state;
     CzProblem *problem = read_good("full.yaml", 0, NULL);
     CzTarget *target = NULL;
@@ -166,7 +166,7 @@ static void a_path_to_nowhere_is_told_with_a_did_you_mean(void **state) {
     cz_problem_free(problem);
 }
 
-static void a_candidate_is_held_to_the_rules_of_a_file(void **state) {
+static void a_candidate_must_satisfy_the_rules_of_a_file(void **state) {
     (void)state;
     CzProblem *problem = read_good("full.yaml", 0, NULL);
     int n_vehicle = 0;
@@ -186,8 +186,8 @@ static void a_candidate_is_held_to_the_rules_of_a_file(void **state) {
     cz_problem_free(problem);
 }
 
-/* What a part says of a part in it is set after that part, whichever is typed first: putting a
- * value beside `use` takes what the part gives at that moment. */
+/* A setting of a part inside a part is applied after those of the inner part, whichever is typed
+ * first, because a value beside `use` takes the values of the part at that moment. */
 static void settings_of_parts_do_not_depend_on_their_order(void **state) {
     (void)state;
     static const char text[] =
@@ -243,13 +243,13 @@ static void numbers_of_trains_and_of_the_simulation_are_found_too(void **state) 
         assert_ptr_equal(target->field, fields[i]);
         assert_near(target->value, *fields[i], 0, 0);
         assert_false(target->may_vary);
-        assert_int_equal(target->may_fit, i == 0); /* the speed is what was driven */
+        assert_int_equal(target->may_fit, i == 0); /* the speed is fixed data */
         free(target);
     }
     cz_problem_free(problem);
 }
 
-static void variables_keep_what_their_paths_name(void **state) {
+static void variables_keep_the_places_of_their_paths(void **state) {
     (void)state;
     CzProblem *problem = read_good("full.yaml", 0, NULL);
     const CzOptimise *optimise = &cz_problem_input(problem)->optimise;
@@ -278,16 +278,16 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(settings_of_parts_do_not_depend_on_their_order),
         cmocka_unit_test(numbers_of_trains_and_of_the_simulation_are_found_too),
-        cmocka_unit_test(variables_keep_what_their_paths_name),
+        cmocka_unit_test(variables_keep_the_places_of_their_paths),
         cmocka_unit_test(a_path_through_a_part_names_every_user_that_does_not_override),
         cmocka_unit_test(a_star_makes_one_match_of_every_item),
         cmocka_unit_test(a_path_through_a_vehicle_names_its_repeats_and_copies_too),
-        cmocka_unit_test(beyond_a_star_items_without_the_record_are_passed_over),
+        cmocka_unit_test(behind_a_star_items_without_the_record_are_skipped),
         cmocka_unit_test(a_target_knows_its_unit_and_its_concrete_path),
-        cmocka_unit_test(finding_and_setting_mean_the_same_places),
+        cmocka_unit_test(finding_and_setting_use_the_same_places),
         cmocka_unit_test(settings_before_are_kept_while_finding),
-        cmocka_unit_test(a_candidate_is_held_to_the_rules_of_a_file),
-        cmocka_unit_test(a_path_to_nowhere_is_told_with_a_did_you_mean),
+        cmocka_unit_test(a_candidate_must_satisfy_the_rules_of_a_file),
+        cmocka_unit_test(an_unknown_path_is_reported_with_a_suggestion),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

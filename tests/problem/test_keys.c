@@ -1,4 +1,4 @@
-/* The tables of keys and what is written from them. */
+/* The tables of keys and the documents written from them. */
 #include "problem/read_problem.h"
 
 #include <jansson.h>
@@ -83,7 +83,7 @@ static void units_have_their_si_values(void **state) {
     assert_null(cz_unit_find(CZ_DIMENSION_LENGTH, "kN"));
 }
 
-static void stems_are_what_stands_before_the_unit(void **state) {
+static void stems_are_the_part_before_the_unit(void **state) {
     (void)state;
     assert_int_equal(cz_key_stem_length("stroke_mm"), 6);
     assert_int_equal(cz_key_stem_length("damping_kN_s_m"), 7);
@@ -96,7 +96,7 @@ static void stems_are_what_stands_before_the_unit(void **state) {
     assert_false(cz_key_same_stem("force_kN", "end_force_kN"));
 }
 
-static void the_schema_is_json_and_holds_every_spelling(void **state) {
+static void the_schema_is_json_and_contains_every_spelling(void **state) {
     (void)state;
     char *text = capture(cz_keys_write_schema);
     json_error_t error;
@@ -147,8 +147,8 @@ int main(void) {
         cmocka_unit_test(every_key_is_found_by_each_of_its_spellings),
         cmocka_unit_test(defaults_lie_within_their_ranges),
         cmocka_unit_test(units_have_their_si_values),
-        cmocka_unit_test(stems_are_what_stands_before_the_unit),
-        cmocka_unit_test(the_schema_is_json_and_holds_every_spelling),
+        cmocka_unit_test(stems_are_the_part_before_the_unit),
+        cmocka_unit_test(the_schema_is_json_and_contains_every_spelling),
         cmocka_unit_test(help_and_reference_name_every_key),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* Large files: the time to read one grows with its size and no faster, and what would grow without
+/* Large files: the reading time grows linearly with the size, and a file that would grow without
  * bounds is refused. */
 #include "problem/read_problem.h"
 
@@ -75,9 +75,9 @@ static double time_of(const Text *text) {
     return best;
 }
 
-/* Ten times the file may take 25 times the time, where caches are left; the square would be a
- * hundred. Below two milliseconds nothing can be reported. */
-static void reading_takes_a_time_that_grows_with_the_file_and_no_faster(void **state) {
+/* Ten times the size may take 25 times the time, where the caches overflow; quadratic growth would
+ * be a hundred times. Times below two milliseconds are too short to compare. */
+static void reading_time_grows_linearly_with_the_size(void **state) {
     (void)state;
     Text text = {0};
     for (Kind kind = 0; kind < N_KIND; kind++) {
@@ -91,7 +91,7 @@ static void reading_takes_a_time_that_grows_with_the_file_and_no_faster(void **s
     free(text.text);
 }
 
-/* What is reported a file, all in one text. */
+/* All messages about a file as one text. */
 static void tell(const Text *text, char *told, size_t room) {
     CzProblem *problem = NULL;
     told[0] = '\0';
@@ -103,7 +103,7 @@ static void tell(const Text *text, char *told, size_t room) {
     cz_problem_free(problem);
 }
 
-/* Each of the two ways round doubles with every step of a search that does not remember. */
+/* The number of branches doubles with every step of a search without a memory. */
 static void parts_that_use_one_another_in_branching_circles_are_refused_at_once(void **state) {
     (void)state;
     char told[4096];
@@ -138,7 +138,7 @@ static void chains_of_parts_that_are_too_long_are_refused(void **state) {
     free(text.text);
 }
 
-static void more_scenarios_than_anybody_could_run_are_refused(void **state) {
+static void too_many_scenarios_are_refused(void **state) {
     (void)state;
     char told[4096];
     Text text = {0};
@@ -152,7 +152,7 @@ static void more_scenarios_than_anybody_could_run_are_refused(void **state) {
 }
 
 /* Every setting makes a mapping anew on the way to each place. */
-static void more_settings_than_anybody_could_mean_are_refused(void **state) {
+static void too_many_settings_are_refused(void **state) {
     (void)state;
     char told[8192];
     Text text = {0};
@@ -167,11 +167,11 @@ static void more_settings_than_anybody_could_mean_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reading_takes_a_time_that_grows_with_the_file_and_no_faster),
+        cmocka_unit_test(reading_time_grows_linearly_with_the_size),
         cmocka_unit_test(parts_that_use_one_another_in_branching_circles_are_refused_at_once),
         cmocka_unit_test(chains_of_parts_that_are_too_long_are_refused),
-        cmocka_unit_test(more_settings_than_anybody_could_mean_are_refused),
-        cmocka_unit_test(more_scenarios_than_anybody_could_run_are_refused),
+        cmocka_unit_test(too_many_settings_are_refused),
+        cmocka_unit_test(too_many_scenarios_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

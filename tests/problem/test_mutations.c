@@ -1,12 +1,12 @@
-/* Thousands of damaged files: the reader says what is wrong with each, or reads it. The sequence is
- * the same on every run; sanitizers watch in the debug build. */
+/* Thousands of damaged files: the reader reports the mistakes of each, or reads it. The sequence is
+ * the same on every run; the debug build runs it under sanitizers. */
 #include "problem/read_problem.h"
 
 enum { N_MUTANT = 2500, MOST_CHANGES = 6 };
 
 static uint32_t random_state;
 
-/* Marsaglia's xorshift: enough for damage. */
+/* Marsaglia's xorshift, sufficient here. */
 static uint32_t draw(uint32_t n) {
     random_state ^= random_state << 13;
     random_state ^= random_state >> 17;
@@ -24,7 +24,7 @@ static char *load(const char *path, size_t *n_byte) {
     return text;
 }
 
-/* Pieces that mean something to the reader. */
+/* Pieces with a meaning for the reader. */
 static const char *const pieces[] = {"use: car",
                                      "{",
                                      "}",

@@ -1,4 +1,4 @@
-/* Reading of whole problems: what good files become. */
+/* Reading of whole problems: the values of valid files. */
 #include "problem/read_problem.h"
 
 static void values_are_in_si_units_and_absent_ones_have_their_defaults(void **state) {
@@ -100,7 +100,7 @@ static void an_overlay_can_name_vehicles_that_have_no_name(void **state) {
     cz_problem_free(problem);
 }
 
-static void null_lets_go_what_the_part_has(void **state) {
+static void null_removes_a_key_of_the_part(void **state) {
     (void)state;
     CzProblem *problem = read_good_text("extends: rigid.yaml\n"
                                         "trains:\n"
@@ -120,7 +120,7 @@ static void a_value_in_another_unit_overrides_the_same_stem(void **state) {
     cz_problem_free(problem);
 }
 
-static void a_setting_means_what_typing_it_would_mean(void **state) {
+static void a_setting_equals_the_typed_value(void **state) {
     (void)state;
     static const char *const set[] = {
         "trains.A.vehicles.A4.front.anti_climber.gap_mm=290",
@@ -230,7 +230,7 @@ static void limits_of_a_profile_are_those_of_the_category(void **state) {
     cz_problem_free(problem);
 }
 
-static void mark_of_an_editor_before_the_text_is_passed_over(void **state) {
+static void a_byte_order_mark_before_the_text_is_ignored(void **state) {
     (void)state;
     CzProblem *problem = read_good_text("\xef\xbb\xbf"
                                         "extends: rigid.yaml\n"
@@ -239,7 +239,7 @@ static void mark_of_an_editor_before_the_text_is_passed_over(void **state) {
     cz_problem_free(problem);
 }
 
-static void every_word_for_nothing_is_one(void **state) {
+static void every_spelling_of_null_removes_a_key(void **state) {
     (void)state;
     static const char *const words[] = {"null", "Null", "NULL", "~"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
@@ -277,7 +277,7 @@ static void coupler_without_one_to_meet_is_warned_of(void **state) {
                                "    vehicles:\n"
                                "      - {name: A1, front: {coupler: {use: draw}}}\n";
     CzProblem *problem = read_good_text(text);
-    assert_int_equal(cz_problem_n_warning(problem), 3); /* height and hinge do nothing either */
+    assert_int_equal(cz_problem_n_warning(problem), 3); /* height and hinge have no effect either */
     assert_non_null(strstr(cz_problem_warning(problem, 2)->message,
                            "unpaired coupler: 'B1' has none to meet that of 'A1'"));
     cz_problem_free(problem);
@@ -330,16 +330,16 @@ int main(void) {
         cmocka_unit_test(names_of_a_copy_that_do_not_begin_with_the_trains_name_get_it_in_front),
         cmocka_unit_test(an_overlay_merges_records_and_named_items_and_replaces_the_rest),
         cmocka_unit_test(an_overlay_can_name_vehicles_that_have_no_name),
-        cmocka_unit_test(null_lets_go_what_the_part_has),
+        cmocka_unit_test(null_removes_a_key_of_the_part),
         cmocka_unit_test(a_value_in_another_unit_overrides_the_same_stem),
-        cmocka_unit_test(a_setting_means_what_typing_it_would_mean),
+        cmocka_unit_test(a_setting_equals_the_typed_value),
         cmocka_unit_test(a_setting_of_a_list_item_leaves_the_part_to_others),
         cmocka_unit_test(json_is_read_as_well),
         cmocka_unit_test(the_hash_covers_files_and_settings),
         cmocka_unit_test(the_place_of_a_field_is_where_it_was_written),
         cmocka_unit_test(limits_of_a_profile_are_those_of_the_category),
-        cmocka_unit_test(mark_of_an_editor_before_the_text_is_passed_over),
-        cmocka_unit_test(every_word_for_nothing_is_one),
+        cmocka_unit_test(a_byte_order_mark_before_the_text_is_ignored),
+        cmocka_unit_test(every_spelling_of_null_removes_a_key),
         cmocka_unit_test(coupler_without_one_to_meet_is_warned_of),
         cmocka_unit_test(a_sweep_is_one_scenario_per_combination),
     };

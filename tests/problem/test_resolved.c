@@ -41,8 +41,8 @@ static void check_same_items(const CzKey *key, const char *a, const char *b) {
         check_same_record(key->child, first + (size_t)i * size, second + (size_t)i * size);
 }
 
-/* Compares two records value by value; design variables are written in another way and compared by
- * what they drive. */
+/* Compares two records value by value; design variables are written in another form and compared by
+ * their places. */
 static void check_same_record(const CzRecord *record, const char *a, const char *b) {
     assert_int_equal(*(const bool *)a, *(const bool *)b);
     for (int i = 0; i < record->n_key; i++) {
@@ -106,7 +106,7 @@ static void reading_the_resolved_file_gives_the_same_input(void **state) {
     check_round_trip("curves.yaml", GOOD_FOLDER);
 }
 
-static void problems_that_ship_resolve_to_themselves(void **state) {
+static void shipped_problems_resolve_to_themselves(void **state) {
     (void)state;
     const Shipped shipped = shipped_problems();
     for (int i = 0; i < shipped.n; i++)
@@ -132,7 +132,7 @@ static void variables_of_the_resolved_file_drive_the_same_places(void **state) {
     free(text);
 }
 
-static void the_origin_of_every_value_stands_behind_it(void **state) {
+static void the_origin_of_every_value_is_given_behind_it(void **state) {
     (void)state;
     static const char *const set[] = {"trains.A.speed_km_h=18"};
     CzProblem *problem = read_good("rigid.yaml", 1, set);
@@ -149,9 +149,9 @@ static void the_origin_of_every_value_stands_behind_it(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reading_the_resolved_file_gives_the_same_input),
-        cmocka_unit_test(problems_that_ship_resolve_to_themselves),
+        cmocka_unit_test(shipped_problems_resolve_to_themselves),
         cmocka_unit_test(variables_of_the_resolved_file_drive_the_same_places),
-        cmocka_unit_test(the_origin_of_every_value_stands_behind_it),
+        cmocka_unit_test(the_origin_of_every_value_is_given_behind_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,11 @@
-/* Numbers that are allowed and hardly meant are warned of, and nothing else is. */
+/* The reader warns of numbers that are allowed but unusual, and of no others. */
 #include "problem/read_problem.h"
 
 #include <dirent.h>
 
 #include "problem/keys.h"
 
-/* Of each range: that its key is a number with that unit, and that it lies in what is allowed. */
+/* Each range belongs to a number with that unit, and lies within the allowed range. */
 static void every_usual_range_is_one_of_a_key(void **state) {
     (void)state;
     static const struct {
@@ -34,7 +34,7 @@ static void every_usual_range_is_one_of_a_key(void **state) {
     }
 }
 
-/* How many warnings of a problem say that something is unusual; those of `word` only. */
+/* Number of a problem's warnings of unusual numbers; only those with `word`. */
 static int count_unusual(const CzProblem *problem, const char *word) {
     int n = 0;
     for (int i = 0; i < cz_problem_n_warning(problem); i++) {
@@ -52,7 +52,7 @@ static int count_with(const char *setting, const char *word) {
     return n;
 }
 
-static void what_newcomers_mistype_is_warned_of(void **state) {
+static void common_typing_mistakes_are_warned_of(void **state) {
     (void)state;
     assert_int_equal(count_with("parts.car.mass_kg=38", "38 kg, where 1000 to 250000 kg is"), 1);
     assert_int_equal(count_with("trains.A.speed_m_s=25", "25 m/s, where 0.3 to 20 m/s is"), 1);
@@ -98,7 +98,7 @@ static void shipped_problems_have_usual_numbers(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_usual_range_is_one_of_a_key),
-        cmocka_unit_test(what_newcomers_mistype_is_warned_of),
+        cmocka_unit_test(common_typing_mistakes_are_warned_of),
         cmocka_unit_test(usual_numbers_and_edges_are_not_warned_of),
         cmocka_unit_test(shipped_problems_have_usual_numbers),
     };

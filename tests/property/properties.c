@@ -1,7 +1,7 @@
-/* properties PROGRAM CATALOGUE FIRST COUNT: what must hold of every run, tried on COUNT random
- * designs that the reader accepts, from number FIRST on. Prints one line `ok - sentence` or `not ok
- * - sentence` per property; each breach names the number of its design, whose file stays in the
- * current folder as design-NUMBER.yaml. Exit code 1 when one is broken.
+/* properties PROGRAM CATALOGUE FIRST COUNT: properties of every run, tried on COUNT random designs
+ * that the reader accepts, from number FIRST on. Prints one line `ok - sentence` or `not ok -
+ * sentence` per property; each violation names the number of its design, whose file stays in the
+ * current folder as design-NUMBER.yaml. Exit code 1 when a property is violated.
  */
 #include <jansson.h>
 #include <math.h>
@@ -19,15 +19,15 @@
 #define PROPERTIES                                                                                 \
     CZ_PROPERTY(READS, "a file that validate accepts is run, one that it refuses ends with 2")     \
     CZ_PROPERTY(CODES, "every exit code is a documented one, and no run ends by a signal")         \
-    CZ_PROPERTY(NUMBERS, "a completed run has a number wherever one is asked for")                 \
+    CZ_PROPERTY(NUMBERS, "a completed run has a number for every key")                             \
     CZ_PROPERTY(VERDICTS, "table, JSON and exit code give one verdict")                            \
-    CZ_PROPERTY(FAILED, "no run fails but for a strut that has no length left")                    \
-    CZ_PROPERTY(BALANCE, "energy and momentum balance, or the run is marked as one that does not") \
-    CZ_PROPERTY(PASSIVE, "no element gives energy, all dissipate no more than there was")          \
+    CZ_PROPERTY(FAILED, "a run fails only where a strut has no length left")                       \
+    CZ_PROPERTY(BALANCE, "energy and momentum balance, or the run has a warning")                  \
+    CZ_PROPERTY(PASSIVE, "no element creates energy, all dissipate at most the initial energy")    \
     CZ_PROPERTY(SUMS, "the energies of the elements add up to that of the absorbers")              \
     CZ_PROPERTY(STROKES, "no stroke exceeds the closure of its interface")                         \
-    CZ_PROPERTY(BOTTOMED, "what used more than its stroke has bottomed out, and nothing else has") \
-    CZ_PROPERTY(ENDED, "a run that met the end criterion leaves no force that pushes cars apart")
+    CZ_PROPERTY(BOTTOMED, "devices beyond their stroke have bottomed out, and no others")          \
+    CZ_PROPERTY(ENDED, "after the end criterion no force pushes cars apart")
 
 typedef enum {
 #define CZ_PROPERTY(constant, sentence) constant,
@@ -48,11 +48,11 @@ typedef struct {
     unsigned long long number; /* of the design */
     long n_broken[N_PROPERTY];
     long n_tried[N_PROPERTY];
-    bool is_poor; /* the program says that the balance of energy is poor */
-    bool keep;    /* the design breaks something: its file stays */
+    bool is_poor; /* the program warns of its energy balance */
+    bool keep;    /* the design violates a property: its file stays */
 } Trial;
 
-/* Notes whether a property holds; prints the breach. */
+/* Records whether a property is satisfied; prints a violation. */
 static void expect(Trial *trial, Property property, bool holds, const char *what, double value,
                    double limit) {
     trial->n_tried[property]++;
@@ -64,8 +64,8 @@ static void expect(Trial *trial, Property property, bool holds, const char *what
            what, value, limit);
 }
 
-/* What a command printed on its standard output, and how it ended: its exit code, or minus the
- * number of the signal. The caller frees the text. */
+/* Standard output of a command, and its exit code, or minus the number of the signal. The caller
+ * frees the text. */
 static char *output_of(const Trial *trial, const char *words, int *code) {
     char command[1200];
     snprintf(command, sizeof command, "'%s' %s %s 2>/dev/null", trial->program, words, trial->file);
@@ -138,8 +138,8 @@ static bool is_total(const char *key) {
     return false;
 }
 
-/* The first key below `json` that has no number though it should, or a total of what went beyond
- * the model's validity; NULL when there is none. */
+/* The first key below `json` that lacks its number, or has a total beyond the model's validity;
+ * NULL when there is none. */
 static const char *wrong_key(const json_t *json, const char *key, bool beyond) {
     const char *name, *found;
     json_t *value;
@@ -173,7 +173,7 @@ static void verdict_of_table(const char *table, char *word, size_t n) {
     snprintf(word, n, "%.*s", last == NULL ? 0 : (int)strcspn(last, ".\n"), last ? last : "");
 }
 
-/* The verdict that a document means, in the words of the table. */
+/* The verdict of a document, in the words of the table. */
 static const char *verdict_of_json(const json_t *json) {
     if (has_text(json, "verdict", "fail"))
         return "FAIL";
@@ -211,24 +211,24 @@ static void try_program(Trial *trial) {
     free(text);
 }
 
-/* Rounding of sums of some 1e4 steps, as a share of the energy that was there. */
+/* Rounding of sums of some 1e4 steps, as a share of the initial energy. */
 #define ROUNDING 1e-9
 
-/* What the corners of laws may seem to give, as a share of the largest work of an element: four of
- * them passed at a hundredth of the stroke. */
+/* Energy error at breakpoints of laws, as a share of the largest work of an element: four of them
+ * passed at a hundredth of the stroke. */
 #define CORNERS 1e-4
 
 /* The same in a stop of k = 1 GN/m before an end mass of m = 1 t, at a step h of 0.1 ms:
  * h^2 k / (12 m), rounded up. */
 #define STOP 1e-3
 
-/* What a step that touches a preloaded buffer may seem to give, as a share of the energy that was
- * there. The program itself knows the preload and allows less. */
+/* Energy error of a step that touches a preloaded buffer, as a share of the initial energy. The
+ * program itself knows the preload and allows less. */
 #define TOUCH 1e-5
 
 #define END_STIFFNESS 110e6 /* no end of the designs is softer where it unloads [N/m] */
 
-/* Every element of an interface, and together. */
+/* Every element of an interface, and all together. */
 static void try_interface(Trial *trial, const CzRunSummary *summary,
                           const CzInterfaceResult *interface, double *sum) {
     const double rounding = ROUNDING * summary->energy.initial;
@@ -258,7 +258,7 @@ static void try_interface(Trial *trial, const CzRunSummary *summary,
                    : 0.0;
         elastic += element->kind == CZ_ELEMENT_END ? element->peak_force / END_STIFFNESS : 0.0;
     }
-    if (summary->beyond_validity) /* cars that have climbed are anywhere */
+    if (summary->beyond_validity) /* cars that have climbed can be anywhere */
         return;
     /* The closure is that of the bodies; pitch moves what lies above or below by up to 3 m. The
      * stroke of an end is its largest shortening, whose elastic part the others may take later. */
@@ -283,8 +283,8 @@ static bool is_held(const CzRun *run, const double *closure) {
     return high - low <= 0.2; /* [mm] */
 }
 
-/* Nothing pushes any more: what can open is open or held, and stores no more than a thousandth of
- * the first energy. */
+/* No force is left: an interface is open or held, and stores at most a thousandth of the initial
+ * energy. */
 static void try_end(Trial *trial, const CzRun *run, const CzRunSummary *summary) {
     const int last = cz_run_n_sample(run) - 1;
     if (summary->ended != CZ_ENDED_BY_RULE || last < 0)

@@ -1,9 +1,9 @@
 /* Problem files drawn at random, see random_design.h.
  *
- * Ranges are wide on purpose: devices that do nothing, absorbers that run out of stroke, stages
- * that fall, partners without a device to meet, speeds of shunting and far beyond the design. A
- * number is drawn evenly, or evenly in its logarithm where it spans more than a decade. The order
- * in which arguments are evaluated is the compiler's: no list of arguments holds two draws.
+ * Ranges are wide on purpose: devices without effect, absorbers whose stroke is exhausted, falling
+ * stages, partners without a device to meet, speeds of shunting and far beyond the design. A number
+ * is drawn evenly, or evenly in its logarithm where it spans more than a decade. The order in which
+ * arguments are evaluated is the compiler's: no list of arguments holds two draws.
  */
 #include "property/random_design.h"
 

@@ -10,8 +10,8 @@ build() { # build FOLDER OPTION...
 build_clang() { # as scripts/run-tests configures it
     (cd "$SOURCE" && cmake --preset clang -DCZ_BUILD_TESTS=ON && cmake --build --preset clang --target crushzone-program)
 }
-# What is compared: two full cars, rigid cars in a search, a wall, two cars on masses that run along with their wheels, and
-# two seconds of two trains of six full cars; wall and trains run on the modes of the track.
+# Compared problems: two full cars, rigid cars in a search, a wall, two cars on co-running masses, and
+# two seconds of two trains of six full cars; wall and trains are on the modal track.
 results() { # results FOLDER PROGRAM OPTION...: what the program writes, into FOLDER, run_info taken out
     folder=$1
     program=$2
@@ -25,7 +25,7 @@ results() { # results FOLDER PROGRAM OPTION...: what the program writes, into FO
         "$program" run "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h-partner-high --set simulation.duration_s=2 \
             --json -o "$folder/metro" "$@" >"$folder/metro.json" &&
         "$program" optimise search.yaml --evaluations 60 --json -o "$folder/search" "$@" >"$folder/search.json"
-    # A search that found nothing feasible in so few evaluations is as good for a comparison as any.
+    # A search without a feasible design in so few evaluations serves the comparison as well.
     [ $? -le 1 ] || return 1
     without_timing "$folder"
 }
@@ -57,10 +57,10 @@ tells_run_info() {
     "$PROGRAM" run "$SOURCE/problems/two-cars-25kmh.yaml" --json | grep -q '"run_info"'
 }
 
-check "run_info is there" tells_run_info
+check "run_info exists" tells_run_info
 "$PROGRAM" new two-trains -o search.yaml >told 2>&1
 check "the problems run" results reference "$PROGRAM"
-check "the compared results hold histories" has_channels
+check "the compared results contain histories" has_channels
 check "a second run gives the same bytes" same again "$PROGRAM"
 check "one thread and three give the same bytes" same one-thread "$PROGRAM" --jobs 1
 check "three threads give the same bytes" same three-threads "$PROGRAM" --jobs 3

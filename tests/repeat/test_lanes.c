@@ -1,4 +1,5 @@
-/* A design's answer is the same to the last bit alone and among others, on every instruction set.
+/* The result of a design is the same to the last bit alone and among others, on every instruction
+ * set.
  */
 #include "support/check.h"
 
@@ -30,7 +31,7 @@ static void case_close(Case *opened) {
     cz_problem_free(opened->problem);
 }
 
-/* Every number of a run that a user can see, one after the other. */
+/* All results of a run, one after the other. */
 static size_t numbers_of(const CzRun *run, double *number, size_t n_most) {
     size_t n = 0;
     const CzRunSummary *summary = cz_run_summary(run);
@@ -104,7 +105,7 @@ static CzRun *run_alone(const CzModel *model, const char *isa, bool record) {
 }
 
 static void check_instruction_sets(const char *file, const char *set) {
-    /* Each set holds the ones before it. */
+    /* Each set includes the ones before it. */
     const char *const isa[] = {"baseline", "v3", "v4"};
     Case opened = case_open(file, set);
     CzRun *reference = run_alone(opened.model, "auto", true);
@@ -130,7 +131,7 @@ static void instruction_sets_agree_on_two_trains(void **state) {
     check_instruction_sets("first-collision.yaml", NULL);
 }
 
-/* On rails that deflect, and wheels that leave them. */
+/* On elastic rails, with wheels that lift off. */
 static const char *const elastic[] = {"simulation.track=modal", "simulation.track=co-running"};
 
 static void instruction_sets_agree_on_elastic_rails(void **state) {
@@ -179,7 +180,7 @@ static void check_batch(const char *file, const char *set) {
     CzRun *alone = run_alone(opened.model, "auto", false);
     assert_same_run(run[OWN], alone);
 
-    /* The neighbours are others, and are themselves the same alone. */
+    /* The neighbours differ from the design, and are the same alone. */
     assert_true(cz_run_summary(run[0])->energy.dissipated !=
                 cz_run_summary(run[OWN])->energy.dissipated);
     CzRun *neighbour = NULL;

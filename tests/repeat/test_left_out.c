@@ -1,9 +1,9 @@
-/* Couplers and faces that would change nothing are left out: every number of every step is the same
- * to the last bit as when they are evaluated.
+/* Couplers and faces without force are not evaluated: every number of every step is the same to the
+ * last bit as with their evaluation.
  */
 #include "physics/motion.h"
 
-/* What a step leaves for the next one and for the results. */
+/* State and results after a step. */
 static void assert_same_block(const CzBlock *a, const CzBlock *b, long n_step) {
     const struct {
         const char *what;
@@ -82,14 +82,15 @@ static void check(const char *file, const char *const *set, double duration, dou
     }
 }
 
-/* They part for good after 0.25 s; end masses that still swing touch until 0.31 s. */
-static void two_cars_that_part_are_left_alone(void **state) {
+/* They part finally after 0.25 s; oscillating end masses touch until 0.31 s. */
+static void interfaces_of_two_parted_cars_are_not_evaluated(void **state) {
     (void)state;
     check("problems/two-cars-25kmh.yaml", AS_WRITTEN, 0.95, 0.7, 0.6);
 }
 
-/* A car that rolls meets again the one ahead, which brakes: couplers and faces rest in between. */
-static void cars_that_meet_again_find_each_other(void **state) {
+/* A rolling car meets the braked car ahead again: couplers and faces are not evaluated in between.
+ */
+static void interfaces_of_cars_that_meet_again_are_evaluated(void **state) {
     (void)state;
     check("problems/two-cars-25kmh.yaml",
           WITH("trains.A.speed_km_h=15", "trains.B.speed_km_h=0", "trains.B.brake.ratio=0.12",
@@ -97,13 +98,13 @@ static void cars_that_meet_again_find_each_other(void **state) {
           3.0, 0.1, 0.1);
 }
 
-static void trains_are_left_alone_where_they_are_apart(void **state) {
+static void open_interfaces_of_trains_are_not_evaluated(void **state) {
     (void)state;
     check("problems/first-collision.yaml", AS_WRITTEN, 1.0, 0.0, 0.9);
     check("problems/metro-6-car.yaml", AS_WRITTEN, 1.0, 0.0, 0.4);
 }
 
-static void a_car_that_leaves_a_wall_is_left_alone(void **state) {
+static void the_interface_of_a_car_that_leaves_a_wall_is_not_evaluated(void **state) {
     (void)state;
     check("problems/wall.yaml", AS_WRITTEN, 0.5, 0.5, 0.5);
     check("problems/buffer-stop.yaml", AS_WRITTEN, 0.5, 0.0, 0.9);
@@ -111,10 +112,10 @@ static void a_car_that_leaves_a_wall_is_left_alone(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_cars_that_part_are_left_alone),
-        cmocka_unit_test(cars_that_meet_again_find_each_other),
-        cmocka_unit_test(trains_are_left_alone_where_they_are_apart),
-        cmocka_unit_test(a_car_that_leaves_a_wall_is_left_alone),
+        cmocka_unit_test(interfaces_of_two_parted_cars_are_not_evaluated),
+        cmocka_unit_test(interfaces_of_cars_that_meet_again_are_evaluated),
+        cmocka_unit_test(open_interfaces_of_trains_are_not_evaluated),
+        cmocka_unit_test(the_interface_of_a_car_that_leaves_a_wall_is_not_evaluated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* A kernel whose parts that line up and put are copies under other names (second_kernel.sh), all
- * the rest being the kernel's own, takes every step to the same bits: what knows how bodies move
- * can be replaced without a copy of chains, laws, memory, ledger and commit.
+ * the rest being the kernel's own, computes every step to the same bits: the kinematics can be
+ * replaced without a copy of chains, laws, memory, ledger and commit.
  */
 #include "physics/motion.h"
 

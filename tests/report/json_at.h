@@ -1,4 +1,4 @@
-/* Values of a JSON document by their path. */
+/* Values of a JSON document by path. */
 #ifndef CZ_TESTS_REPORT_JSON_AT_H
 #define CZ_TESTS_REPORT_JSON_AT_H
 

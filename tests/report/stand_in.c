@@ -1,4 +1,4 @@
-/* Stand-ins for what a report reads: only the values matter here, not how they came about. */
+/* Stand-ins for the input of a report: only the values matter here, not their origin. */
 #include "report/stand_in.h"
 
 #include "evaluate/evaluator.h"
@@ -45,7 +45,7 @@ const char *cz_problem_hash(const CzProblem *problem) {
     (void)problem;
     return "0123456789abcdef";
 }
-/* It was read from a file and a profile. */
+/* Read from a file and a profile. */
 const CzSource *cz_problem_first_source(const CzProblem *problem) {
     static const char *const lines[] = {"name: limits", "limits: []"};
     static const CzSource profile = {
@@ -119,7 +119,7 @@ CzTrack cz_problem_track(const CzProblem *problem) {
     return (CzTrack)cz_problem_input(problem)->simulation.track;
 }
 
-/* What the figures show is tested elsewhere; here a report only has to be there. */
+/* The content of figures is tested elsewhere; here a report only has to exist. */
 int cz_page_deciding(const CzEvaluation *evaluation) {
     return evaluation->n_run > 0 ? 0 : -1;
 }

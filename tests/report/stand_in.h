@@ -1,4 +1,4 @@
-/* A problem, an evaluator and runs made by hand, so that a report can be shown anything. */
+/* A problem, an evaluator and runs made by hand, so that a report can have any content. */
 #ifndef CZ_TESTS_REPORT_STAND_IN_H
 #define CZ_TESTS_REPORT_STAND_IN_H
 
@@ -30,10 +30,10 @@ typedef struct StandIn {
     CzOutcome outcome; /* feasible */
 } StandIn;
 
-/* The one problem and the one evaluator that there are. */
+/* The only problem and the only evaluator. */
 extern const CzProblem *stand_in_problem;
 extern const CzEvaluator *stand_in_evaluator;
-extern const char *stand_in_file; /* what cz_problem_file answers */
+extern const char *stand_in_file; /* result of cz_problem_file */
 
 void stand_in_fill(StandIn *stand_in);
 

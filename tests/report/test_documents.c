@@ -1,4 +1,4 @@
-/* The JSON documents and CSV files: keys, units, numbers, what is not a number, what is no text. */
+/* The JSON documents and CSV files: keys, units, numbers, NaN, and bytes that are no text. */
 #include "support/check.h"
 
 #include "report/csv.h"
@@ -9,7 +9,7 @@
 
 #include <jansson.h>
 
-/* What a writer put into a stream, as text; freed by the caller. */
+/* Output of a writer as text; freed by the caller. */
 typedef struct Text {
     char *text;
     size_t n;
@@ -161,7 +161,7 @@ static void summary_is_in_the_units_of_its_keys(void **state) {
     json_decref(json);
 }
 
-static void what_is_not_a_number_is_null(void **state) {
+static void nan_and_infinity_are_null(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -176,7 +176,7 @@ static void what_is_not_a_number_is_null(void **state) {
     json_decref(json);
 }
 
-static void a_pass_against_an_unconfirmed_limit_says_so(void **state) {
+static void a_pass_against_an_unconfirmed_limit_is_provisional(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -215,7 +215,7 @@ static void runs_that_were_left_out_are_left_out(void **state) {
     json_decref(json);
 }
 
-static void reals_read_back_to_the_same_bits_and_waste_no_digit(void **state) {
+static void reals_read_back_to_the_same_bits_with_the_fewest_digits(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -315,7 +315,7 @@ static void outcome_has_every_key_that_scripts_rely_on(void **state) {
     json_decref(json);
 }
 
-static void outcome_tells_how_far_the_optimum_changes(void **state) {
+static void outcome_has_the_changes_of_the_verified_optimum(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -366,7 +366,7 @@ static void mistakes_are_one_document_with_all_of_them(void **state) {
     free(written);
 }
 
-static void csv_quotes_what_would_break_a_row(void **state) {
+static void csv_quotes_text_that_would_break_a_row(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -383,7 +383,7 @@ static void csv_quotes_what_would_break_a_row(void **state) {
     free(written);
 }
 
-static void csv_has_nine_digits_and_the_asked_for_signs(void **state) {
+static void csv_has_nine_digits_and_the_requested_separators(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -420,7 +420,7 @@ static void csv_lists_interfaces_with_their_elements(void **state) {
     free(written);
 }
 
-static void a_decimal_comma_of_the_host_gets_in_nowhere(void **state) {
+static void a_decimal_comma_of_the_host_changes_nothing(void **state) {
     (void)state;
     static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8"};
     bool found = false;
@@ -453,21 +453,21 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(summary_has_every_key_that_scripts_rely_on),
         cmocka_unit_test(summary_is_in_the_units_of_its_keys),
-        cmocka_unit_test(what_is_not_a_number_is_null),
-        cmocka_unit_test(a_pass_against_an_unconfirmed_limit_says_so),
+        cmocka_unit_test(nan_and_infinity_are_null),
+        cmocka_unit_test(a_pass_against_an_unconfirmed_limit_is_provisional),
         cmocka_unit_test(a_failed_run_is_never_called_completed),
         cmocka_unit_test(runs_that_were_left_out_are_left_out),
-        cmocka_unit_test(reals_read_back_to_the_same_bits_and_waste_no_digit),
+        cmocka_unit_test(reals_read_back_to_the_same_bits_with_the_fewest_digits),
         cmocka_unit_test(bytes_that_are_no_text_do_not_break_the_document),
         cmocka_unit_test(same_results_give_the_same_bytes),
         cmocka_unit_test(a_full_disk_is_an_output_error),
         cmocka_unit_test(outcome_has_every_key_that_scripts_rely_on),
-        cmocka_unit_test(outcome_tells_how_far_the_optimum_changes),
+        cmocka_unit_test(outcome_has_the_changes_of_the_verified_optimum),
         cmocka_unit_test(mistakes_are_one_document_with_all_of_them),
-        cmocka_unit_test(csv_quotes_what_would_break_a_row),
-        cmocka_unit_test(csv_has_nine_digits_and_the_asked_for_signs),
+        cmocka_unit_test(csv_quotes_text_that_would_break_a_row),
+        cmocka_unit_test(csv_has_nine_digits_and_the_requested_separators),
         cmocka_unit_test(csv_lists_interfaces_with_their_elements),
-        cmocka_unit_test(a_decimal_comma_of_the_host_gets_in_nowhere),
+        cmocka_unit_test(a_decimal_comma_of_the_host_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

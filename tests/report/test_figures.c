@@ -1,4 +1,4 @@
-/* Figures: well-formed, peaks and loops whole, the same in every locale. */
+/* Figures: well-formed, with complete peaks and loops, the same in every locale. */
 #include "support/check.h"
 
 #include <locale.h>
@@ -76,7 +76,7 @@ static void numbers_are_short_and_follow_no_locale(void **state) {
 
 enum { N = 5000 };
 
-static void thinning_keeps_a_peak_of_one_sample(void **state) {
+static void decimation_keeps_a_peak_of_one_sample(void **state) {
     (void)state;
     static double x[N], y[N];
     static bool keep[N];
@@ -94,8 +94,8 @@ static void thinning_keeps_a_peak_of_one_sample(void **state) {
 }
 
 /* Every point lies within the tolerance of the line between its kept neighbours, in their order:
- * that is what the method promises. */
-static void a_thinned_loop_keeps_its_path(void **state) {
+ * the guarantee of the method. */
+static void a_decimated_loop_keeps_its_path(void **state) {
     (void)state;
     static double x[N], y[N];
     static bool keep[N];
@@ -120,7 +120,7 @@ static void a_thinned_loop_keeps_its_path(void **state) {
     assert_true(n_kept > 8 && n_kept < 200);
 }
 
-static void a_rattling_curve_is_kept_below_the_most_points(void **state) {
+static void a_noisy_curve_stays_below_the_largest_number_of_points(void **state) {
     (void)state;
     static double x[N], y[N];
     static bool keep[N];
@@ -191,7 +191,7 @@ static void the_axes_show_the_whole_loop(void **state) {
     write(&text, &plot);
     assert_non_null(strstr(text.text, "data-range=\"0 500 0 1050\""));
     const char *path = strstr(text.text, " d=\"M");
-    int n_step = 0; /* one there, one on, one back: nothing is sorted or dropped */
+    int n_step = 0; /* points forwards and backwards: none is sorted or dropped */
     for (const char *c = path + 4; *c != '"'; c++)
         n_step += *c == 'l';
     assert_int_equal(n_step, 3);
@@ -204,7 +204,7 @@ static void the_axes_show_the_whole_loop(void **state) {
     free(text.text);
 }
 
-static void a_plot_of_nothing_is_still_a_figure(void **state) {
+static void a_plot_without_curves_is_a_figure(void **state) {
     (void)state;
     const double x[] = {0, 1}, constant[] = {5, 5}, none[] = {NAN, NAN};
     const CzSeries flat = {.name = "flat", .n = 2, .x = x, .y = constant};
@@ -238,12 +238,12 @@ int main(void) {
         cmocka_unit_test(text_and_attributes_cannot_break_out),
         cmocka_unit_test(only_empty_elements_are_closed_in_their_start_tag),
         cmocka_unit_test(numbers_are_short_and_follow_no_locale),
-        cmocka_unit_test(thinning_keeps_a_peak_of_one_sample),
-        cmocka_unit_test(a_thinned_loop_keeps_its_path),
-        cmocka_unit_test(a_rattling_curve_is_kept_below_the_most_points),
+        cmocka_unit_test(decimation_keeps_a_peak_of_one_sample),
+        cmocka_unit_test(a_decimated_loop_keeps_its_path),
+        cmocka_unit_test(a_noisy_curve_stays_below_the_largest_number_of_points),
         cmocka_unit_test(a_plot_has_every_curve_limit_and_name),
         cmocka_unit_test(the_axes_show_the_whole_loop),
-        cmocka_unit_test(a_plot_of_nothing_is_still_a_figure),
+        cmocka_unit_test(a_plot_without_curves_is_a_figure),
         cmocka_unit_test(steps_of_axes_are_round),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* Result folders: whole or not at all, ours replaced, all others left alone; the overlay. */
+/* Result folders: complete or absent, our own replaced, all others unchanged; the overlay. */
 #define _XOPEN_SOURCE 700 /* realpath, mkdtemp, popen */
 #include "support/check.h"
 
@@ -62,7 +62,7 @@ static CzStatus write_run(const StandIn *s, const char *folder, CzError *error) 
     return cz_report_write_folder(stand_in_problem, &s->evaluation, NULL, folder, error);
 }
 
-static void one_scenario_lies_flat(void **state) {
+static void one_scenario_has_no_subfolder(void **state) {
     (void)state;
     StandIn s;
     CzError error = {0};
@@ -96,7 +96,7 @@ static void several_scenarios_have_a_folder_each(void **state) {
     assert_false(is_there("out/channels.csv"));
 }
 
-static void a_folder_of_ours_is_replaced_whole(void **state) {
+static void our_own_folder_is_replaced_as_a_whole(void **state) {
     (void)state;
     StandIn s;
     CzError error = {0};
@@ -110,7 +110,7 @@ static void a_folder_of_ours_is_replaced_whole(void **state) {
     assert_int_equal(n_entries(), 1);
 }
 
-static void an_empty_folder_is_taken(void **state) {
+static void an_empty_folder_is_used(void **state) {
     (void)state;
     StandIn s;
     CzError error = {0};
@@ -130,7 +130,7 @@ static void refuses(const StandIn *s, const char *folder, const char *sentence) 
     assert_non_null(strstr(error.message, sentence));
 }
 
-static void whatever_we_did_not_write_is_left_alone(void **state) {
+static void a_folder_with_other_files_is_left_unchanged(void **state) {
     (void)state;
     StandIn s;
     CzError error = {0};
@@ -166,7 +166,7 @@ static void a_marker_cannot_make_us_remove_other_files(void **state) {
     assert_true(is_there("precious"));
 }
 
-/* The disk is full after a few blocks: nothing is left and what was there stays. */
+/* The disk is full after a few blocks: nothing is left behind, and the old folder stays. */
 static void a_full_disk_leaves_no_half_folder(void **state) {
     (void)state;
     StandIn s;
@@ -193,7 +193,7 @@ static void a_full_disk_leaves_no_half_folder(void **state) {
     free(after);
 }
 
-static void the_log_holds_no_times_and_all_warnings(void **state) {
+static void the_log_has_all_warnings_and_no_times(void **state) {
     (void)state;
     StandIn s;
     CzError error = {0};
@@ -246,7 +246,7 @@ static void a_search_writes_its_outcome_and_the_optimum(void **state) {
     stand_in_file = "two \"trains\".yaml";
 }
 
-static void a_problem_from_standard_input_is_written_out_whole(void **state) {
+static void a_problem_from_standard_input_is_written_out_completely(void **state) {
     (void)state;
     StandIn s;
     CzError error = {0};
@@ -284,16 +284,16 @@ static void the_best_values_survive_a_problem_that_cannot_be_read_again(void **s
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        in_work_folder(one_scenario_lies_flat),
+        in_work_folder(one_scenario_has_no_subfolder),
         in_work_folder(several_scenarios_have_a_folder_each),
-        in_work_folder(a_folder_of_ours_is_replaced_whole),
-        in_work_folder(an_empty_folder_is_taken),
-        in_work_folder(whatever_we_did_not_write_is_left_alone),
+        in_work_folder(our_own_folder_is_replaced_as_a_whole),
+        in_work_folder(an_empty_folder_is_used),
+        in_work_folder(a_folder_with_other_files_is_left_unchanged),
         in_work_folder(a_marker_cannot_make_us_remove_other_files),
         in_work_folder(a_full_disk_leaves_no_half_folder),
-        in_work_folder(the_log_holds_no_times_and_all_warnings),
+        in_work_folder(the_log_has_all_warnings_and_no_times),
         in_work_folder(a_search_writes_its_outcome_and_the_optimum),
-        in_work_folder(a_problem_from_standard_input_is_written_out_whole),
+        in_work_folder(a_problem_from_standard_input_is_written_out_completely),
         in_work_folder(the_best_values_survive_a_problem_that_cannot_be_read_again),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* The pages about a real run: complete, in order, and never cut short in silence. */
+/* The pages of a real run: complete, in order, and never cut without a message. */
 #include "support/check.h"
 
 #include "report/page.h"
@@ -33,7 +33,7 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size) {
     return is_failing() ? NULL : __real_aligned_alloc(alignment, size);
 }
 
-/* A problem that was run, and what a page about it needs. */
+/* A problem that was run, and the input of its page. */
 typedef struct Ran {
     CzProblem *problem;
     CzEvaluator *evaluator;
@@ -74,7 +74,7 @@ static void free_ran(Ran *ran) {
     cz_problem_free(ran->problem);
 }
 
-/* The page, or the status that it ended with. */
+/* The page, or the status of its writer. */
 static CzStatus write_page(const CzReportRun *run, char **text) {
     size_t n = 0;
     CzError error = {0};
@@ -86,7 +86,7 @@ static CzStatus write_page(const CzReportRun *run, char **text) {
     return status;
 }
 
-static void sections_come_in_the_order_of_questions(void **state) {
+static void sections_are_in_order(void **state) {
     (void)state;
     static const char *const order[] = {
         "<h1>",          "id=\"checks\"", "id=\"trains\"",   "id=\"loops\"",
@@ -111,7 +111,7 @@ static void sections_come_in_the_order_of_questions(void **state) {
     free_ran(&ran);
 }
 
-static void every_lack_of_memory_is_told(void **state) {
+static void every_lack_of_memory_is_reported(void **state) {
     (void)state;
     Ran ran = run_problem("two-cars-25kmh.yaml");
     const CzReportRun run = run_of(&ran);
@@ -144,8 +144,8 @@ static void a_run_that_was_not_kept_has_no_page(void **state) {
 
 /* The hand check of the problem file: each coupler takes 20 kN rising to 0.4 MN over 50 mm of its
  * buffer and 0.6 MN over 250 mm of its tube, two of them 321 kJ, then releases at 911 kN; two
- * anti-climbers push with 1 MN. Members advance by the spacing of the points, which is what the
- * areas are off by: one spacing times the force for each of six members. */
+ * anti-climbers push with 1 MN. Members advance by the spacing of the points, so the tolerance of
+ * the areas is one spacing times the force for each of six members. */
 static void the_input_curve_is_that_of_the_weakest_member(void **state) {
     (void)state;
     enum { N = 4001 };
@@ -176,9 +176,9 @@ static void the_input_curve_is_that_of_the_weakest_member(void **state) {
     free_ran(&ran);
 }
 
-/* Against a wall one coupler deflects, over its own softening: then two anti-climbers push with
- * 1 MN alone. */
-static void a_wall_does_not_hold_a_coupler_that_has_sheared_off(void **state) {
+/* Against a wall one coupler acts, over its own softening; then two anti-climbers carry 1 MN alone.
+ */
+static void a_sheared_coupler_carries_no_force_against_a_wall(void **state) {
     (void)state;
     enum { N = 1201 };
     static double closure[N], force[N];
@@ -263,7 +263,7 @@ static void compare_rows(const char *page, const CzRun *run, int n_row) {
     free(value);
 }
 
-static void the_cursor_stands_at_every_row_that_was_recorded(void **state) {
+static void the_cursor_shows_every_recorded_row(void **state) {
     (void)state;
     static const char *const set[] = {"simulation.duration_ms=900"};
     Ran ran = run_set("two-cars-25kmh.yaml", NULL, 1, set);
@@ -277,9 +277,9 @@ static void the_cursor_stands_at_every_row_that_was_recorded(void **state) {
     free_ran(&ran);
 }
 
-/* 10,001 rows of 177 curves do not fit: the page has the first ones, and later ones from end to
- * end. */
-static void rows_for_which_there_is_no_room_are_left_out_at_the_end(void **state) {
+/* 10,001 rows of 177 curves are too many: the page has the first ones and some of the later ones.
+ */
+static void late_rows_of_a_large_page_are_left_out(void **state) {
     (void)state;
     static const char *const set[] = {"simulation.duration_ms=1000",
                                       "simulation.output_step_ms=0.1"};
@@ -331,13 +331,13 @@ static void curves_of_another_run_are_those_of_the_same_names(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sections_come_in_the_order_of_questions),
-        cmocka_unit_test(every_lack_of_memory_is_told),
+        cmocka_unit_test(sections_are_in_order),
+        cmocka_unit_test(every_lack_of_memory_is_reported),
         cmocka_unit_test(a_run_that_was_not_kept_has_no_page),
         cmocka_unit_test(curves_of_another_run_are_those_of_the_same_names),
-        cmocka_unit_test(the_cursor_stands_at_every_row_that_was_recorded),
-        cmocka_unit_test(rows_for_which_there_is_no_room_are_left_out_at_the_end),
-        cmocka_unit_test(a_wall_does_not_hold_a_coupler_that_has_sheared_off),
+        cmocka_unit_test(the_cursor_shows_every_recorded_row),
+        cmocka_unit_test(late_rows_of_a_large_page_are_left_out),
+        cmocka_unit_test(a_sheared_coupler_carries_no_force_against_a_wall),
         cmocka_unit_test(the_input_curve_is_that_of_the_weakest_member),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

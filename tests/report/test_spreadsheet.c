@@ -1,11 +1,11 @@
-/* CSV files opened by a spreadsheet: text stays text, whatever sign the program parts fields by. */
+/* CSV files opened by a spreadsheet: text stays text, whatever separator the program uses. */
 #include "support/check.h"
 
 #include "report/csv.h"
 #include "report/stand_in.h"
 
-/* Whether a spreadsheet that parts the cells of a line by a sign, and knows no quotes but those
- * around a whole cell, would run one: a number is none. */
+/* Whether a spreadsheet that separates cells by this sign, and knows quotes only around a whole
+ * cell, would run a cell as a formula; a number is no formula. */
 static bool runs_a_cell(const char *line, char separator) {
     bool begins = true;
     for (const char *c = line; *c != '\0'; c++) {
@@ -19,7 +19,7 @@ static bool runs_a_cell(const char *line, char separator) {
     return false;
 }
 
-static void csv_holds_no_text_that_a_spreadsheet_would_run(void **state) {
+static void csv_has_no_text_that_a_spreadsheet_would_run(void **state) {
     (void)state;
     static const char *const texts[] = {"=cmd|' /C calc'!A0",
                                         "+1+cmd",
@@ -56,7 +56,7 @@ static void csv_holds_no_text_that_a_spreadsheet_would_run(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(csv_holds_no_text_that_a_spreadsheet_would_run),
+        cmocka_unit_test(csv_has_no_text_that_a_spreadsheet_would_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* The terminal tables: what a person reads, and that nothing bad is painted over. */
+/* The terminal tables: readable, and without hidden failures. */
 #include "support/check.h"
 
 #include "report/figure.h"
@@ -17,7 +17,7 @@ static Text *text_begin(void) {
     return text;
 }
 
-/* What was written; freed by the caller. */
+/* The written text; freed by the caller. */
 static char *text_end(Text *text) {
     fclose(text->stream);
     char *written = text->text;
@@ -52,7 +52,7 @@ static void assert_lacks(const char *text, const char *part) {
     assert_null(strstr(text, part));
 }
 
-static void table_tells_interfaces_checks_and_verdict(void **state) {
+static void table_has_interfaces_checks_and_verdict(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -121,7 +121,7 @@ static void checks_of_scenarios_left_out_are_one_line(void **state) {
     stand_in_fill(&s);
     s.check[1].is_omitted = s.check[2].is_omitted = true;
     s.check[1].verdict = s.check[2].verdict = CZ_VERDICT_NOT_CHECKED;
-    s.check[2].name = s.check[0].name; /* no worse than the one that was made */
+    s.check[2].name = s.check[0].name; /* no worse than the check that was made */
     char *text = table_text(&s, false);
     assert_has(text, "2 checks of scenarios that were not run: NOT CHECKED.\n");
     assert_lacks(text, "mean deceleration");
@@ -130,7 +130,7 @@ static void checks_of_scenarios_left_out_are_one_line(void **state) {
     free(text);
 }
 
-static void a_value_that_breaks_its_limit_does_not_read_as_if_it_kept_it(void **state) {
+static void a_rounded_value_does_not_hide_a_violated_limit(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -147,7 +147,7 @@ static void a_value_that_breaks_its_limit_does_not_read_as_if_it_kept_it(void **
     free(text);
 }
 
-static void failed_and_incomplete_runs_say_so(void **state) {
+static void failed_and_incomplete_runs_are_named(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -216,7 +216,7 @@ static void a_search_without_success_lists_what_is_violated(void **state) {
     free(text);
 }
 
-static void figures_are_short_and_honest(void **state) {
+static void numbers_are_short_and_not_rounded_to_a_limit(void **state) {
     (void)state;
     static const struct {
         double value;
@@ -248,8 +248,8 @@ static void figures_are_short_and_honest(void **state) {
     assert_string_equal(cz_figure_digits(text, 3, -0.0), "0");
 }
 
-/* More columns than once had room. */
-static void a_sweep_shows_as_many_metrics_as_it_may_have(void **state) {
+/* More than six columns. */
+static void a_sweep_shows_the_largest_number_of_metrics(void **state) {
     (void)state;
     CzSweepPoint point = {.value = {36}, .margin = 0.1, .scenario = "collision"};
     CzSweep sweep = {.n_axis = 1,
@@ -272,18 +272,18 @@ static void a_sweep_shows_as_many_metrics_as_it_may_have(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(table_tells_interfaces_checks_and_verdict),
+        cmocka_unit_test(table_has_interfaces_checks_and_verdict),
         cmocka_unit_test(without_colour_there_is_no_escape_code),
         cmocka_unit_test(names_cannot_send_escape_codes),
         cmocka_unit_test(several_scenarios_show_the_worst_lines_and_every_failure),
         cmocka_unit_test(checks_of_scenarios_left_out_are_one_line),
-        cmocka_unit_test(a_value_that_breaks_its_limit_does_not_read_as_if_it_kept_it),
-        cmocka_unit_test(failed_and_incomplete_runs_say_so),
+        cmocka_unit_test(a_rounded_value_does_not_hide_a_violated_limit),
+        cmocka_unit_test(failed_and_incomplete_runs_are_named),
         cmocka_unit_test(without_checks_nothing_is_judged),
         cmocka_unit_test(a_search_shows_before_and_after_and_the_new_values),
         cmocka_unit_test(a_search_without_success_lists_what_is_violated),
-        cmocka_unit_test(a_sweep_shows_as_many_metrics_as_it_may_have),
-        cmocka_unit_test(figures_are_short_and_honest),
+        cmocka_unit_test(a_sweep_shows_the_largest_number_of_metrics),
+        cmocka_unit_test(numbers_are_short_and_not_rounded_to_a_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* What the documents and CSV files say of a run that went beyond the model's validity. */
+/* Documents and CSV files of a run beyond the model's validity. */
 #include "support/check.h"
 
 #include "report/csv.h"
@@ -29,7 +29,7 @@ static char *csv_text(const StandIn *s) {
     return text;
 }
 
-static void what_climbed_is_marked_and_its_totals_are_blank(void **state) {
+static void values_after_a_climb_are_marked_and_totals_blank(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -70,7 +70,7 @@ static void what_climbed_is_marked_and_its_totals_are_blank(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_climbed_is_marked_and_its_totals_are_blank),
+        cmocka_unit_test(values_after_a_climb_are_marked_and_totals_blank),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

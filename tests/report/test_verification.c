@@ -1,4 +1,4 @@
-/* What is written of a verification: the document and the table. */
+/* Output of a verification: the document and the table. */
 #include "report/json_at.h"
 #include "report/stand_in.h"
 #include "support/check.h"
@@ -76,13 +76,13 @@ static void a_verification_is_a_table_with_the_largest_change_first(void **state
     assert_true(strstr(text, "interface force") < strstr(text, "stroke used"));
     assert_non_null(strstr(text, "CHANGED"));
     assert_non_null(strstr(text, "not done"));
-    assert_null(strstr(text, "full_track")); /* a way that does not apply is not reported */
+    assert_null(strstr(text, "full_track")); /* a method that does not apply is not reported */
     assert_non_null(strstr(text, "Verification: FAIL (2 results, limit 1 %)"));
     free(text);
 }
 
-/* Of two numbers that change too much one scatters by more than is allowed too. */
-static void what_scatters_is_counted(void **state) {
+/* Of two numbers with too large a change one also scatters by more than the limit. */
+static void scattering_values_are_counted(void **state) {
     (void)state;
     CzVerifiedValue value[2];
     CzVerification verification = filled_verification(value);
@@ -105,7 +105,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_verification_is_one_document),
         cmocka_unit_test(a_verification_is_a_table_with_the_largest_change_first),
-        cmocka_unit_test(what_scatters_is_counted),
+        cmocka_unit_test(scattering_values_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

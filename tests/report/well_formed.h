@@ -1,4 +1,5 @@
-/* Whether a text is well-formed: tags balance, attributes are quoted, no stray signs. */
+/* Whether a text is well-formed: tags balance, attributes are quoted, special characters are
+ * escaped. */
 #ifndef CZ_TESTS_WELL_FORMED_H
 #define CZ_TESTS_WELL_FORMED_H
 
@@ -14,7 +15,7 @@ static inline bool is_entity(const char *c) {
     return false;
 }
 
-/* Reads a tag from its '<'; returns the place behind it, NULL when it is none. */
+/* Reads a tag from its '<'; returns the place behind it, NULL for an invalid tag. */
 static inline const char *read_tag(const char *c, char name[32], bool *closes, bool *is_empty) {
     *closes = c[1] == '/';
     c += *closes ? 2 : 1;

@@ -1,4 +1,4 @@
-# ./demo as a user runs it, with the metro that ships: it takes minutes.
+# ./demo as a user runs it, with the shipped metro: it takes minutes.
 . "$SOURCE/tests/support/cases.sh"
 "$SOURCE/scripts/link-project" .
 

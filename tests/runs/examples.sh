@@ -1,4 +1,4 @@
-# The "RUN:" lines of examples and problem files do what they say.
+# The commands in "RUN:" lines of examples and problem files run as written.
 . "$SOURCE/tests/support/cases.sh"
 ln -s "$SOURCE/problems" problems
 PATH=$BUILD/examples:$SOURCE/examples:$BUILD:$PATH
@@ -20,7 +20,7 @@ too_long() {
     done
 }
 
-nothing "every example says how it is run" without_run_line
+nothing "every example has a RUN line" without_run_line
 nothing "every example program has fewer than 100 lines" too_long
 run_lines >lines.txt
 while IFS="$(printf '\t')" read -r file command; do

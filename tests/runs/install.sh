@@ -27,13 +27,13 @@ build_by_pkg_config() {
     # shellcheck disable=SC2046 # flags are words
     "$CC" -std=c11 "$SOURCE/examples/simulate.c" -o by-pkg-config $(pc --cflags --libs) -Wl,-rpath,"$(pc --variable=libdir)"
 }
-needs_only_the_library() { # what a program that links crushzone names itself
+needs_only_the_library() { # the version that a program that links crushzone reports
     readelf -d by-pkg-config | grep 'NEEDED.*crushzone' && ! readelf -d by-pkg-config | grep -E 'NEEDED.*(nlopt|yaml|jansson)'
 }
 installed_program_runs() {
     "$prefix/bin/crushzone" run "$prefix/share/crushzone/two-cars-25kmh.yaml"
 }
-named() { # named PROGRAM: what that one takes a catalogue from that does not lie beside the problem file
+named() { # named PROGRAM: the folder from which it takes a catalogue that is not beside the problem file
     mkdir -p elsewhere
     sed 's|catalogue/generic.yaml|generic.yaml|' "$SOURCE/problems/two-cars-25kmh.yaml" >elsewhere/cars.yaml
     (cd elsewhere && "$1" validate cars.yaml)
@@ -49,11 +49,11 @@ runs() { "$1" "$SOURCE/problems/two-cars-25kmh.yaml"; }
 check "the tree installs" cmake --install "$BUILD" --prefix "$prefix"
 check "an outside project builds with find_package" build_by_cmake
 check "the outside project runs" runs outside/build/outside
-check "a version that is not there is refused" refuses_another_version
+check "an unknown version is refused" refuses_another_version
 check "an outside program builds with pkg-config" build_by_pkg_config
 check "the outside program runs" runs ./by-pkg-config
 check "the outside program links crushzone alone" needs_only_the_library
-check "pkg-config tells the version" sh -c "grep -q '^## \[Unreleased\]\|^## \[$(pc --modversion)\]' '$SOURCE/CHANGELOG.md'"
+check "pkg-config prints the version" sh -c "grep -q '^## \[Unreleased\]\|^## \[$(pc --modversion)\]' '$SOURCE/CHANGELOG.md'"
 check "the installed program runs a shipped problem" installed_program_runs
 teaches() { [ -s "$prefix/share/man/man1/crushzone.1" ] && bash -n "$prefix/share/bash-completion/completions/crushzone"; }
 check "the manual page and the completion are installed" teaches
@@ -63,8 +63,8 @@ leads_on() { # every page that the installed README names is there
         [ -e "$pages/$page" ] || { echo "no $page"; return 1; }
     done
 }
-check "the installed README leads to pages that are there" leads_on
+check "the pages that the installed README names exist" leads_on
 check "a program in its build tree finds the catalogue of its source tree" named "$PROGRAM"
-check "an installed program looks where it is installed, not in the source tree" finds_what_is_installed
+check "an installed program uses its installed data, not the source tree" finds_what_is_installed
 check "an installed tree can be moved" moved_tree_runs
 finish

@@ -1,4 +1,4 @@
-# Override on shipped problems: the optimised metro where it comes nearest to climbing, verification of what climbs and holds,
+# Override on shipped problems: the optimised metro in its worst scenario, verification with and without override,
 # and the causes of a climb.
 #
 #   override.sh          some seconds
@@ -9,7 +9,7 @@ published=$SOURCE/problems/metro-6-car-override.yaml
 cars=$SOURCE/problems/two-cars-25kmh.yaml
 sized=$SOURCE/problems/metro-6-car-override-optimised.yaml
 
-# keeps SCENARIO: all that is checked there passes, override among it.
+# keeps SCENARIO: all of its checks pass, override among them.
 keeps() {
     code=0
     "$C" check "$sized" --scenario "$1" >out.txt 2>err.txt || code=$?
@@ -47,7 +47,7 @@ for scenario in inner_40km_h_B1-B2_50mm; do
     before() { climbs "$scenario"; }
     after() { keeps "$scenario"; }
     check "published absorbers climb in $scenario" before
-    check "sized ones hold in $scenario" after
+    check "sized absorbers do not climb in $scenario" after
 done
 for scenario in inner_40km_h_A5-A6_50mm 25-km-h-partner-low; do
     after() { keeps "$scenario"; }
@@ -66,8 +66,8 @@ overload() { exits 1 "$C" check "$sized" --scenario overload && grep -q '^bottom
 check "sized absorbers suffice under overload" overload
 for pair in overlap-climbs bottoming-lifts; do
     verified() { holds "$pair"; }
-    check "override-$pair is verified by half the step and two solvers" verified
+    check "override-$pair is verified with a halved time step and two solvers" verified
 done
 on_rails() { holds bottoming-lifts --set simulation.track=modal && says out.txt 'other track'; }
-check "so it is on elastic rails, by another track too" on_rails
+check "override-$pair is verified on elastic rails, also by another track model" on_rails
 finish

@@ -1,11 +1,11 @@
 # Every command that README.md and docs/ show is run, in the order of the page, from a copy of the project's root.
 #
 # Commands are the lines of ```sh blocks that begin with "$ "; a line "# exit code N" right after the block's command says
-# that it ends so. Lines between commands are what the command prints: each must be among what it really prints, but for
+# this exit code. Lines between commands are their output: each must be in the real output, except for
 # numbers of seconds.
 #
-# Where a page runs ./demo, the metro has given way to the two trains that `crushzone new` writes: what is tried is that a
-# design that fails becomes one that passes by these commands. The search for the metro itself takes minutes; it is the
+# Where a page runs ./demo, the two trains of `crushzone new` replace the metro: the test shows that a
+# failing design becomes one that passes with these commands. The search for the metro itself takes minutes; it is the
 # test demo_whole (label long).
 . "$SOURCE/tests/support/cases.sh"
 
@@ -44,7 +44,7 @@ with_small_metro() { # with_small_metro FOLDER: the project there with another m
 PATH=$BUILD:$PATH
 export PATH
 for page in "$SOURCE/README.md" "$SOURCE"/docs/*.md; do
-    # The pages build the same program: who reads on has it already.
+    # The pages build the same program, which the copy has already.
     [ ! -d root/build ] || mv root/build built
     rm -rf root command.* shown.*
     n=$(commands_of "$page")

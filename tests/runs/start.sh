@@ -1,4 +1,4 @@
-# The start scripts: what they install, and that a run without tests is never a good one.
+# The start scripts: the packages they install, and that a run without tests fails.
 . "$SOURCE/tests/support/cases.sh"
 
 # Stand-ins for the system's commands; each call of apt-get is noted.
@@ -50,7 +50,7 @@ failure_is_told() {
 list_is_known_to_debian() { # every package of the list has a section and a plausible name
     ! grep -vE '^(#.*|\[(run-time|build|test|browser)\]|[a-z0-9][a-z0-9.+-]+( \([a-z]+\))?( +# .*)?)?$' "$SOURCE/packages.txt"
 }
-a_foreign_node_is_left_alone() { # of the browser's packages only the browser comes, whatever dpkg knows of node and npm
+a_foreign_node_is_left_alone() { # of the browser's packages only the browser is installed, whatever dpkg knows of node and npm
     stand_in dpkg-query 'exit 1'
     stand_in id 'echo 0'
     stand_in apt-get "echo apt-get \"\$@\" >>$PWD/apt.log"
@@ -63,11 +63,11 @@ nothing_but_a_foreign_node() {
     installs browser && ! [ -s apt.log ]
 }
 check "nothing is installed when nothing is missing" nothing_is_missing
-check "root installs what is missing of the wanted sections" root_installs
-check "the test section comes only when asked for" sections_are_kept_apart
-check "a user without rights is told what to ask for" nobody_can_install
-check "sudo is used when it is there" sudo_is_used
-check "a failed installation is told" failure_is_told
+check "root installs the missing packages of the wanted sections" root_installs
+check "the test section is installed only on request" sections_are_kept_apart
+check "a user without rights gets the names of the packages" nobody_can_install
+check "sudo is used where it exists" sudo_is_used
+check "a failed installation is reported" failure_is_told
 check "a Node.js from elsewhere is not replaced" a_foreign_node_is_left_alone
 check "a browser from elsewhere is not replaced" nothing_but_a_foreign_node
 check "the list of packages is well-formed" list_is_known_to_debian
@@ -156,16 +156,16 @@ nothing_ran() {
     : >results
     ! "$SOURCE/scripts/count-tests" results
 }
-check "a good run is counted by cases" good_run
-check "a failed case is counted once and its reason told" failed_case
+check "a successful run is counted by cases" good_run
+check "a failed case is counted once, with its reason" failed_case
 check "skipped cases are counted, each with its reason" skips_with_reasons
-check "what was skipped and why stands in the last lines" skips_stand_last
+check "skipped cases and their reasons are in the last lines" skips_stand_last
 check "a crash counts as a failure" crash
 check "a program without cases counts as a failure" program_without_cases
-check "a run cut short counts as a failure" cut_short
+check "an interrupted run counts as a failure" cut_short
 check "a run without tests counts as a failure" no_test
-check "no result at all is a failure" nothing_ran
-bare_root_needs_root() { # and says so before it makes anything
+check "a missing result is a failure" nothing_ran
+bare_root_needs_root() { # and reports it before it makes anything
     stand_in id 'echo 1000'
     code=0
     PATH=$PWD/stand-ins:$PATH "$SOURCE/scripts/try-bare" >said 2>&1 || code=$?

@@ -1,5 +1,4 @@
-/* Budgets: the sources that act on a body add up to its momenta, for every car and whatever the
- * run. */
+/* Budgets: the sources that act on a body add up to its momenta, for every car of every run. */
 #include "physics/collision.h"
 
 /* The scheme's velocities and a sum by rectangles differ by half a step of the last force, against
@@ -38,14 +37,14 @@ static void sources_add_up_to_the_momenta_of_every_body(void **state) {
               WITH("simulation.duration_s=0.4", "simulation.time_step_ms=0.1"), 5e-3);
 }
 
-static void the_rest_falls_with_the_step(void **state) {
+static void the_remainder_falls_with_the_step(void **state) {
     (void)state;
     check_all("tests/physics/cases/offset-collision.yaml",
               WITH("simulation.duration_s=0.4", "simulation.time_step_ms=0.01"), 5e-4);
 }
 
-/* The bits of a run do not depend on whether it is noted. */
-static void notes_change_nothing(void **state) {
+/* The bits of a run do not depend on whether its budget is recorded. */
+static void recording_a_budget_changes_no_result(void **state) {
     (void)state;
     const char *const *settings = WITH("simulation.duration_s=0.3");
     Collision noted = collide("tests/physics/cases/offset-collision.yaml", settings, 0);
@@ -66,8 +65,8 @@ static void notes_change_nothing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sources_add_up_to_the_momenta_of_every_body),
-        cmocka_unit_test(the_rest_falls_with_the_step),
-        cmocka_unit_test(notes_change_nothing),
+        cmocka_unit_test(the_remainder_falls_with_the_step),
+        cmocka_unit_test(recording_a_budget_changes_no_result),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

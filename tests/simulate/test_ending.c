@@ -1,4 +1,5 @@
-/* A run without a duration ends when nothing can come of the forces between the cars any more. */
+/* A run without a duration ends when the forces between the cars can no longer change the result.
+ */
 #include "physics/collision.h"
 
 #define SPRINGS "tests/physics/cases/springs-that-part.yaml"
@@ -12,8 +13,8 @@ static const char *const devices[] = {"parts.head.face_gap_m=0", "parts.head.cou
                                       "parts.head.side_buffers.gap_m=0"};
 enum { N_DEVICE = sizeof devices / sizeof devices[0] };
 
-/* Two equal masses with springs between them exchange their speeds, whatever carries the force and
- * however long the oscillation takes. The scheme's error of a half period is (omega h)^2 / 24. */
+/* Two equal masses with springs between them exchange their speeds, for every device and any period
+ * of the oscillation. The scheme's error of a half period is (omega h)^2 / 24. */
 static void elastic_cars_exchange_their_speeds_without_a_duration(void **state) {
     (void)state;
     static const char *const masses[][2] = {
@@ -32,7 +33,7 @@ static void elastic_cars_exchange_their_speeds_without_a_duration(void **state) 
     }
 }
 
-static void references_and_brief_runs_await_the_rebound_too(void **state) {
+static void reference_and_brief_runs_include_the_rebound(void **state) {
     (void)state;
     const CzIntegrator integrators[] = {CZ_INTEGRATOR_ZHAI, CZ_INTEGRATOR_ERK, CZ_INTEGRATOR_ADAMS};
     for (int i = 0; i < N_DEVICE; i++) {
@@ -42,7 +43,7 @@ static void references_and_brief_runs_await_the_rebound_too(void **state) {
             options.brief = k == 0;
             Collision collision = collide_so(SPRINGS, WITH(devices[i]), 0, &options);
             assert_completed(&collision);
-            /* A brief run may end with a sixth of the first energy still stored. */
+            /* A brief run may end with a sixth of the initial energy still stored. */
             const double left = options.brief ? 0.16 : 1e-3;
             assert_true(collision.summary->energy.stored <=
                         left * collision.summary->energy.initial);
@@ -51,9 +52,9 @@ static void references_and_brief_runs_await_the_rebound_too(void **state) {
     }
 }
 
-/* Three coupled cars: only the first meets the wall, the others push it on. When the run ends
- * a joint holds at most a thousandth of the first energy, half of it as motion at any time on the
- * mean: the cars have all but one speed. */
+/* Three coupled cars: only the first meets the wall, the others push it on. At the end of the run a
+ * joint stores at most a thousandth of the initial energy, on average half of it as motion: the
+ * cars have almost one speed. */
 static void a_coupled_train_leaves_the_wall(void **state) {
     (void)state;
     Collision collision = collide("tests/physics/cases/train-and-wall.yaml", AS_WRITTEN, 0);
@@ -70,7 +71,7 @@ static void a_coupled_train_leaves_the_wall(void **state) {
     collision_free(&collision);
 }
 
-/* Brakes that hold a compressed buffer hold it for ever: the force is there, and the run is over.
+/* Brakes can hold a compressed buffer permanently: the force remains, and the run is over.
  */
 static void a_train_held_by_its_brakes_is_at_its_end(void **state) {
     (void)state;
@@ -79,14 +80,14 @@ static void a_train_held_by_its_brakes_is_at_its_end(void **state) {
     assert_true(collision.summary->ended == CZ_ENDED_BY_RULE);
     const double left = last_force(&collision, "A1-wall");
     assert_true(left > 10.0);
-    /* A tenth of a millimetre at the 5 Hz at which the body rocks on its links. */
+    /* A tenth of a millimetre at the 5 Hz at which the body oscillates on its links. */
     assert_near(collision.summary->vehicle[0].final_speed, 0.0, 0.0, 3e-3);
     collision_free(&collision);
 }
 
 /* 60 t at 1 m/s throw 30 t off at 4/3 m/s and follow at 1/3. Slowed at 0.05 g the light car is met
- * again after 2 / 0.49 = 4.1 s, pushed on and met until nothing is left to close at 0.1 m/s; where
- * both are slowed alike, the one behind never comes near. */
+ * again after 2 / 0.49 = 4.1 s, and pushed until the closing speed stays below 0.1 m/s; where both
+ * are slowed alike, the one behind never reaches it. */
 static void cars_meet_again_where_rolling_resistance_slows_the_one_ahead(void **state) {
     (void)state;
     static const char *const slowed[][2] = {{"trains.A.vehicles.A1.rolling_resistance_N_kN=0",
@@ -112,7 +113,7 @@ static void cars_meet_again_where_rolling_resistance_slows_the_one_ahead(void **
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(elastic_cars_exchange_their_speeds_without_a_duration),
-        cmocka_unit_test(references_and_brief_runs_await_the_rebound_too),
+        cmocka_unit_test(reference_and_brief_runs_include_the_rebound),
         cmocka_unit_test(a_coupled_train_leaves_the_wall),
         cmocka_unit_test(a_train_held_by_its_brakes_is_at_its_end),
         cmocka_unit_test(cars_meet_again_where_rolling_resistance_slows_the_one_ahead),

@@ -1,5 +1,5 @@
-/* What the elements of a collision dissipate adds up to what the absorbers do: nobody counts twice,
- * and nothing is missing. */
+/* The energies of the elements of a collision add up to that of the absorbers: none is counted
+ * twice, and none is missing. */
 #include "support/check.h"
 
 #include <math.h>
@@ -85,8 +85,7 @@ static CzProblem *rigid(void) {
     return problem_of(status, problem, &error);
 }
 
-/* Elements are all that absorbs: what is added up in one order and in the other differs by
- * rounding.
+/* Only elements absorb: sums in two orders differ by rounding.
  */
 static void check_sum(CzProblem *problem) {
     CzError error = {0};
@@ -107,27 +106,27 @@ static void check_sum(CzProblem *problem) {
     cz_problem_free(problem);
 }
 
-static void elements_of_rigid_cars_are_all_that_absorbs(void **state) {
+static void only_elements_absorb_between_rigid_cars(void **state) {
     (void)state;
     check_sum(rigid());
 }
 
-static void elements_are_all_that_absorbs_where_full_cars_meet(void **state) {
+static void only_elements_absorb_between_full_cars(void **state) {
     (void)state;
     check_sum(shipped("two-cars-25kmh.yaml"));
 }
 
-static void elements_are_all_that_absorbs_in_two_trains(void **state) {
+static void only_elements_absorb_in_two_trains(void **state) {
     (void)state;
     check_sum(shipped("first-collision.yaml"));
 }
 
-static void elements_are_all_that_absorbs_against_a_wall(void **state) {
+static void only_elements_absorb_against_a_wall(void **state) {
     (void)state;
     check_sum(shipped("wall.yaml"));
 }
 
-static void elements_are_all_that_absorbs_with_side_buffers(void **state) {
+static void only_elements_absorb_with_side_buffers(void **state) {
     (void)state;
     check_sum(shipped("wagon.yaml"));
 }
@@ -143,8 +142,8 @@ static void damping_and_rates_of_an_end_belong_to_it(void **state) {
     check_sum(shipped_with("paper-25kmh.yaml", NULL, 0));
 }
 
-/* Two ends of one car are damped alike, and only one of them meets anything. */
-static void a_damped_end_that_meets_nothing_takes_nothing(void **state) {
+/* Both ends of a car are damped, and only one of them has a partner. */
+static void a_damped_end_without_a_partner_dissipates_nothing(void **state) {
     (void)state;
     CzProblem *problem = shipped_with("two-cars-25kmh.yaml", damped, 4);
     CzModel *model = NULL;
@@ -211,13 +210,13 @@ static void an_anti_climber_against_a_wall_stores_f_squared_over_2k(void **state
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(damping_and_rates_of_an_end_belong_to_it),
-        cmocka_unit_test(a_damped_end_that_meets_nothing_takes_nothing),
+        cmocka_unit_test(a_damped_end_without_a_partner_dissipates_nothing),
         cmocka_unit_test(an_anti_climber_against_a_wall_stores_f_squared_over_2k),
-        cmocka_unit_test(elements_of_rigid_cars_are_all_that_absorbs),
-        cmocka_unit_test(elements_are_all_that_absorbs_where_full_cars_meet),
-        cmocka_unit_test(elements_are_all_that_absorbs_in_two_trains),
-        cmocka_unit_test(elements_are_all_that_absorbs_against_a_wall),
-        cmocka_unit_test(elements_are_all_that_absorbs_with_side_buffers),
+        cmocka_unit_test(only_elements_absorb_between_rigid_cars),
+        cmocka_unit_test(only_elements_absorb_between_full_cars),
+        cmocka_unit_test(only_elements_absorb_in_two_trains),
+        cmocka_unit_test(only_elements_absorb_against_a_wall),
+        cmocka_unit_test(only_elements_absorb_with_side_buffers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

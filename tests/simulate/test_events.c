@@ -1,5 +1,5 @@
-/* Events are what the largest values of the run say, and happen when they are reached; what comes
- * after an override is marked. */
+/* Events agree with the largest values of the run, and have the time at which these are reached;
+ * values after an override are marked. */
 #include "physics/collision.h"
 
 #include "crushzone/evaluate.h"
@@ -17,7 +17,7 @@ static double time_of(const Collision *collision, CzEventKind what, const char *
     return NAN;
 }
 
-/* A collision in which each kind of event happens. At 2 km/h, none but contact does in any of them.
+/* A collision for each kind of event. At 2 km/h only contact occurs in each of them.
  */
 static const struct {
     const char *file, *where; /* begins with */
@@ -38,7 +38,7 @@ static const struct {
     [CZ_EVENT_OVERRIDE] = {"problems/override-overlap-climbs.yaml", "A1-B1"},
 };
 
-static void every_kind_of_event_happens_and_none_but_contact_at_walking_pace(void **state) {
+static void every_kind_of_event_occurs_and_only_contact_at_walking_pace(void **state) {
     (void)state;
     static const CzEventKind kinds[] = {
 #define CZ_EVENT(constant, text, doc) constant,
@@ -66,7 +66,7 @@ static void every_kind_of_event_happens_and_none_but_contact_at_walking_pace(voi
 }
 
 /* Couplers of one interface are at unequal heights, so that they are turned from the start. */
-static void a_swing_stop_is_met_just_when_the_largest_swing_is_beyond_it(void **state) {
+static void a_swing_stop_is_reported_exactly_when_the_largest_swing_is_beyond_it(void **state) {
     (void)state;
     static const char *const stops[] = {
         "trains.A.vehicles.A3.front.coupler.hinge.swing_stop_deg=4",
@@ -89,16 +89,16 @@ static void a_swing_stop_is_met_just_when_the_largest_swing_is_beyond_it(void **
                 const double time = time_of(&collision, CZ_EVENT_SWING_STOP, where, k);
                 assert_true(beyond == !isnan(time));
                 if (beyond)
-                    assert_true(time > 1e-3); /* nothing swings before the impact arrives */
+                    assert_true(time > 1e-3); /* no coupler swings before the impact arrives */
                 n_met += beyond;
             }
         }
         collision_free(&collision);
     }
-    assert_true(n_met > 0 && n_met < 3 * 22); /* both were tried */
+    assert_true(n_met > 0 && n_met < 3 * 22); /* both cases occurred */
 }
 
-/* Checks of totals are not made, those of other numbers are marked; a pass of neither is one. */
+/* Checks of totals are not made, those of other numbers are marked; neither can pass. */
 static void assert_marked(const CzEvaluation *evaluation) {
     int n_total = 0;
     for (int i = 0; i < evaluation->n_check; i++) {
@@ -116,7 +116,7 @@ static void assert_marked(const CzEvaluation *evaluation) {
     assert_int_equal(evaluation->verdict, CZ_VERDICT_FAIL);
 }
 
-static void numbers_past_an_override_are_marked_and_totals_blank(void **state) {
+static void numbers_after_an_override_are_marked_and_totals_blank(void **state) {
     (void)state;
     CzProblem *problem = NULL;
     CzEvaluator *evaluator = NULL;
@@ -147,9 +147,9 @@ static void numbers_past_an_override_are_marked_and_totals_blank(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind_of_event_happens_and_none_but_contact_at_walking_pace),
-        cmocka_unit_test(a_swing_stop_is_met_just_when_the_largest_swing_is_beyond_it),
-        cmocka_unit_test(numbers_past_an_override_are_marked_and_totals_blank),
+        cmocka_unit_test(every_kind_of_event_occurs_and_only_contact_at_walking_pace),
+        cmocka_unit_test(a_swing_stop_is_reported_exactly_when_the_largest_swing_is_beyond_it),
+        cmocka_unit_test(numbers_after_an_override_are_marked_and_totals_blank),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

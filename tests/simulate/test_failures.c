@@ -1,7 +1,7 @@
-/* Runs that cannot be believed fail, and say in words where and when. */
+/* Invalid runs fail, with place and time in words. */
 #include "physics/collision.h"
 
-/* Runs with a step of the caller's, whatever the bounds say. */
+/* Runs with a step of the caller's, beyond any bound. */
 static Collision collide_with(const char *file, double step) {
     Collision collision = collision_model(file, WITH("simulation.track=rigid"), 0);
     CzSimulateOptions options = cz_simulate_options_default();
@@ -13,7 +13,7 @@ static Collision collide_with(const char *file, double step) {
     return collision;
 }
 
-/* A failed run is incomplete, and shows no number that somebody might take for a result. */
+/* A failed run is incomplete, and has no number that could be taken for a result. */
 static void assert_failed(const Collision *collision, const char *where, const char *what) {
     const CzRunSummary *summary = collision->summary;
     assert_int_equal(summary->status, CZ_STATUS_RUN_FAILED);
@@ -28,8 +28,8 @@ static void assert_failed(const Collision *collision, const char *where, const c
     assert_true(isnan(summary->vehicle[0].final_speed));
 }
 
-/* One and a half times the largest stable step multiplies the fastest motion by a few a step: the
- * energy balance are off by more than 1 % long before a number overflows. */
+/* One and a half times the largest stable step multiplies the fastest motion by a few per step: the
+ * error of the energy balance exceeds 1 % long before a number overflows. */
 static void a_run_that_loses_its_energy_balance_fails(void **state) {
     (void)state;
     Collision collision =
@@ -43,7 +43,7 @@ static void a_run_that_loses_its_energy_balance_fails(void **state) {
 }
 
 /* The square of the step is beyond the range of numbers. */
-static void a_run_that_goes_beyond_all_numbers_fails(void **state) {
+static void a_run_that_overflows_fails(void **state) {
     (void)state;
     Collision collision = collide_with("problems/two-cars-25kmh.yaml", 1e160);
     assert_failed(&collision, "A1: longitudinal motion of the body: not a finite number at ",
@@ -54,7 +54,7 @@ static void a_run_that_goes_beyond_all_numbers_fails(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_that_loses_its_energy_balance_fails),
-        cmocka_unit_test(a_run_that_goes_beyond_all_numbers_fails),
+        cmocka_unit_test(a_run_that_overflows_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

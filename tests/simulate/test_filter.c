@@ -1,4 +1,4 @@
-/* The CFC filter against what its standard promises. */
+/* The CFC filter against the requirements of its standard. */
 #include "support/check.h"
 
 #include "simulate/filter.h"
@@ -7,7 +7,7 @@ enum { N = 4000 };
 #define STEP 1e-3
 #define PI 3.14159265358979323846
 
-/* Amplitude that a sine comes out with, from the middle of the samples. */
+/* Amplitude of a filtered sine, from the middle of the samples. */
 static double gain(double frequency) {
     static double x[N], y[N];
     for (int i = 0; i < N; i++)
@@ -34,7 +34,7 @@ static void the_gain_is_that_of_two_butterworth_passes(void **state) {
     assert_near(gain(100), 0.708, 0.05, 0); /* the class: 3 dB at 100 Hz */
 }
 
-static void nothing_is_shifted_and_no_area_is_lost(void **state) {
+static void the_filter_keeps_time_and_area(void **state) {
     (void)state;
     static double x[N], y[N];
     memset(x, 0, sizeof x);
@@ -50,7 +50,7 @@ static void nothing_is_shifted_and_no_area_is_lost(void **state) {
     assert_near(after, before, 1e-9, 0);
 }
 
-static void a_constant_and_a_ramp_stay_what_they_are(void **state) {
+static void a_constant_and_a_ramp_are_unchanged(void **state) {
     (void)state;
     static double x[N], y[N];
     for (int i = 0; i < N; i++)
@@ -65,7 +65,7 @@ static void a_constant_and_a_ramp_stay_what_they_are(void **state) {
         assert_near(y[i], x[i], 0, 1e-6);
 }
 
-static void short_records_and_sparse_samples_are_known(void **state) {
+static void short_records_and_sparse_samples_are_handled(void **state) {
     (void)state;
     double one = 7;
     assert_int_equal(cz_filter_cfc(60, STEP, 1, &one, &one), CZ_OK);
@@ -79,9 +79,9 @@ static void short_records_and_sparse_samples_are_known(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_gain_is_that_of_two_butterworth_passes),
-        cmocka_unit_test(nothing_is_shifted_and_no_area_is_lost),
-        cmocka_unit_test(a_constant_and_a_ramp_stay_what_they_are),
-        cmocka_unit_test(short_records_and_sparse_samples_are_known),
+        cmocka_unit_test(the_filter_keeps_time_and_area),
+        cmocka_unit_test(a_constant_and_a_ramp_are_unchanged),
+        cmocka_unit_test(short_records_and_sparse_samples_are_handled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

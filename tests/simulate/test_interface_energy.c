@@ -1,11 +1,11 @@
 /* The energy of an interface is the integral of its force over its closure, on every shipped
- * problem with damping, rate and speed factors switched on: what an end or a device dissipates is
- * counted where it is.
+ * problem with damping, rate and speed factors switched on: the energy of an end or a device is
+ * counted at its interface.
  */
 #include "physics/collision.h"
 #include "support/shipped.h"
 
-/* Damping, rate and speed factors at every end; a share of what they may be. */
+/* Damping, rate and speed factors at every end; a share of their largest values. */
 static void switch_on(CzVehicle *vehicle, double share) {
     CzEnd *const ends[2] = {&vehicle->rear, &vehicle->front};
     for (int i = 0; i < 2; i++) {
@@ -22,9 +22,9 @@ static void switch_on(CzVehicle *vehicle, double share) {
     }
 }
 
-/* What forces at a height do over what the pitch of both cars adds to the closure there, until it
- * is largest and half of the way back: no line of force of the shipped problems lies further
- * than 1.1 m from the height of a car's middle. */
+/* Work of forces at a height over the closure that the pitch of both cars adds there, up to its
+ * largest value and half of its return: no line of force of the shipped problems is further than
+ * 1.1 m from the height of a car's middle. */
 static double work_of_pitch(const CzRunSummary *summary, int interface) {
     const double pitch =
         fmax(summary->vehicle[interface].max_pitch, summary->vehicle[interface + 1].max_pitch);
@@ -43,7 +43,8 @@ static void check_interface(const Collision *collision, int interface) {
         work += 0.5 * (force[i] + force[i - 1]) * (closure[i] - closure[i - 1]);
     for (int k = 0; k < result->n_element; k++)
         expected += result->element[k].stored;
-    /* A force that falls within a step, such as at a shear-off, is seen at both ends of it. */
+    /* A force that falls within a step, such as at a shear-off, is read at both ends of the step.
+     */
     const double rounding = 1e-3 * summary->energy.initial;
     const double allowed = rounding + work_of_pitch(summary, interface);
     assert_near(work, expected, 0.0, allowed);

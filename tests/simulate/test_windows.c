@@ -1,4 +1,4 @@
-/* The worst window of 120 ms and more is the worst of all of them, looked at one by one. */
+/* The worst window of at least 120 ms equals the worst of all windows, computed one by one. */
 #include "physics/collision.h"
 #include "support/shipped.h"
 

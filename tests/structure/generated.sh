@@ -1,4 +1,4 @@
-# Documents that the program writes from its own tables are as it writes them.
+# Documents that the program writes from its own tables are up to date.
 . "$SOURCE/tests/support/cases.sh"
 
 same() { # same FILE COMMAND...: the command prints the file

@@ -1,4 +1,4 @@
-# Files and functions that the pages under docs/ name are there.
+# Files and functions that the pages under docs/ name exist.
 . "$SOURCE/tests/support/cases.sh"
 cd "$SOURCE"
 
@@ -12,7 +12,7 @@ missing_files() {
     done
 }
 
-# `name()` on a line stands in one of the files that the line names; without any, somewhere in src/.
+# `name()` on a line is in one of the files that the line names; without any, somewhere in src/.
 missing_functions() {
     for page in "$@"; do
         grep -n '`[a-z_0-9]*()`' "$page" | while IFS= read -r line; do
@@ -34,19 +34,19 @@ missing_functions() {
     done
 }
 
-# Every law of the list stands in the theory.
+# Every law of the list is in the theory.
 missing_laws() {
     sed -n 's/^CZ_LAW(\([a-z_0-9]*\),.*/\1/p' src/laws/laws.def | while read -r law; do
         grep -qF "\`$law()\`" "$1" || echo "$1 does not name $law()"
     done
 }
 
-nothing "every file that the theory names is there" missing_files docs/theory.md
-nothing "every law stands in the theory" missing_laws docs/theory.md
+nothing "every file that the theory names exists" missing_files docs/theory.md
+nothing "every law is in the theory" missing_laws docs/theory.md
 nothing "every function that the theory names is in its file" missing_functions docs/theory.md
-nothing "the other pages name files that are there" missing_files docs/architecture.md docs/fitting-curves.md docs/verification.md
+nothing "files that the other pages name exist" missing_files docs/architecture.md docs/fitting-curves.md docs/verification.md
 
-# The rules find what they are there to find.
+# The rules find the faults they are made for.
 mkdir -p "$OLDPWD/tree/src"
 cd "$OLDPWD/tree"
 echo 'int there(int a) { return a; }' >src/a.c
@@ -56,8 +56,8 @@ finds() { "$2" page.md >found.txt 2>&1; cat found.txt; grep -q "$1" found.txt; }
 mkdir src/laws
 echo 'CZ_LAW(cz_new, "new.h", "a law")' >src/laws/laws.def
 check "a law that the theory leaves out is found" finds 'page.md does not name cz_new()' missing_laws
-check "a file that is gone is found" finds 'src/b.c is not there' missing_files
-check "a function that is gone is found" finds 'page.md:1: gone() is not in src/a.c' missing_functions
-check "a function that is nowhere is found" finds 'page.md:3: nowhere() is not in src/' missing_functions
-check "a function that is there is let through" sh -c '! grep -q " there()" found.txt'
+check "a missing file is found" finds 'src/b.c is not there' missing_files
+check "a missing function is found" finds 'page.md:1: gone() is not in src/a.c' missing_functions
+check "an unknown function is found" finds 'page.md:3: nowhere() is not in src/' missing_functions
+check "an existing function is accepted" sh -c '! grep -q " there()" found.txt'
 finish

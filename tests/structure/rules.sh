@@ -7,7 +7,7 @@ c_files() { # c_files FOLDER...: all C sources, headers and lists in them
 }
 
 # Arrows between the folders go one way: cli, report, optimise, evaluate, simulate, dynamics, fit, model, problem, tree, text, base.
-# The laws are seen by dynamics, model and fit and see nothing; integrate is seen by simulate and dynamics and sees base.
+# dynamics, model and fit include laws, which includes nothing; simulate and dynamics include integrate, which includes base.
 include_arrows() {
     for folder in $folders; do
         for file in $(c_files src/$folder); do
@@ -90,7 +90,7 @@ call_circles() {
     done
 }
 
-# A macro of the kernel uses what it is given: parameters, types, constants (capital letters), functions of the project,
+# A macro of the kernel uses its parameters, types, constants (capital letters) and functions of the project,
 # and no name of the place that it is used in. (The copy of the kernel for every processor is called baseline.)
 macros_with_locals() {
     c_files src/dynamics src/laws | xargs awk '
@@ -122,13 +122,13 @@ macros_with_locals() {
         }'
 }
 
-# A row of the model or the kernel has a name of its own: nothing is counted on from another.
+# A row of the model or the kernel has a name of its own: none is counted from another.
 arithmetic_on_rows() {
     c_files src/model src/dynamics src/simulate tests | xargs grep -HnE \
         'CZ_(DOF|PARAMETER|MEMORY|LEDGER|EXTREME|PUBLISHED|CURVE)\([^()]*\) *[-+*%]|[-+*%] *CZ_(DOF|PARAMETER|MEMORY|LEDGER|EXTREME|PUBLISHED|CURVE)\('
 }
 
-# What knows an angle, an arm or a direction is a part of the kernel that lines up or puts: kernel_carrier.h, which says
+# Angles, arms and directions are used only in the parts of the kernel that line up or put: kernel_carrier.h, which defines
 # how bodies move, and the kernel_*_line.h of the elements. Messages between cars and the rail have shapes of their own.
 angles_in_laws() {
     c_files src/dynamics | grep '/kernel[_a-z]*\.[ch]$' | grep -vE '/kernel_(carrier|neighbours|track|[a-z_]*_line)\.h$' |
@@ -143,7 +143,7 @@ third_party_headers() {
     done
 }
 
-# Every source stands in its folder's list, and every list names what is there.
+# Every source is in its folder's list, and every list names existing files.
 unlisted_sources() {
     for folder in $folders; do
         for file in $(find src/$folder -name '*.c' | sort); do
@@ -172,7 +172,7 @@ unlisted_tests() {
     done
 }
 
-# Every header and list is included by somebody.
+# Every header and list is included somewhere.
 unused_headers() {
     for file in $(find src include -type f \( -name '*.h' -o -name '*.def' \) | sort); do
         [ "$file" = include/crushzone/crushzone.h ] && continue # the umbrella is for users
@@ -206,7 +206,7 @@ channels_by_text() {
     grep -rnE '(str(n)?(cmp|str|chr)|fnmatch)\(.*(channel|drawn)_name' src --include='*.c' | grep -v '^src/problem/channel.c:'
 }
 
-# The report computes nothing: what it needs of models and of simulation beside results is collected in these files before
+# The report computes nothing: the data of models and simulation that it needs beside results are collected in these files before
 # anything is drawn.
 report_that_computes() {
     grep -HnE '#[[:space:]]*include[[:space:]]*"(simulate|dynamics|integrate|laws)/|(^|[^_a-z])(cz_model_build|cz_simulate|cz_evaluate|cz_optimise)\(' \
@@ -233,8 +233,8 @@ float_comparisons() {
     c_files tests | xargs grep -HnE 'assert_(not_)?(float|double)_(not_)?(equal)' | grep -v '^tests/support/check.h:'
 }
 
-# What a run tells of its mechanics comes from what the kernel publishes, or from functions of dynamics: who simulates,
-# judges and reports reads no parameter of a law and no sine or cosine of a body.
+# Mechanical results of a run come from values that the kernel publishes, or from functions of dynamics: the folders that simulate,
+# judge and report read no parameter of a law and no sine or cosine of a body.
 mechanics_outside_dynamics() {
     for folder in simulate evaluate optimise report cli; do
         c_files src/$folder | xargs grep -HnE 'CZ_PARAMETER|cz_lane_(parameter|value)\(|(\.|->)turned\b|\b(sin|cos|tan)\(' /dev/null |
@@ -242,14 +242,14 @@ mechanics_outside_dynamics() {
     done
 }
 
-# Every file says on its first line what it is for.
+# The first line of every file gives its purpose.
 missing_purposes() {
     for file in $(c_files src include tests examples); do
         head -n 1 "$file" | grep -qE '^(/\*|//) ?[^ ]' || echo "$file:1: does not begin with a comment that says what it is for"
     done
 }
 
-# The changelog knows the version of the project.
+# The changelog contains the version of the project.
 changelog_gaps() {
     version=$(sed -n 's/^project(crushzone VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
     [ -n "$version" ] || echo "CMakeLists.txt: project() has no version"

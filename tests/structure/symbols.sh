@@ -1,4 +1,4 @@
-# What the shared library shows to the linker.
+# Symbols that the shared library exports.
 . "$SOURCE/tests/support/cases.sh"
 library=$BUILD/libcrushzone.so
 
@@ -18,7 +18,7 @@ undeclared_symbols() {
     declared >declared.txt
     comm -23 shown.txt declared.txt
 }
-writable_symbols() { # objects in sections that can be written once the program runs
+writable_symbols() { # objects in sections that are writable at run time
     objdump -t "$library" | awk '$0 ~ / O \.(data|bss|tdata|tbss)[ \t]/ && $NF !~ /^(completed\.|__dso_handle|__TMC_END__|__cpu_)/ { print $NF }'
 }
 some_are_declared() { [ "$(declared | wc -l)" -gt 30 ]; }

@@ -1,10 +1,10 @@
 # Test cases of shell scripts. Source it, state the cases, end with `finish`.
 #
 #   check "sentence" command...      the case passes when the command succeeds
-#   nothing "sentence" command...    the case passes when the command prints nothing: it lists offenders
+#   nothing "sentence" command...    the case passes when the command, which lists violations, prints nothing
 #   skipped "sentence" "reason"      the case cannot be tried here
 #
-# What a failed case printed stands under its line. The last line is "N passed, N failed".
+# The output of a failed case is below its line. The last line is "N passed, N failed".
 n_passed=0
 n_failed=0
 cases_output=$(mktemp)

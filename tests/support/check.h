@@ -1,4 +1,4 @@
-/* What every test program includes: cmocka and a comparison of doubles that is one. */
+/* Included by every test program: cmocka and a comparison of doubles. */
 #ifndef CZ_TESTS_CHECK_H
 #define CZ_TESTS_CHECK_H
 

@@ -1,4 +1,4 @@
-/* The problem files that ship: what is in the folder problems/, in the order of their names. */
+/* The shipped problem files: those of the folder problems/, in the order of their names. */
 #ifndef CZ_TESTS_SHIPPED_H
 #define CZ_TESTS_SHIPPED_H
 

@@ -172,7 +172,8 @@ static CzEnd full_end(void) {
     return end;
 }
 
-/* Bogie of the Manchester benchmark coach (Iwnicki 1998); what the benchmark lacks is ours. */
+/* Bogie of the Manchester benchmark coach (Iwnicki 1998); values missing in the benchmark are ours.
+ */
 static CzBogie full_bogie(void) {
     CzBogie bogie = default_CzBogie();
     bogie.given = true;

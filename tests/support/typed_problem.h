@@ -11,7 +11,7 @@
 
 enum { TYPED_MAX_VEHICLE = 16, TYPED_MAX_SCENARIO = 4 };
 
-/* Stands in for what the reader makes; link typed_problem.c. */
+/* Replaces the reader's result; link typed_problem.c. */
 struct CzProblem {
     CzInput input;
     CzTrain train[2];

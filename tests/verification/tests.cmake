@@ -4,7 +4,7 @@ if(CZ_IS_WHOLE)
                tests/physics/rails.c
                tests/physics/scheme.c tests/physics/steps.c)
     cz_script(verification_page runs page.sh)
-    # What each model of the track costs and how far it differs, as another.
+    # A second page: costs and differences of the track models.
     cz_program(tracks tracks.c)
     cz_script(track_page runs track.sh)
 endif()

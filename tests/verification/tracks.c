@@ -1,6 +1,6 @@
-/* Prints docs/track.md: what each model of the track costs, and how far its results are from those
- * of the production run. With the argument `costs` it measures, which takes a minute; without, the
- * table of costs is left empty. */
+/* Prints docs/track.md: costs of each track model, and differences of its results from those of the
+ * production run. With the argument `costs` it measures, which takes a minute; without, the table
+ * of costs is left empty. */
 #include "physics/collision.h"
 
 #include <time.h>
@@ -39,7 +39,7 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Smallest over some rounds in turn, so that what else the machine does falls on all alike: time in
+/* Smallest over some rounds in turn, so that other work of the machine affects all alike: time in
  * the steps per simulated second. */
 typedef struct Cost {
     double run, setup; /* of a run, and its part before the steps [s] */
@@ -120,7 +120,8 @@ static void values_of(const Collision *collision, double value[N_VALUE]) {
     }
 }
 
-/* A lift differs by millimetres, because its limit is a height; all else by its own size. */
+/* A lift differs by millimetres, because its limit is a height; all other results by a share of
+ * their value. */
 static void put_difference(int which, double value, double record) {
     const bool is_lift = which >= FIRST_LIFT;
     const double difference = is_lift ? value - record : 100.0 * (value / record - 1.0);

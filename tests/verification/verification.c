@@ -1,15 +1,15 @@
 /* Prints docs/verification.md: every row of the verification, computed now. Ends with 1 when a row
- * does not hold. The same rows are held to their tolerances by the tests of tests/physics. */
+ * is outside its tolerance. The tests of tests/physics check the same rows. */
 #include "physics/closed_forms.h"
 #include "physics/published.h"
 #include "physics/rails.h"
 #include "physics/scheme.h"
 #include "physics/steps.h"
 
-static Rows rows; /* of the section at hand */
+static Rows rows; /* of the current section */
 static int n_row, n_wrong;
 
-/* Six digits are enough to compare; more would report compilers and machines apart. */
+/* Six digits are enough to compare; more would differ between compilers and machines. */
 static void put_value(double value) {
     if (value != 0.0 && (fabs(value) < 1e-3 || fabs(value) >= 1e6))
         printf("%.2e", value);
@@ -30,7 +30,7 @@ static void put_row(const Row *row) {
         printf("at most ");
         put_number(row->expected, row->unit);
         printf(" | ");
-        if (fabs(row->computed) < 1e-9) /* rounding, which is each machine's own */
+        if (fabs(row->computed) < 1e-9) /* rounding, which depends on the machine */
             printf("below %.0e", fmin(1e-9, row->expected));
         else if (row->unit[0] == '\0')
             printf("%.1e", row->computed);

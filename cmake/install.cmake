@@ -1,4 +1,4 @@
-# What `cmake --install` lays down: program, library, headers, shipped problems, CMake package and pkg-config file.
+# Files of `cmake --install`: program, library, headers, shipped problems, CMake package and pkg-config file.
 install(TARGETS crushzone EXPORT crushzone
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS crushzone-installed RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -4,7 +4,7 @@
 #
 #   design_loop.sh PROBLEM.yaml
 #
-# Each turn is one run of the program with another value and one number taken from its JSON.
+# Each pass of the loop is one run of the program with another value, and reads one number of its JSON.
 set -eu
 problem=$1
 limit_kN=1500

@@ -1,6 +1,6 @@
 // RUN: crushzone new two-trains -o own.yaml && own_objective own.yaml 150
-/* Search with an objective of one's own: the largest force over mass that any car's body feels, in
- * g, over all scenarios. The checks of the problem file stay the constraints.
+/* Search with a user-defined objective: the largest force over mass on the body of any car, in g,
+ * over all scenarios. The checks of the problem file remain the constraints.
  *
  *   own_objective PROBLEM.yaml EVALUATIONS
  */
@@ -9,7 +9,8 @@
 
 #include <crushzone/crushzone.h>
 
-/* Called for each design with the runs of all its scenarios; `data` is what main passes on. */
+/* Called for each design with the runs of all its scenarios; `data` is the pointer given by main.
+ */
 static double largest_deceleration(int n_scenario, const CzRunSummary *const *summary, void *data) {
     const double unit = *(const double *)data;
     double largest = 0;

@@ -1,6 +1,6 @@
 // RUN: simulate problems/two-cars-25kmh.yaml
 // RUN: simulate problems/first-collision.yaml
-/* One collision: read a problem file, run its first scenario, print what each interface took.
+/* One collision: read a problem file, run its first scenario, print the energy of each interface.
  *
  *   simulate PROBLEM.yaml
  */

@@ -1,6 +1,6 @@
 // RUN: crushzone new two-trains -o swept.yaml && sweep swept.yaml 4 4
-/* Sweep: one variable of a problem goes from its lower to its upper bound, the others stay at their
- * starting values. All designs run side by side in one call.
+/* Sweep: one variable of a problem is varied from its lower to its upper bound, the others keep
+ * their starting values. All designs run side by side in one call.
  *
  *   sweep PROBLEM.yaml VARIABLE POINTS      variables are counted from 0
  */

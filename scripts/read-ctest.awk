@@ -3,7 +3,7 @@
 # Cases are those of cmocka ("[       OK ] name") and of scripts ("ok - sentence"). A program that failed without a
 # failed case (it crashed, or ran out of time) counts as one failed case, and so does one that ran no case at all.
 # A skipped case of cmocka has the line that it printed last as its reason.
-# What failed programs printed goes to standard error.
+# The output of failed programs goes to standard error.
 
 /^ *[0-9]+\/[0-9]+ Test +#[0-9]+:/ {
     program = $0

@@ -198,6 +198,14 @@ CzStatus cz_report_write_document_schema(const char *document, FILE *stream, CzE
 
 /* ---- page ---- */
 
+/* Link to the section of a record; anchors of headings have small letters. */
+static void write_link(CzRecord record, FILE *stream) {
+    fprintf(stream, "[%s](#", cz_record_names[record]);
+    for (const char *letter = cz_record_names[record]; *letter != '\0'; letter++)
+        fputc(tolower((unsigned char)*letter), stream);
+    fputc(')', stream);
+}
+
 static void write_type(const CzResult *result, FILE *stream) {
     const char *type = scalar_type(result);
     const bool is_null = strstr(type, "null") != NULL;
@@ -208,17 +216,17 @@ static void write_type(const CzResult *result, FILE *stream) {
     switch (result->form) {
     case CZ_FORM_PART:
     case CZ_FORM_PART_IF:
-        fprintf(stream, "[%s](#%s)", cz_record_names[result->of], cz_record_names[result->of]);
+        write_link(result->of, stream);
         break;
     case CZ_FORM_LIST:
     case CZ_FORM_LIST_IF:
-        fprintf(stream, "list of [%s](#%s)", cz_record_names[result->of],
-                cz_record_names[result->of]);
+        fputs("list of ", stream);
+        write_link(result->of, stream);
         break;
     case CZ_FORM_MAP:
     case CZ_FORM_SPREAD:
-        fprintf(stream, "[%s](#%s) by name", cz_record_names[result->of],
-                cz_record_names[result->of]);
+        write_link(result->of, stream);
+        fputs(" by name", stream);
         break;
     case CZ_FORM_TEXTS:
     case CZ_FORM_REALS:
@@ -259,15 +267,16 @@ static bool has_rows(CzRecord record) {
 void cz_report_write_results_page(FILE *stream) {
     fputs("# Results\n\nThis page is printed by `crushzone help results --markdown`.\n\n"
           "Each table is a record of the JSON documents; CSV files have the same keys as titles of "
-          "their columns.\nNumbers are in the unit of their key; a number that is not known, does "
-          "not apply or would add up what lies beyond model validity is null.\n"
+          "their columns.\nNumbers are in the unit of their key; a number that is unknown, does "
+          "not apply or is a sum beyond model validity is null.\n"
           "All results are those of the plane of the track's length and height.\n"
           "`crushzone schema NAME` prints the JSON schema of a document:\n\n",
           stream);
-    for (int i = 0; i < N_DOCUMENT; i++)
-        fprintf(stream, "- `%s`: [%s](#%s), %s\n", documents[i].name,
-                cz_record_names[documents[i].record], cz_record_names[documents[i].record],
-                cz_record_docs[documents[i].record]);
+    for (int i = 0; i < N_DOCUMENT; i++) {
+        fprintf(stream, "- `%s`: ", documents[i].name);
+        write_link(documents[i].record, stream);
+        fprintf(stream, ", %s\n", cz_record_docs[documents[i].record]);
+    }
     for (int record = 0; record < CZ_N_RECORD; record++) {
         if (!has_rows((CzRecord)record))
             continue;

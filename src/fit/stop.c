@@ -13,17 +13,18 @@
 #include "base/error.h"
 #include "base/number.h"
 
+#define RECENT 0.75 /* of the stroke so far: from there on it tells the level (ours) */
 #define LEVEL 1.1   /* of the mean force of the stroke so far: above it a rise has begun (ours) */
 #define HEIGHT 1.5  /* of the highest force before: less is a stage (ours) */
 #define STEEP 20.0  /* times the stiffness of force over stroke: less is a stage (ours) */
 #define STIFFER 1.1 /* than the stop, the elasticity in series with it at least (ours) */
 #define RAISED 2.0  /* the same where it has to be raised (ours) */
 
-/* The last point whose force is no higher than what the second half of the stroke so far carries.
- */
+/* The last point whose force is no higher than what the last quarter of the stroke so far carries.
+ * More than that would take the end of a plateau that rises for a part of the stop. */
 static int find_onset(const CzBranch *curve) {
     int i = curve->n - 1;
-    while (i > 0 && curve->f[i] > LEVEL * cz_branch_mean(curve, 0.5 * curve->x[i], curve->x[i]))
+    while (i > 0 && curve->f[i] > LEVEL * cz_branch_mean(curve, RECENT * curve->x[i], curve->x[i]))
         i--;
     return i;
 }

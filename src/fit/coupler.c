@@ -213,6 +213,22 @@ static CzStatus sharpen_tube(CzFit *fit, const CzBranch *branch, Parts *parts, C
     return CZ_OK;
 }
 
+/* The tube crushes once the buffer has come to its last force, not before: what the buffer's forces
+ * have above that is cut. Its energy goes to both members alike, with the trigger; it would raise a
+ * short tube alone far above the curve. */
+static void hold_buffer_back(CzFit *fit) {
+    CzStaged *buffer = &fit->buffer, *tube = &fit->member;
+    const double found = cz_staged_energy(buffer);
+    const double flows = isnan(tube->trigger) ? tube->stage[0].force : tube->trigger;
+    buffer->preload = fmin(buffer->preload, flows);
+    for (int i = 0; i < buffer->n_stage; i++)
+        buffer->stage[i].force = fmin(buffer->stage[i].force, flows);
+    const double kept = cz_staged_energy(buffer), all = kept + cz_staged_energy(tube);
+    const double factor = (all + found - kept) / all;
+    cz_fit_scale_forces(buffer, -1, factor);
+    tube->trigger *= factor;
+}
+
 /* Splits buffer and tube, and fits both. */
 static CzStatus fit_members(CzFit *fit, const CzBranch *branch, int n_stage, Parts *parts,
                             CzError *error) {
@@ -230,12 +246,7 @@ static CzStatus fit_members(CzFit *fit, const CzBranch *branch, int n_stage, Par
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
     CZ_TRY(fit_buffer(fit, &before, error));
 
-    /* The tube crushes once the buffer has come to its last force, not before. */
-    const double flows =
-        isnan(fit->member.trigger) ? fit->member.stage[0].force : fit->member.trigger;
-    fit->buffer.preload = fmin(fit->buffer.preload, flows);
-    for (int i = 0; i < fit->buffer.n_stage; i++)
-        fit->buffer.stage[i].force = fmin(fit->buffer.stage[i].force, flows);
+    hold_buffer_back(fit);
     cz_fit_round_staged(&fit->buffer);
     fit->member.bottom_stiffness = parts->stop_stiffness;
     CZ_TRY(cz_fit_place_stop(fit, &parts->rise, &fit->member, &behind, error));

@@ -130,8 +130,7 @@ void cz_fit_round_staged(CzStaged *staged) {
     round_forces(staged);
 }
 
-/* A stage's force, or all forces of a curve that must not fall, times a factor. */
-static void scale_forces(CzStaged *staged, int stage, double factor) {
+void cz_fit_scale_forces(CzStaged *staged, int stage, double factor) {
     for (int i = 0; i < staged->n_stage; i++)
         staged->stage[i].force *= stage < 0 || i == stage ? factor : 1.0;
     staged->preload *= stage < 0 ? factor : 1.0;
@@ -148,11 +147,11 @@ static double settle_energy(CzFit *fit, CzStaged *staged, int stage) {
         if (fabs(wanted - now) <= ROUNDING * wanted)
             break;
         *staged = found;
-        scale_forces(staged, stage, factor + by);
+        cz_fit_scale_forces(staged, stage, factor + by);
         const double slope = (cz_fit_law_energy(fit) - now) / by;
         factor += (wanted - now) / slope;
         *staged = found;
-        scale_forces(staged, stage, factor);
+        cz_fit_scale_forces(staged, stage, factor);
     }
     return factor;
 }

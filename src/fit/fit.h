@@ -87,6 +87,9 @@ double cz_fit_work(const CzFit *fit, int point);
 /* Rounds strokes, forces, trigger and its length. */
 void cz_fit_round_staged(CzStaged *staged);
 
+/* Multiplies the force of a stage, or where `stage` is -1 all forces and the preload. */
+void cz_fit_scale_forces(CzStaged *staged, int stage, double factor);
+
 /* Raises forces that are below the one before: a buffer's force does not fall. */
 void cz_fit_let_rise(CzStaged *staged);
 

@@ -59,6 +59,58 @@ static void a_noisy_stop_is_found_too(void **state) {
     }
 }
 
+/* A tube whose plateau rises by 30 % from a stroke on, with folds, and its stop of 110 MN/m up to
+ * 3 MN. */
+static void load_rising(double from, double fold) {
+    const double length = 0.4, stop = 1.1e8;
+    double force = 0.0;
+    curve.n = 0;
+    add_point(&curve, 0.0, 0.0);
+    for (int i = 0; i <= 800; i++) {
+        const double s = length * i / 800;
+        const double rise = 0.3 * fmax(s - from, 0.0) / (length - from);
+        force = 6e5 * (1.0 + rise) * (1.0 + fold * sin(s / 9e-3));
+        add_point(&curve, s + force / 2e8, force);
+    }
+    for (int i = 1; i <= 100; i++) {
+        const double more = (3e6 - force) * i / 100;
+        add_point(&curve, length + more / stop + (force + more) / 2e8, force + more);
+    }
+}
+
+/* Its last force is 16 % above the mean of the second half. */
+static void a_rising_plateau_is_no_part_of_its_stop(void **state) {
+    (void)state;
+    load_rising(0.24, 0.0);
+    CzFit *fit = fit_of(&curve, CZ_FIT_ANTI_CLIMBER, -1);
+    double stroke = 0.0;
+    for (int i = 0; i < 4; i++) {
+        char path[40];
+        snprintf(path, sizeof path, "stages[%d].stroke_mm", i);
+        const double more = value_of(fit, path);
+        stroke += isnan(more) ? 0.0 : more;
+    }
+    assert_near(stroke, 400.0, 0.0, 1.0);
+    assert_near(value_of(fit, "bottom_stiffness_MN_m"), 110.0, 0.02, 0.0);
+    cz_fit_free(fit);
+}
+
+/* A buffer's line follows such a plateau well and leaves the tube a short end of it. What the line
+ * has above the tube's force once raised that end to 1.5 times the curve. */
+static void no_short_tube_takes_what_its_buffer_lacks(void **state) {
+    (void)state;
+    load_rising(0.0, 0.1);
+    CzFit *fit = fit_of(&curve, CZ_FIT_COUPLER, -1);
+    assert_int_equal(cz_fit_summary(fit)->verdict, CZ_FIT_GOOD);
+    for (int i = 0; i < 4; i++) {
+        char path[40];
+        snprintf(path, sizeof path, "tube.stages[%d].force_kN", i);
+        const double force = value_of(fit, path);
+        assert_true(isnan(force) || force <= 780.0 * 1.1); /* the highest of the plateau's folds */
+    }
+    cz_fit_free(fit);
+}
+
 /* A second plateau and a slow rise are stages, whatever their force. */
 static void a_higher_stage_is_no_stop(void **state) {
     (void)state;
@@ -251,6 +303,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_stage_ends_where_the_stop_begins),
         cmocka_unit_test(a_noisy_stop_is_found_too),
+        cmocka_unit_test(a_rising_plateau_is_no_part_of_its_stop),
+        cmocka_unit_test(no_short_tube_takes_what_its_buffer_lacks),
         cmocka_unit_test(a_higher_stage_is_no_stop),
         cmocka_unit_test(a_shear_off_keeps_its_residual_force),
         cmocka_unit_test(a_rupture_is_doubtful_as_a_coupler),

@@ -138,6 +138,21 @@ void cz_reading_help(const CzCurveReading *reading, const char *text) {
         cz_mistake_help(reading->mistakes, "%s", text);
 }
 
+bool cz_reading_has_whole_quotes(const CzCurveReading *reading, int line) {
+    const char *text = reading->source.line[line];
+    int n = 0, column = 1, last = 1;
+    for (; *text != '\0'; text++) {
+        n += *text == '"';
+        last = *text == '"' ? column : last;
+        column += ((unsigned char)*text & 0xc0) != 0x80;
+    }
+    if (n % 2 == 0)
+        return true;
+    cz_mistake_at(reading->mistakes, &reading->source, line + 1, last,
+                  "a quotation mark opens here and none closes");
+    return false;
+}
+
 /* Hints at the title that is nearest to a mistyped one; false when none is near. */
 static bool suggest(const CzCurveReading *reading, const char *typed) {
     char title[CZ_MOST_FIELD_TEXT], best[CZ_MOST_FIELD_TEXT];
@@ -158,6 +173,8 @@ static bool suggest(const CzCurveReading *reading, const char *typed) {
 static bool refuse_titles(const CzCurveReading *reading, const int found[2]) {
     const CzCurveColumn *column = reading->request->column;
     const int i = found[0] < 0 ? 0 : 1;
+    if (!cz_reading_has_whole_quotes(reading, reading->title_line))
+        return false;
     char titles[240], wanted[96];
     list_titles(reading, titles, sizeof titles);
     snprintf(wanted, sizeof wanted, "%s%.60s%s", column[i].title != NULL ? "'" : "the ",

@@ -52,6 +52,9 @@ int cz_reading_next(const CzCurveReading *reading, int line);
  * the numbers of both columns, or says what is missing. */
 bool cz_reading_find_columns(CzCurveReading *reading);
 
+/* Refuses a line in which a quote opens and none closes: where its fields end is then unknown. */
+bool cz_reading_has_whole_quotes(const CzCurveReading *reading, int line);
+
 /* Finds titles alone, of whatever columns. */
 bool cz_reading_find_titles(CzCurveReading *reading);
 

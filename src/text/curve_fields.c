@@ -228,7 +228,9 @@ char cz_fields_separator(const CzSource *source) {
     Score most = {0};
     for (const char *separator = separators; *separator != '\0'; separator++) {
         const Score found = score(source, *separator);
-        if (found.lines > most.lines || (found.lines == most.lines && found.texts < most.texts)) {
+        /* Blanks part what tabs part, and the words of a preamble. */
+        const int least = *separator == ' ' && best == '\t' ? 2 * most.lines : most.lines;
+        if (found.lines > least || (found.lines == most.lines && found.texts < most.texts)) {
             most = found;
             best = *separator;
         }

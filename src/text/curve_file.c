@@ -166,34 +166,24 @@ static void refuse_number(const CzCurveReading *reading, int line, int i, const 
 /* A line with too many or too few fields: with decimal commas between commas both readings are
  * reported. */
 static void refuse_count(const CzCurveReading *reading, int line, int n) {
-    cz_mistake_at(reading->mistakes, &reading->source, line + 1, 1,
-                  "this line has %d %s, the %s %d", n, n == 1 ? "column" : "columns",
-                  reading->titles != NULL ? "titles have" : "first point has", reading->n_field[0]);
+    char other[60] = "the first point has";
+    if (reading->titles != NULL)
+        snprintf(other, sizeof other, "the titles in line %d have", reading->title_line + 1);
+    cz_mistake_at(reading->mistakes, &reading->source, line + 1, 1, "this line has %d %s, %s %d", n,
+                  n == 1 ? "column" : "columns", other, reading->n_field[0]);
     if (reading->separator == ',' && n > reading->n_field[0])
         cz_mistake_help(reading->mistakes,
                         "commas part columns here: numbers with decimal commas or grouped "
                         "thousands need quotes around them, or ';' between the columns");
-}
-
-/* Refuses a line in which a quote opens and none closes: where its fields end is then unknown. */
-static bool has_whole_quotes(const CzCurveReading *reading, int line) {
-    const char *text = reading->source.line[line];
-    int n = 0, column = 1, last = 1;
-    for (; *text != '\0'; text++) {
-        n += *text == '"';
-        last = *text == '"' ? column : last;
-        column += ((unsigned char)*text & 0xc0) != 0x80;
-    }
-    if (n % 2 == 0)
-        return true;
-    cz_mistake_at(reading->mistakes, &reading->source, line + 1, last,
-                  "a quotation mark opens here and none closes");
-    return false;
+    else
+        cz_mistake_help(reading->mistakes,
+                        "a line that is no point, or no line of titles, is left out when it "
+                        "begins with '#'");
 }
 
 /* Takes one line; an empty one of a table is passed over. */
 static void take_point(CzCurveReading *reading, int line) {
-    if (!has_whole_quotes(reading, line))
+    if (!cz_reading_has_whole_quotes(reading, line))
         return;
     CzFieldWalk walk = cz_fields_begin(reading->source.line[line], reading->separator);
     CzField field, wanted[2] = {{.text = "", .column = 1}, {.text = "", .column = 1}};
@@ -231,8 +221,13 @@ static bool take_points(CzCurveReading *reading) {
     const int before = reading->mistakes->n_mistake, n_line = reading->source.n_line;
     if (reading->titles != NULL) {
         const CzFieldCount count = cz_fields_count(reading->titles, reading->separator);
+        /* Columns behind the last one of the first point may be titled and empty. Where blanks part
+         * the fields an empty one cannot be seen, and those behind it would take its place. */
+        const int line = cz_reading_next(reading, reading->data);
+        const int n_first = cz_fields_count(reading->source.line[line], reading->separator).all;
         reading->n_field[0] = count.all;
-        reading->n_field[1] = count.filled;
+        reading->n_field[1] =
+            reading->separator != ' ' && n_first < count.filled ? n_first : count.filled;
     }
     for (int line = cz_reading_next(reading, reading->data); line < n_line;
          line = cz_reading_next(reading, line + 1))

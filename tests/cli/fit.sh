@@ -222,7 +222,7 @@ check "strokes out of order are refused" refused bad.csv 'bad.csv:4:1: error: th
 put 'stroke_mm,force_kN\n0,0\n1,0\n'
 check "a curve without force is refused" refused bad.csv 'no point of the curve has a force'
 put 'stroke_mm,force_kN\n0,0\n10.5,50,5\n'
-check "a line with more columns is refused" refused bad.csv 'bad.csv:3:1: error: this line has 3 columns, the titles have 2'
+check "a line with more columns is refused" refused bad.csv 'bad.csv:3:1: error: this line has 3 columns, the titles in line 1 have 2'
 put 'stroke_mm;force_kN\n0;0\n0.5;20,5\n1;30\n'
 check "two decimal signs in one file are refused" refused bad.csv "numbers have two decimal signs: '0.5' in line 3 and '20,5' in line 3"
 put 'stroke_mm;force_kN\n0;0\n5;"1,050"\n100;"1,100"\n'

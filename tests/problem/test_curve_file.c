@@ -90,6 +90,9 @@ static void one_curve_is_read_however_it_is_written(void **state) {
         "stroke_mm;force_kN;\n0;0;\n1.5;300;\n300;1050.5;\n;;\n",
         "Speed (mm/s),s (mm),F (kN)\n0,0,0\n9,1.5,300\n9,300,1050.5\n",
         "mm;kN\n0;0\n1.5;300\n300;1050.5",
+        "Samples\t20\t20\t\nX\tstroke (mm)\tforce (kN)\tComment\n0\t0\t0\n1\t1.5\t300\n"
+        "2\t300\t1050.5\n",
+        "t;stroke_mm;force_kN;Comment\n0;0;0\n1;1.5;300\n2;300;1050.5\n",
         "% stroke_mm force_kN\n0 0\n1.5 3e2\n3.0E+02 1.0505E+03\n"};
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
@@ -116,7 +119,8 @@ static void an_ambiguous_file_is_refused(void **state) {
     } files[] = {
         {"stroke_mm;force_kN\n0;0\n5;1,050\n", 3, 3, "'1,050' may be 1050 or 1.05"},
         {"stroke_mm;force_N\n0;0\n5;950\n10;1.050\n", 4, 4, "'1.050' may be 1.05 or 1050"},
-        {"stroke_mm,force_kN\n0,5,10,2\n", 2, 1, "this line has 4 columns, the titles have 2"},
+        {"stroke_mm,force_kN\n0,5,10,2\n", 2, 1,
+         "this line has 4 columns, the titles in line 1 have 2"},
         {"stroke_mm;force_kN\n0.5;1\n1;1,5\n", 3, 3, "numbers have two decimal signs"},
         {"s (mm);d (mm);F (kN)\n0;0;0\n1;1;1\n", 1, 1, "more than one column may be the stroke"},
         {"stroke_mm;force_kN\nmm;N\n0;0\n1;1\n", 1, 11, "the force has two units: kN in its title"},
@@ -130,6 +134,11 @@ static void an_ambiguous_file_is_refused(void **state) {
         {"0;0\n1;1\n", 1, 1, "no line of titles above says which column is the stroke"},
         {"stroke_mm;force_kN\n0;0\nstroke_mm;force_kN\n0;0\n", 3, 1, "is not a number"},
         {"stroke_mm,force_kN\n0,0\n1,\"500\n2,600\n", 3, 3, "a quotation mark opens here"},
+        {"Stroke (\"),Force (kN)\n0,0\n1,5\n", 1, 9, "a quotation mark opens here"},
+        {"# a test\nmm;kN\n1;2\nX;Weg (mm);Kraft (kN)\n0;0;0\n", 4, 1,
+         "the titles in line 2 have 2"},
+        {"stroke_mm force_kN comment\n0 0\n1 1\n", 2, 1, "this line has 2 columns"},
+        {"stroke_mm;force_kN;comment\n0;0;x\n1;1\n", 3, 1, "this line has 2 columns"},
         {"stroke_mm;force_kN\n0;0\n\x01;1\n", 3, 1, "the file contains the control character"}};
     (void)state;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {

@@ -25,19 +25,24 @@ static double mean_force(const CzTable *curve) {
     return area / curve->x[curve->n_point - 1];
 }
 
-/* Adds compliance times force to the strokes. Points that would not lie behind the one before are
- * dropped: on the elastic rise all plastic strokes are 0, and the last of them counts. */
+/* Adds compliance times force to the strokes. On an elastic rise all plastic strokes are the same
+ * and the last force counts: at 0 alone, elsewhere as a rise that is as steep as points may be.
+ * Other points that would not lie behind the one before are dropped. */
 static bool add_elastic(CzTable *curve, double compliance) {
     const double apart = APART * curve->x[curve->n_point - 1];
-    int n = 0;
+    int n = 0, top = 0; /* the point that ends the latest rise */
     for (int i = 0; i < curve->n_point; i++) {
-        const double x = fmax(curve->x[i] + compliance * curve->y[i], 0);
-        const bool is_new = n == 0 || x > curve->x[n - 1] + apart;
-        if (!is_new && (n > 1 || curve->y[i] < curve->y[0]))
-            continue;
-        n -= !is_new;
-        curve->x[n] = n == 0 ? 0 : x;
-        curve->y[n++] = curve->y[i];
+        const double x = fmax(curve->x[i] + compliance * curve->y[i], 0), y = curve->y[i];
+        if (n == 0 || x > curve->x[n - 1] + apart) {
+            curve->x[n] = n == 0 ? 0 : x;
+            curve->y[n++] = y;
+        } else if (y > curve->y[n - 1]) {
+            if (n > 1 && top != n - 1) {
+                top = n;
+                curve->x[n++] = curve->x[top - 1] + 2 * apart;
+            }
+            curve->y[n - 1] = y;
+        }
     }
     curve->n_point = n;
     return n >= 2;

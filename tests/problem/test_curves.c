@@ -122,6 +122,29 @@ static void total_strokes_lose_their_elastic_part(void **state) {
     }
 }
 
+/* A test begins a little before the contact: the rise behind it is elastic all the same, and a
+ * second one behind a drop, too. Points of one stroke are 2e-6 of the stroke apart. */
+static void an_elastic_rise_is_taken_off_wherever_it_begins(void **state) {
+    static const char text[] =
+        "extends: rigid.yaml\n"
+        "parts: {bumper: {anti_climber: {stages: null, stiffness_MN_m: 100, curve: {columns: "
+        "[stroke_mm, force_kN], points: [[0, 0], [1, 0], [5, 400], [6, 500], [55, 400], [57, 600], "
+        "[107, 600]], basis: static, strokes: total}}}}\noptimise: null\n";
+    static const double x[] = {0, 0.001, 0.001, 0.051, 0.051, 0.101},
+                        y[] = {0, 0, 5e5, 4e5, 6e5, 6e5};
+    CzProblem *problem = NULL;
+    (void)state;
+    assert_int_equal(read_text(text, &problem), CZ_OK);
+    const CzTable *curve = &find_vehicle(problem, "A1")->front.anti_climber.curve;
+    assert_int_equal(curve->n_point, 6);
+    for (int i = 0; i < 6; i++) {
+        assert_near(curve->x[i], x[i], 0, 3e-6 * 0.107);
+        assert_near(curve->y[i], y[i], 1e-12, 0);
+        assert_true(i == 0 || curve->x[i] > curve->x[i - 1]);
+    }
+    cz_problem_free(problem);
+}
+
 /* The keys beside a file, against the same curve given by points. */
 static void keys_beside_a_file_shape_its_curve(void **state) {
     static const char content[] = "a test\nTime;Weg;Kraft A;Kraft B\ns;mm;N;N\n"
@@ -228,6 +251,7 @@ int main(void) {
         cmocka_unit_test(points_in_the_file_are_read_in_their_units),
         cmocka_unit_test(a_long_csv_curve_keeps_energy_ends_and_peak),
         cmocka_unit_test(total_strokes_lose_their_elastic_part),
+        cmocka_unit_test(an_elastic_rise_is_taken_off_wherever_it_begins),
         cmocka_unit_test(keys_beside_a_file_shape_its_curve),
         cmocka_unit_test(a_curve_file_of_a_part_is_read_once_and_not_again),
         cmocka_unit_test(plastic_strokes_of_an_end_get_their_elastic_part),

@@ -135,7 +135,8 @@ typedef struct CzCurveColumns {
     const char *x_quantity, *y_quantity; /* such as "time", "length", "force", "speed",
                                             "acceleration", "energy", "angle": what their units are
                                             of */
-    const char *x, *y;                   /* a column's title, or its number from 1 */
+    const char *x, *y;                   /* a column's title, or its number from 1; NULL: the only
+                                            one in a unit of the quantity */
     char separator;                      /* between fields; 0: what the lines show */
     char decimal;                        /* decimal sign, '.' or ','; 0: what the numbers show */
 } CzCurveColumns;

@@ -45,7 +45,8 @@ CzStatus cz_curve_read(const char *path, const CzCurveColumns *columns, CzCurve 
         .separator = columns->separator,
         .decimal = columns->decimal,
         .column_help = "--column takes the titles of columns or their numbers from 1",
-        .unit_help = "a title ends in its unit, as t_ms or \"force [kN]\", or a row of units is "
+        .unit_help = "the first column is the abscissa, the second or --column the ordinate; a "
+                     "title ends in its unit, as t_ms or \"force [kN]\", or a row of units is "
                      "below the titles",
         .decimal_help = "--csv-decimal . or --csv-decimal , says which",
     };

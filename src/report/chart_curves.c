@@ -16,6 +16,7 @@ typedef struct Reading {
     CzChart chart;
     int n_title; /* 0 where nobody needs them */
     char **title;
+    bool by_unit; /* the only columns in units of the axes are wanted, wherever they are */
     int n;
     CzChartCurve *measured; /* (CZ_MOST_CHART_CURVES) */
     CzError *error;
@@ -78,8 +79,8 @@ static CzStatus read_column(Reading *reading, const char *column, const char *ti
     (void)cz_chart_axes(chart, &axes); /* a figure that has some */
     const CzCurveColumns columns = {.x_quantity = axes.x_quantity,
                                     .y_quantity = axes.y_quantity,
-                                    .x = "1",
-                                    .y = column,
+                                    .x = reading->by_unit ? NULL : "1",
+                                    .y = reading->by_unit ? NULL : column,
                                     .separator = options->csv_separator,
                                     .decimal = options->csv_decimal};
     CzChartCurve *measured = &reading->measured[reading->n];
@@ -127,12 +128,26 @@ static CzStatus read_list(Reading *reading, const char *list) {
     return CZ_OK;
 }
 
+/* The first two columns, or those whose units are the figure's: the time is first in many a file of
+ * a testing machine. What the first two lack is what is reported. */
+static CzStatus read_pair(Reading *reading) {
+    CzError *error = reading->error;
+    const CzStatus status = read_named(reading, "2");
+    if (status != CZ_STATUS_INPUT || strcmp(reading->options->measured, "-") == 0)
+        return status;
+    reading->by_unit = true;
+    reading->error = NULL;
+    const CzStatus by_unit = read_named(reading, "2");
+    reading->error = error;
+    return by_unit == CZ_OK ? CZ_OK : status;
+}
+
 static CzStatus read_columns(Reading *reading) {
     const char *list = reading->options->column;
     if (list != NULL)
         return read_list(reading, list);
     if (reading->chart != CZ_CHART_PANELS)
-        return read_named(reading, "2");
+        return read_pair(reading);
     if (reading->n_title < 2)
         return cz_fail(reading->error, CZ_STATUS_INPUT,
                        "%.200s: times are in the first column, but there is no second one",

@@ -126,6 +126,12 @@ same_measured() { # recorded channels drawn as measured curves give the same pat
 check "a recorded channel over its own figure gives its own path" same_measured
 other_unit() { exits 2 "$C" plot first --measured test.csv && says err.txt "test.csv:1:1: error: the unit of column 't_ms', ms, is no unit of the length"; }
 check "a measured curve of another quantity is refused" other_unit
+time_first() { # the columns whose units are the figure's, or those that are wanted by their places
+    printf 'Time,Extension,Load\ns,mm,N\n0,0,0\n1,100,500000\n2,200,700000\n' >machine.csv && printf 's_mm,F_kN\n0,0\n100,500\n200,700\n' >plain.csv &&
+        exits 0 "$C" plot first --measured machine.csv --svg machine.svg && exits 0 "$C" plot first --measured plain.csv --svg plain.svg && cmp machine.svg plain.svg &&
+        printf 'Time,A,B,Load\ns,mm,mm,N\n0,0,0,0\n1,100,90,500000\n' >both.csv && exits 2 "$C" plot first --measured both.csv && says err.txt "the unit of column 'Time', s, is no unit of the length" && says err.txt 'the first column is the abscissa'
+}
+check "a time in front of the curve of a figure is passed over" time_first
 no_overlay() { exits 2 "$C" plot first --what shares --measured test.csv && says err.txt "no measured curve fits over 'shares'"; }
 check "bars take no measured curve" no_overlay
 printf '# of a test\nt_ms,F_test_kN,v_A4_test [km/h],v_B1_test_km/h,x_A4_m,d_test_mm\n0,0,25,0,0,0\n100,650,20,4,0.6,500\n200,500,16,8,1.1,900\n' >four.csv

@@ -137,7 +137,9 @@ static void write_checks(void) {
     static const struct {
         const char *name, *doc;
     } metrics[] = {
-#define CZ_METRIC_BY(record, key, form, source, unit, dimension, heading, judge, scale, absent,    \
+#define CZ_RESULT(...)
+#define CZ_QUANTITY(...)
+#define CZ_METRIC_BY(record, key, form, source, unit, dimension, heading, judged, scale, absent,   \
                      when, doc)                                                                    \
     {CZ_METRIC_PREFIX_##record #key, doc},
 #define CZ_METRIC(record, key, form, source, unit, dimension, heading, scale, absent, when, doc)   \

@@ -2,7 +2,9 @@
 #include "evaluate/devices.h"
 #include "evaluate/metric.h"
 #include "evaluate/place.h"
-#include "evaluate/when.h"
+
+#include <math.h>
+#include <string.h>
 
 /* Energies below this count as nothing, so that no share is taken of them [J]. */
 static const double nothing = 100;
@@ -31,10 +33,6 @@ static double rib_pitch(const CzPlace *place) {
             pitch = fmax(pitch, face->face_height / face->rib_count);
     }
     return pitch;
-}
-
-static double overlap_in_ribs(const CzPlace *place) {
-    return place->interface->min_overlap / rib_pitch(place);
 }
 
 static bool is_judged(const CzPlace *place, int vehicle) {
@@ -126,28 +124,8 @@ static double judged_wheel_lift(const CzPlace *place) {
     return lift;
 }
 
-static double wheel_share(const CzPlace *place) {
-    return judged_wheel_lift(place) / place->record->bogie.flange_height;
-}
-
 static double judged_bogie_lift(const CzPlace *place) {
     return place->vehicle->checks_override ? place->vehicle->bogie_lift : NAN;
-}
-
-static double flange_share(const CzPlace *place) {
-    return judged_bogie_lift(place) / place->record->bogie.flange_height;
-}
-
-static double mean_deceleration(const CzPlace *place) {
-    return fmax(place->vehicle->mean_deceleration_contact, place->vehicle->mean_deceleration_120ms);
-}
-
-static double temporary_energy(const CzPlace *place) {
-    return place->element->zone_energy[CZ_ZONE_TEMPORARY];
-}
-
-static double survival_energy(const CzPlace *place) {
-    return place->element->zone_energy[CZ_ZONE_SURVIVAL];
 }
 
 /* Of all vehicles that are judged. */
@@ -170,10 +148,6 @@ static double coupler_force(const CzPlace *place) {
     return force;
 }
 
-static double strut_share(const CzPlace *place) {
-    return coupler_force(place) / place->interface->critical_force;
-}
-
 static double ramp_over_friction(const CzPlace *place) {
     const CzInterfaceResult *interface = place->interface;
     return interface->friction > 0 ? interface->ramp / interface->friction : NAN;
@@ -183,58 +157,6 @@ static double swing_over_stop(const CzPlace *place) {
     const CzInterfaceResult *interface = place->interface;
     return fmax(interface->swing[0] / interface->swing_stop[0],
                 interface->swing[1] / interface->swing_stop[1]);
-}
-
-static double section_force(const CzPlace *place) {
-    return place->section_force;
-}
-
-static double section_force_share(const CzPlace *place) {
-    return place->section_force / place->end->proof_strength;
-}
-
-static double running_gear_share(const CzPlace *place) {
-    return share_of(place->run->energy.running_gear, place->run->energy.dissipated);
-}
-
-static double absorbers_share(const CzPlace *place) {
-    return share_of(place->run->energy.absorbers, place->run->plastic_energy);
-}
-
-static double stroke_fit(const CzPlace *place) {
-    return cz_stroke_fit(place->end);
-}
-
-static double length_used(const CzPlace *place) {
-    return cz_length_used(place->end);
-}
-
-static double coupler_length_used(const CzPlace *place) {
-    return cz_coupler_length_used(place->end);
-}
-
-static double retraction_used(const CzPlace *place) {
-    return cz_retraction_used(place->end);
-}
-
-static double tube_over_shear_off(const CzPlace *place) {
-    return cz_tube_over_shear_off(place->end, place->rate);
-}
-
-static double shear_off_over_strength(const CzPlace *place) {
-    return cz_shear_off_over_strength(place->end);
-}
-
-static double installed_length(const CzPlace *place) {
-    return cz_train_installed_length(place->n_record, place->record);
-}
-
-static double absorber_mass(const CzPlace *place) {
-    return cz_train_absorber_mass(place->n_record, place->record);
-}
-
-static double part_count(const CzPlace *place) {
-    return cz_train_part_count(place->n_record, place->record);
 }
 
 /* Whether a design could not be written down and read back. Memory that is lacking counts as
@@ -256,8 +178,34 @@ static double climbed(const CzPlace *place) {
     return place->must_declare ? 0 : NAN;
 }
 
-/* ---- the list ----------------------------------------------------------------------------------
- */
+/* ---- when a value was reached ---- */
+
+/* The first event of a kind that happened there; NaN when there was none. */
+static double event_time(const CzPlace *place, CzEventKind what, const char *where) {
+    for (int i = 0; i < place->run->n_event; i++) {
+        const CzEvent *event = &place->run->event[i];
+        if (event->what == what && event->interface == place->interface_index &&
+            (where == NULL || strcmp(event->where, where) == 0))
+            return event->time;
+    }
+    return NAN;
+}
+
+static const double *worse_window(const CzVehicleResult *vehicle) {
+    return vehicle->mean_deceleration_contact > vehicle->mean_deceleration_120ms
+               ? vehicle->contact_window
+               : vehicle->window_120ms;
+}
+
+static double wheel_lift_time(const CzVehicleResult *vehicle) {
+    int highest = 0;
+    for (int i = 1; i < 4; i++)
+        if (vehicle->wheel_lift[i] > vehicle->wheel_lift[highest])
+            highest = i;
+    return vehicle->wheel_lift_time[highest];
+}
+
+/* ---- the list ---- */
 
 /* Where the record of a level is found. */
 #define CZ_RECORD_AT_RUN place->run
@@ -266,11 +214,25 @@ static double climbed(const CzPlace *place) {
 #define CZ_RECORD_AT_ELEMENT place->element
 #define CZ_RECORD_AT_VEHICLE place->vehicle
 
-/* One reading function for each metric that is judged as it is written. */
-#define CZ_METRIC(record, key, form, source, ...)                                                  \
-    static double read_##record##_##key(const CzPlace *place) {                                    \
-        return CZ_RECORD_AT_##record->source;                                                      \
+/* The value that is judged, and when it was reached. */
+#define AT(time) window[0] = window[1] = (time)
+#define OVER(from) memcpy(window, from, 2 * sizeof *window)
+#define NO_TIME window[0] = window[1] = NAN
+#define FUNCTIONS(record, key, judged, when)                                                       \
+    static double judge_##record##_##key(const CzPlace *place) {                                   \
+        return judged;                                                                             \
+    }                                                                                              \
+    static void when_##record##_##key(const CzPlace *place, double window[2]) {                    \
+        (void)place;                                                                               \
+        when;                                                                                      \
     }
+#define CZ_RESULT(...)
+#define CZ_QUANTITY(...)
+#define CZ_METRIC(record, key, form, source, unit, dimension, heading, scale, absent, when, doc)   \
+    FUNCTIONS(record, key, CZ_RECORD_AT_##record->source, when)
+#define CZ_METRIC_BY(record, key, form, source, unit, dimension, heading, judged, scale, absent,   \
+                     when, doc)                                                                    \
+    FUNCTIONS(record, key, judged, when)
 #include "evaluate/results.def"
 
 #define CZ_LEVEL_ENERGY CZ_LEVEL_RUN /* energies are those of the run */
@@ -286,34 +248,28 @@ enum {
     IS_TOTAL_METRIC_TOTAL = true
 };
 
-#define SKIP(why) false, why
-#define UNKNOWN(why) true, why
-#define CZ_METRIC_BY(record, key, form, source, unit, dimension, heading, judge, scale, absent,    \
-                     when, doc)                                                                    \
+#define ABSENT_SKIP(why) false, why
+#define ABSENT_UNKNOWN(why) true, why
+#define KIND(record, key, form, unit, scale, absent, doc)                                          \
     {CZ_LEVEL_##record,                                                                            \
      CZ_METRIC_PREFIX_##record #key,                                                               \
      &cz_result_units[CZ_UNIT_OF_##unit],                                                          \
      IS_TOTAL_##form,                                                                              \
      scale,                                                                                        \
-     absent,                                                                                       \
-     judge,                                                                                        \
-     cz_when_##when,                                                                               \
+     ABSENT_##absent,                                                                              \
+     judge_##record##_##key,                                                                       \
+     when_##record##_##key,                                                                        \
      doc},
+#define CZ_RESULT(...)
+#define CZ_QUANTITY(...)
 #define CZ_METRIC(record, key, form, source, unit, dimension, heading, scale, absent, when, doc)   \
-    {CZ_LEVEL_##record,                                                                            \
-     CZ_METRIC_PREFIX_##record #key,                                                               \
-     &cz_result_units[CZ_UNIT_OF_##unit],                                                          \
-     IS_TOTAL_##form,                                                                              \
-     scale,                                                                                        \
-     absent,                                                                                       \
-     read_##record##_##key,                                                                        \
-     cz_when_##when,                                                                               \
-     doc},
+    KIND(record, key, form, unit, scale, absent, doc)
+#define CZ_METRIC_BY(record, key, form, source, unit, dimension, heading, judged, scale, absent,   \
+                     when, doc)                                                                    \
+    KIND(record, key, form, unit, scale, absent, doc)
 static const CzMetricKind kinds[] = {
 #include "evaluate/results.def"
 };
-#undef SKIP
-#undef UNKNOWN
 
 enum { N_KIND = sizeof kinds / sizeof kinds[0] };
 
@@ -325,12 +281,19 @@ double cz_metric_at(const CzMetricKind *kind, const CzPlace *place) {
     return kind->value(place) / kind->unit->in_si;
 }
 
+void cz_metric_time_window(const CzMetricKind *kind, const CzPlace *place, double when[2]) {
+    when[0] = when[1] = NAN;
+    if (kind->when != NULL)
+        kind->when(place, when);
+    if (kind->value(place) == 0 || !(when[1] >= when[0]))
+        when[0] = when[1] = NAN;
+}
+
 const CzMetricKind *cz_metric_kind(int index) {
     return &kinds[index];
 }
 
-/* ---- rules between values -----------------------------------------------------------------------
- */
+/* ---- rules between values ---- */
 
 static double rule_ratio(const CzPlace *place, CzValueRule rule) {
     double ratio[CZ_N_VALUE_RULE];

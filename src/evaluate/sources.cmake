@@ -26,5 +26,4 @@ set(CZ_SOURCES_evaluate
     variant.c
     verdict.c
     verify.c
-    time_windows.c
 )

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "problem/input.h"
+#include "problem/problem.h"
 
 /* ---- words ---- */
 
@@ -23,6 +24,10 @@
 const CzWordSet cz_word_sets[CZ_N_WORDS] = {
 #include "problem/choices.def"
 };
+
+const char *cz_track_word(CzTrack track) {
+    return cz_word_sets[CZ_WORDS_TRACK].word[track].word;
+}
 #undef CZ_CHOICE_SET
 #undef CZ_WORD
 #undef CZ_CHOICE_SET_END

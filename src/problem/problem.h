@@ -14,6 +14,8 @@ const CzVehicle *cz_problem_vehicles(const CzProblem *problem, int *n_vehicle);
 
 /* The track that makes a difference: rigid where no vehicle has wheels. */
 CzTrack cz_problem_track(const CzProblem *problem);
+/* Its word in a file. */
+const char *cz_track_word(CzTrack track);
 
 /* The files that were read, in order, the problem file first; more by `next` (problem/node.h). NULL
  * when nothing was. */

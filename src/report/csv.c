@@ -91,10 +91,6 @@ static void put_number(Table *table, double value) {
     put_exact(table, cz_figure_quantity(value));
 }
 
-static void put_flag(Table *table, bool value) {
-    put_text(table, value ? "yes" : "no");
-}
-
 static void end_row(Table *table) {
     fputs("\r\n", table->stream);
     table->in_row = false;
@@ -108,28 +104,21 @@ static void put_keys(Table *table, int n, const CzResult *const *result) {
 /* A field of a record; empty for a column that the record does not have. */
 static void put_result(Table *table, const CzResult *result, CzResultContext *context,
                        const void *record) {
-    switch (result != NULL ? result->form : CZ_FORM_METRIC) {
-    case CZ_FORM_EXACT:
-        put_exact(table, cz_result_number(result, context, record));
-        break;
-    case CZ_FORM_REAL:
-    case CZ_FORM_TOTAL:
-        put_number(table, cz_result_number(result, context, record));
+    switch (result != NULL ? result->form : CZ_FORM_UNWRITTEN) {
+    case CZ_FORM_NUMBER:
+    case CZ_FORM_WHOLE:
+        (result->is_exact ? put_exact : put_number)(table,
+                                                    cz_result_number(result, context, record));
         break;
     case CZ_FORM_FLAG:
-    case CZ_FORM_FLAG_BY:
-        put_flag(table, cz_result_flag(result, context, record));
-        break;
-    case CZ_FORM_WHOLE_BY:
-        put_number(table, (double)result->by.whole(context, record));
+        put_text(table, cz_result_flag(result, context, record) ? "yes" : "no");
         break;
     case CZ_FORM_TEXT:
-    case CZ_FORM_TEXT_OR_NULL:
-    case CZ_FORM_TEXT_BY:
     case CZ_FORM_VERDICT:
         put_text(table, cz_result_words(result, context, record));
         break;
-    default:
+    case CZ_FORM_UNWRITTEN:
+    case CZ_FORM_RECORD:
         put_text(table, NULL);
     }
 }

@@ -30,6 +30,7 @@ CzStatus cz_report_write_outcome(const CzProblem *problem, const CzEvaluator *ev
                                .evaluation = &outcome->best_evaluation,
                                .evaluator = evaluator,
                                .outcome = outcome,
+                               .verification = outcome->verification,
                                .wall_s = outcome->wall_s};
     return cz_results_write(CZ_RECORD_OUTCOME, &context, outcome, stream, error);
 }

@@ -64,7 +64,7 @@ static void write_interface(const CzPage *page, int index, double x, double y, C
         char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 8];
         const bool is_early = lines[i].result == CZ_RESULT_AT(INTERFACE, peak_force_kN) &&
                               interface->peak_time <= run->beyond_validity_time;
-        const bool is_total = lines[i].result->form == CZ_FORM_TOTAL; /* blank and not marked */
+        const bool is_total = lines[i].result->is_total; /* blank and not marked */
         snprintf(text, sizeof text, "%s%s%s",
                  cz_result_text(number, lines[i].result, &context, interface), lines[i].behind,
                  run->beyond_validity && !is_early && !is_total ? "*" : "");

@@ -1,12 +1,14 @@
-/* The list of results as a table. */
-#include "report/result_values.h"
+/* The list of results as a table, and the values in it that are no member of a record. */
+#include "report/results.h"
 
+#include "evaluate/evaluator.h"
+#include "problem/problem.h"
+#include "report/compare.h"
+#include "report/runs.h"
+
+#include <math.h>
 #include <stddef.h>
-
-/* Of a run, an evaluation or a verification. */
-static const char *status_word(CzStatus status) {
-    return status == CZ_OK ? "completed" : "failed";
-}
+#include <stdio.h>
 
 /* The struct of each record. */
 #define CZ_RECORD(record, type, doc) typedef type Of_##record;
@@ -14,35 +16,254 @@ static const char *status_word(CzStatus status) {
 #include "report/document_records.def"
 #undef CZ_RECORD
 
-const char *const cz_record_names[CZ_N_RECORD] = {
-#define CZ_RECORD(record, type, doc) #record,
+const CzRecordInfo cz_result_records[CZ_N_RECORD] = {
+#define CZ_RECORD(record, type, doc) {#record, doc},
 #include "evaluate/result_records.def"
 #include "report/document_records.def"
 #undef CZ_RECORD
 };
 
-const char *const cz_record_docs[CZ_N_RECORD] = {
-#define CZ_RECORD(record, type, doc) doc,
-#include "evaluate/result_records.def"
-#include "report/document_records.def"
-#undef CZ_RECORD
-};
+/* ---- documents ---- */
 
-/* What lists and words of members are read by. */
-#define CZ_RESULT_ITEMS(record_of, key, of, array, number, doc)                                    \
-    static const void *items_##record_of##_##key(CzResultContext *context, const void *record,     \
-                                                 int index) {                                      \
-        (void)context;                                                                             \
-        return index < ((const Of_##record_of *)record)->number                                    \
-                   ? &((const Of_##record_of *)record)->array[index]                               \
-                   : NULL;                                                                         \
+static const char *or_null(const char *text) {
+    return text[0] != '\0' ? text : NULL;
+}
+
+/* Of a run, an evaluation or a verification. */
+static const char *status_word(CzStatus status) {
+    return status == CZ_OK ? "completed" : "failed";
+}
+
+static const char *limit_word(bool is_minimum) {
+    return is_minimum ? "min" : "max";
+}
+
+static const char *version_of(CzResultContext *context, void (*read)(char *text, size_t n)) {
+    context->text[0] = '\0';
+    read(context->text, sizeof context->text);
+    return context->text;
+}
+
+static const CzRunInfo *run_info(CzResultContext *context, double wall_s, double setup_s) {
+    context->info =
+        (CzRunInfo){.wall_s = wall_s, .setup_s = setup_s, .n_job = context->options->n_job};
+    return &context->info;
+}
+
+/* The n-th of the two warnings about a run that apply; NULL beyond. */
+static const char *warning_of_run(const CzRunSummary *run, int n) {
+    if (cz_run_is_unbalanced(run) && n-- == 0)
+        return "the error of the energy balance is above 0.1 %";
+    if (cz_run_misses_laws(run) && n == 0)
+        return "the force error of a series chain is above 0.1 % of the largest force of its "
+               "interface, from the law of a member";
+    return NULL;
+}
+
+/* Those of the problem file, then those of the runs. */
+static const CzError *warning(CzResultContext *context, int index) {
+    const CzEvaluation *evaluation = context->evaluation;
+    if (index < cz_problem_n_warning(context->problem))
+        return cz_problem_warning(context->problem, index);
+    index -= cz_problem_n_warning(context->problem);
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        for (int n = 0; run != NULL && warning_of_run(run, n) != NULL; n++) {
+            if (index-- > 0)
+                continue;
+            CzError *warning = &context->warning;
+            *warning = (CzError){0};
+            snprintf(warning->message, sizeof warning->message, "scenario '%s': %s", run->scenario,
+                     warning_of_run(run, n));
+            snprintf(warning->help, sizeof warning->help, "reduce the time step");
+            return warning;
+        }
     }
-#define CZ_RESULT_WORD(record_of, key, member, function, doc)                                      \
-    static const char *word_##record_of##_##key(CzResultContext *context, const void *record) {    \
-        (void)context;                                                                             \
-        return function(((const Of_##record_of *)record)->member);                                 \
+    return NULL;
+}
+
+static int n_warning(CzResultContext *context) {
+    int n = 0;
+    while (warning(context, n) != NULL)
+        n++;
+    return n;
+}
+
+/* ---- runs ---- */
+
+static const CzRunSummary *nth_kept_run(const CzEvaluation *evaluation, int index) {
+    for (int i = 0; i < evaluation->n_run; i++)
+        if (cz_kept_run(evaluation, i) != NULL && index-- == 0)
+            return cz_kept_run(evaluation, i);
+    return NULL;
+}
+
+static double largest_stroke_used(const CzInterfaceResult *interface) {
+    double used = 0;
+    for (int i = 0; i < interface->n_element; i++)
+        used = fmax(used, interface->element[i].stroke_used);
+    return used;
+}
+
+static double largest_wheel_lift(const CzVehicleResult *vehicle) {
+    double lift = NAN;
+    for (int i = 0; i < 4; i++)
+        lift = fmax(lift, vehicle->wheel_lift[i]);
+    return lift;
+}
+
+static const char *lifted_bogie(const CzVehicleResult *vehicle) {
+    if (!(vehicle->bogie_lift > 0))
+        return NULL;
+    return vehicle->lifted_bogie == 0 ? "rear" : "front";
+}
+
+/* The source of an impulse that is at hand. */
+static CzBudgetSource source_of(const CzResultContext *context) {
+    return (CzBudgetSource)(context->order != NULL ? context->order[context->index]
+                                                   : context->index);
+}
+
+/* ---- searches, verifications, comparisons ---- */
+
+/* In place of the check of a constraint that is a target, and of a check that a run does not have.
+ */
+static const CzCheckResult no_check = {
+    .limit = NAN, .value = NAN, .margin = NAN, .verdict = CZ_VERDICT_PASS};
+
+static const CzVerification not_verified = {
+    .verdict = CZ_VERDICT_NOT_CHECKED,
+    .largest_change = {
+        [CZ_METHOD_HALF_STEP] = NAN, [CZ_METHOD_ERK] = NAN, [CZ_METHOD_TRACK] = NAN}};
+
+static bool is_feasible(const CzEvaluation *best) {
+    return best->status == CZ_OK && best->violation <= 0 && isfinite(best->objective);
+}
+
+/* The check of a constraint. */
+static const CzCheckResult *check_of(const CzEvaluation *evaluation, int constraint) {
+    const bool is_judged =
+        evaluation->constraint_check != NULL && constraint < evaluation->n_constraint;
+    return is_judged ? &evaluation->constraint_check[constraint] : &no_check;
+}
+
+static const char *where_of(const CzCheckResult *check) {
+    return check != &no_check ? check->where : NULL;
+}
+
+/* Values of a further parameter set, which its objective is known by. */
+static const double *alternative_of(const CzOutcome *outcome, const double *objective) {
+    return &outcome
+                ->alternative[(objective - outcome->alternative_objective) * outcome->n_variable];
+}
+
+/* The n-th of the variables that were varied; the number of variables beyond the last. */
+static int nth_varied(const CzOutcome *outcome, int n) {
+    int variable = 0;
+    while (variable < outcome->n_variable &&
+           (outcome->sensitivity_increment[variable] == 0 || n-- > 0))
+        variable++;
+    return variable;
+}
+
+static int n_varied(const CzOutcome *outcome) {
+    int n = 0;
+    while (nth_varied(outcome, n) < outcome->n_variable)
+        n++;
+    return n;
+}
+
+/* The variable that an increment belongs to. */
+static int variable_of(const CzResultContext *context, const double *increment) {
+    return (int)(increment - context->outcome->sensitivity_increment);
+}
+
+static double margin_change(const CzResultContext *context, const double *increment,
+                            int constraint) {
+    const int n_constraint = context->outcome->best_evaluation.n_constraint;
+    return -context->outcome
+                ->constraint_change[variable_of(context, increment) * n_constraint + constraint];
+}
+
+/* The run of a compared one that is compared; NULL when none was kept. */
+static const CzRunSummary *summary_of(const CzResultContext *context, const CzReportRun *run) {
+    return cz_compared_run(context->compared, (int)(run - context->compared));
+}
+
+static const CzCheckResult *check_in_run(const CzResultContext *context, const CzCheckResult *first,
+                                         int run) {
+    const CzCheckResult *check = cz_compared_check(&context->compared[run], first);
+    return check != NULL ? check : &no_check;
+}
+
+/* ---- functions that read what a line gives by an expression ---- */
+
+#define READER(type, what, record, key, expression)                                                \
+    static type what##_##record##_##key(CzResultContext *context, const void *data) {              \
+        const Of_##record *it = data;                                                              \
+        const int index = context->index;                                                          \
+        (void)it, (void)index;                                                                     \
+        return expression;                                                                         \
     }
+#define RECORD_READER(record, key, of, pointer)                                                    \
+    READER(const void *, get, record, key, ((const Of_##of *){pointer}))
+#define LIST_READERS(record, key, of, count, pointer)                                              \
+    READER(long, number, record, key, count)                                                       \
+    RECORD_READER(record, key, of, pointer)
+#define MAP_READERS(record, key, of, count, text, pointer)                                         \
+    READER(const char *, name, record, key, text)                                                  \
+    LIST_READERS(record, key, of, count, pointer)
+#define TEXT_READERS(record, key, count, text)                                                     \
+    READER(long, number, record, key, count)                                                       \
+    READER(const char *, get, record, key, text)
+#define NUMBER_READERS(record, key, count, value)                                                  \
+    READER(long, number, record, key, count)                                                       \
+    READER(double, get, record, key, value)
+#define NAMED_READERS(record, key, count, text, value)                                             \
+    READER(const char *, name, record, key, text)                                                  \
+    NUMBER_READERS(record, key, count, value)
+#define IF_READERS(record, key, condition, form, ...)                                              \
+    READER(bool, there, record, key, condition)                                                    \
+    GET_##form(record, key, (__VA_ARGS__))
+
+#define UNWRAP(...) __VA_ARGS__
+#define WITH(macro, ...) macro(__VA_ARGS__)
+#define WITH_IF(macro, ...) macro(__VA_ARGS__)
+
+#define GET_REAL(...)
+#define GET_EXACT(...)
+#define GET_TOTAL(...)
+#define GET_FLAG(...)
+#define GET_WHOLE(...)
+#define GET_TEXT(...)
+#define GET_VERDICT(...)
+#define GET_METRIC(...)
+#define GET_METRIC_TOTAL(...)
+#define GET_REAL_BY(record, key, source) READER(double, get, record, key, source)
+#define GET_EXACT_BY GET_REAL_BY
+#define GET_SHOWN_BY GET_REAL_BY
+#define GET_FLAG_BY(record, key, source) READER(bool, get, record, key, source)
+#define GET_WHOLE_BY(record, key, source) READER(long, get, record, key, source)
+#define GET_WHOLE_OR_NULL GET_WHOLE_BY
+#define GET_TEXT_BY(record, key, source) READER(const char *, get, record, key, source)
+#define GET_PART(record, key, source) WITH(RECORD_READER, record, key, UNWRAP source)
+#define GET_LIST(record, key, source) WITH(LIST_READERS, record, key, UNWRAP source)
+#define GET_MAP(record, key, source) WITH(MAP_READERS, record, key, UNWRAP source)
+#define GET_SPREAD GET_MAP
+#define GET_TEXTS(record, key, source) WITH(TEXT_READERS, record, key, UNWRAP source)
+#define GET_REALS(record, key, source) WITH(NUMBER_READERS, record, key, UNWRAP source)
+#define GET_EXACTS GET_REALS
+#define GET_NAMED_REALS(record, key, source) WITH(NAMED_READERS, record, key, UNWRAP source)
+#define GET_NAMED_EXACTS GET_NAMED_REALS
+#define GET_IF(record, key, source) WITH_IF(IF_READERS, record, key, UNWRAP source)
+
+#define CZ_RESULT(record, key, form, source, doc) GET_##form(record, key, source)
+#define CZ_QUANTITY(record, key, form, source, ...) GET_##form(record, key, source)
+#define CZ_METRIC(record, key, form, source, ...) GET_##form(record, key, source)
+#define CZ_METRIC_BY(record, key, form, source, ...) GET_##form(record, key, source)
 #include "report/documents.def"
+
+/* ---- the table ---- */
 
 #define STORED(place)                                                                              \
     _Generic((place), double: CZ_STORED_DOUBLE, double *: CZ_STORED_DOUBLE, bool: CZ_STORED_BOOL,  \
@@ -53,65 +274,62 @@ const char *const cz_record_docs[CZ_N_RECORD] = {
     .member = {STORED(((Of_##record *)0)->source), offsetof(Of_##record, source),                  \
                LENGTH(((Of_##record *)0)->source)}
 
-#define HOW_REAL MEMBER
-#define HOW_EXACT MEMBER
-#define HOW_TOTAL MEMBER
-#define HOW_FLAG MEMBER
-#define HOW_WHOLE MEMBER
-#define HOW_TEXT MEMBER
-#define HOW_TEXT_OR_NULL MEMBER
-#define HOW_TEXT_IF MEMBER
-#define HOW_VERDICT MEMBER
-#define HOW_PROVISIONAL MEMBER
-#define HOW_REAL_BY(record, source) .by.real = cz_value_##source
-#define HOW_EXACT_BY HOW_REAL_BY
-#define HOW_REAL_IF_BY HOW_REAL_BY
-#define HOW_SHOWN_BY HOW_REAL_BY
-#define HOW_FLAG_BY(record, source) .by.flag = cz_value_##source
-#define HOW_WHOLE_BY(record, source) .by.whole = cz_value_##source
-#define HOW_TEXT_BY(record, source) .by.text = cz_value_##source
-#define HOW_TEXT_IF_BY HOW_TEXT_BY
-#define HOW_FLAG_IF_BY HOW_WHOLE_BY
-#define HOW_METRIC(record, source) .by.real = NULL
+#define HOW_REAL(record, key, source) .form = CZ_FORM_NUMBER, MEMBER(record, source)
+#define HOW_EXACT(record, key, source) HOW_REAL(record, key, source), .is_exact = true
+#define HOW_TOTAL(record, key, source) HOW_REAL(record, key, source), .is_total = true
+#define HOW_FLAG(record, key, source) .form = CZ_FORM_FLAG, MEMBER(record, source)
+#define HOW_WHOLE(record, key, source) .form = CZ_FORM_WHOLE, MEMBER(record, source)
+#define HOW_TEXT(record, key, source) .form = CZ_FORM_TEXT, MEMBER(record, source)
+#define HOW_VERDICT(record, key, source) .form = CZ_FORM_VERDICT, MEMBER(record, source)
+#define HOW_METRIC(record, key, source) .form = CZ_FORM_UNWRITTEN
 #define HOW_METRIC_TOTAL HOW_METRIC
+#define HOW_REAL_BY(record, key, source) .form = CZ_FORM_NUMBER, .by.real = get_##record##_##key
+#define HOW_EXACT_BY(record, key, source) HOW_REAL_BY(record, key, source), .is_exact = true
+#define HOW_SHOWN_BY(record, key, source) .form = CZ_FORM_UNWRITTEN, .by.real = get_##record##_##key
+#define HOW_FLAG_BY(record, key, source) .form = CZ_FORM_FLAG, .by.flag = get_##record##_##key
+#define HOW_WHOLE_BY(record, key, source) .form = CZ_FORM_WHOLE, .by.whole = get_##record##_##key
+#define HOW_WHOLE_OR_NULL(record, key, source)                                                     \
+    HOW_WHOLE_BY(record, key, source), .is_null_below_0 = true
+#define HOW_TEXT_BY(record, key, source) .form = CZ_FORM_TEXT, .by.text = get_##record##_##key
+#define FIRST_RECORD(of, ...) CZ_RECORD_##of
+#define HOW_PART(record_of, key, source)                                                           \
+    .form = CZ_FORM_RECORD, .by.part = get_##record_of##_##key, .of = FIRST_RECORD source
+#define HOW_LIST(record, key, source)                                                              \
+    HOW_PART(record, key, source), .number = number_##record##_##key
+#define HOW_MAP(record, key, source) HOW_LIST(record, key, source), .name = name_##record##_##key
+#define HOW_SPREAD(record, key, source) HOW_MAP(record, key, source), .is_spread = true
+#define HOW_TEXTS(record, key, source)                                                             \
+    HOW_TEXT_BY(record, key, source), .number = number_##record##_##key
+#define HOW_REALS(record, key, source)                                                             \
+    HOW_REAL_BY(record, key, source), .number = number_##record##_##key
+#define HOW_EXACTS(record, key, source) HOW_REALS(record, key, source), .is_exact = true
+#define HOW_NAMED_REALS(record, key, source)                                                       \
+    HOW_REALS(record, key, source), .name = name_##record##_##key
+#define HOW_NAMED_EXACTS(record, key, source) HOW_NAMED_REALS(record, key, source), .is_exact = true
+#define HOW_GIVEN(record, key, condition, form, ...)                                               \
+    HOW_##form(record, key, (__VA_ARGS__)), .is_there = there_##record##_##key
+#define HOW_IF(record, key, source) WITH_IF(HOW_GIVEN, record, key, UNWRAP source)
 
-#define UNTITLED .title = NULL
-#define TITLE(in_comparisons, in_tables, how)                                                      \
+#define HEADING_UNTITLED .title = NULL
+#define HEADING_TITLE(in_comparisons, in_tables, how)                                              \
     .title = in_comparisons, .heading = in_tables, .format = CZ_FORMAT_##how
 
-/* One row of the table; what it is made of is in the same order in every kind of line. */
-#define ENTRY(record_of, key_of, form_of, text)                                                    \
-    .record = CZ_RECORD_##record_of, .key = #key_of, .form = CZ_FORM_##form_of, .doc = text
-#define NUMBER(unit_of, dimension_of)                                                              \
-    .unit = &cz_result_units[CZ_UNIT_OF_##unit_of], .dimension = CZ_DIMENSION_##dimension_of
-
-#define CZ_RESULT(record, key, form, source, unit, dimension, heading, doc)                        \
-    {ENTRY(record, key, form, doc), HOW_##form(record, source), NUMBER(unit, dimension), heading},
+#define ROW(record_of, key_of, form, source, unit_of, dimension_of, heading, text)                 \
+    {.record = CZ_RECORD_##record_of,                                                              \
+     .key = #key_of,                                                                               \
+     .doc = text,                                                                                  \
+     .unit = &cz_result_units[CZ_UNIT_OF_##unit_of],                                               \
+     .dimension = CZ_DIMENSION_##dimension_of,                                                     \
+     HEADING_##heading,                                                                            \
+     HOW_##form(record_of, key_of, source)},
+#define CZ_RESULT(record, key, form, source, doc)                                                  \
+    ROW(record, key, form, source, NONE, PLANE, UNTITLED, doc)
+#define CZ_QUANTITY ROW
 #define CZ_METRIC(record, key, form, source, unit, dimension, heading, scale, absent, when, doc)   \
-    {ENTRY(record, key, form, doc), HOW_##form(record, source), NUMBER(unit, dimension), heading},
-#define CZ_METRIC_BY(record, key, form, source, unit, dimension, heading, judge, scale, absent,    \
+    ROW(record, key, form, source, unit, dimension, heading, doc)
+#define CZ_METRIC_BY(record, key, form, source, unit, dimension, heading, judged, scale, absent,   \
                      when, doc)                                                                    \
-    {ENTRY(record, key, form, doc), HOW_##form(record, source), NUMBER(unit, dimension), heading},
-#define CZ_RESULT_PART(record, key, whose, source, doc)                                            \
-    {ENTRY(record, key, PART, doc), .by.part = cz_value_##source, .of = CZ_RECORD_##whose},
-#define CZ_RESULT_PART_IF(record, key, whose, source, doc)                                         \
-    {ENTRY(record, key, PART_IF, doc), .by.part = cz_value_##source, .of = CZ_RECORD_##whose},
-#define CZ_RESULT_LIST(record, key, whose, source, doc)                                            \
-    {ENTRY(record, key, LIST, doc), .by.item = cz_value_##source, .of = CZ_RECORD_##whose},
-#define CZ_RESULT_ITEMS(record, key, whose, array, number, doc)                                    \
-    {ENTRY(record, key, LIST, doc), .by.item = items_##record##_##key, .of = CZ_RECORD_##whose},
-#define CZ_RESULT_WORD(record, key, member, function, doc)                                         \
-    {ENTRY(record, key, TEXT_BY, doc), .by.text = word_##record##_##key,                           \
-     .unit = &cz_result_units[CZ_UNIT_OF_NONE]},
-#define CZ_RESULT_LIST_IF(record, key, whose, source, there, doc)                                  \
-    {ENTRY(record, key, LIST_IF, doc), .by.item = cz_value_##source, .of = CZ_RECORD_##whose,      \
-     .is_there = cz_value_##there},
-#define CZ_RESULT_MAP(record, key, form, whose, source, doc)                                       \
-    {ENTRY(record, key, form, doc), .by.entry = cz_value_##source, .of = CZ_RECORD_##whose},
-#define CZ_RESULT_NUMBERS(record, key, form, source, doc)                                          \
-    {ENTRY(record, key, form, doc), .by.nth_number = cz_value_##source},
-#define CZ_RESULT_TEXTS(record, key, source, doc)                                                  \
-    {ENTRY(record, key, TEXTS, doc), .by.nth_text = cz_value_##source},
+    ROW(record, key, form, source, unit, dimension, heading, doc)
 
 const CzResult cz_results[CZ_N_RESULT] = {
 #include "report/documents.def"

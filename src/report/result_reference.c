@@ -26,51 +26,35 @@ const char *cz_report_document_name(int index) {
 }
 
 static bool is_written(const CzResult *result) {
-    return result->form != CZ_FORM_METRIC && result->form != CZ_FORM_METRIC_TOTAL &&
-           result->form != CZ_FORM_SHOWN_BY;
+    return result->form != CZ_FORM_UNWRITTEN;
 }
 
-static bool may_be_left_out(const CzResult *result) {
+/* Type of a value that is no record, in the word of JSON schemas. */
+static const char *type_of(const CzResult *result) {
     switch (result->form) {
-    case CZ_FORM_REAL_IF_BY:
-    case CZ_FORM_FLAG_IF_BY:
-    case CZ_FORM_TEXT_IF:
-    case CZ_FORM_TEXT_IF_BY:
-    case CZ_FORM_PART_IF:
-    case CZ_FORM_LIST_IF:
-    case CZ_FORM_MAP:
-        return true;
+    case CZ_FORM_FLAG:
+        return "boolean";
+    case CZ_FORM_WHOLE:
+        return "integer";
+    case CZ_FORM_TEXT:
+    case CZ_FORM_VERDICT:
+        return "string";
     default:
-        return false;
+        return "number";
     }
 }
 
-/* Type of a value that is no list and no record, in the words of JSON schemas. */
-static const char *scalar_type(const CzResult *result) {
+static bool may_be_null(const CzResult *result) {
     switch (result->form) {
-    case CZ_FORM_REAL_IF_BY:
-        return "\"number\"";
-    case CZ_FORM_FLAG:
-    case CZ_FORM_FLAG_BY:
-    case CZ_FORM_FLAG_IF_BY:
-    case CZ_FORM_PROVISIONAL:
-        return "\"boolean\"";
+    case CZ_FORM_NUMBER:
+        return result->is_there == NULL;
     case CZ_FORM_WHOLE:
-        return "\"integer\"";
-    case CZ_FORM_WHOLE_BY:
-        return "[\"integer\", \"null\"]";
+        return result->is_null_below_0;
     case CZ_FORM_TEXT:
-        return result->member.stored == CZ_STORED_LETTERS ? "\"string\"" : "[\"string\", \"null\"]";
-    case CZ_FORM_TEXT_IF:
-    case CZ_FORM_TEXT_IF_BY:
-    case CZ_FORM_TEXTS:
-    case CZ_FORM_VERDICT:
-        return "\"string\"";
-    case CZ_FORM_TEXT_OR_NULL:
-    case CZ_FORM_TEXT_BY:
-        return "[\"string\", \"null\"]";
+        return result->is_there == NULL && result->number == NULL &&
+               result->member.stored != CZ_STORED_LETTERS;
     default:
-        return "[\"number\", \"null\"]";
+        return false;
     }
 }
 
@@ -82,64 +66,45 @@ static void mark(CzRecord record, bool is_in[CZ_N_RECORD]) {
         return;
     is_in[record] = true;
     for (int i = 0; i < CZ_N_RESULT; i++)
-        if (cz_results[i].record == record && cz_results[i].form >= CZ_FORM_PART &&
-            cz_results[i].form <= CZ_FORM_SPREAD)
+        if (cz_results[i].record == record && cz_results[i].form == CZ_FORM_RECORD)
             mark(cz_results[i].of, is_in);
 }
 
-static void write_shape(const CzResult *result, FILE *stream) {
-    switch (result->form) {
-    case CZ_FORM_PART:
-    case CZ_FORM_PART_IF:
-        fprintf(stream, "\"$ref\": \"#/$defs/%s\"", cz_record_names[result->of]);
-        break;
-    case CZ_FORM_LIST:
-    case CZ_FORM_LIST_IF:
-        fprintf(stream, "\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/%s\"}",
-                cz_record_names[result->of]);
-        break;
-    case CZ_FORM_MAP:
-        fprintf(stream,
-                "\"type\": \"object\", \"additionalProperties\": {\"$ref\": \"#/$defs/%s\"}",
-                cz_record_names[result->of]);
-        break;
-    case CZ_FORM_TEXTS:
-    case CZ_FORM_REALS:
-    case CZ_FORM_EXACTS:
-        fprintf(stream, "\"type\": \"array\", \"items\": {\"type\": %s}", scalar_type(result));
-        break;
-    case CZ_FORM_NAMED_REALS:
-    case CZ_FORM_NAMED_EXACTS:
-        fprintf(stream, "\"type\": \"object\", \"additionalProperties\": {\"type\": %s}",
-                scalar_type(result));
-        break;
-    case CZ_FORM_VERDICT:
+/* The shape of a value, or of an item of a list. */
+static void write_item_shape(const CzResult *result, FILE *stream) {
+    if (result->form == CZ_FORM_RECORD)
+        fprintf(stream, "\"$ref\": \"#/$defs/%s\"", cz_result_records[result->of].name);
+    else if (result->form == CZ_FORM_VERDICT)
         fprintf(stream, "\"enum\": [\"%s\", \"%s\", \"%s\"]", cz_verdict_text(CZ_VERDICT_PASS),
                 cz_verdict_text(CZ_VERDICT_FAIL), cz_verdict_text(CZ_VERDICT_NOT_CHECKED));
-        break;
-    default:
-        if (result->member.n > 0)
-            fprintf(stream,
-                    "\"type\": \"array\", \"items\": {\"type\": %s}, \"minItems\": %d, "
-                    "\"maxItems\": %d",
-                    scalar_type(result), result->member.n, result->member.n);
-        else
-            fprintf(stream, "\"type\": %s", scalar_type(result));
-    }
+    else
+        fprintf(stream, may_be_null(result) ? "\"type\": [\"%s\", \"null\"]" : "\"type\": \"%s\"",
+                type_of(result));
+}
+
+static void write_shape(const CzResult *result, FILE *stream) {
+    const bool is_list = result->number != NULL || result->member.n > 0;
+    if (is_list)
+        fprintf(stream, "\"type\": \"%s\": {",
+                result->name != NULL ? "object\", \"additionalProperties" : "array\", \"items");
+    write_item_shape(result, stream);
+    if (is_list)
+        fputc('}', stream);
+    if (result->member.n > 0)
+        fprintf(stream, ", \"minItems\": %d, \"maxItems\": %d", result->member.n, result->member.n);
 }
 
 static void write_properties(CzRecord record, FILE *stream) {
     const char *between = "";
     for (int i = 0; i < CZ_N_RESULT; i++) {
         const CzResult *result = &cz_results[i];
-        if (result->record != record || !is_written(result) || result->form == CZ_FORM_SPREAD)
+        if (result->record != record || !is_written(result) || result->is_spread)
             continue;
         fprintf(stream, "%s\n        \"%s\": {", between, result->key);
         write_shape(result, stream);
+        const char *unit = result->unit->text;
         fprintf(stream, ", \"description\": \"%s%s%s%s\"}", result->doc,
-                result->unit != NULL && result->unit->text[0] != '\0' ? " [" : "",
-                result->unit != NULL ? result->unit->text : "",
-                result->unit != NULL && result->unit->text[0] != '\0' ? "]" : "");
+                unit[0] != '\0' ? " [" : "", unit, unit[0] != '\0' ? "]" : "");
         between = ",";
     }
 }
@@ -150,23 +115,23 @@ static void write_record(CzRecord record, FILE *stream) {
     fprintf(stream,
             "    \"%s\": {\n      \"description\": \"%s\",\n      \"type\": \"object\",\n"
             "      \"properties\": {",
-            cz_record_names[record], cz_record_docs[record]);
+            cz_result_records[record].name, cz_result_records[record].doc);
     write_properties(record, stream);
     fputs("\n      },\n      \"required\": [", stream);
     for (int i = 0; i < CZ_N_RESULT; i++) {
         const CzResult *result = &cz_results[i];
         if (result->record != record || !is_written(result))
             continue;
-        if (result->form == CZ_FORM_SPREAD) {
+        if (result->is_spread) {
             spread = result;
-        } else if (!may_be_left_out(result)) {
+        } else if (result->is_there == NULL) {
             fprintf(stream, "%s\"%s\"", between, result->key);
             between = ", ";
         }
     }
     fputs("],\n      \"additionalProperties\": ", stream);
     if (spread != NULL)
-        fprintf(stream, "{\"$ref\": \"#/$defs/%s\"}\n    }", cz_record_names[spread->of]);
+        fprintf(stream, "{\"$ref\": \"#/$defs/%s\"}\n    }", cz_result_records[spread->of].name);
     else
         fputs("false\n    }", stream);
 }
@@ -184,7 +149,7 @@ CzStatus cz_report_write_document_schema(const char *document, FILE *stream, CzE
     fprintf(stream,
             "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
             "  \"title\": \"crushzone.%s\",\n  \"$ref\": \"#/$defs/%s\",\n  \"$defs\": {",
-            document, cz_record_names[record]);
+            document, cz_result_records[record].name);
     for (int k = 0; k < CZ_N_RECORD; k++) {
         if (!is_in[k])
             continue;
@@ -200,49 +165,30 @@ CzStatus cz_report_write_document_schema(const char *document, FILE *stream, CzE
 
 /* Link to the section of a record; anchors of headings have small letters. */
 static void write_link(CzRecord record, FILE *stream) {
-    fprintf(stream, "[%s](#", cz_record_names[record]);
-    for (const char *letter = cz_record_names[record]; *letter != '\0'; letter++)
+    fprintf(stream, "[%s](#", cz_result_records[record].name);
+    for (const char *letter = cz_result_records[record].name; *letter != '\0'; letter++)
         fputc(tolower((unsigned char)*letter), stream);
     fputc(')', stream);
 }
 
 static void write_type(const CzResult *result, FILE *stream) {
-    const char *type = scalar_type(result);
-    const bool is_null = strstr(type, "null") != NULL;
-    const char *word = strstr(type, "number") != NULL    ? "number"
-                       : strstr(type, "integer") != NULL ? "whole number"
-                       : strstr(type, "boolean") != NULL ? "yes or no"
-                                                         : "text";
-    switch (result->form) {
-    case CZ_FORM_PART:
-    case CZ_FORM_PART_IF:
-        write_link(result->of, stream);
-        break;
-    case CZ_FORM_LIST:
-    case CZ_FORM_LIST_IF:
+    const char *type = type_of(result);
+    const char *word = strcmp(type, "integer") == 0   ? "whole number"
+                       : strcmp(type, "boolean") == 0 ? "yes or no"
+                       : strcmp(type, "string") == 0  ? "text"
+                                                      : type;
+    if (result->number != NULL && result->name == NULL)
         fputs("list of ", stream);
+    if (result->member.n > 0)
+        fprintf(stream, "%d ", result->member.n);
+    if (result->form == CZ_FORM_RECORD)
         write_link(result->of, stream);
-        break;
-    case CZ_FORM_MAP:
-    case CZ_FORM_SPREAD:
-        write_link(result->of, stream);
+    else
+        fprintf(stream, "%s%s", word, result->number != NULL || result->member.n > 0 ? "s" : "");
+    if (result->name != NULL)
         fputs(" by name", stream);
-        break;
-    case CZ_FORM_TEXTS:
-    case CZ_FORM_REALS:
-    case CZ_FORM_EXACTS:
-        fprintf(stream, "list of %ss", word);
-        break;
-    case CZ_FORM_NAMED_REALS:
-    case CZ_FORM_NAMED_EXACTS:
-        fprintf(stream, "%ss by name", word);
-        break;
-    default:
-        if (result->member.n > 0)
-            fprintf(stream, "%d %ss or null", result->member.n, word);
-        else
-            fprintf(stream, "%s%s", word, is_null ? " or null" : "");
-    }
+    else if (result->number == NULL && may_be_null(result))
+        fputs(" or null", stream);
 }
 
 static void write_rows(CzRecord record, FILE *stream) {
@@ -250,8 +196,8 @@ static void write_rows(CzRecord record, FILE *stream) {
         const CzResult *result = &cz_results[i];
         if (result->record != record || !is_written(result))
             continue;
-        fprintf(stream, "| `%s` | %s | ", result->form == CZ_FORM_SPREAD ? "*" : result->key,
-                result->unit != NULL ? result->unit->text : "");
+        fprintf(stream, "| `%s` | %s | ", result->is_spread ? "*" : result->key,
+                result->unit->text);
         write_type(result, stream);
         fprintf(stream, " | %s |\n", result->doc);
     }
@@ -275,14 +221,15 @@ void cz_report_write_results_page(FILE *stream) {
     for (int i = 0; i < N_DOCUMENT; i++) {
         fprintf(stream, "- `%s`: ", documents[i].name);
         write_link(documents[i].record, stream);
-        fprintf(stream, ", %s\n", cz_record_docs[documents[i].record]);
+        fprintf(stream, ", %s\n", cz_result_records[documents[i].record].doc);
     }
     for (int record = 0; record < CZ_N_RECORD; record++) {
         if (!has_rows((CzRecord)record))
             continue;
         fprintf(stream, "\n## %s\n\n%c%s.\n\n| key | unit | type | meaning |\n|---|---|---|---|\n",
-                cz_record_names[record], toupper((unsigned char)cz_record_docs[record][0]),
-                cz_record_docs[record] + 1);
+                cz_result_records[record].name,
+                toupper((unsigned char)cz_result_records[record].doc[0]),
+                cz_result_records[record].doc + 1);
         write_rows((CzRecord)record, stream);
     }
 }

@@ -19,64 +19,15 @@ typedef enum CzRecord {
     CZ_N_RECORD
 } CzRecord;
 
-/* Records that are made for who asks. */
+typedef struct CzRecordInfo {
+    const char *name, *doc;
+} CzRecordInfo;
+extern const CzRecordInfo cz_result_records[CZ_N_RECORD];
+
 typedef struct CzRunInfo {
     double wall_s, setup_s; /* [s] */
     int n_job;              /* 0 when unknown */
 } CzRunInfo;
-typedef struct CzImpulse {
-    CzBudgetSource source;
-    double moment, lift; /* [N m s], [N s] */
-} CzImpulse;
-
-typedef struct CzVariableRow {
-    const char *name, *unit;
-    double min, max, start, value;
-    bool at_bound, is_fixed;
-    const char *start_choice, *choice; /* NULL for a number */
-} CzVariableRow;
-typedef struct CzConstraintRow {
-    const char *name, *scenario, *where, *kind, *unit;
-    double limit, start, value, margin;
-    bool beyond_validity, is_checked, is_violated;
-} CzConstraintRow;
-typedef struct CzSensitivityRow {
-    int variable;
-    const char *name;
-    double increment, objective_change;
-} CzSensitivityRow;
-typedef struct CzOptimumVerification {
-    double half_step, reference, full_track;
-    const char *verdict, *failure;
-} CzOptimumVerification;
-typedef struct CzMethodRow {
-    bool is_done;
-    double largest_change;
-    const char *of, *where, *scenario;
-    int n_flip;
-} CzMethodRow;
-typedef struct CzChangeRow {
-    double value, change;
-    bool flips;
-} CzChangeRow;
-typedef struct CzSweptMetric {
-    const char *name, *unit;
-} CzSweptMetric;
-typedef struct CzPointMetric {
-    double value;
-    const char *where;
-} CzPointMetric;
-typedef struct CzCheckInRun {
-    const CzCheckResult *check; /* NULL where the run does not have it */
-    double value, margin;
-    const char *where, *verdict;
-    bool beyond_validity;
-} CzCheckInRun;
-
-typedef struct CzNamedNumber {
-    const char *name;
-    double value; /* in its unit */
-} CzNamedNumber;
 
 /* What documents are made of, and what is at hand while one is written. Only what a document needs
  * is set. */
@@ -98,58 +49,23 @@ typedef struct CzResultContext {
     const char *yaml; /* of the fit */
     int n_mistake;
     const CzError *const *mistake;
-    const struct CzResult *at; /* the one whose numbers are requested */
-    int n_order;               /* sources of a budget that are written, and in which order; */
-    const int *order;          /* NULL: all of them, in their own */
-    CzRunInfo info;            /* made, until the next is requested; so are the others */
-    CzImpulse impulse;
-    CzVariableRow variable;
-    CzConstraintRow constraint;
-    CzSensitivityRow sensitivity;
-    CzOptimumVerification optimum;
-    CzMethodRow method;
-    CzChangeRow change;
-    CzSweptMetric swept;
-    CzPointMetric point;
-    CzCheckInRun check;
+    int n_order;      /* sources of a budget that are written, and in which order; */
+    const int *order; /* NULL: all of them, in their own */
+    int index;        /* of the item of a list that is being written */
+    CzRunInfo info;   /* made when requested, until the next is; so are the others */
     CzError warning;
     char text[64];
 } CzResultContext;
 
-/* How a result is read and written; results.def describes them. */
+/* What a result is, or each item of a list. */
 typedef enum CzResultForm {
-    CZ_FORM_REAL,
-    CZ_FORM_REAL_BY,
-    CZ_FORM_REAL_IF_BY, /* left out where it is NaN */
-    CZ_FORM_EXACT,
-    CZ_FORM_EXACT_BY,
-    CZ_FORM_TOTAL,
+    CZ_FORM_UNWRITTEN, /* in no document */
+    CZ_FORM_NUMBER,
     CZ_FORM_FLAG,
-    CZ_FORM_FLAG_BY,
-    CZ_FORM_FLAG_IF_BY, /* left out below 0 */
     CZ_FORM_WHOLE,
-    CZ_FORM_WHOLE_BY, /* null below 0 */
     CZ_FORM_TEXT,
-    CZ_FORM_TEXT_OR_NULL,
-    CZ_FORM_TEXT_BY,
-    CZ_FORM_TEXT_IF, /* left out where it is NULL */
-    CZ_FORM_TEXT_IF_BY,
     CZ_FORM_VERDICT,
-    CZ_FORM_PROVISIONAL,
-    CZ_FORM_SHOWN_BY,
-    CZ_FORM_METRIC,
-    CZ_FORM_METRIC_TOTAL,
-    CZ_FORM_PART,
-    CZ_FORM_PART_IF, /* left out where it is NULL */
-    CZ_FORM_LIST,
-    CZ_FORM_LIST_IF, /* left out where it is not there */
-    CZ_FORM_MAP,     /* records by name; left out when there are none */
-    CZ_FORM_SPREAD,  /* the same, in the record itself */
-    CZ_FORM_TEXTS,
-    CZ_FORM_REALS,
-    CZ_FORM_EXACTS,
-    CZ_FORM_NAMED_REALS,
-    CZ_FORM_NAMED_EXACTS
+    CZ_FORM_RECORD
 } CzResultForm;
 
 /* How a number is printed in tables. */
@@ -173,25 +89,25 @@ typedef struct CzResult {
     CzRecord record;
     const char *key;
     CzResultForm form;
-    struct { /* the member that it is stored in */
+    bool is_exact;        /* typed, or measures an error, so that it keeps its size; figure.h */
+    bool is_total;        /* blank where a part of the run lies beyond model validity */
+    bool is_null_below_0; /* of WHOLE */
+    bool is_spread;       /* its records are in the record itself, by their names */
+    struct {              /* the member that it is stored in */
         CzStored stored;
         size_t offset;
         int n; /* values of an array; 0: no array */
     } member;
-    union { /* the function that gives it, by the form */
+    union { /* the function that reads it or an item of it where no member has it, by the form */
         double (*real)(CzResultContext *context, const void *record);
         bool (*flag)(CzResultContext *context, const void *record);
         long (*whole)(CzResultContext *context, const void *record);
         const char *(*text)(CzResultContext *context, const void *record);
         const void *(*part)(CzResultContext *context, const void *record);
-        const void *(*item)(CzResultContext *context, const void *record, int index);
-        const void *(*entry)(CzResultContext *context, const void *record, int index,
-                             const char **name);
-        const char *(*nth_text)(CzResultContext *context, const void *record, int index);
-        bool (*nth_number)(CzResultContext *context, const void *record, int index,
-                           CzNamedNumber *number); /* false beyond the last */
     } by;
-    bool (*is_there)(CzResultContext *context, const void *record); /* of a LIST_IF */
+    long (*number)(CzResultContext *context, const void *record);      /* items; NULL: no list */
+    const char *(*name)(CzResultContext *context, const void *record); /* of an item; NULL: none */
+    bool (*is_there)(CzResultContext *context, const void *record);    /* NULL: always */
     CzRecord of; /* of a part or of the items of a list */
     const CzResultUnit *unit;
     CzDimension dimension;
@@ -203,22 +119,13 @@ typedef struct CzResult {
 /* Every result by a name for the compiler: CZ_RESULT_INTERFACE_peak_force_kN. */
 enum {
 #define CZ_RESULT(record, key, ...) CZ_RESULT_##record##_##key,
-#define CZ_METRIC(record, key, ...) CZ_RESULT_##record##_##key,
-#define CZ_METRIC_BY(record, key, ...) CZ_RESULT_##record##_##key,
-#define CZ_RESULT_PART(record, key, ...) CZ_RESULT_##record##_##key,
-#define CZ_RESULT_PART_IF(record, key, ...) CZ_RESULT_##record##_##key,
-#define CZ_RESULT_LIST(record, key, ...) CZ_RESULT_##record##_##key,
-#define CZ_RESULT_ITEMS(record, key, ...) CZ_RESULT_##record##_##key,
-#define CZ_RESULT_WORD(record, key, ...) CZ_RESULT_##record##_##key,
-#define CZ_RESULT_TEXTS(record, key, ...) CZ_RESULT_##record##_##key,
-#define CZ_RESULT_LIST_IF(record, key, ...) CZ_RESULT_##record##_##key,
-#define CZ_RESULT_MAP(record, key, form, ...) CZ_RESULT_##record##_##key,
-#define CZ_RESULT_NUMBERS(record, key, ...) CZ_RESULT_##record##_##key,
+#define CZ_QUANTITY CZ_RESULT
+#define CZ_METRIC CZ_RESULT
+#define CZ_METRIC_BY CZ_RESULT
 #include "report/documents.def"
     CZ_N_RESULT
 };
 extern const CzResult cz_results[CZ_N_RESULT];
-extern const char *const cz_record_names[CZ_N_RECORD], *const cz_record_docs[CZ_N_RECORD];
 
 /* A result by its record and key, as in CZ_RESULT_AT(INTERFACE, peak_force_kN). */
 #define CZ_RESULT_AT(record, key) (&cz_results[CZ_RESULT_##record##_##key])
@@ -236,8 +143,6 @@ bool cz_result_flag(const CzResult *result, CzResultContext *context, const void
 const char *cz_result_words(const CzResult *result, CzResultContext *context, const void *record);
 /* The word of a document, whose verdicts are closed: a provisional pass is a pass. */
 const char *cz_closed_verdict(CzVerdict verdict);
-/* Whether a number was typed or measures an error, so that it keeps its size; figure.h. */
-bool cz_result_is_exact(const CzResult *result);
 
 /* Writes a record as a JSON document. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_results_write(CzRecord record, CzResultContext *context, const void *data,

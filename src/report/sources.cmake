@@ -8,9 +8,7 @@ set(CZ_SOURCES_report
     charts_motion.c
     checks_table.c
     compare.c
-    compare_values.c
     csv.c
-    document_values.c
     documents.c
     drawn.c
     elevation.c
@@ -43,7 +41,6 @@ set(CZ_SOURCES_report
     result_list.c
     result_reference.c
     result_table.c
-    result_values.c
     results.c
     run_table.c
     scene.c

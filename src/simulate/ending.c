@@ -169,7 +169,7 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
     return false;
 }
 
-/* Sum of all plastic strokes: it grows while anything crushes. */
+/* Sum of all plastic strokes, with the way of a buffer stop: it grows while anything crushes. */
 static double plastic_strokes(const CzBatch *batch, int design) {
     static const int rows[] = {CZ_MEMORY(coupler.side[0].tube),
                                CZ_MEMORY(coupler.side[1].tube),
@@ -187,9 +187,13 @@ static double plastic_strokes(const CzBatch *batch, int design) {
                                CZ_MEMORY(end[1].peak),
                                CZ_MEMORY(superstructure.set)};
     double sum = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car)
+    for (int car = 0; car < batch->model->n_car; ++car) {
+        const size_t lane = cz_lane(batch, car, design);
         for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k)
-            sum += cz_memory(batch, rows[k], cz_lane(batch, car, design));
+            sum += cz_memory(batch, rows[k], lane);
+        if (cz_car_equipment(batch->lanes, lane).slide_length < CZ_NEVER)
+            sum += cz_extreme(batch, CZ_EXTREME(slide_travel), lane);
+    }
     return sum;
 }
 

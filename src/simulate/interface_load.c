@@ -1,7 +1,8 @@
 /* What the interfaces still hold that can change the motion, so that a run is not over.
  *
- *   held      the closure has stayed within STILL_CLOSURE for STILL_TIME: brakes or a wall carry
- *             the force, and nothing will come of it
+ *   held      both cars have stood within STILL_PLACE for STILL_TIME: brakes or a wall carry the
+ *             force, and nothing will come of it. Cars that move on with a constant closure are
+ *             not: a buffer stop that slides, or brakes, take their energy still
  *   force     of an interface that can open and is not held
  *   energy    elastic, of an interface that can open and is not held; of couplers that are whole
  *             with the kinetic energy mu v^2 / 2 of their oscillation
@@ -14,7 +15,7 @@
 #include <math.h>
 
 #define SMALLEST_FORCE 1.0 /* [N]: rounding of a chain's balance and no more (ours) */
-#define STILL_CLOSURE 1e-4 /* [m] (ours) */
+#define STILL_PLACE 1e-4   /* [m] (ours) */
 #define STILL_TIME 0.2     /* a force of 100 N would open 20 t by more than that [s] (ours) */
 #define CLOSURE_GROWS 1e-6 /* [m] (ours) */
 #define CYCLE_TIME                                                                                 \
@@ -22,7 +23,7 @@
            (ours) */
 
 struct CzInterfaceLoad {
-    double closure;      /* about which it has been still [m] */
+    double place;        /* about which the car behind stands [m] */
     double still_since;  /* [s] */
     double largest;      /* closure [m] */
     bool to_be_unloaded; /* has not given back its energy since it reached that */
@@ -41,13 +42,16 @@ static bool can_open(const CzBatch *batch, size_t lane) {
     return !whole;
 }
 
-/* Whether the closure has not moved for long enough. */
-static bool is_held(CzInterfaceLoad *load, double closure, double now) {
-    if (fabs(closure - load->closure) > STILL_CLOSURE) {
-        load->closure = closure;
-        load->still_since = now;
+/* Whether the car has not moved for long enough. */
+static bool is_at_rest(const CzBatch *batch, int car, int design) {
+    const size_t lane = cz_lane(batch, car, design);
+    const double place = cz_position(batch, CZ_DOF(body.x), lane);
+    CzInterfaceLoad *load = &batch->load[lane];
+    if (fabs(place - load->place) > STILL_PLACE) {
+        load->place = place;
+        load->still_since = batch->time;
     }
-    return now - load->still_since >= STILL_TIME;
+    return batch->time - load->still_since >= STILL_TIME;
 }
 
 /* Whether the energy is still to be given back for the first time. */
@@ -84,18 +88,18 @@ CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design) {
     const double least = CZ_STORED_SHARE * batch->design[design].initial_energy;
     CzLoadLeft left = {false, 0.0};
     double oscillating = 0.0;
+    bool rests = is_at_rest(batch, 0, design);
     for (int interface = 0; interface + 1 < batch->model->n_car; ++interface) {
         const size_t lane = cz_lane(batch, interface, design);
         const size_t ahead = cz_lane(batch, interface + 1, design);
-        CzInterfaceLoad *load = &batch->load[lane];
-        const double closure =
-            cz_position(batch, CZ_DOF(body.x), lane) - cz_position(batch, CZ_DOF(body.x), ahead);
+        const bool rests_behind = rests;
+        rests = is_at_rest(batch, interface + 1, design);
         const double largest = cz_extreme(batch, CZ_EXTREME(interface_shortening), lane);
         const double force = cz_published(batch, CZ_PUBLISHED(interface.force), lane);
         const double energy = cz_interface_stored(batch, interface, design);
         const bool opens = can_open(batch, lane);
-        const bool unloads = is_to_be_unloaded(load, largest, energy > least);
-        if (is_held(load, closure, batch->time))
+        const bool unloads = is_to_be_unloaded(&batch->load[lane], largest, energy > least);
+        if (rests_behind && rests)
             continue;
         left.force |= opens && fabs(force) > SMALLEST_FORCE;
         left.energy = fmax(left.energy, opens || unloads ? energy : 0.0);

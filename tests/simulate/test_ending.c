@@ -85,6 +85,29 @@ static void a_train_held_by_its_brakes_is_at_its_end(void **state) {
     collision_free(&collision);
 }
 
+/* 750 kJ against jaws of 100 kN: the mass and the stop move as one for seconds, their closure
+ * constant, until the stop stands and the buffers push the mass back. All but 0.2 t of stop and what
+ * the buffers take goes into the jaws. */
+static void a_run_waits_until_a_buffer_stop_has_come_to_rest(void **state) {
+    (void)state;
+    for (int scenario = 2; scenario < 4; scenario++) {
+        const int stop = scenario == 2 ? 1 : 0;
+        for (int brief = 0; brief < 2; brief++) {
+            CzSimulateOptions options = cz_simulate_options_default();
+            options.brief = brief == 1;
+            Collision collision =
+                collide_so("tests/physics/cases/slide.yaml",
+                           WITH("parts.jaws.force_kN=100", "parts.jaws.length_m=20",
+                                "parts.jaws.mass_t=0.2"),
+                           scenario, &options);
+            assert_completed(&collision);
+            assert_near(collision.summary->vehicle[stop].final_speed, 0.0, 0.0, 1e-6);
+            assert_near(collision.summary->energy.dissipated, 750e3, 0.01, 0.0);
+            collision_free(&collision);
+        }
+    }
+}
+
 /* 60 t at 1 m/s throw 30 t off at 4/3 m/s and follow at 1/3. Slowed at 0.05 g the light car is met
  * again after 2 / 0.49 = 4.1 s, and pushed until the closing speed stays below 0.1 m/s; where both
  * are slowed alike, the one behind never reaches it. */
@@ -116,6 +139,7 @@ int main(void) {
         cmocka_unit_test(reference_and_brief_runs_include_the_rebound),
         cmocka_unit_test(a_coupled_train_leaves_the_wall),
         cmocka_unit_test(a_train_held_by_its_brakes_is_at_its_end),
+        cmocka_unit_test(a_run_waits_until_a_buffer_stop_has_come_to_rest),
         cmocka_unit_test(cars_meet_again_where_rolling_resistance_slows_the_one_ahead),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -170,9 +170,10 @@ static Friction friction_of(const CzModel *model) {
     return (Friction){model->friction, model->friction * left};
 }
 
-/* Axles are braked from the front of the car on. */
-static int n_braked_axle(const CzBrake *brake) {
-    return brake == NULL ? 0 : (int)(4.0 * brake->axle_share + 0.5);
+/* Axles are braked from the front of the car on, the last one by what is left of the share. */
+static double braked_part(const CzBrake *brake, int axle) {
+    const double n_braked = brake == NULL ? 0.0 : 4.0 * brake->axle_share;
+    return fmin(fmax(n_braked - (3 - axle), 0.0), 1.0);
 }
 
 static void fill_wheels(const CzFill *fill, int car, const CzStatics *statics) {
@@ -182,7 +183,6 @@ static void fill_wheels(const CzFill *fill, int car, const CzStatics *statics) {
     const CzAdhesion *adhesion = &fill->model->simulation->adhesion;
     const double radius = bogie->wheel_radius;
     const double hertz = hertz_constant(radius, bogie->tread);
-    const int first_braked = 4 - n_braked_axle(place->brake);
     double load = 0.0;
 
     cz_put(fill, car, CZ_PARAMETER(inverse.wheelset.mass), 1.0 / bogie->wheelset_mass);
@@ -194,7 +194,7 @@ static void fill_wheels(const CzFill *fill, int car, const CzStatics *statics) {
         const double moment = place->brake_ratio * statics->wheel_load[axle] * radius;
         cz_put(fill, car, CZ_PARAMETER(wheel.indentation[axle]), indentation * indentation);
         cz_put(fill, car, CZ_PARAMETER(wheel.brake_moment[axle]),
-               axle >= first_braked ? moment : 0.0);
+               braked_part(place->brake, axle) * moment);
         put_dof(fill, car, (int)(CZ_DOF(wheelset[axle].x)), bogie->wheelset_mass, place->speed);
         put_dof(fill, car, (int)(CZ_DOF(wheelset[axle].z)), bogie->wheelset_mass, 0.0);
         put_dof(fill, car, (int)(CZ_DOF(wheelset[axle].spin)), bogie->wheelset_inertia,

@@ -63,6 +63,22 @@ static void the_share_of_braked_axles_is_one_of_the_weight(void **state) {
     collision_free(&half);
 }
 
+/* A share that is no whole number of axles brakes the last one in part. */
+static void a_share_of_braked_axles_is_not_rounded(void **state) {
+    (void)state;
+    static const char *const braked[][2] = {
+        {"trains.A.brake.ratio=0.2", "trains.A.brake.axle_share=0.1"},
+        {"trains.A.brake.ratio=0.05", "trains.A.brake.axle_share=0.4"}};
+    for (int i = 0; i < 2; i++) {
+        Collision all = collide(two_cars, WITH("trains.A.brake.ratio=0.02"), 0);
+        Collision part = collide(two_cars, WITH(braked[i][0], braked[i][1]), 0);
+        assert_near(10.0 - part.summary->vehicle[0].final_speed,
+                    10.0 - all.summary->vehicle[0].final_speed, 2e-2, 0.0);
+        collision_free(&all);
+        collision_free(&part);
+    }
+}
+
 /* ---- rolling resistance ---- */
 
 /* A single mass slows down by f g, a full car by less, as its wheels turn:
@@ -221,6 +237,7 @@ int main(void) {
         cmocka_unit_test(a_braked_mass_stops_at_its_braking_distance_and_stays_there),
         cmocka_unit_test(brakes_beyond_the_friction_lock_the_wheels),
         cmocka_unit_test(the_share_of_braked_axles_is_one_of_the_weight),
+        cmocka_unit_test(a_share_of_braked_axles_is_not_rounded),
         cmocka_unit_test(rolling_resistance_slows_every_kind_of_car),
         cmocka_unit_test(a_standing_car_is_held),
         cmocka_unit_test(a_standing_train_sets_no_step),

@@ -39,6 +39,7 @@ typedef struct Parts {
     CzStop rise;                   /* at the end of a curve without shear-off */
     double force;                  /* F_s [N]; NaN without shear-off */
     double residual;               /* mean force behind it [N] */
+    double too_much;               /* what a drop leaves that is no shear-off: share of its peak */
     int end;                       /* last point of the drop, or of the curve */
 } Parts;
 
@@ -76,7 +77,7 @@ static void find_drop(const CzBranch *branch, Parts *parts) {
     const int edge = find_edge(branch, highest);
     parts->stop = parts->peak = parts->drop = length;
     parts->force = NAN;
-    parts->residual = 0.0;
+    parts->residual = parts->too_much = 0.0;
     parts->end = last;
     if (edge == last)
         return;
@@ -89,9 +90,12 @@ static void find_drop(const CzBranch *branch, Parts *parts) {
     while (first > 0 && branch->x[edge] - branch->x[first] <= PEAK_BEFORE * length)
         first--;
     const int top = highest_point(branch, first, edge);
-    if (branch->x[end] - branch->x[top] > LONGEST_DROP * length ||
-        residual > LARGEST_RESIDUAL * branch->f[top] || (residual > 0.0 && end == last))
-        return; /* a curve that fades away, or a lower stage */
+    if (branch->x[end] - branch->x[top] > LONGEST_DROP * length || (residual > 0.0 && end == last))
+        return; /* a curve that fades away */
+    if (residual > LARGEST_RESIDUAL * branch->f[top]) {
+        parts->too_much = residual / branch->f[top];
+        return; /* a lower stage */
+    }
     while (residual == 0.0 && end < last && branch->f[end + 1] < branch->f[end])
         end++;
     parts->stop = parts->peak = branch->x[top];
@@ -312,6 +316,11 @@ CzStatus cz_fit_coupler(CzFit *fit, int n_stage, CzError *error) {
     }
     if (!isnan(parts.force))
         fit_shear_off(fit, &branch, &parts);
+    if (parts.too_much > 0.0)
+        cz_fit_note_down(fit,
+                         "the force drops to %.0f %% of its peak and stays there: more than the "
+                         "%.0f %% of a shear-off's friction, so both are stages of the tube",
+                         100.0 * parts.too_much, 100.0 * LARGEST_RESIDUAL);
     fit->summary.energy = cz_fit_work(fit, parts.end);
     return is_alone ? fit_buffer_alone(fit, &branch, &parts, error)
                     : fit_members(fit, &branch, n_stage, &parts, error);

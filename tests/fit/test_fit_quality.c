@@ -164,6 +164,19 @@ static void a_shear_off_keeps_its_residual_force(void **state) {
     }
 }
 
+/* Friction does not keep 40 % of 911 kN: a lower stage, and the notes say why. */
+static void a_drop_that_leaves_too_much_for_a_shear_off_is_told(void **state) {
+    (void)state;
+    load_shear_off(0.4 * 9.11e5);
+    CzFit *fit = fit_of(&curve, CZ_FIT_COUPLER, -1);
+    assert_true(isnan(value_of(fit, "shear_off.force_kN")));
+    bool is_told = false;
+    for (int i = 0; i < cz_fit_n_note(fit); i++)
+        is_told |= strstr(cz_fit_note(fit, i), "drops to 40 % of its peak") != NULL;
+    assert_true(is_told);
+    cz_fit_free(fit);
+}
+
 static void a_rupture_is_doubtful_as_a_coupler(void **state) {
     (void)state;
     const double points[][2] = {{0, 0},      {0.06, 6e4},  {0.12, 2.5e5}, {0.2, 5.8e5},
@@ -307,6 +320,7 @@ int main(void) {
         cmocka_unit_test(no_short_tube_takes_what_its_buffer_lacks),
         cmocka_unit_test(a_higher_stage_is_no_stop),
         cmocka_unit_test(a_shear_off_keeps_its_residual_force),
+        cmocka_unit_test(a_drop_that_leaves_too_much_for_a_shear_off_is_told),
         cmocka_unit_test(a_rupture_is_doubtful_as_a_coupler),
         cmocka_unit_test(a_law_far_from_its_curve_is_refused),
         cmocka_unit_test(two_numbers_near_zero_give_no_stiffness),

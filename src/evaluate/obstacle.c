@@ -75,8 +75,10 @@ static const char *why_not_judged(const CzInput *input, int train, int n_scene,
         break;
     }
     return is_taken_for_obstacle(input, train, n_scene, scene)
-               ? "taken for an obstacle: one rigid vehicle of at most 20 t without couplers "
-                 "to; 'role: train' has it judged, 'role: obstacle' confirms it"
+               ? "taken for an obstacle: one rigid vehicle of at most 20 t without coupler, "
+                 "buffers, "
+                 "anti-climber and survival space; 'role: train' has it judged, 'role: obstacle' "
+                 "confirms it"
                : NULL;
 }
 

@@ -179,7 +179,8 @@ typedef struct CzRunSummary {
     CzStatus status;   /* CZ_OK or CZ_STATUS_RUN_FAILED */
     char failure[256]; /* car, element and time when failed; empty otherwise */
     CzEnded ended;
-    double simulated; /* [s] */
+    const char *awaited; /* what the end criterion of an incomplete run still waits for */
+    double simulated;    /* [s] */
     CzIntegrator integrator;
     double time_step; /* [s]; of a reference: its own are half of it at most */
     long n_step;

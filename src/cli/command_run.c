@@ -48,10 +48,9 @@ static void tell_incomplete(const CzArguments *arguments, const CzEvaluation *ev
         if (run->status == CZ_OK && run->ended == CZ_ENDED_INCOMPLETE)
             cz_tell(arguments,
                     "scenario '%s' has not met its end criterion after %.3g s, the "
-                    "simulation.longest_s of the "
-                    "problem; allow "
-                    "more, such as --set simulation.longest_s=%.3g",
-                    run->scenario, run->simulated, 2.0 * run->simulated);
+                    "simulation.longest_s of the problem: %s; allow more, such as --set "
+                    "simulation.longest_s=%.3g, or choose the end by simulation.duration_s",
+                    run->scenario, run->simulated, run->awaited, 2.0 * run->simulated);
     }
 }
 

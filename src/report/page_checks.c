@@ -141,9 +141,11 @@ static void write_caution(CzPage *page) {
         snprintf(text, sizeof text, "This run failed: %s", run->failure);
         cz_markup_classed(markup, "p", "fail", text);
     } else if (run->ended == CZ_ENDED_INCOMPLETE) {
-        cz_markup_classed(markup, "p", "fail",
-                          "This run is incomplete: the end criterion was not met within "
-                          "simulation.longest_s, so it gives no result.");
+        snprintf(text, sizeof text,
+                 "This run is incomplete: the end criterion was not met within "
+                 "simulation.longest_s, so it gives no result: %s.",
+                 run->awaited);
+        cz_markup_classed(markup, "p", "fail", text);
     }
     if (run->beyond_validity) {
         snprintf(text, sizeof text,

@@ -61,9 +61,11 @@ static void write_run_head(const CzProblem *problem, const CzRunSummary *run, bo
     }
     fprintf(stream, "   %s s simulated, ", cz_figure_digits(simulated, 3, run->simulated));
     const bool cut = run->ended == CZ_ENDED_INCOMPLETE;
-    char end[80];
-    snprintf(end, sizeof end, "INCOMPLETE: end criterion not met within simulation.longest_s = %s",
-             cz_figure_digits(simulated, 3, cz_problem_input(problem)->simulation.longest));
+    char end[160];
+    snprintf(end, sizeof end,
+             "INCOMPLETE: end criterion not met within simulation.longest_s = %s: %s",
+             cz_figure_digits(simulated, 3, cz_problem_input(problem)->simulation.longest),
+             run->awaited);
     cz_text_write(cut ? end : cz_ended_text(run->ended), cut ? CZ_STYLE_BAD : CZ_STYLE_PLAIN,
                   colour, stream);
     fprintf(stream, "   energy balance %s", cz_figure_percent(balance, run->energy.balance_error));

@@ -17,6 +17,7 @@ enum {
 
 #define CLOSING_SPEED 0.1 /* [m/s] */
 #define MEETING_SHARE 0.4 /* a sixth of the first impact's energy (ours) */
+#define ROUNDING 1e-9     /* of two means that are equal */
 #define FLOW 1e-6         /* growth of the plastic strokes that counts as crushing [m] (ours) */
 #define LARGEST_IMBALANCE 1e-2 /* of the initial energy */
 #define LARGEST_RESIDUAL 1e-6  /* closure that a chain may leave unbalanced [m] (ours) */
@@ -207,17 +208,29 @@ static bool closes_in(const CzBatch *batch, int design) {
     return false;
 }
 
+/* Rolling resistance over weight of a car and all that it is coupled to. */
 static double rolling_resistance(const CzBatch *batch, int car, int design) {
-    const CzCar *description = &batch->model->car[car];
-    return batch->vehicles[design][description->vehicle].rolling_resistance;
+    int first = car, last = car;
+    while (first > 0 && !cz_interface_can_open(batch, first - 1, design))
+        --first;
+    while (last + 1 < batch->model->n_car && !cz_interface_can_open(batch, last, design))
+        ++last;
+    double mass = 0.0, slowed = 0.0;
+    for (int i = first; i <= last; ++i) {
+        const CzVehicle *vehicle = &batch->vehicles[design][batch->model->car[i].vehicle];
+        mass += vehicle->mass;
+        slowed += vehicle->mass * vehicle->rolling_resistance;
+    }
+    return slowed / fmax(mass, 1.0);
 }
 
 /* Speed that a car keeps at least: that of rest where it brakes or is slowed by rolling more than
  * the car behind it, its own where it rolls. */
 static double rest_or_speed(const CzBatch *batch, int car, int design) {
     const size_t lane = cz_lane(batch, car, design);
-    const bool is_slowed = car > 0 && rolling_resistance(batch, car, design) >
-                                          rolling_resistance(batch, car - 1, design);
+    const bool is_slowed =
+        car > 0 && rolling_resistance(batch, car, design) >
+                       (1.0 + ROUNDING) * rolling_resistance(batch, car - 1, design);
     const double speed = cz_velocity(batch, CZ_DOF(body.x), lane);
     const bool is_held = cz_car_equipment(batch->lanes, lane).is_held;
     return is_held || is_slowed ? fmin(speed, 0.0) : speed;
@@ -242,7 +255,7 @@ static bool can_meet_again(const CzBatch *batch, int design) {
                                  CZ_MEMORY(side_buffers.force)};
     for (int car = 0; car + 1 < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        bool together = cz_interface_equipment(batch->lanes, lane).is_coupled;
+        bool together = !cz_interface_can_open(batch, car, design);
         for (size_t k = 0; k < sizeof forces / sizeof forces[0]; ++k)
             together |= cz_memory(batch, forces[k], lane) > 0.0;
         const double behind = cz_velocity(batch, CZ_DOF(body.x), lane);
@@ -250,6 +263,18 @@ static bool can_meet_again(const CzBatch *batch, int design) {
             return true;
     }
     return false;
+}
+
+/* What the end criterion waits for, in words; NULL when it holds. */
+static const char *awaited(const CzBatch *batch, int design, bool off, bool flows,
+                           const CzLoadLeft *left) {
+    return off                             ? "a wheel is off its rail"
+           : flows                         ? "something still crushes or slides"
+           : left->force                   ? "cars that can part still push each other"
+           : left->stores                  ? "elastic energy is still stored between cars"
+           : closes_in(batch, design)      ? "neighbouring cars close in"
+           : can_meet_again(batch, design) ? "cars that have parted can meet again"
+                                           : NULL;
 }
 
 /* When a condition began to hold: kept while it does, forgotten when it does not. */
@@ -306,12 +331,12 @@ static void look_at(CzBatch *batch, int design) {
     const bool off = wheels_are_off(batch, design);
     const CzLoadLeft left = cz_interface_loads_look(batch, design);
     const double initial = progress->initial_energy;
-    const bool quiet = !off && !flows && !left.force && left.energy <= CZ_STORED_SHARE * initial &&
-                       !closes_in(batch, design) && !can_meet_again(batch, design);
+    progress->awaited = awaited(batch, design, off, flows, &left);
     const bool settled = batch->brief && !off && !flows &&
                          left.energy <= MEETING_SHARE * MEETING_SHARE * initial &&
                          meeting_speed(batch, design) <= MEETING_SHARE * batch->closing_speed;
-    progress->quiet_since = holds_since(quiet, progress->quiet_since, batch->time);
+    progress->quiet_since =
+        holds_since(progress->awaited == NULL, progress->quiet_since, batch->time);
     progress->settled_since = holds_since(settled, progress->settled_since, batch->time);
 
     const CzModel *model = batch->model;

@@ -34,8 +34,8 @@ CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena) 
     return cz_arena_allocate(arena, n, sizeof(CzInterfaceLoad));
 }
 
-/* Whether nothing keeps the two sides from parting. */
-static bool can_open(const CzBatch *batch, size_t lane) {
+bool cz_interface_can_open(const CzBatch *batch, int interface, int design) {
+    const size_t lane = cz_lane(batch, interface, design);
     bool whole = cz_interface_equipment(batch->lanes, lane).is_coupled;
     for (int side = 0; side < 2; ++side)
         whole &= !cz_coupler_is_sheared(batch->dynamics, lane, side);
@@ -86,7 +86,7 @@ static bool still_dissipates(const CzBatch *batch, int design) {
 
 CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design) {
     const double least = CZ_STORED_SHARE * batch->design[design].initial_energy;
-    CzLoadLeft left = {false, 0.0};
+    CzLoadLeft left = {.energy = 0.0};
     double oscillating = 0.0;
     bool rests = is_at_rest(batch, 0, design);
     for (int interface = 0; interface + 1 < batch->model->n_car; ++interface) {
@@ -97,7 +97,7 @@ CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design) {
         const double largest = cz_extreme(batch, CZ_EXTREME(interface_shortening), lane);
         const double force = cz_published(batch, CZ_PUBLISHED(interface.force), lane);
         const double energy = cz_interface_stored(batch, interface, design);
-        const bool opens = can_open(batch, lane);
+        const bool opens = cz_interface_can_open(batch, interface, design);
         const bool unloads = is_to_be_unloaded(&batch->load[lane], largest, energy > least);
         if (rests_behind && rests)
             continue;
@@ -108,5 +108,6 @@ CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design) {
     }
     if (oscillating > fmax(least, left.energy) && still_dissipates(batch, design))
         left.energy = oscillating;
+    left.stores = !(left.energy <= least); /* also when it is no number */
     return left;
 }

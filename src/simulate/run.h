@@ -40,6 +40,7 @@ typedef struct CzProgressOfDesign {
     double initial_energy;
     double balance;       /* largest |residual| so far [J] */
     int n_look;           /* looks at how it goes */
+    const char *awaited;  /* by the end criterion, in words; NULL when it holds */
     double quiet_since;   /* when the end-of-run conditions began to hold; NaN when they do not */
     double settled_since; /* likewise for the conditions of a brief run */
     double plastic;       /* sum of the plastic strokes at the last look [m] */
@@ -171,8 +172,11 @@ double cz_law_error(const CzBatch *batch, size_t lane);
 typedef struct CzInterfaceLoad CzInterfaceLoad;
 typedef struct CzLoadLeft {
     bool force;    /* an interface that can open carries one */
+    bool stores;   /* `energy` is more than CZ_STORED_SHARE */
     double energy; /* largest elastic energy of an interface [J] */
 } CzLoadLeft;
+/* Whether nothing keeps the two sides from parting. */
+bool cz_interface_can_open(const CzBatch *batch, int interface, int design);
 CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena);
 CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design);
 

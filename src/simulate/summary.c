@@ -163,6 +163,9 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     summary->status = failed ? CZ_STATUS_RUN_FAILED : CZ_OK;
     memcpy(summary->failure, progress->failure, sizeof summary->failure);
     summary->ended = progress->ended;
+    summary->awaited = progress->awaited != NULL
+                           ? progress->awaited
+                           : "the conditions must hold for one body pitch period";
     summary->simulated = batch->time;
     summary->integrator = batch->integrator;
     summary->time_step = batch->step;

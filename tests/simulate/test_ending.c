@@ -86,8 +86,8 @@ static void a_train_held_by_its_brakes_is_at_its_end(void **state) {
 }
 
 /* 750 kJ against jaws of 100 kN: the mass and the stop move as one for seconds, their closure
- * constant, until the stop stands and the buffers push the mass back. All but 0.2 t of stop and what
- * the buffers take goes into the jaws. */
+ * constant, until the stop stands and the buffers push the mass back. All but 0.2 t of stop and
+ * what the buffers take goes into the jaws. */
 static void a_run_waits_until_a_buffer_stop_has_come_to_rest(void **state) {
     (void)state;
     for (int scenario = 2; scenario < 4; scenario++) {
@@ -95,17 +95,31 @@ static void a_run_waits_until_a_buffer_stop_has_come_to_rest(void **state) {
         for (int brief = 0; brief < 2; brief++) {
             CzSimulateOptions options = cz_simulate_options_default();
             options.brief = brief == 1;
-            Collision collision =
-                collide_so("tests/physics/cases/slide.yaml",
-                           WITH("parts.jaws.force_kN=100", "parts.jaws.length_m=20",
-                                "parts.jaws.mass_t=0.2"),
-                           scenario, &options);
+            Collision collision = collide_so(
+                "tests/physics/cases/slide.yaml",
+                WITH("parts.jaws.force_kN=100", "parts.jaws.length_m=20", "parts.jaws.mass_t=0.2"),
+                scenario, &options);
             assert_completed(&collision);
             assert_near(collision.summary->vehicle[stop].final_speed, 0.0, 0.0, 1e-6);
             assert_near(collision.summary->energy.dissipated, 750e3, 0.01, 0.0);
             collision_free(&collision);
         }
     }
+}
+
+/* What is coupled rolls and stands as one: only the second car ahead has rolling resistance, and
+ * the two still come to rest in front of the one that follows. */
+static void a_coupled_car_that_rolls_freely_is_slowed_with_its_train(void **state) {
+    (void)state;
+    const char *const file = "tests/physics/cases/rolling-train.yaml";
+    Collision collision = collide(file, AS_WRITTEN, 0);
+    assert_true(collision.summary->ended == CZ_ENDED_INCOMPLETE);
+    assert_string_equal(collision.summary->awaited, "cars that have parted can meet again");
+    collision_free(&collision);
+    collision = collide(file, WITH("trains.A.vehicles.A1.rolling_resistance_N_kN=20"), 0);
+    assert_completed(&collision);
+    assert_true(collision.summary->ended == CZ_ENDED_BY_RULE);
+    collision_free(&collision);
 }
 
 /* 60 t at 1 m/s throw 30 t off at 4/3 m/s and follow at 1/3. Slowed at 0.05 g the light car is met
@@ -140,6 +154,7 @@ int main(void) {
         cmocka_unit_test(a_coupled_train_leaves_the_wall),
         cmocka_unit_test(a_train_held_by_its_brakes_is_at_its_end),
         cmocka_unit_test(a_run_waits_until_a_buffer_stop_has_come_to_rest),
+        cmocka_unit_test(a_coupled_car_that_rolls_freely_is_slowed_with_its_train),
         cmocka_unit_test(cars_meet_again_where_rolling_resistance_slows_the_one_ahead),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

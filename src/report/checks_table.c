@@ -1,4 +1,4 @@
-/* The table of checks: what was asked, what came out, how far away. */
+/* The table of checks: limit, value and margin of each. */
 #include "report/checks_table.h"
 
 #include "base/number.h"
@@ -37,7 +37,7 @@ void cz_checks_format_limit(const CzCheckResult *check, size_t room, char *text)
         return;
     }
     double
-        shown; /* a limit that was typed is reported as it was, one that was computed is rounded */
+        shown; /* a limit that was typed is printed as it was, one that was computed is rounded */
     cz_figure_digits(number, 6, check->limit);
     if (cz_number_parse(number, &shown) != NULL || shown != check->limit)
         cz_figure_digits(number, 4, check->limit);
@@ -52,7 +52,7 @@ void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text)
         snprintf(text, room, "%s", number);
         return;
     }
-    /* A value that breaks its limit must not read as if it stood on it. */
+    /* A value that violates its limit must not read as equal to it. */
     const bool breaks =
         check->is_minimum ? check->value < check->limit : check->value > check->limit;
     double shown;
@@ -65,7 +65,7 @@ void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text)
              check->beyond_validity ? "*" : "");
 }
 
-/* A check may pass because there is nothing that it could be about. */
+/* A check that has no subject in this problem passes. */
 static bool does_not_apply(const CzCheckResult *check) {
     return isnan(check->value) && cz_verdict_passes(check->verdict);
 }
@@ -101,7 +101,7 @@ static const char *or_empty(const char *text) {
     return text != NULL ? text : "";
 }
 
-/* To the right what is left, to the left what is missing. */
+/* A margin to the right of the middle, a violation to the left. */
 static const CzBar margin_bar = {"bar", "margin", 30, 31, "#d0021b", "#009e73"};
 
 /* When the value was reached, or the window of a mean. */
@@ -125,148 +125,96 @@ static void put_source(CzReportTable *table, const CzCheckResult *check) {
              check->why != NULL && has_source ? "; " : "", or_empty(check->clause),
              check->clause != NULL && has_source ? ", " : "", or_empty(check->source),
              has_confidence ? ", confidence " : "", has_confidence ? check->confidence : "");
-    cz_table_put(table, text, CZ_STYLE_SMALL);
+    cz_table_put_styled(table, text, CZ_STYLE_SMALL);
 }
 
-/* What a column holds. */
-typedef enum Column {
-    COLUMN_NAME,
-    COLUMN_VERDICT,
-    COLUMN_WHERE,
-    COLUMN_SCENARIO,
-    COLUMN_WHEN,
-    COLUMN_LIMIT,
-    COLUMN_BEFORE,
-    COLUMN_VALUE,
-    COLUMN_MARGIN,
-    COLUMN_BAR,
-    COLUMN_WHY,
-    COLUMN_SOURCE
-} Column;
-
-typedef struct ColumnHead {
-    Column column;
-    const char *head;
-} ColumnHead;
-static const ColumnHead text_columns[] = {
-    {COLUMN_NAME, "check"},     {COLUMN_WHERE, "where"},    {COLUMN_SCENARIO, "scenario"},
-    {COLUMN_LIMIT, ">limit"},   {COLUMN_BEFORE, ">before"}, {COLUMN_VALUE, ">value"},
-    {COLUMN_MARGIN, ">margin"}, {COLUMN_VERDICT, ""},       {COLUMN_WHY, ""}};
-static const ColumnHead page_columns[] = {{COLUMN_NAME, "check"},
-                                          {COLUMN_VERDICT, "verdict"},
-                                          {COLUMN_WHERE, "where"},
-                                          {COLUMN_SCENARIO, "scenario"},
-                                          {COLUMN_WHEN, ">when ms"},
-                                          {COLUMN_LIMIT, ">limit"},
-                                          {COLUMN_BEFORE, ">before"},
-                                          {COLUMN_VALUE, ">value"},
-                                          {COLUMN_MARGIN, ">margin"},
-                                          {COLUMN_BAR, ""},
-                                          {COLUMN_SOURCE, "remark and source"}};
-static void put_cell(CzReportTable *table, Column column, const CzCheckResult *check,
-                     const CzCheckResult *before) {
-    char text[96];
-    switch (column) {
-    case COLUMN_NAME:
-        cz_table_put(table, check->name, CZ_STYLE_PLAIN);
-        break;
-    case COLUMN_VERDICT:
-        cz_table_put(table, cz_checks_word(check),
-                     does_not_apply(check) ? CZ_STYLE_PLAIN : verdict_styles[check->verdict]);
-        break;
-    case COLUMN_WHERE:
-        cz_table_put(table, check->where, CZ_STYLE_PLAIN);
-        break;
-    case COLUMN_SCENARIO:
-        cz_table_put(table, check->scenario, CZ_STYLE_PLAIN);
-        break;
-    case COLUMN_WHEN:
-        format_when(check, sizeof text, text);
-        cz_table_put(table, text, CZ_STYLE_PLAIN);
-        break;
-    case COLUMN_LIMIT:
-        cz_checks_format_limit(check, sizeof text, text);
-        cz_table_put(table, text, CZ_STYLE_PLAIN);
-        break;
-    case COLUMN_BEFORE:
-        text[0] = '\0';
-        if (before != NULL)
-            cz_checks_format_value(before, sizeof text, text);
-        cz_table_put(table, text,
-                     before != NULL && before->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD
-                                                                          : CZ_STYLE_PLAIN);
-        break;
-    case COLUMN_VALUE:
-        cz_checks_format_value(check, sizeof text, text);
-        cz_table_put(table, text, CZ_STYLE_PLAIN);
-        break;
-    case COLUMN_MARGIN:
-        cz_table_put(table, cz_figure_margin(text, check->margin), CZ_STYLE_PLAIN);
-        break;
-    case COLUMN_BAR:
-        cz_table_put_bar(table, &margin_bar, check->margin);
-        break;
-    case COLUMN_WHY:
-        cz_table_put(table, check->why, CZ_STYLE_PLAIN);
-        break;
-    case COLUMN_SOURCE:
-        put_source(table, check);
-        break;
-    }
+static void put_verdict(CzReportTable *table, const CzCheckResult *check) {
+    cz_table_put_styled(table, cz_checks_word(check),
+                        does_not_apply(check) ? CZ_STYLE_PLAIN : verdict_styles[check->verdict]);
 }
 
-static void put_check(CzReportTable *table, int n, const ColumnHead *column,
-                      const CzCheckResult *check, const CzCheckResult *before) {
-    for (int k = 0; k < n; k++)
-        put_cell(table, column[k].column, check, before);
+static void put_check(CzReportTable *table, const CzCheckResult *check,
+                      const CzCheckResult *before) {
+    char text[96] = "";
+    cz_table_put(table, check->name);
+    put_verdict(table, check);
+    cz_table_put(table, check->where);
+    cz_table_put(table, check->scenario);
+    format_when(check, sizeof text, text);
+    cz_table_put(table, text);
+    cz_checks_format_limit(check, sizeof text, text);
+    cz_table_put(table, text);
+    if (before != NULL)
+        cz_checks_format_value(before, sizeof text, text);
+    cz_table_put_styled(table, before != NULL ? text : "",
+                        before != NULL && before->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD
+                                                                             : CZ_STYLE_PLAIN);
+    cz_checks_format_value(check, sizeof text, text);
+    cz_table_put(table, text);
+    cz_table_put(table, cz_figure_margin(text, check->margin));
+    put_verdict(table, check);
+    cz_table_put_bar(table, &margin_bar, check->margin);
+    cz_table_put(table, check->why);
+    put_source(table, check);
 }
 
-static void begin(CzReportTable *table, int n, const ColumnHead *column, bool several,
-                  bool with_before) {
-    cz_table_begin(table, 0, NULL);
-    for (int k = 0; k < n; k++) {
-        const bool is_left_out = (column[k].column == COLUMN_SCENARIO && !several) ||
-                                 (column[k].column == COLUMN_BEFORE && !with_before);
-        const bool is_after = column[k].column == COLUMN_VALUE && with_before;
-        cz_table_head(table, is_left_out ? NULL : is_after ? ">after" : column[k].head);
-    }
+/* The columns of a page or of a terminal, in the order of put_check. */
+static void begin(CzReportTable *table, bool on_page, bool several, bool with_before) {
+    const char *const heads[] = {"check",
+                                 on_page ? "verdict" : NULL,
+                                 "where",
+                                 several ? "scenario" : NULL,
+                                 on_page ? ">when ms" : NULL,
+                                 ">limit",
+                                 with_before ? ">before" : NULL,
+                                 with_before ? ">after" : ">value",
+                                 ">margin",
+                                 on_page ? NULL : "",
+                                 on_page ? "" : NULL,
+                                 on_page ? NULL : "",
+                                 on_page ? "remark and source" : NULL};
+    cz_table_begin(table, NULL);
+    for (size_t k = 0; k < sizeof heads / sizeof *heads; k++)
+        cz_table_head(table, heads[k]);
 }
 
 void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before, bool rest) {
-    enum { n_column = sizeof page_columns / sizeof *page_columns };
     CzReportTable table;
-    begin(&table, n_column, page_columns, true, before != NULL);
+    begin(&table, true, true, before != NULL);
     table.class_name = "checks";
     for (int pass = 0; pass < 2; pass++) /* failures first */
         for (int i = 0; i < evaluation->n_check; i++) {
             const bool fails = evaluation->check[i].verdict == CZ_VERDICT_FAIL;
             if (cz_checks_is_shown(evaluation, i) != rest && fails == (pass == 0))
-                put_check(&table, n_column, page_columns, &evaluation->check[i],
-                          before != NULL ? &before->check[i] : NULL);
+                put_check(&table, &evaluation->check[i], before != NULL ? &before->check[i] : NULL);
         }
     cz_table_write_page(&table, markup);
 }
 
-static void write_count(const CzEvaluation *evaluation, bool colour, FILE *stream) {
+static void say_verdict(CzTerminal *terminal, CzVerdict verdict) {
+    cz_terminal_say(terminal, verdict_styles[verdict], "%s", verdict_words[verdict]);
+}
+
+static void write_count(const CzEvaluation *evaluation, CzTerminal *terminal) {
     int n[4] = {0};
     for (int i = 0; i < evaluation->n_check; i++)
         n[evaluation->check[i].verdict]++;
     static const CzVerdict order[] = {CZ_VERDICT_FAIL, CZ_VERDICT_NOT_CHECKED,
                                       CZ_VERDICT_PROVISIONAL, CZ_VERDICT_PASS};
     const char *between = ": ";
-    fprintf(stream, "%d check%s", evaluation->n_check, evaluation->n_check == 1 ? "" : "s");
+    fprintf(terminal->stream, "%d check%s", evaluation->n_check,
+            evaluation->n_check == 1 ? "" : "s");
     for (int i = 0; i < 4; i++) {
         if (n[order[i]] == 0)
             continue;
-        fprintf(stream, "%s%d ", between, n[order[i]]);
-        cz_text_write(verdict_words[order[i]], verdict_styles[order[i]], colour, stream);
+        fprintf(terminal->stream, "%s%d ", between, n[order[i]]);
+        say_verdict(terminal, order[i]);
         between = ", ";
     }
-    fputs(". Verdict: ", stream);
-    cz_text_write(verdict_words[evaluation->verdict], verdict_styles[evaluation->verdict], colour,
-                  stream);
-    fputs(".\n", stream);
+    fputs(". Verdict: ", terminal->stream);
+    say_verdict(terminal, evaluation->verdict);
+    fputs(".\n", terminal->stream);
 }
 
 int cz_checks_n_omitted(const CzEvaluation *evaluation) {
@@ -276,55 +224,49 @@ int cz_checks_n_omitted(const CzEvaluation *evaluation) {
     return n;
 }
 
-/* What a part of the scenarios leaves open, in one line. */
-static void write_omitted(const CzEvaluation *evaluation, bool colour, FILE *stream) {
+/* Checks of scenarios that were left out, in one line. */
+static void write_omitted(const CzEvaluation *evaluation, CzTerminal *terminal) {
     const int n = cz_checks_n_omitted(evaluation);
     if (n == 0)
         return;
-    fprintf(stream, "%d check%s of scenarios that were not run: ", n, n == 1 ? "" : "s");
-    cz_text_write(verdict_words[CZ_VERDICT_NOT_CHECKED], verdict_styles[CZ_VERDICT_NOT_CHECKED],
-                  colour, stream);
-    fputs(".\n", stream);
+    fprintf(terminal->stream, "%d check%s of scenarios that were not run: ", n, n == 1 ? "" : "s");
+    say_verdict(terminal, CZ_VERDICT_NOT_CHECKED);
+    fputs(".\n", terminal->stream);
 }
 
-/* Whom no limit judges, and what the profile requires and no check is made of. */
-static void write_not_covered(const CzEvaluation *evaluation, bool colour, FILE *stream) {
+/* Trains without limits, and requirements of the profile that are not checked. */
+static void write_not_covered(const CzEvaluation *evaluation, CzTerminal *terminal) {
     for (int i = 0; i < evaluation->n_not_judged; i++) {
-        fputs("Not judged: ", stream);
-        cz_text_write(evaluation->not_judged[i].train, CZ_STYLE_CAREFUL, colour, stream);
-        fprintf(stream, ", %s.\n", evaluation->not_judged[i].why);
+        fputs("Not judged: ", terminal->stream);
+        cz_terminal_say(terminal, CZ_STYLE_CAREFUL, "%s", evaluation->not_judged[i].train);
+        fprintf(terminal->stream, ", %s.\n", evaluation->not_judged[i].why);
     }
-    if (evaluation->n_not_covered == 0)
-        return;
-    fputs("Not covered by this program, to be shown by other means: ", stream);
-    for (int i = 0; i < evaluation->n_not_covered; i++) {
-        fputs(i > 0 ? "; " : "", stream);
-        cz_text_write(evaluation->not_covered[i], CZ_STYLE_PLAIN, colour, stream);
-    }
-    fputs(".\n", stream);
+    for (int i = 0; i < evaluation->n_not_covered; i++)
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s%s",
+                        i > 0 ? "; " : "Not covered by this program, to be shown by other means: ",
+                        evaluation->not_covered[i]);
+    if (evaluation->n_not_covered > 0)
+        fputs(".\n", terminal->stream);
 }
 
-bool cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before, bool colour,
-                           FILE *stream) {
+void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before,
+                           CzTerminal *terminal) {
     if (evaluation->n_check == 0) {
-        fputs("NO CHECKS. Add `checks:` to the problem file.\n", stream);
-        write_not_covered(evaluation, colour, stream);
-        return true;
+        fputs("NO CHECKS. Add `checks:` to the problem file.\n", terminal->stream);
+        write_not_covered(evaluation, terminal);
+        return;
     }
-    enum { n_column = sizeof text_columns / sizeof *text_columns };
     const bool several = cz_n_kept_run(evaluation) > 1;
     const bool with_before = before != NULL && before->n_check == evaluation->n_check;
     CzReportTable table;
-    begin(&table, n_column, text_columns, several, with_before);
+    begin(&table, false, several, with_before);
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
-        if (check->is_omitted || (several && !cz_checks_is_shown(evaluation, i)))
-            continue;
-        put_check(&table, n_column, text_columns, check, with_before ? &before->check[i] : NULL);
+        if (!check->is_omitted && (!several || cz_checks_is_shown(evaluation, i)))
+            put_check(&table, check, with_before ? &before->check[i] : NULL);
     }
-    const bool is_whole = cz_table_write_text(&table, colour, stream);
-    write_omitted(evaluation, colour, stream);
-    write_count(evaluation, colour, stream);
-    write_not_covered(evaluation, colour, stream);
-    return is_whole;
+    cz_table_write_text(&table, terminal);
+    write_omitted(evaluation, terminal);
+    write_count(evaluation, terminal);
+    write_not_covered(evaluation, terminal);
 }

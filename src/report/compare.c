@@ -1,4 +1,4 @@
-/* Runs side by side on a terminal: what differs in checks, interfaces and cars. */
+/* Comparison of runs: checks, interfaces and cars that differ; on a terminal. */
 #include "crushzone/report.h"
 
 #include "report/checks_table.h"
@@ -41,8 +41,8 @@ const CzCheckResult *cz_compared_check(const CzReportRun *run, const CzCheckResu
     return NULL;
 }
 
-/* By more than a thousandth of what is allowed, or of what it is exceeded by. A margin knows the
- * scale of its quantity, so that values next to zero do not differ by shares of nothing. */
+/* By more than a thousandth of the limit, or of the violation. A margin has the scale of its
+ * quantity, so that two values next to zero do not differ by a large share. */
 static bool differs_in_value(const CzCheckResult *check, const CzCheckResult *other) {
     const double share = 1e-3;
     if (check->limit != other->limit || isnan(check->margin) || isnan(other->margin))
@@ -104,15 +104,14 @@ bool cz_compared_is_beyond(const CzReportRun *run, int i) {
 const char *cz_compared_caution(int n, const CzReportRun *run) {
     for (int i = 0; i < n; i++)
         if (cz_compared_is_beyond(run, i))
-            return "Override: a run went beyond model validity (" CZ_FIGURE_MARK_MEANS ").";
+            return CZ_FIGURE_CAUTION;
     return "";
 }
 
 /* ---- tables ---- */
 
-static void begin(CzReportTable *table, int n, const CzReportRun *run, const char *first,
-                  const char *second) {
-    cz_table_begin(table, 2, (const char *const[]){first, second});
+static void begin(CzReportTable *table, int n, const CzReportRun *run, const char *heads) {
+    cz_table_begin(table, heads);
     for (int i = 0; i < n; i++) {
         char head[CZ_SENTENCE_ROOM];
         snprintf(head, sizeof head, ">%s", run[i].label);
@@ -123,7 +122,7 @@ static void begin(CzReportTable *table, int n, const CzReportRun *run, const cha
 void cz_compared_begin_checks(CzReportTable *table, int n, const CzReportRun *run, int *n_same) {
     const CzEvaluation *first = run[0].evaluation;
     *n_same = 0;
-    begin(table, n, run, "check", ">limit");
+    begin(table, n, run, "check;>limit");
     for (int k = 0; k < first->n_check; k++) {
         const CzCheckResult *check = &first->check[k];
         char text[CZ_LABEL_ROOM + 1 + CZ_NAME_ROOM], value[96];
@@ -131,21 +130,20 @@ void cz_compared_begin_checks(CzReportTable *table, int n, const CzReportRun *ru
             ++*n_same;
             continue;
         }
-        snprintf(text, sizeof text, "%s, %s", check->name,
-                 check->scenario != NULL ? check->scenario : "");
-        cz_table_put(table, text, CZ_STYLE_PLAIN);
+        cz_table_put_format(table, "%s, %s", check->name,
+                            check->scenario != NULL ? check->scenario : "");
         cz_checks_format_limit(check, sizeof value, value);
-        cz_table_put(table, value, CZ_STYLE_PLAIN);
+        cz_table_put(table, value);
         for (int i = 0; i < n; i++) {
             const CzCheckResult *other = cz_compared_check(&run[i], check);
             if (other == NULL) {
-                cz_table_put(table, "-", CZ_STYLE_PLAIN);
+                cz_table_put(table, "-");
                 continue;
             }
             cz_checks_format_value(other, sizeof value, value);
             snprintf(text, sizeof text, "%s %s", value, cz_checks_word(other));
-            cz_table_put(table, text,
-                         other->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+            cz_table_put_styled(table, text,
+                                other->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
         }
     }
 }
@@ -163,11 +161,11 @@ static void put_numbers(CzReportTable *table, int n, const CzReportRun *run, con
                         const char *name) {
     const double factor = result->format == CZ_FORMAT_PERCENT ? 100 : 1;
     char text[CZ_FIGURE_ROOM];
-    cz_table_put(table, name, CZ_STYLE_PLAIN);
-    cz_table_put(table, result->title, CZ_STYLE_PLAIN);
+    cz_table_put(table, name);
+    cz_table_put(table, result->title);
     for (int i = 0; i < n; i++) {
         cz_figure_plain(text, factor * cz_compared_value(run, i, result, name));
-        cz_table_put(table, cz_figure_mark(text, cz_compared_is_beyond(run, i)), CZ_STYLE_PLAIN);
+        cz_table_put(table, cz_figure_mark(text, cz_compared_is_beyond(run, i)));
     }
 }
 
@@ -175,7 +173,7 @@ void cz_compared_begin_numbers(CzReportTable *table, int n, const CzReportRun *r
                                bool of_interface, bool known) {
     const CzRunSummary *first = cz_compared_run(run, 0);
     const CzResult *result;
-    begin(table, n, run, of_interface ? "interface" : "car", "");
+    begin(table, n, run, of_interface ? "interface;" : "car;");
     for (int k = 0; (result = cz_compared_result(of_interface, k)) != NULL; k++)
         for (int i = 0; i < cz_compared_count(first, of_interface); i++) {
             const char *name = cz_compared_name(first, of_interface, i);
@@ -186,35 +184,23 @@ void cz_compared_begin_numbers(CzReportTable *table, int n, const CzReportRun *r
 
 /* ---- on the terminal ---- */
 
-static bool write_checks(int n, const CzReportRun *run, bool colour, FILE *stream) {
+CzStatus cz_report_write_comparison(int n, const CzReportRun *run, bool colour, FILE *stream) {
+    CzTerminal terminal = {stream, colour, false};
     CzReportTable table;
     int n_same;
-    cz_compared_begin_checks(&table, n, run, &n_same);
-    const bool is_whole = cz_table_write_text(&table, colour, stream);
-    fprintf(stream, "%d check%s the same.\n\n", n_same, n_same == 1 ? " is" : "s are");
-    return is_whole;
-}
-
-static bool write_numbers(int n, const CzReportRun *run, bool of_interface, bool colour,
-                          FILE *stream) {
-    CzReportTable table;
-    cz_compared_begin_numbers(&table, n, run, of_interface, false);
-    return cz_table_write_text(&table, colour, stream);
-}
-
-CzStatus cz_report_write_comparison(int n, const CzReportRun *run, bool colour, FILE *stream) {
-    bool is_whole = true;
     n = n < CZ_MOST_COMPARED ? n : CZ_MOST_COMPARED;
     if (n < 1 || cz_compared_run(run, 0) == NULL)
         return CZ_OK;
     fprintf(stream, "scenario %s\n\n", cz_compared_run(run, 0)->scenario);
-    is_whole &= write_checks(n, run, colour, stream);
-    is_whole &= write_numbers(n, run, true, colour, stream);
+    cz_compared_begin_checks(&table, n, run, &n_same);
+    cz_table_write_text(&table, &terminal);
+    fprintf(stream, "%d check%s the same.\n\n", n_same, n_same == 1 ? " is" : "s are");
+    cz_compared_begin_numbers(&table, n, run, true, false);
+    cz_table_write_text(&table, &terminal);
     fputc('\n', stream);
-    is_whole &= write_numbers(n, run, false, colour, stream);
-    if (cz_compared_caution(n, run)[0] != '\0') {
-        cz_text_write(cz_compared_caution(n, run), CZ_STYLE_BAD, colour, stream);
-        fputc('\n', stream);
-    }
-    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
+    cz_compared_begin_numbers(&table, n, run, false, false);
+    cz_table_write_text(&table, &terminal);
+    if (cz_compared_caution(n, run)[0] != '\0')
+        cz_terminal_say(&terminal, CZ_STYLE_BAD, "%s\n", cz_compared_caution(n, run));
+    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
 }

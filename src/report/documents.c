@@ -6,27 +6,25 @@
 #include "report/compare.h"
 #include "report/results.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 CzStatus cz_report_write_summary(const CzProblem *problem, const CzEvaluation *evaluation,
                                  const CzReportOptions *options, FILE *stream, CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
-    options = options != NULL ? options : &absent;
     CzResultContext context = {.format = "crushzone.summary",
                                .problem = problem,
                                .options = options,
                                .evaluation = evaluation,
-                               .wall_s = options->wall_s};
+                               .wall_s = options != NULL ? options->wall_s : NAN};
     return cz_results_write(CZ_RECORD_SUMMARY, &context, evaluation, stream, error);
 }
 
 CzStatus cz_report_write_outcome(const CzProblem *problem, const CzEvaluator *evaluator,
                                  const CzOutcome *outcome, const CzReportOptions *options,
                                  FILE *stream, CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
     CzResultContext context = {.format = "crushzone.outcome",
                                .problem = problem,
-                               .options = options != NULL ? options : &absent,
+                               .options = options,
                                .evaluation = &outcome->best_evaluation,
                                .evaluator = evaluator,
                                .outcome = outcome,
@@ -38,22 +36,20 @@ CzStatus cz_report_write_outcome(const CzProblem *problem, const CzEvaluator *ev
 CzStatus cz_report_write_verification(const CzProblem *problem, const CzVerification *verification,
                                       const CzReportOptions *options, FILE *stream,
                                       CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
     CzResultContext context = {.format = "crushzone.verification",
                                .problem = problem,
-                               .options = options != NULL ? options : &absent,
+                               .options = options,
                                .verification = verification};
-    for (int way = 0; way < CZ_N_VERIFY_METHOD; way++)
-        context.wall_s += verification->wall_s[way];
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
+        context.wall_s += verification->wall_s[method];
     return cz_results_write(CZ_RECORD_VERIFICATION, &context, verification, stream, error);
 }
 
 CzStatus cz_report_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FILE *stream,
                                CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
     CzResultContext context = {.format = "crushzone.sweep",
                                .problem = sweep->problem,
-                               .options = options != NULL ? options : &absent,
+                               .options = options,
                                .sweep = sweep,
                                .wall_s = sweep->wall_s};
     return cz_results_write(CZ_RECORD_SWEEP, &context, sweep, stream, error);
@@ -61,12 +57,11 @@ CzStatus cz_report_write_sweep(const CzSweep *sweep, const CzReportOptions *opti
 
 CzStatus cz_report_write_explanation(const CzProblem *problem, const CzExplanation *explanation,
                                      const CzReportOptions *options, FILE *stream, CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
     const CzRunSummary *run = cz_run_summary(explanation->run);
     int order[CZ_N_BUDGET];
     CzResultContext context = {.format = "crushzone.explanation",
                                .problem = problem,
-                               .options = options != NULL ? options : &absent,
+                               .options = options,
                                .explanation = explanation,
                                .run = run,
                                .order = order,

@@ -94,10 +94,8 @@ static void write_parts(CzMarkup *markup, const Side *side) {
         const double tip = side->plane - end->coupler.gap, pivot = tip - end->coupler.length;
         const double y = height(side->rise + end->coupler.height);
         write_bar(markup, place(side, pivot), place(side, tip), y, 9, cz_plot_colour(0), "coupler");
-        cz_markup_open(markup, "circle");
-        cz_markup_numbers(markup, 1, "cx cy", (const double[]){place(side, pivot), y});
-        cz_markup_attributes(markup, "r", "5", "stroke", "currentColor", "stroke-width", "2", NULL);
-        cz_markup_close(markup);
+        cz_markup_shape(markup, "circle", "cx cy", (const double[]){place(side, pivot), y}, "r",
+                        "5", "stroke", "currentColor", "stroke-width", "2", NULL);
     }
 }
 

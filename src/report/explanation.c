@@ -1,4 +1,4 @@
-/* Why it climbed, on a terminal. */
+/* The cause of an override, on a terminal. */
 #include "crushzone/report.h"
 
 #include "report/checks_table.h"
@@ -22,111 +22,100 @@ static const char *unit_of(const char *key) {
     return "";
 }
 
-static void write_head(const CzExplanation *explanation, bool colour, FILE *stream) {
+static void write_head(const CzExplanation *explanation, CzTerminal *terminal) {
     const CzCheckResult *worst = &explanation->worst;
-    char time[CZ_FIGURE_ROOM], margin[CZ_FIGURE_ROOM], value[64], limit[64];
-    const bool broken = worst->margin < 0;
-    cz_text_write(explanation->scenario, CZ_STYLE_PLAIN, colour, stream);
-    fputs(": ", stream);
+    char number[CZ_FIGURE_ROOM], value[64], limit[64];
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s: ", explanation->scenario);
     if (explanation->climbed) {
-        cz_text_write("OVERRIDE", CZ_STYLE_BAD, colour, stream);
-        fprintf(stream, " at %s ms; later results are beyond the model.\n",
-                cz_figure_fixed(time, 0, explanation->climb_time * CZ_MILLI_PER_UNIT));
-    } else if (broken) {
-        cz_text_write("close to override: a limit is violated", CZ_STYLE_BAD, colour, stream);
-        fputs(".\n", stream);
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "OVERRIDE");
+        cz_figure_fixed(number, 0, explanation->climb_time * CZ_MILLI_PER_UNIT);
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, " at %s ms; later results are beyond the model",
+                        number);
+    } else if (worst->margin < 0) {
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "close to override: a limit is violated");
     } else if (explanation->verdict == CZ_VERDICT_NOT_CHECKED) {
-        cz_text_write("NOT CHECKED in full", CZ_STYLE_CAREFUL, colour, stream);
-        fprintf(stream, ": %s.\n", worst->why != NULL ? worst->why : "a margin is unknown");
+        cz_terminal_say(terminal, CZ_STYLE_CAREFUL, "NOT CHECKED in full");
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s",
+                        worst->why != NULL ? worst->why : "a margin is unknown");
     } else {
-        cz_text_write("no override", CZ_STYLE_GOOD, colour, stream);
-        fputs(".\n", stream);
+        cz_terminal_say(terminal, CZ_STYLE_GOOD, "no override");
     }
     cz_checks_format_value(worst, sizeof value, value);
     cz_checks_format_limit(worst, sizeof limit, limit);
-    fputs("Smallest margin: ", stream);
-    cz_text_write(worst->name, CZ_STYLE_PLAIN, colour, stream);
-    fprintf(stream, "%s%s, %s against %s, %s\n", worst->where[0] != '\0' ? " at " : "",
-            worst->where, value, limit, cz_figure_margin(margin, worst->margin));
+    fputs(".\n", terminal->stream);
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "Smallest margin: %s%s%s, %s against %s, %s\n",
+                    worst->name, worst->where[0] != '\0' ? " at " : "", worst->where, value, limit,
+                    cz_figure_margin(number, worst->margin));
 }
 
-static bool write_indicators(const CzExplanation *explanation, bool colour, FILE *stream) {
-    static const char *const heads[] = {"indicators", ">ms", ""};
+static void write_indicators(const CzExplanation *explanation, CzTerminal *terminal) {
     if (explanation->n_indicator == 0)
-        return true;
+        return;
     CzReportTable table;
-    cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
+    cz_table_begin(&table, "indicators;>ms;");
     for (int i = 0; i < explanation->n_indicator; i++) {
         const CzIndicator *indicator = &explanation->indicator[i];
         char time[CZ_FIGURE_ROOM];
-        cz_table_put(&table, cz_cause_text(indicator->cause), CZ_STYLE_PLAIN);
-        cz_table_put(&table,
-                     isnan(indicator->time)
-                         ? ""
-                         : cz_figure_fixed(time, 0, indicator->time * CZ_MILLI_PER_UNIT),
-                     CZ_STYLE_PLAIN);
-        cz_table_put(&table, indicator->what, CZ_STYLE_PLAIN);
+        cz_figure_fixed(time, 0, indicator->time * CZ_MILLI_PER_UNIT);
+        cz_table_put(&table, cz_cause_text(indicator->cause));
+        cz_table_put(&table, isnan(indicator->time) ? "" : time);
+        cz_table_put(&table, indicator->what);
     }
-    fputc('\n', stream);
-    return cz_table_write_text(&table, colour, stream);
+    fputc('\n', terminal->stream);
+    cz_table_write_text(&table, terminal);
 }
 
-/* What turned the body of the car that is worst off. */
-static bool write_budget(const CzExplanation *explanation, bool colour, FILE *stream) {
-    static const char *const heads[] = {"source", ">moment kNms", ">lift kNs", ""};
+/* Impulses that turned the body of the car with the smallest margin. */
+static void write_budget(const CzExplanation *explanation, CzTerminal *terminal) {
     const CzRunSummary *run = cz_run_summary(explanation->run);
     if (run->budget == NULL)
-        return true;
+        return;
     const CzVehicleBudget *budget = &run->budget[explanation->vehicle];
     int order[CZ_N_BUDGET];
     const int n = cz_budget_order(budget, order);
     char text[CZ_FIGURE_ROOM];
     if (n == 0)
-        return true;
-    fprintf(stream, "\nPitch impulses on the body of %s until its largest %s at %s ms, nose-up:\n",
+        return;
+    fprintf(terminal->stream,
+            "\nPitch impulses on the body of %s until its largest %s at %s ms, nose-up:\n",
             run->vehicle[explanation->vehicle].name, budget->of_lift ? "wheel lift" : "pitch",
             cz_figure_fixed(text, 0, budget->time * CZ_MILLI_PER_UNIT));
     CzReportTable table;
-    cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
+    cz_table_begin(&table, "source;>moment kNms;>lift kNs;");
     for (int k = 0; k < n; k++) {
         const CzBudgetSource source = (CzBudgetSource)order[k];
-        cz_table_put(&table, cz_budget_text(source), CZ_STYLE_PLAIN);
-        cz_table_put(&table, cz_figure_fixed(text, 1, budget->moment[source] / CZ_KILO),
-                     CZ_STYLE_PLAIN);
-        cz_table_put(&table, cz_figure_fixed(text, 1, budget->lift[source] / CZ_KILO),
-                     CZ_STYLE_PLAIN);
-        cz_table_put(&table, cz_budget_counts(source) ? "" : "through the end", CZ_STYLE_PLAIN);
+        cz_table_put(&table, cz_budget_text(source));
+        cz_table_put(&table, cz_figure_fixed(text, 1, budget->moment[source] / CZ_KILO));
+        cz_table_put(&table, cz_figure_fixed(text, 1, budget->lift[source] / CZ_KILO));
+        cz_table_put(&table, cz_budget_counts(source) ? "" : "through the end");
     }
-    return cz_table_write_text(&table, colour, stream);
+    cz_table_write_text(&table, terminal);
 }
 
 static void put_candidate(CzReportTable *table, const CzCandidateChange *candidate) {
     char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 16];
     const char *unit = unit_of(candidate->key);
-    cz_table_put(table, cz_cause_text(candidate->cause), CZ_STYLE_PLAIN);
-    cz_table_put(table, candidate->name, CZ_STYLE_PLAIN);
-    snprintf(text, sizeof text, "%s %s", cz_figure_digits(number, 4, candidate->value), unit);
-    cz_table_put(table, text, CZ_STYLE_PLAIN);
+    cz_table_put(table, cz_cause_text(candidate->cause));
+    cz_table_put(table, candidate->name);
+    cz_table_put_format(table, "%s %s", cz_figure_digits(number, 4, candidate->value), unit);
     snprintf(text, sizeof text, "%s %s", cz_figure_digits(number, 4, candidate->needed), unit);
-    cz_table_put(table, isnan(candidate->needed) ? "-" : text,
-                 candidate->turns ? CZ_STYLE_GOOD : CZ_STYLE_PLAIN);
-    cz_table_put(table, cz_figure_margin(number, candidate->change), CZ_STYLE_PLAIN);
-    cz_table_put(table, cz_figure_margin(number, candidate->margin), CZ_STYLE_PLAIN);
+    cz_table_put_styled(table, isnan(candidate->needed) ? "-" : text,
+                        candidate->turns ? CZ_STYLE_GOOD : CZ_STYLE_PLAIN);
+    cz_table_put(table, cz_figure_margin(number, candidate->change));
+    cz_table_put(table, cz_figure_margin(number, candidate->margin));
 }
 
 /* Those that turn the verdict, or those that do not. */
-static bool write_candidates(const CzExplanation *explanation, bool turning, bool colour,
-                             FILE *stream) {
+static void write_candidates(const CzExplanation *explanation, bool turning, CzTerminal *terminal) {
     const bool broken = explanation->worst.margin < 0;
     static const char *const titles[2][2] = {
         {"No single change of these values violates the limit; the worst of those tried:",
          "Smallest single change that violates the limit:"},
         {"No single change of these values satisfies the limit; the best of those tried:",
          "Smallest single change that satisfies the limit:"}};
-    static const char *const heads[] = {"cause", "value", ">now", ">then", ">change", ">margin"};
     CzReportTable table;
     int n = 0;
-    cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
+    cz_table_begin(&table, "cause;value;>now;>then;>change;>margin");
     for (int i = 0; i < explanation->n_candidate && n < MOST_SHOWN; i++)
         if (explanation->candidate[i].turns == turning &&
             !isnan(explanation->candidate[i].needed)) {
@@ -135,23 +124,23 @@ static bool write_candidates(const CzExplanation *explanation, bool turning, boo
         }
     if (n == 0) {
         cz_table_free(&table);
-        return true;
+        return;
     }
-    fprintf(stream, "\n%s\n", titles[broken][turning]);
-    return cz_table_write_text(&table, colour, stream);
+    fprintf(terminal->stream, "\n%s\n", titles[broken][turning]);
+    cz_table_write_text(&table, terminal);
 }
 
 CzStatus cz_report_write_explanation_table(const CzExplanation *explanation, bool colour,
                                            FILE *stream) {
-    bool is_whole = true;
-    write_head(explanation, colour, stream);
-    is_whole &= write_indicators(explanation, colour, stream);
-    is_whole &= write_budget(explanation, colour, stream);
-    is_whole &= write_candidates(explanation, true, colour, stream);
-    is_whole &= write_candidates(explanation, false, colour, stream);
+    CzTerminal terminal = {stream, colour, false};
+    write_head(explanation, &terminal);
+    write_indicators(explanation, &terminal);
+    write_budget(explanation, &terminal);
+    write_candidates(explanation, true, &terminal);
+    write_candidates(explanation, false, &terminal);
     if (explanation->has_cause)
         fprintf(stream, "\n%s: %s: %s.\n",
                 explanation->worst.margin < 0 ? "First cause" : "First to fail",
                 cz_cause_text(explanation->cause), cz_cause_doc(explanation->cause));
-    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
+    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
 }

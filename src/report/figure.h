@@ -40,5 +40,6 @@ const char *cz_figure_change(char text[CZ_FIGURE_ROOM], double change);
 const char *cz_figure_mark(char text[CZ_FIGURE_ROOM], bool beyond_validity);
 /* What the mark means; printed below what shows it. */
 #define CZ_FIGURE_MARK_MEANS "*: may be of later; totals are blank"
+#define CZ_FIGURE_CAUTION "Override: a run went beyond model validity (" CZ_FIGURE_MARK_MEANS ")."
 
 #endif

@@ -177,12 +177,10 @@ static void add_default(Default *list, int *n, const char *path, const char *val
 }
 
 static void put_default(CzReportTable *table, const Default *found) {
-    char text[32];
-    snprintf(text, sizeof text, "%d", found->n);
-    cz_table_put(table, found->path, CZ_STYLE_PLAIN);
-    cz_table_put(table, found->value, CZ_STYLE_PLAIN);
-    cz_table_put(table, text, CZ_STYLE_PLAIN);
-    cz_table_put(table, found->is_ours ? "ours, without a published source" : "", CZ_STYLE_PLAIN);
+    cz_table_put(table, found->path);
+    cz_table_put(table, found->value);
+    cz_table_put_format(table, "%d", found->n);
+    cz_table_put(table, found->is_ours ? "ours, without a published source" : "");
 }
 
 void cz_inputs_text_write_defaults(const CzInputsText *inputs, CzMarkup *markup) {
@@ -202,7 +200,7 @@ void cz_inputs_text_write_defaults(const CzInputsText *inputs, CzMarkup *markup)
     cz_markup_element(markup, "summary",
                       n == 0 ? "none" : "every value that no file states, with its default");
     CzReportTable table;
-    cz_table_begin(&table, 4, (const char *const[]){"key", ">value", ">places", ""});
+    cz_table_begin(&table, "key;>value;>places;");
     for (int i = 0; i < n; i++)
         put_default(&table, &list[i]);
     cz_table_write_page(&table, markup);

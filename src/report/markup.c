@@ -98,12 +98,27 @@ void cz_markup_numbers(CzMarkup *markup, int decimals, const char *names, const 
     }
 }
 
+static void write_pairs(CzMarkup *markup, va_list arguments) {
+    for (const char *name; (name = va_arg(arguments, const char *)) != NULL;)
+        cz_markup_attribute(markup, name, va_arg(arguments, const char *));
+}
+
 void cz_markup_attributes(CzMarkup *markup, ...) {
     va_list arguments;
     va_start(arguments, markup);
-    for (const char *name; (name = va_arg(arguments, const char *)) != NULL;)
-        cz_markup_attribute(markup, name, va_arg(arguments, const char *));
+    write_pairs(markup, arguments);
     va_end(arguments);
+}
+
+void cz_markup_shape(CzMarkup *markup, const char *element, const char *names, const double *value,
+                     ...) {
+    va_list arguments;
+    cz_markup_open(markup, element);
+    cz_markup_numbers(markup, 1, names, value);
+    va_start(arguments, value);
+    write_pairs(markup, arguments);
+    va_end(arguments);
+    cz_markup_close(markup);
 }
 
 void cz_markup_format(CzMarkup *markup, const char *name, const char *format, ...) {
@@ -139,6 +154,16 @@ void cz_markup_element(CzMarkup *markup, const char *element, const char *text) 
     cz_markup_open(markup, element);
     cz_markup_text(markup, text);
     cz_markup_close(markup);
+}
+
+void cz_markup_say(CzMarkup *markup, const char *element, const char *format, ...) {
+    enum { ROOM = 4 * CZ_SENTENCE_ROOM };
+    char text[ROOM];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    cz_markup_element(markup, element, text);
 }
 
 void cz_markup_classed(CzMarkup *markup, const char *element, const char *class_name,

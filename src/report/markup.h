@@ -51,13 +51,20 @@ void cz_markup_line(CzMarkup *markup);
 /* Bytes as they are: a script, a style sheet. */
 void cz_markup_raw(CzMarkup *markup, const char *text);
 
-/* An element with nothing but text, and one of a class. */
+/* An element with nothing but text, also as printf makes it, and one of a class. */
 void cz_markup_element(CzMarkup *markup, const char *element, const char *text);
+void cz_markup_say(CzMarkup *markup, const char *element, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 void cz_markup_classed(CzMarkup *markup, const char *element, const char *class_name,
                        const char *text);
 
 /* A number as an attribute would have it: at most `decimals` places, "0" and never "-0". */
 void cz_markup_write_number(FILE *stream, int decimals, double value);
+
+/* An element of a figure without content: numbers as cz_markup_numbers, then pairs of name and
+ * value up to a NULL. */
+void cz_markup_shape(CzMarkup *markup, const char *element, const char *names, const double *value,
+                     ...) __attribute__((sentinel));
 
 /* How wide a text is in a sans-serif font [font size]; an estimate that is rather too large. */
 double cz_text_width(const char *text);

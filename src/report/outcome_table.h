@@ -9,11 +9,13 @@
 void cz_outcome_begin_variables(CzReportTable *table, const CzEvaluator *evaluator,
                                 const CzOutcome *outcome, bool on_page);
 
-/* Constraints: begins the table, `left` being the head of its last column; then a row for one, with
- * what is left of it. */
-void cz_outcome_begin_constraints(CzReportTable *table, const char *name, const char *left);
+/* A row of a table of constraints, whose heads follow that of their names. */
+#define CZ_CONSTRAINT_HEADS "where;scenario;>limit;>value;>margin"
 void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluator,
-                               const CzEvaluation *best, int i, double left);
+                               const CzEvaluation *best, int i, double margin);
+
+/* How a search ended, in capital letters; of a fit, about its tolerances. */
+const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome);
 
 /* What each method of a verification changes most. */
 void cz_verified_begin_methods(CzReportTable *table, const CzVerification *verification,

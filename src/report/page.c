@@ -97,10 +97,6 @@ void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading)
     cz_markup_line(markup);
 }
 
-void cz_page_close_section(CzMarkup *markup) {
-    cz_markup_end(markup);
-}
-
 void cz_page_write_parts(CzPage *page) {
     cz_page_write_trains(page);
     cz_page_write_figures(page);

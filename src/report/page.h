@@ -104,9 +104,8 @@ void cz_page_write_head(CzMarkup *markup, const char *title);
 void cz_page_write_foot(CzMarkup *markup);
 /* Links to the sections of a page about a run; of a search to what is before it, too. */
 void cz_page_write_contents(CzPage *page, bool of_search);
-/* Opens a section with its heading; closes it. */
+/* Opens a section with its heading. */
 void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading);
-void cz_page_close_section(CzMarkup *markup);
 /* ---- parts, in the order of the page ---- */
 
 /* page_checks.c, page_trains.c, page_figures.c, page_scene.c, page_inputs.c, page_data.c */

@@ -17,26 +17,23 @@ static void put_row(CzReportTable *table, const char *name, double moment, doubl
                     const char *remark) {
     static const CzBar bar = {"budget", NULL, 90, 92, "#d55e00", "#0072b2"};
     char text[CZ_FIGURE_ROOM];
-    cz_table_put(table, name, CZ_STYLE_PLAIN);
-    cz_table_put(table, in_kilo(text, moment), CZ_STYLE_PLAIN);
+    cz_table_put(table, name);
+    cz_table_put(table, in_kilo(text, moment));
     cz_table_put_bar(table, &bar, most > 0 ? moment / most : 0); /* of the longest */
-    cz_table_put(table, in_kilo(text, lift), CZ_STYLE_PLAIN);
-    cz_table_put(table, remark, CZ_STYLE_SMALL);
+    cz_table_put(table, in_kilo(text, lift));
+    cz_table_put_styled(table, remark, CZ_STYLE_SMALL);
 }
 
 static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *budget) {
-    static const char *const heads[] = {"source", ">moment kNms", "nose-down | nose-up",
-                                        ">lift kNs", ""};
     int order[CZ_N_BUDGET];
-    char text[CZ_SENTENCE_ROOM], time[CZ_FIGURE_ROOM];
+    char time[CZ_FIGURE_ROOM];
     const int n = cz_budget_order(budget, order);
     const double most = n > 0 ? fabs(budget->moment[order[0]]) : 0;
-    snprintf(text, sizeof text, "%s, until its largest %s at %s ms", car,
-             budget->of_lift ? "wheel lift" : "pitch",
-             cz_figure_fixed(time, 0, budget->time * CZ_MILLI_PER_UNIT));
-    cz_markup_element(markup, "h3", text);
+    cz_markup_say(markup, "h3", "%s, until its largest %s at %s ms", car,
+                  budget->of_lift ? "wheel lift" : "pitch",
+                  cz_figure_fixed(time, 0, budget->time * CZ_MILLI_PER_UNIT));
     CzReportTable table;
-    cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
+    cz_table_begin(&table, "source;>moment kNms;nose-down | nose-up;>lift kNs;");
     for (int i = 0; i < n; i++) {
         const CzBudgetSource source = (CzBudgetSource)order[i];
         put_row(&table, cz_budget_text(source), budget->moment[source], budget->lift[source], most,
@@ -86,5 +83,5 @@ void cz_page_write_budget(CzPage *page) {
         if (i != worst && run->budget[i].time > 0)
             write_car(markup, run->vehicle[i].name, &run->budget[i]);
     cz_markup_close(markup);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
 }

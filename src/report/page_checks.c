@@ -18,11 +18,9 @@ static const char *const verdict_title[] = {[CZ_VERDICT_PASS] = "PASS",
 
 /* Whom no limit judges, and what the profile requires and no check is made of. */
 static void write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation) {
-    char text[512];
     for (int i = 0; i < evaluation->n_not_judged; i++) {
-        snprintf(text, sizeof text, "Not judged: %s, %s.", evaluation->not_judged[i].train,
-                 evaluation->not_judged[i].why);
-        cz_markup_element(markup, "p", text);
+        cz_markup_say(markup, "p", "Not judged: %s, %s.", evaluation->not_judged[i].train,
+                      evaluation->not_judged[i].why);
         cz_markup_line(markup);
     }
     if (evaluation->n_not_covered == 0)
@@ -53,12 +51,11 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
     write_not_covered(markup, evaluation);
     if (n_more == 0)
         return;
-    char text[128];
-    snprintf(text, sizeof text,
-             "%d more checks, each %swith a better margin than the one of its name above", n_more,
-             cz_checks_n_omitted(evaluation) > 0 ? "of a scenario that was not run, or " : "");
     cz_markup_open(markup, "details");
-    cz_markup_element(markup, "summary", text);
+    cz_markup_say(markup, "summary",
+                  "%d more checks, each %swith a better margin than the one of its name above",
+                  n_more,
+                  cz_checks_n_omitted(evaluation) > 0 ? "of a scenario that was not run, or " : "");
     cz_checks_write_rows(markup, evaluation, before, true);
     cz_markup_end(markup);
 }
@@ -124,10 +121,8 @@ static void write_scenarios(CzPage *page, bool is_top) {
     cz_markup_end(markup);
     if (!is_top || n_other <= MOST_LINKS)
         return;
-    char text[64];
-    snprintf(text, sizeof text, "Reports of the other %d", n_other);
     cz_markup_open(markup, "details");
-    cz_markup_element(markup, "summary", text);
+    cz_markup_say(markup, "summary", "Reports of the other %d", n_other);
     write_others(page);
     cz_markup_end(markup);
 }
@@ -154,21 +149,19 @@ static void write_caution(CzPage *page) {
                  cz_figure_fixed(number, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
         cz_markup_classed(markup, "p", "fail", text);
     }
-    snprintf(text, sizeof text,
-             "%s s simulated, %s, time step %s ms. Energy is balanced to %s of the initial "
-             "energy%s.",
-             cz_figure_digits(number, 4, run->simulated), cz_ended_text(run->ended),
-             cz_figure_digits((char[CZ_FIGURE_ROOM]){0}, 4, run->time_step * CZ_MILLI_PER_UNIT),
-             cz_figure_percent(balance, run->energy.balance_error),
-             cz_run_is_unbalanced(run) ? ", WHICH IS POOR: reduce the time step" : "");
-    cz_markup_element(markup, "p", text);
-    if (cz_run_misses_laws(run)) {
-        snprintf(text, sizeof text,
-                 "The largest force error of a series chain is %s of the largest force of "
-                 "the interface, WHICH IS POOR: reduce the time step.",
-                 cz_figure_percent(balance, run->law_error));
-        cz_markup_element(markup, "p", text);
-    }
+    cz_markup_say(
+        markup, "p",
+        "%s s simulated, %s, time step %s ms. Energy is balanced to %s of the initial "
+        "energy%s.",
+        cz_figure_digits(number, 4, run->simulated), cz_ended_text(run->ended),
+        cz_figure_digits((char[CZ_FIGURE_ROOM]){0}, 4, run->time_step * CZ_MILLI_PER_UNIT),
+        cz_figure_percent(balance, run->energy.balance_error),
+        cz_run_is_unbalanced(run) ? ", WHICH IS POOR: reduce the time step" : "");
+    if (cz_run_misses_laws(run))
+        cz_markup_say(markup, "p",
+                      "The largest force error of a series chain is %s of the largest force of "
+                      "the interface, WHICH IS POOR: reduce the time step.",
+                      cz_figure_percent(balance, run->law_error));
     cz_markup_line(markup);
 }
 
@@ -216,5 +209,5 @@ void cz_page_write_verdict(CzPage *page, bool is_top) {
     write_scenarios(page, is_top);
     write_caution(page);
     cz_page_write_checks(markup, evaluation, NULL);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
 }

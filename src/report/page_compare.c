@@ -13,11 +13,9 @@ static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
     cz_page_open_section(markup, "checks", "Checks that differ");
     cz_compared_begin_checks(&table, n, run, &n_same);
     cz_table_write_page(&table, markup);
-    char text[64];
-    snprintf(text, sizeof text, "%d checks are the same.", n_same);
     if (n_same > 0)
-        cz_markup_element(markup, "p", text);
-    cz_page_close_section(markup);
+        cz_markup_say(markup, "p", "%d checks are the same.", n_same);
+    cz_markup_end(markup);
 }
 
 static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool of_interface) {
@@ -59,10 +57,7 @@ static void write_overlay(CzMarkup *markup, int n, const CzReportRun *run, const
                          .n_band = n_band,
                          .band = band,
                          .from_zero = true};
-    cz_markup_open(markup, "figure");
-    cz_markup_element(markup, "figcaption", title);
-    cz_plot_write(&plot, markup);
-    cz_markup_end(markup);
+    cz_plot_write_figure(&plot, markup);
 }
 
 static void write_loops(CzPage *page) {
@@ -72,7 +67,7 @@ static void write_loops(CzPage *page) {
     for (int i = 0; i < cz_chart_count(page, CZ_CHART_FORCE_CLOSURE); i++)
         cz_page_write_figure(page, CZ_CHART_FORCE_CLOSURE, i);
     cz_markup_close(markup);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
 }
 
 static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
@@ -89,7 +84,7 @@ static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
     for (size_t i = 0; i < sizeof overlays / sizeof *overlays; i++)
         write_overlay(&page->markup, n, run, overlays[i].title, overlays[i].channel, colliding);
     cz_markup_close(&page->markup);
-    cz_page_close_section(&page->markup);
+    cz_markup_end(&page->markup);
 }
 
 static void write_page(CzPage *page, int n, const CzReportRun *run) {
@@ -98,8 +93,7 @@ static void write_page(CzPage *page, int n, const CzReportRun *run) {
     snprintf(title, sizeof title, "%s, compared", cz_problem_title(page->problem));
     cz_page_write_head(markup, title);
     cz_markup_element(markup, "h1", title);
-    snprintf(title, sizeof title, "Figures are those of scenario %s.", page->summary->scenario);
-    cz_markup_element(markup, "p", title);
+    cz_markup_say(markup, "p", "Figures are those of scenario %s.", page->summary->scenario);
     if (cz_compared_caution(n, run)[0] != '\0')
         cz_markup_classed(markup, "p", "fail", cz_compared_caution(n, run));
     write_checks(markup, n, run);
@@ -108,7 +102,7 @@ static void write_page(CzPage *page, int n, const CzReportRun *run) {
     write_numbers(markup, n, run, true);
     write_numbers(markup, n, run, false);
     cz_markup_close(markup);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
     write_loops(page);
     write_overlays(page, n, run);
     cz_page_write_foot(markup);

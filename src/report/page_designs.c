@@ -191,7 +191,7 @@ CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
     write_figure(markup, &axes, start, best);
     cz_markup_close(markup);
     write_names(markup, evaluator, outcome->n_variable);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
     free(objective);
     return CZ_OK;
 }
@@ -200,11 +200,9 @@ CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
 
 static void put_change(CzReportTable *table, double change) {
     char text[CZ_FIGURE_ROOM];
-    cz_table_put(table,
-                 !isfinite(change)     ? "-"
-                 : fabs(change) < 5e-5 ? "0"
-                                       : cz_figure_margin(text, change),
-                 CZ_STYLE_PLAIN);
+    cz_table_put(table, !isfinite(change)     ? "-"
+                        : fabs(change) < 5e-5 ? "0"
+                                              : cz_figure_margin(text, change));
 }
 
 static void put_sensitivity(CzReportTable *table, const CzEvaluator *evaluator,
@@ -213,18 +211,17 @@ static void put_sensitivity(CzReportTable *table, const CzEvaluator *evaluator,
     const CzVariableInfo *info = cz_evaluator_variable(evaluator, variable);
     const int n_constraint = outcome->best_evaluation.n_constraint;
     char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 40];
-    cz_table_put(table, info->name, CZ_STYLE_PLAIN);
+    cz_table_put(table, info->name);
     snprintf(text, sizeof text, "%s%s %.30s",
              outcome->sensitivity_increment[variable] > 0 ? "+" : "",
              cz_figure_digits(number, 4, outcome->sensitivity_increment[variable]),
              info->unit != NULL ? info->unit : "");
-    cz_table_put(table, text, CZ_STYLE_PLAIN);
+    cz_table_put(table, text);
     const double change = outcome->objective_change[variable];
     if (cz_evaluator_maximises_margin(evaluator))
         put_change(table, -change);
     else
-        cz_table_put(table, isfinite(change) ? cz_figure_digits(text, 3, change) : "-",
-                     CZ_STYLE_PLAIN);
+        cz_table_put(table, isfinite(change) ? cz_figure_digits(text, 3, change) : "-");
     for (int i = 0; i < n_column; i++)
         put_change(table, -outcome->constraint_change[variable * n_constraint + column[i]]);
 }
@@ -254,7 +251,7 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
         "at its upper bound; all others keep the values of the best design. Margins are "
         "those of the most critical constraints, computed as in the search.");
     CzReportTable table;
-    cz_table_begin(&table, 2, (const char *const[]){"variable", ">increment"});
+    cz_table_begin(&table, "variable;>increment");
     table.class_name = "sensitivities";
     add_head(&table, cz_evaluator_maximises_margin(evaluator)
                          ? "smallest margin"
@@ -265,5 +262,5 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
         if (outcome->sensitivity_increment[i] != 0)
             put_sensitivity(&table, evaluator, outcome, i, n_column, column);
     cz_table_write_page(&table, markup);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
 }

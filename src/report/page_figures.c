@@ -57,7 +57,7 @@ static void write_section(CzPage *page, const char *id, const char *heading, con
             write_other_shares(page);
     }
     close_figures(page);
-    cz_page_close_section(&page->markup);
+    cz_markup_end(&page->markup);
 }
 
 static void write_motion(CzPage *page) {
@@ -84,7 +84,7 @@ static void write_motion(CzPage *page) {
         close_figures(page);
         cz_markup_close(&page->markup);
     }
-    cz_page_close_section(&page->markup);
+    cz_markup_end(&page->markup);
 }
 
 void cz_page_write_figures(CzPage *page) {

@@ -32,25 +32,22 @@ void cz_page_event_words(CzEventKind kind, char words[48]) {
 }
 
 void cz_page_write_events(CzPage *page) {
-    static const char *const heads[] = {">time ms", "what", "where", "interface"};
     const CzRunSummary *run = page->summary;
     CzReportTable table;
     cz_page_open_section(&page->markup, "events", "Events");
-    cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
+    cz_table_begin(&table, ">time ms;what;where;interface");
     for (int i = 0; i < run->n_event; i++) {
         const CzEvent *event = &run->event[i];
         const bool has_interface = event->interface >= 0 && event->interface < run->n_interface;
         char time[CZ_FIGURE_ROOM], what[48];
         cz_page_event_words(event->what, what);
-        cz_table_put(&table, cz_figure_fixed(time, 1, event->time * CZ_MILLI_PER_UNIT),
-                     CZ_STYLE_PLAIN);
-        cz_table_put(&table, what, is_bad(event->what) ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
-        cz_table_put(&table, event->where, CZ_STYLE_PLAIN);
-        cz_table_put(&table, has_interface ? run->interface[event->interface].name : "",
-                     CZ_STYLE_PLAIN);
+        cz_table_put(&table, cz_figure_fixed(time, 1, event->time * CZ_MILLI_PER_UNIT));
+        cz_table_put_styled(&table, what, is_bad(event->what) ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+        cz_table_put(&table, event->where);
+        cz_table_put(&table, has_interface ? run->interface[event->interface].name : "");
     }
     cz_table_write_page(&table, &page->markup);
-    cz_page_close_section(&page->markup);
+    cz_markup_end(&page->markup);
 }
 
 /* ---- how to get it again ---- */
@@ -95,15 +92,14 @@ static void write_command(CzPage *page) {
 }
 
 static void write_versions(CzPage *page) {
-    char nlopt[32] = "", sundials[32] = "", text[512];
+    char nlopt[32] = "", sundials[32] = "";
     cz_nlopt_version(nlopt, sizeof nlopt);
     cz_sundials_version(sundials, sizeof sundials);
-    snprintf(text, sizeof text,
-             "crushzone %s, NLopt %s, SUNDIALS %s; problem file %.200s, content hash %s",
-             cz_version(), nlopt, sundials,
-             cz_problem_told_name(page->problem, cz_problem_file(page->problem)),
-             cz_problem_hash(page->problem));
-    cz_markup_element(&page->markup, "p", text);
+    cz_markup_say(&page->markup, "p",
+                  "crushzone %s, NLopt %s, SUNDIALS %s; problem file %.200s, content hash %s",
+                  cz_version(), nlopt, sundials,
+                  cz_problem_told_name(page->problem, cz_problem_file(page->problem)),
+                  cz_problem_hash(page->problem));
 }
 
 static void write_assumptions(CzPage *page) {
@@ -120,17 +116,12 @@ static void write_assumptions(CzPage *page) {
     cz_markup_element(markup, "h3", "Assumptions");
     const CzWord *track =
         &cz_word_sets[CZ_WORDS_TRACK].word[cz_problem_input(page->problem)->simulation.track];
-    char of_track[256];
-    snprintf(of_track, sizeof of_track, "Track: %s, %s.", track->word, track->doc);
     cz_markup_open(markup, "ul");
-    cz_markup_element(markup, "li", of_track);
+    cz_markup_say(markup, "li", "Track: %s, %s.", track->word, track->doc);
     for (size_t i = 0; i < sizeof assumptions / sizeof *assumptions; i++)
         cz_markup_element(markup, "li", assumptions[i]);
-    for (int i = 0; i < cz_problem_n_warning(page->problem); i++) {
-        char text[1400];
-        snprintf(text, sizeof text, "Warning: %s", cz_problem_warning(page->problem, i)->message);
-        cz_markup_element(markup, "li", text);
-    }
+    for (int i = 0; i < cz_problem_n_warning(page->problem); i++)
+        cz_markup_say(markup, "li", "Warning: %s", cz_problem_warning(page->problem, i)->message);
     cz_markup_end(markup);
 }
 
@@ -173,5 +164,5 @@ void cz_page_write_inputs(CzPage *page) {
     cz_inputs_text_write(&page->inputs, markup);
     cz_markup_close(markup);
     cz_markup_close(markup);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
 }

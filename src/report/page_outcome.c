@@ -21,7 +21,7 @@ enum { MOST_CONSTRAINTS = 8 }; /* that are reported as those that hold the optim
 
 static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const CzProblem *problem,
                          const CzOutcome *outcome) {
-    char before[CZ_FIGURE_ROOM], after[CZ_FIGURE_ROOM], text[512];
+    char before[CZ_FIGURE_ROOM], after[CZ_FIGURE_ROOM];
     const double start = outcome->start_evaluation.objective;
     const double best = outcome->best_evaluation.objective;
     const char *given = cz_evaluator_objective_unit(evaluator), *unit = given != NULL ? given : "";
@@ -34,21 +34,18 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
                       : is_passed                              ? "banner pass"
                                                                : "banner careful",
                       cz_outcome_words(evaluator, outcome));
-    snprintf(text, sizeof text, "%ld evaluation%s: %s.", outcome->n_evaluation,
-             outcome->n_evaluation == 1 ? "" : "s", outcome->why_stopped);
-    cz_markup_element(markup, "p", text);
+    cz_markup_say(markup, "p", "%ld evaluation%s: %s.", outcome->n_evaluation,
+                  outcome->n_evaluation == 1 ? "" : "s", outcome->why_stopped);
     if (cz_evaluator_maximises_margin(evaluator)) /* its negative is minimised */
-        snprintf(text, sizeof text, "Smallest margin of all constraints: before %s, after %s.",
-                 cz_figure_margin(before, -start), cz_figure_margin(after, -best));
+        cz_markup_say(markup, "p", "Smallest margin of all constraints: before %s, after %s.",
+                      cz_figure_margin(before, -start), cz_figure_margin(after, -best));
     else
-        snprintf(text, sizeof text, "Objective %s: before %s%s%s, after %s%s%s.",
-                 cz_evaluator_objective_name(evaluator), cz_figure_plain(before, start),
-                 unit[0] != '\0' ? " " : "", unit, cz_figure_plain(after, best),
-                 unit[0] != '\0' ? " " : "", unit);
-    cz_markup_element(markup, "p", text);
-    snprintf(text, sizeof text, "Verdict of the checks of the best design: %s.",
-             cz_verdict_text(verdict));
-    cz_markup_element(markup, "p", text);
+        cz_markup_say(markup, "p", "Objective %s: before %s%s%s, after %s%s%s.",
+                      cz_evaluator_objective_name(evaluator), cz_figure_plain(before, start),
+                      unit[0] != '\0' ? " " : "", unit, cz_figure_plain(after, best),
+                      unit[0] != '\0' ? " " : "", unit);
+    cz_markup_say(markup, "p", "Verdict of the checks of the best design: %s.",
+                  cz_verdict_text(verdict));
     if (outcome->start_evaluation.beyond_validity || outcome->best_evaluation.beyond_validity)
         cz_markup_classed(markup, "p", "fail",
                           outcome->best_evaluation.beyond_validity
@@ -68,7 +65,7 @@ static void write_variables(CzMarkup *markup, const CzEvaluator *evaluator,
     cz_markup_element(markup, "p", "Between the bounds: ring: start, dot: best design.");
     cz_outcome_begin_variables(&table, evaluator, outcome, true);
     cz_table_write_page(&table, markup);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
 }
 
 /* ---- the search ---- */
@@ -104,13 +101,6 @@ static bool course_begin(Course *course, const CzEvaluator *evaluator, const CzO
         course->violation[i] = percent > MOST_PERCENT ? MOST_PERCENT : percent; /* NaN: a gap */
     }
     return true;
-}
-
-static void write_course(CzMarkup *markup, const CzPlot *plot) {
-    cz_markup_open(markup, "figure");
-    cz_markup_element(markup, "figcaption", plot->title);
-    cz_plot_write(plot, markup);
-    cz_markup_end(markup);
 }
 
 static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
@@ -158,10 +148,10 @@ static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
          .from_zero = true}};
     cz_page_open_section(markup, "search", "The search");
     cz_markup_open_class(markup, "div", "figures");
-    write_course(markup, &plots[0]);
-    write_course(markup, &plots[1]);
+    cz_plot_write_figure(&plots[0], markup);
+    cz_plot_write_figure(&plots[1], markup);
     cz_markup_close(markup);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
     free(course.count);
     return CZ_OK;
 }
@@ -188,7 +178,7 @@ static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const C
     CzReportTable table;
     cz_page_open_section(markup, "active", "Active constraints of the best design");
     cz_markup_element(markup, "p", "The most critical constraints; a negative margin is violated.");
-    cz_outcome_begin_constraints(&table, "constraint", ">margin");
+    cz_table_begin(&table, "constraint;" CZ_CONSTRAINT_HEADS);
     int told[MOST_CONSTRAINTS];
     for (int n = 0; n < MOST_CONSTRAINTS; n++) {
         told[n] = cz_page_next_constraint(best, n, told);
@@ -200,7 +190,7 @@ static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const C
                                   is_flag ? NAN : -best->constraint[told[n]]);
     }
     cz_table_write_page(&table, markup);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
 }
 
 static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
@@ -217,7 +207,7 @@ static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
     if (fits) {
         cz_page_open_section(markup, "values", "New values, to paste");
         cz_markup_element(markup, "pre", memory.text);
-        cz_page_close_section(markup);
+        cz_markup_end(markup);
     }
     cz_arena_free(&arena);
     cz_memory_text_free(&memory);
@@ -233,7 +223,7 @@ static void write_verification(CzMarkup *markup, const CzVerification *verificat
         cz_markup_element(markup, "p",
                           "Not done: the best design violates a constraint, or "
                           "verification was switched off.");
-        cz_page_close_section(markup);
+        cz_markup_end(markup);
         return;
     }
     const bool passes = verification->verdict == CZ_VERDICT_PASS;
@@ -245,7 +235,7 @@ static void write_verification(CzMarkup *markup, const CzVerification *verificat
     CzReportTable table;
     cz_verified_begin_methods(&table, verification, true);
     cz_table_write_page(&table, markup);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
 }
 
 /* ---- the page ---- */
@@ -260,7 +250,7 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     cz_page_write_contents(page, true);
     cz_page_open_section(markup, "checks", "Checks before and after");
     cz_page_write_checks(markup, &outcome->best_evaluation, &outcome->start_evaluation);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
     write_variables(markup, evaluator, outcome);
     write_active(markup, evaluator, outcome);
     cz_page_write_sensitivities(markup, evaluator, outcome);
@@ -268,12 +258,10 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     CZ_TRY(write_search(markup, evaluator, outcome, error));
     CZ_TRY(cz_page_write_designs(markup, evaluator, outcome, error));
     CZ_TRY(write_values(markup, evaluator, outcome, error));
-    snprintf(title, sizeof title, "What follows is scenario %s of the best design%s",
-             page->summary->scenario,
-             page->n_other > 0 ? "; force over closure and energy also show the design before."
-                               : ".");
     cz_markup_element(markup, "h2", "The best design");
-    cz_markup_element(markup, "p", title);
+    cz_markup_say(
+        markup, "p", "What follows is scenario %s of the best design%s", page->summary->scenario,
+        page->n_other > 0 ? "; force over closure and energy also show the design before." : ".");
     cz_page_write_parts(page);
     cz_page_write_foot(markup);
     return CZ_OK;

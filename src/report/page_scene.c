@@ -141,5 +141,5 @@ void cz_page_write_animation(CzPage *page) {
     for (int i = 0; i < N_FRAME; i++)
         write_frame(page, interface, sample_of(page, interface, i));
     cz_markup_close(markup);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
 }

@@ -52,10 +52,7 @@ static void write_curve(CzMarkup *markup, const CzSweep *sweep, const char *titl
                          .n_band = n_band,
                          .band = band,
                          .from_zero = true};
-    cz_markup_open(markup, "figure");
-    cz_markup_element(markup, "figcaption", title);
-    cz_plot_write(&plot, markup);
-    cz_markup_end(markup);
+    cz_plot_write_figure(&plot, markup);
 }
 
 static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *error) {
@@ -96,11 +93,9 @@ static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *er
 static void write_cell(CzMarkup *markup, const CzSweepPoint *point, double x, double y,
                        double width, double height) {
     const CzPointLook look = cz_point_look(point);
-    cz_markup_open(markup, "rect");
-    cz_markup_numbers(markup, 1, "x y width height", (const double[]){x, y, width, height});
-    cz_markup_attributes(markup, "fill", look.colour, "fill-opacity", ".75", "stroke",
-                         "currentColor", "stroke-width", ".4", NULL);
-    cz_markup_close(markup);
+    cz_markup_shape(markup, "rect", "x y width height", (const double[]){x, y, width, height},
+                    "fill", look.colour, "fill-opacity", ".75", "stroke", "currentColor",
+                    "stroke-width", ".4", NULL);
     if (width >= 8 && height >= 10)
         cz_svg_text(markup, x + width / 2, y + height / 2 + 4, "middle",
                     look.sign[0] != ' ' ? look.sign : "");
@@ -140,8 +135,7 @@ static void write_map(CzMarkup *markup, const CzSweep *sweep) {
     char up[CZ_SENTENCE_ROOM];
     snprintf(up, sizeof up, "upwards: %s", sweep->axis[0].path);
     cz_svg_text(markup, MAP_LEFT, bottom + 47, "start", up);
-    cz_svg_text(markup, MAP_LEFT, bottom + 64, "start",
-                "+ pass   ~ provisional   X FAIL   ? not checked   ! run failed   - invalid");
+    cz_svg_text(markup, MAP_LEFT, bottom + 64, "start", CZ_MAP_SIGNS);
     cz_markup_close(markup);
     cz_markup_end(markup);
 }
@@ -156,9 +150,7 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     if (sweep->is_interrupted)
         cz_markup_classed(&markup, "p", "fail", "The sweep was interrupted: points are missing.");
     if (cz_sweep_is_beyond(sweep))
-        cz_markup_classed(&markup, "p", "fail",
-                          "Override: some points went beyond model validity (" CZ_FIGURE_MARK_MEANS
-                          ").");
+        cz_markup_classed(&markup, "p", "fail", CZ_SWEEP_BEYOND);
     cz_page_open_section(&markup, "figures", sweep->n_axis == 1 ? "Over the value" : "Map");
     cz_markup_open_class(&markup, "div", "figures");
     if (sweep->n_axis == 1)
@@ -166,7 +158,7 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     else
         write_map(&markup, sweep);
     cz_markup_close(&markup);
-    cz_page_close_section(&markup);
+    cz_markup_end(&markup);
     cz_page_open_section(&markup, "points", "Points");
     if (sweep->n_axis > 1) {
         cz_markup_open(&markup, "details");
@@ -177,7 +169,7 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     cz_table_write_page(&table, &markup);
     if (sweep->n_axis > 1)
         cz_markup_close(&markup);
-    cz_page_close_section(&markup);
+    cz_markup_end(&markup);
     cz_page_write_foot(&markup);
     return markup.failed ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report") : CZ_OK;
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "crushzone/sweep.h"
+#include "report/figure.h"
 #include "report/table.h"
 
 /* Whether something climbed at one of the points. */
@@ -14,6 +15,11 @@ static inline bool cz_sweep_is_beyond(const CzSweep *sweep) {
             return true;
     return false;
 }
+
+/* What the signs of a map mean, and that a map or table shows results beyond model validity. */
+#define CZ_MAP_SIGNS "+ pass   ~ provisional   X FAIL   ? not checked   ! run failed   - invalid"
+#define CZ_SWEEP_BEYOND                                                                            \
+    "Override: some points went beyond model validity (" CZ_FIGURE_MARK_MEANS ")."
 
 /* Writes the page. Status: CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error);

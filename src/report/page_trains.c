@@ -22,12 +22,10 @@
 static void write_car(const CzPage *page, int car, double x, double y, CzMarkup *markup) {
     const CzCar *description = &page->model->car[car];
     char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 8];
-    cz_markup_open(markup, "rect");
-    cz_markup_numbers(markup, 1, "x y width height",
-                      (const double[]){x, y + CAR_TOP, CAR_WIDTH, CAR_HEIGHT});
-    cz_markup_attributes(markup, "rx", "4", "fill", cz_plot_colour(description->train == 0 ? 0 : 1),
-                         "fill-opacity", ".15", "stroke", "currentColor", NULL);
-    cz_markup_close(markup);
+    cz_markup_shape(markup, "rect", "x y width height",
+                    (const double[]){x, y + CAR_TOP, CAR_WIDTH, CAR_HEIGHT}, "rx", "4", "fill",
+                    cz_plot_colour(description->train == 0 ? 0 : 1), "fill-opacity", ".15",
+                    "stroke", "currentColor", NULL);
     cz_svg_text(markup, x + CAR_WIDTH / 2, y + CAR_TOP + 13, "middle", description->name);
     const double mass = page->model->properties[car].mass;
     const double known = isfinite(mass) ? mass : page->vehicles[description->vehicle].mass;
@@ -112,7 +110,7 @@ static void write_elements(const CzPage *page, CzMarkup *markup) {
     const CzRunSummary *run = page->summary;
     CzResultContext context = {.run = run};
     CzReportTable table;
-    cz_table_begin(&table, 2, (const char *const[]){"interface", "element"});
+    cz_table_begin(&table, "interface;element");
     for (int k = 0; k < n_column; k++)
         cz_table_head_of(&table, columns[k]);
     cz_table_head(&table, "");
@@ -122,15 +120,15 @@ static void write_elements(const CzPage *page, CzMarkup *markup) {
             const CzElementResult *element = &run->interface[i].element[e];
             if (!(element->energy > NOTHING) && !element->bottomed_out)
                 continue;
-            cz_table_put(&table, name, CZ_STYLE_PLAIN);
-            cz_table_put(&table, element->name, CZ_STYLE_PLAIN);
+            cz_table_put(&table, name);
+            cz_table_put(&table, element->name);
             for (int k = 0; k < n_column; k++)
                 cz_table_put_result(&table, columns[k], &context, element, run->beyond_validity);
-            cz_table_put(&table,
-                         element->bottomed_out ? "bottomed out"
-                         : element->sheared    ? "sheared off"
-                                               : "",
-                         element->bottomed_out ? CZ_STYLE_BAD : CZ_STYLE_SMALL);
+            cz_table_put_styled(&table,
+                                element->bottomed_out ? "bottomed out"
+                                : element->sheared    ? "sheared off"
+                                                      : "",
+                                element->bottomed_out ? CZ_STYLE_BAD : CZ_STYLE_SMALL);
             name = "";
         }
     }
@@ -149,11 +147,11 @@ static void write_vehicles(const CzPage *page, CzMarkup *markup) {
     const CzRunSummary *run = page->summary;
     CzResultContext context = {.run = run};
     CzReportTable table;
-    cz_table_begin(&table, 1, (const char *const[]){"car"});
+    cz_table_begin(&table, "car");
     for (int k = 0; k < n_column; k++)
         cz_table_head_of(&table, columns[k]);
     for (int i = 0; i < run->n_vehicle; i++) {
-        cz_table_put(&table, run->vehicle[i].name, CZ_STYLE_PLAIN);
+        cz_table_put(&table, run->vehicle[i].name);
         for (int k = 0; k < n_column; k++)
             cz_table_put_result(&table, columns[k], &context, &run->vehicle[i],
                                 run->beyond_validity);
@@ -180,5 +178,5 @@ void cz_page_write_trains(CzPage *page) {
     write_elements(page, markup);
     write_vehicles(page, markup);
     cz_markup_close(markup);
-    cz_page_close_section(markup);
+    cz_markup_end(markup);
 }

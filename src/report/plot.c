@@ -146,10 +146,9 @@ static Frame frame_of(const CzPlot *plot) {
     return frame;
 }
 
-static void write_line(CzMarkup *markup, double x1, double y1, double x2, double y2) {
-    cz_markup_open(markup, "line");
-    cz_markup_numbers(markup, 1, "x1 y1 x2 y2", (const double[]){x1, y1, x2, y2});
-}
+/* Names of the ends of a line and of the sides of a rectangle. */
+#define LINE "x1 y1 x2 y2"
+#define RECT "x y width height"
 
 /* ---- axes ---- */
 
@@ -166,9 +165,8 @@ static void write_x_axis(const CzPlot *plot, const Frame *frame, CzMarkup *marku
     for (double i = ceil(frame->x_min / step - 1e-6); i * step <= frame->x_max + 1e-6 * step; i++) {
         char text[CZ_FIGURE_ROOM];
         const double x = paper_x(frame, i * step);
-        write_line(markup, x, TOP, x, bottom);
-        cz_markup_attributes(markup, "stroke", "currentColor", "stroke-opacity", ".13", NULL);
-        cz_markup_close(markup);
+        cz_markup_shape(markup, "line", LINE, (const double[]){x, TOP, x, bottom}, "stroke",
+                        "currentColor", "stroke-opacity", ".13", NULL);
         tick_text(text, i * step, step);
         const double last = CZ_PLOT_WIDTH - 0.5 * FONT_SIZE * cz_text_width(text);
         cz_svg_text(markup, fmin(x, last), bottom + 17, "middle", text);
@@ -181,10 +179,8 @@ static void write_y_axis(const CzPlot *plot, const Frame *frame, CzMarkup *marku
     for (double i = ceil(frame->y_min / step - 1e-6); i * step <= frame->y_max + 1e-6 * step; i++) {
         char text[CZ_FIGURE_ROOM];
         const double y = paper_y(frame, i * step);
-        write_line(markup, LEFT, y, LEFT + frame->width, y);
-        cz_markup_attributes(markup, "stroke", "currentColor", "stroke-opacity",
-                             i == 0 ? ".5" : ".13", NULL);
-        cz_markup_close(markup);
+        cz_markup_shape(markup, "line", LINE, (const double[]){LEFT, y, LEFT + frame->width, y},
+                        "stroke", "currentColor", "stroke-opacity", i == 0 ? ".5" : ".13", NULL);
         tick_text(text, i * step, step);
         cz_svg_text(markup, LEFT - 5, y + 3.8, "end", text);
     }
@@ -251,9 +247,7 @@ static void write_curve(const Frame *frame, const CzSeries *series, CzMarkup *ma
     }
     cz_markup_attribute(markup, "stroke", cz_plot_colour(series->colour));
     if (series->colour < 0)
-        cz_markup_attribute(markup, "stroke-width", "30");
-    if (series->colour < 0)
-        cz_markup_attribute(markup, "stroke-opacity", ".5");
+        cz_markup_attributes(markup, "stroke-width", "30", "stroke-opacity", ".5", NULL);
     if (dash != NULL)
         cz_markup_attribute(markup, "stroke-dasharray", dash);
     fputs(" d=\"", markup->stream);
@@ -266,9 +260,8 @@ static void write_curve(const Frame *frame, const CzSeries *series, CzMarkup *ma
         from = to + 1;
     }
     fputc('"', markup->stream);
-    if (series->name != NULL) {
+    if (series->name != NULL)
         cz_markup_element(markup, "title", series->name);
-    }
     cz_markup_close(markup);
 }
 
@@ -276,22 +269,18 @@ static void write_bands(const CzPlot *plot, const Frame *frame, CzMarkup *markup
     for (int i = 0; i < plot->n_band; i++) {
         const double from = paper_x(frame, fmax(plot->band[i].from, frame->x_min));
         const double to = paper_x(frame, fmin(plot->band[i].to, frame->x_max));
-        cz_markup_open(markup, "rect");
-        cz_markup_numbers(markup, 1, "x y width height",
-                          (const double[]){from, TOP, fmax(to - from, 0.5), frame->height});
-        cz_markup_attributes(markup, "fill", cz_plot_colour(plot->band[i].colour), "fill-opacity",
-                             ".16", NULL);
-        cz_markup_close(markup);
+        cz_markup_shape(markup, "rect", RECT,
+                        (const double[]){from, TOP, fmax(to - from, 0.5), frame->height}, "fill",
+                        cz_plot_colour(plot->band[i].colour), "fill-opacity", ".16", NULL);
     }
 }
 
 static void write_limits(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
     for (int i = 0; i < plot->n_limit; i++) {
         const double y = paper_y(frame, plot->limit[i].at);
-        write_line(markup, LEFT, y, LEFT + frame->width, y);
-        cz_markup_attributes(markup, "class", "limit", "stroke", "#d0021b", "stroke-width", "1.5",
-                             "stroke-dasharray", "10 4", NULL);
-        cz_markup_close(markup);
+        cz_markup_shape(markup, "line", LINE, (const double[]){LEFT, y, LEFT + frame->width, y},
+                        "class", "limit", "stroke", "#d0021b", "stroke-width", "1.5",
+                        "stroke-dasharray", "10 4", NULL);
     }
 }
 
@@ -327,11 +316,10 @@ static void put_line(Legend *legend, const char *name, const char *colour, const
     if (legend->markup == NULL)
         return;
     const double x = legend->x - FONT_SIZE * cz_text_width(name) - 12;
-    write_line(legend->markup, x - SAMPLE_WIDTH, legend->y - 4, x - 5, legend->y - 4);
-    cz_markup_attributes(legend->markup, "stroke", colour, "stroke-width", "2", NULL);
-    if (dash != NULL)
-        cz_markup_attribute(legend->markup, "stroke-dasharray", dash);
-    cz_markup_close(legend->markup);
+    cz_markup_shape(legend->markup, "line", LINE,
+                    (const double[]){x - SAMPLE_WIDTH, legend->y - 4, x - 5, legend->y - 4},
+                    "stroke", colour, "stroke-width", "2", dash != NULL ? "stroke-dasharray" : NULL,
+                    dash, NULL);
 }
 
 static void put_limit(Legend *legend, const CzPlotLimit *limit) {
@@ -345,11 +333,9 @@ static void put_band(Legend *legend, const CzPlotBand *band) {
     if (legend->markup == NULL)
         return;
     const double x = legend->x - FONT_SIZE * cz_text_width(band->name) - 12;
-    cz_markup_open(legend->markup, "rect");
-    cz_markup_numbers(legend->markup, 1, "x y", (const double[]){x - SAMPLE_WIDTH, legend->y - 10});
-    cz_markup_attributes(legend->markup, "width", "18", "height", "11", "fill",
-                         cz_plot_colour(band->colour), "fill-opacity", ".3", NULL);
-    cz_markup_close(legend->markup);
+    cz_markup_shape(legend->markup, "rect", RECT,
+                    (const double[]){x - SAMPLE_WIDTH, legend->y - 10, 18, 11}, "fill",
+                    cz_plot_colour(band->colour), "fill-opacity", ".3", NULL);
 }
 
 static bool is_named_before(const CzPlot *plot, int band) {
@@ -396,5 +382,12 @@ void cz_plot_write(const CzPlot *plot, CzMarkup *markup) {
     write_curves(plot, &frame, markup);
     cz_markup_line(markup);
     write_legend(plot, bottom, markup);
+    cz_markup_end(markup);
+}
+
+void cz_plot_write_figure(const CzPlot *plot, CzMarkup *markup) {
+    cz_markup_open(markup, "figure");
+    cz_markup_element(markup, "figcaption", plot->title);
+    cz_plot_write(plot, markup);
     cz_markup_end(markup);
 }

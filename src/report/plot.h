@@ -52,8 +52,10 @@ typedef struct CzPlot {
     double height;            /* of the area between the axes; 0: as usual */
 } CzPlot;
 
-/* Writes the diagram as an element `svg`; without memory the markup has failed. */
+/* Writes the diagram as an element `svg`, or as a figure of a page under its title; without memory
+ * the markup has failed. */
 void cz_plot_write(const CzPlot *plot, CzMarkup *markup);
+void cz_plot_write_figure(const CzPlot *plot, CzMarkup *markup);
 
 /* Opens an `svg` of that size with what every figure has; the caller closes it. */
 void cz_svg_open(CzMarkup *markup, const char *title, double width, double height);

@@ -1,4 +1,5 @@
-/* The files of a result folder: summary and checks on top, histories per scenario. */
+/* The files of a result folder: summary and checks at the top, histories per scenario; of a sweep,
+ * its points. */
 #include "crushzone/report.h"
 
 #include "base/error.h"
@@ -8,84 +9,50 @@
 #include "report/folder.h"
 #include "report/overlay.h"
 #include "report/page.h"
+#include "report/page_sweep.h"
 #include "report/runs.h"
 
 #include <string.h>
 
-/* Everything that the files are made of. `outcome` and `evaluator` are NULL for a run. */
+/* Everything that the files are made of. `outcome` and `evaluator` are NULL for a run; of a sweep
+ * there is nothing else but options and folder. */
 typedef struct Results {
     const CzProblem *problem;
     const CzEvaluator *evaluator;
     const CzOutcome *outcome;
     const CzEvaluation *evaluation;
+    const CzSweep *sweep;
     const CzReportOptions *options;
     const CzProblem *computed; /* what the runs were computed from: of a search, the problem with
                                   the best values; NULL when it cannot be read again */
     int scenario;              /* at hand */
     bool has_report;           /* the figures' problem could be read */
     bool is_top;               /* its files are at the top of the folder */
-    const CzRun *run;          /* of the scenario at hand */
     const char *folder;        /* final path */
     const CzSource *input;     /* file to copy, at hand */
 } Results;
 
-typedef CzStatus (*Writer)(const Results *results, FILE *stream, CzError *error);
+typedef enum Content {
+    SUMMARY,
+    CHECKS,
+    RESOLVED,
+    RUN_LOG,
+    OUTCOME,
+    OVERLAY,
+    HISTORY,
+    INTERFACES,
+    CHANNELS,
+    INPUT_FILE,
+    REPORT,
+    SWEEP,
+    SWEEP_POINTS,
+    SWEEP_REPORT
+} Content;
 
-static CzStatus write_summary(const Results *results, FILE *stream, CzError *error) {
-    return cz_report_write_summary(results->problem, results->evaluation, results->options, stream,
-                                   error);
-}
-
-static CzStatus write_outcome(const Results *results, FILE *stream, CzError *error) {
-    return cz_report_write_outcome(results->problem, results->evaluator, results->outcome,
-                                   results->options, stream, error);
-}
-
-static CzStatus write_overlay(const Results *results, FILE *stream, CzError *error) {
-    return cz_report_write_overlay(results->problem, results->evaluator, results->outcome,
-                                   results->options, results->folder, stream, error);
-}
-
-static CzStatus write_checks(const Results *results, FILE *stream, CzError *error) {
-    (void)error; /* a full disk shows when the file is closed */
-    cz_csv_write_checks(results->evaluation, results->options, stream);
-    return CZ_OK;
-}
-
-static CzStatus write_history(const Results *results, FILE *stream, CzError *error) {
-    (void)error;
-    cz_csv_write_history(results->evaluator, results->outcome, results->options, stream);
-    return CZ_OK;
-}
-
-static CzStatus write_interfaces(const Results *results, FILE *stream, CzError *error) {
-    (void)error;
-    cz_csv_write_interfaces(cz_run_summary(results->run), results->options, stream);
-    return CZ_OK;
-}
-
-static CzStatus write_channels(const Results *results, FILE *stream, CzError *error) {
-    (void)error;
-    cz_csv_write_channels(results->run, results->options, stream);
-    return CZ_OK;
-}
-
-/* The problem that gives these results when it is run alone: of a search, with the best values. */
-static CzStatus write_resolved(const Results *results, FILE *stream, CzError *error) {
-    if (results->outcome == NULL) {
-        return cz_problem_write_resolved_there(results->problem, stream, error);
-    }
-    return cz_overlay_write_resolved(results->problem, results->evaluator, results->outcome,
-                                     results->options, stream, error);
-}
-
-/* A file as it was read, so that the folder runs by itself wherever it is. */
-static CzStatus write_input(const Results *results, FILE *stream, CzError *error) {
-    (void)error;
-    for (int i = 0; i < results->input->n_line; i++)
-        fprintf(stream, "%s\n", results->input->line[i]);
-    return CZ_OK;
-}
+typedef struct File {
+    const char *name;
+    Content content;
+} File;
 
 static void write_notice(const CzError *notice, FILE *stream) {
     if (notice->file[0] != '\0')
@@ -96,8 +63,7 @@ static void write_notice(const CzError *notice, FILE *stream) {
 }
 
 /* What was done, without times: the log of the same run is the same. */
-static CzStatus write_log(const Results *results, FILE *stream, CzError *error) {
-    (void)error;
+static void write_log(const Results *results, FILE *stream) {
     char nlopt[32] = "";
     cz_nlopt_version(nlopt, sizeof nlopt);
     fprintf(stream, "crushzone %s, NLopt %s\n", cz_version(), nlopt);
@@ -121,7 +87,20 @@ static CzStatus write_log(const Results *results, FILE *stream, CzError *error) 
                 cz_ended_text(run->ended), run->failure[0] != '\0' ? ": " : "", run->failure);
     }
     fprintf(stream, "verdict: %s\n", cz_verdict_text(evaluation->verdict));
-    return CZ_OK;
+}
+
+/* A file as it was read, so that the folder runs by itself wherever it is. */
+static void write_input(const CzSource *input, FILE *stream) {
+    for (int i = 0; i < input->n_line; i++)
+        fprintf(stream, "%s\n", input->line[i]);
+}
+
+/* The problem that gives these results when it is run alone: of a search, with the best values. */
+static CzStatus write_resolved(const Results *results, FILE *stream, CzError *error) {
+    if (results->outcome == NULL)
+        return cz_problem_write_resolved_there(results->problem, stream, error);
+    return cz_overlay_write_resolved(results->problem, results->evaluator, results->outcome,
+                                     results->options, stream, error);
 }
 
 static CzStatus write_report(const Results *results, FILE *stream, CzError *error) {
@@ -132,44 +111,93 @@ static CzStatus write_report(const Results *results, FILE *stream, CzError *erro
                              results->is_top, results->options, stream, error);
 }
 
-static CzStatus write_file(CzFolder *folder, const char *name, Writer writer,
+/* Writes what a file contains; a full disk shows when the file is closed. */
+static CzStatus write_content(const Results *results, Content content, FILE *stream,
+                              CzError *error) {
+    const CzReportOptions *options = results->options;
+    switch (content) {
+    case SUMMARY:
+        return cz_report_write_summary(results->problem, results->evaluation, options, stream,
+                                       error);
+    case OUTCOME:
+        return cz_report_write_outcome(results->problem, results->evaluator, results->outcome,
+                                       options, stream, error);
+    case OVERLAY:
+        return cz_report_write_overlay(results->problem, results->evaluator, results->outcome,
+                                       options, results->folder, stream, error);
+    case RESOLVED:
+        return write_resolved(results, stream, error);
+    case REPORT:
+        return write_report(results, stream, error);
+    case SWEEP:
+        return cz_report_write_sweep(results->sweep, options, stream, error);
+    case SWEEP_REPORT:
+        return cz_page_write_sweep(results->sweep, stream, error);
+    case SWEEP_POINTS:
+        cz_csv_write_sweep(results->sweep, options, stream);
+        break;
+    case CHECKS:
+        cz_csv_write_checks(results->evaluation, options, stream);
+        break;
+    case HISTORY:
+        cz_csv_write_history(results->evaluator, results->outcome, options, stream);
+        break;
+    case INTERFACES:
+        cz_csv_write_interfaces(cz_kept_run(results->evaluation, results->scenario), options,
+                                stream);
+        break;
+    case CHANNELS:
+        cz_csv_write_channels(results->evaluation->run[results->scenario], options, stream);
+        break;
+    case RUN_LOG:
+        write_log(results, stream);
+        break;
+    case INPUT_FILE:
+        write_input(results->input, stream);
+        break;
+    }
+    return CZ_OK;
+}
+
+static CzStatus write_file(CzFolder *folder, const char *name, Content content,
                            const Results *results, CzError *error) {
     FILE *stream = NULL;
-    CzStatus status = cz_folder_open(folder, name, &stream, error);
-    if (status != CZ_OK)
-        return status;
-    status = writer(results, stream, error);
+    CZ_TRY(cz_folder_open(folder, name, &stream, error));
+    const CzStatus status = write_content(results, content, stream, error);
     /* What could not be written is reported with the name of the file. */
-    const bool tells = status == CZ_OK || status == CZ_STATUS_OUTPUT;
-    const CzStatus closed = cz_folder_close(folder, tells ? error : NULL);
+    const bool reports = status == CZ_OK || status == CZ_STATUS_OUTPUT;
+    const CzStatus closed = cz_folder_close(folder, reports ? error : NULL);
     return status != CZ_OK ? status : closed;
 }
 
+static CzStatus write_files(CzFolder *folder, int n, const File *file, const Results *results,
+                            CzError *error) {
+    for (int i = 0; i < n; i++)
+        CZ_TRY(write_file(folder, file[i].name, file[i].content, results, error));
+    return CZ_OK;
+}
+
+/* The files of a scenario, in a folder of its own where there are several. */
 static CzStatus write_run(CzFolder *folder, Results *results, int i, CzError *error) {
+    static const File files[] = {
+        {"interfaces.csv", INTERFACES}, {"channels.csv", CHANNELS}, {"report.html", REPORT}};
     const bool several = cz_n_kept_run(results->evaluation) > 1;
     char scenario[CZ_NAME_ROOM], name[CZ_NAME_ROOM + 32];
     results->scenario = i;
     results->is_top = false;
-    results->run = results->evaluation->run[i];
-    cz_page_folder_name(cz_run_summary(results->run)->scenario, scenario);
-    snprintf(name, sizeof name, "%s%s%s", several ? scenario : "", several ? "/" : "",
-             "interfaces.csv");
-    CzStatus status = write_file(folder, name, write_interfaces, results, error);
-    snprintf(name, sizeof name, "%s%s%s", several ? scenario : "", several ? "/" : "",
-             "channels.csv");
-    if (status == CZ_OK)
-        status = write_file(folder, name, write_channels, results, error);
-    snprintf(name, sizeof name, "%s/report.html", scenario);
-    return status == CZ_OK && several && results->has_report
-               ? write_file(folder, name, write_report, results, error)
-               : status;
+    cz_page_folder_name(cz_kept_run(results->evaluation, i)->scenario, scenario);
+    for (int k = 0; k < (several && results->has_report ? 3 : 2); k++) {
+        snprintf(name, sizeof name, "%s%s%s", several ? scenario : "", several ? "/" : "",
+                 files[k].name);
+        CZ_TRY(write_file(folder, name, files[k].content, results, error));
+    }
+    return CZ_OK;
 }
 
 /* Profiles are in the folder as they are searched for beside a problem file. */
 static CzStatus write_profiles(CzFolder *folder, Results *results, CzError *error) {
-    CzStatus status = CZ_OK;
-    for (const CzSource *source = cz_problem_first_source(results->problem);
-         source != NULL && status == CZ_OK; source = source->next) {
+    for (const CzSource *source = cz_problem_first_source(results->problem); source != NULL;
+         source = source->next) {
         const char *file = strrchr(source->name, '/');
         char name[160];
         static const char above[] = "profiles";
@@ -178,60 +206,48 @@ static CzStatus write_profiles(CzFolder *folder, Results *results, CzError *erro
             continue;
         snprintf(name, sizeof name, "%s%.140s", above, file);
         results->input = source;
-        status = write_file(folder, name, write_input, results, error);
+        CZ_TRY(write_file(folder, name, INPUT_FILE, results, error));
     }
-    return status;
+    return CZ_OK;
 }
 
 /* Time histories that a fit follows, as resolved.yaml names them. */
 static CzStatus write_measured(CzFolder *folder, Results *results, CzError *error) {
-    CzStatus status = CZ_OK;
     char name[256];
-    for (int number = 1; status == CZ_OK; number++) {
+    for (int number = 1;; number++) {
         results->input = cz_problem_measured_file(results->problem, number, sizeof name, name);
         if (results->input == NULL)
-            break;
-        status = write_file(folder, name, write_input, results, error);
+            return CZ_OK;
+        CZ_TRY(write_file(folder, name, INPUT_FILE, results, error));
     }
-    return status;
 }
 
 static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
-    static const struct {
-        const char *name;
-        Writer writer;
-        bool of_search;
-    } files[] = {
-        {"summary.json", write_summary, false},   {"checks.csv", write_checks, false},
-        {"resolved.yaml", write_resolved, false}, {"run.log", write_log, false},
-        {"outcome.json", write_outcome, true},    {"optimised.yaml", write_overlay, true},
-        {"history.csv", write_history, true},
-    };
-    CzStatus status = CZ_OK;
-    for (size_t i = 0; i < sizeof files / sizeof *files && status == CZ_OK; i++)
-        if (!files[i].of_search || results->outcome != NULL)
-            status = write_file(folder, files[i].name, files[i].writer, results, error);
-    if (status == CZ_OK)
-        status = write_profiles(folder, results, error);
-    if (status == CZ_OK)
-        status = write_measured(folder, results, error);
-    for (int i = 0; i < results->evaluation->n_run && status == CZ_OK; i++)
+    static const File files[] = {{"summary.json", SUMMARY},   {"checks.csv", CHECKS},
+                                 {"resolved.yaml", RESOLVED}, {"run.log", RUN_LOG},
+                                 {"outcome.json", OUTCOME},   {"optimised.yaml", OVERLAY},
+                                 {"history.csv", HISTORY}};
+    static const File of_sweep[] = {
+        {"sweep.json", SWEEP}, {"sweep.csv", SWEEP_POINTS}, {"report.html", SWEEP_REPORT}};
+    if (results->sweep != NULL)
+        return write_files(folder, 3, of_sweep, results, error);
+    CZ_TRY(write_files(folder, results->outcome != NULL ? 7 : 4, files, results, error));
+    CZ_TRY(write_profiles(folder, results, error));
+    CZ_TRY(write_measured(folder, results, error));
+    for (int i = 0; i < results->evaluation->n_run; i++)
         if (cz_kept_run(results->evaluation, i) != NULL)
-            status = write_run(folder, results, i, error);
+            CZ_TRY(write_run(folder, results, i, error));
     results->scenario = cz_page_deciding(results->evaluation);
     results->is_top = true;
-    if (status == CZ_OK && results->scenario >= 0 && results->has_report)
-        status = write_file(folder, "report.html", write_report, results, error);
-    return status;
+    return results->scenario >= 0 && results->has_report
+               ? write_file(folder, "report.html", REPORT, results, error)
+               : CZ_OK;
 }
 
 static CzStatus write_folder(Results *results, CzError *error) {
     CzFolder folder;
-    CzStatus status =
-        cz_folder_begin(&folder, results->folder, results->options->replaces_search, error);
-    if (status != CZ_OK)
-        return status;
-    status = write_all(&folder, results, error);
+    CZ_TRY(cz_folder_begin(&folder, results->folder, results->options->replaces_search, error));
+    const CzStatus status = write_all(&folder, results, error);
     if (status == CZ_OK)
         return cz_folder_finish(&folder, error);
     cz_folder_abandon(&folder);
@@ -290,4 +306,12 @@ CzStatus cz_report_write_outcome_folder(const CzProblem *problem, const CzEvalua
                        "writes it",
                        folder, folder);
     return status;
+}
+
+CzStatus cz_report_write_sweep_folder(const CzSweep *sweep, const CzReportOptions *options,
+                                      const char *path, CzError *error) {
+    const CzReportOptions absent = cz_report_options_default();
+    Results results = {
+        .sweep = sweep, .options = options != NULL ? options : &absent, .folder = path};
+    return write_folder(&results, error);
 }

@@ -13,5 +13,5 @@ void cz_table_put_result(CzReportTable *table, const CzResult *result, CzResultC
                          const void *record, bool is_marked) {
     char text[CZ_FIGURE_ROOM];
     cz_result_text(text, result, context, record);
-    cz_table_put(table, cz_figure_mark(text, is_marked), CZ_STYLE_PLAIN);
+    cz_table_put(table, cz_figure_mark(text, is_marked));
 }

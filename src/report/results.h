@@ -34,7 +34,7 @@ typedef struct CzRunInfo {
 typedef struct CzResultContext {
     const char *format; /* name of the document */
     const CzProblem *problem;
-    const CzReportOptions *options;
+    const CzReportOptions *options; /* NULL: the default ones */
     const CzEvaluation *evaluation;
     double wall_s;           /* computing, of the whole document [s] */
     const CzRunSummary *run; /* at hand */

@@ -1,4 +1,4 @@
-/* What a run answers, on a terminal: who absorbed what, what was broken, what passes. */
+/* The results of a run on a terminal: forces and energies of interfaces, damage, checks. */
 #include "crushzone/report.h"
 
 #include "problem/problem.h"
@@ -46,43 +46,41 @@ static void write_speeds(const CzProblem *problem, const char *name, FILE *strea
     fprintf(stream, "   %s km/h -> %s km/h", text[0], text[1]);
 }
 
-static void write_run_head(const CzProblem *problem, const CzRunSummary *run, bool colour,
-                           FILE *stream) {
-    char simulated[CZ_FIGURE_ROOM], balance[CZ_FIGURE_ROOM];
-    cz_text_write(run->scenario, CZ_STYLE_PLAIN, colour, stream);
-    write_speeds(problem, run->scenario, stream);
+static void write_run_head(const CzProblem *problem, const CzRunSummary *run,
+                           CzTerminal *terminal) {
+    static const char poor[] = "POOR: reduce the time step";
+    char number[CZ_FIGURE_ROOM];
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s", run->scenario);
+    write_speeds(problem, run->scenario, terminal->stream);
     if (run->status != CZ_OK) {
-        fputs("   ", stream);
-        cz_text_write("RUN FAILED", CZ_STYLE_BAD, colour, stream);
-        fputs(": ", stream);
-        cz_text_write(run->failure, CZ_STYLE_PLAIN, colour, stream);
-        fputc('\n', stream);
+        fputs("   ", terminal->stream);
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "RUN FAILED");
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s\n", run->failure);
         return;
     }
-    fprintf(stream, "   %s s simulated, ", cz_figure_digits(simulated, 3, run->simulated));
-    const bool cut = run->ended == CZ_ENDED_INCOMPLETE;
-    char end[160];
-    snprintf(end, sizeof end,
-             "INCOMPLETE: end criterion not met within simulation.longest_s = %s: %s",
-             cz_figure_digits(simulated, 3, cz_problem_input(problem)->simulation.longest),
-             run->awaited);
-    cz_text_write(cut ? end : cz_ended_text(run->ended), cut ? CZ_STYLE_BAD : CZ_STYLE_PLAIN,
-                  colour, stream);
-    fprintf(stream, "   energy balance %s", cz_figure_percent(balance, run->energy.balance_error));
+    fprintf(terminal->stream, "   %s s simulated, ", cz_figure_digits(number, 3, run->simulated));
+    if (run->ended == CZ_ENDED_INCOMPLETE)
+        cz_terminal_say(terminal, CZ_STYLE_BAD,
+                        "INCOMPLETE: end criterion not met within simulation.longest_s = %s: %s",
+                        cz_figure_digits(number, 3, cz_problem_input(problem)->simulation.longest),
+                        run->awaited);
+    else
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s", cz_ended_text(run->ended));
+    fprintf(terminal->stream, "   energy balance %s",
+            cz_figure_percent(number, run->energy.balance_error));
     if (cz_run_is_unbalanced(run)) {
-        fputs("   ", stream);
-        cz_text_write("POOR: reduce the time step", CZ_STYLE_BAD, colour, stream);
+        fputs("   ", terminal->stream);
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "%s", poor);
     }
     if (cz_run_misses_laws(run)) {
-        char off[CZ_FIGURE_ROOM];
-        fprintf(stream, "   force error of series chains %s ",
-                cz_figure_percent(off, run->law_error));
-        cz_text_write("POOR: reduce the time step", CZ_STYLE_BAD, colour, stream);
+        fprintf(terminal->stream, "   force error of series chains %s ",
+                cz_figure_percent(number, run->law_error));
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "%s", poor);
     }
-    fputc('\n', stream);
+    fputc('\n', terminal->stream);
 }
 
-/* What was overrun or released at an interface, and when. */
+/* Devices that bottomed out or sheared off at an interface, and when. */
 static void describe_damage(const CzRunSummary *run, int interface, size_t room, char *text) {
     size_t used = 0;
     text[0] = '\0';
@@ -114,7 +112,7 @@ static void put_interface(CzReportTable *table, const CzRunSummary *run, int ind
     const CzStyle style = interface->bottomed_out ? CZ_STYLE_BAD : CZ_STYLE_PLAIN;
     char text[CZ_FIGURE_ROOM + 2], damage[CZ_MAX_ELEMENTS * (CZ_WHERE_ROOM + CZ_FIGURE_ROOM + 32)];
     CzResultContext context = {.run = run};
-    cz_table_put(table, interface->name, CZ_STYLE_PLAIN);
+    cz_table_put(table, interface->name);
     for (int k = 0; k < N_INTERFACE_COLUMN; k++) {
         const CzResult *column = interface_columns[k];
         const bool is_used = column == CZ_RESULT_AT(INTERFACE, stroke_used);
@@ -123,50 +121,46 @@ static void put_interface(CzReportTable *table, const CzRunSummary *run, int ind
         cz_figure_mark(text, is_peak ? peak_is_late : late);
         if (is_used && interface->bottomed_out)
             strcat(text, " !");
-        cz_table_put(table, text, is_used ? style : CZ_STYLE_PLAIN);
+        cz_table_put_styled(table, text, is_used ? style : CZ_STYLE_PLAIN);
     }
     describe_damage(run, index, sizeof damage, damage);
-    cz_table_put(table, damage, style);
+    cz_table_put_styled(table, damage, style);
 }
 
-/* Interfaces of a run; a compact table keeps the one with the highest force and the overrun. */
-static bool write_interfaces(const CzRunSummary *run, bool compact, bool colour, FILE *stream) {
+/* Interfaces of a run; of several runs, the one with the largest force and those with a device that
+ * bottomed out. */
+static void write_interfaces(const CzRunSummary *run, bool compact, CzTerminal *terminal) {
     int worst = 0;
     for (int i = 1; i < run->n_interface; i++)
         if (run->interface[i].peak_force > run->interface[worst].peak_force)
             worst = i;
     CzReportTable table;
-    cz_table_begin(&table, 1, (const char *const[]){"interface"});
+    cz_table_begin(&table, "interface");
     for (int k = 0; k < N_INTERFACE_COLUMN; k++)
         cz_table_head_of(&table, interface_columns[k]);
     cz_table_head(&table, "");
     for (int i = 0; i < run->n_interface; i++)
         if (!compact || i == worst || run->interface[i].bottomed_out)
             put_interface(&table, run, i);
-    return cz_table_write_text(&table, colour, stream);
+    cz_table_write_text(&table, terminal);
 }
 
-/* Wheel lift and override are about the run as a whole. */
-static void write_climbing(const CzRunSummary *run, bool colour, FILE *stream) {
-    char text[CZ_WHERE_ROOM + 160], time[CZ_FIGURE_ROOM];
+/* Wheel lift and override belong to the run as a whole. */
+static void write_climbing(const CzRunSummary *run, CzTerminal *terminal) {
+    char time[CZ_FIGURE_ROOM];
     for (int i = 0; i < run->n_event; i++) {
         const CzEvent *event = &run->event[i];
         const bool override = event->what == CZ_EVENT_OVERRIDE;
-        if (!override && event->what != CZ_EVENT_WHEEL_LIFT)
-            continue;
-        snprintf(text, sizeof text, "%s: %s at %s ms\n", override ? "OVERRIDE" : "wheel lift",
-                 event->where, cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
-        text[strlen(text) - 1] = '\0';
-        cz_text_write(text, override ? CZ_STYLE_BAD : CZ_STYLE_PLAIN, colour, stream);
-        fputc('\n', stream);
+        if (override || event->what == CZ_EVENT_WHEEL_LIFT)
+            cz_terminal_say(terminal, override ? CZ_STYLE_BAD : CZ_STYLE_PLAIN, "%s: %s at %s ms\n",
+                            override ? "OVERRIDE" : "wheel lift", event->where,
+                            cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
     }
-    if (!run->beyond_validity)
-        return;
-    snprintf(text, sizeof text,
-             "From %s ms on this run is beyond model validity. " CZ_FIGURE_MARK_MEANS ".",
-             cz_figure_fixed(time, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
-    cz_text_write(text, CZ_STYLE_BAD, colour, stream);
-    fputc('\n', stream);
+    if (run->beyond_validity)
+        cz_terminal_say(terminal, CZ_STYLE_BAD,
+                        "From %s ms on this run is beyond model validity. " CZ_FIGURE_MARK_MEANS
+                        ".\n",
+                        cz_figure_fixed(time, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
 }
 
 /* ---- families of scenarios ---- */
@@ -216,7 +210,7 @@ static int worst_member(const CzProblem *problem, const CzEvaluation *evaluation
 }
 
 static void write_family(const CzProblem *problem, const CzEvaluation *evaluation,
-                         const char *family, bool colour, FILE *stream) {
+                         const char *family, CzTerminal *terminal) {
     const CzCheckResult *worst = worst_check(problem, evaluation, family);
     char margin[CZ_FIGURE_ROOM];
     int n = 0;
@@ -224,41 +218,37 @@ static void write_family(const CzProblem *problem, const CzEvaluation *evaluatio
         const CzRunSummary *run = cz_kept_run(evaluation, i);
         n += run != NULL && is_of_family(problem, run->scenario, family);
     }
-    cz_text_write(family, CZ_STYLE_PLAIN, colour, stream);
-    fprintf(stream, ": the worst of %d scenarios", n);
-    if (worst != NULL) {
-        fputs(" by ", stream);
-        cz_text_write(worst->name, CZ_STYLE_PLAIN, colour, stream);
-        if (!worst->is_flag)
-            fprintf(stream, ", margin %s", cz_figure_margin(margin, worst->margin));
-    }
-    fputc('\n', stream);
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s: the worst of %d scenarios%s%s", family, n,
+                    worst != NULL ? " by " : "", worst != NULL ? worst->name : "");
+    if (worst != NULL && !worst->is_flag)
+        fprintf(terminal->stream, ", margin %s", cz_figure_margin(margin, worst->margin));
+    fputc('\n', terminal->stream);
 }
 
-/* Whether a run is reported: each one of its own, and of each family the worst member. */
-static bool is_told(const CzProblem *problem, const CzEvaluation *evaluation, int index) {
+/* Whether a run is printed: each outside a family, and the worst member of each family. */
+static bool is_printed(const CzProblem *problem, const CzEvaluation *evaluation, int index) {
     const char *family = family_of(problem, cz_kept_run(evaluation, index)->scenario);
     return family == NULL || worst_member(problem, evaluation, family) == index;
 }
 
 CzStatus cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluation,
                                bool colour, FILE *stream) {
-    bool is_whole = true;
-    cz_text_write(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
-    fputs("\n\n", stream);
+    CzTerminal terminal = {stream, colour, false};
+    cz_terminal_say(&terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(problem));
     for (int i = 0; i < evaluation->n_run; i++) {
         const CzRunSummary *run = cz_kept_run(evaluation, i);
-        if (run == NULL || !is_told(problem, evaluation, i))
+        if (run == NULL || !is_printed(problem, evaluation, i))
             continue;
-        if (family_of(problem, run->scenario) != NULL)
-            write_family(problem, evaluation, family_of(problem, run->scenario), colour, stream);
-        write_run_head(problem, run, colour, stream);
+        const char *family = family_of(problem, run->scenario);
+        if (family != NULL)
+            write_family(problem, evaluation, family, &terminal);
+        write_run_head(problem, run, &terminal);
         if (run->status == CZ_OK) {
-            is_whole &= write_interfaces(run, cz_n_kept_run(evaluation) > 1, colour, stream);
-            write_climbing(run, colour, stream);
+            write_interfaces(run, cz_n_kept_run(evaluation) > 1, &terminal);
+            write_climbing(run, &terminal);
         }
         fputc('\n', stream);
     }
-    is_whole &= cz_checks_write_table(evaluation, NULL, colour, stream);
-    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
+    cz_checks_write_table(evaluation, NULL, &terminal);
+    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
 }

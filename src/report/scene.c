@@ -156,15 +156,12 @@ static void write_wheels(const CzPage *page, int car, const Pose *pose, CzMarkup
 
 static void write_body(const CzPage *page, int car, const Outline outline[2], CzMarkup *markup) {
     const CzCar *description = &page->model->car[car];
-    const double top = S * ROOF;
-    cz_markup_open(markup, "rect");
-    cz_markup_numbers(markup, 1, "x y width height",
-                      (const double[]){-S * outline[REAR].body, -top,
-                                       S * (outline[REAR].body + outline[FRONT].body),
-                                       S * (ROOF - FLOOR)});
-    cz_markup_attributes(markup, "fill", cz_plot_colour(description->train == 0 ? 0 : 2),
-                         "fill-opacity", ".25", "stroke", "currentColor", NULL);
-    cz_markup_close(markup);
+    cz_markup_shape(markup, "rect", "x y width height",
+                    (const double[]){-S * outline[REAR].body, -S * ROOF,
+                                     S * (outline[REAR].body + outline[FRONT].body),
+                                     S * (ROOF - FLOOR)},
+                    "fill", cz_plot_colour(description->train == 0 ? 0 : 2), "fill-opacity", ".25",
+                    "stroke", "currentColor", NULL);
     for (int side = -1; side <= 1; side++)
         cz_svg_text(markup, side * 0.62 * S * outline[side > 0 ? FRONT : REAR].body,
                     -S * (FLOOR + ROOF) / 2, "middle", description->name);

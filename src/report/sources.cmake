@@ -47,7 +47,6 @@ set(CZ_SOURCES_report
     energy_distribution.c
     sheet.c
     single_file.c
-    sweep_folder.c
     sweep_table.c
     table.c
     table_page.c

@@ -1,4 +1,4 @@
-/* What a sweep answers: a line per value, or a map of two variables. */
+/* A sweep on a terminal: a line per value, or a map of two variables. */
 #include "crushzone/report.h"
 
 #include "report/figure.h"
@@ -22,23 +22,21 @@ CzPointLook cz_point_look(const CzSweepPoint *point) {
 }
 
 static void put_point(CzReportTable *table, const CzSweep *sweep, const CzSweepPoint *point) {
-    char text[CZ_FIGURE_ROOM], value[CZ_FIGURE_ROOM + 16];
+    char text[CZ_FIGURE_ROOM];
     const CzPointLook look = cz_point_look(point);
     for (int k = 0; k < sweep->n_axis; k++)
-        cz_table_put(table, cz_figure_digits(text, 6, point->value[k]), CZ_STYLE_PLAIN);
-    cz_table_put(table, look.word, look.style);
-    cz_table_put(table, cz_figure_margin(text, point->margin), CZ_STYLE_PLAIN);
+        cz_table_put(table, cz_figure_digits(text, 6, point->value[k]));
+    cz_table_put_styled(table, look.word, look.style);
+    cz_table_put(table, cz_figure_margin(text, point->margin));
     for (int k = 0; k < sweep->n_metric; k++) {
-        const char *unit = sweep->metric_unit[k];
+        const char *unit = isfinite(point->metric[k]) ? sweep->metric_unit[k] : "";
         cz_figure_plain(text, point->metric[k]);
-        snprintf(value, sizeof value, "%s%s%s", cz_figure_mark(text, point->beyond_validity),
-                 isfinite(point->metric[k]) && unit[0] != '\0' ? " " : "",
-                 isfinite(point->metric[k]) ? unit : "");
-        cz_table_put(table, value, CZ_STYLE_PLAIN);
+        cz_table_put_format(table, "%s%s%s", cz_figure_mark(text, point->beyond_validity),
+                            unit[0] != '\0' ? " " : "", unit);
     }
-    cz_table_put(table, point->check[0] != '\0' ? point->check : point->message, CZ_STYLE_PLAIN);
-    cz_table_put(table, point->where, CZ_STYLE_PLAIN);
-    cz_table_put(table, point->scenario, CZ_STYLE_PLAIN);
+    cz_table_put(table, point->check[0] != '\0' ? point->check : point->message);
+    cz_table_put(table, point->where);
+    cz_table_put(table, point->scenario);
 }
 
 /* A column of numbers; a terminal has no room for a whole path. */
@@ -50,7 +48,7 @@ static void add_head(CzReportTable *table, const char *path, bool whole) {
 }
 
 void cz_sweep_begin_points(CzReportTable *table, const CzSweep *sweep, bool on_page) {
-    cz_table_begin(table, 0, NULL);
+    cz_table_begin(table, NULL);
     for (int k = 0; k < sweep->n_axis; k++)
         add_head(table, sweep->axis[k].path, on_page);
     cz_table_head(table, on_page ? "verdict" : "");
@@ -65,32 +63,28 @@ void cz_sweep_begin_points(CzReportTable *table, const CzSweep *sweep, bool on_p
 }
 
 /* The map: a row per value of the first path, a sign per value of the second. */
-static void write_map(const CzSweep *sweep, bool colour, FILE *stream) {
-    const int n_row = sweep->axis[0].n, n_column = sweep->axis[1].n;
-    char text[CZ_FIGURE_ROOM];
-    fputs("across: ", stream);
-    cz_text_write(sweep->axis[1].path, CZ_STYLE_PLAIN, colour, stream);
-    fprintf(stream, ", %s to ", cz_figure_digits(text, 6, sweep->axis[1].from));
-    fprintf(stream, "%s\n", cz_figure_digits(text, 6, sweep->axis[1].to));
-    fputs("down:   ", stream);
-    cz_text_write(sweep->axis[0].path, CZ_STYLE_PLAIN, colour, stream);
-    fputs("\n\n", stream);
-    for (int row = 0; row < n_row; row++) {
-        fprintf(stream, "%12s  ",
-                cz_figure_digits(text, 6, cz_sweep_axis_value(&sweep->axis[0], row)));
-        for (int column = 0; column < n_column; column++) {
-            const CzPointLook look = cz_point_look(&sweep->point[row * n_column + column]);
-            cz_text_write(look.sign, look.style, colour, stream);
-            fputc(column + 1 < n_column ? ' ' : '\n', stream);
+static void write_map(const CzSweep *sweep, CzTerminal *terminal) {
+    const CzSweepAxis *down = &sweep->axis[0], *across = &sweep->axis[1];
+    char from[CZ_FIGURE_ROOM], to[CZ_FIGURE_ROOM];
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "across: %s, %s to %s\n", across->path,
+                    cz_figure_digits(from, 6, across->from), cz_figure_digits(to, 6, across->to));
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "down:   %s\n\n", down->path);
+    for (int row = 0; row < down->n; row++) {
+        fprintf(terminal->stream, "%12s  ",
+                cz_figure_digits(from, 6, cz_sweep_axis_value(down, row)));
+        for (int column = 0; column < across->n; column++) {
+            const CzPointLook look = cz_point_look(&sweep->point[row * across->n + column]);
+            cz_terminal_say(terminal, look.style, "%s", look.sign);
+            fputc(column + 1 < across->n ? ' ' : '\n', terminal->stream);
         }
     }
-    fputs("\n+ pass   ~ provisional   X FAIL   ? not checked   ! run failed   - invalid\n", stream);
+    fputs("\n" CZ_MAP_SIGNS "\n", terminal->stream);
 }
 
 /* Why points of a map failed or are invalid, each reason once, with the first point that has it. */
-static void write_reasons(const CzSweep *sweep, bool colour, FILE *stream) {
+static void write_reasons(const CzSweep *sweep, CzTerminal *terminal) {
     enum { MOST_REASONS = 8 };
-    char text[CZ_FIGURE_ROOM];
+    char down[CZ_FIGURE_ROOM], across[CZ_FIGURE_ROOM];
     for (int i = 0, n = 0; i < sweep->n_point && n < MOST_REASONS; i++) {
         const CzSweepPoint *point = &sweep->point[i];
         bool is_known = point->state == CZ_SWEEP_DONE || point->message[0] == '\0';
@@ -100,63 +94,51 @@ static void write_reasons(const CzSweep *sweep, bool colour, FILE *stream) {
         if (is_known)
             continue;
         n++;
-        fprintf(stream, "%s at %s", cz_point_look(point).sign,
-                cz_figure_digits(text, 6, point->value[0]));
-        fprintf(stream, ", %s: ", cz_figure_digits(text, 6, point->value[1]));
-        cz_text_write(point->message, CZ_STYLE_PLAIN, colour, stream);
-        fputc('\n', stream);
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s at %s, %s: %s\n", cz_point_look(point).sign,
+                        cz_figure_digits(down, 6, point->value[0]),
+                        cz_figure_digits(across, 6, point->value[1]), point->message);
     }
 }
 
-static void write_worst(const CzSweep *sweep, bool colour, FILE *stream) {
+static void write_worst(const CzSweep *sweep, CzTerminal *terminal) {
     if (sweep->worst < 0) {
-        fputs("No point has a margin.\n", stream);
+        fputs("No point has a margin.\n", terminal->stream);
         return;
     }
     const CzSweepPoint *worst = &sweep->point[sweep->worst];
+    const CzPointLook look = cz_point_look(worst);
     char text[CZ_FIGURE_ROOM];
-    fputs("Worst: ", stream);
-    for (int k = 0; k < sweep->n_axis; k++) {
-        cz_text_write(sweep->axis[k].path, CZ_STYLE_PLAIN, colour, stream);
-        fprintf(stream, " = %s, ", cz_figure_digits(text, 6, worst->value[k]));
-    }
-    cz_text_write(cz_point_look(worst).word, cz_point_look(worst).style, colour, stream);
+    fputs("Worst: ", terminal->stream);
+    for (int k = 0; k < sweep->n_axis; k++)
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s = %s, ", sweep->axis[k].path,
+                        cz_figure_digits(text, 6, worst->value[k]));
+    cz_terminal_say(terminal, look.style, "%s", look.word);
     if (worst->state == CZ_SWEEP_DONE && worst->check[0] != '\0') {
-        fputs(": ", stream);
-        cz_text_write(worst->check, CZ_STYLE_PLAIN, colour, stream);
-        fprintf(stream, "%s%s in %s", worst->where[0] != '\0' ? " at " : "", worst->where,
-                worst->scenario);
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s%s%s in %s", worst->check,
+                        worst->where[0] != '\0' ? " at " : "", worst->where, worst->scenario);
         if (!isnan(worst->margin))
-            fprintf(stream, ", margin %s", cz_figure_margin(text, worst->margin));
+            fprintf(terminal->stream, ", margin %s", cz_figure_margin(text, worst->margin));
     } else {
-        fputs(": ", stream);
-        cz_text_write(worst->message, CZ_STYLE_PLAIN, colour, stream);
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s", worst->message);
     }
-    fputs(".\n", stream);
+    fputs(".\n", terminal->stream);
 }
 
 CzStatus cz_report_write_sweep_table(const CzSweep *sweep, bool colour, FILE *stream) {
-    bool is_whole = true;
+    CzTerminal terminal = {stream, colour, false};
     CzReportTable table;
-    cz_text_write(cz_problem_title(sweep->problem), CZ_STYLE_PLAIN, colour, stream);
-    fputs("\n\n", stream);
+    cz_terminal_say(&terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(sweep->problem));
     if (sweep->n_axis == 1) {
         cz_sweep_begin_points(&table, sweep, false);
-        is_whole = cz_table_write_text(&table, colour, stream);
+        cz_table_write_text(&table, &terminal);
     } else {
-        write_map(sweep, colour, stream);
-        write_reasons(sweep, colour, stream);
+        write_map(sweep, &terminal);
+        write_reasons(sweep, &terminal);
     }
-    if (cz_sweep_is_beyond(sweep)) {
-        cz_text_write("Override: some points went beyond model validity (" CZ_FIGURE_MARK_MEANS
-                      ").",
-                      CZ_STYLE_BAD, colour, stream);
-        fputc('\n', stream);
-    }
-    write_worst(sweep, colour, stream);
-    if (sweep->is_interrupted) {
-        cz_text_write("INTERRUPTED: points are missing.", CZ_STYLE_BAD, colour, stream);
-        fputc('\n', stream);
-    }
-    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
+    if (cz_sweep_is_beyond(sweep))
+        cz_terminal_say(&terminal, CZ_STYLE_BAD, CZ_SWEEP_BEYOND "\n");
+    write_worst(sweep, &terminal);
+    if (sweep->is_interrupted)
+        cz_terminal_say(&terminal, CZ_STYLE_BAD, "INTERRUPTED: points are missing.\n");
+    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
 }

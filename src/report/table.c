@@ -1,6 +1,7 @@
 /* Tables as data, and as text: widths are counted in characters, so that names in UTF-8 line up. */
 #include "report/table.h"
 
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,14 +13,30 @@ static const char *const style_begin[] = {[CZ_STYLE_PLAIN] = "",
                                           [CZ_STYLE_BAD] = "\033[1;31m",
                                           [CZ_STYLE_SMALL] = ""};
 
-void cz_text_write(const char *text, CzStyle style, bool colour, FILE *stream) {
-    const bool painted = colour && style_begin[style][0] != '\0';
+static void write_styled(CzTerminal *terminal, const char *text, CzStyle style) {
+    const bool painted = terminal->colour && style_begin[style][0] != '\0';
     if (painted)
-        fputs(style_begin[style], stream);
+        fputs(style_begin[style], terminal->stream);
     for (; *text != '\0'; text++)
-        fputc((unsigned char)*text < 0x20 || *text == 0x7f ? '?' : *text, stream);
+        fputc((unsigned char)*text < 0x20 || *text == 0x7f ? '?' : *text, terminal->stream);
     if (painted)
-        fputs("\033[0m", stream);
+        fputs("\033[0m", terminal->stream);
+}
+
+void cz_terminal_say(CzTerminal *terminal, CzStyle style, const char *format, ...) {
+    enum { ROOM = 4 * CZ_SENTENCE_ROOM };
+    char text[ROOM];
+    const char *end = format + strlen(format);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    while (end > format && end[-1] == '\n')
+        end--;
+    const size_t n = strlen(text), n_end = strlen(end);
+    text[n >= n_end ? n - n_end : 0] = '\0';
+    write_styled(terminal, text, style);
+    fputs(end, terminal->stream);
 }
 
 /* ---- data ---- */
@@ -38,10 +55,15 @@ void cz_table_head(CzReportTable *table, const char *head) {
     table->column[table->n_column++].is_number = is_number;
 }
 
-void cz_table_begin(CzReportTable *table, int n_head, const char *const *head) {
+void cz_table_begin(CzReportTable *table, const char *heads) {
     memset(table, 0, sizeof *table);
-    for (int i = 0; i < n_head; i++)
-        cz_table_head(table, head[i]);
+    while (heads != NULL) {
+        char head[CZ_LABEL_ROOM];
+        const size_t n = strcspn(heads, ";");
+        snprintf(head, sizeof head, "%.*s", (int)n, heads);
+        cz_table_head(table, head);
+        heads = heads[n] != '\0' ? heads + n + 1 : NULL;
+    }
 }
 
 static void put(CzReportTable *table, CzReportCell cell) {
@@ -58,8 +80,21 @@ static void put(CzReportTable *table, CzReportCell cell) {
         table->cell[table->n_cell++] = cell;
 }
 
-void cz_table_put(CzReportTable *table, const char *text, CzStyle style) {
+void cz_table_put_styled(CzReportTable *table, const char *text, CzStyle style) {
     put(table, (CzReportCell){.text = keep(table, text != NULL ? text : ""), .style = style});
+}
+
+void cz_table_put(CzReportTable *table, const char *text) {
+    cz_table_put_styled(table, text, CZ_STYLE_PLAIN);
+}
+
+void cz_table_put_format(CzReportTable *table, const char *format, ...) {
+    char text[CZ_SENTENCE_ROOM];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    cz_table_put(table, text);
 }
 
 void cz_table_put_bar(CzReportTable *table, const CzBar *bar, double share) {
@@ -91,7 +126,7 @@ static int width_of(const char *text) {
 
 /* Writes a row without the blanks at its end. */
 static void write_row(const CzReportTable *table, const CzReportCell *cell, const int *width,
-                      bool colour, FILE *stream) {
+                      CzTerminal *terminal) {
     int last = table->n_column - 1;
     while (last > 0 && (table->column[last].head == NULL || cell[last].text[0] == '\0'))
         last--;
@@ -100,19 +135,20 @@ static void write_row(const CzReportTable *table, const CzReportCell *cell, cons
             continue;
         const int blank = width[column] - width_of(cell[column].text);
         const bool right = table->column[column].is_number;
-        fprintf(stream, "%*s", (column > 0 ? COLUMN_SPACE : 0) + (right ? blank : 0), "");
-        cz_text_write(cell[column].text, cell[column].style, colour, stream);
+        fprintf(terminal->stream, "%*s", (column > 0 ? COLUMN_SPACE : 0) + (right ? blank : 0), "");
+        write_styled(terminal, cell[column].text, cell[column].style);
         if (!right && column < last)
-            fprintf(stream, "%*s", blank, "");
+            fprintf(terminal->stream, "%*s", blank, "");
     }
-    fputc('\n', stream);
+    fputc('\n', terminal->stream);
 }
 
-bool cz_table_write_text(CzReportTable *table, bool colour, FILE *stream) {
+void cz_table_write_text(CzReportTable *table, CzTerminal *terminal) {
     CzReportCell head[CZ_MOST_COLUMNS];
     int width[CZ_MOST_COLUMNS] = {0};
+    terminal->failed |= table->failed;
     if (table->failed)
-        fputs("no memory for this table\n", stream);
+        fputs("no memory for this table\n", terminal->stream);
     for (int column = 0; column < table->n_column; column++) {
         const char *text = table->column[column].head;
         head[column] = (CzReportCell){.text = text != NULL ? text : ""};
@@ -123,9 +159,8 @@ bool cz_table_write_text(CzReportTable *table, bool colour, FILE *stream) {
         if (table->column[column].head != NULL && cell_width > width[column])
             width[column] = cell_width;
     }
-    write_row(table, head, width, colour, stream);
+    write_row(table, head, width, terminal);
     for (int i = 0; i + table->n_column <= table->n_cell; i += table->n_column)
-        write_row(table, &table->cell[i], width, colour, stream);
+        write_row(table, &table->cell[i], width, terminal);
     cz_table_free(table);
-    return !table->failed;
 }

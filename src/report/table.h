@@ -51,14 +51,18 @@ typedef struct CzReportTable {
     CzArena arena; /* of the texts */
 } CzReportTable;
 
-/* Starts a table with these heads: one that begins with '>' is above numbers, a column with NULL is
- * left out. Further heads may be added before the first row. */
-void cz_table_begin(CzReportTable *table, int n_head, const char *const *head);
+/* Starts a table with the heads of a text, semicolons between them; NULL: none yet. A head that
+ * begins with '>' is above numbers. Further heads may be added before the first row; a column whose
+ * head is NULL is left out. */
+void cz_table_begin(CzReportTable *table, const char *heads);
 void cz_table_head(CzReportTable *table, const char *head);
 
-/* Appends a cell; rows follow each other as they are full. Control characters become '?'; NULL is
- * empty. */
-void cz_table_put(CzReportTable *table, const char *text, CzStyle style);
+/* Appends a cell; a row that is full is followed by the next. Control characters become '?'; NULL
+ * is empty. */
+void cz_table_put(CzReportTable *table, const char *text);
+void cz_table_put_styled(CzReportTable *table, const char *text, CzStyle style);
+void cz_table_put_format(CzReportTable *table, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 /* Cells that are drawn on a page and empty in text: a bar, nothing for NaN; where the start and the
  * best value of a variable are between its bounds, 0 to 1, NaN for none. */
 void cz_table_put_bar(CzReportTable *table, const CzBar *bar, double share);
@@ -67,13 +71,21 @@ void cz_table_put_range(CzReportTable *table, double start, double best);
 /* Frees a table that is not written. */
 void cz_table_free(CzReportTable *table);
 
-/* Writes all rows and frees the table. False without memory: then rows are missing, which the text
- * says too. */
-bool cz_table_write_text(CzReportTable *table, bool colour, FILE *stream);
+/* Zero-initialise it and set the first two. */
+typedef struct CzTerminal {
+    FILE *stream;
+    bool colour; /* escape codes are allowed */
+    bool failed; /* there was no memory for a table: rows are missing, which the text says too */
+} CzTerminal;
+
+/* Writes a text in a style: control characters become '?', line ends at the end of the format stay.
+ */
+void cz_terminal_say(CzTerminal *terminal, CzStyle style, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Writes all rows and frees the table. */
+void cz_table_write_text(CzReportTable *table, CzTerminal *terminal);
 /* The same as HTML, scrolling sideways where it is too wide; without memory the page has failed. */
 void cz_table_write_page(CzReportTable *table, CzMarkup *markup);
-
-/* Writes a text in a style on a terminal, control characters as '?'. */
-void cz_text_write(const char *text, CzStyle style, bool colour, FILE *stream);
 
 #endif

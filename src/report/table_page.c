@@ -25,12 +25,9 @@ static void write_bar(CzMarkup *markup, const CzBar *bar, double share) {
 }
 
 static void write_mark(CzMarkup *markup, double at, bool is_best) {
-    cz_markup_open(markup, "circle");
-    cz_markup_number(markup, "cx", 1, 8 + 104 * fmin(fmax(at, 0), 1));
-    cz_markup_attributes(markup, "cy", "8", "r", is_best ? "5" : "4", "fill",
-                         is_best ? "#0072b2" : "none", "stroke", is_best ? "#0072b2" : "#d55e00",
-                         "stroke-width", "2", NULL);
-    cz_markup_close(markup);
+    cz_markup_shape(markup, "circle", "cx", (const double[]){8 + 104 * fmin(fmax(at, 0), 1)}, "cy",
+                    "8", "r", is_best ? "5" : "4", "fill", is_best ? "#0072b2" : "none", "stroke",
+                    is_best ? "#0072b2" : "#d55e00", "stroke-width", "2", NULL);
 }
 
 /* Start (a ring) and best (a dot) between the bounds. */

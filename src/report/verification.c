@@ -1,4 +1,4 @@
-/* What a verification answers, on a terminal: the numbers that change most. */
+/* A verification on a terminal: the results that change most. */
 #include "crushzone/report.h"
 
 #include "report/figure.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROWS = 12 }; /* of the table: the rest changes less and is in the document */
+enum { MOST_ROWS = 12 }; /* the others change less and are in the JSON document */
 
 static double largest_of(const CzVerifiedValue *value) {
     double largest = 0.0;
@@ -31,36 +31,35 @@ static int by_change(const void *a, const void *b) {
 
 static void put_row(CzReportTable *table, const CzVerification *verification,
                     const CzVerifiedValue *value) {
-    char text[CZ_FIGURE_ROOM], record[CZ_FIGURE_ROOM + 16];
+    char text[CZ_FIGURE_ROOM];
     const char *unit = value->unit != NULL ? value->unit : "";
-    cz_table_put(table, value->name, CZ_STYLE_PLAIN);
-    cz_table_put(table, value->where, CZ_STYLE_PLAIN);
-    cz_table_put(table, value->scenario, CZ_STYLE_PLAIN);
+    cz_table_put(table, value->name);
+    cz_table_put(table, value->where);
+    cz_table_put(table, value->scenario);
     cz_figure_plain(text, value->production);
-    snprintf(record, sizeof record, "%s%s%s", cz_figure_mark(text, value->beyond_validity),
-             unit[0] != '\0' ? " " : "", unit);
-    cz_table_put(table, record, CZ_STYLE_PLAIN);
+    cz_table_put_format(table, "%s%s%s", cz_figure_mark(text, value->beyond_validity),
+                        unit[0] != '\0' ? " " : "", unit);
     for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
         if ((verification->methods & (1u << method)) == 0)
             continue;
         const bool bad = value->flips[method] || value->change[method] > verification->limit;
-        cz_table_put(
+        cz_table_put_styled(
             table, value->flips[method] ? "CHANGED" : cz_figure_change(text, value->change[method]),
             bad ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
     }
 }
 
-static bool write_values(const CzVerification *verification, bool colour, FILE *stream) {
+static void write_values(const CzVerification *verification, CzTerminal *terminal) {
     const size_t n = (size_t)verification->n_value;
     const CzVerifiedValue **value = calloc(n + 1, sizeof *value);
+    terminal->failed |= value == NULL;
     if (value == NULL)
-        return false;
+        return;
     for (size_t i = 0; i < n; i++)
         value[i] = &verification->value[i];
     qsort(value, n, sizeof *value, by_change);
-    static const char *const heads[] = {"largest changes", "where", "scenario", ">production"};
     CzReportTable table;
-    cz_table_begin(&table, sizeof heads / sizeof *heads, heads);
+    cz_table_begin(&table, "largest changes;where;scenario;>production");
     for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
         char head[64];
         snprintf(head, sizeof head, ">%s", cz_verify_method_text((CzVerifyMethod)method));
@@ -69,17 +68,17 @@ static bool write_values(const CzVerification *verification, bool colour, FILE *
     }
     for (size_t i = 0; i < n && i < MOST_ROWS; i++)
         put_row(&table, verification, value[i]);
-    const bool is_whole = cz_table_write_text(&table, colour, stream);
+    cz_table_write_text(&table, terminal);
     free(value);
-    return is_whole;
 }
 
 void cz_verified_begin_methods(CzReportTable *table, const CzVerification *verification,
                                bool on_page) {
-    const char *const heads[] = {"method", ">largest change", on_page ? "check" : NULL,
-                                 on_page ? "scenario" : NULL, ">changed verdicts"};
     char text[CZ_FIGURE_ROOM];
-    cz_table_begin(table, sizeof heads / sizeof *heads, heads);
+    cz_table_begin(table, "method;>largest change");
+    cz_table_head(table, on_page ? "check" : NULL);
+    cz_table_head(table, on_page ? "scenario" : NULL);
+    cz_table_head(table, ">changed verdicts");
     for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
         if ((verification->methods & (1u << method)) == 0)
             continue;
@@ -89,20 +88,14 @@ void cz_verified_begin_methods(CzReportTable *table, const CzVerification *verif
         const bool bad = !is_done || !(change <= verification->limit) || flips;
         const int worst = is_done ? verification->worst[method] : -1;
         const CzVerifiedValue *value = worst >= 0 ? &verification->value[worst] : NULL;
-        cz_table_put(table, cz_verify_method_text((CzVerifyMethod)method), CZ_STYLE_PLAIN);
-        cz_table_put(table, is_done ? cz_figure_change(text, change) : "not done",
-                     bad ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
-        cz_table_put(table, value != NULL ? value->name : "", CZ_STYLE_PLAIN);
-        cz_table_put(table, value != NULL ? value->scenario : "", CZ_STYLE_PLAIN);
+        cz_table_put(table, cz_verify_method_text((CzVerifyMethod)method));
+        cz_table_put_styled(table, is_done ? cz_figure_change(text, change) : "not done",
+                            bad ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+        cz_table_put(table, value != NULL ? value->name : "");
+        cz_table_put(table, value != NULL ? value->scenario : "");
         snprintf(text, sizeof text, "%d", verification->n_flip[method]);
-        cz_table_put(table, text, flips ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+        cz_table_put_styled(table, text, flips ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
     }
-}
-
-static bool write_methods(const CzVerification *verification, bool colour, FILE *stream) {
-    CzReportTable table;
-    cz_verified_begin_methods(&table, verification, false);
-    return cz_table_write_text(&table, colour, stream);
 }
 
 static bool changes_too_much(const CzVerification *verification, const CzVerifiedValue *value) {
@@ -131,25 +124,24 @@ static void write_scatter(const CzVerification *verification, FILE *stream) {
 CzStatus cz_report_write_verification_table(const CzProblem *problem,
                                             const CzVerification *verification, bool colour,
                                             FILE *stream) {
-    bool is_whole = true;
+    CzTerminal terminal = {stream, colour, false};
+    CzReportTable methods;
     char text[CZ_FIGURE_ROOM];
-    cz_text_write(cz_problem_title(problem), CZ_STYLE_PLAIN, colour, stream);
-    fputs("\n\n", stream);
+    cz_terminal_say(&terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(problem));
     if (verification->n_value > 0) {
-        is_whole &= write_values(verification, colour, stream);
+        write_values(verification, &terminal);
         fputc('\n', stream);
-        is_whole &= write_methods(verification, colour, stream);
-        fputc('\n', stream);
-    }
-    if (verification->failure[0] != '\0') {
-        cz_text_write(verification->failure, CZ_STYLE_BAD, colour, stream);
+        cz_verified_begin_methods(&methods, verification, false);
+        cz_table_write_text(&methods, &terminal);
         fputc('\n', stream);
     }
+    if (verification->failure[0] != '\0')
+        cz_terminal_say(&terminal, CZ_STYLE_BAD, "%s\n", verification->failure);
     write_scatter(verification, stream);
     const bool passes = verification->verdict == CZ_VERDICT_PASS;
     fputs("Verification: ", stream);
-    cz_text_write(passes ? "pass" : "FAIL", passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, colour, stream);
+    cz_terminal_say(&terminal, passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, passes ? "pass" : "FAIL");
     fprintf(stream, " (%d results, limit %s)\n", verification->n_value,
             cz_figure_change(text, verification->limit));
-    return is_whole ? CZ_OK : CZ_STATUS_NO_MEMORY;
+    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
 }

@@ -5,6 +5,7 @@
 #include "text/node.h"
 #include "problem/problem.h"
 #include "report/page.h"
+#include "report/page_sweep.h"
 
 #include <math.h>
 #include <string.h>
@@ -136,6 +137,12 @@ CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluat
     (void)options;
     (void)error;
     fprintf(stream, "report of %d%s\n", scenario, is_top ? ", top" : "");
+    return CZ_OK;
+}
+CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error) {
+    (void)sweep;
+    (void)error;
+    fputs("report of a sweep\n", stream);
     return CZ_OK;
 }
 CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluator,

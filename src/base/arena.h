@@ -14,6 +14,11 @@ typedef struct CzArena {
 /* Zeroed memory for n items, aligned to 64 bytes; NULL when there is none. */
 void *cz_arena_allocate(CzArena *arena, size_t n, size_t size);
 
+/* Zeroed memory for n numbers; NULL when there is none. */
+static inline double *cz_arena_numbers(CzArena *arena, size_t n) {
+    return cz_arena_allocate(arena, n, sizeof(double));
+}
+
 /* An array with room for one more than its n items, which may have moved: it doubles at powers of
  * two, so all n must have come here one by one. NULL when there is no memory. */
 void *cz_arena_grow(CzArena *arena, void *items, int n, size_t size);

@@ -36,3 +36,7 @@ CzStatus cz_fail(CzError *error, CzStatus status, const char *format, ...) {
     cz_text_repair(error->message);
     return status;
 }
+
+CzStatus cz_no_memory(CzError *error, const char *what) {
+    return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %s", what);
+}

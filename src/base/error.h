@@ -9,6 +9,9 @@
 CzStatus cz_fail(CzError *error, CzStatus status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Fails for lack of memory; `what` is what it was for, such as "the models". */
+CzStatus cz_no_memory(CzError *error, const char *what);
+
 /* Passes a failure on. */
 #define CZ_TRY(call)                                                                               \
     do {                                                                                           \

@@ -1,5 +1,6 @@
 /* `run` and `check`: simulate every scenario, print the table, write the result folder. */
 #include "cli/command.h"
+#include "base/clock.h"
 #include "cli/messages.h"
 #include "cli/progress.h"
 #include "cli/session.h"

@@ -5,16 +5,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
-static const double terminal_interval = 0.2, log_interval = 10; /* [s] */
+#include "base/clock.h"
 
-double cz_clock(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+static const double terminal_interval = 0.2, log_interval = 10; /* [s] */
 
 void cz_progress_begin(CzProgressLine *line, const CzArguments *arguments, bool is_margin,
                        const char *unit) {

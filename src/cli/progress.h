@@ -25,7 +25,4 @@ void cz_progress_count(int n_done, int n_all, void *data);
 /* Clears the line. */
 void cz_progress_end(CzProgressLine *line);
 
-/* A steady clock [s]. */
-double cz_clock(void);
-
 #endif

@@ -1,8 +1,8 @@
 /* One problem file on its way through a command. */
 #include "cli/session.h"
 
+#include "base/clock.h"
 #include "cli/messages.h"
-#include "cli/progress.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,12 +1,11 @@
-/* Further parameter sets that fit about as well: a fit that has more parameters than measurements,
- * or insensitive ones, has many answers, and reporting only one would hide it.
+/* Further parameter sets that fit about as well. A fit with more parameters than measurements, or
+ * with insensitive ones, has many solutions, and a report of one would hide that.
  */
 #include "optimise/alternatives.h"
 #include "base/error.h"
+#include "optimise/outcome.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* Sets that are reported at most, how much worse than the best they may be when it misses a
  * tolerance, and how far apart they lie: root mean square share of the ranges (all ours). */
@@ -40,19 +39,17 @@ static long next_apart(const CzSearch *search, long best, int n_chosen, const do
     return found;
 }
 
-CzStatus cz_alternatives_find(const CzSubspace *subspace, const CzSearch *search, long best,
-                              CzOutcome *outcome, CzError *error) {
+CzStatus cz_alternatives_find(const CzSubspace *subspace, long best, CzOutcome *outcome,
+                              CzError *error) {
+    const CzSearch *search = &subspace->search;
     const int n = search->function->n_variable;
     if (best < 0 || n == 0)
         return CZ_OK;
-    double *chosen = calloc((size_t)(MOST + 2) * (size_t)n, sizeof *chosen);
-    outcome->alternative =
-        calloc((size_t)MOST * (size_t)subspace->n_all, sizeof *outcome->alternative);
-    outcome->alternative_objective = calloc(MOST, sizeof *outcome->alternative_objective);
-    if (chosen == NULL || outcome->alternative == NULL || outcome->alternative_objective == NULL) {
-        free(chosen);
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for further parameter sets");
-    }
+    double *chosen = cz_outcome_numbers(outcome, (size_t)((MOST + 2) * n));
+    outcome->alternative = cz_outcome_numbers(outcome, (size_t)(MOST * subspace->n_all));
+    outcome->alternative_objective = cz_outcome_numbers(outcome, MOST);
+    if (chosen == NULL || outcome->alternative == NULL || outcome->alternative_objective == NULL)
+        return cz_no_memory(error, "further parameter sets");
     double *u = chosen + (MOST + 1) * n;
     cz_search_scale(search, cz_search_x(search, best), chosen);
     for (int i = 0; i < MOST; i++) {
@@ -64,6 +61,5 @@ CzStatus cz_alternatives_find(const CzSubspace *subspace, const CzSearch *search
                            outcome->alternative + i * subspace->n_all);
         outcome->alternative_objective[outcome->n_alternative++] = search->record[record].objective;
     }
-    free(chosen);
     return CZ_OK;
 }

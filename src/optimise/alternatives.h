@@ -6,7 +6,7 @@
 
 /* Adds to the outcome the best sets that fit about as well as record `best` and lie apart from it
  * and from one another. Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_alternatives_find(const CzSubspace *subspace, const CzSearch *search,
-                                            long best, CzOutcome *outcome, CzError *error);
+CZ_MUST_CHECK CzStatus cz_alternatives_find(const CzSubspace *subspace, long best,
+                                            CzOutcome *outcome, CzError *error);
 
 #endif

@@ -4,13 +4,11 @@
 #include "evaluate/evaluator.h"
 #include "optimise/strategy.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The best on the catalogue increments when there are any. A search that ended before it came to
- * them gives the best it has seen, and so does one whose only designs that pass, or can be written
- * down, lie between them. */
+ * them results in the best of all, and so does one whose only designs that pass, or that a file may
+ * hold, lie between them. */
 static long best_record(const CzSearch *search) {
     const long best = search->best, on_grid = search->best_on_grid;
     if (!cz_search_has_steps(search) || !search->is_snapped || on_grid < 0)
@@ -28,26 +26,13 @@ long cz_combinations_record(const CzSearch *search) {
 
 /* ---- one search ------------------------------------------------------------------------------ */
 
-/* Evaluates the only design of a combination without numbers. */
-static void evaluate_only_design(CzSearch *search) {
-    double objective,
-        *constraint = cz_search_numbers(search, (size_t)search->function->n_constraint);
-    if (constraint != NULL)
-        cz_search_evaluate(search, "choices", 1, search->function->start, &objective, constraint);
-    free(constraint);
-}
-
-static CzStatus lead(CzSearch *search, bool is_fit, const CzOptimiseOptions *options,
-                     CzError *error) {
-    const unsigned long seed = (unsigned long)options->seed;
+static CzStatus run(CzSearch *search, const CzOptimiseOptions *options, CzError *error) {
+    const char *algorithm = strcmp(options->algorithm, "auto") == 0 ? NULL : options->algorithm;
     CzStatus status = CZ_OK;
-    if (search->function->n_variable == 0)
-        evaluate_only_design(search);
-    else if (strcmp(options->algorithm, "auto") != 0)
-        status = cz_strategy_named(search, options->algorithm, seed, error);
+    if (search->function->n_variable == 0) /* the choices alone */
+        cz_search_evaluate_start(search, "choices");
     else
-        status =
-            is_fit ? cz_strategy_fit(search, seed, error) : cz_strategy_auto(search, seed, error);
+        status = cz_strategy(search, algorithm, (unsigned long)options->seed, error);
     if (status != CZ_OK || search->status == CZ_OK || search->status == CZ_STATUS_INTERRUPTED)
         return status;
     if (search->status == CZ_STATUS_RUN_FAILED)
@@ -72,25 +57,25 @@ static bool is_better(const CzSearch *search, const CzSearch *other) {
                                 : mine->penalty < theirs->penalty;
 }
 
-/* Begins and leads one more search. */
+/* Begins and runs one more search. */
 static CzStatus begin(CzCombinations *combinations, CzEvaluator *evaluator, int combination,
                       const double *start, long evaluations, const CzOptimiseOptions *options,
                       CzError *error) {
     CzSubspace *subspace = &combinations->subspace[combinations->n];
-    CzSearch *search = &combinations->search[combinations->n];
+    CzSearch *search = &subspace->search;
     CzOptimiseOptions own = *options;
     long n_earlier = 0;
     for (int i = 0; i < combinations->n; i++)
-        n_earlier += combinations->search[i].n_record;
+        n_earlier += combinations->subspace[i].search.n_record;
     own.evaluations = evaluations;
     if (!cz_subspace_create(evaluator, combination, start, &combinations->arena, subspace))
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a search");
+        return cz_no_memory(error, "a search");
     cz_search_init(search, &subspace->function, &own);
     search->n_earlier = n_earlier;
     search->most_in_all = options->evaluations;
     combinations->n++;
-    const CzStatus status = lead(search, cz_evaluator_is_fit(evaluator), &own, error);
-    if (is_better(search, &combinations->search[combinations->chosen]))
+    const CzStatus status = run(search, &own, error);
+    if (is_better(search, &combinations->subspace[combinations->chosen].search))
         combinations->chosen = combinations->n - 1;
     return status;
 }
@@ -104,14 +89,15 @@ static CzStatus search_choices(CzEvaluator *evaluator, int n, const CzOptimiseOp
     for (int combination = 0; combination < n && left > 0; combination++) {
         const CzStatus status =
             begin(combinations, evaluator, combination, NULL, half > 0 ? half : 1, options, error);
+        const CzSearch *search = &combinations->subspace[combinations->n - 1].search;
         n_failed += status == CZ_STATUS_RUN_FAILED;
         if (status != CZ_OK && (status != CZ_STATUS_RUN_FAILED || n_failed == n))
             return status;
-        left -= combinations->search[combinations->n - 1].n_record;
-        if (combinations->search[combinations->n - 1].status == CZ_STATUS_INTERRUPTED)
+        left -= search->n_record;
+        if (search->status == CZ_STATUS_INTERRUPTED)
             return CZ_OK;
     }
-    const CzSearch *best = &combinations->search[combinations->chosen];
+    const CzSearch *best = &combinations->subspace[combinations->chosen].search;
     const long record = cz_combinations_record(best);
     if (record < 0 || left < 1 || best->function->n_variable == 0)
         return CZ_OK;
@@ -125,10 +111,8 @@ CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *option
     *combinations = (CzCombinations){0};
     combinations->subspace =
         cz_arena_allocate(&combinations->arena, (size_t)n + 1, sizeof *combinations->subspace);
-    combinations->search =
-        cz_arena_allocate(&combinations->arena, (size_t)n + 1, sizeof *combinations->search);
-    if (combinations->subspace == NULL || combinations->search == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the search");
+    if (combinations->subspace == NULL)
+        return cz_no_memory(error, "the search");
     if (n > 1)
         return search_choices(evaluator, n, options, combinations, error);
     return begin(combinations, evaluator, 0, NULL, options->evaluations, options, error);
@@ -136,6 +120,6 @@ CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *option
 
 void cz_combinations_free(CzCombinations *combinations) {
     for (int i = 0; i < combinations->n; i++)
-        cz_search_free(&combinations->search[i]);
+        cz_search_free(&combinations->subspace[i].search);
     cz_arena_free(&combinations->arena);
 }

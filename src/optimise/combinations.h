@@ -9,20 +9,19 @@
 typedef struct CzCombinations {
     CzArena arena;
     int n;                /* searches that were begun */
-    CzSubspace *subspace; /* (n) */
-    CzSearch *search;     /* (n) */
+    CzSubspace *subspace; /* with their searches (n) */
     int chosen;           /* search with the best design */
 } CzCombinations;
 
-/* Leads all searches; options are settled. Statuses: CZ_OK, also when stopped;
+/* Runs all searches with options that have no defaults left. Statuses: CZ_OK, also when stopped;
  * CZ_STATUS_RUN_FAILED when designs of every combination failed, CZ_STATUS_INPUT,
  * CZ_STATUS_NO_MEMORY. The caller frees the combinations in any case. */
 CZ_MUST_CHECK CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                        CzCombinations *combinations, CzError *error);
 void cz_combinations_free(CzCombinations *combinations);
 
-/* The record of a search that counts: the best on the catalogue increments when there are any. -1
- * when no design that a file may hold was seen without a failure. */
+/* The record with the result of a search: the best one on the catalogue increments when there are
+ * any. -1 when the search evaluated no design that a file may hold without a failed run. */
 long cz_combinations_record(const CzSearch *search);
 
 #endif

@@ -4,27 +4,27 @@
  *   minimise |r + J p|^2 + damping |p|^2   with 0 <= u + p <= 1
  *
  * The small problem is solved exactly by turns over its variables, which keeps to the bounds; three
- * dampings are tried side by side. Residuals are smooth where their sum of squares is not quadratic
- * yet, so this needs a tenth of the evaluations of methods that see the sum alone. Constraints that
- * the problem names beside its matches are residuals while they are violated.
+ * dampings are tried side by side. Residuals are smooth where their sum of squares is not yet
+ * quadratic, so this needs a tenth of the evaluations of methods that use the sum alone.
+ * Constraints of the problem beside its matches are residuals as long as they are violated.
  */
 #include "optimise/gauss_newton.h"
+#include "base/arena.h"
 #include "base/error.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { DAMPINGS = 3, SWEEPS = 300 };
 
 typedef struct Newton {
+    CzArena arena;
     CzSearch *search;
     const char *phase;
     int n, m, n_detail;  /* variables, residuals, those of them that are matches */
-    int most;            /* designs side by side */
     double *u, *r, f;    /* base (n), its residuals (m) and their sum of squares */
     double *slope;       /* J (m x n) */
-    double *x, *many_f;  /* (most x n), (most) */
+    double *x, *many_f;  /* (most x n), (most) with `most` designs side by side */
     double *many_c;      /* (most x n_constraint) */
     double *many_d;      /* (most x n_detail) */
     double *many_r;      /* (most x m) */
@@ -33,30 +33,25 @@ typedef struct Newton {
 } Newton;
 
 static bool create(Newton *newton, CzSearch *search, const char *phase) {
-    const CzFunction *function = search->function;
-    const int n = function->n_variable, n_detail = cz_search_n_detail(search);
-    const int m = n_detail + function->n_constraint, most = n > DAMPINGS ? n : DAMPINGS;
+    const size_t n = (size_t)search->function->n_variable;
+    const size_t n_constraint = (size_t)search->function->n_constraint;
+    const size_t n_detail = (size_t)cz_search_n_detail(search), m = n_detail + n_constraint;
+    const size_t most = n > DAMPINGS ? n : DAMPINGS;
     *newton = (Newton){
-        .search = search, .phase = phase, .n = n, .m = m, .n_detail = n_detail, .most = most};
-    const size_t room = (size_t)n + (size_t)m + (size_t)(m * n) + (size_t)(most * n) +
-                        (size_t)most + (size_t)(most * (function->n_constraint + 1)) +
-                        (size_t)(most * (n_detail + 1)) + (size_t)(most * m) + (size_t)(most * n) +
-                        (size_t)m + (size_t)n;
-    double *memory = calloc(room, sizeof *memory);
-    if (memory == NULL)
-        return false;
-    newton->u = memory;
-    newton->r = newton->u + n;
-    newton->slope = newton->r + m;
-    newton->x = newton->slope + m * n;
-    newton->many_f = newton->x + most * n;
-    newton->many_c = newton->many_f + most;
-    newton->many_d = newton->many_c + most * (function->n_constraint + 1);
-    newton->many_r = newton->many_d + most * (n_detail + 1);
-    newton->tried = newton->many_r + most * m;
-    newton->rest = newton->tried + most * n;
-    newton->norm = newton->rest + m;
-    return true;
+        .search = search, .phase = phase, .n = (int)n, .m = (int)m, .n_detail = (int)n_detail};
+    CzArena *arena = &newton->arena;
+    newton->u = cz_arena_numbers(arena, n);
+    newton->r = cz_arena_numbers(arena, m);
+    newton->slope = cz_arena_numbers(arena, m * n);
+    newton->x = cz_arena_numbers(arena, most * n);
+    newton->many_f = cz_arena_numbers(arena, most);
+    newton->many_c = cz_arena_numbers(arena, most * n_constraint);
+    newton->many_d = cz_arena_numbers(arena, most * n_detail);
+    newton->many_r = cz_arena_numbers(arena, most * m);
+    newton->tried = cz_arena_numbers(arena, most * n);
+    newton->rest = cz_arena_numbers(arena, m);
+    newton->norm = cz_arena_numbers(arena, n);
+    return !arena->out_of_memory;
 }
 
 static double sum_of_squares(const double *r, int m) {
@@ -69,8 +64,7 @@ static double sum_of_squares(const double *r, int m) {
 /* Evaluates designs of `tried` and gathers their residuals. */
 static bool evaluate(Newton *newton, int n_point) {
     const CzFunction *function = newton->search->function;
-    for (int i = 0; i < n_point; i++)
-        cz_search_unscale(newton->search, newton->tried + i * newton->n, newton->x + i * newton->n);
+    cz_search_unscale(newton->search, n_point, newton->tried, newton->x);
     if (!cz_search_evaluate_details(newton->search, newton->phase, n_point, newton->x,
                                     newton->many_f, newton->many_c, newton->many_d))
         return false;
@@ -96,8 +90,8 @@ static void move_to(Newton *newton, int point) {
     newton->f = newton->many_f[point];
 }
 
-/* Secants around the base, away from the nearer bound. A design that failed leaves its column
- * without a slope, so that nothing moves there. */
+/* Secants around the base, away from the nearer bound. The slopes of a variable whose design failed
+ * are 0, so that it does not move. */
 static bool find_slopes(Newton *newton, double secant) {
     const int n = newton->n, m = newton->m;
     for (int i = 0; i < n; i++) {
@@ -185,13 +179,16 @@ static void descend(Newton *newton, long evaluations) {
 CzStatus cz_gauss_newton(CzSearch *search, const char *phase, const double *u, long evaluations,
                          CzError *error) {
     Newton newton;
-    if (!create(&newton, search, phase))
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
-    memcpy(newton.tried, u, (size_t)newton.n * sizeof *u);
-    if (evaluate(&newton, 1) && isfinite(newton.many_f[0])) {
-        move_to(&newton, 0);
-        descend(&newton, evaluations - 1);
+    CzStatus status = CZ_OK;
+    if (!create(&newton, search, phase)) {
+        status = cz_no_memory(error, "a fit");
+    } else {
+        memcpy(newton.tried, u, (size_t)newton.n * sizeof *u);
+        if (evaluate(&newton, 1) && isfinite(newton.many_f[0])) {
+            move_to(&newton, 0);
+            descend(&newton, evaluations - 1);
+        }
     }
-    free(newton.u);
-    return CZ_OK;
+    cz_arena_free(&newton.arena);
+    return status;
 }

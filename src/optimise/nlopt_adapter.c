@@ -1,11 +1,12 @@
-/* NLopt, and everything about it that needs care.
+/* NLopt behind one function.
  *
- * It requires the objective and for the constraints one after another at the same point, so the
- * last point is remembered and one evaluation serves both. Gradients are secants: n more designs
- * evaluated side by side. It is never given a number that is not finite, always has a limit and a
- * tolerance, and what it returns is not trusted: the search keeps the best design itself.
+ * It asks for the objective and for the constraints one after the other at the same point, so the
+ * last point is remembered and one evaluation serves both. Gradients are secants: n further designs
+ * are evaluated side by side. NLopt gets finite numbers only, always has a limit and a tolerance,
+ * and its result is not used: the search keeps the best design.
  */
 #include "optimise/nlopt_adapter.h"
+#include "base/arena.h"
 #include "base/error.h"
 #include "base/suggest.h"
 
@@ -82,9 +83,10 @@ CzNloptRun cz_nlopt_run_default(const char *algorithm) {
                         .seed = 1};
 }
 
-/* ---- the bridge between NLopt's callbacks and the search ------------------------------------- */
+/* ---- NLopt's callbacks and the search -------------------------------------------------------- */
 
 typedef struct Bridge {
+    CzArena arena;
     CzSearch *search;
     const CzNloptRun *run;
     nlopt_opt opt;
@@ -102,44 +104,30 @@ typedef struct Bridge {
 } Bridge;
 
 static bool bridge_allocate(Bridge *bridge) {
-    const size_t n = (size_t)bridge->n, m = (size_t)bridge->m + 1;
-    const size_t total = n + m + n + m * n + (n + 1) * n + (n + 1) + (n + 1) * m;
-    double *at = calloc(total, sizeof *at);
-    bridge->u = at;
-    if (at == NULL)
-        return false;
-    bridge->c = at += n;
-    bridge->df = at += m;
-    bridge->dc = at += n;
-    bridge->x = at += m * n;
-    bridge->many_f = at += (n + 1) * n;
-    bridge->many_c = at + n + 1;
-    return true;
+    const size_t n = (size_t)bridge->n, m = (size_t)bridge->m;
+    bridge->u = cz_arena_numbers(&bridge->arena, n);
+    bridge->c = cz_arena_numbers(&bridge->arena, m);
+    bridge->df = cz_arena_numbers(&bridge->arena, n);
+    bridge->dc = cz_arena_numbers(&bridge->arena, m * n);
+    bridge->x = cz_arena_numbers(&bridge->arena, (n + 1) * n);
+    bridge->many_f = cz_arena_numbers(&bridge->arena, n + 1);
+    bridge->many_c = cz_arena_numbers(&bridge->arena, (n + 1) * m);
+    return !bridge->arena.out_of_memory;
 }
 
-/* Asks NLopt to end; asked again at every call, as a nested algorithm forgets it. */
-static void ask_to_stop(const Bridge *bridge) {
-    nlopt_force_stop(bridge->opt);
-}
-
-/* Evaluates n_point designs of bridge->x unless this run's share is exhausted. */
+/* Evaluates n_point designs of bridge->x, or stops NLopt where the search or this run's share of it
+ * ends: at every call again, because a nested algorithm forgets it. */
 static bool evaluate(Bridge *bridge, int n_point) {
     if (bridge->search->n_record + n_point > bridge->limit ||
         !cz_search_evaluate(bridge->search, bridge->run->phase, n_point, bridge->x, bridge->many_f,
                             bridge->many_c)) {
-        ask_to_stop(bridge);
+        nlopt_force_stop(bridge->opt);
         return false;
     }
     return true;
 }
 
-/* Secant step of one variable, away from the nearer bound when it would leave the box. */
-static double secant_of(const Bridge *bridge, const double *u, int variable) {
-    const double h = bridge->run->secant;
-    return u[variable] + h <= 1 ? h : -h;
-}
-
-/* Makes sure that value (and gradient) at u are at hand; false when they cannot be had any more. */
+/* Makes sure that the value (and gradient) at u is known; false once the run has ended. */
 static bool prepare(Bridge *bridge, const double *given, bool wants_gradient) {
     const int n = bridge->n, m = bridge->m;
     const CzFunction *function = bridge->search->function;
@@ -150,12 +138,12 @@ static bool prepare(Bridge *bridge, const double *given, bool wants_gradient) {
     memcpy(u, given, (size_t)n * sizeof *u);
     int n_point = 0;
     if (!same)
-        cz_search_unscale(bridge->search, u, bridge->x + n * n_point++);
+        cz_search_unscale(bridge->search, 1, u, bridge->x + n * n_point++);
     for (int i = 0; wants_gradient && i < n; i++, n_point++) {
         const double kept = u[i];
         u[i] = fmin(fmax(kept, 0), 1);
-        u[i] += secant_of(bridge, u, i);
-        cz_search_unscale(bridge->search, u, bridge->x + n * n_point);
+        u[i] += cz_search_secant(u[i], bridge->run->secant);
+        cz_search_unscale(bridge->search, 1, u, bridge->x + n * n_point);
         u[i] = kept;
     }
     bridge->has_value = same;
@@ -171,8 +159,7 @@ static bool prepare(Bridge *bridge, const double *given, bool wants_gradient) {
     bridge->has_gradient = wants_gradient;
     for (int i = 0; wants_gradient && i < n; i++) {
         const int point = i + !same;
-        const double at = fmin(fmax(u[i], 0), 1);
-        const double h = at + bridge->run->secant <= 1 ? bridge->run->secant : -bridge->run->secant;
+        const double h = cz_search_secant(fmin(fmax(u[i], 0), 1), bridge->run->secant);
         bridge->df[i] = (bridge->many_f[point] / bridge->scale - bridge->f) / h;
         for (int j = 0; j < m; j++)
             bridge->dc[j * n + i] = (bridge->many_c[point * function->n_constraint + j] +
@@ -229,7 +216,7 @@ static void constraints(unsigned m, double *result, unsigned n_all, const double
 
 /* ---- one run --------------------------------------------------------------------------------- */
 
-/* Algorithms that hand their work to another one. */
+/* Algorithms that need a local optimizer. */
 static bool needs_local(nlopt_algorithm algorithm) {
     const char *name = nlopt_algorithm_to_string(algorithm);
     return strstr(name, "AUGLAG") != NULL || strstr(name, "MLSL") != NULL;
@@ -240,13 +227,13 @@ static bool uses_gradients(nlopt_algorithm algorithm) {
     return strncmp(name, "LD_", 3) == 0 || strncmp(name, "GD_", 3) == 0;
 }
 
-/* The algorithm that does the work of another one: it must take bounds, and inequalities too when
- * the outer one (AUGLAG_EQ) hands them on. */
+/* The local optimizer of an algorithm. It must accept bounds, and inequalities where the outer
+ * algorithm (AUGLAG_EQ) passes them on. */
 static nlopt_algorithm choose_local(const Bridge *bridge, nlopt_algorithm algorithm) {
-    const bool hands_on = strstr(nlopt_algorithm_to_string(algorithm), "AUGLAG_EQ") != NULL;
+    const bool passes_on = strstr(nlopt_algorithm_to_string(algorithm), "AUGLAG_EQ") != NULL;
     if (uses_gradients(algorithm))
-        return hands_on ? NLOPT_LD_SLSQP : NLOPT_LD_LBFGS;
-    return hands_on || bridge->n == 1 ? NLOPT_LN_COBYLA : NLOPT_LN_BOBYQA;
+        return passes_on ? NLOPT_LD_SLSQP : NLOPT_LD_LBFGS;
+    return passes_on || bridge->n == 1 ? NLOPT_LN_COBYLA : NLOPT_LN_BOBYQA;
 }
 
 static nlopt_result set_local(const Bridge *bridge, nlopt_algorithm algorithm) {
@@ -261,7 +248,7 @@ static nlopt_result set_local(const Bridge *bridge, nlopt_algorithm algorithm) {
     return result;
 }
 
-/* Calls that this run can answer; some algorithms allocate for as many. */
+/* Most calls of this run; some algorithms allocate memory for as many. */
 static int most_calls(const Bridge *bridge) {
     const long left = cz_search_left(bridge->search);
     const long share = bridge->run->evaluations < left ? bridge->run->evaluations : left;
@@ -335,14 +322,13 @@ static nlopt_result start(Bridge *bridge, nlopt_algorithm algorithm, double *var
 
 static CzStatus judge_result(const Bridge *bridge, nlopt_result result, CzError *error) {
     if (result == NLOPT_OUT_OF_MEMORY)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the algorithm %s",
-                       bridge->run->algorithm);
+        return cz_no_memory(error, bridge->run->algorithm);
     if (result == NLOPT_INVALID_ARGS)
         return cz_fail(error, CZ_STATUS_INPUT,
                        "the algorithm %s does not take a problem with %d variables and %d "
                        "constraints; 'auto' does",
                        bridge->run->algorithm, bridge->n, bridge->m);
-    return CZ_OK; /* every other end is one: the search knows what was found */
+    return CZ_OK; /* the best design is in the search, however NLopt ended */
 }
 
 CzStatus cz_nlopt_run(CzSearch *search, const CzNloptRun *run, const double *u, CzError *error) {
@@ -366,15 +352,14 @@ CzStatus cz_nlopt_run(CzSearch *search, const CzNloptRun *run, const double *u, 
     bridge.opt = nlopt_create(algorithm, (unsigned)n_all);
     CzStatus status = CZ_OK;
     if (variables == NULL || bridge.opt == NULL || !bridge_allocate(&bridge)) {
-        status =
-            cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the algorithm %s", run->algorithm);
+        status = cz_no_memory(error, run->algorithm);
     } else {
         for (int i = 0; i < bridge.n; i++)
             variables[i] = fmin(fmax(u[i], 0), 1);
         status = judge_result(&bridge, start(&bridge, algorithm, variables), error);
     }
     nlopt_destroy(bridge.opt);
-    free(bridge.u);
+    cz_arena_free(&bridge.arena);
     free(variables);
     return status;
 }

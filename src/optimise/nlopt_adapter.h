@@ -1,4 +1,4 @@
-/* The only door to NLopt: one run of one algorithm on a search. */
+/* Runs one algorithm of NLopt on a search. Its source is the only file that includes nlopt.h. */
 #ifndef CZ_OPTIMISE_NLOPT_ADAPTER_H
 #define CZ_OPTIMISE_NLOPT_ADAPTER_H
 
@@ -6,7 +6,7 @@
 
 /* How constraints reach the algorithm. */
 typedef enum CzForm {
-    CZ_FORM_NATIVE,  /* as constraints where the algorithm takes them, else by penalty */
+    CZ_FORM_NATIVE,  /* as constraints where the algorithm accepts them, else by penalty */
     CZ_FORM_PENALTY, /* minimise f + weight * sum of what is violated */
     CZ_FORM_ELASTIC  /* minimise f + weight * s with constraints <= s and s >= 0; with a minimax
                         objective minimise s alone */
@@ -18,7 +18,7 @@ typedef struct CzNloptRun {
     CzForm form;
     long evaluations;  /* most designs of this run, those for gradients included */
     double weight;     /* of the penalty */
-    double reserve;    /* how far below 0 constraints are asked to be */
+    double reserve;    /* distance below 0 that is demanded of constraints */
     double secant;     /* step of differences, share of the range */
     double first_step; /* share of the range; 0 leaves it to the algorithm */
     double tolerance;  /* on scaled variables */
@@ -28,9 +28,9 @@ typedef struct CzNloptRun {
 /* The usual run of an algorithm. */
 CzNloptRun cz_nlopt_run_default(const char *algorithm);
 
-/* Runs from scaled variables u (n_variable). What was found is in the search. Statuses: CZ_OK
- * whatever the algorithm says of its end, CZ_STATUS_INPUT for an algorithm that does not exist or
- * refuses this many variables, CZ_STATUS_NO_MEMORY. */
+/* Runs from scaled variables u (n_variable). The result is in the search. Statuses: CZ_OK for every
+ * reason why the algorithm ended, CZ_STATUS_INPUT for an algorithm that does not exist or refuses
+ * this many variables, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_nlopt_run(CzSearch *search, const CzNloptRun *run, const double *u,
                                     CzError *error);
 

@@ -1,13 +1,25 @@
-/* Parts of an outcome that a search and its recall share. */
+/* An outcome: its memory, and what a search and its recall fill alike. */
 #ifndef CZ_OPTIMISE_OUTCOME_H
 #define CZ_OPTIMISE_OUTCOME_H
 
+#include "base/arena.h"
 #include "crushzone/optimise.h"
+
+/* Creates an outcome with room for n_trial trials; start and best are those of the evaluator.
+ * Status: CZ_OK, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_outcome_create(const CzEvaluator *evaluator, long n_trial,
+                                         CzOutcome **outcome, CzError *error);
+
+/* Memory of the outcome for n numbers; NULL when there is none. */
+double *cz_outcome_numbers(CzOutcome *outcome, size_t n);
+
+/* Passes an outcome on, or frees it where the status is a failure; returns the status. */
+CzStatus cz_outcome_pass_on(CzOutcome *made, CzStatus status, CzOutcome **outcome);
 
 /* Fills `at_bound` from `best`. */
 void cz_outcome_mark_bounds(const CzEvaluator *evaluator, CzOutcome *outcome);
 
-/* Computes a design that passes once more by independent means. A signal leaves it unverified. */
+/* Verifies a design that passes. A signal leaves it unverified. */
 CZ_MUST_CHECK CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                          CzOutcome *outcome, CzError *error);
 

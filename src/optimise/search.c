@@ -1,4 +1,4 @@
-/* One search: budget, history, best design so far, the wish to stop. */
+/* One search: limit of evaluations, history, best design so far, stop flag. */
 #include "optimise/search.h"
 #include "base/error.h"
 #include "base/increment.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A search whose designs fail this often is not looking at a collision any more. */
+/* A search pauses when this many of its latest designs fail (ours). */
 enum { WINDOW_OF_FAILURES = 50, MOST_FAILURES = 25 };
 
 void cz_search_init(CzSearch *search, const CzFunction *function,
@@ -59,10 +59,11 @@ const double *cz_search_x(const CzSearch *search, long record) {
     return search->x + record * search->function->n_variable;
 }
 
-void cz_search_unscale(const CzSearch *search, const double *u, double *x) {
-    const CzFunction *function = search->function;
-    for (int i = 0; i < function->n_variable; i++) {
-        const double lo = function->min[i], hi = function->max[i];
+void cz_search_unscale(const CzSearch *search, int n, const double *u, double *x) {
+    const int n_variable = search->function->n_variable;
+    for (int i = 0; i < n * n_variable; i++) {
+        const double lo = search->function->min[i % n_variable];
+        const double hi = search->function->max[i % n_variable];
         const double value = lo + u[i] * (hi - lo);
         x[i] = value < lo ? lo : value > hi || u[i] >= 1 ? hi : value;
     }
@@ -139,8 +140,7 @@ double *cz_search_numbers(CzSearch *search, size_t n) {
     double *number = calloc(n + 1, sizeof *number);
     if (number != NULL || search->status != CZ_OK)
         return number;
-    (void)cz_fail(&search->error, CZ_STATUS_NO_MEMORY, "no memory for the designs of a search");
-    finish(search, CZ_STATUS_NO_MEMORY, "no memory");
+    finish(search, cz_no_memory(&search->error, "the designs of a search"), "no memory");
     return NULL;
 }
 
@@ -160,7 +160,7 @@ static bool make_room(CzSearch *search, long n) {
     return record != NULL && x != NULL;
 }
 
-/* Whether the new best is worth waiting for more. */
+/* Whether a record improves the best one so much that the search goes on. */
 static bool is_gain(const CzSearch *search, long record) {
     if (search->best < 0)
         return true;
@@ -214,7 +214,7 @@ static void report_progress(const CzSearch *search, const char *phase) {
     search->progress(&progress, search->progress_data);
 }
 
-/* Ends a search that has seen nothing but failures, pauses one that has run into them. */
+/* Pauses a search when most of its latest designs failed, and ends it when all did. */
 static void watch_failures(CzSearch *search) {
     if (search->n_record - search->n_before_window < WINDOW_OF_FAILURES)
         return;
@@ -234,8 +234,8 @@ static void watch_failures(CzSearch *search) {
 
 /* ---- evaluating ------------------------------------------------------------------------------ */
 
-/* From here on a violation counts by its logarithm: "nothing" broken a hundredfold must not hide a
- * strength broken by a half. Slopes stay continuous and the order stays the same. */
+/* Above this a violation counts by its logarithm, so that a limit of 0 exceeded a hundredfold does
+ * not hide a strength exceeded by a half. Slopes stay continuous, and the order is kept. */
 static const double knee = 0.1;
 
 double cz_search_compressed(double constraint) {
@@ -261,8 +261,8 @@ static double distance_from_best(const CzSearch *search, const double *x) {
     return sqrt(sum);
 }
 
-/* Takes one answer into the history and makes it fit for an algorithm. */
-static void take_answer(CzSearch *search, const char *phase, const double *x, double *objective,
+/* Records the values of one design and makes them finite and smooth for an algorithm. */
+static void take_values(CzSearch *search, const char *phase, const double *x, double *objective,
                         double *constraint, double *detail) {
     const int m = search->function->n_constraint;
     const int n_detail = detail != NULL ? cz_search_n_detail(search) : 0;
@@ -315,6 +315,16 @@ bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double
     return cz_search_evaluate_details(search, phase, n, x, objective, constraint, NULL);
 }
 
+bool cz_search_evaluate_start(CzSearch *search, const char *phase) {
+    double objective;
+    double *constraint = cz_search_numbers(search, (size_t)search->function->n_constraint);
+    const bool done =
+        constraint != NULL &&
+        cz_search_evaluate(search, phase, 1, search->function->start, &objective, constraint);
+    free(constraint);
+    return done;
+}
+
 bool cz_search_evaluate_details(CzSearch *search, const char *phase, int n, const double *x,
                                 double *objective, double *constraint, double *detail) {
     if (cz_search_is_stopped(search))
@@ -330,14 +340,14 @@ bool cz_search_evaluate_details(CzSearch *search, const char *phase, int n, cons
         status = function->evaluate(function->data, n, x, objective, constraint,
                                     function->n_detail > 0 ? detail : NULL, &search->error);
     else
-        cz_fail(&search->error, status, "no memory for the history");
+        cz_no_memory(&search->error, "the history");
     if (status != CZ_OK) {
         const bool is_stopped = status == CZ_STATUS_INTERRUPTED;
         finish(search, status, is_stopped ? "interrupted" : "an evaluation could not be made");
         return false;
     }
     for (int i = 0; i < n; i++) {
-        take_answer(search, phase, x + i * function->n_variable, &objective[i],
+        take_values(search, phase, x + i * function->n_variable, &objective[i],
                     constraint + i * function->n_constraint,
                     detail != NULL ? detail + i * cz_search_n_detail(search) : NULL);
         report_progress(search, phase);

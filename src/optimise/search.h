@@ -1,8 +1,8 @@
-/* One search: every evaluation passes here, so that the budget, the history, the best design so far
- * and the wish to stop are kept in one place, whatever algorithm asks.
+/* One search. Every evaluation goes through it, so that the limit of evaluations, the history, the
+ * best design so far and the stop flag are in one place for every algorithm.
  *
- * Algorithms see variables scaled to 0..1 and finite numbers only. A design that failed is answered
- * by a ramp above everything seen, rising with the distance from the best design, and is never
+ * Algorithms get variables scaled to 0..1 and finite numbers only. The value of a design that
+ * failed is above all values so far and rises with the distance from the best design; it is never
  * the best one.
  */
 #ifndef CZ_OPTIMISE_SEARCH_H
@@ -17,20 +17,20 @@ typedef struct CzFunction {
     int n_variable, n_constraint;
     const double *min, *max, *start; /* in the variables' units (n_variable) */
     const double *step;              /* catalogue increments, 0 for none (n_variable) */
-    const bool *is_flag; /* constraints that are a mere yes or no (n_constraint), NULL for none:
-                            they count in what is kept, but no algorithm is shown such a step */
-    const bool *is_rule; /* constraints without which a design could not be written down and read
-                            back (n_constraint), NULL for none: one that breaks them is never the
-                            best while another was seen */
-    int n_detail; /* constraints again, place by place and so without the breakpoints of the worst
-                     one; 0 when there are none */
+    const bool *is_flag; /* constraints that are a yes or no (n_constraint), NULL for none: a design
+                            is ranked by them, but algorithms do not see the step */
+    const bool *is_rule; /* constraints that a problem file must satisfy (n_constraint), NULL for
+                            none: a design that breaks one is the best only as long as every other
+                            one does, too */
+    int n_detail;    /* constraints place by place, so without the breakpoints of the worst place; 0
+                        when there are none */
     bool is_minimax; /* the objective is the largest constraint, up to a constant */
-    bool is_fit;     /* the objective is a sum of squares, the details its residuals, and the flags
-                        say whether they are small enough */
+    bool is_fit;     /* the objective is a sum of squares, the details are its residuals, and the
+                        flags are whether each is small enough */
 
-    /* Answers n_point designs: x is (n_point x n_variable), objective (n_point) with NaN for a
-     * failed design, constraint (n_point x n_constraint), kept when at most 0, detail (n_point x
-     * n_detail) unless NULL. The answer of a design must not depend on its neighbours. */
+    /* Evaluates n_point designs: x is (n_point x n_variable), objective (n_point) with NaN for a
+     * failed design, constraint (n_point x n_constraint), satisfied when at most 0, detail (n_point
+     * x n_detail) unless NULL. The values of a design must not depend on its neighbours. */
     CzStatus (*evaluate)(void *data, int n_point, const double *x, double *objective,
                          double *constraint, double *detail, CzError *error);
     void *data;
@@ -40,12 +40,12 @@ typedef struct CzFunction {
 typedef struct CzRecord {
     double objective; /* NaN when failed */
     double violation; /* largest positive constraint; infinite when failed */
-    double penalty;   /* sum of the compressed positive constraints, of a fit beside the sum of
-                         squares: what infeasible designs are ranked by */
+    double penalty;   /* sum of the compressed positive constraints, of a fit with the sum of
+                         squares: infeasible designs are ranked by it */
     const char *phase;
     bool on_grid;   /* every variable lies on its catalogue increment */
-    bool is_barred; /* a rule of files is broken */
-    double missed;  /* largest positive constraint that is no yes or no; 0 when there is none */
+    bool is_barred; /* a rule of problem files is broken */
+    double missed;  /* largest positive constraint that is not a yes or no; 0 when there is none */
 } CzRecord;
 
 typedef struct CzSearch {
@@ -66,11 +66,11 @@ typedef struct CzSearch {
     long last_gain;    /* number of evaluations when the best last improved by more than 0.1 % */
 
     double worst_objective, worst_constraint; /* over the designs that did not fail */
-    bool is_over;         /* nothing more may be evaluated; `status` and `why` say why */
+    bool is_over;         /* no further evaluation is allowed; `status` and `why` give the reason */
     bool is_snapped;      /* the catalogue increments around the best design have been evaluated */
     bool is_spent;        /* all evaluations but those for the catalogue increments were used */
-    bool is_paused;       /* most of the latest designs failed: looking on from there is no use */
-    long n_before_window; /* records that the watch on failures does not count any more */
+    bool is_paused;       /* most of the latest designs failed, so the phase ends */
+    long n_before_window; /* records before the window in which failures are counted */
     CzStatus status;
     CzError error;
     char why[128];
@@ -86,10 +86,11 @@ long cz_search_left(const CzSearch *search);
 /* Ends the search when the stop flag is up; whether nothing more may be evaluated now. */
 bool cz_search_is_stopped(CzSearch *search);
 
-/* Goes on after a pause, from the best design. */
+/* Ends a pause. */
 void cz_search_resume(CzSearch *search);
 
-/* Memory for n numbers of the search; without any the search ends, which it reports. */
+/* Memory for n numbers, freed by the caller; without memory NULL, and the search ends with that
+ * status. */
 double *cz_search_numbers(CzSearch *search, size_t n);
 
 /* Evaluates n designs, x in the variables' units (n x n_variable), in order. objective (n) and
@@ -99,33 +100,41 @@ double *cz_search_numbers(CzSearch *search, size_t n);
 bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double *x,
                         double *objective, double *constraint);
 
-/* The same with the details as they are (n x cz_search_n_detail), uncompressed; the constraints
- * are in for a function that has none. */
+/* The same with the uncompressed details (n x cz_search_n_detail), which are the constraints where
+ * the function has no details. */
 bool cz_search_evaluate_details(CzSearch *search, const char *phase, int n, const double *x,
                                 double *objective, double *constraint, double *detail);
 int cz_search_n_detail(const CzSearch *search);
 
-/* How a violation counts: itself up to a tenth, its logarithm beyond. */
+/* Evaluates the start exactly as given. */
+bool cz_search_evaluate_start(CzSearch *search, const char *phase);
+
+/* A constraint on the scale of penalties: unchanged up to 0.1, logarithmic above. */
 double cz_search_compressed(double constraint);
 
-/* A constraint that a fit names beside its matches as one more residual: it pulls from a little
- * below 0 on. */
+/* The residual of a constraint that a fit has beside its matches: above 0 from a little below the
+ * limit on. */
 double cz_search_residual(double constraint);
 
-/* Scaled to natural variables: u in 0..1 is clamped. */
-void cz_search_unscale(const CzSearch *search, const double *u, double *x);
+/* Scaled to natural variables of n designs: u in 0..1 is clamped. */
+void cz_search_unscale(const CzSearch *search, int n, const double *u, double *x);
 void cz_search_scale(const CzSearch *search, const double *x, double *u);
 
-/* Whether a record's scaled point, which is put into u (n_variable), lies apart from all chosen
- * ones (n_chosen x n_variable): by their root mean square distance. */
+/* Step of a scaled variable for a difference: down where a step up would leave the box. */
+static inline double cz_search_secant(double at, double step) {
+    return at + step <= 1 ? step : -step;
+}
+
+/* Whether the scaled design of a record, which is written to u (n_variable), is at a root mean
+ * square distance of `apart` or more from each of the chosen ones (n_chosen x n_variable). */
 bool cz_search_is_apart(const CzSearch *search, long record, int n_chosen, const double *chosen,
                         double apart, double *u);
 
 /* Variables of a record (n_variable). */
 const double *cz_search_x(const CzSearch *search, long record);
 
-/* Whether a record is better: what can be written down first, then by kept constraints and the
- * objective; else the penalty. */
+/* Whether a record is better: designs that a file may hold come first, then the smaller penalty
+ * counts, then the smaller objective. */
 bool cz_search_is_better(const CzSearch *search, long record, long other);
 
 /* Record with exactly these variables, -1 when there is none. */

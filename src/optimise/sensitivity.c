@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "evaluate/evaluator.h"
+#include "optimise/outcome.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -45,9 +46,9 @@ static CzStatus evaluate(CzEvaluator *evaluator, CzOutcome *outcome, CzError *er
     const double *h = outcome->sensitivity_increment;
     double *x = malloc((size_t)(n + 1) * (size_t)n * sizeof *x);
     CzEvaluation *evaluation = calloc((size_t)n + 1, sizeof *evaluation);
-    CzStatus status = CZ_STATUS_NO_MEMORY;
+    CzStatus status;
     if (x == NULL || evaluation == NULL) {
-        cz_fail(error, status, "no memory for the sensitivities");
+        status = cz_no_memory(error, "the sensitivities");
     } else {
         for (int point = 0; point <= n; point++) {
             memcpy(&x[point * n], outcome->best, (size_t)n * sizeof *x);
@@ -66,39 +67,29 @@ static CzStatus evaluate(CzEvaluator *evaluator, CzOutcome *outcome, CzError *er
     return status;
 }
 
-static void forget(CzOutcome *outcome) {
-    free(outcome->sensitivity_increment);
-    free(outcome->objective_change);
-    free(outcome->constraint_change);
-    outcome->sensitivity_increment = outcome->objective_change = outcome->constraint_change = NULL;
-}
-
 CzStatus cz_sensitivity_take(CzEvaluator *evaluator, const volatile sig_atomic_t *stop,
                              CzOutcome *outcome, CzError *error) {
     const size_t n = (size_t)outcome->n_variable;
     const size_t n_constraint = (size_t)outcome->best_evaluation.n_constraint;
     if (stop != NULL && *stop != 0)
         return CZ_OK;
-    outcome->sensitivity_increment = calloc(n + 1, sizeof(double));
-    outcome->objective_change = calloc(n + 1, sizeof(double));
-    outcome->constraint_change = calloc(n * n_constraint + 1, sizeof(double));
-    CzStatus status = CZ_STATUS_NO_MEMORY;
-    if (outcome->sensitivity_increment == NULL || outcome->objective_change == NULL ||
-        outcome->constraint_change == NULL) {
-        cz_fail(error, status, "no memory for the sensitivities");
-    } else {
-        for (size_t i = 0; i < n; i++) {
-            const CzVariableInfo *variable = cz_evaluator_variable(evaluator, (int)i);
-            outcome->sensitivity_increment[i] = step_of(variable, outcome->best[i]);
-            outcome->objective_change[i] = NAN;
-        }
-        for (size_t i = 0; i < n * n_constraint; i++)
-            outcome->constraint_change[i] = NAN;
-        cz_evaluator_set_stop(evaluator, stop);
-        status = evaluate(evaluator, outcome, error);
-        cz_evaluator_set_stop(evaluator, NULL);
+    double *increment = cz_outcome_numbers(outcome, n);
+    outcome->objective_change = cz_outcome_numbers(outcome, n);
+    outcome->constraint_change = cz_outcome_numbers(outcome, n * n_constraint);
+    if (increment == NULL || outcome->objective_change == NULL ||
+        outcome->constraint_change == NULL)
+        return cz_no_memory(error, "the sensitivities");
+    outcome->sensitivity_increment = increment;
+    for (size_t i = 0; i < n; i++) {
+        increment[i] = step_of(cz_evaluator_variable(evaluator, (int)i), outcome->best[i]);
+        outcome->objective_change[i] = NAN;
     }
-    if (status != CZ_OK)
-        forget(outcome);
+    for (size_t i = 0; i < n * n_constraint; i++)
+        outcome->constraint_change[i] = NAN;
+    cz_evaluator_set_stop(evaluator, stop);
+    const CzStatus status = evaluate(evaluator, outcome, error);
+    cz_evaluator_set_stop(evaluator, NULL);
+    if (status == CZ_STATUS_INTERRUPTED)
+        outcome->sensitivity_increment = NULL;
     return status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
 }

@@ -1,9 +1,8 @@
-/* From the best design to the best one that can be bought: every variable on its catalogue
- * increment.
+/* From the best design to the best one of the catalogue: every variable on its increment.
  *
- * The response surface says which of many designs on the steps are worth a simulation: first the
- * corners of the cell of steps around the best design, then what lies one step, or one step in each
- * of two variables, from the best design on the steps.
+ * The response surface ranks the designs on the increments, and the best of them are simulated:
+ * first the corners of the cell of increments around the best design, then what differs by one
+ * increment, or by one in each of two variables, from the best design on the increments.
  */
 #include "optimise/strategy.h"
 
@@ -12,46 +11,40 @@
 #include <string.h>
 
 enum {
-    BATCH = 6,           /* designs on the steps that are simulated side by side */
+    BATCH = 6,           /* designs on the increments that are simulated side by side */
     MOST_OPEN = 12,      /* variables whose rounding is tried both ways: 4096 corners */
     MOST_WALK = 40,      /* steps of a walk on the planes */
-    MOST_IDLE = 2,       /* batches without gain before a design that keeps everything is taken */
-    MOST_IDLE_BROKEN = 8 /* likewise while something is still violated */
+    MOST_IDLE = 2,       /* batches without gain before a feasible design is taken */
+    MOST_IDLE_BROKEN = 8 /* likewise of an infeasible one */
 };
 
-/* Catalogue steps are coarse, so the slopes that judge them are taken over about as far. */
+/* Increments are coarse, so the slopes that rank them are taken over about as far. */
 static const double secant = 0.05;
 
-/* How far from their base the planes are believed, in scaled variables, if not within one step. */
+/* How far from their base the planes are used, in scaled variables, if not within one increment. */
 static const double farthest = 0.1;
+
+typedef struct Design {
+    double *x; /* natural variables (n_variable) */
+    double penalty, objective, distance;
+} Design;
 
 /* The most promising designs so far, best first. */
 typedef struct Shortlist {
     const CzSurface *surface;
     int n_design;
-    double *x; /* natural variables (BATCH x n_variable) */
-    double penalty[BATCH + 1], objective[BATCH + 1], distance[BATCH + 1];
+    Design design[BATCH + 1];
     double *u; /* scratch (n_variable) */
 } Shortlist;
 
-static bool is_before(const Shortlist *list, int a, int b) {
-    if (list->penalty[a] != list->penalty[b])
-        return list->penalty[a] < list->penalty[b];
-    return list->objective[a] < list->objective[b];
+static bool is_before(const Design *a, const Design *b) {
+    return a->penalty != b->penalty ? a->penalty < b->penalty : a->objective < b->objective;
 }
 
-static void swap_designs(Shortlist *list, int a, int b, int n) {
-    for (int i = 0; i < n; i++) {
-        const double kept = list->x[a * n + i];
-        list->x[a * n + i] = list->x[b * n + i];
-        list->x[b * n + i] = kept;
-    }
-    double *const ranks[] = {list->penalty, list->objective, list->distance};
-    for (int k = 0; k < 3; k++) {
-        const double kept = ranks[k][a];
-        ranks[k][a] = ranks[k][b];
-        ranks[k][b] = kept;
-    }
+static void swap(Design *a, Design *b) {
+    const Design kept = *a;
+    *a = *b;
+    *b = kept;
 }
 
 static bool is_near(const CzSurface *surface, const double *u) {
@@ -71,43 +64,43 @@ static double distance_from_base(const CzSurface *surface, const double *u) {
     return square;
 }
 
-/* The listed design that the planes cannot report from the one behind the list: they differ in what
- * decides nothing here, and simulating both would teach the same. -1 when there is none. */
-static int find_alike(const Shortlist *list) {
+/* The listed design that the planes cannot tell from a new one: a simulation of both would show
+ * nothing more. NULL when there is none. */
+static Design *find_alike(Shortlist *list, const Design *new) {
     const double close = 1e-3; /* of a margin; ours */
-    const int at = list->n_design;
-    for (int i = 0; i < at; i++)
-        if (fabs(list->penalty[at] - list->penalty[i]) < close &&
-            fabs(list->objective[at] - list->objective[i]) < close)
-            return i;
-    return -1;
+    for (int i = 0; i < list->n_design; i++)
+        if (fabs(new->penalty - list->design[i].penalty) < close &&
+            fabs(new->objective - list->design[i].objective) < close)
+            return &list->design[i];
+    return NULL;
 }
 
-/* Takes a design into the list unless it has been simulated, is like a listed one that lies nearer
- * to the base, or is not among the best. */
+/* Takes a design into the list unless it has been simulated, is like a listed one that is nearer to
+ * the base, or is not among the best. */
 static void offer(Shortlist *list, const double *x) {
     const CzSurface *surface = list->surface;
-    const int n = surface->n, at = list->n_design;
+    const int at = list->n_design;
+    Design *new = &list->design[at];
     cz_search_scale(surface->search, x, list->u);
     if (!is_near(surface, list->u) || cz_search_find(surface->search, x) >= 0)
         return;
-    list->objective[at] = cz_surface_predict(surface, list->u, &list->penalty[at]);
-    list->distance[at] = distance_from_base(surface, list->u);
-    const int alike = find_alike(list);
-    if (alike < 0 ? at == BATCH && !is_before(list, at, BATCH - 1)
-                  : list->distance[at] >= list->distance[alike])
+    new->objective = cz_surface_predict(surface, list->u, &new->penalty);
+    new->distance = distance_from_base(surface, list->u);
+    Design *alike = find_alike(list, new);
+    if (alike == NULL ? at == BATCH && !is_before(new, &list->design[BATCH - 1])
+                      : new->distance >= alike->distance)
         return;
-    memcpy(list->x + at * n, x, (size_t)n * sizeof *x);
-    if (alike >= 0) {
-        swap_designs(list, at, alike, n);
+    memcpy(new->x, x, (size_t)surface->n * sizeof *x);
+    if (alike != NULL) {
+        swap(new, alike);
         return;
     }
-    for (int i = at; i > 0 && is_before(list, i, i - 1); i--)
-        swap_designs(list, i, i - 1, n);
+    for (; new > list->design &&is_before(new, new - 1); new --)
+        swap(new, new - 1);
     list->n_design = at < BATCH ? at + 1 : BATCH;
 }
 
-/* Moves one variable by whole steps; false when it has no step or leaves its bounds. */
+/* Moves one variable by whole increments; false when it has none or leaves its bounds. */
 static bool move(const CzSearch *search, double *x, int variable, int n_step) {
     const CzFunction *function = search->function;
     const double step = function->step[variable];
@@ -120,7 +113,7 @@ static bool move(const CzSearch *search, double *x, int variable, int n_step) {
     return true;
 }
 
-/* Variables that lie between two steps, those nearest to the middle first. */
+/* Variables between two increments, those nearest to the middle first. */
 static int list_open(const CzSearch *search, const double *x, const double *near, int *open) {
     const int n = search->function->n_variable;
     int n_open = 0;
@@ -140,7 +133,7 @@ static int list_open(const CzSearch *search, const double *x, const double *near
     return n_open;
 }
 
-/* Offers the corners of the cell of steps around a design. */
+/* Offers the corners of the cell of increments around a design. */
 static void offer_corners(Shortlist *list, const double *x, double *near, double *corner) {
     const CzSearch *search = list->surface->search;
     const size_t size = (size_t)list->surface->n * sizeof *x;
@@ -158,7 +151,7 @@ static void offer_corners(Shortlist *list, const double *x, double *near, double
     }
 }
 
-/* Offers what differs from a design by one step in one variable or in each of two. */
+/* Offers what differs from a design by one increment in one variable or in each of two. */
 static void offer_neighbours(Shortlist *list, const double *x, double *other) {
     const CzSearch *search = list->surface->search;
     const int n = list->surface->n;
@@ -172,25 +165,28 @@ static void offer_neighbours(Shortlist *list, const double *x, double *other) {
             }
 }
 
-/* Walks on the planes from a design to better and better neighbours; all it passes is offered. */
+/* Walks on the planes from a design to better and better neighbours and offers all on the path. */
 static void explore(Shortlist *list, const double *from, double *at, double *other) {
     const size_t size = (size_t)list->surface->n * sizeof *at;
     memcpy(at, from, size);
     for (int step = 0; step < MOST_WALK; step++) {
         offer_neighbours(list, at, other);
-        if (list->n_design == 0 || memcmp(list->x, at, size) == 0)
+        if (list->n_design == 0 || memcmp(list->design[0].x, at, size) == 0)
             return;
-        memcpy(at, list->x, size);
+        memcpy(at, list->design[0].x, size);
     }
 }
 
-/* Simulates the list, at most `left` of it; false when nothing more can be done. */
+/* Simulates the first `left` designs of the list; false when there is none or the search ended. */
 static bool simulate(CzSurface *surface, Shortlist *list, long left) {
     const int n_design = list->n_design < left ? list->n_design : (int)left;
     if (n_design <= 0)
         return false;
+    for (int i = 0; i < n_design; i++)
+        memcpy(surface->x + i * surface->n, list->design[i].x,
+               (size_t)surface->n * sizeof *surface->x);
     int moved_to;
-    return cz_surface_try_exact(surface, "snap", n_design, list->x, &moved_to);
+    return cz_surface_try_exact(surface, "snap", n_design, &moved_to);
 }
 
 long cz_snap_reserve(const CzSearch *search) {
@@ -222,8 +218,8 @@ static void snap(CzSurface *surface, Shortlist *list, long limit, double *scratc
     }
 }
 
-/* Slopes around the best design where there are evaluations for them and for one design more, else
- * those there are; without any, what lies nearest is tried first. */
+/* Slopes around the best design where there are evaluations for them and for one more design, else
+ * those of the last base; without any, the nearest designs are tried first. */
 static bool begin(CzSurface *surface, const double *u, long evaluations) {
     if (evaluations > surface->n + 1)
         return cz_surface_begin(surface, "snap", u, secant);
@@ -244,7 +240,9 @@ void cz_snap(CzSurface *surface, long evaluations) {
         return;
     double *u = memory + (BATCH + 1 + 3) * n;
     cz_search_scale(search, cz_search_x(search, search->best), u);
-    Shortlist list = {.surface = surface, .x = memory, .u = u};
+    Shortlist list = {.surface = surface, .u = u};
+    for (size_t i = 0; i <= BATCH; i++)
+        list.design[i].x = memory + i * n;
     if (begin(surface, u, evaluations))
         snap(surface, &list, limit, memory + (BATCH + 1) * n);
     free(memory);

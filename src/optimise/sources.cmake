@@ -5,6 +5,7 @@ set(CZ_SOURCES_optimise
     combinations.c
     nlopt_adapter.c
     optimise.c
+    outcome.c
     recall.c
     sample.c
     search.c

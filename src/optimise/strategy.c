@@ -1,15 +1,16 @@
-/* The usual strategy, and one algorithm by name.
+/* The usual strategy, that of a fit, and one algorithm by name.
  *
  *   screen    the start, then points that fill the box and a smaller one around the start
  *   descend   response surfaces from the best points that lie apart
  *   polish    COBYLA and elastic SLSQP by turns from the best, with smaller and smaller steps
  *   snap      to the catalogue increments
  *
- * A fit goes another way: its objective is a sum of squares of residuals that change smoothly, so
- * planes of the residuals lead further than planes of the objective; BOBYQA, Sbplx and COBYLA take
- * over where they do not.
+ * The objective of a fit is a sum of squares of residuals that change smoothly. It descends by the
+ * method of Gauss and Newton, on planes of the residuals, and polishes with that, BOBYQA, Sbplx and
+ * COBYLA by turns.
  *
- * The gain of a long train's rattling is in secants: local derivatives are exact and useless.
+ * All slopes are secants over a share of the range: the response of a long train is chaotic, and
+ * its local derivatives do not describe larger steps.
  */
 #include "optimise/strategy.h"
 #include "base/error.h"
@@ -25,39 +26,14 @@ enum { MOST_STARTS = 6, SCREEN_BATCH = 16, MOST_BATCH = 8 };
 /* Half width of the smaller box around the start that every other screening point is drawn from. */
 static const double near_start = 0.2;
 
-/* Evaluates scaled points in one batch. */
-static bool evaluate_scaled(CzSearch *search, const char *phase, int n_point, const double *u) {
-    const size_t n = (size_t)search->function->n_variable;
-    const size_t m = (size_t)search->function->n_constraint + 1;
-    double *x = cz_search_numbers(search, (size_t)n_point * (n + 1 + m));
-    bool done = false;
-    if (x != NULL) {
-        for (int i = 0; i < n_point; i++)
-            cz_search_unscale(search, u + (size_t)i * n, x + (size_t)i * n);
-        double *objective = x + (size_t)n_point * n;
-        done = cz_search_evaluate(search, phase, n_point, x, objective, objective + n_point);
-    }
-    free(x);
-    return done;
-}
-
-/* The start as it is written, to the last bit. */
-static bool evaluate_start(CzSearch *search) {
-    double objective,
-        *constraint = cz_search_numbers(search, (size_t)search->function->n_constraint);
-    const bool done =
-        constraint != NULL &&
-        cz_search_evaluate(search, "start", 1, search->function->start, &objective, constraint);
-    free(constraint);
-    return done;
-}
-
 static void screen(CzSearch *search, unsigned long seed, long n_point) {
     const int n = search->function->n_variable;
-    double *u = cz_search_numbers(search, (size_t)(SCREEN_BATCH + 1) * (size_t)n);
+    const size_t room = (size_t)(2 * n + 1 + search->function->n_constraint);
+    double *u = cz_search_numbers(search, SCREEN_BATCH * room + (size_t)n);
     if (u == NULL)
         return;
-    double *start = u + SCREEN_BATCH * n;
+    double *x = u + SCREEN_BATCH * n, *start = x + SCREEN_BATCH * n;
+    double *objective = start + n, *constraint = objective + SCREEN_BATCH;
     cz_search_scale(search, search->function->start, start);
     for (long first = 0; first < n_point; first += SCREEN_BATCH) {
         const long left = n_point - first;
@@ -70,7 +46,8 @@ static void screen(CzSearch *search, unsigned long seed, long n_point) {
                 point[j] = fmin(fmax(point[j], 0), 1);
             }
         }
-        if (!evaluate_scaled(search, "screen", batch, u))
+        cz_search_unscale(search, batch, u, x);
+        if (!cz_search_evaluate(search, "screen", batch, x, objective, constraint))
             break;
     }
     free(u);
@@ -89,38 +66,49 @@ static long best_apart(const CzSearch *search, int n_chosen, const double *chose
     return best;
 }
 
-/* Response surfaces from the best screened points that lie apart. */
+/* Descends from each of the best screened points that lie apart: on response surfaces, or on the
+ * residuals of a fit. */
 static CzStatus descend(CzSurface *surface, long evaluations, CzError *error) {
     CzSearch *search = surface->search;
+    const bool is_fit = search->function->is_fit;
     const int n = surface->n;
     const long limit = search->n_record + evaluations;
     double *chosen = calloc((size_t)(MOST_STARTS + 1) * (size_t)n, sizeof *chosen);
     if (chosen == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the starting points");
+        return cz_no_memory(error, "the starting points");
     double *u = chosen + MOST_STARTS * n;
-    for (int start = 0; start < MOST_STARTS; start++) {
+    CzStatus status = CZ_OK;
+    for (int start = 0; start < MOST_STARTS && status == CZ_OK; start++) {
         const long record = best_apart(search, start, chosen, start == 0 ? 0 : 0.15, u);
+        if (is_fit) /* failures further away say nothing about this point */
+            cz_search_resume(search);
         const long left = limit - search->n_record;
-        if (record < 0 || left < 3 * (n + 1) || cz_search_left(search) == 0)
+        if (record < 0 || left < 3 * (n + (is_fit ? 3 : 1)) || cz_search_left(search) == 0)
             break;
         cz_search_scale(search, cz_search_x(search, record), u);
         memcpy(chosen + start * n, u, (size_t)n * sizeof *u);
-        cz_surface_descend(surface, "descend", u, left);
+        if (is_fit)
+            status = cz_gauss_newton(search, "descend", u, left, error);
+        else
+            cz_surface_descend(surface, "descend", u, left);
     }
     free(chosen);
-    return CZ_OK;
+    return status;
 }
 
-/* One more run from the best design, or from the start while every design failed. */
+/* One more run from the best design, or from the start as long as every design failed. Without an
+ * algorithm it is one of Gauss and Newton's method. */
 static CzStatus run_from_best(CzSearch *search, const CzNloptRun *run, bool *gained,
                               CzError *error) {
     const long before = search->last_gain;
     double *u = calloc((size_t)search->function->n_variable, sizeof *u);
     if (u == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a starting point");
+        return cz_no_memory(error, "a starting point");
     cz_search_scale(
         search, search->best >= 0 ? cz_search_x(search, search->best) : search->function->start, u);
-    const CzStatus status = cz_nlopt_run(search, run, u, error);
+    const CzStatus status = run->algorithm != NULL
+                                ? cz_nlopt_run(search, run, u, error)
+                                : cz_gauss_newton(search, run->phase, u, run->evaluations, error);
     free(u);
     *gained = search->last_gain != before;
     return status;
@@ -144,9 +132,7 @@ static CzStatus polish(CzSearch *search, long reserve, CzError *error) {
         run.secant = secant;
         run.evaluations = left < 12L * (n + 1) ? left : 12L * (n + 1);
         bool gained = false;
-        const CzStatus status = run_from_best(search, &run, &gained, error);
-        if (status != CZ_OK)
-            return status;
+        CZ_TRY(run_from_best(search, &run, &gained, error));
         n_idle = gained ? 0 : n_idle + 1;
         if (!gained && !by_values) {
             step /= 3;
@@ -156,86 +142,32 @@ static CzStatus polish(CzSearch *search, long reserve, CzError *error) {
     return CZ_OK;
 }
 
-/* Screen, descend, polish; what is set aside for the catalogue increments stays. */
-static CzStatus lead(CzSurface *surface, unsigned long seed, CzError *error) {
-    CzSearch *search = surface->search;
-    const long reserve = cz_snap_reserve(search);
-    const long total = search->most_evaluations - reserve;
-    if (!evaluate_start(search))
-        return CZ_OK;
-    const long enough = 2L * search->function->n_variable; /* a poor start costs more than these */
-    screen(search, seed, fmax(total / 10, fmin(enough, total / 4)));
-    CZ_TRY(descend(surface, total * 2 / 3, error));
-    return polish(search, reserve, error);
+/* The method of a fit at the i-th of four turns, NULL for that of Gauss and Newton; BOBYQA needs
+ * two variables. */
+static const char *method_at(int i, int n_variable) {
+    static const char *const methods[] = {NULL, "LN_BOBYQA", "LN_SBPLX", "LN_COBYLA"};
+    return n_variable < 2 && i == 1 ? "LN_COBYLA" : methods[i];
 }
 
-/* ---- fits ------------------------------------------------------------------------------------ */
-
-/* The algorithm at the i-th turn; BOBYQA needs two variables. */
-static const char *turn_of(int i, int n_variable) {
-    static const char *const turns[] = {"LN_BOBYQA", "LN_SBPLX", "LN_COBYLA"};
-    return n_variable < 2 && i % 3 == 0 ? "LN_COBYLA" : turns[i % 3];
-}
-
-/* Steps on residuals from the best design. */
-static CzStatus step_from_best(CzSearch *search, long evaluations, bool *gained, CzError *error) {
-    const long before = search->last_gain;
-    double *u = calloc((size_t)search->function->n_variable, sizeof *u);
-    if (u == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a starting point");
-    cz_search_scale(search, cz_search_x(search, search->best), u);
-    const CzStatus status = cz_gauss_newton(search, "polish", u, evaluations, error);
-    free(u);
-    *gained = search->last_gain != before;
-    return status;
-}
-
-/* Steps on residuals from each of the best screened points that lie apart. */
-static CzStatus descend_apart(CzSearch *search, long evaluations, CzError *error) {
-    const int n = search->function->n_variable;
-    const long limit = search->n_record + evaluations;
-    double *chosen = calloc((size_t)(MOST_STARTS + 1) * (size_t)n, sizeof *chosen);
-    if (chosen == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the starting points");
-    double *u = chosen + MOST_STARTS * n;
-    CzStatus status = CZ_OK;
-    for (int start = 0; start < MOST_STARTS && status == CZ_OK; start++) {
-        const long record = best_apart(search, start, chosen, start == 0 ? 0 : 0.15, u);
-        cz_search_resume(search); /* failures further away say nothing about here */
-        const long left = limit - search->n_record;
-        if (record < 0 || left < 3 * (n + 3) || cz_search_left(search) == 0)
-            break;
-        cz_search_scale(search, cz_search_x(search, record), u);
-        memcpy(chosen + start * n, u, (size_t)n * sizeof *u);
-        status = cz_gauss_newton(search, "descend", u, left, error);
-    }
-    free(chosen);
-    return status;
-}
-
-/* Four methods by turns from the best design, until none of them gains with the smallest step. */
-static CzStatus refine(CzSearch *search, long reserve, CzError *error) {
+/* Four methods by turns from the best design of a fit, until none of them gains with the smallest
+ * step. */
+static CzStatus polish_fit(CzSearch *search, long reserve, CzError *error) {
     const int n = search->function->n_variable;
     double step = 0.05;
     int n_idle = 0;
     for (int turn = 0; step > 1e-4; turn++) {
         cz_search_resume(search);
         const long left = cz_search_left(search) - reserve;
-        const long some = left < 25L * (n + 1) ? left : 25L * (n + 1);
         if (left < n + 4 || search->best < 0)
             break;
+        CzNloptRun run = cz_nlopt_run_default(method_at(turn % 4, n));
+        run.phase = "polish";
+        run.form = CZ_FORM_PENALTY;
+        run.first_step = step;
+        run.tolerance = step / 1000;
+        run.evaluations = left < 25L * (n + 1) ? left : 25L * (n + 1);
         bool gained = false;
-        if (turn % 4 == 0) {
-            CZ_TRY(step_from_best(search, some, &gained, error));
-        } else {
-            CzNloptRun run = cz_nlopt_run_default(turn_of(turn % 4 - 1, n));
-            run.phase = "polish";
-            run.form = CZ_FORM_PENALTY;
-            run.first_step = step;
-            run.tolerance = step / 1000;
-            run.evaluations = some;
-            CZ_TRY(run_from_best(search, &run, &gained, error));
-        }
+        CZ_TRY(run_from_best(search, &run, &gained, error));
         n_idle = gained ? 0 : n_idle + 1;
         if (n_idle == 4) {
             step /= 4;
@@ -245,22 +177,27 @@ static CzStatus refine(CzSearch *search, long reserve, CzError *error) {
     return CZ_OK;
 }
 
-static CzStatus fit(CzSearch *search, unsigned long seed, CzError *error) {
+/* Screen, descend, polish, without the evaluations that are reserved for the catalogue increments.
+ */
+static CzStatus search_by_phases(CzSurface *surface, unsigned long seed, CzError *error) {
+    CzSearch *search = surface->search;
+    const bool is_fit = search->function->is_fit;
     const long reserve = cz_snap_reserve(search);
     const long total = search->most_evaluations - reserve;
-    if (!evaluate_start(search))
+    if (!cz_search_evaluate_start(search, "start"))
         return CZ_OK;
-    screen(search, seed, total / 5);
-    CZ_TRY(descend_apart(search, total / 2, error));
-    return refine(search, reserve, error);
+    const long enough = 2L * search->function->n_variable; /* a poor start costs more than these */
+    screen(search, seed, is_fit ? total / 5 : fmax(total / 10, fmin(enough, total / 4)));
+    CZ_TRY(descend(surface, is_fit ? total / 2 : total * 2 / 3, error));
+    return is_fit ? polish_fit(search, reserve, error) : polish(search, reserve, error);
 }
 
-/* One algorithm again and again from the best design while that gains. */
+/* One algorithm again and again from the best design as long as that gains. */
 static CzStatus repeat(CzSearch *search, const char *algorithm, unsigned long seed,
                        CzError *error) {
     const long reserve = cz_snap_reserve(search);
     CzNloptRun run = cz_nlopt_run_default(algorithm);
-    bool gained = evaluate_start(search); /* the start is the first gain */
+    bool gained = cz_search_evaluate_start(search, "start"); /* the start is the first gain */
     for (run.seed = seed; gained; run.seed++) {
         run.evaluations = cz_search_left(search) - reserve;
         if (run.evaluations < 1)
@@ -270,32 +207,18 @@ static CzStatus repeat(CzSearch *search, const char *algorithm, unsigned long se
     return CZ_OK;
 }
 
-/* `algorithm` NULL: the usual strategy, or that of a fit. */
-static CzStatus search_and_snap(CzSearch *search, const char *algorithm, bool is_fit,
-                                unsigned long seed, CzError *error) {
+CzStatus cz_strategy(CzSearch *search, const char *algorithm, unsigned long seed, CzError *error) {
     CzSurface surface;
-    if (!cz_surface_create(&surface, search, MOST_BATCH))
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the response surfaces");
+    if (!cz_surface_create(&surface, search, MOST_BATCH)) {
+        cz_surface_free(&surface);
+        return cz_no_memory(error, "the response surfaces");
+    }
     const CzStatus status = algorithm != NULL ? repeat(search, algorithm, seed, error)
-                            : is_fit          ? fit(search, seed, error)
-                                              : lead(&surface, seed, error);
+                                              : search_by_phases(&surface, seed, error);
     search->is_spent =
         cz_search_left(search) - cz_snap_reserve(search) < search->function->n_variable + 2;
     if (status == CZ_OK)
         cz_snap(&surface, search->most_evaluations - search->n_record);
     cz_surface_free(&surface);
     return status;
-}
-
-CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, CzError *error) {
-    return search_and_snap(search, NULL, false, seed, error);
-}
-
-CzStatus cz_strategy_fit(CzSearch *search, unsigned long seed, CzError *error) {
-    return search_and_snap(search, NULL, true, seed, error);
-}
-
-CzStatus cz_strategy_named(CzSearch *search, const char *algorithm, unsigned long seed,
-                           CzError *error) {
-    return search_and_snap(search, algorithm, false, seed, error);
 }

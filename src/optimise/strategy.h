@@ -1,4 +1,4 @@
-/* How a search is led: the usual strategy, one algorithm by name, and the way to catalogue
+/* Strategies of a search: the usual one, that of a fit, one algorithm by name; catalogue
  * increments.
  */
 #ifndef CZ_OPTIMISE_STRATEGY_H
@@ -6,27 +6,19 @@
 
 #include "optimise/surface.h"
 
-/* Fits parameters: screen, then Gauss and Newton's method from the best points that lie apart, then
- * that, BOBYQA, Sbplx and COBYLA by turns from the best with smaller and smaller steps, then snap.
- * Statuses as below. */
-CZ_MUST_CHECK CzStatus cz_strategy_fit(CzSearch *search, unsigned long seed, CzError *error);
-
-/* Screen, descend, polish, snap. Statuses of the NLopt adapter; how the search ended is in it.
+/* Searches with one NLopt algorithm, from the start and again from the best design as long as that
+ * gains; NULL takes the usual strategy, or that of a fit (strategy.c). The best design is moved to
+ * the catalogue increments at last. Statuses of the NLopt adapter; how the search ended is in it.
  */
-CZ_MUST_CHECK CzStatus cz_strategy_auto(CzSearch *search, unsigned long seed, CzError *error);
-
-/* One NLopt algorithm from the start, begun anew from the best design while that gains, then snap.
- */
-CZ_MUST_CHECK CzStatus cz_strategy_named(CzSearch *search, const char *algorithm,
-                                         unsigned long seed, CzError *error);
+CZ_MUST_CHECK CzStatus cz_strategy(CzSearch *search, const char *algorithm, unsigned long seed,
+                                   CzError *error);
 
 /* Moves from the best design to the best one on the catalogue increments, with at most this many
- * evaluations, until nothing gains. The surface is begun anew there when
- * that can be afforded.
- */
+ * evaluations, until nothing gains. The surface gets that base when there are evaluations for its
+ * slopes. */
 void cz_snap(CzSurface *surface, long evaluations);
 
-/* Evaluations that a strategy sets aside for the catalogue increments. */
+/* Evaluations that a strategy reserves for the catalogue increments. */
 long cz_snap_reserve(const CzSearch *search);
 
 /* Point of a sequence that fills the unit cube evenly (Roberts' additive recurrence), shifted by

@@ -18,9 +18,9 @@ static CzStatus evaluate_designs(void *data, int n_point, const double *numbers,
     const size_t n_all = (size_t)subspace->n_all;
     CzEvaluation *evaluation = calloc((size_t)n_point, sizeof *evaluation);
     double *x = calloc((size_t)n_point, n_all * sizeof *x);
-    CzStatus status = CZ_STATUS_NO_MEMORY;
+    CzStatus status;
     if (evaluation == NULL || x == NULL) {
-        cz_fail(error, status, "no memory for %d designs", n_point);
+        status = cz_no_memory(error, "the designs");
     } else {
         for (int i = 0; i < n_point; i++)
             cz_subspace_expand(subspace, numbers + i * subspace->function.n_variable,
@@ -44,14 +44,14 @@ bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *s
     const int n_all = cz_evaluator_n_variable(evaluator);
     const int n_constraint = cz_evaluator_n_constraint(evaluator);
     const size_t room = (size_t)n_all;
-    double *numbers = cz_arena_allocate(arena, 5 * room, sizeof *numbers);
+    double *min = cz_arena_numbers(arena, room), *max = cz_arena_numbers(arena, room);
+    double *first = cz_arena_numbers(arena, room), *step = cz_arena_numbers(arena, room);
+    double *made = cz_arena_numbers(arena, room);
     bool *flags = cz_arena_allocate(arena, 2 * (size_t)n_constraint + 1, sizeof *flags);
     int *number = cz_arena_allocate(arena, room, sizeof *number);
     int *shown = cz_arena_allocate(arena, (size_t)n_constraint + 1, sizeof *shown);
-    if (numbers == NULL || flags == NULL || number == NULL || shown == NULL)
+    if (arena->out_of_memory)
         return false;
-    double *min = numbers, *max = min + room, *first = max + room, *step = first + room;
-    double *made = step + room;
     int n = 0;
     cz_evaluator_set_combination(evaluator, combination, made);
     for (int i = 0; i < n_all; i++) {

@@ -1,7 +1,7 @@
-/* The evaluator as a function of numbers, with the choices of parts made.
+/* The evaluator as a function of the numbers alone, and the search over them.
  *
- * Parts are not in any order, so no algorithm is shown a choice: each combination of them is a
- * search of its own over the numbers.
+ * Parts have no order, so algorithms do not vary choices: each combination of choices is a search
+ * of its own over the numbers.
  */
 #ifndef CZ_OPTIMISE_SUBSPACE_H
 #define CZ_OPTIMISE_SUBSPACE_H
@@ -13,10 +13,11 @@ typedef struct CzSubspace {
     CzEvaluator *evaluator;
     int n_all;           /* variables of the problem */
     int *number;         /* those that are no choice and can vary (function.n_variable) */
-    int *constraint;     /* those of the evaluator that are searched by: all but the rules of files
-                            by name, which one constraint covers (function.n_constraint) */
+    int *constraint;     /* those of the evaluator that the search has: all but the named rules of
+                            files, which one constraint covers (function.n_constraint) */
     double *made;        /* a design with the choices made and what is fixed (n_all) */
     CzFunction function; /* of the numbers alone */
+    CzSearch search;     /* over them, begun by the user of the subspace */
 } CzSubspace;
 
 /* Fills a subspace; `start` NULL begins at the file's own values, else at these numbers

@@ -1,4 +1,4 @@
-/* Linear response surfaces: planes around a base design, and how they are kept true. */
+/* Linear response surfaces: planes around a base design, and their correction. */
 #include "optimise/surface.h"
 #include "optimise/nlopt_adapter.h"
 
@@ -7,29 +7,23 @@
 #include <string.h>
 
 bool cz_surface_create(CzSurface *surface, CzSearch *search, int most) {
-    const size_t n = (size_t)search->function->n_variable;
-    const size_t m = (size_t)cz_search_n_detail(search);
-    const size_t n_constraint = (size_t)search->function->n_constraint;
-    const size_t batch = (size_t)(most > (int)n + 1 ? most : (int)n + 1);
-    *surface =
-        (CzSurface){.search = search, .n = (int)n, .m = (int)m, .record = -1, .most = (int)batch};
-    double *at = calloc(n + m + n + m * n + batch * (n + 1 + n_constraint + m) + 1, sizeof *at);
-    surface->u = at;
-    if (at == NULL)
-        return false;
-    surface->c = at += n;
-    surface->df = at += m;
-    surface->dc = at += n;
-    surface->x = at += m * n;
-    surface->many_f = at += batch * n;
-    surface->many_c = at += batch;
-    surface->many_d = at + batch * n_constraint;
-    return true;
+    const int n = search->function->n_variable, m = cz_search_n_detail(search);
+    const size_t batch = (size_t)(most > n + 1 ? most : n + 1);
+    *surface = (CzSurface){.search = search, .n = n, .m = m, .record = -1, .most = (int)batch};
+    CzArena *arena = &surface->arena;
+    surface->u = cz_arena_numbers(arena, (size_t)n);
+    surface->c = cz_arena_numbers(arena, (size_t)m);
+    surface->df = cz_arena_numbers(arena, (size_t)n);
+    surface->dc = cz_arena_numbers(arena, (size_t)(m * n));
+    surface->x = cz_arena_numbers(arena, batch * (size_t)n);
+    surface->many_f = cz_arena_numbers(arena, batch);
+    surface->many_c = cz_arena_numbers(arena, batch * (size_t)search->function->n_constraint);
+    surface->many_d = cz_arena_numbers(arena, batch * (size_t)m);
+    return !arena->out_of_memory;
 }
 
 void cz_surface_free(CzSurface *surface) {
-    free(surface->u);
-    surface->u = NULL;
+    cz_arena_free(&surface->arena);
 }
 
 /* Evaluates n_point designs of surface->x. */
@@ -45,23 +39,18 @@ static void set_base(CzSurface *surface, long record, int point, const double *u
     memcpy(surface->c, surface->many_d + point * surface->m, (size_t)surface->m * sizeof(double));
 }
 
-/* Step of one variable, away from the nearer bound when it would leave the box. */
-static double secant_of(const CzSurface *surface, int variable, double secant) {
-    return surface->u[variable] + secant <= 1 ? secant : -secant;
-}
-
 bool cz_surface_refresh(CzSurface *surface, const char *phase, double secant) {
     const int n = surface->n, m = surface->m;
     for (int i = 0; i < n; i++) {
         const double kept = surface->u[i];
-        surface->u[i] += secant_of(surface, i, secant);
-        cz_search_unscale(surface->search, surface->u, surface->x + i * n);
+        surface->u[i] += cz_search_secant(kept, secant);
+        cz_search_unscale(surface->search, 1, surface->u, surface->x + i * n);
         surface->u[i] = kept;
     }
     if (!evaluate(surface, phase, n))
         return false;
     for (int i = 0; i < n; i++) {
-        const double h = secant_of(surface, i, secant);
+        const double h = cz_search_secant(surface->u[i], secant);
         surface->df[i] = (surface->many_f[i] - surface->f) / h;
         for (int k = 0; k < m; k++)
             surface->dc[k * n + i] = (surface->many_d[i * m + k] - surface->c[k]) / h;
@@ -71,7 +60,7 @@ bool cz_surface_refresh(CzSurface *surface, const char *phase, double secant) {
 }
 
 bool cz_surface_begin(CzSurface *surface, const char *phase, const double *u, double secant) {
-    cz_search_unscale(surface->search, u, surface->x);
+    cz_search_unscale(surface->search, 1, u, surface->x);
     if (!evaluate(surface, phase, 1))
         return false;
     set_base(surface, surface->search->n_record - 1, 0, u);
@@ -87,7 +76,7 @@ static void correct(double *slope, int n, const double *step, double square, dou
         slope[i] += (change - predicted) * step[i] / square;
 }
 
-/* Over shorter steps a rattling train's answer is scatter, which would spoil the slopes. */
+/* Over shorter steps a chaotic response is scatter, which would spoil the slopes. */
 static const double shortest_step = 0.01;
 
 static void correct_all(CzSurface *surface, int point, const double *u, double *step) {
@@ -107,13 +96,10 @@ static void correct_all(CzSurface *surface, int point, const double *u, double *
     surface->is_fresh = false;
 }
 
-bool cz_surface_try_exact(CzSurface *surface, const char *phase, int n_point, const double *x,
-                          int *moved_to) {
+bool cz_surface_try_exact(CzSurface *surface, const char *phase, int n_point, int *moved_to) {
     CzSearch *search = surface->search;
     const int n = surface->n;
     *moved_to = -1;
-    if (x != surface->x)
-        memcpy(surface->x, x, (size_t)(n_point * n) * sizeof *x);
     double *u = cz_search_numbers(search, 2 * (size_t)n), *step = u + n;
     if (u == NULL || !evaluate(surface, phase, n_point)) {
         free(u);
@@ -140,30 +126,37 @@ bool cz_surface_try_exact(CzSurface *surface, const char *phase, int n_point, co
 
 bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const double *u,
                     int *moved_to) {
-    for (int point = 0; point < n_point; point++)
-        cz_search_unscale(surface->search, u + point * surface->n, surface->x + point * surface->n);
-    return cz_surface_try_exact(surface, phase, n_point, surface->x, moved_to);
+    cz_search_unscale(surface->search, n_point, u, surface->x);
+    return cz_surface_try_exact(surface, phase, n_point, moved_to);
+}
+
+/* A plane at scaled u. */
+static double plane_at(const CzSurface *surface, double base, const double *slope,
+                       const double *u) {
+    for (int i = 0; i < surface->n; i++)
+        base += slope[i] * (u[i] - surface->u[i]);
+    return base;
+}
+
+static double detail_at(const CzSurface *surface, int k, const double *u) {
+    return plane_at(surface, surface->c[k], surface->dc + k * surface->n, u);
 }
 
 double cz_surface_predict(const CzSurface *surface, const double *u, double *penalty) {
-    const int n = surface->n;
-    double f = surface->f, largest = -INFINITY;
-    for (int i = 0; i < n; i++)
-        f += surface->df[i] * (u[i] - surface->u[i]);
+    double largest = -INFINITY;
     *penalty = 0;
     for (int k = 0; k < surface->m; k++) {
-        double c = surface->c[k];
-        for (int i = 0; i < n; i++)
-            c += surface->dc[k * n + i] * (u[i] - surface->u[i]);
+        const double c = detail_at(surface, k, u);
         largest = fmax(largest, c);
         *penalty += cz_search_compressed(fmax(c, 0));
     }
-    return surface->search->function->is_minimax ? largest : f;
+    return surface->search->function->is_minimax ? largest
+                                                 : plane_at(surface, surface->f, surface->df, u);
 }
 
 /* ---- the best design on the planes ----------------------------------------------------------- */
 
-/* The planes as a function to be searched by NLopt at no cost of simulation. */
+/* The planes as a function for NLopt, which needs no simulation. */
 typedef struct Planes {
     const CzSurface *surface;
     const int *detail; /* those that can matter within the box (n_constraint) */
@@ -174,25 +167,19 @@ static CzStatus evaluate_planes(void *data, int n_point, const double *u, double
                                 double *constraint, double *detail, CzError *error) {
     const Planes *planes = data;
     const CzSurface *surface = planes->surface;
-    const int n = surface->n;
     (void)detail;
     (void)error;
     for (int point = 0; point < n_point; point++) {
-        const double *at = u + point * n;
+        const double *at = u + point * surface->n;
         double *c = constraint + point * planes->n_constraint;
         double largest = -1;
-        objective[point] = surface->f;
-        for (int i = 0; i < n; i++)
-            objective[point] += surface->df[i] * (at[i] - surface->u[i]);
         for (int j = 0; j < planes->n_constraint; j++) {
-            const int k = planes->detail[j];
-            c[j] = surface->c[k];
-            for (int i = 0; i < n; i++)
-                c[j] += surface->dc[k * n + i] * (at[i] - surface->u[i]);
+            c[j] = detail_at(surface, planes->detail[j], at);
             largest = fmax(largest, c[j]);
         }
-        if (surface->search->function->is_minimax)
-            objective[point] = largest;
+        objective[point] = surface->search->function->is_minimax
+                               ? largest
+                               : plane_at(surface, surface->f, surface->df, at);
     }
     return CZ_OK;
 }
@@ -273,7 +260,7 @@ bool cz_surface_best(const CzSurface *surface, double radius, double *u) {
 
 enum {
     RADII = 3,   /* boxes tried side by side: the radius, a third, a ninth */
-    PATIENCE = 2 /* gradients' worth of evaluations without a gain */
+    PATIENCE = 2 /* evaluations without a gain, in those of a gradient */
 };
 
 void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, long evaluations) {

@@ -2,16 +2,18 @@
  *
  *   c_k(u) = c_k(base) + slope_k . (u - base)        u scaled to 0..1
  *
- * Slopes begin as secants, n designs side by side, and are corrected by every further design
- * (Broyden's rank-one update). Moving on planes inside a box whose size follows their success is
- * how crash designs are searched, since local derivatives of a rattling train are of no use.
+ * Slopes begin as secants of n designs side by side and are corrected by every further design
+ * (Broyden's rank-one update). The search moves on the planes inside a box that grows and shrinks
+ * with their success: local derivatives of a chaotic response say nothing about larger steps.
  */
 #ifndef CZ_OPTIMISE_SURFACE_H
 #define CZ_OPTIMISE_SURFACE_H
 
+#include "base/arena.h"
 #include "optimise/search.h"
 
 typedef struct CzSurface {
+    CzArena arena;
     CzSearch *search;
     int n, m;                             /* variables, details */
     long record;                          /* of the base, -1 while there is none */
@@ -40,10 +42,9 @@ bool cz_surface_refresh(CzSurface *surface, const char *phase, double secant);
 bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const double *u,
                     int *moved_to);
 
-/* The same with designs given in the variables' units, so that a catalogue increment stays one to
- * the last bit. */
-bool cz_surface_try_exact(CzSurface *surface, const char *phase, int n_point, const double *x,
-                          int *moved_to);
+/* The same with the designs of surface->x, in the variables' units, so that values on a catalogue
+ * increment stay on it to the last bit. */
+bool cz_surface_try_exact(CzSurface *surface, const char *phase, int n_point, int *moved_to);
 
 /* Planes at scaled u: returns the objective and adds up the violations as the search ranks them. */
 double cz_surface_predict(const CzSurface *surface, const double *u, double *penalty);

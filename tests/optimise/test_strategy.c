@@ -11,7 +11,7 @@ static CzSearch run_auto(const CzFunction *function, long evaluations, unsigned 
     CzSearch search;
     CzError error = {0};
     cz_search_init(&search, function, &options);
-    assert_int_equal(cz_strategy_auto(&search, seed, &error), CZ_OK);
+    assert_int_equal(cz_strategy(&search, NULL, seed, &error), CZ_OK);
     return search;
 }
 
@@ -120,7 +120,7 @@ static void search_that_runs_into_failures_ends_with_the_best_and_a_sentence(voi
     CzSearch search;
     CzError error = {0};
     cz_search_init(&search, &function, &options);
-    assert_int_equal(cz_strategy_named(&search, "LN_NELDERMEAD", 1, &error), CZ_OK);
+    assert_int_equal(cz_strategy(&search, "LN_NELDERMEAD", 1, &error), CZ_OK);
     assert_false(isnan(search.record[search.best].objective));
     if (search.is_paused)
         assert_non_null(strstr(search.why, "of the last 50 designs failed"));
@@ -178,8 +178,8 @@ static void interruption_ends_every_algorithm_and_keeps_the_best(void **state) {
         CzSearch search;
         CzError error = {0};
         cz_search_init(&search, &function, &options);
-        const CzStatus status = i < 0 ? cz_strategy_auto(&search, 1, &error)
-                                      : cz_strategy_named(&search, cz_algorithm_name(i), 1, &error);
+        const CzStatus status = i < 0 ? cz_strategy(&search, NULL, 1, &error)
+                                      : cz_strategy(&search, cz_algorithm_name(i), 1, &error);
         assert_true(status == CZ_OK || status == CZ_STATUS_INPUT);
         if (status == CZ_OK && search.is_over)
             assert_int_equal(search.status, CZ_STATUS_INTERRUPTED);
@@ -202,7 +202,7 @@ static void every_algorithm_runs_by_name_within_its_limit(void **state) {
         CzSearch search;
         CzError error = {0};
         cz_search_init(&search, &function, &options);
-        const CzStatus status = cz_strategy_named(&search, cz_algorithm_name(i), 1, &error);
+        const CzStatus status = cz_strategy(&search, cz_algorithm_name(i), 1, &error);
         if (status != CZ_OK)
             print_message("%s: %s\n", cz_algorithm_name(i), error.message);
         assert_int_equal(status, CZ_OK);
@@ -226,7 +226,7 @@ static void algorithms_survive_failing_designs(void **state) {
         CzSearch search;
         CzError error = {0};
         cz_search_init(&search, &function, &options);
-        assert_int_equal(cz_strategy_named(&search, cz_algorithm_name(i), 1, &error), CZ_OK);
+        assert_int_equal(cz_strategy(&search, cz_algorithm_name(i), 1, &error), CZ_OK);
         assert_true(search.n_record <= 200);
         assert_false(isnan(search.record[search.best].objective));
         cz_search_free(&search);

@@ -1,0 +1,79 @@
+/* Memory of an outcome, its bounds and its verification. */
+#include "optimise/outcome.h"
+#include "base/error.h"
+
+#include <stdlib.h>
+
+/* The outcome stands first, so that its address is that of the whole. */
+typedef struct Owned {
+    CzOutcome outcome;
+    CzArena arena;
+} Owned;
+
+double *cz_outcome_numbers(CzOutcome *outcome, size_t n) {
+    return cz_arena_numbers(&((Owned *)outcome)->arena, n);
+}
+
+CzStatus cz_outcome_create(const CzEvaluator *evaluator, long n_trial, CzOutcome **outcome,
+                           CzError *error) {
+    Owned *made = calloc(1, sizeof *made);
+    const int n = cz_evaluator_n_variable(evaluator);
+    *outcome = NULL;
+    if (made == NULL)
+        return cz_no_memory(error, "the outcome");
+    *outcome = &made->outcome;
+    **outcome =
+        (CzOutcome){.n_variable = n,
+                    .n_evaluation = n_trial,
+                    .n_trial = n_trial,
+                    .start = cz_outcome_numbers(*outcome, (size_t)n),
+                    .best = cz_outcome_numbers(*outcome, (size_t)n),
+                    .at_bound = cz_arena_allocate(&made->arena, (size_t)n, sizeof(bool)),
+                    .trial = cz_arena_allocate(&made->arena, (size_t)n_trial, sizeof(CzTrial)),
+                    .trial_x = cz_outcome_numbers(*outcome, (size_t)n_trial * (size_t)n)};
+    if (made->arena.out_of_memory)
+        return cz_outcome_pass_on(*outcome, cz_no_memory(error, "the outcome"), outcome);
+    for (int i = 0; i < n; i++)
+        (*outcome)->start[i] = (*outcome)->best[i] = cz_evaluator_variable(evaluator, i)->start;
+    return CZ_OK;
+}
+
+CzStatus cz_outcome_pass_on(CzOutcome *made, CzStatus status, CzOutcome **outcome) {
+    if (status != CZ_OK)
+        cz_outcome_free(made);
+    *outcome = status == CZ_OK ? made : NULL;
+    return status;
+}
+
+void cz_outcome_free(CzOutcome *outcome) {
+    if (outcome == NULL)
+        return;
+    cz_evaluation_free(&outcome->start_evaluation);
+    cz_evaluation_free(&outcome->best_evaluation);
+    cz_verification_free(outcome->verification);
+    cz_arena_free(&((Owned *)outcome)->arena);
+    free(outcome);
+}
+
+void cz_outcome_mark_bounds(const CzEvaluator *evaluator, CzOutcome *outcome) {
+    for (int i = 0; i < outcome->n_variable; i++) {
+        const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
+        const double nearness = 1e-6 * (info->max - info->min);
+        outcome->at_bound[i] =
+            info->n_choice == 0 && !info->is_fixed &&
+            (outcome->best[i] <= info->min + nearness || outcome->best[i] >= info->max - nearness);
+    }
+}
+
+CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
+                           CzOutcome *outcome, CzError *error) {
+    if (outcome->status != CZ_OUTCOME_FEASIBLE || options->verify_methods == 0)
+        return CZ_OK;
+    CzVerifyOptions chosen = cz_verify_options_default();
+    chosen.methods = options->verify_methods;
+    chosen.solver_step = 2.0;
+    chosen.stop = options->stop;
+    const CzStatus status = cz_verify(evaluator, outcome->best, &outcome->best_evaluation, &chosen,
+                                      &outcome->verification, error);
+    return status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
+}

@@ -1,12 +1,13 @@
-/* Where the energy of a run is: what every element has received and what it can still give back.
+/* Energy that every element has received and that it stores.
  *
  *   dissipated = received - stored, of each element
  *
- * Members of series chains receive the mean force of a step times their way, the compliance of a
- * chain what it stores, and crush zones what their law says of their state: the work of loading to
- * the largest shortening less what unloading gives back. Everything else receives its power. These
- * are the works of the laws; what the bodies give is the force of a chain or a crush zone times the
- * closing rate (ledger rows of class BODIES), and the two agree to the square of the step.
+ * Members of series chains receive the mean force of a step times their stroke in it, the
+ * compliance of a chain receives what it stores, and crush zones what follows from their state: the
+ * work of loading to the largest shortening less what unloading returns. All other elements receive
+ * the integral of their power. This is the work of the laws; the work of the bodies is the force of
+ * a chain or a crush zone times the closing rate (ledger rows of class BODIES). The two agree to
+ * the square of the step.
  */
 #include "simulate/run.h"
 
@@ -16,7 +17,7 @@ static CzAccount sum_of(CzAccount a, CzAccount b) {
     return (CzAccount){a.received + b.received, a.stored + b.stored};
 }
 
-/* Received and not given back, nothing stored. */
+/* Dissipated as a whole. */
 static CzAccount lost(double work) {
     return (CzAccount){work, 0.0};
 }
@@ -41,12 +42,12 @@ bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind k
     }
 }
 
-/* Share of one side in what both sides of an interface are one element for. */
+/* Share of one side in an element that both sides of an interface have in common. */
 static double half_of(const CzBatch *batch, size_t lane, int side, CzElementKind kind) {
     return cz_has_element(batch, lane, 1 - side, kind) ? 0.5 : 1.0;
 }
 
-/* What stores and gives back all of it. */
+/* Stored as a whole. */
 static CzAccount elastic(double stored) {
     return (CzAccount){stored, stored};
 }
@@ -73,7 +74,7 @@ CzAccount cz_side_account(const CzBatch *batch, size_t lane, int side) {
     return sum_of(members, share_of(share, sum_of(sliding, tubes)));
 }
 
-/* What both faces of an interface are one element for: compliance, damping, ribs and friction. */
+/* What both faces of an interface have in common: compliance, damping, ribs and friction. */
 static CzAccount faces_account(const CzBatch *batch, size_t lane) {
     const CzDynamics *dynamics = batch->dynamics;
     const CzAccount strain = {cz_memory(batch, CZ_MEMORY(face.strain), lane),
@@ -106,8 +107,7 @@ CzAccount cz_crush_account(const CzBatch *batch, size_t lane, int end) {
 }
 
 CzAccount cz_guide_account(const CzBatch *batch, size_t lane, int end) {
-    const double stored = cz_guide_stored(batch->dynamics, lane, end);
-    return (CzAccount){stored, stored};
+    return elastic(cz_guide_stored(batch->dynamics, lane, end));
 }
 
 /* The end mass in its guidance and its hinge, and the damping of the crush zone. */
@@ -150,10 +150,9 @@ CzAccount cz_gear_account(const CzBatch *batch, size_t lane) {
         dynamics->track == NULL && dynamics->elements == NULL && dynamics->co_running == NULL;
     const double contact =
         is_rigid ? cz_wheels_stored(dynamics, lane) : cz_work(batch, CZ_LEDGER(wheel_normal), lane);
-    const double stored = cz_secondary_stored(dynamics, lane) + cz_primary_stored(dynamics, lane) +
-                          cz_link_stored(dynamics, lane) + cz_axle_guidance_stored(dynamics, lane) +
-                          contact;
-    return (CzAccount){stored, stored};
+    return elastic(cz_secondary_stored(dynamics, lane) + cz_primary_stored(dynamics, lane) +
+                   cz_link_stored(dynamics, lane) + cz_axle_guidance_stored(dynamics, lane) +
+                   contact);
 }
 
 CzAccount cz_springs_account(const CzBatch *batch, size_t lane) {

@@ -1,16 +1,14 @@
-/* Energy and momentum of a design: kinetic energy, work, what is stored, what the energy balance
- * leaves open.
- */
+/* Energy and momentum of a design: kinetic energy, work, residuals of both balances. */
 #include "simulate/run.h"
 
 #include <math.h>
 
-#define SMALLEST_FORCE 1e4 /* of an interface that its chains are measured against [N] (ours) */
+#define SMALLEST_FORCE 1e4 /* of an interface, as the scale of errors of its chains [N] (ours) */
 
-/* Velocity that belongs to the accelerations at both ends of the step. The two-step scheme carries
- * v = (trapezoidal v) - h/2 (a - a_last): a step in which a force jumps, such as a shear-off that
- * snaps, is paid for in the next one. Work is summed by the trapezoidal rule and must be compared
- * with what belongs to it. The references have no such lag. */
+/* Velocity that belongs to the accelerations at both ends of the step. The two-step scheme has
+ * v = (trapezoidal v) - h/2 (a - a_last): where a force jumps, as at a shear-off, the velocity
+ * follows one step later. Work is summed by the trapezoidal rule and is compared with the
+ * trapezoidal velocity. The references have no such lag. */
 static double settled_velocity(const CzBatch *batch, int dof, size_t lane) {
     const double v = cz_velocity(batch, dof, lane);
     if (batch->n_step == 0 || batch->reference != NULL)
@@ -100,6 +98,13 @@ double cz_train_speed(const CzBatch *batch, int train, int design) {
         momentum += m * cz_velocity(batch, CZ_DOF(body.x), lane);
     }
     return mass > 0.0 ? momentum / mass : 0.0;
+}
+
+double cz_largest_closing_speed(const CzBatch *batch, int design) {
+    double largest = 0.0;
+    for (int car = 0; car + 1 < batch->model->n_car; ++car)
+        largest = fmax(largest, cz_closing_speed(batch, car, design));
+    return largest;
 }
 
 double cz_law_error(const CzBatch *batch, size_t lane) {

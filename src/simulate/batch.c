@@ -5,26 +5,21 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "simulate/reference.h"
 #include "simulate/run.h"
 
 enum {
-    STEPS_BETWEEN_LOOKS = 32, /* of the model: energy and end of run are looked at this often, so
-                                 that a run with a halved time step ends at the same time (ours) */
-    LANES_THAT_FILL = 96,     /* lanes of a batch that still stay in the first caches (measured) */
-    MOST_STEPS = 100000       /* of a reference within one step of the model: more is a storm of
-                                 events (ours) */
+    STEPS_BETWEEN_LOOKS = 32, /* steps of the model between two examinations of energy and end of
+                                 run, so that a run with a halved time step ends at the same time
+                                 (ours) */
+    LANES_THAT_FILL = 96,     /* lanes of a batch that still fit the first caches (measured) */
+    MOST_STEPS = 100000       /* of a reference within one step of the model: it has more only when
+                                 events follow one another without end (ours) */
 };
 #define SAMPLING 1e-3 /* of the history for mean decelerations [s] (ours) */
-
-static double seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 CzSimulateOptions cz_simulate_options_default(void) {
     return (CzSimulateOptions){.time_step = 0.0,
@@ -44,8 +39,8 @@ const char *cz_isa_name(void) {
     return cz_kernel(NULL)->isa;
 }
 
-/* Fills all lanes. A design that makes no model is over before it begins; its lanes hold the file's
- * own values. */
+/* Fills all lanes. A design without a valid model is over before it begins, and its lanes get the
+ * file's own values. */
 static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *error) {
     for (int design = 0; design < batch->n_design; ++design) {
         CzProgressOfDesign *progress = &batch->design[design];
@@ -61,7 +56,8 @@ static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *erro
     return CZ_OK;
 }
 
-/* A run for a search takes the cheap track; the production run is run with the file's own. */
+/* A run for a search takes the co-running track, which is cheap, a production run the file's own.
+ */
 static CzTrack track_of(const CzBatch *batch, CzTrackUse use) {
     const CzTrack own = (CzTrack)batch->model->simulation->track;
     if (own == CZ_TRACK_RIGID)
@@ -92,7 +88,7 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     batch->load = cz_interface_loads_begin(batch, &batch->arena);
     batch->lanes = cz_lanes_create(model, n_design, &batch->arena);
     if (used == NULL || batch->design == NULL || batch->load == NULL || batch->lanes == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_design);
+        return cz_no_memory(error, "the designs");
     for (int design = 0; design < n_design; ++design) {
         used[design] = vehicles != NULL && vehicles[design] != NULL ? vehicles[design] : own;
         batch->design[design].override_time = NAN;
@@ -104,15 +100,13 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     CZ_TRY(fill_designs(batch, own, error));
     batch->dynamics = cz_dynamics_create(batch->lanes, &batch->arena);
     if (batch->dynamics == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_design);
+        return cz_no_memory(error, "the designs");
     const double track_step = batch->integrator == CZ_INTEGRATOR_ZHAI ? batch->step : 0.0;
     if (model->track != NULL &&
         !cz_dynamics_lay_track(batch->dynamics, model->track, track_of(batch, options->track),
                                track_step, &batch->arena))
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the track");
-    batch->closing_speed =
-        cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, model->colliding, 0)) -
-        cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, model->colliding + 1, 0));
+        return cz_no_memory(error, "the track");
+    batch->closing_speed = cz_closing_speed(batch, model->colliding, 0);
     const double samples = fmax(1.0, round(SAMPLING / batch->step));
     batch->history.stride = batch->lanes->n_lane;
     batch->history.step = samples * batch->step;
@@ -131,13 +125,13 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
 typedef struct {
     CzRun *run;
     CzWatch *watch;
-    CzBudgetBook *budget; /* NULL for a reference */
-    long every;           /* steps between samples */
+    CzBudget *budget; /* NULL for a reference */
+    long every;       /* steps between samples */
     double rest_residual;
 } Recording;
 
 /* Largest residual of the vehicles at rest; NaN when none is a full one. */
-static CzStatus look_at_rest(const CzBatch *batch, double *residual, CzError *error) {
+static CzStatus find_rest_residual(const CzBatch *batch, double *residual, CzError *error) {
     *residual = NAN;
     for (int car = 0; car < batch->model->n_car; ++car) {
         CzRest rest;
@@ -150,7 +144,7 @@ static CzStatus look_at_rest(const CzBatch *batch, double *residual, CzError *er
 
 static CzStatus record_begin(Recording *recording, CzBatch *batch, CzRun *run, CzError *error) {
     recording->run = run;
-    CZ_TRY(look_at_rest(batch, &recording->rest_residual, error));
+    CZ_TRY(find_rest_residual(batch, &recording->rest_residual, error));
     const double wanted = batch->model->simulation->output_step / batch->step;
     recording->every = wanted > 1.0 ? lround(wanted) : 1;
     recording->watch = cz_watch_begin(batch, &run->arena);
@@ -159,7 +153,7 @@ static CzStatus record_begin(Recording *recording, CzBatch *batch, CzRun *run, C
     if (recording->watch == NULL || (recording->budget == NULL && batch->reference == NULL) ||
         cz_channels_begin(&run->channels, batch) != CZ_OK ||
         cz_channels_add(&run->channels, batch) != CZ_OK)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the recording");
+        return cz_no_memory(error, "the recording");
     return CZ_OK;
 }
 
@@ -194,8 +188,8 @@ static CzStatus finish(const CzBatch *batch, CzRun **run, bool *written) {
     return CZ_OK;
 }
 
-/* Steps of the adaptive solver up to the end of the model's step. A solver that gives up fails the
- * run. */
+/* Steps of the adaptive solver up to the end of the model's step. The run fails when the solver
+ * does. */
 static void step_reference(CzBatch *batch, const Recording *recording, double until) {
     CzProgressOfDesign *progress = &batch->design[0];
     CzError error = {0};
@@ -233,7 +227,7 @@ static void step(CzBatch *batch, const Recording *recording) {
 static CzStatus march(CzBatch *batch, CzRun **run, Recording *recording, CzError *error) {
     bool *written = cz_arena_allocate(&batch->arena, (size_t)batch->n_design, sizeof *written);
     if (written == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the run");
+        return cz_no_memory(error, "the run");
     const long every = lround(batch->history.step / batch->step);
     const double length = batch->model->duration;
     const long look =
@@ -253,7 +247,7 @@ static CzStatus march(CzBatch *batch, CzRun **run, Recording *recording, CzError
             status = finish(batch, run, written);
         }
     }
-    return status == CZ_OK ? CZ_OK : cz_fail(error, status, "no memory for the run");
+    return status == CZ_OK ? CZ_OK : cz_no_memory(error, "the run");
 }
 
 static void batch_free(CzBatch *batch) {
@@ -273,27 +267,26 @@ static void free_runs(int n_design, CzRun **run) {
 static CzStatus simulate_together(const CzModel *model, int n_design,
                                   const CzVehicle *const *vehicles,
                                   const CzSimulateOptions *options, CzRun **run, CzError *error) {
-    const CzSimulateOptions chosen = *options;
-    const double t0 = seconds();
+    const double t0 = cz_clock();
     CzStatus status = CZ_OK;
     for (int design = 0; design < n_design; ++design) {
         run[design] = calloc(1, sizeof **run);
         if (run[design] == NULL)
-            status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d runs", n_design);
+            status = cz_no_memory(error, "the runs");
     }
     CzBatch batch = {0};
     Recording recording = {0};
-    const bool records = chosen.record && n_design == 1;
+    const bool records = options->record && n_design == 1;
     if (status == CZ_OK)
-        status = begin(&batch, model, n_design, vehicles, &chosen, error);
+        status = begin(&batch, model, n_design, vehicles, options, error);
     if (status == CZ_OK && records)
         status = record_begin(&recording, &batch, run[0], error);
-    const double t1 = seconds();
+    const double t1 = cz_clock();
     if (status == CZ_OK)
         status = march(&batch, run, records ? &recording : NULL, error);
     if (status == CZ_OK && records)
         record_end(&recording);
-    const double t2 = seconds();
+    const double t2 = cz_clock();
     batch_free(&batch);
     if (status != CZ_OK)
         free_runs(n_design, run);
@@ -310,7 +303,7 @@ CzStatus cz_simulate_batch(const CzModel *model, int n_design, const CzVehicle *
     const CzSimulateOptions chosen = options != NULL ? *options : cz_simulate_options_default();
     if (chosen.integrator == CZ_INTEGRATOR_ZHAI)
         return simulate_together(model, n_design, vehicles, &chosen, run, error);
-    /* Adaptive steps would make a design's answer depend on its neighbours. */
+    /* With adaptive steps the results of a design would depend on its neighbours. */
     CzStatus status = CZ_OK;
     int n_made = 0;
     for (; n_made < n_design && status == CZ_OK; ++n_made)

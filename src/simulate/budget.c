@@ -1,4 +1,4 @@
-/* Budgets: impulses on the bodies by source, up to the time that matters.
+/* Budgets: impulses on the bodies by source, up to the largest wheel lift or pitch.
  *
  *   J omega = sum of the moment impulses,   m v_z = sum of the vertical impulses
  *
@@ -11,29 +11,28 @@
 
 #define SMALLEST_LIFT 1e-4 /* of a wheel that counts as lifting [m] (ours) */
 
-struct CzBudgetBook {
+struct CzBudget {
     int n_car;
     CzVehicleBudget *running; /* (n_car) */
     CzVehicleBudget *kept;    /* as it was at the largest lift or pitch (n_car) */
     double *lift, *pitch;     /* largest so far [m], [rad] (n_car) */
 };
 
-const char *cz_budget_text(CzBudgetSource source) {
-    static const char *const text[] = {
-#define CZ_BUDGET(constant, text, counts, doc) text,
+static const struct {
+    const char *text;
+    bool counts;
+} sources[CZ_N_BUDGET] = {
+#define CZ_BUDGET(constant, text, counts, doc) [constant] = {text, counts},
 #include "crushzone/budget.def"
 #undef CZ_BUDGET
-    };
-    return text[source];
+};
+
+const char *cz_budget_text(CzBudgetSource source) {
+    return sources[source].text;
 }
 
 bool cz_budget_counts(CzBudgetSource source) {
-    static const bool counts[] = {
-#define CZ_BUDGET(constant, text, counts, doc) counts,
-#include "crushzone/budget.def"
-#undef CZ_BUDGET
-    };
-    return counts[source];
+    return sources[source].counts;
 }
 
 int cz_budget_order(const CzVehicleBudget *budget, int order[CZ_N_BUDGET]) {
@@ -49,24 +48,24 @@ int cz_budget_order(const CzVehicleBudget *budget, int order[CZ_N_BUDGET]) {
     return n;
 }
 
-CzBudgetBook *cz_budget_begin(CzBatch *batch, CzArena *arena) {
+CzBudget *cz_budget_begin(CzBatch *batch, CzArena *arena) {
     const size_t n = (size_t)batch->model->n_car;
-    CzBudgetBook *book = cz_arena_allocate(arena, 1, sizeof *book);
-    if (book == NULL)
+    CzBudget *budget = cz_arena_allocate(arena, 1, sizeof *budget);
+    if (budget == NULL)
         return NULL;
-    book->n_car = batch->model->n_car;
-    book->running = cz_arena_allocate(arena, n, sizeof *book->running);
-    book->kept = cz_arena_allocate(arena, n, sizeof *book->kept);
-    book->lift = cz_arena_allocate(&batch->arena, n, sizeof *book->lift);
-    book->pitch = cz_arena_allocate(&batch->arena, n, sizeof *book->pitch);
+    budget->n_car = batch->model->n_car;
+    budget->running = cz_arena_allocate(arena, n, sizeof *budget->running);
+    budget->kept = cz_arena_allocate(arena, n, sizeof *budget->kept);
+    budget->lift = cz_arena_allocate(&batch->arena, n, sizeof *budget->lift);
+    budget->pitch = cz_arena_allocate(&batch->arena, n, sizeof *budget->pitch);
     CzBudgetRows *rows =
         cz_arena_allocate(&batch->arena, (size_t)batch->dynamics->n_block, sizeof *rows);
-    if (book->running == NULL || book->kept == NULL || book->lift == NULL || book->pitch == NULL ||
-        rows == NULL)
+    if (budget->running == NULL || budget->kept == NULL || budget->lift == NULL ||
+        budget->pitch == NULL || rows == NULL)
         return NULL;
     for (int i = 0; i < batch->dynamics->n_block; ++i)
         batch->dynamics->block[i].budget = &rows[i];
-    return book;
+    return budget;
 }
 
 /* Values of a lane. */
@@ -116,46 +115,44 @@ static double lift_of_wheels(const CzBatch *batch, size_t lane) {
     return largest;
 }
 
-static double mass_of(const CzBatch *batch, int dof, size_t lane) {
-    return *cz_lane_mass(batch->lanes, dof, lane);
+static double momentum(const CzBatch *batch, int dof, size_t lane) {
+    return *cz_lane_mass(batch->lanes, dof, lane) * cz_velocity(batch, dof, lane);
 }
 
 /* Keeps the budget of a car where its lift, or its pitch before any lift, is the largest so far. */
-static void keep(CzBudgetBook *book, const CzBatch *batch, int car) {
+static void keep(CzBudget *budget, const CzBatch *batch, int car) {
     const size_t lane = cz_lane(batch, car, 0);
     const double lift = lift_of_wheels(batch, lane);
     const double pitch = fabs(cz_position(batch, CZ_DOF(body.pitch), lane));
-    const bool lifts = lift > SMALLEST_LIFT && lift > book->lift[car];
-    const bool pitches = book->lift[car] == 0.0 && pitch > book->pitch[car];
+    const bool lifts = lift > SMALLEST_LIFT && lift > budget->lift[car];
+    const bool pitches = budget->lift[car] == 0.0 && pitch > budget->pitch[car];
     if (!lifts && !pitches)
         return;
-    book->lift[car] = lifts ? lift : 0.0;
-    book->pitch[car] = pitch;
-    book->kept[car] = book->running[car];
-    book->kept[car].of_lift = lifts;
-    book->kept[car].time = batch->time;
-    book->kept[car].spin =
-        mass_of(batch, CZ_DOF(body.pitch), lane) * cz_velocity(batch, CZ_DOF(body.pitch), lane);
-    book->kept[car].rise =
-        mass_of(batch, CZ_DOF(body.z), lane) * cz_velocity(batch, CZ_DOF(body.z), lane);
+    budget->lift[car] = lifts ? lift : 0.0;
+    budget->pitch[car] = pitch;
+    budget->kept[car] = budget->running[car];
+    budget->kept[car].of_lift = lifts;
+    budget->kept[car].time = batch->time;
+    budget->kept[car].spin = momentum(batch, CZ_DOF(body.pitch), lane);
+    budget->kept[car].rise = momentum(batch, CZ_DOF(body.z), lane);
 }
 
-void cz_budget_add(CzBudgetBook *book, const CzBatch *batch) {
+void cz_budget_add(CzBudget *budget, const CzBatch *batch) {
     if (!isnan(batch->design[0].override_time))
-        return; /* what comes now is beyond the model */
-    for (int car = 0; car < book->n_car; ++car) {
+        return; /* later motion is beyond the model */
+    for (int car = 0; car < budget->n_car; ++car) {
         if (batch->model->car[car].model != CZ_MODEL_FULL)
             continue;
         double lift[CZ_N_BUDGET] = {0.0}, moment[CZ_N_BUDGET] = {0.0};
         look(batch, car, lift, moment);
         for (int source = 0; source < CZ_N_BUDGET; ++source) {
-            book->running[car].lift[source] += batch->step * lift[source];
-            book->running[car].moment[source] += batch->step * moment[source];
+            budget->running[car].lift[source] += batch->step * lift[source];
+            budget->running[car].moment[source] += batch->step * moment[source];
         }
-        keep(book, batch, car);
+        keep(budget, batch, car);
     }
 }
 
-const CzVehicleBudget *cz_budget_result(const CzBudgetBook *book) {
-    return book->kept;
+const CzVehicleBudget *cz_budget_result(const CzBudget *budget) {
+    return budget->kept;
 }

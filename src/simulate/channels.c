@@ -68,13 +68,11 @@ static void put_face(Writer *writer, int interface) {
 
 static void put_interface(Writer *writer, int interface) {
     const CzBatch *batch = writer->batch;
-    const size_t lane = cz_lane(batch, interface, 0), ahead = cz_lane(batch, interface + 1, 0);
+    const size_t lane = cz_lane(batch, interface, 0);
     const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
-    const double closure =
-        cz_position(batch, CZ_DOF(body.x), lane) - cz_position(batch, CZ_DOF(body.x), ahead);
     put(writer, CZ_CHANNEL_INTERFACE_FORCE, interface,
         1e-3 * cz_published(batch, CZ_PUBLISHED(interface.force), lane));
-    put(writer, CZ_CHANNEL_INTERFACE_CLOSURE, interface, 1e3 * closure);
+    put(writer, CZ_CHANNEL_INTERFACE_CLOSURE, interface, 1e3 * cz_closure(batch, interface, 0));
     if (of.has_couplers)
         put(writer, CZ_CHANNEL_COUPLER_FORCE, interface,
             1e-3 * cz_published(batch, CZ_PUBLISHED(coupler.force), lane));
@@ -90,13 +88,12 @@ static void put_interface(Writer *writer, int interface) {
         1e-3 * cz_interface_energy(batch, interface, 0));
 }
 
-/* Energy so far: where it is now, and what does not add up. */
+/* Energy so far by where it is, and the residual of its balance. */
 static void put_energy(Writer *writer) {
     const CzBatch *batch = writer->batch;
     const CzEnergy energy = cz_energy_fill(batch, 0);
-    const double kinetic = energy.final_kinetic, work = cz_total_work(batch, 0);
-    put(writer, CZ_CHANNEL_KINETIC_ENERGY, 0, 1e-3 * kinetic);
-    put(writer, CZ_CHANNEL_ENERGY_TAKEN_UP, 0, 1e-3 * work);
+    put(writer, CZ_CHANNEL_KINETIC_ENERGY, 0, 1e-3 * energy.final_kinetic);
+    put(writer, CZ_CHANNEL_ENERGY_TAKEN_UP, 0, 1e-3 * cz_total_work(batch, 0));
     put(writer, CZ_CHANNEL_WHEEL_RAIL_ENERGY, 0, 1e-3 * energy.wheel_rail);
     put(writer, CZ_CHANNEL_RUNNING_GEAR_ENERGY, 0, 1e-3 * energy.running_gear);
     put(writer, CZ_CHANNEL_TRACK_ENERGY, 0, 1e-3 * energy.track);

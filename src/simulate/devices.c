@@ -40,22 +40,16 @@ static bool has_element(const CzBatch *batch, size_t lane, int car, CzDeviceClas
 
 /* Whether the end of the side is the one that the vehicle's slide is written at. */
 static bool has_slide(const CzBatch *batch, int car, int design, int side) {
-    const CzVehicle *vehicle = &batch->vehicles[design][batch->model->car[car].vehicle];
-    const CzEnd *end = side == 0 ? &vehicle->front : &vehicle->rear;
+    const CzEnd *end = cz_end_at(batch, car, design, side);
     return end->given && end->slide.given;
 }
 
 /* Stroke of a device of a side, or an end, in its lane. */
 static double usable_of(const CzBatch *batch, const Class *kind, int which, size_t lane) {
-    switch (kind->limit) {
-    case CURVE:
-        break;
-    case RETRACTION_SPACE:
+    if (kind->limit == RETRACTION_SPACE)
         return cz_interface_equipment(batch->lanes, lane).side[which].retraction_space;
-    case SLIDE_LENGTH:
-        return cz_car_equipment(batch->lanes, lane).slide_length;
-    }
-    return batch->lanes->curve[kind->of[which]].usable[lane];
+    return kind->limit == SLIDE_LENGTH ? cz_car_equipment(batch->lanes, lane).slide_length
+                                       : batch->lanes->curve[kind->of[which]].usable[lane];
 }
 
 /* A device of a side; its usable stroke is infinite when it is not there. */

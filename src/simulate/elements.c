@@ -1,4 +1,4 @@
-/* What each element, interface and vehicle went through. */
+/* Results of each element, interface and vehicle. */
 #include "simulate/run.h"
 
 #include <math.h>
@@ -24,53 +24,49 @@ static void take(CzElementResult *result, CzAccount account) {
     result->energy += account.received - account.stored;
 }
 
-/* Coupler of side A (0) or B (1) of the interface in a lane. */
-static bool fill_coupler(const CzBatch *batch, size_t lane, int side, int car,
-                         CzElementResult *result) {
-    if (!cz_has_element(batch, lane, side, CZ_ELEMENT_COUPLER)) /* a bare wall */
+/* An extreme where it applies, else NaN. */
+static double extreme_if(bool applies, const CzBatch *batch, int row, size_t lane) {
+    return applies ? cz_extreme(batch, row, lane) : NAN;
+}
+
+/* Absorbers of side A and B of an interface, in the interface's lane. */
+typedef struct Absorber {
+    CzElementKind kind;
+    CzAccount (*account)(const CzBatch *batch, size_t lane, int side);
+    int tube_energy[2], stroke[2]; /* of the memory */
+    int peak_force;                /* of the extremes */
+} Absorber;
+
+static const Absorber coupler = {CZ_ELEMENT_COUPLER, cz_coupler_account,
+                                 CZ_MEMORY_PAIR(coupler.side, tube_energy),
+                                 CZ_MEMORY_PAIR(coupler.side, tube), CZ_EXTREME(coupler_force)};
+static const Absorber anti_climber = {CZ_ELEMENT_ANTI_CLIMBER, cz_anti_climber_account,
+                                      CZ_MEMORY_PAIR(face.side, energy),
+                                      CZ_MEMORY_PAIR(face.side, stroke), CZ_EXTREME(face_force)};
+static const Absorber side_buffers = {
+    CZ_ELEMENT_SIDE_BUFFERS, cz_side_account, CZ_MEMORY_PAIR(side_buffers.side, tube_energy),
+    CZ_MEMORY_PAIR(side_buffers.side, tube), CZ_EXTREME(side_force)};
+
+/* False where the side has no such absorber, as a bare wall. */
+static bool fill_absorber(const CzBatch *batch, const Absorber *absorber, size_t lane, int side,
+                          int car, CzElementResult *result) {
+    if (!cz_has_element(batch, lane, side, absorber->kind))
         return false;
-    result->kind = CZ_ELEMENT_COUPLER;
+    result->kind = absorber->kind;
     result->vehicle = car;
-    const double tube = cz_memory(batch, CZ_MEMORY(coupler.side[side].tube), lane);
-    const double second = cz_memory(batch, CZ_MEMORY(coupler.side[side].second_tube), lane);
-    take(result, cz_coupler_account(batch, lane, side));
-    result->tube_energy = cz_memory(batch, CZ_MEMORY(coupler.side[side].tube_energy), lane);
+    take(result, absorber->account(batch, lane, side));
+    result->tube_energy = cz_memory(batch, absorber->tube_energy[side], lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
-    result->stroke = tube + second;
-    result->peak_force = cz_extreme(batch, CZ_EXTREME(coupler_force), lane);
-    result->sheared = cz_coupler_is_sheared(batch->dynamics, lane, side);
+    result->stroke = cz_memory(batch, absorber->stroke[side], lane);
+    result->peak_force = cz_extreme(batch, absorber->peak_force, lane);
+    if (absorber->kind == CZ_ELEMENT_COUPLER) {
+        result->stroke += cz_memory(batch, CZ_MEMORY(coupler.side[side].second_tube), lane);
+        result->sheared = cz_coupler_is_sheared(batch->dynamics, lane, side);
+    }
     return true;
 }
 
-static bool fill_anti_climber(const CzBatch *batch, size_t lane, int side, int car,
-                              CzElementResult *result) {
-    if (!cz_has_element(batch, lane, side, CZ_ELEMENT_ANTI_CLIMBER))
-        return false;
-    result->kind = CZ_ELEMENT_ANTI_CLIMBER;
-    result->vehicle = car;
-    take(result, cz_anti_climber_account(batch, lane, side));
-    result->tube_energy = cz_memory(batch, CZ_MEMORY(face.side[side].energy), lane);
-    result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
-    result->stroke = cz_memory(batch, CZ_MEMORY(face.side[side].stroke), lane);
-    result->peak_force = cz_extreme(batch, CZ_EXTREME(face_force), lane);
-    return true;
-}
-
-static bool fill_side_buffers(const CzBatch *batch, size_t lane, int side, int car,
-                              CzElementResult *result) {
-    if (!cz_has_element(batch, lane, side, CZ_ELEMENT_SIDE_BUFFERS))
-        return false;
-    result->kind = CZ_ELEMENT_SIDE_BUFFERS;
-    result->vehicle = car;
-    take(result, cz_side_account(batch, lane, side));
-    result->tube_energy = cz_memory(batch, CZ_MEMORY(side_buffers.side[side].tube_energy), lane);
-    result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
-    result->stroke = cz_memory(batch, CZ_MEMORY(side_buffers.side[side].tube), lane);
-    result->peak_force = cz_extreme(batch, CZ_EXTREME(side_force), lane);
-    return true;
-}
-
-/* Both sides share one contact; what it crushes is room that people are in. */
+/* Both sides share one contact, which crushes survival space. */
 static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
                                 CzElementResult *result) {
     if (!cz_has_element(batch, lane, 0, CZ_ELEMENT_SUPERSTRUCTURE))
@@ -83,11 +79,6 @@ static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
     result->stroke = 0.5 * cz_memory(batch, CZ_MEMORY(superstructure.set), lane);
     result->peak_force = cz_extreme(batch, CZ_EXTREME(superstructure_force), lane);
     return true;
-}
-
-static const CzEnd *end_of(const CzBatch *batch, int car, int design, int side) {
-    const CzVehicle *vehicle = &batch->vehicles[design][batch->model->car[car].vehicle];
-    return side == 0 ? &vehicle->front : &vehicle->rear; /* side A is a front end */
 }
 
 /* Energy under the backbone between two shortenings. */
@@ -120,7 +111,7 @@ static void split_zones(const CzBatch *batch, const CzEnd *end, int curve, size_
 /* Whether the end of a car is an element: one with a mass has its guidance, one without its crush
  * zone. */
 static bool has_end(const CzBatch *batch, int car, int design, int side) {
-    const CzEnd *end = end_of(batch, car, design, side);
+    const CzEnd *end = cz_end_at(batch, car, design, side);
     return end->given &&
            (end->n_stages > 0 || end->curve.given || batch->model->car[car].model == CZ_MODEL_FULL);
 }
@@ -136,7 +127,7 @@ static void take_faces(const CzBatch *batch, size_t lane, double share, CzElemen
     take(result, (CzAccount){share * faces.received, share * faces.stored});
 }
 
-/* Crush zone of an end with mass and all that holds it. */
+/* Crush zone of an end with mass, with the guidance and the hinge of the mass. */
 static void fill_end_mass(const CzBatch *batch, size_t own, int which, CzElementResult *result) {
     result->kind = CZ_ELEMENT_END;
     take(result, cz_crush_account(batch, own, which));
@@ -183,7 +174,7 @@ static void fill_zones(const CzBatch *batch, size_t lane, int side, int design,
     const int car = result->vehicle;
     const bool slaved = batch->model->car[car].model != CZ_MODEL_FULL;
     const int which = side == 0 ? 1 : 0; /* front or rear end of the car */
-    split_zones(batch, end_of(batch, car, design, side),
+    split_zones(batch, cz_end_at(batch, car, design, side),
                 slaved ? CZ_CURVE(massless[side]) : CZ_CURVE(end[which]),
                 slaved ? lane : cz_lane(batch, car, design), result->stroke, result->tube_energy,
                 result->zone_energy);
@@ -192,7 +183,7 @@ static void fill_zones(const CzBatch *batch, size_t lane, int side, int design,
 /* Friction jaws of a buffer stop. */
 static bool fill_slide(const CzBatch *batch, int side, int car, int design,
                        CzElementResult *result) {
-    const CzEnd *end = end_of(batch, car, design, side);
+    const CzEnd *end = cz_end_at(batch, car, design, side);
     const size_t lane = cz_lane(batch, car, design);
     if (!end->given || !end->slide.given)
         return false;
@@ -211,16 +202,16 @@ static int fill_side(const CzBatch *batch, size_t lane, int side, int car, int d
                      CzElementResult *element) {
     CzElementResult *next = element;
     memset(element, 0, CZ_MAX_ELEMENTS / 2 * sizeof *element);
-    next += fill_coupler(batch, lane, side, car, next);
-    next += fill_anti_climber(batch, lane, side, car, next);
+    next += fill_absorber(batch, &coupler, lane, side, car, next);
+    next += fill_absorber(batch, &anti_climber, lane, side, car, next);
     next += fill_end(batch, lane, side, car, design, next);
-    next += fill_side_buffers(batch, lane, side, car, next);
+    next += fill_absorber(batch, &side_buffers, lane, side, car, next);
     next += fill_superstructure(batch, lane, car, next);
     next += fill_slide(batch, side, car, design, next);
     return (int)(next - element);
 }
 
-/* What an element takes of the work that its interface does: the ground takes that of a slide. */
+/* Energy of an element that counts for its interface: that of a slide goes into the ground. */
 static double energy_at_interface(const CzElementResult *element) {
     return element->kind == CZ_ELEMENT_SLIDE ? 0.0 : element->energy;
 }
@@ -256,19 +247,17 @@ static void fill_climbing(const CzBatch *batch, int interface, int design,
     const size_t lane = cz_lane(batch, interface, design);
     const bool pushed = !isnan(result->min_overlap);
     const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
-    result->overlap_time = pushed ? cz_extreme(batch, CZ_EXTREME(face_overlap_time), lane) : NAN;
-    result->margin_time = isnan(result->vertical_margin)
-                              ? NAN
-                              : cz_extreme(batch, CZ_EXTREME(face_margin_time), lane);
-    result->ramp = pushed ? cz_extreme(batch, CZ_EXTREME(face_ramp), lane) : NAN;
+    result->overlap_time = extreme_if(pushed, batch, CZ_EXTREME(face_overlap_time), lane);
+    result->margin_time =
+        extreme_if(!isnan(result->vertical_margin), batch, CZ_EXTREME(face_margin_time), lane);
+    result->ramp = extreme_if(pushed, batch, CZ_EXTREME(face_ramp), lane);
     result->friction = pushed ? of.friction : NAN;
-    result->underframe_rise = of.has_couplers && !of.couplers_on_ends
-                                  ? cz_extreme(batch, CZ_EXTREME(underframe_rise), lane)
-                                  : NAN;
+    result->underframe_rise = extreme_if(of.has_couplers && !of.couplers_on_ends, batch,
+                                         CZ_EXTREME(underframe_rise), lane);
     for (int side = 0; side < 2; ++side) {
         const double stop = of.side[side].swing_stop;
         result->swing[side] =
-            of.has_couplers ? cz_extreme(batch, CZ_EXTREME(swing_vertical[side]), lane) : NAN;
+            extreme_if(of.has_couplers, batch, CZ_EXTREME(swing_vertical[side]), lane);
         result->swing_stop[side] = of.has_couplers && isfinite(stop) ? stop : NAN;
     }
 }
@@ -313,7 +302,7 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
 static double survival_shortening(const CzBatch *batch, int car, int design) {
     double lost = NAN;
     for (int side = 0; side < 2; ++side) {
-        const CzEnd *end = end_of(batch, car, design, side);
+        const CzEnd *end = cz_end_at(batch, car, design, side);
         const int interface = side == 0 ? car : car - 1;
         CzElementResult result = {0};
         if (interface < 0 || interface >= batch->model->n_car - 1 ||
@@ -347,19 +336,18 @@ CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleRes
     CZ_TRY(cz_history_decelerations(batch, car, design, result));
     const bool full = description->model == CZ_MODEL_FULL;
     for (int axle = 0; axle < 4; ++axle) {
-        result->wheel_lift[axle] = full ? cz_extreme(batch, CZ_EXTREME(lift[axle]), lane) : NAN;
-        result->wheel_lift_time[axle] =
-            full ? cz_extreme(batch, CZ_EXTREME(lift_time[axle]), lane) : NAN;
+        result->wheel_lift[axle] = extreme_if(full, batch, CZ_EXTREME(lift[axle]), lane);
+        result->wheel_lift_time[axle] = extreme_if(full, batch, CZ_EXTREME(lift_time[axle]), lane);
     }
     const double of_rear = cz_extreme(batch, CZ_EXTREME(bogie_lift[0]), lane);
     const double of_front = cz_extreme(batch, CZ_EXTREME(bogie_lift[1]), lane);
     result->lifted_bogie = of_front > of_rear;
     result->bogie_lift = full ? fmax(of_rear, of_front) : NAN;
     result->bogie_lift_time =
-        full ? cz_extreme(batch, CZ_EXTREME(bogie_lift_time[result->lifted_bogie]), lane) : NAN;
-    result->max_pitch = full ? cz_extreme(batch, CZ_EXTREME(body_pitch), lane) : NAN;
-    result->link_force = full ? cz_extreme(batch, CZ_EXTREME(link_force), lane) : NAN;
-    result->link_travel = full ? cz_extreme(batch, CZ_EXTREME(link_travel), lane) : NAN;
+        extreme_if(full, batch, CZ_EXTREME(bogie_lift_time[result->lifted_bogie]), lane);
+    result->max_pitch = extreme_if(full, batch, CZ_EXTREME(body_pitch), lane);
+    result->link_force = extreme_if(full, batch, CZ_EXTREME(link_force), lane);
+    result->link_travel = extreme_if(full, batch, CZ_EXTREME(link_travel), lane);
     result->survival_shortening = survival_shortening(batch, car, design);
     result->checks_override = full && description->has_stops;
     return CZ_OK;

@@ -1,19 +1,17 @@
-/* When a run ends: at its end criterion, after its duration, or because it failed.
+/* End of a run: by its end criterion, after its duration, or because it failed.
  *
- * By rule: no neighbouring cars close in or can meet again faster than CLOSING_SPEED, no interface
- * that can open carries a force, none stores more than CZ_STORED_SHARE of the initial energy, no
- * plastic element has crushed, every wheel is on the rail, and all of that for one body pitch
+ * End criterion: no neighbouring cars close in or can meet again faster than CLOSING_SPEED, no
+ * interface that can open carries a force, none stores more than CZ_STORED_SHARE of the initial
+ * energy, no plastic element crushes, and every wheel is on the rail, all for one body pitch
  * period. A brief run also ends when nothing has crushed for that long, no cars can meet again at
- * more than MEETING_SHARE of the first closing speed, and no interface stores what could make them.
+ * more than MEETING_SHARE of the first closing speed, and no interface stores the energy for it.
  */
 #include "simulate/run.h"
 
 #include <math.h>
 #include <stdio.h>
 
-enum {
-    LOOKS_BETWEEN_ENERGY_CHECKS = 64
-}; /* looks at the end between two at the energy balance (ours) */
+enum { LOOKS_BETWEEN_ENERGY_CHECKS = 64 }; /* (ours) */
 
 #define CLOSING_SPEED 0.1 /* [m/s] */
 #define MEETING_SHARE 0.4 /* a sixth of the first impact's energy (ours) */
@@ -37,16 +35,20 @@ static const char *const ledger_text[CZ_N_LEDGER] = {
 #undef CZ_LEDGER_ENTRY
 };
 
+static void end(CzProgressOfDesign *progress, CzEnded ended) {
+    progress->ended = ended;
+    progress->over = true;
+}
+
 static void fail(CzBatch *batch, int design, const char *car, const char *element,
                  const char *what) {
     CzProgressOfDesign *progress = &batch->design[design];
     snprintf(progress->failure, sizeof progress->failure, "%s: %s: %s at %.3f ms", car, element,
              what, 1e3 * batch->time);
-    progress->ended = CZ_ENDED_INCOMPLETE;
-    progress->over = true;
+    end(progress, CZ_ENDED_INCOMPLETE);
 }
 
-/* Fails the design when a number is no longer one; names the first degree of freedom. */
+/* Fails the design when a number is not finite; names the first degree of freedom. */
 static bool fails_to_be_finite(CzBatch *batch, int design) {
     for (int car = 0; car < batch->model->n_car; ++car)
         for (int dof = 0; dof < CZ_N_DOF; ++dof) {
@@ -83,7 +85,8 @@ static bool fails_to_balance(CzBatch *batch, int design) {
     return true;
 }
 
-/* Fails the design when its energies cannot be: looked at now and then, and at the end. */
+/* Fails the design when its energies contradict one another: examined at intervals and at the end.
+ */
 static void fail_its_energy_checks(CzBatch *batch, int design) {
     char where[CZ_FAULT_ROOM], what[CZ_FAULT_ROOM];
     CzProgressOfDesign *progress = &batch->design[design];
@@ -113,41 +116,42 @@ static bool fails_to_solve(CzBatch *batch, int design) {
     return false;
 }
 
+/* Plastic strokes of the series chains of an interface; those of the coupler come first. */
+enum { N_PLASTIC = 6, N_OF_COUPLER = 3 };
+static const struct {
+    const char *chain;
+    int stroke[2]; /* of the memory, both sides */
+    int closure;   /* of the extremes */
+} plastic[N_PLASTIC] = {
+    {"coupler", CZ_MEMORY_PAIR(coupler.side, tube), CZ_EXTREME(coupler_closure)},
+    {"coupler", CZ_MEMORY_PAIR(coupler.side, second_tube), CZ_EXTREME(coupler_closure)},
+    {"coupler", CZ_MEMORY_PAIR(coupler.side, shear), CZ_EXTREME(coupler_closure)},
+    {"anti-climbers", CZ_MEMORY_PAIR(face.side, stroke), CZ_EXTREME(face_closure)},
+    {"ends", CZ_MEMORY_PAIR(face.side, massless.peak), CZ_EXTREME(face_closure)},
+    {"side buffers", CZ_MEMORY_PAIR(side_buffers.side, tube), CZ_EXTREME(side_closure)}};
+
 /* Fails the design when a device has crushed further than its interface ever closed. */
 static bool fails_to_fit(CzBatch *batch, int design) {
-    static const struct {
-        const char *chain;
-        int stroke[2]; /* a plastic stroke in the memory, both sides */
-        int closure;   /* an extreme */
-    } chains[] = {
-        {"coupler", CZ_MEMORY_PAIR(coupler.side, tube), CZ_EXTREME(coupler_closure)},
-        {"coupler", CZ_MEMORY_PAIR(coupler.side, second_tube), CZ_EXTREME(coupler_closure)},
-        {"coupler", CZ_MEMORY_PAIR(coupler.side, shear), CZ_EXTREME(coupler_closure)},
-        {"anti-climbers", CZ_MEMORY_PAIR(face.side, stroke), CZ_EXTREME(face_closure)},
-        {"ends", CZ_MEMORY_PAIR(face.side, massless.peak), CZ_EXTREME(face_closure)},
-        {"side buffers", CZ_MEMORY_PAIR(side_buffers.side, tube), CZ_EXTREME(side_closure)}};
     for (int car = 0; car + 1 < batch->model->n_car; ++car)
-        for (size_t k = 0; k < sizeof chains / sizeof chains[0]; ++k) {
+        for (int k = 0; k < N_PLASTIC; ++k) {
             const size_t lane = cz_lane(batch, car, design);
             double largest = 0.0;
             for (int side = 0; side < 2; ++side)
-                largest = fmax(largest, cz_memory(batch, chains[k].stroke[side], lane));
-            if (largest <= fmax(cz_extreme(batch, chains[k].closure, lane), 0.0) + LARGEST_RESIDUAL)
+                largest = fmax(largest, cz_memory(batch, plastic[k].stroke[side], lane));
+            if (largest <=
+                fmax(cz_extreme(batch, plastic[k].closure, lane), 0.0) + LARGEST_RESIDUAL)
                 continue;
-            fail(batch, design, batch->model->interface_name[car], chains[k].chain,
+            fail(batch, design, batch->model->interface_name[car], plastic[k].chain,
                  "a stroke larger than the closure");
             return true;
         }
     return false;
 }
 
-/* Fails the design when a coupler has shortened by all that lies between its pivot and its face:
- * there is no line between two pivots that have met. Cars that climbed before that slide on over
- * each other, which is beyond the model's validity anyway. */
+/* Fails the design when a coupler has shortened by its length from pivot to face: there is no line
+ * between two pivots at one place. Cars that climbed before that slide over each other, which is
+ * beyond the model's validity anyway. */
 static bool fails_to_keep_apart(CzBatch *batch, int design) {
-    static const int rows[][2] = {
-        CZ_MEMORY_PAIR(coupler.side, buffer.stroke), CZ_MEMORY_PAIR(coupler.side, tube),
-        CZ_MEMORY_PAIR(coupler.side, second_tube), CZ_MEMORY_PAIR(coupler.side, shear)};
     char what[160];
     for (int car = 0; car + 1 < batch->model->n_car && isnan(batch->design[design].override_time);
          ++car)
@@ -155,9 +159,9 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
             const size_t lane = cz_lane(batch, car, design);
             const double length =
                 cz_interface_equipment(batch->lanes, lane).side[side].strut_length;
-            double shortened = 0.0;
-            for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k)
-                shortened += cz_memory(batch, rows[k][side], lane);
+            double shortened = cz_memory(batch, CZ_MEMORY(coupler.side[side].buffer.stroke), lane);
+            for (int k = 0; k < N_OF_COUPLER; ++k)
+                shortened += cz_memory(batch, plastic[k].stroke[side], lane);
             if (shortened < length)
                 continue;
             snprintf(what, sizeof what,
@@ -170,42 +174,20 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
     return false;
 }
 
-/* Sum of all plastic strokes, with the way of a buffer stop: it grows while anything crushes. */
+/* Sum of all plastic strokes and the travel of a buffer stop: it grows while anything crushes. */
 static double plastic_strokes(const CzBatch *batch, int design) {
-    static const int rows[] = {CZ_MEMORY(coupler.side[0].tube),
-                               CZ_MEMORY(coupler.side[1].tube),
-                               CZ_MEMORY(coupler.side[0].second_tube),
-                               CZ_MEMORY(coupler.side[1].second_tube),
-                               CZ_MEMORY(coupler.side[0].shear),
-                               CZ_MEMORY(coupler.side[1].shear),
-                               CZ_MEMORY(face.side[0].stroke),
-                               CZ_MEMORY(face.side[1].stroke),
-                               CZ_MEMORY(face.side[0].massless.peak),
-                               CZ_MEMORY(face.side[1].massless.peak),
-                               CZ_MEMORY(side_buffers.side[0].tube),
-                               CZ_MEMORY(side_buffers.side[1].tube),
-                               CZ_MEMORY(end[0].peak),
-                               CZ_MEMORY(end[1].peak),
-                               CZ_MEMORY(superstructure.set)};
     double sum = 0.0;
     for (int car = 0; car < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k)
-            sum += cz_memory(batch, rows[k], lane);
+        for (int k = 0; k < 2 * N_PLASTIC; ++k)
+            sum += cz_memory(batch, plastic[k / 2].stroke[k % 2], lane);
+        for (int end = 0; end < 2; ++end)
+            sum += cz_memory(batch, CZ_MEMORY(end[end].peak), lane);
+        sum += cz_memory(batch, CZ_MEMORY(superstructure.set), lane);
         if (cz_car_equipment(batch->lanes, lane).slide_length < CZ_NEVER)
             sum += cz_extreme(batch, CZ_EXTREME(slide_travel), lane);
     }
     return sum;
-}
-
-static bool closes_in(const CzBatch *batch, int design) {
-    for (int car = 0; car + 1 < batch->model->n_car; ++car) {
-        const double behind = cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, car, design));
-        const double ahead = cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, car + 1, design));
-        if (behind - ahead > CLOSING_SPEED)
-            return true;
-    }
-    return false;
 }
 
 /* Rolling resistance over weight of a car and all that it is coupled to. */
@@ -236,8 +218,8 @@ static double rest_or_speed(const CzBatch *batch, int car, int design) {
     return is_held || is_slowed ? fmin(speed, 0.0) : speed;
 }
 
-/* Largest speed at which cars that are apart now can still meet: what is ahead may come to rest
- * where it is slowed. */
+/* Largest speed at which cars that are apart can still meet: a car ahead that is slowed may come to
+ * rest. */
 static double meeting_speed(const CzBatch *batch, int design) {
     double slowest = INFINITY, largest = 0.0;
     for (int car = batch->model->n_car - 1; car >= 0; --car) {
@@ -248,8 +230,7 @@ static double meeting_speed(const CzBatch *batch, int design) {
     return largest;
 }
 
-/* Whether cars that have parted can meet again: what is ahead may come to rest where it is slowed.
- */
+/* Whether cars that have parted can meet again, as above. */
 static bool can_meet_again(const CzBatch *batch, int design) {
     static const int forces[] = {CZ_MEMORY(coupler.force), CZ_MEMORY(face.force),
                                  CZ_MEMORY(side_buffers.force)};
@@ -265,25 +246,26 @@ static bool can_meet_again(const CzBatch *batch, int design) {
     return false;
 }
 
-/* What the end criterion waits for, in words; NULL when it holds. */
+/* What the end criterion waits for; NULL when it is met. */
 static const char *awaited(const CzBatch *batch, int design, bool off, bool flows,
                            const CzLoadLeft *left) {
+    const bool closes_in = cz_largest_closing_speed(batch, design) > CLOSING_SPEED;
     return off                             ? "a wheel is off its rail"
            : flows                         ? "something still crushes or slides"
            : left->force                   ? "cars that can part still push each other"
            : left->stores                  ? "elastic energy is still stored between cars"
-           : closes_in(batch, design)      ? "neighbouring cars close in"
+           : closes_in                     ? "neighbouring cars close in"
            : can_meet_again(batch, design) ? "cars that have parted can meet again"
                                            : NULL;
 }
 
-/* When a condition began to hold: kept while it does, forgotten when it does not. */
+/* Since when a condition is met; NaN when it is not. */
 static double holds_since(bool holds, double since, double now) {
     return !holds ? NAN : isnan(since) ? now : since;
 }
 
-/* Looks at the wheels: off the rail now, and higher than their flange ever. Without stops a body
- * lifts its wheels by any amount or none, which says nothing of a climb. */
+/* Whether a wheel is off the rail now. Notes an override when one was ever higher than its flange;
+ * without stops the lift of the wheels says nothing about an override. */
 static bool wheels_are_off(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
     bool off = false;
@@ -341,19 +323,14 @@ static void look_at(CzBatch *batch, int design) {
 
     const CzModel *model = batch->model;
     if (!isnan(model->duration)) {
-        if (batch->time >= model->duration - 0.5 * batch->step) {
-            progress->ended = CZ_ENDED_DURATION;
-            progress->over = true;
-        }
-    } else if (batch->time - progress->quiet_since >= model->hold) { /* not while it is no number */
-        progress->ended = CZ_ENDED_BY_RULE;
-        progress->over = true;
+        if (batch->time >= model->duration - 0.5 * batch->step)
+            end(progress, CZ_ENDED_DURATION);
+    } else if (batch->time - progress->quiet_since >= model->hold) { /* false of NaN */
+        end(progress, CZ_ENDED_BY_RULE);
     } else if (batch->time - progress->settled_since >= model->hold) {
-        progress->ended = CZ_ENDED_SETTLED;
-        progress->over = true;
+        end(progress, CZ_ENDED_SETTLED);
     } else if (batch->time >= model->longest) {
-        progress->ended = CZ_ENDED_INCOMPLETE;
-        progress->over = true;
+        end(progress, CZ_ENDED_INCOMPLETE);
     }
     fail_its_energy_checks(batch, design);
 }

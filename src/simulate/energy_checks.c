@@ -1,28 +1,29 @@
-/* What the energies of a run must hold, looked at while it runs.
+/* Conditions on the energies of a run, examined while it runs.
  *
  *   sums      the elements, the running gear, wheels and brakes and the track make up the ledger
- *   passive   no element has given more than it took, none stores less than nothing
- *   springs   what the bodies gave to the springs of the running gear is what these store
- *   agreed    what the bodies gave to the chains of an interface, or to a crush zone, is what these
- *             received: the integral of the force over the closure
+ *   passive   no element has returned more than it received or stores less than 0
+ *   springs   the work on the springs of the running gear is the energy that they store
+ *   agreed    the work of the bodies on the chains of an interface, or on a crush zone, is the
+ * energy that these received: the integral of the force over the closure
  *
  * What an element has received is the mean force of each step times its stroke, or the mean power
  * times the step. A step that passes a corner of a law is off by up to a half of the force that it
  * rises by times the stroke of the step at the first touch, by an eighth at a later corner; where
- * that stroke is a share s of all, by s^2 / 4 of the energy. An element may seem to give
+ * that stroke is a share s of all, by s^2 / 4 of the energy. An element may seem to return
  *
  *   CORNERS * energy + (preload + transition * v h) * v h        v: closing speed of the trains
  *
  * the latter where buffers are, whose preload is met within a step: four corners at a hundredth of
- * the stroke, a touch and four corners more. One that has bottomed out may seem to give STOP of its
- * largest force times its largest stroke, what a step of h = 0.1 ms leaves in a stop of k = 1 GN/m
- * before an end mass of m = 1 t: h^2 k / (12 m). Crush zones, guidances and tubes have no such
+ * the stroke, a touch and four corners more. One that has bottomed out may seem to return STOP of
+ * its largest force times its largest stroke, what a step of h = 0.1 ms leaves in a stop of k = 1
+ * GN/m before an end mass of m = 1 t: h^2 k / (12 m). Crush zones, guidances and tubes have no such
  * error: they receive what follows from their state, or crush under a force that is never negative.
  */
 #include "simulate/devices.h"
 #include "simulate/run.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 
 #define SUM_SHARE 1e-9 /* of the initial energy: rounding of some hundred thousand sums */
@@ -34,12 +35,23 @@
 /* Of the initial energy: where the balance fails, which what is not agreed adds up to (ours). */
 #define AGREED_SHARE 1e-2
 
-/* What is wrong. */
+/* What contradicts, and where. */
 typedef struct Fault {
-    char where[64], what[96];
+    char *where, *what; /* (CZ_FAULT_ROOM) */
 } Fault;
 
-/* What an element of side A (0) or B (1) of an interface may seem to give. */
+/* Notes a contradiction at an element of a vehicle or an interface; returns true. */
+__attribute__((format(printf, 4, 5))) static bool
+note(const Fault *fault, const char *name, const char *element, const char *format, ...) {
+    va_list values;
+    snprintf(fault->where, CZ_FAULT_ROOM, "%s %s", name, element);
+    va_start(values, format);
+    vsnprintf(fault->what, CZ_FAULT_ROOM, format, values);
+    va_end(values);
+    return true;
+}
+
+/* Energy that an element of side A (0) or B (1) of an interface may seem to return. */
 static double may_give(const CzBatch *batch, const CzElementResult *element, int interface,
                        int design, int side) {
     const size_t lane = cz_lane(batch, interface, design);
@@ -52,34 +64,30 @@ static double may_give(const CzBatch *batch, const CzElementResult *element, int
     return corners;
 }
 
-/* The same of one that has bottomed out. */
+/* The same of an element that has bottomed out. */
 static double may_give_at_stop(const CzBatch *batch, CzElementResult *element, int interface,
                                int design, int side) {
     cz_devices_judge(batch, interface, design, side, 1, element);
     return element->bottomed_out ? STOP * element->peak_force * element->stroke : 0.0;
 }
 
-/* Whether an element has given more than it took, beyond what is allowed, or stores less than
- * nothing. */
+/* Whether an element has returned more than it received, beyond what is allowed, or stores less
+ * than 0. */
 static bool gives(const CzBatch *batch, const CzElementResult *element, double allowed,
-                  double rounding, Fault *fault) {
+                  double rounding, const Fault *fault) {
     const bool has_given = !(element->energy >= -allowed - rounding); /* not a number, too */
     if (!has_given && element->stored >= -rounding)
         return false;
-    snprintf(fault->where, sizeof fault->where, "%s %s", batch->model->car[element->vehicle].name,
-             cz_element_text(element->kind));
-    if (has_given)
-        snprintf(fault->what, sizeof fault->what, "returned %.4g kJ more than it received",
-                 -1e-3 * element->energy);
-    else
-        snprintf(fault->what, sizeof fault->what, "stores %.4g kJ, which is less than nothing",
-                 1e-3 * element->stored);
-    return true;
+    const char *vehicle = batch->model->car[element->vehicle].name;
+    return has_given ? note(fault, vehicle, cz_element_text(element->kind),
+                            "returned %.4g kJ more than it received", -1e-3 * element->energy)
+                     : note(fault, vehicle, cz_element_text(element->kind),
+                            "stores %.4g kJ, which is less than 0", 1e-3 * element->stored);
 }
 
 /* Adds up the elements of all interfaces and outer ends; whether one gives energy. */
 static bool some_element_gives(const CzBatch *batch, int design, double rounding, double *sum,
-                               Fault *fault) {
+                               const Fault *fault) {
     CzElementResult element[CZ_MAX_ELEMENTS];
     bool found = false;
     for (int i = 0; i + 1 < batch->model->n_car; ++i) {
@@ -102,7 +110,8 @@ static bool some_element_gives(const CzBatch *batch, int design, double rounding
 }
 
 /* Springs of the running gear against their potentials. */
-static bool running_gear_gives(const CzBatch *batch, int design, double allowed, Fault *fault) {
+static bool running_gear_gives(const CzBatch *batch, int design, double allowed,
+                               const Fault *fault) {
     static const struct {
         const char *what;
         int row;
@@ -118,31 +127,23 @@ static bool running_gear_gives(const CzBatch *batch, int design, double allowed,
         for (size_t k = 0; k < sizeof springs / sizeof springs[0]; ++k) {
             const double given =
                 springs[k].stored(batch->dynamics, lane) - cz_work(batch, springs[k].row, lane);
-            if (given <= allowed)
-                continue;
-            snprintf(fault->where, sizeof fault->where, "%s %s", batch->model->car[car].name,
-                     springs[k].what);
-            snprintf(fault->what, sizeof fault->what, "returned %.4g kJ more than it received",
-                     1e-3 * given);
-            return true;
+            if (!(given <= allowed))
+                return note(fault, batch->model->car[car].name, springs[k].what,
+                            "returned %.4g kJ more than it received", 1e-3 * given);
         }
     }
     return false;
 }
 
-/* What the bodies gave to an element against what it received. */
+/* Whether the work of the bodies on an element differs from what it received. */
 static bool differs(const char *name, const char *kind, double given, double received,
-                    double allowed, Fault *fault) {
-    if (fabs(given - received) <= allowed)
-        return false;
-    snprintf(fault->where, sizeof fault->where, "%s %s", name, kind);
-    snprintf(fault->what, sizeof fault->what,
-             "received %.4g kJ, but the work of its force is %.4g kJ", 1e-3 * received,
-             1e-3 * given);
-    return true;
+                    double allowed, const Fault *fault) {
+    return !(fabs(given - received) <= allowed) &&
+           note(fault, name, kind, "received %.4g kJ, but the work of its force is %.4g kJ",
+                1e-3 * received, 1e-3 * given);
 }
 
-static bool bodies_differ(const CzBatch *batch, int design, double allowed, Fault *fault) {
+static bool bodies_differ(const CzBatch *batch, int design, double allowed, const Fault *fault) {
     const CzModel *model = batch->model;
     for (int car = 0; car < model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
@@ -165,26 +166,17 @@ static bool bodies_differ(const CzBatch *batch, int design, double allowed, Faul
 bool cz_energy_checks_fail(const CzBatch *batch, int design, char *where, char *what) {
     const CzEnergy energy = cz_energy_fill(batch, design);
     const double rounding = SUM_SHARE * energy.initial;
-    Fault fault = {"", ""};
-    double sum = 0.0;
-    bool wrong = some_element_gives(batch, design, rounding, &sum, &fault) ||
-                 running_gear_gives(batch, design, SPRINGS_SHARE * energy.initial, &fault) ||
-                 bodies_differ(batch, design, AGREED_SHARE * energy.initial, &fault);
-    if (!wrong && !(fabs(sum - energy.absorbers) <= rounding)) {
-        wrong = true;
-        snprintf(fault.where, sizeof fault.where, "sum of elements");
-        snprintf(fault.what, sizeof fault.what, "misses the ledger by %.4g J, an internal error",
-                 sum - energy.absorbers);
-    }
     const double open = batch->design[design].balance + rounding;
-    if (!wrong && !(energy.dissipated <= energy.initial - energy.moving_load + open)) {
-        wrong = true;
-        snprintf(fault.where, sizeof fault.where, "all elements");
-        snprintf(fault.what, sizeof fault.what,
-                 "dissipated %.4g kJ, more than the available %.4g kJ", 1e-3 * energy.dissipated,
-                 1e-3 * energy.initial);
-    }
-    snprintf(where, CZ_FAULT_ROOM, "%s", fault.where);
-    snprintf(what, CZ_FAULT_ROOM, "%s", fault.what);
-    return wrong;
+    const Fault fault = {where, what};
+    double sum = 0.0;
+    if (some_element_gives(batch, design, rounding, &sum, &fault) ||
+        running_gear_gives(batch, design, SPRINGS_SHARE * energy.initial, &fault) ||
+        bodies_differ(batch, design, AGREED_SHARE * energy.initial, &fault))
+        return true;
+    if (!(fabs(sum - energy.absorbers) <= rounding))
+        return note(&fault, "sum of", "elements", "misses the ledger by %.4g J, an internal error",
+                    sum - energy.absorbers);
+    return !(energy.dissipated <= energy.initial - energy.moving_load + open) &&
+           note(&fault, "all", "elements", "dissipated %.4g kJ, more than the available %.4g kJ",
+                1e-3 * energy.dissipated, 1e-3 * energy.initial);
 }

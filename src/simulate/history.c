@@ -7,9 +7,7 @@
 
 #define SHORTEST_CONTACT 0.03 /* a contact window counts from this length on [s] (ours) */
 #define WINDOW 0.12           /* [s] */
-#define FORCE_FLOOR                                                                                \
-    0.01 /* share of the largest net force below which there is no contact (ours)                  \
-          */
+#define FORCE_FLOOR 0.01      /* of the largest net force: below it there is no contact (ours) */
 
 CzStatus cz_history_add(CzHistory *history, const CzBatch *batch) {
     const CzDynamics *dynamics = batch->dynamics;
@@ -39,11 +37,8 @@ static const double *sample_at(const CzHistory *history, int sample) {
     return history->chunk[sample / CZ_CHUNK] + (size_t)(sample % CZ_CHUNK) * 2 * history->stride;
 }
 
-double cz_history_speed(const CzHistory *history, int sample, size_t lane) {
-    return sample_at(history, sample)[lane];
-}
-
-double cz_history_force(const CzHistory *history, int sample, size_t lane) {
+/* Force of the interface in a lane. */
+static double force_at(const CzHistory *history, int sample, size_t lane) {
     return sample_at(history, sample)[history->stride + lane];
 }
 
@@ -58,12 +53,9 @@ void cz_history_free(CzHistory *history) {
 /* Net contact force on a car: what pushes from behind less what pushes from ahead. */
 static double net_force(const CzBatch *batch, int sample, int car, int design) {
     const CzHistory *history = &batch->history;
-    const double behind =
-        car > 0 ? cz_history_force(history, sample, cz_lane(batch, car - 1, design)) : 0.0;
-    const bool last = car == batch->model->n_car - 1;
-    const double ahead =
-        last ? 0.0 : cz_history_force(history, sample, cz_lane(batch, car, design));
-    return behind - ahead;
+    const bool first = car == 0, last = car == batch->model->n_car - 1;
+    const double behind = first ? 0.0 : force_at(history, sample, cz_lane(batch, car - 1, design));
+    return behind - (last ? 0.0 : force_at(history, sample, cz_lane(batch, car, design)));
 }
 
 /* Largest |change of speed| / time over the intervals in which the net contact force keeps its sign
@@ -118,8 +110,8 @@ static double largest_change(const double *speed, int n_start, int length) {
 
 /* Largest |change of speed| / time over all windows of at least WINDOW. A longest-mean window is
  * shorter than twice the smallest length, because a longer one splits into two of which one has at
- * least its mean. `speed` holds the samples of one car. Windows in which the speed as a whole does
- * not change enough are not looked at one by one: most of a run is no collision. */
+ * least its mean. `speed` holds the samples of one car. Windows in which the speed hardly changes
+ * are skipped as a group: most of a run is no collision. */
 static double window_mean(const double *speed, int n_sample, double step, double window[2]) {
     enum { AT_ONCE = 64 };
     const int shortest = (int)ceil(WINDOW / step - 1e-9);
@@ -155,7 +147,7 @@ CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design,
     double *force = malloc((size_t)history->n_sample * sizeof *force);
     const bool fits = speed != NULL && force != NULL;
     for (int i = 0; fits && i < history->n_sample; ++i) {
-        speed[i] = cz_history_speed(history, i, lane);
+        speed[i] = sample_at(history, i)[lane];
         force[i] = net_force(batch, i, car, design);
     }
     if (fits) {

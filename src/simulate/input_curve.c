@@ -1,4 +1,4 @@
-/* The lanes of a design as it is written, closed slowly. */
+/* Force over closure of the problem's own design. */
 #include "simulate/input_curve.h"
 
 #include "base/error.h"
@@ -10,7 +10,7 @@ CzStatus cz_input_curve(const CzModel *model, int interface, double longest, int
     CzLanes *lanes = cz_lanes_create(model, 1, &arena);
     int n_vehicle;
     CzStatus status = lanes == NULL
-                          ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the input curve")
+                          ? cz_no_memory(error, "the input curve")
                           : cz_model_fill(model, cz_problem_vehicles(model->problem, &n_vehicle), 0,
                                           lanes, error);
     if (status == CZ_OK)

@@ -1,4 +1,4 @@
-/* What the input says an interface does when it is closed slowly. */
+/* Force over closure of an interface according to the input, when it is closed slowly. */
 #ifndef CZ_SIMULATE_INPUT_CURVE_H
 #define CZ_SIMULATE_INPUT_CURVE_H
 

@@ -1,14 +1,14 @@
-/* What the interfaces still hold that can change the motion, so that a run is not over.
+/* Forces and energies of interfaces that can still change the motion, so that a run is not over.
  *
  *   held      both cars have stood within STILL_PLACE for STILL_TIME: brakes or a wall carry the
- *             force, and nothing will come of it. Cars that move on with a constant closure are
- *             not: a buffer stop that slides, or brakes, take their energy still
+ *             force, which stays as it is. Cars that move on with a constant closure are not held:
+ *             a buffer stop that slides, or brakes, still take their energy
  *   force     of an interface that can open and is not held
- *   energy    elastic, of an interface that can open and is not held; of couplers that are whole
- *             with the kinetic energy mu v^2 / 2 of their oscillation
+ *   energy    elastic, of an interface that can open and is not held; of undamaged couplers with
+ *             the kinetic energy mu v^2 / 2 of their oscillation
  *
- * Couplers that are whole cannot open. What they store goes to and fro until it is dissipated;
- * where nothing dissipates it, only the first unloading shows anything new.
+ * Undamaged couplers cannot open. The energy that they store oscillates until it is dissipated;
+ * without dissipation only the first unloading can lead to new results.
  */
 #include "simulate/run.h"
 
@@ -26,7 +26,7 @@ struct CzInterfaceLoad {
     double place;        /* about which the car behind stands [m] */
     double still_since;  /* [s] */
     double largest;      /* closure [m] */
-    bool to_be_unloaded; /* has not given back its energy since it reached that */
+    bool to_be_unloaded; /* it has not returned its energy since then */
 };
 
 CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena) {
@@ -54,7 +54,7 @@ static bool is_at_rest(const CzBatch *batch, int car, int design) {
     return batch->time - load->still_since >= STILL_TIME;
 }
 
-/* Whether the energy is still to be given back for the first time. */
+/* Whether the first unloading is still to come. */
 static bool is_to_be_unloaded(CzInterfaceLoad *load, double largest, bool stores) {
     if (largest > load->largest + CLOSURE_GROWS) {
         load->largest = largest;
@@ -65,11 +65,12 @@ static bool is_to_be_unloaded(CzInterfaceLoad *load, double largest, bool stores
 }
 
 /* Kinetic energy of two cars about their common motion. */
-static double relative_energy(const CzBatch *batch, size_t lane, size_t ahead) {
-    const double inverse = cz_car_equipment(batch->lanes, lane).inverse_mass +
-                           cz_car_equipment(batch->lanes, ahead).inverse_mass;
-    const double rate =
-        cz_velocity(batch, CZ_DOF(body.x), lane) - cz_velocity(batch, CZ_DOF(body.x), ahead);
+static double relative_energy(const CzBatch *batch, int interface, int design) {
+    const size_t lane = cz_lane(batch, interface, design);
+    const double inverse =
+        cz_car_equipment(batch->lanes, lane).inverse_mass +
+        cz_car_equipment(batch->lanes, cz_lane(batch, interface + 1, design)).inverse_mass;
+    const double rate = cz_closing_speed(batch, interface, design);
     return inverse > 0.0 ? 0.5 * rate * rate / inverse : 0.0;
 }
 
@@ -91,7 +92,6 @@ CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design) {
     bool rests = is_at_rest(batch, 0, design);
     for (int interface = 0; interface + 1 < batch->model->n_car; ++interface) {
         const size_t lane = cz_lane(batch, interface, design);
-        const size_t ahead = cz_lane(batch, interface + 1, design);
         const bool rests_behind = rests;
         rests = is_at_rest(batch, interface + 1, design);
         const double largest = cz_extreme(batch, CZ_EXTREME(interface_shortening), lane);
@@ -104,7 +104,7 @@ CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design) {
         left.force |= opens && fabs(force) > SMALLEST_FORCE;
         left.energy = fmax(left.energy, opens || unloads ? energy : 0.0);
         if (!opens)
-            oscillating = fmax(oscillating, energy + relative_energy(batch, lane, ahead));
+            oscillating = fmax(oscillating, energy + relative_energy(batch, interface, design));
     }
     if (oscillating > fmax(least, left.energy) && still_dissipates(batch, design))
         left.energy = oscillating;

@@ -28,7 +28,7 @@ typedef struct Drop {
     const CzBlock *block;
     int side;    /* of the interface */
     size_t lane; /* within the block */
-    bool over;   /* it has been released: its function is masked, or it would fire for ever */
+    bool over;   /* it has been released, and its function is 1 from then on */
 } Drop;
 
 struct CzReference {
@@ -136,7 +136,7 @@ static void evaluate(CzReference *reference, double time, const double *state) {
     reference->evaluated = time;
 }
 
-/* ---- what the solver asks -------------------------------------------------------------------- */
+/* ---- functions of the solver ----------------------------------------------------------------- */
 
 static bool rates(CzOde *ode, double time, const double *state, double *rate) {
     CzReference *reference = (CzReference *)ode;
@@ -186,7 +186,7 @@ static CzStatus allocate(CzBatch *batch, CzReference **made, CzError *error) {
     CzArena *arena = &batch->arena;
     CzReference *reference = cz_arena_allocate(arena, 1, sizeof *reference);
     if (reference == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the reference run");
+        return cz_no_memory(error, "the reference run");
     const size_t n_place = list_places(batch, NULL, NULL, 0.0), n_track = list_track(batch, NULL);
     const size_t n_mode = n_track > 0 ? cz_track_n_state(batch->dynamics->track->modes) : 0;
     const size_t n_mode_all = n_track * n_mode, n = 2 * n_place + n_mode_all;
@@ -199,9 +199,8 @@ static CzStatus allocate(CzBatch *batch, CzReference **made, CzError *error) {
     reference->track_rate = cz_arena_allocate(arena, n_mode_all + 1, sizeof(double));
     reference->drop = cz_arena_allocate(arena, (size_t)n_drop + 1, sizeof *reference->drop);
     reference->at = cz_arena_allocate(arena, n, sizeof *reference->at);
-    if (reference->place == NULL || reference->track == NULL || reference->track_rate == NULL ||
-        reference->drop == NULL || reference->at == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the reference run");
+    if (arena->out_of_memory)
+        return cz_no_memory(error, "the reference run");
     list_track(batch, reference->track);
     reference->batch = batch;
     reference->ode = (CzOde){.n_unknown = n,
@@ -212,7 +211,7 @@ static CzStatus allocate(CzBatch *batch, CzReference **made, CzError *error) {
     return CZ_OK;
 }
 
-/* What is allowed as local error. The solvers take the mean of the squares over all unknowns; the
+/* Allowed local errors. The solvers take the mean of the squares over all unknowns; the
  * thousand modes of a track, most of them at rest, must not dilute it for the vehicles. */
 static void set_allowed(CzReference *reference, double tolerance, double *allowed) {
     const size_t n = reference->ode.n_unknown, n_vehicle = 2 * reference->n_place;
@@ -237,7 +236,7 @@ CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance, 
     double *state = cz_arena_allocate(&batch->arena, n, sizeof *state);
     double *allowed = cz_arena_allocate(&batch->arena, n, sizeof *allowed);
     if (state == NULL || allowed == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the reference run");
+        return cz_no_memory(error, "the reference run");
     set_allowed(reference, tolerance, allowed);
     get_state(reference, state);
     reference->evaluated = NAN;

@@ -9,12 +9,11 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Every member is a number. */
 static CzRest no_rest(void) {
-    CzRest rest = {.body_sag = NAN, .body_pitch = NAN, .residual = NAN};
-    for (int axle = 0; axle < 4; axle++)
-        rest.axle_load[axle] = rest.primary_deflection[axle] = rest.rail_deflection[axle] =
-            rest.indentation[axle] = NAN;
-    rest.secondary_deflection[0] = rest.secondary_deflection[1] = NAN;
+    CzRest rest;
+    for (size_t i = 0; i < sizeof rest / sizeof(double); i++)
+        ((double *)&rest)[i] = NAN;
     return rest;
 }
 
@@ -65,9 +64,8 @@ CzStatus cz_rest_find(const CzModel *model, CzRest *rest, CzError *error) {
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
     CzLanes *lanes = cz_lanes_create(model, 1, &arena);
-    CzStatus status = lanes != NULL
-                          ? cz_model_fill(model, vehicles, 0, lanes, error)
-                          : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the vehicles");
+    CzStatus status = lanes != NULL ? cz_model_fill(model, vehicles, 0, lanes, error)
+                                    : cz_no_memory(error, "the vehicles");
     for (int i = 0; i < model->n_car && status == CZ_OK; i++)
         status = cz_rest_of_lane(model, lanes, i, (size_t)i, &rest[i], error);
     cz_arena_free(&arena);

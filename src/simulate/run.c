@@ -1,24 +1,22 @@
-/* What a caller may ask of a run, and the texts of its closed sets. */
+/* Access to a run, and the texts of its closed sets. */
 #include "simulate/run.h"
 
 #include "integrate/integrator.h"
 
-const char *cz_ended_key(CzEnded ended) {
-    static const char *const keys[] = {
-#define CZ_ENDED(constant, key, text) key,
+static const struct {
+    const char *key, *text;
+} ends[] = {
+#define CZ_ENDED(constant, key, text) [constant] = {key, text},
 #include "crushzone/ended.def"
 #undef CZ_ENDED
-    };
-    return keys[ended];
+};
+
+const char *cz_ended_key(CzEnded ended) {
+    return ends[ended].key;
 }
 
 const char *cz_ended_text(CzEnded ended) {
-    static const char *const text[] = {
-#define CZ_ENDED(constant, key, text) text,
-#include "crushzone/ended.def"
-#undef CZ_ENDED
-    };
-    return text[ended];
+    return ends[ended].text;
 }
 
 const char *cz_integrator_text(CzIntegrator integrator) {

@@ -1,4 +1,4 @@
-/* A run while it is made and after: what the files of this folder share. */
+/* A run during and after its simulation: what the files of this folder share. */
 #ifndef CZ_SIMULATE_RUN_H
 #define CZ_SIMULATE_RUN_H
 
@@ -32,26 +32,26 @@ typedef struct CzHistory {
 } CzHistory;
 enum { CZ_CHUNK = 256 };
 
-/* What one design of a batch is up to. */
+/* State of one design of a batch. */
 typedef struct CzProgressOfDesign {
     bool over;
     CzEnded ended;
     char failure[256];
     double initial_energy;
     double balance;       /* largest |residual| so far [J] */
-    int n_look;           /* looks at how it goes */
-    const char *awaited;  /* by the end criterion, in words; NULL when it holds */
-    double quiet_since;   /* when the end-of-run conditions began to hold; NaN when they do not */
-    double settled_since; /* likewise for the conditions of a brief run */
-    double plastic;       /* sum of the plastic strokes at the last look [m] */
-    double dissipated;    /* when it was last seen to change [J] */
+    int n_look;           /* examinations of the end criterion so far */
+    const char *awaited;  /* what the end criterion waits for; NULL when it is met */
+    double quiet_since;   /* since when the end criterion is met; NaN when it is not */
+    double settled_since; /* likewise the criterion of a brief run */
+    double plastic;       /* sum of the plastic strokes at the last examination [m] */
+    double dissipated;    /* dissipated energy when it last changed [J] */
     double dissipated_at; /* when that was [s] */
     double wheel_rail;    /* work at wheels and brakes until the trains first had one speed [J]; NaN
                              before */
     double override_time; /* NaN until it happens */
 } CzProgressOfDesign;
 
-/* A batch on its way. */
+/* A batch that is simulated. */
 typedef struct CzBatch {
     CzArena arena;
     const CzModel *model;
@@ -96,6 +96,27 @@ static inline double cz_published(const CzBatch *batch, int row, size_t lane) {
     return cz_row_of(&cz_block_of(batch->dynamics, lane)->published, row)[lane % CZ_LANE_BLOCK];
 }
 
+/* Speed at which the cars of an interface approach one another [m/s]. */
+static inline double cz_closing_speed(const CzBatch *batch, int interface, int design) {
+    return cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, interface, design)) -
+           cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, interface + 1, design));
+}
+
+/* The largest of them, at least 0. */
+double cz_largest_closing_speed(const CzBatch *batch, int design);
+
+/* How much nearer the cars of an interface are than at rest [m]. */
+static inline double cz_closure(const CzBatch *batch, int interface, int design) {
+    return cz_position(batch, CZ_DOF(body.x), cz_lane(batch, interface, design)) -
+           cz_position(batch, CZ_DOF(body.x), cz_lane(batch, interface + 1, design));
+}
+
+/* The end of a car at side A (0) or B (1) of an interface; side A is a front end. */
+static inline const CzEnd *cz_end_at(const CzBatch *batch, int car, int design, int side) {
+    const CzVehicle *vehicle = &batch->vehicles[design][batch->model->car[car].vehicle];
+    return side == 0 ? &vehicle->front : &vehicle->rear;
+}
+
 /* Rows of both ends of a car, or both sides of an interface. */
 #define CZ_MEMORY_PAIR(pair, member)                                                               \
     { CZ_MEMORY(pair[0].member), CZ_MEMORY(pair[1].member) }
@@ -106,9 +127,6 @@ static inline double cz_published(const CzBatch *batch, int row, size_t lane) {
 
 /* history.c */
 CZ_MUST_CHECK CzStatus cz_history_add(CzHistory *history, const CzBatch *batch);
-double cz_history_speed(const CzHistory *history, int sample, size_t lane);
-double cz_history_force(const CzHistory *history, int sample,
-                        size_t lane); /* of the lane's interface */
 void cz_history_free(CzHistory *history);
 /* Largest mean deceleration of a car over windows of net contact force, and over any window of 120
  * ms or more, with these windows. */
@@ -140,18 +158,17 @@ CzAccount cz_gear_account(const CzBatch *batch, size_t lane);
 /* What the sliders and stops of a lane store; their powers are in the ledger. */
 CzAccount cz_springs_account(const CzBatch *batch, size_t lane);
 
-/* checks.c: whether the energies of a design do not hold what they must, and where and what that
- * is.
- */
+/* energy_checks.c: whether the energies of a design contradict one another, with the place and the
+ * contradiction. */
 enum { CZ_FAULT_ROOM = 96 };
 bool cz_energy_checks_fail(const CzBatch *batch, int design, char *where, char *what);
 
 /* balance.c */
 double cz_kinetic_energy(const CzBatch *batch, int design);
-/* What the energy balance leaves open [J]: kinetic energy and that of the laws against the initial.
+/* Residual of the energy balance [J]: kinetic energy and work of the laws less the initial energy.
  */
 double cz_balance_residual(const CzBatch *batch, int design);
-/* Work that the laws have received, all of it; classes as in ledger.def. */
+/* Work that all laws have received; classes as in ledger.def. */
 double cz_total_work(const CzBatch *batch, int design);
 typedef enum CzLedgerClass {
     CZ_LEDGER_LOST,
@@ -167,7 +184,8 @@ double cz_momentum_error(const CzBatch *batch, int design);
 /* Largest distance of a member of the interface's series chains from its law, over the largest
  * force of the interface. */
 double cz_law_error(const CzBatch *batch, size_t lane);
-/* interface_load.c: what the interfaces of a design still hold that can change the motion. */
+/* interface_load.c: forces and energies of the interfaces of a design that can still change the
+ * motion. */
 #define CZ_STORED_SHARE 1e-3 /* of the initial energy: what is less changes no speed (ours) */
 typedef struct CzInterfaceLoad CzInterfaceLoad;
 typedef struct CzLoadLeft {
@@ -214,12 +232,12 @@ CZ_MUST_CHECK CzStatus cz_channels_add(CzChannels *channels, const CzBatch *batc
 void cz_channels_blank_totals(CzChannels *channels, double from);
 void cz_channels_free(CzChannels *channels);
 
-/* budget.c: where the turning of a single design's bodies comes from. */
-typedef struct CzBudgetBook CzBudgetBook;
-/* Starts taking notes; NULL when there is no memory. */
-CzBudgetBook *cz_budget_begin(CzBatch *batch, CzArena *arena);
-void cz_budget_add(CzBudgetBook *book, const CzBatch *batch);
-const CzVehicleBudget *cz_budget_result(const CzBudgetBook *book); /* (n_car) */
+/* budget.c: impulses that turn and lift the bodies of a single design. */
+typedef struct CzBudget CzBudget;
+/* NULL when there is no memory. */
+CzBudget *cz_budget_begin(CzBatch *batch, CzArena *arena);
+void cz_budget_add(CzBudget *budget, const CzBatch *batch);
+const CzVehicleBudget *cz_budget_result(const CzBudget *budget); /* (n_car) */
 
 /* watch.c: events of a single design. */
 typedef struct CzWatch CzWatch;

@@ -54,17 +54,7 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
     return energy;
 }
 
-/* Largest closing speed of neighbours. */
-static double closing_speed(const CzBatch *batch, int design) {
-    double largest = 0.0;
-    for (int car = 0; car + 1 < batch->model->n_car; ++car)
-        largest =
-            fmax(largest, cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, car, design)) -
-                              cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, car + 1, design)));
-    return largest;
-}
-
-/* What a perfectly plastic collision of the two trains dissipates: mu dv^2 / 2. */
+/* Energy that a perfectly plastic collision of the two trains dissipates: mu dv^2 / 2. */
 static double plastic_energy(const CzBatch *batch, int design) {
     double mass[2] = {0.0, 0.0}, speed[2] = {0.0, 0.0};
     bool fixed[2] = {false, false};
@@ -85,13 +75,13 @@ static double plastic_energy(const CzBatch *batch, int design) {
     return 0.5 * reduced * dv * dv;
 }
 
-/* Share of an energy in what is dissipated; NaN where that is nothing. */
+/* Share of an energy in the dissipated one; NaN where that is next to 0. */
 static double share_of(double part, double dissipated) {
     const double nothing = 100; /* [J] */
     return dissipated > nothing ? part / dissipated : NAN;
 }
 
-/* Series chains: how far a member came from its law, and how often a force had to be searched for.
+/* Series chains: largest distance of a member from its law, and how often a force was searched for.
  */
 static void fill_chains(const CzBatch *batch, int design, CzRunSummary *summary) {
     double searched = 0.0;
@@ -103,11 +93,7 @@ static void fill_chains(const CzBatch *batch, int design, CzRunSummary *summary)
     summary->n_searched = lround(searched);
 }
 
-/* Numbers that a failed run must not show. */
-static void blank_energy(CzEnergy *energy) {
-    *energy = (CzEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-}
-
+/* Results that a failed run does not have. */
 static void blank_element(CzElementResult *element) {
     element->energy = element->stored = element->stroke = element->stroke_used = NAN;
     element->peak_force = element->tube_energy = NAN;
@@ -175,7 +161,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     summary->momentum_error = cz_momentum_error(batch, design);
     fill_chains(batch, design, summary);
     summary->rest_residual = NAN; /* known of recorded runs */
-    summary->closing_speed = closing_speed(batch, design);
+    summary->closing_speed = cz_largest_closing_speed(batch, design);
     const double wheel_rail =
         isnan(progress->wheel_rail) ? summary->energy.wheel_rail : progress->wheel_rail;
     summary->plastic_energy = plastic_energy(batch, design) - wheel_rail;
@@ -201,7 +187,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     for (int i = 0; failed && i < summary->n_outer_end; ++i)
         blank_element(&summary->outer_end[i]);
     if (failed) {
-        blank_energy(&summary->energy);
+        summary->energy = (CzEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
         summary->momentum_error = summary->closing_speed = summary->plastic_energy = NAN;
         summary->law_error = NAN;
     }

@@ -1,4 +1,4 @@
-/* What a run that went beyond the model's validity can still say. */
+/* Totals of a run that went beyond the model's validity. */
 #include "crushzone/simulate.h"
 
 #include <math.h>

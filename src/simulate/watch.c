@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#define FLOWED 1e-4 /* plastic stroke that counts [m] (ours) */
+#define CRUSHED 1e-4 /* plastic stroke from which an element counts as crushed [m] (ours) */
 
 /* Where a watched value comes from. */
 typedef enum { FROM_MEMORY, FROM_EXTREME, FROM_LIFT_STOP, FROM_BUMP_STOP } Source;
@@ -18,8 +18,7 @@ typedef struct {
     int named;            /* which event: index into CzWatch.named */
 } Watched;
 
-/* What stays as it is while no coupler, face or side buffer does anything; and what limits guard.
- */
+/* Values that change only while couplers, faces or side buffers push; values that limits guard. */
 typedef enum { WHILE_PUSHED, GUARDED, N_TIME_WINDOW } When;
 
 /* The lowest thresholds of what is still watched in the lanes of a block. */
@@ -64,7 +63,8 @@ static double first_stage(const CzBatch *batch, int curve, size_t lane) {
     return lanes->n_kink > 1 ? cz_row(lanes->at, batch->lanes->stride, 1)[lane] : INFINITY;
 }
 
-/* When devices come to their ends: a reversible one in front of another does so in service. */
+/* Strokes that are exhausted, but not of a reversible device that another one follows: that happens
+ * in service. */
 static void watch_devices(CzWatch *list, const CzBatch *batch, int interface, int side) {
     CzDevice device[CZ_N_DEVICE];
     const int n = cz_devices_list(batch, interface, 0, side, device);
@@ -83,13 +83,13 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
     const char *name = batch->model->car[interface + side].name;
     const int which = side == 0 ? 1 : 0;
     watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY, CZ_MEMORY(coupler.side[side].tube),
-          lane, FLOWED, "coupler", name);
+          lane, CRUSHED, "coupler", name);
     watch(list, batch, CZ_EVENT_SHEAR_OFF, FROM_MEMORY, CZ_MEMORY(coupler.side[side].shear), lane,
-          FLOWED, "coupler", name);
+          CRUSHED, "coupler", name);
     watch(list, batch, CZ_EVENT_ANTI_CLIMBER_ACTIVATION, FROM_MEMORY,
-          CZ_MEMORY(face.side[side].stroke), lane, FLOWED, "anti-climber", name);
+          CZ_MEMORY(face.side[side].stroke), lane, CRUSHED, "anti-climber", name);
     watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY,
-          CZ_MEMORY(side_buffers.side[side].tube), lane, FLOWED, "side buffers", name);
+          CZ_MEMORY(side_buffers.side[side].tube), lane, CRUSHED, "side buffers", name);
     watch_devices(list, batch, interface, side);
     if (of.side[side].has_massless_end) {
         const int massless = CZ_CURVE(massless[side]);
@@ -117,7 +117,7 @@ static void watch_interface(CzWatch *list, const CzBatch *batch, int interface) 
     watch(list, batch, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_EXTREME(face_climbed), lane, 0.0, "",
           name);
     watch(list, batch, CZ_EVENT_SUPERSTRUCTURE_CRUSH, FROM_MEMORY, CZ_MEMORY(superstructure.set),
-          lane, FLOWED, "superstructures", name);
+          lane, CRUSHED, "superstructures", name);
     for (int side = 0; side < 2; ++side)
         watch_side(list, batch, interface, side);
 }
@@ -219,7 +219,7 @@ static double value_of(const Watched *watched) {
     return 0.0;
 }
 
-/* Looks at one list; what has passed leaves it. */
+/* Makes events of the values of a list that passed their threshold and takes them out. */
 static void look_at_list(CzWatch *list, const CzBatch *batch, When when) {
     Watched *first = list->watched[when];
     int n_left = 0;
@@ -246,7 +246,7 @@ static bool superstructures_push(const CzBlock *block) {
     return force != 0.0;
 }
 
-/* Whether the last step left everything between the cars as it was. */
+/* Whether nothing between the cars pushed in the last step. */
 static bool nothing_pushes(const CzBatch *batch) {
     const CzDynamics *dynamics = batch->dynamics;
     bool all_rest = !batch->lanes->has_side_buffers;

@@ -2,6 +2,7 @@
 #include "base/number.h"
 
 #include <locale.h>
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -90,7 +91,7 @@ static const char *what_is_wrong(const char *text, const char *end) {
         return "is not a number: digits are not grouped with '_'";
     if (*end == ',' && groups_digits(end))
         return "is not a number: digits are not grouped, and the decimal sign is a point";
-    if ((*end == '\'' || *end == ' ') && groups_digits(end))
+    if (strchr("' .", *end) != NULL && groups_digits(end))
         return "is not a number: digits are not grouped";
     if (*end == '%')
         return "is not a number: write a share as 0.3, not as 30%";
@@ -100,6 +101,14 @@ static const char *what_is_wrong(const char *text, const char *end) {
         return "is not a number: the decimal sign is a point";
     if (*end == ':')
         return "is not a number: ':' has no meaning in one";
+    end += strspn(end, " ");
+    if (*end == '#' || strncmp(end, "//", 2) == 0)
+        return "is not a number: a comment begins with a blank and '#'";
+    const char *operand = end + 1 + strspn(end + 1, " ");
+    if (strchr("+*/^", *end) != NULL && is_digit(*operand))
+        return "is not a number: it has to be computed beforehand";
+    if (ispunct((unsigned char)*end) && *end != '/')
+        return "is not a number: a sign follows it that has no meaning there";
     return "is not a number: the unit belongs to the key, not to the value";
 }
 

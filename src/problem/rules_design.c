@@ -20,6 +20,25 @@ static void check_scenario_named(const CzRules *rules, const char *const *name) 
     cz_mistake_suggest(rules->mistakes, suggestion.best);
 }
 
+/* A word that is none of the list passes as PROVISIONAL: no reason to stop, but perhaps a typing
+ * error of `user`. */
+static void check_confidence(const CzRules *rules, const char *const *confidence) {
+    static const char *const words[] = {"S1", "S2", "X", "M1", "M2", "M3", "user"};
+    CzSuggestion suggestion = {0};
+    if (*confidence == NULL)
+        return;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (strcmp(words[i], *confidence) == 0)
+            return;
+        cz_suggest(&suggestion, *confidence, words[i]);
+    }
+    cz_rule_warning(rules, confidence,
+                    "confidence '%.40s' is none of S1, S2, X, M1, M2, M3 and user: the limit "
+                    "passes as PROVISIONAL at most",
+                    *confidence);
+    cz_mistake_suggest(rules->warnings, suggestion.best);
+}
+
 static void check_limits(const CzRules *rules, const CzLimit *limits, int n_limit) {
     for (int i = 0; i < n_limit; i++) {
         const CzLimit *limit = &limits[i];
@@ -28,6 +47,7 @@ static void check_limits(const CzRules *rules, const CzLimit *limits, int n_limi
         if (limit->given && has_min == has_max)
             cz_rule_broken(rules, has_min ? (const void *)&limit->min : limit,
                            "a limit has 'max' or 'min', and only one of them");
+        check_confidence(rules, &limit->confidence);
         for (int k = 0; k < limit->scenarios.n_text; k++)
             check_scenario_named(rules, &limit->scenarios.text[k]);
     }

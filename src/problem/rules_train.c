@@ -308,8 +308,28 @@ static void check_roles(const CzRules *rules, const CzTrain *const pair[2]) {
             name_of(pair[0]->name), name_of(pair[1]->name));
 }
 
+/* A train that no scenario takes is easily one too many: without names the first two collide. */
+static void check_taken(const CzRules *rules, const CzTrain *train) {
+    const CzInput *input = rules->input;
+    bool is_taken = train < input->trains + 2 && input->n_scenarios == 0;
+    for (int i = 0; i < input->n_scenarios; i++) {
+        const CzTexts *names = &input->scenarios[i].trains;
+        if (names->n_text == 0)
+            is_taken |= train < input->trains + 2;
+        for (int k = 0; k < names->n_text && train->name != NULL; k++)
+            is_taken |= strcmp(names->text[k], train->name) == 0;
+    }
+    if (!is_taken)
+        cz_rule_warning(rules, &train->name,
+                        "no effect: train '%.48s' is in no scenario; a scenario names its two by "
+                        "'trains: [BEHIND, AHEAD]', without names the first two collide",
+                        name_of(train->name));
+}
+
 void cz_rules_check_scenarios(const CzRules *rules) {
     const CzInput *input = rules->input;
+    for (int i = 0; i < input->n_trains; i++)
+        check_taken(rules, &input->trains[i]);
     for (int i = 0; i < input->n_scenarios; i++) {
         const CzScenario *scenario = &input->scenarios[i];
         const CzTrain *pair[2];

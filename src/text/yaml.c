@@ -68,7 +68,8 @@ static void report_syntax(Document *document) {
             document->mistakes,
             "is a line indented too far, a ':' without quotes, or the line before without one?");
     else if (strstr(problem, "did not find expected key") != NULL)
-        cz_mistake_help(document->mistakes, "keys of one mapping begin in the same column");
+        cz_mistake_help(document->mistakes, "keys of one mapping begin in the same column, and a "
+                                            "quotation mark that opens a text must close it");
 }
 
 /* Takes the next event; false at a failure. */

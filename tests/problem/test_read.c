@@ -323,6 +323,24 @@ static void a_sweep_is_one_scenario_per_combination(void **state) {
     cz_problem_free(problem);
 }
 
+/* A third train without a scenario of its own, and a word that is no confidence. */
+static void what_nothing_takes_is_warned_of(void **state) {
+    static const char text[] =
+        "extends: rigid.yaml\ntrains:\n  - {name: C, copy: A, speed_km_h: 0}\n"
+        "checks: {limits: [{name: peak, metric: interfaces.peak_force_kN, max: 1500, "
+        "confidence: User}]}\noptimise: null\n";
+    CzProblem *problem = NULL;
+    (void)state;
+    assert_int_equal(read_text(text, &problem), CZ_OK);
+    assert_int_equal(cz_problem_n_warning(problem), 2);
+    for (int i = 0; i < 2; i++) {
+        const char *message = cz_problem_warning(problem, i)->message;
+        assert_true(strstr(message, "no effect: train 'C' is in no scenario") != NULL ||
+                    strstr(message, "confidence 'User' is none of S1") != NULL);
+    }
+    cz_problem_free(problem);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_are_in_si_units_and_absent_ones_have_their_defaults),
@@ -342,6 +360,7 @@ int main(void) {
         cmocka_unit_test(every_spelling_of_null_removes_a_key),
         cmocka_unit_test(coupler_without_one_to_meet_is_warned_of),
         cmocka_unit_test(a_sweep_is_one_scenario_per_combination),
+        cmocka_unit_test(what_nothing_takes_is_warned_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

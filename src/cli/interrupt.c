@@ -7,10 +7,14 @@
 /* The signal that asked to stop, 0 when none did. */
 static volatile sig_atomic_t stop_signal;
 
+/* A run at hand takes its time to its end, so that it is said that the signal has come. */
 static void on_signal(int signal_number) {
+    static const char text[] = "\ncrushzone: stopping after the run at hand; once more: at once\n";
     if (stop_signal != 0)
         _exit(128 + signal_number);
     stop_signal = signal_number;
+    const ssize_t n_written = write(STDERR_FILENO, text, sizeof text - 1);
+    (void)n_written; /* nobody reads it where it cannot be written */
 }
 
 void cz_interrupt_catch(void) {

@@ -86,4 +86,6 @@ closed_stream() {
 check "a closed standard output ends with 4, and no result file is damaged" closed_stream
 small_disk() { (ulimit -f 8; "$C" run two-trains.yaml -o small >out.txt 2>err.txt); code=$?; [ $code = 4 ] && says err.txt 'cannot be written' && [ ! -e small ] && [ -z "$(ls -d small* 2>/dev/null)" ]; }
 check "a full disk leaves no half folder" small_disk
+small_sweep() { (ulimit -f 1; "$C" sweep two-trains.yaml --vary trains.A.speed_km_h=10:20:2 -o small >out.txt 2>err.txt); code=$?; [ $code = 4 ] && says err.txt 'small/sweep.json cannot be written' && [ ! -e small ]; }
+check "a full disk names the file of a sweep" small_sweep
 finish

@@ -15,6 +15,7 @@
 #include "base/number.h"
 #include "evaluate/compose.h"
 #include "evaluate/tasks.h"
+#include "text/units.h"
 
 enum { POINTS_PER_JOB = 4 }; /* of a wave */
 
@@ -206,6 +207,10 @@ static CzStatus prepare(Sweeping *sweeping, CzError *error) {
     if (options->n_axis < 1 || options->n_axis > CZ_MOST_AXES)
         return cz_fail(error, CZ_STATUS_INPUT, "a sweep has one or two paths, not %d",
                        options->n_axis);
+    if (options->n_axis == 2 && cz_key_same_stem(options->axis[0].path, options->axis[1].path))
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "both paths of the sweep name one value: '%.160s' and '%.160s'",
+                       options->axis[0].path, options->axis[1].path);
     if (options->n_metric > CZ_MOST_SWEPT_METRICS)
         return cz_fail(error, CZ_STATUS_INPUT, "a sweep prints at most %d metrics",
                        (int)CZ_MOST_SWEPT_METRICS);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "text/units.h"
 
 /* Text of all settings of the options, one per line. NULL without memory. */
 static char *join_lines(int n_set, const char *const *set, size_t *n_byte) {
@@ -76,6 +77,17 @@ static int gather_options(CzReader *reader, int n_set, const char *const *set, C
     return n_setting;
 }
 
+/* A value that the record `set` has twice, in two units: the later one alone would act. */
+static void refuse_twice(CzReader *reader, const CzNode *own, int i) {
+    for (int k = 0; k < i; k++)
+        if (cz_key_same_stem(own->entry[k].key->text, own->entry[i].key->text)) {
+            cz_mistake(&reader->mistakes, own->entry[i].key, NULL,
+                       "one value is set twice, as '%.120s' and as '%.120s'",
+                       own->entry[k].key->text, own->entry[i].key->text);
+            return;
+        }
+}
+
 const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_set,
                                     const char *const *set, int *n_setting) {
     const CzEntry *own = cz_node_find(root, "set");
@@ -91,6 +103,7 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_
                    cz_node_what(own->value));
     for (int i = 0; i < n_own; i++) {
         const CzEntry *entry = &own->value->entry[i];
+        refuse_twice(reader, own->value, i);
         if (entry->value->kind == CZ_NODE_TEXT)
             setting[(*n_setting)++] = (CzSetting){entry->key->text, entry->key, entry->value, NULL};
         else

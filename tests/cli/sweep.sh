@@ -33,6 +33,8 @@ why() { # in the table, the map, the document, the columns and the page
 check "a failed point has its reason in every output" why
 wrong() { exits 2 "$C" sweep "$cars" --vary trains.C.speed_km_h=1:2:2 && exits 2 "$C" sweep "$cars" && exits 2 "$C" sweep "$cars" --vary trains.A.speed_km_h=1 --json && json out.txt error.message; }
 check "a wrong path or range ends with 2" wrong
+twice() { exits 2 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:20:2 --vary trains.A.speed_m_s=3:4:2 && says err.txt "both paths of the sweep name one value: 'trains.A.speed_km_h' and 'trains.A.speed_m_s'"; }
+check "a value is not swept twice" twice
 piped() { "$C" new -q -o - | "$C" sweep - --vary trains.A.speed_km_h=10:20:2 >out.txt && says out.txt 'Worst: trains.A.speed_km_h'; }
 check "a problem may come from standard input" piped
 interrupted() {

@@ -52,7 +52,13 @@ static CzStatus find_chart(const char *what, CzChart *chart, CzError *error) {
     }
     const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no figure '%.100s'", what);
     cz_suggest_help(&suggestion, error);
+    if (suggestion.best == NULL && error != NULL)
+        snprintf(error->help, sizeof error->help, "'crushzone help figures' lists them");
     return status;
+}
+
+static const char *place_name(const CzPage *page, bool of_interface, int index) {
+    return of_interface ? page->summary->interface[index].name : page->summary->vehicle[index].name;
 }
 
 /* Which of several figures of a kind is meant. */
@@ -73,14 +79,15 @@ static CzStatus find_place(const CzPage *page, CzChart chart, const char *at, in
         *index = of_interface ? page->model->colliding : cz_chart_hardest_car(page->summary);
         return CZ_OK;
     }
-    for (*index = 0; *index < n; ++*index) {
-        const char *name = of_interface ? page->summary->interface[*index].name
-                                        : page->summary->vehicle[*index].name;
-        if (strcmp(name, at) == 0)
+    for (*index = 0; *index < n; ++*index)
+        if (strcmp(place_name(page, of_interface, *index), at) == 0)
             return CZ_OK;
-    }
-    return cz_fail(error, CZ_STATUS_INPUT, "there is no %s '%.100s'",
-                   of_interface ? "interface" : "car", at);
+    const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no %s '%.100s'",
+                                    of_interface ? "interface" : "car", at);
+    if (error != NULL)
+        snprintf(error->help, sizeof error->help, "they are '%.60s' to '%.60s'",
+                 place_name(page, of_interface, 0), place_name(page, of_interface, n - 1));
+    return status;
 }
 
 CzChartOptions cz_chart_options_default(void) {

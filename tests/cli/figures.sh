@@ -132,6 +132,8 @@ time_first() { # the columns whose units are the figure's, or those that are wan
         printf 'Time,A,B,Load\ns,mm,mm,N\n0,0,0,0\n1,100,90,500000\n' >both.csv && exits 2 "$C" plot first --measured both.csv && says err.txt "the unit of column 'Time', s, is no unit of the length" && says err.txt 'the first column is the abscissa'
 }
 check "a time in front of the curve of a figure is passed over" time_first
+unknown() { exits 2 "$C" plot first --what xyz && says err.txt "there is no figure 'xyz'" && says err.txt "'crushzone help figures' lists them" && exits 2 "$C" plot first --at A9-B9 && says err.txt "they are 'A1-A2' to"; }
+check "an unknown figure or place names what there is" unknown
 no_overlay() { exits 2 "$C" plot first --what shares --measured test.csv && says err.txt "no measured curve fits over 'shares'"; }
 check "bars take no measured curve" no_overlay
 printf '# of a test\nt_ms,F_test_kN,v_A4_test [km/h],v_B1_test_km/h,x_A4_m,d_test_mm\n0,0,25,0,0,0\n100,650,20,4,0.6,500\n200,500,16,8,1.1,900\n' >four.csv

@@ -26,7 +26,7 @@ static void a_row_of_springs_has_its_closed_form_eigenvalues(void **state) {
         found[place] = a[i][i];
     }
     for (int k = 0; k < N; k++)
-        assert_near(found[k], 2.0 - 2.0 * cos((k + 1) * PI / (N + 1)), 1e-14, 0.0);
+        assert_near(found[k], 2.0 - 2.0 * cos((k + 1) * PI / (N + 1)), ROUNDING_OF_A_FORMULA, 0.0);
 }
 
 static void vectors_are_of_length_one_and_belong_to_their_eigenvalues(void **state) {
@@ -41,10 +41,10 @@ static void vectors_are_of_length_one_and_belong_to_their_eigenvalues(void **sta
             double product = 0.0;
             for (int j = 0; j < N; j++)
                 product += whole[i][j] * vectors[j][k];
-            assert_near(product, a[k][k] * vectors[i][k], 0.0, 1e-14);
+            assert_near(product, a[k][k] * vectors[i][k], 0.0, ROUNDING_OF_A_FORMULA);
             length += vectors[i][k] * vectors[i][k];
         }
-        assert_near(length, 1.0, 1e-14, 0.0);
+        assert_near(length, 1.0, ROUNDING_OF_A_FORMULA, 0.0);
     }
 }
 
@@ -72,7 +72,7 @@ static void the_factor_solves_forwards_and_backwards(void **state) {
         double product = 0.0;
         for (int j = 0; j < N; j++)
             product += whole[i][j] * b[2 * j];
-        assert_near(product, 1.0 + i * i, 1e-12, 0.0);
+        assert_near(product, 1.0 + i * i, ROUNDING_OF_A_SUM, 0.0);
     }
 }
 

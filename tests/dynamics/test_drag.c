@@ -57,8 +57,8 @@ static void the_share_of_braked_axles_is_one_of_the_weight(void **state) {
     Collision all = collide(two_masses, WITH("trains.A.brake.ratio=0.1"), 0);
     Collision half =
         collide(two_masses, WITH("trains.A.brake.ratio=0.2", "trains.A.brake.axle_share=0.5"), 0);
-    assert_near(half.summary->vehicle[0].final_speed, all.summary->vehicle[0].final_speed, 1e-12,
-                0.0);
+    assert_near(half.summary->vehicle[0].final_speed, all.summary->vehicle[0].final_speed,
+                ROUNDING_OF_A_SUM, 0.0);
     collision_free(&all);
     collision_free(&half);
 }
@@ -166,17 +166,18 @@ static double largest_stroke(double mass, double stiffness, double damping, doub
     return x;
 }
 
+/* The stroke may err by what closes in half a step. */
 static void the_damping_of_a_crush_zone_without_end_mass_acts(void **state) {
     (void)state;
     double energy = 0.0;
-    const double stroke = largest_stroke(50e3, 45e6, 4e5, 5.0, &energy);
+    const double speed = 5.0, stroke = largest_stroke(50e3, 45e6, 4e5, speed, &energy);
     for (int scenario = 0; scenario < 3; scenario++) {
         Collision collision = collide(damped, AS_WRITTEN, scenario);
         const CzInterfaceResult *interface = &collision.summary->interface[0];
         for (int i = 0; i < interface->n_element; i++) {
             const CzElementResult *end = &interface->element[i];
             assert_int_equal(end->kind, CZ_ELEMENT_END);
-            assert_near(end->stroke, stroke, 1e-3, 0.0);
+            assert_near(end->stroke, stroke, 0.0, 0.5 * speed * collision.summary->time_step);
             assert_true(end->energy > energy); /* and on the way back */
             assert_near(end->tube_energy, 0.0, 0.0, 1.0);
         }

@@ -123,7 +123,7 @@ static void a_car_that_finds_no_rest_is_named_with_its_springs(void **state) {
 static void a_recorded_run_reports_its_residual(void **state) {
     (void)state;
     Collision full = collide(file, AS_WRITTEN, 0);
-    assert_near(full.summary->rest_residual, 0.0, 0.0, 1e-10);
+    assert_near(full.summary->rest_residual, 0.0, 0.0, ROUNDING_OF_A_SUM);
     collision_free(&full);
     Collision rigid = collide("tests/physics/cases/plateau.yaml", AS_WRITTEN, 0);
     assert_true(isnan(rigid.summary->rest_residual));

@@ -40,8 +40,8 @@ static void trains_that_touch_at_rest_stay_at_rest(void **state) {
         go(&motion, 0.05);
         for (int car = 0; car < N_CAR; car++)
             for (int dof = 0; dof < CZ_N_DOF; dof++) {
-                assert_near(*position(&motion, dof, car), 0.0, 0.0, 1e-12);
-                assert_near(*velocity(&motion, dof, car), 0.0, 0.0, 1e-9);
+                assert_near(*position(&motion, dof, car), 0.0, 0.0, ROUNDING_OF_A_SUM);
+                assert_near(*velocity(&motion, dof, car), 0.0, 0.0, ROUNDING_OF_A_SUM);
             }
     }
     motion_close(&motion);
@@ -53,12 +53,12 @@ static void rolling_trains_roll_on(void **state) {
     go(&motion, 2.0);
     for (int car = 0; car < N_CAR; car++) {
         const double radius = *parameter(&motion, CZ_PARAMETER(wheel.radius), car);
-        assert_near(*position(&motion, CZ_DOF(body.x), car), 20.0, 1e-9, 0.0);
-        assert_near(*velocity(&motion, CZ_DOF(body.x), car), 10.0, 1e-9, 0.0);
-        assert_near(*velocity(&motion, CZ_DOF(body.pitch), car), 0.0, 0.0, 1e-9);
+        assert_near(*position(&motion, CZ_DOF(body.x), car), 20.0, ROUNDING_OF_A_SUM, 0.0);
+        assert_near(*velocity(&motion, CZ_DOF(body.x), car), 10.0, ROUNDING_OF_A_SUM, 0.0);
+        assert_near(*velocity(&motion, CZ_DOF(body.pitch), car), 0.0, 0.0, ROUNDING_OF_A_SUM);
         for (int axle = 0; axle < 4; axle++)
-            assert_near(*velocity(&motion, CZ_DOF(wheelset[axle].spin), car) * radius, 10.0, 1e-9,
-                        0.0);
+            assert_near(*velocity(&motion, CZ_DOF(wheelset[axle].spin), car) * radius, 10.0,
+                        ROUNDING_OF_A_SUM, 0.0);
     }
     motion_close(&motion);
 }
@@ -172,8 +172,11 @@ static void a_run_that_is_cut_is_incomplete(void **state) {
         collide("tests/physics/cases/plateau.yaml", WITH("simulation.longest_s=0.05"), 0);
     assert_int_equal(cut.summary->status, CZ_OK);
     assert_int_equal(cut.summary->ended, CZ_ENDED_INCOMPLETE);
-    assert_near(cut.summary->simulated, 0.05, 0.0, 0.005);
-    assert_near(cut.summary->closing_speed, 10.0 - 75.0 * cut.summary->simulated, 1e-3, 0.0);
+    /* The end is looked for every 32 steps; the plateau begins within a step. */
+    const double step = cut.summary->time_step, deceleration = 75.0;
+    assert_near(cut.summary->simulated, 0.05, 0.0, 32.0 * step);
+    assert_near(cut.summary->closing_speed, 10.0 - deceleration * cut.summary->simulated, 0.0,
+                0.5 * step * deceleration);
     collision_free(&cut);
 }
 

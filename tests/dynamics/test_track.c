@@ -101,9 +101,11 @@ static double energy_gap(double cut, double step) {
 
 static void work_on_the_track_is_its_energy_and_its_losses(void **state) {
     (void)state;
-    assert_near(energy_gap(1500.0, 1e-4), 0.0, 0.0, 5e-4);
-    assert_near(energy_gap(1500.0, 2.5e-5), 0.0, 0.0, 5e-4);
-    assert_near(energy_gap(8000.0, 2.5e-5), 0.0, 0.0, 5e-4);
+    /* Losses of modes that are faster than the step are counted to a quarter of a step, of 500. */
+    const double allowed = 0.25 / 500.0;
+    assert_near(energy_gap(1500.0, 1e-4), 0.0, 0.0, allowed);
+    assert_near(energy_gap(1500.0, 2.5e-5), 0.0, 0.0, allowed);
+    assert_near(energy_gap(8000.0, 2.5e-5), 0.0, 0.0, allowed);
 }
 
 /* Wheels roll one and a half times round the ring; a ring with three times the seats gives the same
@@ -217,7 +219,7 @@ static void contact_and_rail_share_the_approach(void **state) {
         for (double flexibility = 0.0; flexibility < 4e-10; flexibility += 5e-11) {
             const double force = cz_wheel_force_on_spring(hertz, flexibility, approach);
             const double left = approach - flexibility * force;
-            assert_near(cz_wheel_normal_force(hertz, left), force, 1e-12, 0.0);
+            assert_near(cz_wheel_normal_force(hertz, left), force, ROUNDING_OF_A_SUM, 0.0);
         }
     assert_true(cz_wheel_force_on_spring(hertz, 1e-10, 0.0) == 0.0);
     assert_true(cz_wheel_force_on_spring(hertz, 1e-10, -1e-3) == 0.0);
@@ -242,8 +244,8 @@ static void stays_at_rest(const char *track) {
         go(&motion, 0.05);
         for (int car = 0; car < 3; car++)
             for (int dof = 0; dof < CZ_N_DOF; dof++) {
-                assert_near(*position(&motion, dof, car), 0.0, 0.0, 1e-12);
-                assert_near(*velocity(&motion, dof, car), 0.0, 0.0, 1e-9);
+                assert_near(*position(&motion, dof, car), 0.0, 0.0, ROUNDING_OF_A_SUM);
+                assert_near(*velocity(&motion, dof, car), 0.0, 0.0, ROUNDING_OF_A_SUM);
             }
     }
     motion_close(&motion);

@@ -94,7 +94,7 @@ static void minimum_is_judged_at_the_smallest_place(void **state) {
     const CzCheckResult *each = find(&made.evaluation, "each", "crash");
     assert_near(each->value, 0, 0, 0);
     assert_int_equal(each->verdict, CZ_VERDICT_FAIL);
-    assert_near(find(&made.evaluation, "sum", "crash")->value, 400, 1e-12, 0);
+    assert_near(find(&made.evaluation, "sum", "crash")->value, 400, ROUNDING_OF_A_SUM, 0);
     assert_int_equal(made.evaluation.verdict, CZ_VERDICT_FAIL);
     end(&made);
 }
@@ -139,8 +139,8 @@ static void design_rules_judge_the_design_and_every_scenario(void **state) {
     assert_int_equal(buffing->verdict, CZ_VERDICT_FAIL);
     assert_near(find(evaluation, "tube force / shear-off force", "design")->value, 800.0 / 1300,
                 1e-12, 0);
-    assert_near(find(evaluation, "stroke / retraction space", "design")->value, 400.0 / 1500, 1e-12,
-                0);
+    assert_near(find(evaluation, "stroke / retraction space", "design")->value, 400.0 / 1500,
+                ROUNDING_OF_A_SUM, 0);
     assert_non_null(find(evaluation, "bottoming out under overload", "overload"));
     assert_null(find(evaluation, "bottoming out", "overload"));
     /* no wheels, so override is not checked, which is no pass */
@@ -260,7 +260,7 @@ static void required_margin_is_part_of_the_constraint(void **state) {
               "       min: 150, scenarios: [crash]}\n");
     evaluate(&made, NULL);
     assert_int_equal(made.evaluation.n_check, 0);
-    assert_near(made.evaluation.constraint[0], 0.1 - 50.0 / 150, 1e-9, 0);
+    assert_near(made.evaluation.constraint[0], 0.1 - 50.0 / 150, ROUNDING_OF_A_SUM, 0);
     assert_true(made.evaluation.n_constraint > 2);
     for (int i = 1; i < made.evaluation.n_constraint; i++) /* rules of files require no reserve */
         assert_near(made.evaluation.constraint[i],
@@ -350,7 +350,7 @@ static void own_objective_replaces_the_files(void **state) {
     cz_evaluator_set_objective(made.evaluator, "mine", "N", most_force, &n_call);
     evaluate(&made, NULL);
     assert_int_equal(n_call, 1);
-    assert_near(made.evaluation.objective, 1300e3, 1e-12, 0);
+    assert_near(made.evaluation.objective, 1300e3, ROUNDING_OF_A_SUM, 0);
     assert_string_equal(cz_evaluator_objective_name(made.evaluator), "mine");
     end(&made);
 }
@@ -397,7 +397,7 @@ static void variables_have_names_units_bounds_and_places(void **state) {
     const CzVariableInfo *force = cz_evaluator_variable(made.evaluator, 0);
     assert_string_equal(force->name, "parts.tube.stages[0].force_kN");
     assert_string_equal(force->unit, "kN");
-    assert_near(force->start, 800, 1e-12, 0);
+    assert_near(force->start, 800, ROUNDING_OF_A_SUM, 0);
     assert_near(cz_evaluator_variable(made.evaluator, 1)->increment, 50, 0, 0);
     assert_int_equal(cz_evaluator_n_place(made.evaluator, 0), 1); /* one part, both trains */
     assert_string_equal(cz_evaluator_place(made.evaluator, 0, 0).path,
@@ -417,8 +417,8 @@ static void variable_changes_both_trains_through_a_part(void **state) {
               "  variables: [{path: \"parts.tube.stages[0].force_kN\", min: 400, max: 1500}]\n");
     const double x[] = {1000};
     evaluate(&made, x);
-    assert_near(find(&made.evaluation, "a", "service")->value, 1000, 1e-12, 0);
-    assert_near(find(&made.evaluation, "b", "service")->value, 1000, 1e-12, 0);
+    assert_near(find(&made.evaluation, "a", "service")->value, 1000, ROUNDING_OF_A_SUM, 0);
+    assert_near(find(&made.evaluation, "b", "service")->value, 1000, ROUNDING_OF_A_SUM, 0);
     end(&made);
 }
 

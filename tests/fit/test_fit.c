@@ -229,22 +229,26 @@ static void load_coupler(Curve *made) {
         made->x[i] += made->f[i] / elastic;
 }
 
-/* The stop between buffer and tube, 0.3 mm, is shared out between the two: strokes grow by as much
- * at most, and forces change in proportion. Points are 0.25 mm apart in front and 0.2 mm behind. */
-#define STOP 0.3
+#define STOP 0.3                   /* between buffer and tube [mm] */
+#define HALF_OF_FRONT_POINTS 0.125 /* points of buffer and tube are 0.25 mm apart [mm] */
+#define HALF_OF_REAR_POINTS 0.1    /* those behind 0.2 mm [mm] */
+
+/* The stop is shared out between buffer and tube: strokes grow by as much at most, and forces
+ * change in proportion. A break is found to half of the distance between two points. */
 static void a_coupler_is_buffer_tube_and_shear_off(void **state) {
     (void)state;
     load_coupler(&curve);
     CzFit *fit = fit_of(&curve, CZ_FIT_COUPLER, -1);
     energy_is_equal(fit, work_of_loading(&curve));
-    assert_near(value_of(fit, "buffer.stages[0].stroke_mm"), 50.0, 0.0, STOP + 0.125);
+    assert_near(value_of(fit, "buffer.stages[0].stroke_mm"), 50.0, 0.0,
+                STOP + HALF_OF_FRONT_POINTS);
     assert_near(value_of(fit, "buffer.stages[0].force_kN"), 400.0, STOP / 50.0, 0.0);
-    assert_near(value_of(fit, "tube.stages[0].stroke_mm"), 250.0, 0.0, STOP + 0.125);
+    assert_near(value_of(fit, "tube.stages[0].stroke_mm"), 250.0, 0.0, STOP + HALF_OF_FRONT_POINTS);
     assert_near(value_of(fit, "tube.stages[0].force_kN"), 600.0, STOP / 250.0 + FIVE_DIGITS, 0.0);
-    assert_near(value_of(fit, "tube.trigger_kN"), 700.0, 1e-9, 0.0);
-    assert_near(value_of(fit, "shear_off.force_kN"), 911.0, 1e-9, 0.0);
-    assert_near(value_of(fit, "shear_off.softening_length_mm"), 10.0, 0.0, 0.1);
-    assert_near(value_of(fit, "shear_off.retraction_space_mm"), 150.0, 0.0, 0.1);
+    assert_near(value_of(fit, "tube.trigger_kN"), 700.0, ROUNDING_OF_A_SUM, 0.0);
+    assert_near(value_of(fit, "shear_off.force_kN"), 911.0, ROUNDING_OF_A_SUM, 0.0);
+    assert_near(value_of(fit, "shear_off.softening_length_mm"), 10.0, 0.0, HALF_OF_REAR_POINTS);
+    assert_near(value_of(fit, "shear_off.retraction_space_mm"), 150.0, 0.0, HALF_OF_REAR_POINTS);
     assert_true(isnan(value_of(fit, "tube.stages[1].force_kN")));
     cz_fit_free(fit);
 }

@@ -40,9 +40,11 @@ static void ribs_seat_at_the_offset_modulo_the_pitch(void **state) {
 
 static void ribs_engage_over_their_depth(void **state) {
     (void)state;
-    assert_near(cz_ribs(&ribs, 0.0, 0.0, 1e5, 0.0).capacity, 0.2e5, 1e-14, 0.0);
-    assert_near(cz_ribs(&ribs, 0.0, 0.015, 1e5, 0.0).capacity, 0.5 * 256e3 + 0.2e5, 1e-14, 0.0);
-    assert_near(cz_ribs(&ribs, 0.0, 0.1, 0.5 * CZ_GRIP_FORCE, 0.0).engaged, 0.5, 1e-14, 0.0);
+    assert_near(cz_ribs(&ribs, 0.0, 0.0, 1e5, 0.0).capacity, 0.2e5, ROUNDING_OF_A_FORMULA, 0.0);
+    assert_near(cz_ribs(&ribs, 0.0, 0.015, 1e5, 0.0).capacity, 0.5 * 256e3 + 0.2e5,
+                ROUNDING_OF_A_FORMULA, 0.0);
+    assert_near(cz_ribs(&ribs, 0.0, 0.1, 0.5 * CZ_GRIP_FORCE, 0.0).engaged, 0.5,
+                ROUNDING_OF_A_FORMULA, 0.0);
 }
 
 /* The residual capacity is that at full depth: the same above depth and force of full engagement,

@@ -106,7 +106,8 @@ static void a_longer_anti_climber_lengthens_its_end_of_the_car(void **state) {
     assert_near(parameter(&candidate, 1, CZ_PARAMETER(coupler.pivot.x[0])),
                 parameter(&built, 1, CZ_PARAMETER(coupler.pivot.x[0])) + 0.2, 1e-14, 0.0);
     assert_near(parameter(&candidate, 1, CZ_PARAMETER(face.contact.x[0])),
-                parameter(&built, 1, CZ_PARAMETER(face.contact.x[0])) + 0.2, 1e-13, 0.0);
+                parameter(&built, 1, CZ_PARAMETER(face.contact.x[0])) + 0.2, ROUNDING_OF_A_FORMULA,
+                0.0);
     /* The other end and the gaps stay. */
     assert_near(parameter(&candidate, 0, CZ_PARAMETER(coupler.pivot.x[1])),
                 parameter(&built, 0, CZ_PARAMETER(coupler.pivot.x[1])), 0.0, 0.0);
@@ -127,8 +128,8 @@ static void a_trigger_given_later_still_fits(void **state) {
     CzArena arena = {0};
     const CzVehicle *design = other;
     const CzLanes *lanes = filled(built.model, 1, &design, &arena);
-    assert_near(curve_at(lanes, 1, CZ_CURVE(tube[0]), 0.0), 8e5, 1e-14, 0.0);
-    assert_near(curve_at(lanes, 1, CZ_CURVE(tube[0]), 0.25), 7e5, 1e-12, 0.0);
+    assert_near(curve_at(lanes, 1, CZ_CURVE(tube[0]), 0.0), 8e5, ROUNDING_OF_A_FORMULA, 0.0);
+    assert_near(curve_at(lanes, 1, CZ_CURVE(tube[0]), 0.25), 7e5, ROUNDING_OF_A_SUM, 0.0);
     cz_arena_free(&arena);
     free_model(&built);
 }

@@ -44,8 +44,8 @@ static void assert_folds_as(const Built *built, int n_car, const CzChainCar *car
     assert_int_equal(cz_strut_chain_fold(n_car, car, strut, &scratch, force), CZ_OK);
     cz_arena_free(&scratch);
     for (int i = 0; i < n_car - 1; i++)
-        assert_near(cz_model_interface_properties(built->model, i).critical_force, force[i], 1e-12,
-                    0.0);
+        assert_near(cz_model_interface_properties(built->model, i).critical_force, force[i],
+                    ROUNDING_OF_A_SUM, 0.0);
 }
 
 static void the_critical_forces_are_those_of_the_chain_of_both_trains(void **state) {
@@ -65,7 +65,8 @@ static void the_critical_forces_are_those_of_the_chain_of_both_trains(void **sta
         {2.8, true, {{.hinge = hinge, .body_arm = arm}, {.hinge = hinge, .body_arm = arm}}},
         {2.8, true, {{.hinge = hinge, .body_arm = arm}, {.hinge = 2e5, .body_arm = arm}}}};
     assert_folds_as(&built, 3, chain_car, strut);
-    assert_near(cz_model_interface_properties(built.model, 1).strut_length, 2.8, 1e-15, 0.0);
+    assert_near(cz_model_interface_properties(built.model, 1).strut_length, 2.8,
+                ROUNDING_OF_A_VALUE, 0.0);
     free_model(&built);
 
     /* A pivot on an end mass, which rests on its guidance and its folding stiffness. */
@@ -99,12 +100,14 @@ static void the_tube_force_is_that_of_the_weaker_coupler_before_it_shears(void *
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &strong, 1, &weak, 10.0);
     Built built = build_model(&problem);
-    assert_near(cz_model_interface_properties(built.model, 0).tube_force, 7e5, 1e-12, 0.0);
+    assert_near(cz_model_interface_properties(built.model, 0).tube_force, 7e5, ROUNDING_OF_A_SUM,
+                0.0);
     free_model(&built);
 
     problem.vehicle[1].rear.coupler.shear_off.force = 6.5e5;
     built = build_model(&problem);
-    assert_near(cz_model_interface_properties(built.model, 0).tube_force, 6.5e5, 1e-12, 0.0);
+    assert_near(cz_model_interface_properties(built.model, 0).tube_force, 6.5e5, ROUNDING_OF_A_SUM,
+                0.0);
     free_model(&built);
 
     problem.vehicle[0].front.coupler.tube.given = false;

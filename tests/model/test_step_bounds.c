@@ -57,7 +57,7 @@ static void the_scheme_is_stable_below_the_bound_and_not_above(void **state) {
         assert_true(grown(ratios[i], 0.99 * bound) < 50.0);
         assert_true(grown(ratios[i], 1.01 * bound) > 1e6);
     }
-    assert_near(bound_of_oscillator(1e9, 1000.0, 0.0), 2.0, 1e-14, 0.0);
+    assert_near(bound_of_oscillator(1e9, 1000.0, 0.0), 2.0, ROUNDING_OF_A_FORMULA, 0.0);
 }
 
 static void every_element_of_a_full_car_is_named_and_the_smallest_comes_first(void **state) {
@@ -107,7 +107,7 @@ static void wheel_and_rail_are_taken_at_four_times_the_static_load(void **state)
     const double tangent = 1.5 * pow(hertz, 2.0 / 3.0) * pow(load, 1.0 / 3.0);
     const double square = (tangent + 2.4e6 + 2e7) / 1813.0, rate = 8e3 / 1813.0;
     assert_near(bound_of(built.model, "wheel-rail contact A1")->bound,
-                2.0 / (sqrt(square + rate * rate) + rate), 1e-12, 0.0);
+                2.0 / (sqrt(square + rate * rate) + rate), ROUNDING_OF_A_SUM, 0.0);
     free_model(&built);
 }
 

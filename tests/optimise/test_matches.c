@@ -190,7 +190,7 @@ static void parameter_at_its_bound_is_reported(void **state) {
     Case made = begin_fit(match, "{path: parts.middle-car.mass_t, min: 37, max: 42}", 40);
     optimise(&made, NULL);
     assert_true(made.outcome->at_bound[0]);
-    assert_near(made.outcome->best[0], 37, 1e-6, 0);
+    assert_near(made.outcome->best[0], 37, ROUNDING_OF_A_VALUE, 0);
     assert_int_equal(made.outcome->status, CZ_OUTCOME_INFEASIBLE); /* not within its tolerance */
     end(&made);
 }

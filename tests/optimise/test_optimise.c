@@ -35,7 +35,7 @@ static void design_that_passes_is_found_on_the_catalogue_steps(void **state) {
     for (int i = 0; i < outcome->n_variable; i++) {
         const CzVariableInfo *info = cz_evaluator_variable(made.evaluator, i);
         assert_near(outcome->best[i] / info->increment, round(outcome->best[i] / info->increment),
-                    0, 1e-9);
+                    ROUNDING_OF_A_FORMULA, 0);
         assert_true(outcome->best[i] >= info->min && outcome->best[i] <= info->max);
         assert_near(outcome->start[i], info->start, 0, 0);
     }
@@ -92,7 +92,7 @@ static void history_keeps_the_designs(void **state) {
         CzEvaluation again;
         const double *x = &outcome->trial_x[i * outcome->n_variable];
         assert_int_equal(cz_evaluate(made.evaluator, 1, x, false, &again, &error), CZ_OK);
-        assert_near(again.objective, outcome->trial[i].objective, 0, 1e-9);
+        assert_near(again.objective, outcome->trial[i].objective, 0, 0);
         cz_evaluation_free(&again);
     }
     end(&made);
@@ -291,7 +291,7 @@ static void optimiser_cannot_win_where_the_simulation_fails(void **state) {
         Case made = begin(more, 2);
         *(incomplete ? &stand_in.incomplete_above : &stand_in.failing_above) = 905e3;
         optimise(&made, NULL);
-        assert_near(made.outcome->best[0], 900, 1e-12, 0);
+        assert_near(made.outcome->best[0], 900, ROUNDING_OF_A_SUM, 0);
         assert_int_equal(made.outcome->best_evaluation.status, CZ_OK);
         end(&made);
     }

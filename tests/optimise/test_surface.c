@@ -34,8 +34,8 @@ static void planes_are_exact_where_everything_is_linear(void **state) {
     assert_int_equal(search.n_record, 3);
     double penalty, c[1];
     const double x[] = {3.6, 0.8};
-    assert_near(cz_surface_predict(&surface, other, &penalty), linear(x, c), 1e-12, 0);
-    assert_near(penalty, cz_search_compressed(c[0]), 1e-11, 0);
+    assert_near(cz_surface_predict(&surface, other, &penalty), linear(x, c), ROUNDING_OF_A_SUM, 0);
+    assert_near(penalty, cz_search_compressed(c[0]), ROUNDING_OF_A_SUM, 0);
     destroy(&surface, &search);
 }
 

@@ -33,7 +33,7 @@ static void assert_same_interface(const CzInterfaceResult *a, const CzInterfaceR
                                   double tolerance) {
     assert_near(a->peak_force, b->peak_force, tolerance, tolerance);
     assert_near(a->shortening, b->shortening, tolerance, tolerance);
-    assert_near(a->energy, b->energy, tolerance, 1e-3);
+    assert_near(a->energy, b->energy, tolerance, tolerance);
 }
 
 static void a_mirrored_collision_is_the_mirror_image(void **state) {

@@ -27,7 +27,7 @@ static void seats_carry_the_whole_load(void **state) {
         double sum = 0.0;
         for (int seat = 0; seat < 46; ++seat)
             sum += cz_ring_seat_share(&seats, 46, place, seat);
-        assert_near(sum, 1.0, 1e-12, 0.0);
+        assert_near(sum, 1.0, ROUNDING_OF_A_SUM, 0.0);
     }
 }
 
@@ -46,8 +46,8 @@ static void both_branches_of_a_wave_deflect_as_its_statics(void **state) {
         const CzRailWave wave = cz_rail_wave(&seats, k);
         const double way =
             (wave.share / wave.bending + (1.0 - wave.share) / wave.shear) / seats.mass;
-        assert_near(way, 1.0 / (seats.bending * k * k * k * k) + 1.0 / (seats.shear * k * k), 1e-10,
-                    0.0);
+        assert_near(way, 1.0 / (seats.bending * k * k * k * k) + 1.0 / (seats.shear * k * k),
+                    ROUNDING_OF_A_SUM, 0.0);
     }
 }
 

@@ -66,7 +66,7 @@ static void a_number_limits_the_meaning_of_its_signs(void **state) {
             if (is_one == isnan(expected))
                 fail_msg("'%s' with '%c'", text, ".,"[k]);
             if (is_one)
-                assert_near(value, expected, 1e-15, 0);
+                assert_near(value, expected, ROUNDING_OF_A_VALUE, 0);
         }
     }
 }
@@ -104,8 +104,8 @@ static void one_curve_is_read_however_it_is_written(void **state) {
             fail_msg("%s: %s", texts[i], error.message);
         assert_int_equal(points.n, 3);
         for (int k = 0; k < 3; k++) {
-            assert_near(points.x[k], x[k], 1e-14, 0);
-            assert_near(points.y[k], f[k], 1e-14, 0);
+            assert_near(points.x[k], x[k], ROUNDING_OF_A_FORMULA, 0);
+            assert_near(points.y[k], f[k], ROUNDING_OF_A_FORMULA, 0);
         }
         cz_arena_free(&arena);
     }

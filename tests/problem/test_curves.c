@@ -20,7 +20,7 @@ static void points_in_the_file_are_read_in_their_units(void **state) {
     assert_true(curve->given);
     assert_int_equal(curve->n_point, 3);
     assert_int_equal(curve->basis, CZ_BASIS_STATIC);
-    assert_near(curve->x[2], 0.45, 1e-15, 0);
+    assert_near(curve->x[2], 0.45, ROUNDING_OF_A_VALUE, 0);
     assert_near(curve->y[1], 1e6, 0, 0);
     cz_problem_free(problem);
 }
@@ -32,7 +32,7 @@ static void a_long_csv_curve_keeps_energy_ends_and_peak(void **state) {
     assert_int_equal(curve->n_point, CZ_MAX_CURVE_POINTS);
     assert_int_equal(curve->basis, CZ_BASIS_DYNAMIC);
     assert_near(curve->x[0], 0, 0, 0);
-    assert_near(curve->x[curve->n_point - 1], 0.4, 1e-15, 0);
+    assert_near(curve->x[curve->n_point - 1], 0.4, ROUNDING_OF_A_VALUE, 0);
     double peak = 0;
     for (int i = 0; i < curve->n_point; i++)
         peak = fmax(peak, curve->y[i]);
@@ -60,8 +60,8 @@ static void reducing_keeps_the_area(void **state) {
     assert_true(cz_reduce_curve(&arena, x, y, &n_point, 64, &change));
     cz_arena_free(&arena);
     assert_int_equal(n_point, 64);
-    assert_near(change.area, before, 1e-14, 0);
-    assert_near(area(x, y, n_point), before, 1e-6, 0);
+    assert_near(change.area, before, ROUNDING_OF_A_FORMULA, 0);
+    assert_near(area(x, y, n_point), before, ROUNDING_OF_A_SUM, 0);
     assert_in_range((int)change.largest_difference, 1, 150000);
 }
 
@@ -78,7 +78,7 @@ static void a_straight_line_loses_nothing(void **state) {
     assert_true(cz_reduce_curve(&arena, x, y, &n_point, 3, &change));
     cz_arena_free(&arena);
     assert_int_equal(n_point, 3);
-    assert_near(change.largest_difference, 0, 0, 1e-12);
+    assert_near(change.largest_difference, 0, 0, ROUNDING_OF_A_SUM);
     assert_near(y[2], 199, 0, 0);
 }
 

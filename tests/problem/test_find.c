@@ -117,7 +117,7 @@ static void finding_and_setting_use_the_same_places(void **state) {
         for (int i = 0; i < n_target; i++)
             assert_near(*(const double *)(const void *)((const char *)&after[target[i].vehicle] +
                                                         target[i].offset),
-                        value, 1e-15, 0);
+                        value, ROUNDING_OF_A_VALUE, 0);
         for (int v = 0; v < n_vehicle; v++)
             for (size_t at = offsetof(CzVehicle, mass); at + 8 <= sizeof *before; at += 8)
                 n_changed +=

@@ -77,7 +77,7 @@ static void units_have_their_si_values(void **state) {
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         const CzUnit *unit = cz_unit_find(known[i].dimension, known[i].suffix);
         assert_non_null(unit);
-        assert_near(unit->si, known[i].si, 1e-15, 0);
+        assert_near(unit->si, known[i].si, ROUNDING_OF_A_VALUE, 0);
         assert_near(cz_unit_si(known[i].dimension)->si, 1, 0, 0);
     }
     assert_null(cz_unit_find(CZ_DIMENSION_LENGTH, "kN"));

@@ -7,7 +7,7 @@ static void values_are_in_si_units_and_absent_ones_have_their_defaults(void **st
     const CzInput *input = cz_problem_input(problem);
     assert_string_equal(cz_problem_title(problem), "Two rigid cars");
     assert_int_equal(input->n_trains, 2);
-    assert_near(input->trains[0].speed, 10, 1e-15, 0);
+    assert_near(input->trains[0].speed, 10, ROUNDING_OF_A_VALUE, 0);
     const CzVehicle *car = &input->trains[0].vehicles[0];
     assert_string_equal(car->name, "A1");
     assert_int_equal(car->model, CZ_MODEL_RIGID);
@@ -21,8 +21,8 @@ static void values_are_in_si_units_and_absent_ones_have_their_defaults(void **st
     assert_true(isnan(car->front.stages[1].end_force));
     assert_int_equal(car->front.anti_climber.count, 1);
     assert_near(car->front.anti_climber.stiffness, 2e8, 0, 0);
-    assert_near(input->trains[1].vehicles[0].front.anti_climber.gap, 0.12, 1e-15, 0);
-    assert_near(input->trains[1].vehicles[0].rear.anti_climber.gap, 0.1, 1e-15, 0);
+    assert_near(input->trains[1].vehicles[0].front.anti_climber.gap, 0.12, ROUNDING_OF_A_VALUE, 0);
+    assert_near(input->trains[1].vehicles[0].rear.anti_climber.gap, 0.1, ROUNDING_OF_A_VALUE, 0);
     assert_false(input->simulation.given);
     assert_near(input->simulation.longest, 20, 0, 0);
     cz_problem_free(problem);
@@ -76,14 +76,14 @@ static void an_overlay_merges_records_and_named_items_and_replaces_the_rest(void
     const CzInput *input = cz_problem_input(problem);
     assert_string_equal(input->title, "Three full cars against their like, changed");
     assert_int_equal(input->n_scenarios, 4);
-    assert_near(input->scenarios[2].speed, 7 / 3.6, 1e-15, 0);
+    assert_near(input->scenarios[2].speed, 7 / 3.6, ROUNDING_OF_A_VALUE, 0);
     assert_string_equal(input->scenarios[3].name, "fast");
     assert_near(find_vehicle(problem, "A4")->mass, 41e3, 0, 0);
     assert_near(find_vehicle(problem, "A1")->mass, 38.7e3, 0, 0);
     const CzAntiClimber *device = &find_vehicle(problem, "A4")->front.anti_climber;
     assert_int_equal(device->n_stages, 1);
     assert_near(device->stages[0].force, 700e3, 0, 0);
-    assert_near(device->gap, 0.31, 1e-15, 0);
+    assert_near(device->gap, 0.31, ROUNDING_OF_A_VALUE, 0);
     assert_near(find_vehicle(problem, "B4")->front.anti_climber.stages[0].force, 700e3, 0, 0);
     cz_problem_free(problem);
 }
@@ -136,19 +136,19 @@ static void a_setting_equals_the_typed_value(void **state) {
     };
     CzProblem *problem = read_good("full.yaml", 10, set);
     const CzInput *input = cz_problem_input(problem);
-    assert_near(find_vehicle(problem, "A4")->front.anti_climber.gap, 0.29, 1e-15, 0);
-    assert_near(find_vehicle(problem, "B1")->rear.anti_climber.gap, 0.29, 1e-15, 0);
-    assert_near(find_vehicle(problem, "A1")->rear.anti_climber.gap, 0.28, 1e-15, 0);
+    assert_near(find_vehicle(problem, "A4")->front.anti_climber.gap, 0.29, ROUNDING_OF_A_VALUE, 0);
+    assert_near(find_vehicle(problem, "B1")->rear.anti_climber.gap, 0.29, ROUNDING_OF_A_VALUE, 0);
+    assert_near(find_vehicle(problem, "A1")->rear.anti_climber.gap, 0.28, ROUNDING_OF_A_VALUE, 0);
     assert_near(find_vehicle(problem, "A4")->front.anti_climber.stages[1].force, 7e5, 0, 0);
     assert_near(find_vehicle(problem, "A4")->front.anti_climber.stages[0].force, 525e3, 0, 0);
     assert_near(find_vehicle(problem, "A3")->mass, 36e3, 0, 0);
     assert_near(find_vehicle(problem, "B2")->mass, 36e3, 0, 0);
-    assert_near(input->trains[0].height_offset, 5e-3, 1e-15, 0);
-    assert_near(input->trains[1].height_offset, 5e-3, 1e-15, 0);
-    assert_near(input->scenarios[0].speed, 20 / 3.6, 1e-15, 0);
+    assert_near(input->trains[0].height_offset, 5e-3, ROUNDING_OF_A_VALUE, 0);
+    assert_near(input->trains[1].height_offset, 5e-3, ROUNDING_OF_A_VALUE, 0);
+    assert_near(input->scenarios[0].speed, 20 / 3.6, ROUNDING_OF_A_VALUE, 0);
     assert_near(input->scenarios[1].speed, 6, 0, 0);
     assert_string_equal(input->title, "12");
-    assert_near(input->simulation.duration, 0.9, 1e-15, 0);
+    assert_near(input->simulation.duration, 0.9, ROUNDING_OF_A_VALUE, 0);
     assert_near(input->simulation.adhesion.friction, 0.25, 0, 0);
     cz_problem_free(problem);
 }
@@ -173,7 +173,7 @@ static void json_is_read_as_well(void **state) {
         "\t\"stages\": [{\"stroke_mm\": 100, \"force_kN\": 100}]}}]},\n"
         "\t{\"name\": \"B\", \"vehicles\": [{\"model\": \"fixed\"}]}]}");
     assert_string_equal(cz_problem_title(problem), "J\xc3\xa4son");
-    assert_near(cz_problem_input(problem)->trains[0].speed, 1, 1e-15, 0);
+    assert_near(cz_problem_input(problem)->trains[0].speed, 1, ROUNDING_OF_A_VALUE, 0);
     assert_int_equal(cz_problem_n_scenario(problem), 1);
     assert_string_equal(cz_problem_scenario_name(problem, 0), "collision");
     cz_problem_free(problem);

@@ -227,10 +227,10 @@ static void a_plot_without_curves_is_a_figure(void **state) {
 
 static void steps_of_axes_are_round(void **state) {
     (void)state;
-    assert_near(cz_plot_round_step(7, 7), 1, 1e-12, 0);
-    assert_near(cz_plot_round_step(1500, 6), 500, 1e-12, 0);
-    assert_near(cz_plot_round_step(0.083, 6), 0.02, 1e-12, 0);
-    assert_near(cz_plot_round_step(5354, 7), 1000, 1e-12, 0);
+    assert_near(cz_plot_round_step(7, 7), 1, ROUNDING_OF_A_SUM, 0);
+    assert_near(cz_plot_round_step(1500, 6), 500, ROUNDING_OF_A_SUM, 0);
+    assert_near(cz_plot_round_step(0.083, 6), 0.02, ROUNDING_OF_A_SUM, 0);
+    assert_near(cz_plot_round_step(5354, 7), 1000, ROUNDING_OF_A_SUM, 0);
 }
 
 int main(void) {

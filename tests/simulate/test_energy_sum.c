@@ -12,7 +12,8 @@ static double sum_of_elements(const CzRunSummary *summary) {
         double of_interface = 0.0;
         for (int element = 0; element < summary->interface[i].n_element; element++)
             of_interface += summary->interface[i].element[element].energy;
-        assert_near(of_interface, summary->interface[i].energy, 1e-9, 1e-6);
+        assert_near(of_interface, summary->interface[i].energy, ROUNDING_OF_A_SUM,
+                    ROUNDING_OF_A_SUM);
         sum += of_interface;
     }
     for (int i = 0; i < summary->n_outer_end; i++)

@@ -102,6 +102,12 @@ for line in 2 3 4 5; do
 done
 check "values that the kernel publishes are accepted" sh -c '! grep -qE "bends.c:6|src/dynamics" bends.txt'
 check "a comparison of floats is found" finds '^tests/model/test_list.c:2:' float_comparisons
+put tests/model/test_near.c '/* n */\n\nstatic void f(void) {\n    assert_near(a[2], b(1, 2), 1e-3,\n                0.0);\n    assert_near(a, b, NAMED, 0.0);\n    assert_near(a, b, 1e-3, 0.0); /* half a digit */\n}\n\n/* To a step. */\nstatic void g(void) {\n    assert_near(a, b, 0.0, 0.5 * step);\n}\nstatic void h(void) {\n    assert_near(a, b, 0.0, 2.0 * step);\n}'
+bare_tolerances >bare.txt
+for line in 4 15; do
+    check "a tolerance without a reason is found: line $line" grep -q "^tests/model/test_near.c:$line:" bare.txt
+done
+check "a tolerance with a name or a comment is let through" sh -c '! grep -qE "test_near.c:(6|7|12):" bare.txt'
 check "a file without a purpose is found" finds '^src/report/other.c:1:' missing_purposes
 check "a version without a changelog entry is found" finds '2.3.4' changelog_gaps
 check "a header that needs another is found" finds 'model.h: ' headers_that_need_others

@@ -233,6 +233,35 @@ float_comparisons() {
     c_files tests | xargs grep -HnE 'assert_(not_)?(float|double)_(not_)?(equal)' | grep -v '^tests/support/check.h:'
 }
 
+# A tolerance has its reason: a name that says it (check.h has those of rounding), or a comment at the comparison, up to six
+# lines before it, or above the function.
+bare_tolerances() {
+    c_files tests | grep '\.[ch]$' | xargs awk '
+        FNR == 1 { call = ""; commented = -9; explained = 0; before = "" }
+        /^[A-Za-z]/ { explained = before ~ /\*\/$/; start = FNR }
+        /\/\*|\*\// { commented = FNR }
+        { before = $0 }
+        call == "" && /assert_near\(/ && !/#[ \t]*define/ { call = substr($0, index($0, "assert_near(") + 12); first = FNR; judge(); next }
+        call != "" { call = call " " $0; judge() }
+        function judge(   i, c, depth, n, part) {
+            n = depth = 0; split("", part)
+            for (i = 1; i <= length(call); i++) {
+                c = substr(call, i, 1)
+                if (c ~ /[(\[{]/) depth++
+                if (c ~ /[)\]}]/ && --depth < 0) break
+                if (c == "," && depth == 0) n++; else part[n] = part[n] c
+            }
+            if (depth >= 0) return # the call goes on
+            call = ""
+            if (is_bare(part[2]) + is_bare(part[3]) > 0 && !explained && (commented < first - 6 || commented < start))
+                print FILENAME ":" first ": a tolerance without a reason:" part[2] "," part[3]
+        }
+        function is_bare(text) {
+            gsub(/[A-Za-z_][A-Za-z_0-9]*|\[[^\]]*\]/, "", text)
+            return text ~ /[1-9]/
+        }'
+}
+
 # Mechanical results of a run come from values that the kernel publishes, or from functions of dynamics: the folders that simulate,
 # judge and report read no parameter of a law and no sine or cosine of a body.
 mechanics_outside_dynamics() {

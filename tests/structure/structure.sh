@@ -20,6 +20,7 @@ nothing "the report computes nothing while it draws" report_that_computes
 nothing "keys of the results are in the lists alone" keys_by_hand
 nothing "the library does not print, exit, or depend on locale and environment" library_manners
 nothing "doubles are not compared as floats" float_comparisons
+nothing "every tolerance has its reason" bare_tolerances
 nothing "no parameter of a law and no angle is read outside dynamics" mechanics_outside_dynamics
 nothing "every file begins with its purpose" missing_purposes
 nothing "the changelog contains the version" changelog_gaps

@@ -13,6 +13,12 @@
 
 #include <cmocka.h>
 
+/* What rounding alone leaves, as a share of the value, or of the largest term of a sum that is 0.
+ * A double has 1.1e-16. */
+#define ROUNDING_OF_A_VALUE 1e-15   /* read, converted or copied: a few operations */
+#define ROUNDING_OF_A_FORMULA 1e-14 /* some ten operations */
+#define ROUNDING_OF_A_SUM 1e-12     /* a hundred terms, or a small difference of large numbers */
+
 /* |a - b| <= absolute + relative * |b|. CZ_TOL_SCALE=0 in the environment prints every residual. */
 #define assert_near(a, b, relative, absolute)                                                      \
     check_near((a), (b), (relative), (absolute), #a, __FILE__, __LINE__)

@@ -57,6 +57,10 @@ CzStatus cz_fit_read_trace(CzFit *fit, const char *path, const CzFitOptions *opt
     };
     CzCurvePoints points;
     CZ_TRY(cz_curve_points_read_file(&fit->arena, path, &request, &points, error));
+    for (int i = 0; i < 2; i++)
+        if (points.other_unit[i] != NULL)
+            cz_fit_note_down(fit, "the %s is in %s as requested; the file says %s",
+                             request.column[i].name, request.column[i].unit, points.other_unit[i]);
     fit->trace = (CzTrace){.n = points.n, .x = points.x, .f = points.y, .line = points.line};
     return make_trace(fit, points.source, options, points.unit[0], error);
 }

@@ -10,10 +10,12 @@
 
 #define STROKE_NOISE 0.01 /* of the largest stroke that it may go back while loading (ours) */
 #define FORCE_NOISE 0.02  /* of the largest force: less is none (ours) */
-#define CONTACT 0.01      /* of the largest force: where it begins (ours) */
-#define FREE_TRAVEL 0.05  /* of the stroke: more without force is reported (ours) */
-#define UNLOADED 0.8      /* an unloading ends below this share of the force (ours) */
-#define UNLOADING 1e-3    /* of the stroke: one that goes back less is none (ours) */
+#define MOST_TURNS                                                                                 \
+    3 /* of strokes in some order: a wiggle before the load, and the unloading (ours) */
+#define CONTACT 0.01     /* of the largest force: where it begins (ours) */
+#define FREE_TRAVEL 0.05 /* of the stroke: more without force is reported (ours) */
+#define UNLOADED 0.8     /* an unloading ends below this share of the force (ours) */
+#define UNLOADING 1e-3   /* of the stroke: one that goes back less is none (ours) */
 
 CzTraceShape cz_trace_shape_default(void) {
     return (CzTraceShape){.scale = 1.0, .from = NAN, .to = NAN};
@@ -114,7 +116,9 @@ static bool set_indicators(Making *making) {
                "tension positive, or this is a test in tension",
                kN(to, f.least));
     if (shape->flip_help != NULL)
-        cz_mistake_help(making->mistakes, "%s", shape->flip_help);
+        cz_mistake_help(
+            making->mistakes, "%s%s", shape->flip_help,
+            stroke_falls ? "; lines in the reverse order have to be sorted by the stroke" : "");
     return false;
 }
 
@@ -174,6 +178,36 @@ static bool take_part(Making *making) {
     if (!isnan(low))
         begin_at(trace, low);
     return true;
+}
+
+/* Refuses strokes that turn, by more than noise, as often as those of no order or of many cycles;
+ * what is said of their beginning would mislead. */
+static bool check_turns(const Making *making) {
+    char from[CZ_NUMBER_TEXT], to[CZ_NUMBER_TEXT];
+    const CzTrace *trace = making->trace;
+    const Range x = range_of(trace->x, trace->n);
+    const double noise = STROKE_NOISE * (x.largest - x.least);
+    int n_turn = 0, way = 0, first = 0;
+    double extreme = trace->x[0], turned_at = extreme;
+    for (int i = 1; i < trace->n; i++) {
+        const double move = trace->x[i] - extreme;
+        if (way != 0 && move * way < -noise && n_turn++ == 0) {
+            first = i;
+            turned_at = extreme;
+        }
+        if (fabs(move) > noise || move * way > 0.0) {
+            way = move > 0.0 ? 1 : -1;
+            extreme = trace->x[i];
+        }
+    }
+    if (n_turn <= MOST_TURNS)
+        return true;
+    refuse(making, first, "the strokes turn %d times, first from %s to %s mm", n_turn,
+           mm(from, turned_at), mm(to, trace->x[first]));
+    cz_mistake_help(making->mistakes,
+                    "a curve loads once, in the order of the strokes, and unloads "
+                    "at most once; sort the lines, or leave out cycles");
+    return false;
 }
 
 /* Point at which the force begins: the last one before it rises above the noise. */
@@ -319,8 +353,8 @@ static void note_free_travel(CzTrace *trace) {
 bool cz_trace_make(CzMistakes *mistakes, const CzSource *source, const CzTraceShape *shape,
                    double unit, CzTrace *trace) {
     Making making = {mistakes, source, shape, unit, trace};
-    if (!set_indicators(&making) || !take_part(&making) || !set_zero(&making) ||
-        !check_sizes(&making))
+    if (!set_indicators(&making) || !take_part(&making) || !check_turns(&making) ||
+        !set_zero(&making) || !check_sizes(&making))
         return false;
 
     /* Of points at the largest stroke the one with the largest force ends the loading. */

@@ -307,9 +307,12 @@ bool cz_reading_find_unit(CzCurveReading *reading, int i) {
         return true;
     }
     snprintf(reading->points->title[i], sizeof reading->points->title[i], "%s", units.title);
-    if (column->unit != NULL)
+    if (column->unit != NULL) {
+        const CzUnit *own = unit;
         unit = cz_curve_unit_find(column->dimension, column->unit);
-    else if (differs)
+        if (own != NULL && unit != NULL && own->si != unit->si)
+            reading->points->other_unit[i] = own->suffix;
+    } else if (differs)
         return refuse_unit(reading, column, &units);
     if (unit != NULL && unit->dimension == column->dimension)
         si = unit->si;

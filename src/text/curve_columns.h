@@ -21,6 +21,7 @@ typedef struct CzCurvePoints {
     int *line;                         /* where each is, counted from 1 (n) */
     char title[2][CZ_MOST_FIELD_TEXT]; /* of both columns; "" without titles */
     double unit[2];                    /* SI values of the units */
+    const char *other_unit[2];         /* that the file has in place of a requested one, or NULL */
     const CzSource *source;
 } CzCurvePoints;
 

@@ -223,6 +223,14 @@ put 'stroke_mm,force_kN\n0,0\n1,0\n'
 check "a curve without force is refused" refused bad.csv 'no point of the curve has a force'
 put 'stroke_mm,force_kN\n0,0\n10.5,50,5\n'
 check "a line with more columns is refused" refused bad.csv 'bad.csv:3:1: error: this line has 3 columns, the titles in line 1 have 2'
+{ echo stroke_mm,force_kN; awk 'NR > 1' tube.csv | sort -t , -k 2; } >shuffled.csv
+unsorted() { exits 2 "$C" fit shuffled.csv --as end --basis static && says err.txt 'error: the strokes turn ' && says err.txt 'sort the lines, or leave out cycles'; }
+check "strokes in no order are called so before anything else is said of them" unsorted
+{ echo stroke_mm,force_kN; awk 'NR > 1' tube.csv | tac; } >reversed.csv
+in_reverse() { exits 2 "$C" fit reversed.csv --as end --basis static && says err.txt 'or the points are in the reverse order' && says err.txt 'lines in the reverse order have to be sorted'; }
+check "the reverse order has an advice of its own" in_reverse
+overruled() { exits 0 "$C" fit tube.csv --as anti-climber --basis static --force-unit MN --scale 0.001 && says out.txt '# note: the force is in MN as requested; the file says kN'; }
+check "a unit that differs from the file's is noted" overruled
 put 'stroke_mm;force_kN\n0;0\n0.5;20,5\n1;30\n'
 check "two decimal signs in one file are refused" refused bad.csv "numbers have two decimal signs: '0.5' in line 3 and '20,5' in line 3"
 put 'stroke_mm;force_kN\n0;0\n5;"1,050"\n100;"1,100"\n'

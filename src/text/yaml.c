@@ -67,6 +67,10 @@ static void report_syntax(Document *document) {
         cz_mistake_help(
             document->mistakes,
             "is a line indented too far, a ':' without quotes, or the line before without one?");
+    else if (strstr(problem, "did not find expected ','") != NULL)
+        cz_mistake_help(document->mistakes,
+                        "is a bracket open, or a text between brackets without quotes though it "
+                        "holds a bracket itself, as 'stages[0].force_kN' does?");
     else if (strstr(problem, "did not find expected key") != NULL)
         cz_mistake_help(document->mistakes, "keys of one mapping begin in the same column, and a "
                                             "quotation mark that opens a text must close it");

@@ -129,6 +129,15 @@ static void sort_results(const CzEvaluator *evaluator, const CzCheckResult *all,
     }
 }
 
+/* Why a match has no value; NULL when it has one. */
+static const char *why_no_match(const CzMatchResult *match) {
+    if (isnan(match->residual))
+        return "this scenario gave no answer";
+    if (!isnan(match->value))
+        return NULL;
+    return match->is_history ? "the run ends before the times of the file" : "the run lacks it";
+}
+
 /* A match as a constraint that is kept within the tolerance. */
 static CzCheckResult check_of(const CzMatchResult *match) {
     const bool is_kept = fabs(match->residual) <= 1;
@@ -143,7 +152,7 @@ static CzCheckResult check_of(const CzMatchResult *match) {
                            .verdict = is_kept      ? CZ_VERDICT_PASS
                                       : is_unknown ? CZ_VERDICT_NOT_CHECKED
                                                    : CZ_VERDICT_FAIL,
-                           .why = is_unknown ? "this scenario gave no answer" : NULL,
+                           .why = why_no_match(match),
                            .confidence = "user"};
     memcpy(check.where, match->where, sizeof check.where);
     return check;

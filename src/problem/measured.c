@@ -36,9 +36,17 @@ static bool keep_window(CzReader *reader, const CzMatch *match, CzCurvePoints *p
         if (last < from || last > to)
             continue;
         points->x[n] = points->x[i];
+        points->line[n] = points->line[i];
         points->y[n++] = points->y[i];
     }
     points->n = n;
+    if (n > 0 && points->x[0] < 0.0) {
+        cz_mistake_at(&reader->mistakes, points->source, points->line[0], 1,
+                      "the times begin before the first contact, which is at 0: no run has a value "
+                      "there");
+        cz_mistake_help(&reader->mistakes, "from_ms: 0 in the match leaves out what is before");
+        return false;
+    }
     if (n >= 2)
         return true;
     cz_mistake_at(&reader->mistakes, points->source, 1, 1,

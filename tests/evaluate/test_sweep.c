@@ -67,6 +67,22 @@ static void a_point_is_the_problem_with_that_value(void **state) {
     cz_sweep_free(sweep);
 }
 
+/* The bogies of this file weigh 2300 kg, with two wheelsets of 1600 kg each. */
+static void the_acceleration_of_a_link_is_its_force_over_the_bogie(void **state) {
+    (void)state;
+    static const char *const link[] = {"vehicles.link_force_kN", "vehicles.link_acceleration_g"};
+    const CzSweepAxis fast = {"trains.A.speed_km_h", 25, 40, 2};
+    CzSweepOptions options = options_of(&fast, 1);
+    options.metric = link;
+    CzSweep *sweep = sweep_with(&options);
+    for (int i = 0; i < 2; i++) {
+        assert_true(sweep->point[i].metric[0] > 200);
+        assert_near(sweep->point[i].metric[1], sweep->point[i].metric[0] / (5.5 * 9.80665), 1e-12,
+                    0);
+    }
+    cz_sweep_free(sweep);
+}
+
 static void threads_change_no_bit(void **state) {
     (void)state;
     const CzSweepAxis axis[] = {speed, height};
@@ -179,6 +195,7 @@ static void axes_are_read_from_text(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_point_is_the_problem_with_that_value),
+        cmocka_unit_test(the_acceleration_of_a_link_is_its_force_over_the_bogie),
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(only_the_checks_asked_for_judge),
         cmocka_unit_test(values_that_the_reader_refuses_are_invalid_points),

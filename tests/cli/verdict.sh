@@ -40,6 +40,11 @@ confirmed() {
         sed 's/profile: own/profile: read/' elastic.yaml >read.yaml && agree read.yaml 0 pass pass false PASS
 }
 check "a pass against a limit from the primary text is a pass" confirmed
+underframes() {
+    exits 0 "$C" run "$SOURCE/problems/two-cars-25kmh.yaml" --set checks.profile=us-49cfr238 --set trains.B.height_offset_mm=40 -q -o rise &&
+        grep -qE '^underframe rise, colliding +A1-B1 +101\.6 mm +[1-9][0-9.]* mm +[+-]?[0-9]' out.txt && grep -qE '^underframe rise, coupled .* n/a' out.txt
+}
+check "the profile of 49 CFR 238 limits the rise of the underframes" underframes
 unchecked() {
     sed 's/design_rules: false/design_rules: true/' elastic.yaml >rules.yaml &&
         agree rules.yaml 1 'NOT CHECKED' 'not checked' false 'NOT CHECKED'

@@ -6,7 +6,7 @@
  * Colliding interface: the nearest pair of parts of one kind touches. A fixed partner without a
  * part of its own meets the other's with its foremost plane, at the other's height.
  */
-#include "model/fill.h"
+#include "model/meeting.h"
 
 #include "base/error.h"
 
@@ -16,147 +16,67 @@
                                 */
 #define OVERLAP_TOLERANCE 1e-9 /* of rounding [m] */
 
-/* One side of the interface. */
-typedef struct Side {
-    int car;
-    int which; /* end of that car */
-    bool is_full, is_fixed;
-    const CzVehicle *vehicle;
-    const CzEnd *end;
-    double plane;  /* foremost plane from the body's centre of gravity, outwards [m] */
-    double sign;   /* of outwards along x */
-    double offset; /* how much higher it stands [m] */
-} Side;
-
-typedef struct Pair {
-    const CzFill *fill;
-    int lane; /* car in whose lane the numbers stand */
-    Side side[2];
-    bool has_couplers, has_side_buffers, has_superstructures;
-    bool tilts;      /* a car that moves up and down meets one that can move */
-    double distance; /* of the foremost planes at t = 0 [m] */
-} Pair;
-
-static void put(const Pair *pair, CzParameter parameter, double value) {
-    cz_put(pair->fill, pair->lane, parameter, value);
-}
-
-static CzPartName part_name(const Pair *pair, int side, const char *what) {
-    return (CzPartName){pair->side[side].car, pair->side[side].which, pair->lane, what};
-}
-
-static Side make_side(const CzFill *fill, int car, int which, const CzStatics *statics) {
+static CzSide make_side(const CzFill *fill, int car, int which, const CzStatics *statics) {
     const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
     const CzVehicleModel model = fill->model->car[car].model;
-    return (Side){.car = car,
-                  .which = which,
-                  .is_full = model == CZ_MODEL_FULL,
-                  .is_fixed = model == CZ_MODEL_FIXED,
-                  .vehicle = vehicle,
-                  .end = cz_end_of(vehicle, which),
-                  .plane = statics->plane[which],
-                  .sign = which == CZ_FRONT ? 1.0 : -1.0};
+    return (CzSide){.car = car,
+                    .which = which,
+                    .is_full = model == CZ_MODEL_FULL,
+                    .is_fixed = model == CZ_MODEL_FIXED,
+                    .vehicle = vehicle,
+                    .end = cz_end_of(vehicle, which),
+                    .plane = statics->plane[which],
+                    .sign = which == CZ_FRONT ? 1.0 : -1.0};
 }
 
-static bool has_coupler(const Side *side) {
+static bool has_coupler(const CzSide *side) {
     return side->end->given && side->end->coupler.given;
 }
 
-static bool has_anti_climber(const Side *side) {
+static bool has_anti_climber(const CzSide *side) {
     return side->end->given && side->end->anti_climber.given;
-}
-
-static bool has_side_buffers(const Side *side) {
-    return side->end->given && side->end->side_buffers.given;
-}
-
-static bool has_superstructure(const Side *side) {
-    return side->is_full && side->end->given && side->end->superstructure.given;
-}
-
-/* Parts pair when both sides have them, or one has and the other is fixed. */
-static bool pairs(const Side *side, bool (*has)(const Side *)) {
-    const bool a = has(&side[CZ_SIDE_A]), b = has(&side[CZ_SIDE_B]);
-    return (a && b) || (a && side[CZ_SIDE_B].is_fixed) || (b && side[CZ_SIDE_A].is_fixed);
 }
 
 /* ---- gaps behind the foremost plane, and heights above rail (NaN: as the other side's) ---- */
 
-static double coupler_gap(const Side *side) {
+static double coupler_gap(const CzSide *side) {
     return has_coupler(side) ? side->end->coupler.gap : 0.0;
 }
 
 /* Pivot to face, of a coupler that takes part in a strut; 0 of one that pushes along the track. */
-static double strut_length(const Pair *pair, int which) {
-    const Side *side = &pair->side[which];
+static double strut_length(const CzMeeting *pair, int which) {
+    const CzSide *side = &pair->side[which];
     const bool has_pivot = side->is_full || (pair->tilts && !side->is_fixed);
     return has_coupler(side) && has_pivot ? side->end->coupler.length : 0.0;
 }
 
-static double face_gap(const Side *side) {
+static double face_gap(const CzSide *side) {
     if (!side->end->given)
         return 0.0;
     return has_anti_climber(side) ? side->end->anti_climber.gap : side->end->face_gap;
 }
 
-static double side_buffer_gap(const Side *side) {
-    return has_side_buffers(side) ? side->end->side_buffers.gap : 0.0;
-}
-
-static double superstructure_gap(const Side *side) {
-    return side->end->superstructure.gap;
-}
-
-static double coupler_height(const Side *side) {
+static double coupler_height(const CzSide *side) {
     return has_coupler(side) ? side->end->coupler.height : NAN;
 }
 
-static double face_height(const Side *side) {
+static double face_height(const CzSide *side) {
     if (!side->end->given)
         return NAN;
     return has_anti_climber(side) ? side->end->anti_climber.height : side->end->crush_height;
 }
 
-static double side_buffer_height(const Side *side) {
-    return has_side_buffers(side) ? side->end->side_buffers.height : NAN;
-}
-
-static double superstructure_height(const Side *side) {
-    return side->end->superstructure.height;
-}
-
-/* Heights of both sides as built, and how much higher B's part stands than A's with the offsets. */
-typedef struct Heights {
-    double side[2]; /* above rail [m] */
-    double rise;    /* [m] */
-} Heights;
-
-static Heights heights_of(const Pair *pair, double (*height)(const Side *)) {
-    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
-    Heights heights = {.side = {height(a), height(b)}};
-    if (isnan(heights.side[0]))
-        heights.side[0] = isnan(heights.side[1]) ? 0.0 : heights.side[1];
-    if (isnan(heights.side[1]))
-        heights.side[1] = heights.side[0];
-    heights.rise = heights.side[1] + b->offset - heights.side[0] - a->offset;
-    return heights;
-}
-
 /* ---- where the two cars stand ---- */
 
-static CzStatus place_cars(Pair *pair) {
+static CzStatus place_cars(CzMeeting *pair) {
     const CzModel *model = pair->fill->model;
-    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
+    const CzSide *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
     const double couplers = coupler_gap(a) + coupler_gap(b);
     const double faces = face_gap(a) + face_gap(b);
-    const double side_buffers = side_buffer_gap(a) + side_buffer_gap(b);
     double nearest = faces;
     if (pair->has_couplers)
         nearest = fmin(nearest, couplers);
-    if (pair->has_side_buffers)
-        nearest = fmin(nearest, side_buffers);
-    if (pair->has_superstructures)
-        nearest = fmin(nearest, superstructure_gap(a) + superstructure_gap(b));
+    nearest = fmin(nearest, cz_contacts_gap(pair));
 
     if (pair->lane == model->colliding) {
         pair->distance = -nearest;
@@ -171,7 +91,7 @@ static CzStatus place_cars(Pair *pair) {
     return CZ_OK;
 }
 
-static void set_offsets(Pair *pair) {
+static void set_offsets(CzMeeting *pair) {
     const CzModel *model = pair->fill->model;
     const CzInput *input = cz_problem_input(model->problem);
     const CzScenario *scenario = model->scenario;
@@ -187,8 +107,8 @@ static void set_offsets(Pair *pair) {
 
 /* ---- couplers ---- */
 
-static CzStatus fill_tubes(const Pair *pair, int which, double *compliance) {
-    const Side *side = &pair->side[which];
+static CzStatus fill_tubes(const CzMeeting *pair, int which, double *compliance) {
+    const CzSide *side = &pair->side[which];
     const CzCoupler *coupler = has_coupler(side) ? &side->end->coupler : NULL;
     const CzTube *first = coupler == NULL ? NULL : &coupler->tube;
     const CzTube *second = coupler == NULL ? NULL : &coupler->second_tube;
@@ -207,8 +127,8 @@ static CzStatus fill_tubes(const Pair *pair, int which, double *compliance) {
     return CZ_OK;
 }
 
-static void fill_coupler_pivot(const Pair *pair, int which, double height) {
-    const Side *side = &pair->side[which];
+static void fill_coupler_pivot(const CzMeeting *pair, int which, double height) {
+    const CzSide *side = &pair->side[which];
     const double length = strut_length(pair, which), behind = coupler_gap(side) + length;
     const bool on_end =
         side->is_full && has_coupler(side) && side->end->coupler.anchor == CZ_ANCHOR_END;
@@ -225,7 +145,7 @@ static void fill_coupler_pivot(const Pair *pair, int which, double height) {
         put(pair, CZ_PARAMETER(coupler.side[which].strut_length), length);
 }
 
-static void fill_shear_off(const Pair *pair, int which, const CzShearOff *shear_off) {
+static void fill_shear_off(const CzMeeting *pair, int which, const CzShearOff *shear_off) {
     put(pair, CZ_PARAMETER(coupler.side[which].shear.force), shear_off->force);
     put(pair, CZ_PARAMETER(coupler.side[which].shear.residual), shear_off->residual_force);
     put(pair, CZ_PARAMETER(coupler.side[which].shear.softening), shear_off->softening_length);
@@ -234,8 +154,8 @@ static void fill_shear_off(const Pair *pair, int which, const CzShearOff *shear_
     put(pair, CZ_PARAMETER(coupler.side[which].shear.bottom), shear_off->bottom_stiffness);
 }
 
-static CzStatus fill_coupler_side(const Pair *pair, int which) {
-    const Side *side = &pair->side[which];
+static CzStatus fill_coupler_side(const CzMeeting *pair, int which) {
+    const CzSide *side = &pair->side[which];
     const CzCurveId curve = CZ_CURVE(buffer[which]);
     const CzPartName name = part_name(pair, which, "coupler buffer");
     if (!has_coupler(side))
@@ -263,11 +183,11 @@ static CzStatus fill_coupler_side(const Pair *pair, int which) {
     return CZ_OK;
 }
 
-static CzStatus fill_couplers(const Pair *pair) {
-    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
+static CzStatus fill_couplers(const CzMeeting *pair) {
+    const CzSide *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
     if (!pair->has_couplers)
         return CZ_OK;
-    const Heights heights = heights_of(pair, coupler_height);
+    const CzHeights heights = heights_of(pair, coupler_height);
     const double rise = pair->tilts ? heights.rise : 0.0;
     const double length = strut_length(pair, CZ_SIDE_A) + strut_length(pair, CZ_SIDE_B);
     double compliance = 0.0;
@@ -291,18 +211,8 @@ static CzStatus fill_couplers(const Pair *pair) {
 
 /* ---- anti-climbers and crush zones without end mass ---- */
 
-/* Both sides in series; a side without the part is rigid. */
-static double in_series(double a, double b) {
-    const double sum = a + b;
-    return sum > 0.0 ? a * b / sum : 0.0;
-}
-
-static double value_or_zero(double value) {
-    return isnan(value) ? 0.0 : value;
-}
-
-static CzStatus fill_massless_end(const Pair *pair, int which) {
-    const Side *side = &pair->side[which];
+static CzStatus fill_massless_end(const CzMeeting *pair, int which) {
+    const CzSide *side = &pair->side[which];
     const CzEnd *end = side->end;
     if (side->is_full || !cz_end_crushes(end))
         return CZ_OK;
@@ -315,8 +225,9 @@ static CzStatus fill_massless_end(const Pair *pair, int which) {
     return CZ_OK;
 }
 
-static CzStatus fill_face_side(const Pair *pair, int which, double height, double *compliance) {
-    const Side *side = &pair->side[which];
+static CzStatus fill_face_side(const CzMeeting *pair, int which, double height,
+                               double *compliance) {
+    const CzSide *side = &pair->side[which];
     const double carrier = side->is_full ? side->end->distance : 0.0;
     const double arm = side->plane - face_gap(side) - carrier;
     put(pair,
@@ -339,7 +250,7 @@ static CzStatus fill_face_side(const Pair *pair, int which, double height, doubl
 }
 
 /* What keeps two anti-climbers from sliding over each other. */
-static void fill_ribs(const Pair *pair) {
+static void fill_ribs(const CzMeeting *pair) {
     const CzAntiClimber *a = &pair->side[CZ_SIDE_A].end->anti_climber;
     const CzAntiClimber *b = &pair->side[CZ_SIDE_B].end->anti_climber;
     const double capacity_a = a->rib_count * a->count * value_or_zero(a->rib_strength);
@@ -360,9 +271,9 @@ static void fill_ribs(const Pair *pair) {
     put(pair, CZ_PARAMETER(face.overlap), (a->face_height + b->face_height) / 2.0);
 }
 
-static CzStatus fill_faces(const Pair *pair) {
-    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
-    const Heights heights = heights_of(pair, face_height);
+static CzStatus fill_faces(const CzMeeting *pair) {
+    const CzSide *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
+    const CzHeights heights = heights_of(pair, face_height);
     double compliance = 0.0;
     CZ_TRY(fill_face_side(pair, CZ_SIDE_A, heights.side[CZ_SIDE_A], &compliance));
     CZ_TRY(fill_face_side(pair, CZ_SIDE_B, heights.side[CZ_SIDE_B], &compliance));
@@ -386,107 +297,20 @@ static CzStatus fill_faces(const Pair *pair) {
     return CZ_OK;
 }
 
-/* ---- side buffers ---- */
-
-static CzStatus fill_side_buffer_side(const Pair *pair, int which, double height,
-                                      double *compliance) {
-    const Side *side = &pair->side[which];
-    const CzSideBuffers *set = has_side_buffers(side) ? &side->end->side_buffers : NULL;
-    const CzCurveId curve = CZ_CURVE(side_buffer[which]);
-    const CzCurveId tube_curve = CZ_CURVE(side_tube[which]);
-    const CzPartName name = part_name(pair, which, "side buffer");
-    const CzPartName tube_name = part_name(pair, which, "side buffer tube");
-    const double carrier = side->is_full ? side->end->distance : 0.0;
-    put(pair,
-        which == CZ_SIDE_A ? CZ_PARAMETER(side_buffers.contact.x[0])
-                           : CZ_PARAMETER(side_buffers.contact.x[1]),
-        side->sign * (side->plane - side_buffer_gap(side) - carrier));
-    put(pair,
-        which == CZ_SIDE_A ? CZ_PARAMETER(side_buffers.contact.z[0])
-                           : CZ_PARAMETER(side_buffers.contact.z[1]),
-        side->is_full ? height - side->end->cg_height : 0.0);
-    if (set == NULL) {
-        CZ_TRY(cz_fill_buffer(pair->fill, name, NULL, 1, curve));
-        return cz_fill_tube(pair->fill, tube_name, NULL, 1, tube_curve);
-    }
-    const CzBuffer *buffer = &set->buffer;
-    CZ_TRY(cz_fill_buffer(pair->fill, name, buffer, set->count, curve));
-    CZ_TRY(cz_fill_tube(pair->fill, tube_name, &set->tube, set->count, tube_curve));
-    put(pair, CZ_PARAMETER(side_buffers.side[which].buffer.transition),
-        buffer->transition_stiffness * set->count);
-    put(pair, CZ_PARAMETER(side_buffers.side[which].buffer.share), buffer->unloading_share);
-    put(pair, CZ_PARAMETER(side_buffers.side[which].buffer.damping), buffer->damping * set->count);
-    put(pair, CZ_PARAMETER(side_buffers.side[which].buffer.quadratic),
-        buffer->quadratic_damping * set->count);
-    if (set->tube.given) {
-        put(pair, CZ_PARAMETER(side_buffers.side[which].tube_rate), set->tube.rate_factor);
-        *compliance += 1.0 / (set->tube.stiffness * set->tube.count * set->count);
-    }
-    return CZ_OK;
-}
-
-static CzStatus fill_side_buffers(const Pair *pair) {
-    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
-    if (!pair->has_side_buffers)
-        return CZ_OK;
-    const Heights heights = heights_of(pair, side_buffer_height);
-    double compliance = 0.0;
-    CZ_TRY(fill_side_buffer_side(pair, CZ_SIDE_A, heights.side[CZ_SIDE_A], &compliance));
-    CZ_TRY(fill_side_buffer_side(pair, CZ_SIDE_B, heights.side[CZ_SIDE_B], &compliance));
-    put(pair, CZ_PARAMETER(side_buffers.exists), 1.0);
-    put(pair, CZ_PARAMETER(side_buffers.contact.distance),
-        pair->distance + side_buffer_gap(a) + side_buffer_gap(b));
-    put(pair, CZ_PARAMETER(side_buffers.contact.rise), heights.rise);
-    put(pair, CZ_PARAMETER(side_buffers.compliance), compliance);
-    if (has_side_buffers(a) && has_side_buffers(b))
-        put(pair, CZ_PARAMETER(side_buffers.friction),
-            fmin(value_or_zero(a->end->side_buffers.friction),
-                 value_or_zero(b->end->side_buffers.friction)));
-    pair->fill->lanes->has_side_buffers = 1;
-    return CZ_OK;
-}
-
-/* ---- superstructures ---- */
-
-static void fill_superstructures(const Pair *pair) {
-    static const CzParameter x[] = {CZ_PARAMETER(superstructure.contact.x[0]),
-                                    CZ_PARAMETER(superstructure.contact.x[1])};
-    static const CzParameter z[] = {CZ_PARAMETER(superstructure.contact.z[0]),
-                                    CZ_PARAMETER(superstructure.contact.z[1])};
-    const CzSuperstructure *a = &pair->side[CZ_SIDE_A].end->superstructure;
-    const CzSuperstructure *b = &pair->side[CZ_SIDE_B].end->superstructure;
-    if (!pair->has_superstructures)
-        return;
-    const Heights heights = heights_of(pair, superstructure_height);
-    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
-        const Side *side = &pair->side[which];
-        const CzEnd *end = side->end;
-        put(pair, x[which], side->sign * (side->plane - superstructure_gap(side) - end->distance));
-        put(pair, z[which], heights.side[which] - end->cg_height);
-    }
-    put(pair, CZ_PARAMETER(superstructure.contact.distance), pair->distance + a->gap + b->gap);
-    put(pair, CZ_PARAMETER(superstructure.contact.rise), heights.rise);
-    put(pair, CZ_PARAMETER(superstructure.stiffness), in_series(a->stiffness, b->stiffness));
-    put(pair, CZ_PARAMETER(superstructure.strength), fmin(a->strength, b->strength));
-    pair->fill->lanes->has_superstructures = 1;
-}
-
 CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *behind,
                            const CzStatics *ahead) {
-    Pair pair = {.fill = fill,
-                 .lane = interface,
-                 .side = {make_side(fill, interface, CZ_FRONT, behind),
-                          make_side(fill, interface + 1, CZ_REAR, ahead)}};
-    const Side *a = &pair.side[CZ_SIDE_A], *b = &pair.side[CZ_SIDE_B];
+    CzMeeting pair = {.fill = fill,
+                      .lane = interface,
+                      .side = {make_side(fill, interface, CZ_FRONT, behind),
+                               make_side(fill, interface + 1, CZ_REAR, ahead)}};
+    const CzSide *a = &pair.side[CZ_SIDE_A], *b = &pair.side[CZ_SIDE_B];
     pair.tilts = (a->is_full || b->is_full) && !a->is_fixed && !b->is_fixed;
     put(&pair, CZ_PARAMETER(tilts), pair.tilts);
     pair.has_couplers = pairs(pair.side, has_coupler);
-    pair.has_side_buffers = pairs(pair.side, has_side_buffers);
-    pair.has_superstructures = has_superstructure(a) && has_superstructure(b);
+    cz_contacts_find(&pair);
     set_offsets(&pair);
     CZ_TRY(place_cars(&pair));
     CZ_TRY(fill_couplers(&pair));
     CZ_TRY(fill_faces(&pair));
-    fill_superstructures(&pair);
-    return fill_side_buffers(&pair);
+    return cz_fill_contacts(&pair);
 }

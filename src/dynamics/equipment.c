@@ -12,9 +12,11 @@ static double parameter(const CzLanes *lanes, CzParameter row, size_t lane) {
 CzInterfaceEquipment cz_interface_equipment(const CzLanes *lanes, size_t lane) {
     CzInterfaceEquipment of = {
         .has_couplers = parameter(lanes, CZ_PARAMETER(coupler.exists), lane) > 0.5,
-        .is_coupled = parameter(lanes, CZ_PARAMETER(coupler.coupled), lane) > 0.5,
+        .is_coupled = parameter(lanes, CZ_PARAMETER(coupler.coupled), lane) > 0.5 ||
+                      parameter(lanes, CZ_PARAMETER(draw_gear.slack), lane) < CZ_MISSING,
         .has_side_buffers = parameter(lanes, CZ_PARAMETER(side_buffers.exists), lane) > 0.5,
         .has_superstructures = parameter(lanes, CZ_PARAMETER(superstructure.strength), lane) > 0.0,
+        .has_draw_gears = parameter(lanes, CZ_PARAMETER(draw_gear.slack), lane) < CZ_MISSING,
         .can_climb = parameter(lanes, CZ_PARAMETER(face.overlap), lane) < CZ_MISSING,
         .friction = parameter(lanes, CZ_PARAMETER(face.friction), lane),
     };

@@ -9,10 +9,10 @@
  * ahead. */
 typedef struct CzInterfaceEquipment {
     bool has_couplers;     /* that meet, or one of which meets what cannot move */
-    bool is_coupled;       /* they carry tension */
+    bool is_coupled;       /* they carry tension, or draw gears do */
     bool couplers_on_ends; /* one of them at least is fixed to an end mass */
     bool has_side_buffers; /* likewise */
-    bool has_superstructures;
+    bool has_superstructures, has_draw_gears;
     bool can_climb;  /* its faces overlap by so much and no more */
     double friction; /* of the faces [-] */
     struct {

@@ -12,6 +12,7 @@
 #include "dynamics/kernel_bogie.h"
 #include "dynamics/kernel_coupler.h"
 #include "dynamics/kernel_drag.h"
+#include "dynamics/kernel_draw_gear.h"
 #include "dynamics/kernel_end.h"
 #include "dynamics/kernel_extremes.h"
 #include "dynamics/kernel_face.h"
@@ -122,6 +123,8 @@ static void evaluate_interfaces(const CzDynamics *dynamics, int index, double st
         side_buffers(d, step);
     if (lanes->has_superstructures)
         superstructures(d);
+    if (lanes->has_draw_gears)
+        draw_gears(d);
 }
 
 /* Cars of a block. */

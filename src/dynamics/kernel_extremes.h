@@ -144,6 +144,8 @@ static void extremes(const CzLanes *lanes, CzBlock *d, double time) {
         side_buffer_extremes(d);
     if (lanes->has_superstructures)
         keep_larger(kept->superstructure_force, d->published.superstructure.force);
+    if (lanes->has_draw_gears)
+        keep_larger_size(kept->draw_gear_force, d->published.draw_gear.force);
     for (int end = 0; end < 2; ++end)
         keep_larger(kept->section[end], d->published.section[end]);
     keep_larger_size(kept->body_acceleration, d->acceleration.body.x);

@@ -11,7 +11,7 @@ typedef struct CzPower {
     CzRow coupler, hinge[2];
     CzRow face, face_damping, face_sliding;
     CzRow side_buffers, side_sliding;
-    CzRow superstructure;
+    CzRow superstructure, draw_gear;
     CzRow end[2], end_damping[2], guide[2], guide_damping[2], fold[2], fold_damping[2];
     CzRow secondary, secondary_damping, primary, primary_damping;
     CzRow link, link_damping, axle_guidance, axle_guidance_damping;
@@ -29,7 +29,7 @@ enum { CZ_N_LEDGER = CZ_ROWS_IN(CzPower) };
 /* Largest values over all steps; extremes.def says what each row is. */
 typedef struct CzExtremes {
     CzRow interface_force, interface_time, interface_shortening;
-    CzRow coupler_force, face_force, superstructure_force;
+    CzRow coupler_force, face_force, superstructure_force, draw_gear_force;
     CzRow buffer[2], side_buffer[2], side_force;
     CzRow face_demand_vertical, face_lost_margin, face_lost_overlap;
     CzRow face_overlap_time, face_margin_time, face_ramp;

@@ -44,6 +44,9 @@ typedef struct CzPublished {
         CzRow force; /* [N] */
     } superstructure;
     struct {
+        CzRow force; /* negative in tension [N] */
+    } draw_gear;
+    struct {
         CzRow force;         /* of the crush zone [N] */
         CzRow stroke;        /* its shortening [m] */
         CzRow slip_vertical; /* of the end mass across the axis, in its guidance [m] */

@@ -168,6 +168,11 @@ double cz_superstructure_stored(const CzDynamics *dynamics, size_t lane) {
     return 0.5 * force * force / parameter(dynamics, CZ_PARAMETER(superstructure.stiffness), lane);
 }
 
+double cz_draw_gear_stored(const CzDynamics *dynamics, size_t lane) {
+    return squared(published(dynamics, CZ_PUBLISHED(draw_gear.force), lane),
+                   parameter(dynamics, CZ_PARAMETER(draw_gear.stiffness), lane));
+}
+
 double cz_face_stored(const CzDynamics *dynamics, size_t lane) {
     const double held = 1.0 - memory(dynamics, CZ_MEMORY(face.lost), lane);
     const double force = memory(dynamics, CZ_MEMORY(face.force), lane);

@@ -16,6 +16,9 @@ double cz_coupler_tubes_stored(const CzDynamics *dynamics, size_t lane);
 double cz_side_tubes_stored(const CzDynamics *dynamics, size_t lane);
 double cz_superstructure_stored(const CzDynamics *dynamics, size_t lane);
 
+/* Draw gears of both sides; 0 without. */
+double cz_draw_gear_stored(const CzDynamics *dynamics, size_t lane);
+
 /* What a step of a stroke that touches the buffer of one side may be off by: the force that it
  * rises by, preload and transition, times the stroke. */
 double cz_coupler_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke);

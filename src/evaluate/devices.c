@@ -205,6 +205,7 @@ double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate) {
         return end->superstructure.given ? end->superstructure.strength : 0;
     case CZ_ELEMENT_SLIDE:
         return end->slide.force;
+    case CZ_ELEMENT_DRAW_GEAR:
     case CZ_N_ELEMENT_KIND:
         break;
     }

@@ -224,6 +224,7 @@ static int count_elements(const CzEnd *end, const char *vehicle, const char *int
         [CZ_ELEMENT_END] = end->given,
         [CZ_ELEMENT_SIDE_BUFFERS] = end->given && end->side_buffers.given,
         [CZ_ELEMENT_SUPERSTRUCTURE] = end->given && end->superstructure.given,
+        [CZ_ELEMENT_DRAW_GEAR] = end->given && end->draw_gear.given,
         [CZ_ELEMENT_SLIDE] = end->given && end->slide.given};
     int n = 0;
     for (int kind = 0; kind < CZ_N_ELEMENT_KIND; kind++) {

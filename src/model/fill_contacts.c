@@ -1,4 +1,4 @@
-/* Numbers of what meets beside couplers and faces: side buffers and superstructures. */
+/* Numbers of what meets beside couplers and faces: side buffers, superstructures and draw gears. */
 #include "model/meeting.h"
 
 #include "base/error.h"
@@ -9,6 +9,10 @@ static bool has_side_buffers(const CzSide *side) {
 
 static bool has_superstructure(const CzSide *side) {
     return side->is_full && side->end->given && side->end->superstructure.given;
+}
+
+static bool has_draw_gear(const CzSide *side) {
+    return side->end->given && side->end->draw_gear.given;
 }
 
 static double side_buffer_gap(const CzSide *side) {
@@ -27,10 +31,16 @@ static double superstructure_height(const CzSide *side) {
     return side->end->superstructure.height;
 }
 
+static double draw_gear_height(const CzSide *side) {
+    return side->end->draw_gear.height;
+}
+
 void cz_contacts_find(CzMeeting *pair) {
     const CzSide *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
     pair->has_side_buffers = pairs(pair->side, has_side_buffers);
     pair->has_superstructures = has_superstructure(a) && has_superstructure(b);
+    pair->has_draw_gears =
+        pair->lane != pair->fill->model->colliding && has_draw_gear(a) && has_draw_gear(b);
 }
 
 double cz_contacts_gap(const CzMeeting *pair) {
@@ -128,7 +138,32 @@ static void fill_superstructures(const CzMeeting *pair) {
     pair->fill->lanes->has_superstructures = 1;
 }
 
+/* ---- draw gears ---- */
+
+/* The hooks meet midway between the foremost planes, without force at t = 0. */
+static void fill_draw_gears(const CzMeeting *pair) {
+    static const CzParameter x[] = {CZ_PARAMETER(draw_gear.contact.x[0]),
+                                    CZ_PARAMETER(draw_gear.contact.x[1])};
+    static const CzParameter z[] = {CZ_PARAMETER(draw_gear.contact.z[0]),
+                                    CZ_PARAMETER(draw_gear.contact.z[1])};
+    const CzDrawGear *a = &pair->side[CZ_SIDE_A].end->draw_gear;
+    const CzDrawGear *b = &pair->side[CZ_SIDE_B].end->draw_gear;
+    if (!pair->has_draw_gears)
+        return;
+    const CzHeights heights = heights_of(pair, draw_gear_height);
+    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
+        const CzSide *side = &pair->side[which];
+        put(pair, x[which], side->sign * (side->plane + 0.5 * pair->distance));
+        put(pair, z[which], side->is_full ? heights.side[which] - side->vehicle->cg_height : 0.0);
+    }
+    put(pair, CZ_PARAMETER(draw_gear.contact.rise), heights.rise);
+    put(pair, CZ_PARAMETER(draw_gear.stiffness), in_series(a->stiffness, b->stiffness));
+    put(pair, CZ_PARAMETER(draw_gear.slack), a->slack + b->slack);
+    pair->fill->lanes->has_draw_gears = 1;
+}
+
 CzStatus cz_fill_contacts(const CzMeeting *pair) {
     fill_superstructures(pair);
+    fill_draw_gears(pair);
     return fill_side_buffers(pair);
 }

@@ -52,6 +52,8 @@ static const struct {
     {CZ_PARAMETER(side_buffers.contact.distance), CZ_NEVER},
     {CZ_PARAMETER(superstructure.contact.distance), CZ_NEVER},
     {CZ_PARAMETER(superstructure.stiffness), 1.0},
+    {CZ_PARAMETER(draw_gear.stiffness), 1.0},
+    {CZ_PARAMETER(draw_gear.slack), CZ_NEVER},
     {CZ_PARAMETER(side_buffers.side[0].buffer.transition), CZ_NEVER},
     {CZ_PARAMETER(side_buffers.side[1].buffer.transition), CZ_NEVER},
 };

@@ -57,6 +57,7 @@ typedef struct CzLanes {
     CzCurveLanes curve[CZ_N_CURVE];
     int has_side_buffers;    /* any interface has them */
     int has_superstructures; /* likewise */
+    int has_draw_gears;      /* likewise */
     int has_couplers;        /* any interface has them */
     int has_full_cars;       /* any car is a full one */
     int has_rolling;         /* any wheelset has rolling resistance */

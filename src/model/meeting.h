@@ -22,7 +22,7 @@ typedef struct CzMeeting {
     const CzFill *fill;
     int lane; /* car in whose lane the numbers stand */
     CzSide side[2];
-    bool has_couplers, has_side_buffers, has_superstructures;
+    bool has_couplers, has_side_buffers, has_superstructures, has_draw_gears;
     bool tilts;      /* a car that moves up and down meets one that can move */
     double distance; /* of the foremost planes at t = 0 [m] */
 } CzMeeting;
@@ -68,7 +68,7 @@ static inline bool pairs(const CzSide *side, bool (*has)(const CzSide *)) {
     return (a && b) || (a && side[CZ_SIDE_B].is_fixed) || (b && side[CZ_SIDE_A].is_fixed);
 }
 
-/* Side buffers and superstructures: whether a meeting has them, and the gap between
+/* Side buffers, superstructures and draw gears: whether a meeting has them, and the gap between
  * those that may touch first; infinite without [m]. */
 void cz_contacts_find(CzMeeting *pair);
 double cz_contacts_gap(const CzMeeting *pair);

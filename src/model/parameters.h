@@ -168,6 +168,12 @@ typedef struct CzSuperstructureRows {
     CzRow strength;     /* the weaker side's; 0 without [N] */
 } CzSuperstructureRows;
 
+typedef struct CzDrawGearRows {
+    CzPairRows contact; /* draw hooks, on the bodies */
+    CzRow stiffness;    /* both sides in series; 1 without [N/m] */
+    CzRow slack;        /* of both sides; never without [m] */
+} CzDrawGearRows;
+
 typedef struct CzSideBufferRows {
     CzRow exists;       /* 1 when both sides have side buffers, or one has and the other is fixed */
     CzPairRows contact; /* plates, on the end masses */
@@ -206,6 +212,7 @@ typedef struct CzParameters {
     CzCouplerRows coupler;
     CzFaceRows face;
     CzSuperstructureRows superstructure;
+    CzDrawGearRows draw_gear;
     CzSideBufferRows side_buffers;
 } CzParameters;
 

@@ -248,6 +248,15 @@ static void note_superstructures(const Car *car, const char *name) {
                       value(car, CZ_PARAMETER(superstructure.contact.z[1]))));
 }
 
+static void note_draw_gears(const Car *car, const char *name) {
+    const Carrier carrier[2] = {carrier_of(car, CZ_SIDE_A, false),
+                                carrier_of(car, CZ_SIDE_B, false)};
+    if (value(car, CZ_PARAMETER(draw_gear.slack)) < CZ_MISSING)
+        note(car->model, "draw gear", name, value(car, CZ_PARAMETER(draw_gear.stiffness)), 0.0,
+             mobility(carrier, value(car, CZ_PARAMETER(draw_gear.contact.z[0])),
+                      value(car, CZ_PARAMETER(draw_gear.contact.z[1]))));
+}
+
 static double buffer_stiffness(const Car *car, CzCurveId curve, CzParameter transition) {
     return fmax(steepest(car->lanes, curve, car->car), value(car, transition));
 }
@@ -378,6 +387,7 @@ CzStatus cz_model_find_bounds(CzModel *model, const CzLanes *lanes, CzError *err
             break;
         note_faces(&car, model->interface_name[i]);
         note_superstructures(&car, model->interface_name[i]);
+        note_draw_gears(&car, model->interface_name[i]);
         note_coupler(&car, model->interface_name[i]);
         note_side_buffers(&car, model->interface_name[i]);
     }

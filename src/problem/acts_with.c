@@ -31,6 +31,10 @@ static bool is_coupled(const Meeting *meeting) {
            meeting->opposite->given && meeting->opposite->coupler.given;
 }
 
+static bool is_drawn(const Meeting *meeting) {
+    return is_inner(meeting) && meeting->opposite->given && meeting->opposite->draw_gear.given;
+}
+
 static bool has_levels(const Meeting *meeting) {
     return meeting->other != NULL && has_full(meeting) && meeting->own->model != CZ_MODEL_FIXED &&
            meeting->other->model != CZ_MODEL_FIXED;

@@ -37,6 +37,8 @@ bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind k
         return of.side[side].has_side_buffers;
     case CZ_ELEMENT_SUPERSTRUCTURE:
         return of.has_superstructures;
+    case CZ_ELEMENT_DRAW_GEAR:
+        return of.has_draw_gears;
     default:
         return false;
     }
@@ -101,6 +103,10 @@ CzAccount cz_superstructure_account(const CzBatch *batch, size_t lane) {
                                      cz_superstructure_stored(batch->dynamics, lane)});
 }
 
+CzAccount cz_draw_gear_account(const CzBatch *batch, size_t lane) {
+    return share_of(0.5, elastic(cz_draw_gear_stored(batch->dynamics, lane)));
+}
+
 CzAccount cz_crush_account(const CzBatch *batch, size_t lane, int end) {
     return (CzAccount){cz_end_received(batch->dynamics, lane, end),
                        cz_end_stored(batch->dynamics, lane, end)};
@@ -129,6 +135,7 @@ CzAccount cz_chains_account(const CzBatch *batch, size_t lane) {
     const CzDynamics *dynamics = batch->dynamics;
     CzAccount sum = sum_of(elastic(cz_coupler_tubes_stored(dynamics, lane)),
                            elastic(cz_side_tubes_stored(dynamics, lane)));
+    sum = sum_of(sum, elastic(cz_draw_gear_stored(dynamics, lane)));
     sum = sum_of(sum, (CzAccount){cz_memory(batch, CZ_MEMORY(face.strain), lane),
                                   cz_face_stored(dynamics, lane)});
     for (int side = 0; side < 2; ++side) {

@@ -81,6 +81,17 @@ static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
     return true;
 }
 
+/* Both sides share one link. */
+static bool fill_draw_gear(const CzBatch *batch, size_t lane, int car, CzElementResult *result) {
+    if (!cz_has_element(batch, lane, 0, CZ_ELEMENT_DRAW_GEAR))
+        return false;
+    result->kind = CZ_ELEMENT_DRAW_GEAR;
+    result->vehicle = car;
+    take(result, cz_draw_gear_account(batch, lane));
+    result->peak_force = cz_extreme(batch, CZ_EXTREME(draw_gear_force), lane);
+    return true;
+}
+
 /* Energy under the backbone between two shortenings. */
 static double area(const CzBatch *batch, int curve, size_t lane, double from, double to) {
     const CzCurveLanes *lanes = &batch->lanes->curve[curve];
@@ -207,6 +218,7 @@ static int fill_side(const CzBatch *batch, size_t lane, int side, int car, int d
     next += fill_end(batch, lane, side, car, design, next);
     next += fill_absorber(batch, &side_buffers, lane, side, car, next);
     next += fill_superstructure(batch, lane, car, next);
+    next += fill_draw_gear(batch, lane, car, next);
     next += fill_slide(batch, side, car, design, next);
     return (int)(next - element);
 }

@@ -149,7 +149,8 @@ static bool bodies_differ(const CzBatch *batch, int design, double allowed, cons
         const size_t lane = cz_lane(batch, car, design);
         const double given = cz_work(batch, CZ_LEDGER(coupler), lane) +
                              cz_work(batch, CZ_LEDGER(face), lane) +
-                             cz_work(batch, CZ_LEDGER(side_buffers), lane);
+                             cz_work(batch, CZ_LEDGER(side_buffers), lane) +
+                             cz_work(batch, CZ_LEDGER(draw_gear), lane);
         if (car + 1 < model->n_car &&
             differs(model->interface_name[car], "chains", given,
                     cz_chains_account(batch, lane).received, allowed, fault))

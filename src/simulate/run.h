@@ -138,12 +138,13 @@ CZ_MUST_CHECK CzStatus cz_history_decelerations(const CzBatch *batch, int car, i
 typedef struct CzAccount {
     double received, stored;
 } CzAccount;
-/* Whether a side has a coupler, an anti-climber, side buffers or a superstructure. */
+/* Whether a side has a coupler, an anti-climber, side buffers, a superstructure or a draw gear. */
 bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind kind);
 CzAccount cz_coupler_account(const CzBatch *batch, size_t lane, int side);
 CzAccount cz_anti_climber_account(const CzBatch *batch, size_t lane, int side);
 CzAccount cz_side_account(const CzBatch *batch, size_t lane, int side);
 CzAccount cz_superstructure_account(const CzBatch *batch, size_t lane); /* of one side */
+CzAccount cz_draw_gear_account(const CzBatch *batch, size_t lane);      /* of one side */
 /* Faces of two bare ends, both sides together; nothing where an anti-climber is. */
 CzAccount cz_bare_faces_account(const CzBatch *batch, size_t lane);
 /* Crush zone of an end with mass, and the rest of that end; crush zone of an end without. */

@@ -13,6 +13,7 @@
 #include "laws/buffer.h"
 #include "laws/coupler.h"
 #include "laws/drag.h"
+#include "laws/draw_gear.h"
 #include "laws/face.h"
 #include "laws/plastic_member.h"
 #include "laws/ribs.h"
@@ -90,6 +91,11 @@ static void cz_superstructure_at(const double *input, double *output) {
     const CzSuperstructureResponse response = cz_superstructure(5e7, input[2], input[0], input[1]);
     output[0] = response.force;
     output[1] = response.set;
+}
+
+/* Stiffness, slack, closure. */
+static void cz_draw_gear_at(const double *input, double *output) {
+    output[0] = cz_draw_gear(input[0], input[1], input[2]);
 }
 
 /* Mass, capacity, speed, sum of the other forces. */
@@ -180,6 +186,13 @@ static const Law range_cz_superstructure = {
     .high = {0.5, 0.4, 2e6},
     .n_output = 2,
     .scale = {1e6, 0.5},
+};
+static const Law range_cz_draw_gear = {
+    .n_input = 3,
+    .low = {1e6, 0, -0.1},
+    .high = {2e7, 0.05, 0.1},
+    .n_output = 1,
+    .scale = {1e6},
 };
 static const Law range_cz_slider = {
     .n_input = 3,

@@ -285,7 +285,7 @@ void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const Cz
         vehicle->rear.slide.given)
         cz_rule_broken(rules, &end->slide,
                        "a vehicle slides as a whole: one of its ends has the slide, not both");
-    if (end->distance > vehicle->length / 2)
+    if (vehicle->model == CZ_MODEL_FULL && end->distance > vehicle->length / 2)
         cz_rule_broken(rules, &end->distance,
                        "an end mass %s from the middle lies beyond half the vehicle's length, %s",
                        CZ_MM(distance, end->distance), CZ_MM(half, vehicle->length / 2));

@@ -70,6 +70,21 @@ static void names_of_a_copy_that_do_not_begin_with_the_trains_name_get_it_in_fro
     cz_problem_free(problem);
 }
 
+/* Only a full car has the end mass whose distance its length bounds. */
+static void a_rigid_car_may_be_shorter_than_the_car_of_its_end(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text(
+        "schema: 1\ntitle: short\n"
+        "parts:\n"
+        "  end: {face_gap_m: 0, distance_m: 10.6, unloading_stiffness_MN_m: 9, stages: [{stroke_m: "
+        "1, force_kN: 1}]}\n"
+        "  car: {model: rigid, mass_t: 40, length_m: 20, front: {use: end}, rear: {use: end}}\n"
+        "trains:\n"
+        "  - {name: A, speed_m_s: 3, vehicles: [{use: car}]}\n"
+        "  - {name: B, vehicles: [{use: car}]}\n");
+    cz_problem_free(problem);
+}
+
 static void an_overlay_merges_records_and_named_items_and_replaces_the_rest(void **state) {
     (void)state;
     CzProblem *problem = read_good("overlay.yaml", 0, NULL);
@@ -346,6 +361,7 @@ int main(void) {
         cmocka_unit_test(values_are_in_si_units_and_absent_ones_have_their_defaults),
         cmocka_unit_test(copied_and_turned_trains_are_written_out_along_x),
         cmocka_unit_test(names_of_a_copy_that_do_not_begin_with_the_trains_name_get_it_in_front),
+        cmocka_unit_test(a_rigid_car_may_be_shorter_than_the_car_of_its_end),
         cmocka_unit_test(an_overlay_merges_records_and_named_items_and_replaces_the_rest),
         cmocka_unit_test(an_overlay_can_name_vehicles_that_have_no_name),
         cmocka_unit_test(null_removes_a_key_of_the_part),

@@ -23,9 +23,30 @@ static void check_what_acts(const CzRules *rules) {
              cz_rule_is_written(rules, &input->track.nodes_per_bay))
         cz_rule_warning(rules, &input->track.nodes_per_bay,
                         "no effect: only simulation: {track: fe} has nodes");
+    static const char *const nothing =
+        "no effect: no vehicle is of model: full, and no train has a brake";
     if (input->simulation.adhesion.given && !rolls && !brakes)
-        cz_rule_warning(rules, &input->simulation.adhesion,
-                        "no effect: no vehicle is of model: full, and no train has a brake");
+        cz_rule_warning(rules, &input->simulation.adhesion, nothing);
+    for (int i = 0; i < input->n_scenarios && !rolls && !brakes; i++)
+        if (!isnan(input->scenarios[i].friction))
+            cz_rule_warning(rules, &input->scenarios[i].friction, nothing);
+}
+
+/* A payload is on board by the share of a scenario, and a share is one of a payload. */
+static void check_payload(const CzRules *rules) {
+    const CzInput *input = rules->input;
+    const double *payload = NULL, *share = NULL;
+    for (int i = 0; i < rules->problem->n_vehicle && payload == NULL; i++)
+        if (rules->vehicle[i].payload > 0)
+            payload = &rules->vehicle[i].payload;
+    for (int i = 0; i < input->n_scenarios && share == NULL; i++)
+        if (cz_rule_is_written(rules, &input->scenarios[i].payload_share))
+            share = &input->scenarios[i].payload_share;
+    if (payload != NULL && share == NULL)
+        cz_rule_warning(rules, payload,
+                        "no effect: no scenario has a 'payload_share', so nothing is on board");
+    if (payload == NULL && share != NULL && *share > 0)
+        cz_rule_warning(rules, share, "no effect: no vehicle has a 'payload'");
 }
 
 /* A step of the simulation cannot be longer than what is written out. */
@@ -58,6 +79,7 @@ static void check_vehicles(const CzRules *rules) {
 void cz_rules_check_collision(const CzRules *rules) {
     check_simulation(rules);
     check_what_acts(rules);
+    check_payload(rules);
     cz_rules_check_names(rules);
     check_vehicles(rules);
     cz_rules_check_trains(rules);

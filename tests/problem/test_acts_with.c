@@ -56,6 +56,36 @@ static void friction_falls_only_to_a_sliding_friction(void **state) {
     cz_problem_free(problem);
 }
 
+/* A number of one record that needs one of another record is warned of where it stands alone. */
+static void what_needs_another_record_is_warned_of_without_it(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *warning; /* NULL: none */
+    } cases[] = {
+        {"  - {name: B, copy: A, speed_m_s: 0}\n", NULL},
+        {"scenarios: [{name: s, payload_share: 1}]\n", "no vehicle has a 'payload'"},
+        {"scenarios: [{name: s, friction: 0.2}]\n", "no train has a brake"},
+        {"set: {trains.A.vehicles.A1.payload_t: 5}\n", "no scenario has a 'payload_share'"},
+        {"set: {trains.A.vehicles.A1.payload_t: 5}\nscenarios: [{name: s, payload_share: 0}]\n",
+         NULL}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "schema: 1\ntitle: alone\ntrains:\n"
+                 "  - {name: A, speed_m_s: 4, vehicles: [{name: A1, model: rigid, mass_t: 40, "
+                 "front: {face_gap_m: 0, coupler: {buffer: {stages: [{stroke_mm: 50, force_kN: "
+                 "400}]}}}, rear: {face_gap_m: 0, coupler: {buffer: {stages: [{stroke_mm: 50, "
+                 "force_kN: 400}]}}}}]}\n%s%s",
+                 i == 0 ? "" : "  - {name: B, copy: A, speed_m_s: 0}\n", cases[i].text);
+        CzProblem *problem = read_good_text(text);
+        if (cases[i].warning == NULL)
+            assert_null(warning_of(problem, ""));
+        else
+            assert_non_null(warning_of(problem, cases[i].warning));
+        cz_problem_free(problem);
+    }
+}
+
 #define RIGID_TRAINS                                                                               \
     "schema: 1\n"                                                                                  \
     "title: couplers\n"                                                                            \
@@ -126,6 +156,7 @@ int main(void) {
         cmocka_unit_test(a_key_that_lacks_its_sibling_is_warned_of_at_its_place),
         cmocka_unit_test(a_key_beside_its_sibling_is_not_warned_of),
         cmocka_unit_test(friction_falls_only_to_a_sliding_friction),
+        cmocka_unit_test(what_needs_another_record_is_warned_of_without_it),
         cmocka_unit_test(a_part_that_acts_in_one_place_is_not_warned_of_in_others),
         cmocka_unit_test(a_rigid_end_needs_no_unloading_and_is_warned_of_one),
         cmocka_unit_test(shipped_problems_have_no_key_without_effect),

@@ -43,6 +43,11 @@ with_small_metro() { # with_small_metro FOLDER: the project there with another m
 
 PATH=$BUILD:$PATH
 export PATH
+# The pages build by the preset release. Where that has built these tests too, its objects are taken.
+if [ "$(basename "$BUILD")" = release ]; then
+    : "${CMAKE_C_COMPILER_LAUNCHER:=$SOURCE/tests/runs/reuse-object.sh}"
+    export CMAKE_C_COMPILER_LAUNCHER
+fi
 for page in "$SOURCE/README.md" "$SOURCE"/docs/*.md; do
     # The pages build the same program, which the copy has already.
     [ ! -d root/build ] || mv root/build built

@@ -26,7 +26,7 @@ typedef struct CzVariableInfo {
 
 typedef enum CzVerdict {
     CZ_VERDICT_PASS,
-    CZ_VERDICT_PROVISIONAL, /* passes a limit that nobody has confirmed yet */
+    CZ_VERDICT_PROVISIONAL, /* passes a limit that is not confirmed */
     CZ_VERDICT_FAIL,
     CZ_VERDICT_NOT_CHECKED
 } CzVerdict;
@@ -110,9 +110,9 @@ typedef struct CzEvaluation {
 CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
 
 /* The verdict over the checks with these names, over all of them when n_name is 0: FAIL when one
- * fails or something climbed; else NOT CHECKED when a run failed or is incomplete, a check could
- * not be made, or there is none; else PROVISIONAL when one satisfies a limit that nobody has
- * confirmed; else a pass. */
+ * fails or an override occurred; else NOT CHECKED when a run failed or is incomplete, a check could
+ * not be made, or there is none; else PROVISIONAL when one satisfies a limit that is not confirmed;
+ * else a pass. */
 CZ_API CzVerdict cz_verdict_over(const CzEvaluation *evaluation, int n_name,
                                  const char *const *name);
 

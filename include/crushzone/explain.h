@@ -28,10 +28,10 @@ typedef struct CzCandidateChange {
     CzCause cause;
     double value;   /* the file's, of the first vehicle that has it, in the key's unit */
     bool turns;     /* a change that turns the verdict was found */
-    double needed;  /* value that turns it, or that comes nearest to it of those tried, in that
-                       unit; NaN when none of them moves the margin that way */
+    double needed;  /* value that reverses the verdict, or the nearest one of those tried, in that
+                       unit; NaN when none of them moves the margin in that direction */
     double change;  /* relative change to there, signed; of a value near 0, over its reference */
-    double not_yet; /* largest change tried on the way that does not turn it yet; NaN without */
+    double not_yet; /* largest tried change that does not reverse it; NaN without */
     double margin;  /* smallest climbing margin there */
 } CzCandidateChange;
 
@@ -60,9 +60,8 @@ typedef struct CzExplanation {
     CzCandidateChange *candidate; /* those that turn the verdict by the size of the change, then the
                        rest by the margin that they reach (n_candidate) */
     bool has_cause;               /* some change turns the verdict */
-    CzCause cause; /* of the smallest change that does, among the causes that the run shows
-                      indicators of (stops aside, which are met in the end whatever lifts the
-                      wheels), else among all */
+    CzCause cause; /* of the smallest change that does, among the causes with an indicator in the
+                      run (without stops, which every lift reaches in the end), else among all */
     CzRun *run;    /* of the scenario, with its events */
     long n_run;    /* collisions run for the search */
     double wall_s;

@@ -117,7 +117,7 @@ CZ_API int cz_fit_n_value(const CzFit *fit);
 CZ_API const char *cz_fit_value_path(const CzFit *fit, int index);
 CZ_API double cz_fit_value(const CzFit *fit, int index);
 
-/* What a user should know of the law: sentences without a stop. Borrowed. */
+/* Notes on the law for the user: sentences without a full stop. Borrowed. */
 CZ_API int cz_fit_n_note(const CzFit *fit);
 CZ_API const char *cz_fit_note(const CzFit *fit, int index);
 

@@ -55,9 +55,9 @@ typedef struct CzOutcome {
     char why_stopped[160];
     long n_evaluation;
     int n_variable;
-    double *start, *best; /* in the variables' units; best is snapped to the catalogue increments
-                             unless the search ended before that or only designs between them pass,
-                             which why_stopped then says (n_variable) */
+    double *start, *best; /* in the variables' units; best is on the catalogue increments unless the
+                             search ended earlier or only designs between them pass, which
+                             why_stopped then reports (n_variable) */
     bool *at_bound;       /* (n_variable) */
     CzEvaluation start_evaluation, best_evaluation; /* with runs kept */
     int n_alternative;   /* of a fit: further parameter sets that fit about as well */
@@ -77,8 +77,7 @@ typedef struct CzOutcome {
 } CzOutcome;
 
 /* Statuses: CZ_OK (look at outcome->status), CZ_STATUS_INPUT for an unknown algorithm or no
- * variables, CZ_STATUS_RUN_FAILED when the search ended on failing designs before any other was
- * seen,
+ * variables, CZ_STATUS_RUN_FAILED when the search ended before any design had a successful run,
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                           CzOutcome **outcome, CzError *error);

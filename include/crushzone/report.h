@@ -1,7 +1,7 @@
 /* Results as text and files: pure functions from const structs to a stream or a folder.
  *
- * Same input, same bytes: what differs from run to run (time, host, threads) stands only under
- * `run_info` of the JSON documents. Numbers have a decimal point whatever the locale.
+ * The same input gives the same bytes: values that differ from run to run (time, host, threads) are
+ * only under `run_info` of the JSON documents. Numbers have a decimal point in every locale.
  */
 #ifndef CRUSHZONE_REPORT_H
 #define CRUSHZONE_REPORT_H
@@ -58,7 +58,7 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome(const CzProblem *problem,
 /* JSON document `crushzone.fit`: what was found, the law's values by path, and the same as YAML. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_fit(const CzFit *fit, FILE *stream, CzError *error);
 
-/* Writes an SVG figure of the law over its curve; a title says whether it is doubtful or refused.
+/* Writes an SVG figure of the law over its curve; its title marks a doubtful or refused law.
  * Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_fit_figure(const CzFit *fit, FILE *stream,
                                                          CzError *error);
@@ -75,7 +75,7 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_document_schema(const char *docume
 /* All results with unit, shape and meaning, in Markdown. */
 CZ_API void cz_report_write_results_page(FILE *stream);
 
-/* Tables end with CZ_STATUS_NO_MEMORY when rows are missing, which the text says too.
+/* Tables end with CZ_STATUS_NO_MEMORY when rows are missing, which the text reports too.
  *
  * The table of a run on a terminal, of a family of scenarios the worst member, and the one of a
  * search: before and after, what is still violated, the new values as YAML. `colour` allows escape

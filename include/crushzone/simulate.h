@@ -143,7 +143,8 @@ CZ_API const char *cz_budget_text(CzBudgetSource source);
 CZ_API bool cz_budget_counts(CzBudgetSource source);
 
 /* Impulses on the body of one vehicle from the start to the time of its largest wheel lift, of its
- * largest pitch when no wheel lifts by 0.1 mm, or to the override that ends what the model can say.
+ * largest pitch when no wheel lifts by 0.1 mm, or to the override, which ends the validity of the
+ * model.
  */
 typedef struct CzVehicleBudget {
     bool of_lift;               /* to the largest wheel lift */
@@ -163,8 +164,8 @@ typedef struct CzEnergy {
     double final_kinetic;
     double dissipated;   /* plastic, friction, damping: net over the run */
     double stored;       /* elastic energy above rest, height, and kinetic energy of the track */
-    double moving_load;  /* neither: what the slope of an elastic rail would take from wheels that
-                            the model keeps on their way */
+    double moving_load;  /* neither: work of the slope of an elastic rail on wheels, whose motion
+                            along the track the model prescribes */
     double wheel_rail;   /* part of `dissipated` at wheels and brakes */
     double running_gear; /* part of `dissipated` in links, stops, suspensions and dampers */
     double track;        /* part of `dissipated` in pads, ballast and subgrade */
@@ -225,8 +226,8 @@ typedef struct CzSimulateOptions {
                          again at more than 0.4 of the first closing speed; the run has then
                          CZ_ENDED_SETTLED and is no record */
     CzTrackUse track;
-    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI for production runs; the others know the tracks
-                                `modal` and `rigid` */
+    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI for production runs; the others support the
+                                tracks `modal` and `rigid` */
     double tolerance;        /* of a reference: local error of a step, 1 m/s or 1 rad/s times it in
                                 velocities, 10 mm or 10 mrad in displacements. The default of 1e-6 adds up
                                 to far less than what the largest step leaves (ours) */
@@ -237,8 +238,8 @@ CZ_API CzSimulateOptions cz_simulate_options_default(void);
 typedef struct CzRun CzRun;
 
 /* Runs the model. A run that goes non-finite, loses its energy balance or does not end is a result,
- * not an error: the function returns CZ_OK and the summary says so. Statuses: CZ_OK,
- * CZ_STATUS_INPUT for a track that the integrator does not know, CZ_STATUS_NO_MEMORY. */
+ * not an error: the function returns CZ_OK and the summary reports it. Statuses: CZ_OK,
+ * CZ_STATUS_INPUT for a track that the integrator does not support, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_simulate(const CzModel *model, const CzSimulateOptions *options,
                                           CzRun **run, CzError *error);
 CZ_API void cz_run_free(CzRun *run);

@@ -1,7 +1,7 @@
 /* Statuses and errors.
  *
  * Every function that can fail returns a CzStatus and takes a caller-owned CzError last (it may be
- * NULL). The place that knows what went wrong writes one sentence; callers pass it on. The library
+ * NULL). The function that finds the fault writes one sentence; callers pass it on. The library
  * never prints and never exits.
  */
 #ifndef CRUSHZONE_STATUS_H

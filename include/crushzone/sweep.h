@@ -57,7 +57,7 @@ CZ_API CzSweepOptions cz_sweep_options_default(void);
 typedef enum CzSweepState {
     CZ_SWEEP_DONE,
     CZ_SWEEP_RUN_FAILED, /* a run failed or is incomplete */
-    CZ_SWEEP_INVALID,    /* no problem file may hold these values; `message` says why */
+    CZ_SWEEP_INVALID,    /* the reader refuses these values; `message` has the reason */
     CZ_SWEEP_NOT_RUN     /* interrupted before */
 } CzSweepState;
 CZ_API const char *cz_sweep_state_text(CzSweepState state);

@@ -1,7 +1,7 @@
-/* Verification: the numbers that a design is judged by, computed once more by independent means.
+/* Verification: the judged results of a design, computed again by independent methods.
  *
- * This says how far the answer depends on steps and solvers. It says nothing about parameters and
- * physics: the laws are the same each time.
+ * It shows how far results depend on steps and solvers, not on parameters and physics, because the
+ * laws are the same.
  */
 #ifndef CRUSHZONE_VERIFY_H
 #define CRUSHZONE_VERIFY_H

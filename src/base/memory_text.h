@@ -1,7 +1,7 @@
 /* Text that grows in memory, and a stream into it.
  *
- * open_memstream would do but for one thing: what there is no memory for is left out, and neither
- * the stream nor closing it says so. Here a failure is remembered.
+ * open_memstream drops output for which there is no memory, and neither the stream nor closing it
+ * reports that. Here a failure is remembered.
  */
 #ifndef CZ_BASE_MEMORY_TEXT_H
 #define CZ_BASE_MEMORY_TEXT_H

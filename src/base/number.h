@@ -1,4 +1,4 @@
-/* Numbers as text, whatever the host program's locale is: a decimal comma must never get in. */
+/* Numbers as text with a decimal point, in every locale of the host program. */
 #ifndef CZ_BASE_NUMBER_H
 #define CZ_BASE_NUMBER_H
 

@@ -1,14 +1,14 @@
-/* What may be in texts and names. This is the one rule, whatever a text comes from: a file, an
- * escape in it, the command line, the name of a file.
+/* Allowed characters of texts and names. The same rule applies to every text: in a file, of an
+ * escape in it, of the command line, and the name of a file.
  *
  * A text is UTF-8 on one line. It holds no control characters, nothing that turns the direction of
  * writing, nothing that cannot be seen, no separators of lines and no code points that are no
  * characters. Joiners (U+200C, U+200D) and variation selectors are allowed, because some scripts
  * need them. It does not begin with a combining mark.
  *
- * A name is a text of at most CZ_MOST_NAME bytes that also is in paths, columns, files and
- * folders: letters, digits and - _ +. Letters beyond ASCII are allowed, composed ones as one
- * character, so that names that look alike are alike.
+ * A name is a text of at most CZ_MOST_NAME bytes that also is in paths, columns, files and folders:
+ * letters, digits and - _ +. Letters beyond ASCII are allowed, composed ones as one character, so
+ * that names that look alike are alike.
  */
 #ifndef CZ_BASE_TEXT_H
 #define CZ_BASE_TEXT_H
@@ -35,7 +35,7 @@ bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_ROO
  * many bytes are left. */
 size_t cz_text_one_line(char *text, size_t n_byte);
 
-/* Makes what is reported a text: what it may not hold becomes '?', such as half a character where a
+/* Makes a reported text valid: forbidden characters become '?', such as half a character where a
  * quoted text was cut. */
 void cz_text_repair(char *text);
 

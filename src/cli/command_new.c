@@ -1,4 +1,4 @@
-/* `new`: writes a commented example that runs as it stands. */
+/* `new`: writes a commented example that runs without changes. */
 #include "base/suggest.h"
 #include "cli/command.h"
 #include "cli/messages.h"
@@ -22,7 +22,7 @@ static const char *find_template(const char *name, CzError *error) {
     return NULL;
 }
 
-/* Writes a new file; one that is there already is somebody's work and stays. */
+/* Writes a new file; an existing file may be the user's work and is kept. */
 static CzStatus write_new(const char *path, const char *text, CzError *error) {
     FILE *stream = fopen(path, "wbx");
     int why = errno;

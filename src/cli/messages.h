@@ -1,4 +1,4 @@
-/* What the program says besides its answer: mistakes with their place, warnings, notes. */
+/* Messages beside the results: mistakes with their place, warnings, notes. */
 #ifndef CZ_CLI_MESSAGES_H
 #define CZ_CLI_MESSAGES_H
 

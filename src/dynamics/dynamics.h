@@ -136,7 +136,7 @@ typedef struct CzBlock {
     int faces_rest;         /* so did that of the faces */
     int leaves_nothing_out; /* evaluates couplers and faces even where that changes nothing: tests
                                compare with it */
-    CzBudgetRows *budget;   /* notes of where forces come from; NULL when nobody asks */
+    CzBudgetRows *budget;   /* records of the sources of forces; NULL when not requested */
     CzMemory *memory;       /* committed */
     CzMemory *next_memory;  /* of the last evaluation */
     CzPower *power;         /* of the last evaluation [W] */
@@ -174,7 +174,7 @@ typedef void CzCommit(CzDynamics *dynamics, double step, double time);
  */
 typedef void CzAdvance(CzDynamics *dynamics, double step, int first);
 
-/* All three in turn: the same bits in one way through the memory. */
+/* All three in turn: the same bits in one pass through the memory. */
 typedef void CzStep(CzDynamics *dynamics, double step, int first, double time);
 
 /* One compiled copy of the kernel. */

@@ -1,5 +1,5 @@
-/* What interfaces and cars are equipped with, as their laws have it, for those who report on them
- * and know no parameter of a law. */
+/* Equipment of interfaces and cars, read from the parameters of their laws, for folders that may
+ * not read these parameters. */
 #ifndef CZ_DYNAMICS_EQUIPMENT_H
 #define CZ_DYNAMICS_EQUIPMENT_H
 

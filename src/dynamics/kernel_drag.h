@@ -1,5 +1,5 @@
-/* What the track holds back a car without running gear with: brakes, rolling resistance, and the
- * friction jaws of a buffer stop with the end stop behind their way. Part of kernel.c only. */
+/* Resistance of the track to a car without running gear: brakes, rolling resistance, and the
+ * friction jaws of a buffer stop with the end stop behind their travel. Part of kernel.c only. */
 #ifndef CZ_DYNAMICS_KERNEL_DRAG_H
 #define CZ_DYNAMICS_KERNEL_DRAG_H
 

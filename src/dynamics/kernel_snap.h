@@ -2,8 +2,8 @@
  *
  * Where the strength of a crush zone, or of the anti-climber in series with it, falls faster than
  * the elasticity of the chain can follow, the members jump from one equilibrium to the next within
- * a step, under a force that a chain without mass cannot report. Bodies give the mean force of the
- * step over the closure, (F_last + F) / 2, and so do all members that are straight lines:
+ * a step, under a force that a chain without mass cannot determine. Bodies give the mean force of
+ * the step over the closure, (F_last + F) / 2, and so do all members that are straight lines:
  * compliance, anti-climbers. A crush zone takes what its law says of its state,
  *
  *   released = (F_last + F) / 2 * stroke - damped - (E(x) - E(x_last))     of both sides together,

@@ -1,4 +1,5 @@
-/* Rows that are summed up or kept over the steps of a run: work by kind of element, and extremes.
+/* Rows that are summed or maximised over the steps of a run: work by kind of element, and largest
+ * values.
  */
 #ifndef CZ_DYNAMICS_LEDGER_H
 #define CZ_DYNAMICS_LEDGER_H

@@ -102,8 +102,8 @@ static CzStatus append_in_scenarios(Builder *builder, CzCheck check, const CzLim
     return CZ_OK;
 }
 
-/* Whether nobody has confirmed a limit yet: what was read in the primary text and what the user
- * sets is confirmed, what is remembered or comes from elsewhere is not. */
+/* Whether a limit is not confirmed: limits from the primary text and limits of the user are
+ * confirmed, others are not. */
 static bool is_unconfirmed(const char *confidence) {
     return confidence == NULL || (strcmp(confidence, "S1") != 0 && strcmp(confidence, "user") != 0);
 }

@@ -25,7 +25,7 @@ typedef struct CzCheck {
     const char *missing; /* why it can never be checked; NULL otherwise */
     bool is_target;      /* kept by the optimiser only, not listed */
     bool is_rule;        /* of values that a file must hold, whatever is asked of a design */
-    bool is_provisional; /* nobody has confirmed the limit */
+    bool is_provisional; /* the limit is not confirmed */
     bool is_constraint;
 } CzCheck;
 

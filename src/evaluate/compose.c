@@ -121,7 +121,8 @@ static void sort_results(const CzEvaluator *evaluator, const CzCheckResult *all,
             continue;
         const int j = evaluation->n_constraint++;
         evaluation->constraint_check[j] = listed;
-        /* A search follows the number itself, or it would lose its way out of what climbs. */
+        /* A search uses the number itself, because it needs a direction out of designs with
+         * override. */
         const double required = check->is_rule ? 0 : evaluator->list.required_margin;
         const double constraint = cz_check_constraint(&all[i], required);
         evaluation->constraint[j] = isnan(constraint) ? 0 : constraint;

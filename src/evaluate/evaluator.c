@@ -1,4 +1,4 @@
-/* Evaluator: what it is built of, and what may be asked of it before anything runs. */
+/* Evaluator: its construction, and its properties that are known before any run. */
 #include "evaluate/evaluator_parts.h"
 #include "base/error.h"
 #include "evaluate/choices.h"

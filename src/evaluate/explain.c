@@ -259,7 +259,8 @@ static void sort(const Search *search, int n, CzCandidateChange *varied) {
         }
 }
 
-/* Whether the run shows that a cause is at work. Stops are met in the end whatever lifts a body. */
+/* Whether the run has an indicator of a cause. Every lift of a body reaches the stops in the end.
+ */
 static bool shows(const CzExplanation *explanation, CzCause cause) {
     for (int i = 0; i < explanation->n_indicator; i++)
         if (explanation->indicator[i].cause == cause && cause != CZ_CAUSE_SUSPENSION)

@@ -86,8 +86,8 @@ static double energy_behind(const CzPlace *place) {
     return 0;
 }
 
-/* What bottomed out used its stroke up and hardly more, however hard it was hit. So beyond the last
- * point two things represent the stroke that was missing: the rise of the force F over the largest
+/* The stroke of a device that has bottomed out hardly depends on the impact. Beyond the last point
+ * two quantities therefore represent the missing stroke: the rise of the force F over the largest
  * plastic one P, up to a tenth of the stroke, and behind an anti-climber the energy E that the end
  * structure had to take in its place:
  *

@@ -17,7 +17,7 @@ static double given_or(double value, double otherwise) {
 
 /* ---- what collides ---- */
 
-/* What an absent scenario and an absent simulation record say. */
+/* Defaults of an absent scenario and an absent simulation record. */
 static const CzScenario *default_scenario(CzArena *arena) {
     CzScenario *scenario = cz_arena_allocate(arena, 1, sizeof *scenario);
     if (scenario == NULL)

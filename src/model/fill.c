@@ -1,4 +1,4 @@
-/* Filling the lanes of one design: refusals, curves of devices, and the way through the cars. */
+/* Filling the lanes of one design: refusals, curves of devices, and the loop over the cars. */
 #include "model/fill.h"
 
 #include "base/error.h"

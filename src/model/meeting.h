@@ -15,12 +15,12 @@ typedef struct CzSide {
     const CzEnd *end;
     double plane;  /* foremost plane from the body's centre of gravity, outwards [m] */
     double sign;   /* of outwards along x */
-    double offset; /* how much higher it stands [m] */
+    double offset; /* height above its drawn position [m] */
 } CzSide;
 
 typedef struct CzMeeting {
     const CzFill *fill;
-    int lane; /* car in whose lane the numbers stand */
+    int lane; /* car whose lane has the numbers */
     CzSide side[2];
     bool has_couplers, has_side_buffers, has_superstructures, has_draw_gears;
     bool tilts;      /* a car that moves up and down meets one that can move */
@@ -35,7 +35,7 @@ static inline CzPartName part_name(const CzMeeting *pair, int side, const char *
     return (CzPartName){pair->side[side].car, pair->side[side].which, pair->lane, what};
 }
 
-/* Heights of both sides as built, and how much higher B's part stands than A's with the offsets. */
+/* Heights of both sides as drawn, and of B's part above A's with the offsets. */
 typedef struct CzHeights {
     double side[2]; /* above rail [m] */
     double rise;    /* [m] */

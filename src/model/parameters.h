@@ -87,7 +87,7 @@ typedef struct CzDragRows {
     CzRow slide_stiffness; /* beyond it [N/m] */
 } CzDragRows;
 
-/* Two points that face each other, seen from the centres of gravity of their carriers. */
+/* Two opposite points, from the centres of gravity of their carriers. */
 typedef struct CzPairRows {
     CzRow x[2], z[2]; /* x of side B is negative [m] */
     CzRow distance;   /* along the track at t = 0 [m]; never without */

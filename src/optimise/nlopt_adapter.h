@@ -34,8 +34,8 @@ CzNloptRun cz_nlopt_run_default(const char *algorithm);
 CZ_MUST_CHECK CzStatus cz_nlopt_run(CzSearch *search, const CzNloptRun *run, const double *u,
                                     CzError *error);
 
-/* Whether an algorithm of this name can run in this build; the error names the nearest or says that
- * it was left out of the library. */
+/* Whether an algorithm of this name can run in this build; the error names the nearest one or
+ * reports that the library was built without it. */
 CZ_MUST_CHECK CzStatus cz_nlopt_check(const char *algorithm, CzError *error);
 
 #endif

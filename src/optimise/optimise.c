@@ -109,7 +109,7 @@ typedef struct Confirmation {
     double *x; /* scratch (n_variable) */
 } Confirmation;
 
-/* Evaluates a design in full and takes it for the best one when it is preferred; says whether it
+/* Evaluates a design in full and keeps it as the best one when it is preferred; returns whether it
  * passes. */
 static CzStatus try_in_full(const Confirmation *confirmation, const double *number, bool *passes,
                             CzError *error) {

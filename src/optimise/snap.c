@@ -64,8 +64,8 @@ static double distance_from_base(const CzSurface *surface, const double *u) {
     return square;
 }
 
-/* The listed design that the planes cannot tell from a new one: a simulation of both would show
- * nothing more. NULL when there is none. */
+/* The listed design that equals a new one on the planes: a simulation of both would add no
+ * information. NULL when there is none. */
 static Design *find_alike(Shortlist *list, const Design *new) {
     const double close = 1e-3; /* of a margin; ours */
     for (int i = 0; i < list->n_design; i++)

@@ -80,7 +80,7 @@ static CzStatus descend(CzSurface *surface, long evaluations, CzError *error) {
     CzStatus status = CZ_OK;
     for (int start = 0; start < MOST_STARTS && status == CZ_OK; start++) {
         const long record = best_apart(search, start, chosen, start == 0 ? 0 : 0.15, u);
-        if (is_fit) /* failures further away say nothing about this point */
+        if (is_fit) /* failures further away do not concern this point */
             cz_search_resume(search);
         const long left = limit - search->n_record;
         if (record < 0 || left < 3 * (n + (is_fit ? 3 : 1)) || cz_search_left(search) == 0)

@@ -1,6 +1,6 @@
-/* Warns of keys that do nothing for want of something else: another key of their record, or
- * something that their vehicle end meets. What is written once and used in several places does
- * something when it does so in one of them. */
+/* Warns of keys that have no effect without another key of their record, or without a counterpart
+ * at the opposite end. A key of a part that is used in several places has an effect when it acts in
+ * one of them. */
 #include "problem/acts_with.h"
 
 #include <stdio.h>

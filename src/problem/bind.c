@@ -382,7 +382,7 @@ static void bind_entry(CzBinder binder, Record *record, const CzEntry *entry) {
         bind_value(binder, record, key, unit, entry);
 }
 
-/* What a vehicle says of its model, also under a mistyped key; NULL when it says nothing. */
+/* The model that a vehicle declares, also under a mistyped key; NULL when it declares none. */
 static const char *find_model(const CzNode *node) {
     const CzRecord *record = &cz_records[CZ_RECORD_CzVehicle];
     const CzKey *model = cz_record_key(record, "model");

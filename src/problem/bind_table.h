@@ -9,8 +9,8 @@
 #include "problem/input.h"
 #include "tree/reader.h"
 
-/* Curves that were read, by their nodes: a curve of a part is read once, however many records use
- * the part, and no more when the problem is read again, whatever has become of its file. */
+/* Curves that were read, by their nodes: a curve of a part is read once for all records that use
+ * the part, and not again when the problem is read again, even if its file has changed. */
 typedef struct CzReadCurve {
     const CzNode *node;
     const CzKey *key;

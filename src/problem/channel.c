@@ -65,7 +65,7 @@ typedef struct Search {
     const char *text;
     CzColumn *column;
     CzSuggestion suggestion;
-    char *nearest; /* NULL: nobody asks */
+    char *nearest; /* NULL: not requested */
 } Search;
 
 /* Whether one of the places of a vehicle, an interface or the run has that name. */

@@ -1,5 +1,5 @@
-/* Where records and their values were written, found by address in a time that hardly depends on
- * how many there are. */
+/* Places of records and their values in the files, found by address in a time almost independent of
+ * their number. */
 #ifndef CZ_PROBLEM_PLACES_H
 #define CZ_PROBLEM_PLACES_H
 

@@ -22,8 +22,8 @@ const char *cz_track_word(CzTrack track);
 const struct CzSource *cz_problem_first_source(const CzProblem *problem);
 
 /* Name of a file as results report it: one that was given from the root of the file system by its
- * place beside the problem file or in the share folder, so that results are the same wherever a
- * tree stands. Borrowed. */
+ * place beside the problem file or in the share folder, so that results do not depend on the place
+ * of the tree. Borrowed. */
 const char *cz_problem_told_name(const CzProblem *problem, const char *name);
 
 /* Fills file, line, column of the place where a field of the input was written (the innermost

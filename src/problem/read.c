@@ -1,4 +1,4 @@
-/* Reading a problem: the steps one after another, and what the public functions give back. */
+/* Reading a problem: the sequence of steps, and the public functions. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

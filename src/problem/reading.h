@@ -9,7 +9,7 @@
 
 struct CzProblem {
     CzReader reader;
-    CzTree tree; /* as the files say it, before settings */
+    CzTree tree; /* as in the files, before settings */
     CzPlaces places;
     const CzReadCurve *curves; /* the last one */
     const char *file;

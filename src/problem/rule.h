@@ -11,8 +11,8 @@ typedef struct CzRules {
     const CzInput *input;
     const CzVehicle *vehicle;        /* those that are judged: the problem's own or a candidate's */
     CzMistakes *mistakes, *warnings; /* where to report; both may be NULL */
-    double *ratio;                   /* how near each rule comes to being broken, the largest so far
-                                        (CZ_N_VALUE_RULE); NULL when nobody asks */
+    double *ratio; /* how close each rule is to a violation, the largest so far (CZ_N_VALUE_RULE);
+                      NULL when not requested */
 } CzRules;
 
 /* Rules that judge a problem as it is and report its reader. */

@@ -45,7 +45,7 @@ static void check_forces(const CzRules *rules, const CzStage *stages, int n_stag
     }
 }
 
-/* The peak that starts the crush is no lower than what follows. */
+/* The trigger peak is at least as high as the first plateau. */
 static void check_trigger(const CzRules *rules, const double *trigger, const CzStage *stages,
                           int n_stage, const CzTable *curve) {
     char peak[48], first[48];

@@ -3,7 +3,7 @@
  *
  * Compression counts positive and a curve begins at stroke 0. A file in which both columns are
  * negative has counted it the other way, and one that begins without force somewhere else has
- * another zero: both are corrected and reported. What could be meant in two ways is refused.
+ * another zero: both are corrected and reported. Ambiguous files are refused.
  */
 #ifndef CZ_PROBLEM_TRACE_H
 #define CZ_PROBLEM_TRACE_H
@@ -22,14 +22,14 @@ typedef enum {
     CZ_ZERO_AT_STROKE   /* at a stroke of the file */
 } CzTraceZero;
 
-/* What is made of the points. Begin with cz_trace_shape_default. */
+/* How the points become a curve. Begin with cz_trace_shape_default. */
 typedef struct CzTraceShape {
     bool flips[2]; /* the sign of strokes, of forces */
     double scale;  /* of forces */
     CzTraceZero zero;
     double zero_at;  /* with CZ_ZERO_AT_STROKE; in the unit of the file, as the next two */
     double from, to; /* strokes that count; NaN: all */
-    /* How a user says so, for messages; NULL for a caller without options. */
+    /* The option or key for it, for messages; NULL for a caller without options. */
     const char *flip_help, *zero_help;
 } CzTraceShape;
 

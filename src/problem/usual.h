@@ -1,6 +1,6 @@
-/* Warns of numbers that are allowed and hardly meant: a car of 38 kg, 25 m/s for 25 km/h.
+/* Warns of numbers that are allowed but unusual: a car of 38 kg, 25 m/s for 25 km/h.
  *
- * Zero and what is absent is never unusual; signs do not count.
+ * Zero and absent values are never unusual; signs do not count.
  */
 #ifndef CZ_PROBLEM_USUAL_H
 #define CZ_PROBLEM_USUAL_H

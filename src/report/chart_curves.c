@@ -14,7 +14,7 @@
 typedef struct Reading {
     const CzChartOptions *options;
     CzChart chart;
-    int n_title; /* 0 where nobody needs them */
+    int n_title; /* 0 where they are not needed */
     char **title;
     bool by_unit; /* the only columns in units of the axes are wanted, wherever they are */
     int n;

@@ -15,9 +15,9 @@ typedef struct CzChartCurve {
     char label[CZ_LABEL_ROOM + 16]; /* in its legend */
 } CzChartCurve;
 
-/* Reads the measured curves of a figure: none without a file. Over the panels a column goes where
- * its title says, which begins as a channel does: F_, v_, x_, d_. Statuses: CZ_STATUS_INPUT,
- * CZ_STATUS_NO_MEMORY; free them in any case. */
+/* Reads the measured curves of a figure: none without a file. In the panels the title of a column
+ * selects its panel by its first letters, as of a channel: F_, v_, x_, d_. Statuses:
+ * CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY; free them in any case. */
 CZ_MUST_CHECK CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int *n,
                                             CzChartCurve measured[CZ_MOST_CHART_CURVES],
                                             CzError *error);

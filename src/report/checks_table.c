@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Words for people: capital letters for whatever is not a plain pass. */
+/* Words of the tables: capital letters for all verdicts except a plain pass. */
 static const char *const verdict_words[] = {[CZ_VERDICT_PASS] = "pass",
                                             [CZ_VERDICT_PROVISIONAL] = "PROVISIONAL",
                                             [CZ_VERDICT_FAIL] = "FAIL",

@@ -20,7 +20,7 @@ void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
 /* A value in its unit, with as many digits as set it apart from its limit when it breaks it. */
 void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text);
 
-/* The limit in its unit; a lower one says so. */
+/* The limit in its unit; a lower limit has "min" in front. */
 void cz_checks_format_limit(const CzCheckResult *check, size_t room, char *text);
 
 /* Its verdict as people read it: "pass", "FAIL", "n/a". */

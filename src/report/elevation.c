@@ -15,7 +15,7 @@
 #define FLOOR 0.75   /* of the drawn body above rail [m] */
 #define ROOF 2.6     /* where the drawing is cut [m] */
 #define LABEL_ROW 14.0
-#define UNSTATED 0.95 /* where faces are drawn whose height nobody stated [m] */
+#define UNSTATED 0.95 /* where faces without a given height are drawn [m] */
 #define CHAIN_TOP 240.0
 #define CHAIN_ROW 36.0
 enum { REAR, FRONT, MOST_LABELS = 6 };
@@ -29,7 +29,7 @@ typedef struct Side {
     double sign;   /* of outwards in the drawing */
     double plane;  /* foremost plane from the centre [m] */
     double edge;   /* inner edge of its label column in the drawing */
-    double rise;   /* how much higher its end stands than it was written [m] */
+    double rise;   /* height of its end above the drawn one [m] */
 } Side;
 
 /* Place in the drawing of a distance from the body's centre, outwards. */

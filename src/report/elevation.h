@@ -7,8 +7,8 @@
 #include "report/markup.h"
 
 /* Writes an element `svg`: both ends of the colliding interface to scale at first contact, heights
- * above rail, and below each end what is there in front of the survival space against the strokes
- * that want to fit in. */
+ * above rail, and below each end the available length in front of the survival space against the
+ * strokes of the devices. */
 void cz_elevation_write(const CzModel *model, const CzLayout *stand, CzMarkup *markup);
 
 #endif

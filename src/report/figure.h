@@ -1,8 +1,8 @@
 /* Numbers as people read them, with a decimal point whatever the locale of the host program.
  *
- * One rule holds in tables, JSON, CSV and pages: a quantity below 1e-9 in the unit that it is
- * printed in is what rounding left of zero, and prints as 0; zero has no sign. Numbers that were
- * typed, or that measure an error, keep their size whatever it is.
+ * One rule holds in tables, JSON, CSV and pages: a quantity below 1e-9 in its printed unit is a
+ * rounding residue and prints as 0; zero has no sign. Numbers that were typed, or that measure an
+ * error, keep their size whatever it is.
  */
 #ifndef CZ_REPORT_FIGURE_H
 #define CZ_REPORT_FIGURE_H

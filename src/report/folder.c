@@ -215,7 +215,7 @@ static CzStatus check_parents(const char *path, CzError *error) {
     struct stat info;
     cz_parent_of(path, parent);
     while (stat(parent, &info) != 0 && errno == ENOENT && strcmp(parent, ".") != 0) {
-        if (steps_up(parent)) /* once made, it would lead to what nobody has looked at */
+        if (steps_up(parent)) /* once made, it could lead to a folder that was not checked */
             return cz_fail(
                 error, CZ_STATUS_OUTPUT,
                 "%.200s cannot be written: '..' leads out of a folder that does not exist", path);
@@ -335,7 +335,7 @@ CzStatus cz_folder_close(CzFolder *folder, CzError *error) {
     return why == 0 ? CZ_OK : cannot_write(folder, folder->file_name, why, error);
 }
 
-/* Puts what is there out of the way; `old` is empty when nothing was. */
+/* Renames an existing folder; `old` is empty when there was none. */
 static CzStatus move_away(CzFolder *folder, char old[PATH_MAX], CzError *error) {
     char parent[PATH_MAX];
     struct stat info;

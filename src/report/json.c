@@ -1,4 +1,4 @@
-/* JSON documents: the only file that sees jansson. */
+/* JSON documents: the only file that includes jansson. */
 #include "report/json.h"
 
 #include "base/error.h"

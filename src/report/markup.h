@@ -66,7 +66,7 @@ void cz_markup_write_number(FILE *stream, int decimals, double value);
 void cz_markup_shape(CzMarkup *markup, const char *element, const char *names, const double *value,
                      ...) __attribute__((sentinel));
 
-/* How wide a text is in a sans-serif font [font size]; an estimate that is rather too large. */
+/* Width of a text in a sans-serif font [font size]; an estimate on the large side. */
 double cz_text_width(const char *text);
 
 #endif

@@ -2,7 +2,7 @@
  * nothing.
  *
  * Colours are those of Okabe and Ito, which people with any colour vision distinguish; dashes
- * report curves apart without colour. Ink is `currentColor`, so that a page may be light or dark.
+ * distinguish curves without colour. Ink is `currentColor`, so that a page may be light or dark.
  */
 #ifndef CZ_REPORT_PLOT_H
 #define CZ_REPORT_PLOT_H

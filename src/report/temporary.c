@@ -214,8 +214,7 @@ static bool is_replaced(const char *folder, const char *marker) {
     return cz_path_in(path, parent, name, NULL) == CZ_OK && lstat(path, &info) == 0;
 }
 
-/* A folder that is whole stays unless another took its place: it holds results that somebody was
- * about to put there. */
+/* A complete folder is kept unless another one has taken its place, because it contains results. */
 static void clear_folder(const char *path) {
     char marker_path[PATH_MAX];
     if (cz_path_in(marker_path, path, CZ_MARKER_NAME, NULL) != CZ_OK)

@@ -228,8 +228,8 @@ CZ_MUST_CHECK CzStatus cz_rest_of_lane(const CzModel *model, const CzLanes *lane
 /* channels.c: a single design only. */
 CZ_MUST_CHECK CzStatus cz_channels_begin(CzChannels *channels, const CzBatch *batch);
 CZ_MUST_CHECK CzStatus cz_channels_add(CzChannels *channels, const CzBatch *batch);
-/* Blanks the energies after a time, beyond which the model says nothing; the error of their balance
- * stays. */
+/* Blanks the energies of a run beyond the validity of the model; the error of their balance stays.
+ */
 void cz_channels_blank_totals(CzChannels *channels, double from);
 void cz_channels_free(CzChannels *channels);
 

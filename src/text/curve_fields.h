@@ -46,7 +46,7 @@ CzFieldCount cz_fields_count(const char *line, char separator);
 /* Copies a field as text, cut where it is too long. */
 const char *cz_field_text(const CzField *field, char text[CZ_MOST_FIELD_TEXT]);
 
-/* Whether a line has nothing in it but blanks and separators. */
+/* Whether a line has only blanks and separators. */
 bool cz_line_is_empty(const char *line);
 
 /* The text behind the sign of a comment, '#', '%' or '//'; NULL when the line is none. */

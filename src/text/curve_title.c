@@ -102,7 +102,7 @@ static const struct {
     {"time", "zeit"},           {"time", "temps"},          {"speed", "velocity"},
 };
 
-/* How a title answers to what is wanted; the least one wins. */
+/* Rank of a title for a wanted quantity; the smallest one is selected. */
 typedef enum Answer { EXACT, ALMOST, NAMED, CALLED, IN_UNIT, NOT } Answer;
 
 static bool begins_with(const char *title, const char *word) {

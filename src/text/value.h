@@ -1,5 +1,5 @@
-/* Text nodes as numbers, counts, flags and texts. A value stays text until somebody says what it
- * is, so NO, 012 or 1:30 never turn into something else. */
+/* Text nodes as numbers, counts, flags and texts. A value stays text until its type is known, so
+ * NO, 012 or 1:30 are never converted to another value. */
 #ifndef CZ_TEXT_VALUE_H
 #define CZ_TEXT_VALUE_H
 

@@ -1,4 +1,4 @@
-/* The only file that knows libyaml: its events become nodes.
+/* The only file that includes libyaml: its events become nodes.
  *
  * A failed read stops at the first syntax error, for what follows is guesswork; refused features
  * and duplicate keys are reported all and reading goes on.

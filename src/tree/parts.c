@@ -86,7 +86,7 @@ static const CzPart *find_part(CzReader *reader, const CzTree *tree, const CzNod
 }
 
 /* Whether a part may be used here: it is not on the way already, and the way is not too long. Both
- * were reported the parts as written; a setting can make new ones. */
+ * were reported for the parts as written; a setting can make new ones. */
 static bool may_use(CzReader *reader, const CzPart *part, const CzNode *used,
                     const CzTrail *use_trail) {
     int n_part = 0;

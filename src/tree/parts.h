@@ -14,7 +14,7 @@ typedef struct CzPart {
     int depth;             /* of the parts that it uses: 0 without any */
 } CzPart;
 
-/* What a problem says, in nodes. */
+/* Content of a problem, in nodes. */
 typedef struct CzTree {
     const CzNode *root;
     int n_part;

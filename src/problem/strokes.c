@@ -3,10 +3,12 @@
 
 #include <math.h>
 
+#include "base/number.h"
 #include "problem/keys.h"
 #include "tree/merge.h"
 
-#define APART 1e-6        /* of the stroke: points that are no closer (ours) */
+#define APART 1e-6  /* of the stroke: points that are no closer (ours) */
+#define BEHIND 0.01 /* of the stroke: a law that is further behind its curve is reported (ours) */
 #define WITHOUT_FORCE 0.2 /* of the mean force: a curve that begins below begins without (ours) */
 
 double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *curve) {
@@ -25,14 +27,17 @@ static double mean_force(const CzTable *curve) {
     return area / curve->x[curve->n_point - 1];
 }
 
-/* Adds compliance times force to the strokes. On an elastic rise all plastic strokes are the same
+/* Adds compliance times force to the strokes; `*behind` is the largest length by which they then go
+ * back, which no law does. On an elastic rise all plastic strokes are the same
  * and the last force counts: at 0 alone, elsewhere as a rise that is as steep as points may be.
  * Other points that would not lie behind the one before are dropped. */
-static bool add_elastic(CzTable *curve, double compliance) {
+static bool add_elastic(CzTable *curve, double compliance, double *behind) {
     const double apart = APART * curve->x[curve->n_point - 1];
     int n = 0, top = 0; /* the point that ends the latest rise */
     for (int i = 0; i < curve->n_point; i++) {
-        const double x = fmax(curve->x[i] + compliance * curve->y[i], 0), y = curve->y[i];
+        const double moved = curve->x[i] + compliance * curve->y[i], y = curve->y[i];
+        const double x = fmax(moved, 0);
+        *behind = fmax(*behind, (n > 0 ? curve->x[n - 1] : 0) - moved);
         if (n == 0 || x > curve->x[n - 1] + apart) {
             curve->x[n] = n == 0 ? 0 : x;
             curve->y[n++] = y;
@@ -50,11 +55,21 @@ static bool add_elastic(CzTable *curve, double compliance) {
 
 static void convert(CzReader *reader, const CzNode *node, const CzTrail *trail, CzTable *curve,
                     double compliance) {
+    const double stroke = curve->x[curve->n_point - 1];
+    double behind = 0;
+    char stiffness[CZ_NUMBER_TEXT], length[CZ_NUMBER_TEXT];
     curve->converted = true;
-    if (isfinite(compliance) && !add_elastic(curve, compliance))
+    if (isfinite(compliance) && !add_elastic(curve, compliance, &behind))
         cz_mistake(&reader->mistakes, node, trail,
                    "the whole shortening of 'curve' would be elastic: the stiffness is too small "
                    "for it");
+    else if (behind > BEHIND * stroke)
+        cz_mistake(&reader->warnings, node, trail,
+                   "'curve' %s more steeply than the stiffness of %s MN/m lets its law follow: the "
+                   "law is up to %s mm behind it",
+                   compliance < 0 ? "rises" : "falls",
+                   cz_number_print_short(stiffness, 1e-6 / fabs(compliance)),
+                   cz_number_print_short(length, 1e3 * behind));
 }
 
 /* A curve over plastic strokes begins with the force that starts the crush. */

@@ -145,6 +145,23 @@ static void an_elastic_rise_is_taken_off_wherever_it_begins(void **state) {
     cz_problem_free(problem);
 }
 
+/* A densification of 500 MN/m behind an elasticity of 100 MN/m: 2500 kN come after 25 mm, not 5. */
+static void a_law_that_cannot_follow_its_curve_is_warned_of(void **state) {
+    static const char text[] =
+        "extends: rigid.yaml\n"
+        "parts: {bumper: {anti_climber: {stages: null, stiffness_MN_m: 100, curve: {columns: "
+        "[stroke_mm, force_kN], points: [[0, 0], [5, 500], [105, 500], [110, 3000]], basis: "
+        "static, strokes: total}}}}\noptimise: null\n";
+    (void)state;
+    CzProblem *problem = NULL;
+    assert_int_equal(read_text(text, &problem), CZ_OK);
+    assert_int_equal(cz_problem_n_warning(problem), 1);
+    assert_non_null(strstr(cz_problem_warning(problem, 0)->message,
+                           "'curve' rises more steeply than the stiffness of 100 MN/m lets its law "
+                           "follow: the law is up to 20 mm behind it"));
+    cz_problem_free(problem);
+}
+
 /* The keys beside a file, against the same curve given by points. */
 static void keys_beside_a_file_shape_its_curve(void **state) {
     static const char content[] = "a test\nTime;Weg;Kraft A;Kraft B\ns;mm;N;N\n"
@@ -252,6 +269,7 @@ int main(void) {
         cmocka_unit_test(a_long_csv_curve_keeps_energy_ends_and_peak),
         cmocka_unit_test(total_strokes_lose_their_elastic_part),
         cmocka_unit_test(an_elastic_rise_is_taken_off_wherever_it_begins),
+        cmocka_unit_test(a_law_that_cannot_follow_its_curve_is_warned_of),
         cmocka_unit_test(keys_beside_a_file_shape_its_curve),
         cmocka_unit_test(a_curve_file_of_a_part_is_read_once_and_not_again),
         cmocka_unit_test(plastic_strokes_of_an_end_get_their_elastic_part),

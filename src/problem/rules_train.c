@@ -105,11 +105,12 @@ static void warn_of_lone_devices(const CzRules *rules, const CzVehicle *owner, c
 
 /* Couplers and side buffers act in pairs, or alone against a partner that does not move. */
 static void check_pairs(const CzRules *rules, const CzVehicle *behind, const CzVehicle *ahead) {
-    if (!behind->given || !ahead->given || behind->model == CZ_MODEL_FIXED ||
-        ahead->model == CZ_MODEL_FIXED)
+    if (!behind->given || !ahead->given)
         return;
-    warn_of_lone_devices(rules, behind, &behind->front, ahead, &ahead->rear);
-    warn_of_lone_devices(rules, ahead, &ahead->rear, behind, &behind->front);
+    if (ahead->model != CZ_MODEL_FIXED)
+        warn_of_lone_devices(rules, behind, &behind->front, ahead, &ahead->rear);
+    if (behind->model != CZ_MODEL_FIXED)
+        warn_of_lone_devices(rules, ahead, &ahead->rear, behind, &behind->front);
 }
 
 /* A coupler that meets that of a full vehicle is part of a strut between two pivots. */

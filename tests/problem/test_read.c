@@ -338,6 +338,29 @@ static void a_sweep_is_one_scenario_per_combination(void **state) {
     cz_problem_free(problem);
 }
 
+/* The buffer of a stop pushes nothing that has none; that of a car pushes a wall without one. */
+static void a_buffer_of_a_fixed_partner_without_one_to_meet_is_warned_of(void **state) {
+    (void)state;
+    for (int is_of_car = 0; is_of_car < 2; is_of_car++) {
+        static const char *const buffers =
+            ", side_buffers: {buffer: {stages: [{stroke_mm: 100, force_kN: 1000}]}}";
+        char text[700];
+        snprintf(text, sizeof text,
+                 "schema: 1\ntitle: stop\ntrains:\n"
+                 "  - {name: A, speed_m_s: 2, vehicles: [{model: rigid, mass_t: 50, front: "
+                 "{face_gap_m: 1, unloading_stiffness_MN_m: 100, stages: [{stroke_mm: 300, "
+                 "force_kN: 2000}]%s}}]}\n"
+                 "  - {name: S, vehicles: [{model: fixed, rear: {face_gap_m: 1%s}}]}\n",
+                 is_of_car ? buffers : "", is_of_car ? "" : buffers);
+        CzProblem *problem = read_good_text(text);
+        assert_int_equal(cz_problem_n_warning(problem), is_of_car ? 0 : 1);
+        if (!is_of_car)
+            assert_non_null(strstr(cz_problem_warning(problem, 0)->message,
+                                   "unpaired side buffers: 'A1' has none to meet those of 'S1'"));
+        cz_problem_free(problem);
+    }
+}
+
 /* A third train without a scenario of its own, and a word that is no confidence. */
 static void what_nothing_takes_is_warned_of(void **state) {
     static const char text[] =
@@ -376,6 +399,7 @@ int main(void) {
         cmocka_unit_test(every_spelling_of_null_removes_a_key),
         cmocka_unit_test(coupler_without_one_to_meet_is_warned_of),
         cmocka_unit_test(a_sweep_is_one_scenario_per_combination),
+        cmocka_unit_test(a_buffer_of_a_fixed_partner_without_one_to_meet_is_warned_of),
         cmocka_unit_test(what_nothing_takes_is_warned_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

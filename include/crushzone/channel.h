@@ -7,9 +7,7 @@
 #include "crushzone/names.h"
 #include "crushzone/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+CZ_BEGIN_DECLARATIONS
 
 /* What is recorded. */
 typedef enum CzChannel {
@@ -70,7 +68,5 @@ CZ_API const char *cz_channel_name(const CzChannelInfo *info, int place, const c
 CZ_API bool cz_column_find(const char *text, int n_vehicle, const char *const *vehicle,
                            CzColumn *column, char nearest[CZ_CHANNEL_ROOM]);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

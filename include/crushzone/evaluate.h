@@ -6,9 +6,7 @@
 
 #include "crushzone/simulate.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+CZ_BEGIN_DECLARATIONS
 
 /* One design variable, or parameter of a fit. */
 typedef struct CzVariableInfo {
@@ -175,7 +173,5 @@ typedef double (*CzObjective)(int n_scenario, const CzRunSummary *const *summary
 CZ_API void cz_evaluator_set_objective(CzEvaluator *evaluator, const char *name, const char *unit,
                                        CzObjective objective, void *data);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

@@ -6,9 +6,7 @@
 
 #include "crushzone/evaluate.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+CZ_BEGIN_DECLARATIONS
 
 typedef enum CzCause {
 #define CZ_CAUSE(constant, text, doc) constant,
@@ -86,7 +84,5 @@ CZ_MUST_CHECK CZ_API CzStatus cz_explain(CzEvaluator *evaluator, const CzExplain
                                          CzExplanation **explanation, CzError *error);
 CZ_API void cz_explanation_free(CzExplanation *explanation);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

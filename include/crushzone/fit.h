@@ -1,9 +1,8 @@
 /* Measured or computed force-stroke curves as staged laws of equal energy.
  *
- * The stages are those of the problem file. Their break points and forces are the least squares of
- * the force over the stroke, under the condition that using up the law's stroke takes exactly the
- * energy that the curve took. A trigger peak is no plateau: it keeps its height as a key of its
- * own.
+ * The stages are those of the problem file. Their breakpoints and forces are the least squares of
+ * the force over the stroke, under the condition that the law absorbs exactly the energy of the
+ * curve over its stroke. A trigger peak is no plateau: its height is a key of its own.
  */
 #ifndef CRUSHZONE_FIT_H
 #define CRUSHZONE_FIT_H
@@ -13,9 +12,7 @@
 
 #include "crushzone/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+CZ_BEGIN_DECLARATIONS
 
 /* What a curve is turned into. */
 typedef enum CzFitKind {
@@ -65,12 +62,28 @@ typedef enum CzFitVerdict { CZ_FIT_GOOD, CZ_FIT_DOUBTFUL, CZ_FIT_REFUSED } CzFit
 /* "good", "doubtful" or "refused". */
 CZ_API const char *cz_fit_verdict_word(CzFitVerdict verdict);
 
-/* What was found. Energies are work on the device [J]. */
+/* A value of the law: the path inside its record, such as "tube.stages[0].force_kN", and the number
+ * in the unit that the path names. */
+typedef struct CzFitValue {
+    char path[64];
+    double value;
+} CzFitValue;
+
+/* Points of a loading; strokes do not fall. */
+typedef struct CzFitLoading {
+    int n;
+    const double *stroke, *force; /* [m], [N] (n) */
+} CzFitLoading;
+
+enum { CZ_FIT_MOST_NOTES = 12, CZ_FIT_MOST_DOUBTS = 6 };
+
+/* The fitted law. Energies are work on the device [J]. Arrays and texts are borrowed from the fit.
+ */
 typedef struct CzFitSummary {
     CzFitKind kind;
     int is_dynamic;
-    const char *file;          /* borrowed; NULL when fitted from arrays */
-    const char *name;          /* of the part; borrowed */
+    const char *file;          /* NULL when fitted from arrays */
+    const char *name;          /* of the part */
     int n_point;               /* of the curve */
     double stroke;             /* largest stroke of the curve [m] */
     double peak_force;         /* largest force of the curve [N] */
@@ -88,9 +101,14 @@ typedef struct CzFitSummary {
     double law_whole_energy;   /* of the law over the same stroke [J] */
     double stretch_difference; /* largest mean difference over a tenth of the stroke [N] */
     CzFitVerdict verdict;
+    int n_doubt, n_note, n_value;
+    const char *doubt[CZ_FIT_MOST_DOUBTS]; /* why it is doubtful or refused (n_doubt) */
+    const char *note[CZ_FIT_MOST_NOTES];   /* what a user should know of it (n_note) */
+    const CzFitValue *value;               /* of the law, in the order of the file (n_value) */
+    CzFitLoading curve, law;               /* of the curve, and of the law over the same stroke */
 } CzFitSummary;
 
-/* A law that was found. Opaque, owns its memory. */
+/* A fitted law. Opaque, owns its memory. */
 typedef struct CzFit CzFit;
 
 /* Fits the curve of a file ("-" is standard input): two columns or more under a line of titles,
@@ -110,25 +128,6 @@ CZ_MUST_CHECK CZ_API CzStatus cz_fit_points(int n_point, const double *stroke, c
                                             CzError *error);
 CZ_API void cz_fit_free(CzFit *fit);
 CZ_API const CzFitSummary *cz_fit_summary(const CzFit *fit);
-
-/* The law's values in the order of the file: the path inside its record, such as
- * "tube.stages[0].force_kN", and the value in the unit that the path names. Borrowed. */
-CZ_API int cz_fit_n_value(const CzFit *fit);
-CZ_API const char *cz_fit_value_path(const CzFit *fit, int index);
-CZ_API double cz_fit_value(const CzFit *fit, int index);
-
-/* Notes on the law for the user: sentences without a full stop. Borrowed. */
-CZ_API int cz_fit_n_note(const CzFit *fit);
-CZ_API const char *cz_fit_note(const CzFit *fit, int index);
-
-/* Why a law is doubtful or refused: sentences without a stop. Borrowed. */
-CZ_API int cz_fit_n_doubt(const CzFit *fit);
-CZ_API const char *cz_fit_doubt(const CzFit *fit, int index);
-
-/* The loading of the curve, and of the law over the same stroke: strokes [m] and forces [N] (*n),
- * borrowed; strokes do not fall. */
-CZ_API void cz_fit_curve(const CzFit *fit, int *n, const double **stroke, const double **force);
-CZ_API void cz_fit_law(const CzFit *fit, int *n, const double **stroke, const double **force);
 
 /* Which columns of a file make a curve. Texts are borrowed. */
 typedef struct CzCurveColumns {
@@ -164,7 +163,5 @@ CZ_MUST_CHECK CZ_API CzStatus cz_curve_titles(const char *path, char separator, 
  * not written. */
 CZ_API void cz_fit_write_yaml(const CzFit *fit, FILE *stream);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

@@ -5,9 +5,7 @@
 #include "crushzone/names.h"
 #include "crushzone/problem.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+CZ_BEGIN_DECLARATIONS
 
 typedef struct CzModel CzModel;
 
@@ -58,7 +56,5 @@ CZ_API double cz_model_time_step(const CzModel *model);
 CZ_API int cz_model_n_step_bound(const CzModel *model);
 CZ_API const CzStepBound *cz_model_step_bound(const CzModel *model, int index);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

@@ -7,10 +7,6 @@
 #ifndef CRUSHZONE_NAMES_H
 #define CRUSHZONE_NAMES_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum {
     CZ_MOST_NAME = 48,
     CZ_MOST_LABEL = 96,
@@ -26,7 +22,4 @@ enum {
         CZ_WHERE_ROOM + 1 + CZ_NAME_ROOM /* a place and its scenario, a comma between them */
 };
 
-#ifdef __cplusplus
-}
-#endif
 #endif

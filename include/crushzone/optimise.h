@@ -8,9 +8,7 @@
 
 #include "crushzone/verify.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+CZ_BEGIN_DECLARATIONS
 
 typedef enum CzOutcomeStatus {
     CZ_OUTCOME_FEASIBLE,
@@ -110,7 +108,5 @@ CZ_API const char *cz_algorithm_name(int index);
 /* Version of the NLopt library in use, such as "2.7.1". Writes at most n bytes. */
 CZ_API void cz_nlopt_version(char *text, size_t n);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

@@ -7,9 +7,7 @@
 
 #include "crushzone/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+CZ_BEGIN_DECLARATIONS
 
 /* A problem file after reading. Immutable; owns all its memory. */
 typedef struct CzProblem CzProblem;
@@ -75,7 +73,5 @@ CZ_API void cz_keys_write_schema(FILE *stream);
 CZ_API void cz_keys_write_help(FILE *stream);
 CZ_API void cz_keys_write_reference(FILE *stream);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

@@ -14,9 +14,7 @@
 #include "crushzone/sweep.h"
 #include "crushzone/verify.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+CZ_BEGIN_DECLARATIONS
 
 /* How results are written. */
 typedef struct CzReportOptions {
@@ -228,7 +226,5 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome_folder(const CzProblem *pr
                                                              const CzReportOptions *options,
                                                              const char *folder, CzError *error);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

@@ -8,9 +8,7 @@
 #include "crushzone/channel.h"
 #include "crushzone/model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+CZ_BEGIN_DECLARATIONS
 
 typedef enum CzEnded {
 #define CZ_ENDED(constant, key, text) constant,
@@ -290,7 +288,5 @@ CZ_API void cz_sundials_version(char *text, size_t n);
 /* Instruction set the kernel of this process takes with "auto". */
 CZ_API const char *cz_isa_name(void);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

@@ -7,9 +7,16 @@
 #ifndef CRUSHZONE_STATUS_H
 #define CRUSHZONE_STATUS_H
 
+/* Around declarations, for callers in C++. */
 #ifdef __cplusplus
-extern "C" {
+#define CZ_BEGIN_DECLARATIONS extern "C" {
+#define CZ_END_DECLARATIONS }
+#else
+#define CZ_BEGIN_DECLARATIONS
+#define CZ_END_DECLARATIONS
 #endif
+
+CZ_BEGIN_DECLARATIONS
 
 #if defined(__GNUC__)
 #define CZ_MUST_CHECK __attribute__((warn_unused_result))
@@ -41,7 +48,5 @@ CZ_API const char *cz_status_text(CzStatus status);
 /* Exit code of the command line for a status. */
 CZ_API int cz_status_exit_code(CzStatus status);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

@@ -12,9 +12,7 @@
 
 #include "crushzone/evaluate.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+CZ_BEGIN_DECLARATIONS
 
 enum { CZ_MOST_AXES = 2, CZ_MOST_SWEPT_METRICS = 8 };
 
@@ -102,7 +100,5 @@ CZ_MUST_CHECK CZ_API CzStatus cz_sweep(const char *file, const CzProblemOptions 
                                        CzError *error);
 CZ_API void cz_sweep_free(CzSweep *sweep);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

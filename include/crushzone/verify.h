@@ -10,9 +10,7 @@
 
 #include "crushzone/evaluate.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+CZ_BEGIN_DECLARATIONS
 
 typedef enum CzVerifyMethod {
 #define CZ_VERIFY_METHOD(constant, key, text, doc) constant,
@@ -79,7 +77,5 @@ CZ_MUST_CHECK CZ_API CzStatus cz_verify(CzEvaluator *evaluator, const double *x,
                                         CzVerification **verification, CzError *error);
 CZ_API void cz_verification_free(CzVerification *verification);
 
-#ifdef __cplusplus
-}
-#endif
+CZ_END_DECLARATIONS
 #endif

@@ -178,3 +178,10 @@ void cz_text_repair(char *text) {
     }
     text[n_kept] = '\0';
 }
+
+bool cz_text_is_among(const char *text, int n, const char *const *list) {
+    for (int i = 0; i < n; i++)
+        if (strcmp(list[i], text) == 0)
+            return true;
+    return false;
+}

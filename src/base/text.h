@@ -31,6 +31,9 @@ bool cz_text_fault(const char *text, size_t n_byte, bool is_file, size_t *at,
  * `further` are ASCII signs that it may hold too. */
 bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_ROOM]);
 
+/* Whether a text is one of n. */
+bool cz_text_is_among(const char *text, int n, const char *const *list);
+
 /* Makes one line of n bytes: tabs and ends of lines become blanks, those at the end go. Returns how
  * many bytes are left. */
 size_t cz_text_one_line(char *text, size_t n_byte);

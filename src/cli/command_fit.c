@@ -115,9 +115,9 @@ static CzStatus write_figure(const void *data, FILE *stream, CzError *error) {
 /* Says on standard error what is doubtful, or why nothing was written. */
 static void tell_doubts(const CzFit *fit) {
     const CzFitSummary *summary = cz_fit_summary(fit);
-    for (int i = 0; i < cz_fit_n_doubt(fit); i++)
+    for (int i = 0; i < summary->n_doubt; i++)
         fprintf(stderr, "%s: %s: %s\n", summary->file,
-                summary->verdict == CZ_FIT_REFUSED ? "error" : "warning", cz_fit_doubt(fit, i));
+                summary->verdict == CZ_FIT_REFUSED ? "error" : "warning", summary->doubt[i]);
     if (summary->verdict == CZ_FIT_REFUSED)
         fprintf(stderr,
                 "  help: no law as %s fits this curve, so none is written; try another --as, "

@@ -1,20 +1,18 @@
 /* Words of the causes of climbing. */
 #include "crushzone/explain.h"
 
-const char *cz_cause_text(CzCause cause) {
-    static const char *const text[] = {
-#define CZ_CAUSE(constant, text, doc) text,
+static const struct {
+    const char *text, *doc;
+} causes[CZ_N_CAUSE] = {
+#define CZ_CAUSE(constant, text, doc) [constant] = {text, doc},
 #include "crushzone/causes.def"
 #undef CZ_CAUSE
-    };
-    return text[cause];
+};
+
+const char *cz_cause_text(CzCause cause) {
+    return causes[cause].text;
 }
 
 const char *cz_cause_doc(CzCause cause) {
-    static const char *const doc[] = {
-#define CZ_CAUSE(constant, text, doc) doc,
-#include "crushzone/causes.def"
-#undef CZ_CAUSE
-    };
-    return doc[cause];
+    return causes[cause].doc;
 }

@@ -1,6 +1,7 @@
 /* Lists the checks of a problem: profile, the user's own limits, design rules, targets. */
 #include "base/error.h"
 #include "base/suggest.h"
+#include "base/text.h"
 #include "evaluate/checks.h"
 #include "evaluate/devices.h"
 
@@ -18,48 +19,23 @@ typedef struct Builder {
     const CzScene *scene;
     CzArena *arena;
     CzChecklist *list;
-    int room; /* checks that fit */
     CzError *error;
 } Builder;
 
-static CzStatus fail_memory(const Builder *builder) {
-    return cz_fail(builder->error, CZ_STATUS_NO_MEMORY, "no memory for the checks");
-}
-
-/* Gives a failure the place of a field of the problem file. */
-static CzStatus place_failure(const Builder *builder, const void *field, CzStatus status) {
-    if (status == CZ_STATUS_INPUT && builder->error != NULL)
-        cz_problem_place(builder->problem, field, builder->error);
-    return status;
-}
-
 static CzStatus append(Builder *builder, const CzCheck *check) {
     CzChecklist *list = builder->list;
-    if (list->n_check == builder->room) {
-        const int room = builder->room == 0 ? 64 : 2 * builder->room;
-        CzCheck *more = cz_arena_allocate(builder->arena, (size_t)room, sizeof *more);
-        if (more == NULL)
-            return fail_memory(builder);
-        if (list->n_check > 0)
-            memcpy(more, list->check, (size_t)list->n_check * sizeof *more);
-        list->check = more;
-        builder->room = room;
-    }
+    CzCheck *checks = cz_arena_grow(builder->arena, list->check, list->n_check, sizeof *checks);
+    if (checks == NULL)
+        return cz_no_memory(builder->error, "the checks");
+    list->check = checks;
     list->check[list->n_check++] = *check;
     return CZ_OK;
 }
 
 /* ---- limits that are written down ------------------------------------------------------------ */
 
-static bool is_listed(const CzTexts *texts, const char *name) {
-    for (int i = 0; i < texts->n_text; i++)
-        if (strcmp(texts->text[i], name) == 0)
-            return true;
-    return false;
-}
-
-/* A limit without scenarios holds in all but the overload cases, which are judged for bottoming
- * only, and those that name other checks as their judges. */
+/* A limit without scenarios holds in all but the overload cases, which are judged for bottoming out
+ * only, and scenarios that list other checks in judged_by. */
 static bool holds_in(const CzLimit *limit, const CzScene *scene) {
     bool is_named = false;
     for (int i = 0; i < limit->scenarios.n_text; i++)
@@ -91,19 +67,16 @@ static CzStatus append_in_scenarios(Builder *builder, CzCheck check, const CzLim
     }
     const bool from_profile = check.profile != NULL;
     if (n_scene == 0 && !from_profile)
-        return place_failure(builder, &limit->scenarios,
-                             cz_fail(builder->error, CZ_STATUS_INPUT,
-                                     "limit '%s' applies to no scenario of the problem",
-                                     check.name));
+        return cz_problem_fail(builder->problem, &limit->scenarios, builder->error,
+                               "limit '%s' applies to no scenario of the problem", check.name);
     if (!picks && !from_profile)
-        return place_failure(builder, &limit->metric,
-                             cz_fail(builder->error, CZ_STATUS_INPUT,
-                                     "'%s' matches no place in any scenario", limit->metric));
+        return cz_problem_fail(builder->problem, &limit->metric, builder->error,
+                               "'%s' matches no place in any scenario", limit->metric);
     return CZ_OK;
 }
 
-/* Whether a limit is not confirmed: limits from the primary text and limits of the user are
- * confirmed, others are not. */
+/* Whether a limit is unconfirmed: confirmed are limits read in the primary text and those of the
+ * user. */
 static bool is_unconfirmed(const char *confidence) {
     return confidence == NULL || (strcmp(confidence, "S1") != 0 && strcmp(confidence, "user") != 0);
 }
@@ -114,10 +87,9 @@ static CzStatus check_scenarios_exist(const Builder *builder, const CzLimit *lim
         for (int s = 0; s < builder->n_scene; s++)
             found |= cz_scene_is(&builder->scene[s], limit->scenarios.text[i]);
         if (!found)
-            return place_failure(builder, &limit->scenarios,
-                                 cz_fail(builder->error, CZ_STATUS_INPUT,
-                                         "limit '%s': there is no scenario '%s'", limit->name,
-                                         limit->scenarios.text[i]));
+            return cz_problem_fail(builder->problem, &limit->scenarios, builder->error,
+                                   "limit '%s': there is no scenario '%s'", limit->name,
+                                   limit->scenarios.text[i]);
     }
     return CZ_OK;
 }
@@ -135,14 +107,14 @@ static CzStatus append_limit(Builder *builder, const CzLimit *limit, const char 
     if (check.confidence == NULL && profile == NULL)
         check.confidence = "user";
     check.is_provisional = is_unconfirmed(check.confidence);
-    CZ_TRY(place_failure(builder, &limit->metric,
-                         cz_metric_parse(limit->metric, &check.metric, builder->error)));
+    CZ_TRY(cz_problem_place_failure(builder->problem, &limit->metric,
+                                    cz_metric_parse(limit->metric, &check.metric, builder->error),
+                                    builder->error));
     if (profile == NULL)
         CZ_TRY(check_scenarios_exist(builder, limit));
     if (isnan(limit->max) && isnan(limit->min))
-        return place_failure(builder, &limit->name,
-                             cz_fail(builder->error, CZ_STATUS_INPUT,
-                                     "limit '%s' needs 'max' or 'min'", limit->name));
+        return cz_problem_fail(builder->problem, &limit->name, builder->error,
+                               "limit '%s' needs 'max' or 'min'", limit->name);
     check.scale = isnan(limit->scale) || check.metric.kind->scale == CZ_FLAG_SCALE
                       ? check.metric.kind->scale
                       : limit->scale;
@@ -155,7 +127,7 @@ static CzStatus append_limit(Builder *builder, const CzLimit *limit, const char 
     return CZ_OK;
 }
 
-/* Whether the user set a limit of this name, which then replaces the profile's. */
+/* Whether the user has a limit of this name, which replaces that of the profile. */
 static bool user_sets(const CzChecks *checks, const char *name) {
     for (int i = 0; i < checks->n_limits; i++)
         if (strcmp(checks->limits[i].name, name) == 0)
@@ -170,10 +142,9 @@ static CzStatus append_profile(Builder *builder) {
         return CZ_OK;
     if (profile->category != NULL && checks->category != NULL &&
         strcmp(profile->category, checks->category) != 0)
-        return place_failure(builder, &checks->category,
-                             cz_fail(builder->error, CZ_STATUS_INPUT,
-                                     "profile '%s' is for category '%s', not '%s'", profile->name,
-                                     profile->category, checks->category));
+        return cz_problem_fail(builder->problem, &checks->category, builder->error,
+                               "profile '%s' is for category '%s', not '%s'", profile->name,
+                               profile->category, checks->category);
     for (int i = 0; i < profile->n_limits; i++)
         if (!user_sets(checks, profile->limits[i].name))
             CZ_TRY(append_limit(builder, &profile->limits[i], profile->name, false));
@@ -341,9 +312,9 @@ static CzStatus append_design_rules(Builder *builder) {
     return append_missing_scenarios(builder, has);
 }
 
-/* A design must be one that a file may hold, whatever else is asked of it. The file's own values
- * do, so that this is nothing to be listed. Each rule that a variable can break has a name; the
- * last one is about all rules of the reader together. */
+/* Every design must be one that a problem file may hold. The file's own values are, so these checks
+ * are not listed. Each rule that a variable can break has a name; the last check is for all rules
+ * of the reader. */
 static CzStatus append_rules_of_files(Builder *builder) {
     for (int rule = 0; rule < CZ_N_VALUE_RULE; rule++) {
         const CzMetricKind *kind = cz_metric_of_rule((CzValueRule)rule);
@@ -384,10 +355,10 @@ static CzStatus fail_name(const Builder *builder, const void *field, const char 
                           const char *key, const CzSuggestion *nearest) {
     cz_fail(builder->error, CZ_STATUS_INPUT, "%s: there is no check '%s'", key, name);
     cz_suggest_help(nearest, builder->error);
-    return place_failure(builder, field, CZ_STATUS_INPUT);
+    return cz_problem_place_failure(builder->problem, field, CZ_STATUS_INPUT, builder->error);
 }
 
-/* A misspelt judge would judge nothing. */
+/* Fails for a check in judged_by that does not exist. */
 static CzStatus check_judges_exist(const Builder *builder) {
     for (int s = 0; s < builder->n_scene; s++) {
         const CzTexts *judges = builder->scene[s].judged_by;
@@ -402,12 +373,13 @@ static CzStatus check_judges_exist(const Builder *builder) {
 
 /* ---- constraints ----------------------------------------------------------------------------- */
 
-/* Which checks the optimiser must keep. */
+/* Marks the checks that are constraints of the optimiser. */
 static CzStatus choose_constraints(Builder *builder) {
     const CzOptimise *optimise = &cz_problem_input(builder->problem)->optimise;
     const CzTexts *subject_to = &optimise->subject_to;
     const bool is_fit = optimise->given && optimise->n_match > 0;
-    const bool all = (subject_to->n_text == 0 && !is_fit) || is_listed(subject_to, "checks");
+    const bool all = (subject_to->n_text == 0 && !is_fit) ||
+                     cz_text_is_among("checks", subject_to->n_text, subject_to->text);
     CzChecklist *list = builder->list;
     for (int i = 0; i < subject_to->n_text; i++) {
         CzSuggestion nearest = {0};
@@ -417,8 +389,10 @@ static CzStatus choose_constraints(Builder *builder) {
     }
     for (int i = 0; i < list->n_check; i++) {
         CzCheck *check = &list->check[i];
-        check->is_constraint = check->missing == NULL &&
-                               (check->is_target || all || is_listed(subject_to, check->name));
+        check->is_constraint =
+            check->missing == NULL &&
+            (check->is_target || all ||
+             cz_text_is_among(check->name, subject_to->n_text, subject_to->text));
         list->n_constraint += check->is_constraint;
     }
     list->required_margin = optimise->given ? optimise->margin : 0;

@@ -1,16 +1,14 @@
 /* Checks: judging values against limits. */
 #include "evaluate/checks.h"
-#include "evaluate/place.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* What represents the margin of a yes or no in a search. It is a step, which no search can follow;
- * the continuous checks beside it show the direction. */
+/* Margins of a yes or no in a search. They are a step, which no search can follow; the direction
+ * comes from the continuous checks beside it. */
 static const double satisfied_flag = 1, broken_flag = -0.01;
 
-/* A margin below this is rounding: a value that equals its limit but for the last bits satisfies
- * it. */
+/* A margin below this is rounding error and counts as 0. */
 static const double rounding = 1e-12;
 
 double cz_margin(double value, double limit, bool is_minimum, double scale) {
@@ -109,7 +107,7 @@ int cz_check_n_detail(const CzCheck *check, const CzScene *scene) {
                : 1;
 }
 
-/* What a walk over the places writes. */
+/* Constraints place by place. */
 typedef struct Details {
     const CzCheck *check;
     double required_margin;

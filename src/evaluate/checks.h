@@ -22,10 +22,10 @@ typedef struct CzCheck {
     bool is_minimum;
     double scale; /* smallest scale of the margin */
     const char *profile, *clause, *source, *confidence;
-    const char *missing; /* why it can never be checked; NULL otherwise */
-    bool is_target;      /* kept by the optimiser only, not listed */
-    bool is_rule;        /* of values that a file must hold, whatever is asked of a design */
-    bool is_provisional; /* the limit is not confirmed */
+    const char *missing; /* why it cannot be checked in this problem; NULL otherwise */
+    bool is_target;      /* a constraint of the optimiser only, not listed */
+    bool is_rule;        /* a rule of problem files, for any design */
+    bool is_provisional; /* the limit is unconfirmed */
     bool is_constraint;
 } CzCheck;
 
@@ -49,13 +49,13 @@ CZ_MUST_CHECK CzStatus cz_checklist_build(const CzProblem *problem, int n_scene,
 double cz_margin(double value, double limit, bool is_minimum, double scale);
 
 /* Judges one check. `subject` has the run of the check's scenario, NULL run when there is none;
- * `failure` says why, NULL otherwise. */
+ * `failure` is then the reason, NULL otherwise. */
 CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, const char *failure);
 
-/* Blanks a result that adds up what came after the model's validity. */
+/* Blanks a total of a run that went beyond the model's validity. */
 void cz_check_blank_total(const CzCheck *check, CzCheckResult *result);
 
-/* Constraint of a judged check: at most 0 when kept; NaN when it could not be checked. */
+/* Constraint of a judged check: at most 0 when satisfied; NaN when it could not be checked. */
 double cz_check_constraint(const CzCheckResult *result, double required_margin);
 
 /* A check place by place. n_detail is how many places it has in a scene, 0 for a yes or no, 1 when

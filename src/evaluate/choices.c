@@ -1,5 +1,5 @@
-/* Choices of parts and designs that are read again. */
-#include "evaluate/choices.h"
+/* Choices of parts, and designs that are reread. */
+#include "evaluate/design.h"
 #include "base/error.h"
 #include "base/number.h"
 
@@ -27,7 +27,7 @@ static CzStatus read_choice(const CzProblem *problem, const CzDesignVariable *va
     const size_t n = (size_t)variable->n_shown;
     const char **path = cz_arena_allocate(&arena, n, sizeof *path);
     const char **value = cz_arena_allocate(&arena, n, sizeof *value);
-    CzStatus status = CZ_STATUS_NO_MEMORY;
+    CzStatus status;
     for (int i = 0; path != NULL && value != NULL && i < variable->n_shown; i++) {
         path[i] = variable->shown[i].path;
         value[i] = variable->info.choice[choice];
@@ -35,7 +35,7 @@ static CzStatus read_choice(const CzProblem *problem, const CzDesignVariable *va
     if (path != NULL && value != NULL)
         status = cz_problem_read_again(problem, variable->n_shown, path, value, chosen, error);
     else
-        cz_fail(error, status, "no memory for the choices");
+        status = cz_no_memory(error, "the choices");
     cz_arena_free(&arena);
     return status;
 }
@@ -113,15 +113,15 @@ bool cz_design_settings(const CzDesign *design, int combination, const double *x
         const CzDesignVariable *variable = &design->variable[i];
         for (int k = 0; k < variable->n_shown; k++) {
             char number[CZ_NUMBER_TEXT];
-            if (variable->info.n_choice > 0)
+            if (variable->info.n_choice == 0 && x == NULL)
+                continue;
+            if (variable->info.n_choice > 0) {
                 value[settings->n] =
                     variable->info.choice[cz_design_choice(design, combination, i)];
-            else if (x == NULL)
-                continue;
-            else
-                value[settings->n] = cz_arena_copy_text(
-                    arena, cz_number_print(number, x[i] * variable->shown[k].factor),
-                    strlen(cz_number_print(number, x[i] * variable->shown[k].factor)));
+            } else {
+                cz_number_print(number, x[i] * variable->shown[k].factor);
+                value[settings->n] = cz_arena_copy_text(arena, number, strlen(number));
+            }
             if (value[settings->n] == NULL)
                 return false;
             path[settings->n++] = variable->shown[k].path;

@@ -1,12 +1,13 @@
-/* How far a run is from climbing. */
+/* Climbing margin of a run. */
 #include "evaluate/climbing.h"
 
 #include <string.h>
 
 #include "evaluate/compose.h"
 
-/* What climbing is judged by, and the limit where the problem has none on a metric of the group:
- * EN 15227 holds a wheel to 75 % of its flange, the rest is ours, as in the design rules. */
+/* Metrics that climbing is judged by, with the limit where the problem has none on a metric of the
+ * group: EN 15227 limits the lift of a wheel to 75 % of its flange, the others are ours, as in the
+ * design rules. */
 typedef struct Ground {
     int group;
     const char *metric, *name;

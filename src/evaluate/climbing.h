@@ -1,5 +1,4 @@
-/* How far a run is from climbing: one smallest margin over wheel lift, overlap and vertical
- * capacity. */
+/* Climbing margin of a run: the smallest over wheel lift, overlap and vertical capacity. */
 #ifndef CZ_EVALUATE_CLIMBING_H
 #define CZ_EVALUATE_CLIMBING_H
 
@@ -18,8 +17,8 @@ typedef struct CzClimbing {
 CzClimbing cz_climbing_of(const CzEvaluator *evaluator, int scenario);
 
 /* The judged check with the smallest margin. Its verdict is NOT CHECKED, with the reason, when one
- * of the others is unknown and none is broken. Its margin is NaN when the run failed, did not come
- * to its end, or has nothing that could climb. */
+ * of the others is unknown and none fails. Its margin is NaN when the run failed or is incomplete,
+ * or when no vehicle could climb. */
 CzCheckResult cz_climbing_judge(const CzClimbing *climbing, const CzEvaluator *evaluator,
                                 const CzVehicle *vehicles, const CzRunSummary *run);
 

@@ -1,4 +1,4 @@
-/* What one design answers once its scenarios have run. */
+/* The evaluation of a design from the runs of its scenarios. */
 #include "evaluate/compose.h"
 #include "base/error.h"
 
@@ -32,6 +32,13 @@ CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles,
     return subject;
 }
 
+/* The subject of a check: its scenario with its run, or the design alone. */
+static CzSubject subject_at(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,
+                            const CzRunSummary *const *run) {
+    return cz_subject_of(evaluator, vehicles, scenario,
+                         scenario == CZ_NO_SCENARIO ? NULL : run[scenario]);
+}
+
 static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                                const CzRunSummary *const *run) {
     const CzLevel level = evaluator->objective.kind->level;
@@ -50,8 +57,8 @@ static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *ve
     return worst;
 }
 
-/* The smallest margin of all constraints, negative: what is maximised when nothing is minimised.
- * A yes or no has no margin to enlarge, and a rule of files requires none. */
+/* The smallest margin of all constraints, negative: the objective of a problem without `minimise`.
+ * A yes or no has no margin, and a rule of files needs none. */
 static double margin_objective(const CzEvaluator *evaluator, const CzEvaluation *evaluation) {
     double smallest = INFINITY;
     for (int j = 0; j < evaluation->n_constraint; j++) {
@@ -98,17 +105,14 @@ static void judge_all(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                       const CzRunSummary *const *run, CzCheckResult *all) {
     for (int i = 0; i < evaluator->list.n_check; i++) {
         const CzCheck *check = &evaluator->list.check[i];
-        const CzSubject subject =
-            cz_subject_of(evaluator, vehicles, check->scenario,
-                          check->scenario == CZ_NO_SCENARIO ? NULL : run[check->scenario]);
-        const char *failure =
-            check->scenario == CZ_NO_SCENARIO ? NULL : failure_of(run[check->scenario]);
-        all[i] = cz_check_judge(check, &subject, failure);
-        all[i].is_omitted = check->scenario != CZ_NO_SCENARIO && run[check->scenario] == NULL;
+        const bool is_of_run = check->scenario != CZ_NO_SCENARIO;
+        const CzSubject subject = subject_at(evaluator, vehicles, check->scenario, run);
+        all[i] = cz_check_judge(check, &subject, is_of_run ? failure_of(subject.run) : NULL);
+        all[i].is_omitted = is_of_run && subject.run == NULL;
     }
 }
 
-/* Sorts the judged checks into what is listed and what binds the optimiser. */
+/* Lists the judged checks, and the constraints of the optimiser among them. */
 static void sort_results(const CzEvaluator *evaluator, const CzCheckResult *all,
                          CzEvaluation *evaluation) {
     for (int i = 0; i < evaluator->list.n_check; i++) {
@@ -121,8 +125,7 @@ static void sort_results(const CzEvaluator *evaluator, const CzCheckResult *all,
             continue;
         const int j = evaluation->n_constraint++;
         evaluation->constraint_check[j] = listed;
-        /* A search uses the number itself, because it needs a direction out of designs with
-         * override. */
+        /* A search needs the number itself to get away from designs that climb. */
         const double required = check->is_rule ? 0 : evaluator->list.required_margin;
         const double constraint = cz_check_constraint(&all[i], required);
         evaluation->constraint[j] = isnan(constraint) ? 0 : constraint;
@@ -168,15 +171,7 @@ static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *veh
         const int s = item->scenario;
         const CzSubject subject = cz_subject_of(evaluator, vehicles, s, run[s]);
         CzMatchResult *match = &evaluation->match[evaluation->n_match++];
-        *match = (CzMatchResult){.name = item->written->name,
-                                 .scenario = subject.scene->name,
-                                 .unit = item->unit,
-                                 .target = item->measured != NULL ? 0 : item->written->value,
-                                 .value = NAN,
-                                 .tolerance = item->written->tolerance,
-                                 .weight = item->written->weight,
-                                 .residual = NAN,
-                                 .is_history = item->measured != NULL};
+        *match = cz_match_begin(item, subject.scene);
         if (run[s] != NULL && failure_of(run[s]) == NULL)
             CZ_TRY(cz_match_judge(item, &subject, whole[s], match, NULL, error));
         const int j = evaluation->n_constraint++;
@@ -199,7 +194,7 @@ static CzStatus allocate(const CzEvaluator *evaluator, CzEvaluation *evaluation,
     evaluation->match = malloc((n_match + 1) * sizeof *evaluation->match);
     if (evaluation->check == NULL || evaluation->constraint == NULL ||
         evaluation->constraint_check == NULL || evaluation->match == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the checks of a design");
+        return cz_no_memory(error, "the checks of a design");
     return CZ_OK;
 }
 
@@ -216,7 +211,7 @@ static CzStatus compose_checks(const CzEvaluator *evaluator, const CzVehicle *ve
                                CzError *error) {
     CzCheckResult *all = malloc(((size_t)evaluator->list.n_check + 1) * sizeof *all);
     if (all == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the checks of a design");
+        return cz_no_memory(error, "the checks of a design");
     judge_all(evaluator, vehicles, run, all);
     sort_results(evaluator, all, evaluation);
     evaluation->beyond_validity = any_climbed(evaluator, run);
@@ -257,7 +252,7 @@ CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                                evaluator->objective.kind != NULL || evaluation->n_match > 0;
     if (failed)
         set_failed(evaluation);
-    else if (!isfinite(evaluation->objective)) /* not known, which is a search's own affair */
+    else if (!isfinite(evaluation->objective)) /* unknown, which concerns a search only */
         evaluation->objective = has_objective ? NAN : 0;
     evaluation->verdict = cz_verdict_over(evaluation, 0, NULL);
     return CZ_OK;
@@ -268,11 +263,9 @@ CzStatus cz_compose_refused(const CzEvaluator *evaluator, const CzVehicle *vehic
     const size_t n_scene = (size_t)evaluator->n_scene;
     const CzRunSummary **none = calloc(n_scene, sizeof *none);
     CzRun **no_run = calloc(n_scene, sizeof(CzRun *));
-    CzStatus status = CZ_STATUS_NO_MEMORY;
-    if (none != NULL && no_run != NULL)
-        status = cz_compose(evaluator, vehicles, none, no_run, evaluation, error);
-    else
-        cz_fail(error, status, "no memory for the scenarios");
+    const CzStatus status = none != NULL && no_run != NULL
+                                ? cz_compose(evaluator, vehicles, none, no_run, evaluation, error)
+                                : cz_no_memory(error, "the scenarios");
     free(none);
     free(no_run);
     if (status != CZ_OK)
@@ -288,8 +281,7 @@ static CzStatus compose_residuals(const CzEvaluator *evaluator, const CzVehicle 
                                   double *detail, CzError *error) {
     for (int i = 0; i < evaluator->matches.n_item; i++) {
         const CzMatchItem *item = &evaluator->matches.item[i];
-        const CzSubject subject =
-            cz_subject_of(evaluator, vehicles, item->scenario, run[item->scenario]);
+        const CzSubject subject = subject_at(evaluator, vehicles, item->scenario, run);
         CzMatchResult match;
         CZ_TRY(cz_match_judge(item, &subject, whole[item->scenario], &match, detail, error));
         detail += cz_match_n_detail(item);
@@ -305,9 +297,7 @@ CzStatus cz_compose_details(const CzEvaluator *evaluator, const CzVehicle *vehic
     int n = 0;
     for (int j = 0; j < evaluator->list.n_constraint; j++) {
         const CzCheck *check = &evaluator->list.check[evaluator->constraint_check[j]];
-        const CzSubject subject =
-            cz_subject_of(evaluator, vehicles, check->scenario,
-                          check->scenario == CZ_NO_SCENARIO ? NULL : run[check->scenario]);
+        const CzSubject subject = subject_at(evaluator, vehicles, check->scenario, run);
         n += cz_check_details(check, &subject, evaluator->list.required_margin, detail + n);
     }
     return CZ_OK;

@@ -1,4 +1,4 @@
-/* Composing the answer of one design from the summaries of its runs. */
+/* The evaluation of one design from the summaries of its runs. */
 #ifndef CZ_EVALUATE_COMPOSE_H
 #define CZ_EVALUATE_COMPOSE_H
 
@@ -16,8 +16,7 @@ CZ_MUST_CHECK CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle 
                                   const CzRunSummary *const *run, CzRun *const *whole,
                                   CzEvaluation *evaluation, CzError *error);
 
-/* The answer of a design that the file's rules refuse, so that nothing was run. Statuses as above.
- */
+/* The evaluation of a design that breaks a rule of files and was not run. Statuses as above. */
 CZ_MUST_CHECK CzStatus cz_compose_refused(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                                           CzEvaluation *evaluation, CzError *error);
 

@@ -3,13 +3,11 @@
 #include "base/error.h"
 #include "base/increment.h"
 #include "base/number.h"
-#include "evaluate/choices.h"
 #include "model/kinks.h"
 #include "problem/strokes.h"
 
 #include <float.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,40 +26,18 @@ typedef struct Builder {
     CzError *error;
 } Builder;
 
-/* Fails at the place of a field of the problem file. */
-__attribute__((format(printf, 3, 4))) static CzStatus
-fail_at(const Builder *builder, const void *field, const char *format, ...) {
-    char text[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    const CzStatus status = cz_fail(builder->error, CZ_STATUS_INPUT, "%s", text);
-    if (builder->error != NULL)
-        cz_problem_place(builder->problem, field, builder->error);
-    return status;
-}
-
-static CzStatus fail_memory(const Builder *builder) {
-    return cz_fail(builder->error, CZ_STATUS_NO_MEMORY, "no memory for the design variables");
-}
-
 /* ---- the identical partner ------------------------------------------------------------------- */
-
-/* Whether two ends are written alike; a record may be a copy with the same texts. */
-static bool ends_are_alike(const CzEnd *a, const CzEnd *b) {
-    return memcmp(a, b, sizeof *a) == 0;
-}
 
 static bool same_number(double a, double b) {
     return a == b || (isnan(a) && isnan(b));
 }
 
+/* Whether two vehicles are written alike; one may be a copy with the same texts. */
 static bool vehicles_are_alike(const CzVehicle *a, const CzVehicle *b, bool mirrored) {
     return a->model == b->model && same_number(a->mass, b->mass) &&
            same_number(a->length, b->length) &&
-           ends_are_alike(&a->front, mirrored ? &b->rear : &b->front) &&
-           ends_are_alike(&a->rear, mirrored ? &b->front : &b->rear);
+           memcmp(&a->front, mirrored ? &b->rear : &b->front, sizeof a->front) == 0 &&
+           memcmp(&a->rear, mirrored ? &b->front : &b->rear, sizeof a->rear) == 0;
 }
 
 /* Whether the train ahead is the train behind once more, turned round or not. */
@@ -127,7 +103,7 @@ static CzStatus add_place(const Builder *builder, CzDesignVariable *variable,
     CzDesignPlace *places =
         cz_arena_grow(builder->arena, variable->place, variable->n_place, sizeof *places);
     if (places == NULL)
-        return fail_memory(builder);
+        return cz_no_memory(builder->error, "the design variables");
     variable->place = places;
     variable->place[variable->n_place++] = *place;
     return CZ_OK;
@@ -146,9 +122,9 @@ static double drawn_stroke(const Builder *builder, const CzTarget *target) {
     for (int end = 0; end < 2; end++) {
         const CzAntiClimber *device = &ends[end]->anti_climber;
         const size_t first = (size_t)((const char *)device->stages - (const char *)vehicle);
-        const size_t way = target->offset - first;
-        if (target->offset < first || way >= sizeof device->stages ||
-            way % sizeof(CzStage) != offsetof(CzStage, stroke))
+        const size_t inside = target->offset - first;
+        if (target->offset < first || inside >= sizeof device->stages ||
+            inside % sizeof(CzStage) != offsetof(CzStage, stroke))
             continue;
         return isnan(device->drawn_stroke)
                    ? cz_total_stroke(device->stages, device->n_stages, &device->curve)
@@ -172,15 +148,15 @@ static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable,
         cz_arena_grow(builder->arena, variable->shown, variable->n_shown, sizeof *shown);
     const char *copy = cz_arena_copy_text(builder->arena, path, strlen(path));
     if (shown == NULL || copy == NULL)
-        return fail_memory(builder);
+        return cz_no_memory(builder->error, "the design variables");
     variable->shown = shown;
     variable->shown[variable->n_shown++] =
         (CzVariablePlace){.path = copy, .factor = factor, .drawn_stroke = drawn};
     return CZ_OK;
 }
 
-/* A place whose twin in an identical partner is left out would change one of two identical trains
- * alone: a way to soften the opponent. */
+/* Fails where a variable changes one of two identical trains alone, which could soften the partner.
+ */
 static CzStatus check_twins(const Builder *builder, const void *field,
                             const CzDesignVariable *variable) {
     for (int i = 0; i < variable->n_place; i++)
@@ -189,13 +165,13 @@ static CzStatus check_twins(const Builder *builder, const void *field,
             if (!find_twin(&builder->scene[s], &variable->place[i], &twin) ||
                 drives(variable, &twin))
                 continue;
-            return fail_at(builder, field,
-                           "'%s' changes '%s' but not its twin in '%s': the two trains are "
-                           "identical and share every variable; vary a part, or tie both with "
-                           "'paths'",
-                           variable->info.name,
-                           name_of(&builder->vehicles[variable->place[i].vehicle]),
-                           name_of(&builder->vehicles[twin.vehicle]));
+            return cz_problem_fail(
+                builder->problem, field, builder->error,
+                "'%s' changes '%s' but not its twin in '%s': the two trains are "
+                "identical and share every variable; vary a part, or tie both with "
+                "'paths'",
+                variable->info.name, name_of(&builder->vehicles[variable->place[i].vehicle]),
+                name_of(&builder->vehicles[twin.vehicle]));
         }
     return CZ_OK;
 }
@@ -214,7 +190,7 @@ static CzStatus add_target(const Builder *builder, const CzTarget *target,
     }
     const double unit = variable->n_place == 0 ? target->unit : variable->place[0].scale;
     if (variable->info.unit == NULL)
-        return fail_memory(builder);
+        return cz_no_memory(builder->error, "the design variables");
     CZ_TRY(add_shown(builder, variable, target, unit / target->unit));
     const size_t elsewhere = (size_t)(uintptr_t)target->field;
     const CzDesignPlace place = {.vehicle = target->vehicle,
@@ -239,8 +215,8 @@ static CzStatus check_variable(const Builder *builder, const CzVariable *written
     for (int i = 0; i < variable->n_place; i++)
         any_own |= is_own(builder, variable->place[i].vehicle);
     if (!any_own)
-        return fail_at(
-            builder, field_of(written),
+        return cz_problem_fail(
+            builder->problem, field_of(written), builder->error,
             "'%s' changes only the partner; a softer partner is no improvement of the design",
             info->name);
     for (const CzDesignVariable *other = builder->design->variable; other != variable; other++) {
@@ -250,8 +226,8 @@ static CzStatus check_variable(const Builder *builder, const CzVariable *written
         for (int i = 0; i < other->n_place; i++)
             shares |= drives(variable, &other->place[i]);
         if (shares)
-            return fail_at(builder, field_of(written), "'%s' is driven by two variables",
-                           variable->shown[0].path);
+            return cz_problem_fail(builder->problem, field_of(written), builder->error,
+                                   "'%s' is driven by two variables", variable->shown[0].path);
     }
     return CZ_OK;
 }
@@ -302,8 +278,9 @@ static CzStatus settle_choice(const Builder *builder, const CzVariable *written,
     CzVariableInfo *info = &variable->info;
     const int n = written->choices.n_text;
     if (n > CZ_MOST_COMBINATIONS)
-        return fail_at(builder, &written->choices, "'%s' has more than %d choices", info->name,
-                       (int)CZ_MOST_COMBINATIONS);
+        return cz_problem_fail(builder->problem, &written->choices, builder->error,
+                               "'%s' has more than %d choices", info->name,
+                               (int)CZ_MOST_COMBINATIONS);
     info->n_choice = n;
     info->choice = written->choices.text;
     info->min = 0;
@@ -311,10 +288,8 @@ static CzStatus settle_choice(const Builder *builder, const CzVariable *written,
     info->increment = 1;
     int own = 0;
     const CzStatus status = cz_choice_settle(builder->problem, variable, &own, builder->error);
-    if (status == CZ_STATUS_INPUT && builder->error != NULL)
-        cz_problem_place(builder->problem, &written->choices, builder->error);
     info->start = own;
-    return status;
+    return cz_problem_place_failure(builder->problem, &written->choices, status, builder->error);
 }
 
 static CzStatus add_variable(Builder *builder, const CzVariable *written, int match, int n_match,
@@ -322,12 +297,13 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
     const CzTarget *target = targets->target;
     CzDesign *design = builder->design;
     if (design->n_variable == builder->most_variables)
-        return fail_at(builder, &written->min, "there are more than 1000 variables");
+        return cz_problem_fail(builder->problem, &written->min, builder->error,
+                               "there are more than 1000 variables");
     CzDesignVariable *variable = &design->variable[design->n_variable];
     variable->info.name =
         name_variable(builder, written, match, n_match, first_of(target, match, n_match)->place);
     if (variable->info.name == NULL)
-        return fail_memory(builder);
+        return cz_no_memory(builder->error, "the design variables");
     for (int i = 0; i < targets->n; i++)
         if (n_match == 1 || target[i].match == match)
             CZ_TRY(add_target(builder, &target[i], variable));
@@ -346,8 +322,9 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
         CZ_TRY(check_twins(builder, field_of(written), variable));
     design->n_variable++;
     if (cz_design_n_combination(design) > CZ_MOST_COMBINATIONS)
-        return fail_at(builder, &written->choices, "there are more than %d combinations of choices",
-                       (int)CZ_MOST_COMBINATIONS);
+        return cz_problem_fail(builder->problem, &written->choices, builder->error,
+                               "there are more than %d combinations of choices",
+                               (int)CZ_MOST_COMBINATIONS);
     return CZ_OK;
 }
 
@@ -379,7 +356,7 @@ CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *s
     design->variable =
         cz_arena_allocate(arena, (size_t)builder.most_variables, sizeof *design->variable);
     if (design->variable == NULL)
-        return fail_memory(&builder);
+        return cz_no_memory(error, "the design variables");
     for (int i = 0; i < optimise->n_variables; i++)
         CZ_TRY(add_entry(&builder, &optimise->variables[i], cz_problem_targets(problem, i)));
     return CZ_OK;
@@ -391,14 +368,11 @@ CzStatus cz_design_check_start(const CzProblem *problem, const CzDesign *design,
         if (info->n_choice > 0 || (info->start >= info->min && info->start <= info->max))
             continue;
         char start[CZ_NUMBER_TEXT], min[CZ_NUMBER_TEXT], max[CZ_NUMBER_TEXT];
-        const CzStatus status =
-            cz_fail(error, CZ_STATUS_INPUT,
-                    "the starting value %s of '%s' lies outside its bounds, %s to %s %s",
-                    cz_number_print(start, info->start), info->name,
-                    cz_number_print(min, info->min), cz_number_print(max, info->max), info->unit);
-        if (error != NULL)
-            cz_problem_place(problem, design->variable[i].start_field, error);
-        return status;
+        return cz_problem_fail(problem, design->variable[i].start_field, error,
+                               "the starting value %s of '%s' lies outside its bounds, %s to %s %s",
+                               cz_number_print(start, info->start), info->name,
+                               cz_number_print(min, info->min), cz_number_print(max, info->max),
+                               info->unit);
     }
     return CZ_OK;
 }

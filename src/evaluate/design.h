@@ -2,15 +2,16 @@
  *
  *   value of a place [SI] = variable [unit of its key] x SI value of one unit
  *
- * One variable may drive many places. What may vary is settled by the list of keys; a partner that
- * is the same train shares every variable, so that an opponent cannot be softened.
+ * One variable may drive many places. The list of keys decides which may vary; a partner that is
+ * the same train shares every variable, so that a search cannot soften it. Variables that choose a
+ * part, and those of a fit, are settings of a problem that is reread (choices.c).
  */
 #ifndef CZ_EVALUATE_DESIGN_H
 #define CZ_EVALUATE_DESIGN_H
 
 #include "base/arena.h"
 #include "crushzone/evaluate.h"
-#include "evaluate/scene.h"
+#include "evaluate/variant.h"
 
 typedef struct CzDesignPlace {
     int vehicle;   /* index into the vehicle array; -1 for a number elsewhere, in a fit */
@@ -31,8 +32,7 @@ typedef struct CzDesignVariable {
 typedef struct CzDesign {
     int n_variable;
     CzDesignVariable *variable; /* (n_variable) */
-    bool
-        is_fit; /* every design is read again: its variables may be any number that may be fitted */
+    bool is_fit; /* designs are reread: variables may be any number that may be fitted */
 } CzDesign;
 
 /* Builds the map of a problem; no variables without `optimise:`. Memory comes from the arena.
@@ -49,5 +49,26 @@ CZ_MUST_CHECK CzStatus cz_design_check_start(const CzProblem *problem, const CzD
  * (n_variable).
  */
 void cz_design_apply(const CzDesign *design, const double *x, CzVehicle *vehicles);
+
+/* ---- choices ---- */
+
+enum { CZ_MOST_COMBINATIONS = 64 };
+
+/* Finds the choice of the file itself; any two choices must differ. Statuses: CZ_OK,
+ * CZ_STATUS_INPUT without a place, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_choice_settle(const CzProblem *problem, const CzDesignVariable *variable,
+                                        int *own, CzError *error);
+
+/* Combinations of all choices: 1 without any. The first choice of the file counts fastest. */
+int cz_design_n_combination(const CzDesign *design);
+/* Combination of a design; x is (n_variable). */
+int cz_design_combination(const CzDesign *design, const double *x);
+/* The choice that a variable makes in a combination. */
+int cz_design_choice(const CzDesign *design, int combination, int variable);
+
+/* Settings of a combination, or with `x` of a whole design that is reread. Memory comes from the
+ * arena. False without memory. */
+bool cz_design_settings(const CzDesign *design, int combination, const double *x, CzArena *arena,
+                        CzVariantSettings *settings);
 
 #endif

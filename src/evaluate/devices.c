@@ -7,11 +7,13 @@
  */
 #include "evaluate/devices.h"
 
-#include <string.h>
+#include <math.h>
+
+#include "problem/strokes.h"
 
 enum { MOST_DEVICES = 4 }; /* of one end: two tubes, an anti-climber, a side buffer's tube */
 
-/* One device as far as room, mass and likeness go. */
+/* A collapsing device: length, mass and likeness. */
 typedef struct Device {
     int count;
     double stroke, installed_length, efficiency, mass_per_stroke;
@@ -20,39 +22,21 @@ typedef struct Device {
     const CzTable *curve;
 } Device;
 
-static double stages_stroke(const CzStage *stages, int n_stages) {
-    double stroke = 0;
-    for (int i = 0; i < n_stages; i++)
-        stroke += stages[i].stroke;
-    return stroke;
-}
-
-static double table_stroke(const CzTable *table) {
-    return table->n_point > 0 ? table->x[table->n_point - 1] : 0;
-}
-
-/* Stroke of a device given by stages or by a curve. */
-static double curve_stroke(const CzStage *stages, int n_stages, const CzTable *curve) {
-    return n_stages > 0 ? stages_stroke(stages, n_stages) : table_stroke(curve);
-}
-
 double cz_buffer_stroke(const CzBuffer *buffer) {
-    return buffer->given ? stages_stroke(buffer->stages, buffer->n_stages) : 0;
+    return buffer->given ? cz_total_stroke(buffer->stages, buffer->n_stages, NULL) : 0;
 }
 
 double cz_tube_stroke(const CzTube *tube) {
-    return tube->given ? curve_stroke(tube->stages, tube->n_stages, &tube->curve) : 0;
+    return tube->given ? cz_total_stroke(tube->stages, tube->n_stages, &tube->curve) : 0;
 }
 
-double cz_anti_climber_stroke(const CzAntiClimber *anti_climber) {
-    if (!anti_climber->given)
-        return 0;
-    return curve_stroke(anti_climber->stages, anti_climber->n_stages, &anti_climber->curve);
+double cz_anti_climber_stroke(const CzAntiClimber *device) {
+    return device->given ? cz_total_stroke(device->stages, device->n_stages, &device->curve) : 0;
 }
 
 double cz_end_stroke(const CzEnd *end) {
     if (end->n_stages == 0)
-        return table_stroke(&end->curve);
+        return cz_total_stroke(NULL, 0, &end->curve);
     double stroke = 0;
     for (int i = 0; i < end->n_stages; i++)
         if (end->stages[i].zone != CZ_ZONE_SURVIVAL)
@@ -93,7 +77,7 @@ static int list_devices(const CzEnd *end, Device device[MOST_DEVICES]) {
     return n;
 }
 
-/* Length that a device absorbs. */
+/* Installed length as declared, else by the efficiency. */
 static double installed_length(const Device *device) {
     return isnan(device->installed_length) ? device->stroke / device->efficiency
                                            : device->installed_length;
@@ -140,55 +124,45 @@ double cz_retraction_used(const CzEnd *end) {
     return needed > 0 ? needed / coupler->shear_off.retraction_space : 0;
 }
 
-/* Largest plastic force of a tube at a crush rate, all devices side by side; 0 when absent. */
-static double tube_force(const CzTube *tube, double rate) {
-    if (!tube->given)
-        return 0;
-    double force = isnan(tube->trigger) ? 0 : tube->trigger;
-    for (int i = 0; i < tube->n_stages; i++) {
-        force = fmax(force, tube->stages[i].force);
-        force = fmax(force, tube->stages[i].end_force); /* fmax passes over NaN */
-    }
-    for (int i = 0; i < tube->curve.n_point; i++)
-        force = fmax(force, tube->curve.y[i]);
-    return tube->count * force * (1 + tube->rate_factor * rate);
+/* Largest force of stages and of a curve. */
+static double backbone_force(const CzStage *stages, int n_stages, const CzTable *curve) {
+    double force = 0;
+    for (int i = 0; i < n_stages; i++)
+        force = fmax(fmax(force, stages[i].force), stages[i].end_force); /* passes over NaN */
+    for (int i = 0; i < curve->n_point; i++)
+        force = fmax(force, curve->y[i]);
+    return force;
 }
 
-static double last_stage_force(const CzStage *stages, int n_stages) {
-    return n_stages > 0 ? stages[n_stages - 1].force : 0;
+/* Largest plastic force of a tube at a crush rate, all devices together; 0 when absent. */
+static double tube_force(const CzTube *tube, double rate) {
+    const double force =
+        fmax(backbone_force(tube->stages, tube->n_stages, &tube->curve), tube->trigger);
+    return tube->given ? tube->count * force * (1 + tube->rate_factor * rate) : 0;
 }
 
 static double anti_climber_force(const CzAntiClimber *climber, double rate) {
-    const CzTube like = {.given = climber->given,
-                         .count = climber->count,
-                         .n_stages = climber->n_stages,
-                         .curve = climber->curve,
-                         .trigger = climber->trigger,
-                         .rate_factor = climber->rate_factor};
-    CzTube tube = like;
-    memcpy(tube.stages, climber->stages, sizeof tube.stages);
-    return tube_force(&tube, rate) * (1 + climber->speed_factor * rate / climber->speed_reference);
+    const double force =
+        fmax(backbone_force(climber->stages, climber->n_stages, &climber->curve), climber->trigger);
+    return climber->given ? climber->count * force * (1 + climber->rate_factor * rate) *
+                                (1 + climber->speed_factor * rate / climber->speed_reference)
+                          : 0;
+}
+
+static double last_stage_force(const CzBuffer *buffer) {
+    return buffer->n_stages > 0 ? buffer->stages[buffer->n_stages - 1].force : 0;
 }
 
 static double coupler_force(const CzCoupler *coupler, double rate) {
     const double tubes =
         fmax(tube_force(&coupler->tube, rate), tube_force(&coupler->second_tube, rate));
-    return tubes > 0 ? tubes : last_stage_force(coupler->buffer.stages, coupler->buffer.n_stages);
+    return tubes > 0 ? tubes : last_stage_force(&coupler->buffer);
 }
 
 static double side_buffers_force(const CzSideBuffers *side, double rate) {
     const double tube = tube_force(&side->tube, rate);
-    const double buffer = last_stage_force(side->buffer.stages, side->buffer.n_stages);
+    const double buffer = last_stage_force(&side->buffer);
     return side->count * (tube > 0 ? tube : buffer);
-}
-
-static double structure_force(const CzEnd *end) {
-    double force = 0;
-    for (int i = 0; i < end->n_stages; i++)
-        force = fmax(force, end->stages[i].force);
-    for (int i = 0; i < end->curve.n_point; i++)
-        force = fmax(force, end->curve.y[i]);
-    return force;
 }
 
 double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate) {
@@ -198,7 +172,7 @@ double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate) {
     case CZ_ELEMENT_ANTI_CLIMBER:
         return anti_climber_force(&end->anti_climber, rate);
     case CZ_ELEMENT_END:
-        return structure_force(end);
+        return backbone_force(end->stages, end->n_stages, &end->curve);
     case CZ_ELEMENT_SIDE_BUFFERS:
         return side_buffers_force(&end->side_buffers, rate);
     case CZ_ELEMENT_SUPERSTRUCTURE:
@@ -228,22 +202,34 @@ double cz_shear_off_over_strength(const CzEnd *end) {
     return coupler->shear_off.force / end->proof_strength;
 }
 
-/* Adds up a quantity of all devices of a train. */
-static double sum_devices(int n_vehicle, const CzVehicle *vehicle,
-                          double (*quantity)(const Device *)) {
-    double sum = NAN;
-    for (int i = 0; i < 2 * n_vehicle; i++) {
-        const CzEnd *end = i % 2 == 0 ? &vehicle[i / 2].rear : &vehicle[i / 2].front;
-        Device device[MOST_DEVICES];
-        const int n_device = end->given ? list_devices(end, device) : 0;
-        for (int j = 0; j < n_device; j++)
-            sum = (isnan(sum) ? 0 : sum) + device[j].count * quantity(&device[j]);
-    }
-    return sum;
+/* The device in one of the places of a train's ends; false where there is none. */
+static bool device_at(const CzVehicle *vehicle, int place, Device *device) {
+    const int i = place / MOST_DEVICES;
+    const CzEnd *end = i % 2 == 0 ? &vehicle[i / 2].rear : &vehicle[i / 2].front;
+    Device of_end[MOST_DEVICES];
+    if (!end->given || place % MOST_DEVICES >= list_devices(end, of_end))
+        return false;
+    *device = of_end[place % MOST_DEVICES];
+    return true;
+}
+
+static int n_place(int n_vehicle) {
+    return 2 * n_vehicle * MOST_DEVICES;
 }
 
 static double device_mass(const Device *device) {
     return device->mass_per_stroke * device->stroke;
+}
+
+/* Adds up a quantity of all devices of a train. */
+static double sum_devices(int n_vehicle, const CzVehicle *vehicle,
+                          double (*quantity)(const Device *)) {
+    double sum = NAN;
+    Device device;
+    for (int i = 0; i < n_place(n_vehicle); i++)
+        if (device_at(vehicle, i, &device))
+            sum = (isnan(sum) ? 0 : sum) + device.count * quantity(&device);
+    return sum;
 }
 
 double cz_train_installed_length(int n_vehicle, const CzVehicle *vehicle) {
@@ -254,7 +240,7 @@ double cz_train_absorber_mass(int n_vehicle, const CzVehicle *vehicle) {
     return sum_devices(n_vehicle, vehicle, device_mass);
 }
 
-/* Whether a buyer would call two devices the same part. */
+/* Whether two devices are the same part. */
 static bool is_alike(const Device *a, const Device *b) {
     if (a->stroke != b->stroke || a->n_stages != b->n_stages ||
         a->curve->n_point != b->curve->n_point)
@@ -268,33 +254,18 @@ static bool is_alike(const Device *a, const Device *b) {
     return true;
 }
 
-/* Whether a device of an earlier end is like this one. */
-static bool was_seen(const Device *device, int n_end, const CzVehicle *vehicle) {
-    for (int i = 0; i < n_end; i++) {
-        const CzEnd *end = i % 2 == 0 ? &vehicle[i / 2].rear : &vehicle[i / 2].front;
-        Device earlier[MOST_DEVICES];
-        const int n_earlier = end->given ? list_devices(end, earlier) : 0;
-        for (int j = 0; j < n_earlier; j++)
-            if (is_alike(device, &earlier[j]))
-                return true;
-    }
-    return false;
-}
-
 double cz_train_part_count(int n_vehicle, const CzVehicle *vehicle) {
     int n_part = 0;
     bool any = false;
-    for (int i = 0; i < 2 * n_vehicle; i++) {
-        const CzEnd *end = i % 2 == 0 ? &vehicle[i / 2].rear : &vehicle[i / 2].front;
-        Device device[MOST_DEVICES];
-        const int n_device = end->given ? list_devices(end, device) : 0;
-        for (int j = 0; j < n_device; j++) {
-            any = true;
-            bool seen = was_seen(&device[j], i, vehicle);
-            for (int k = 0; k < j && !seen; k++)
-                seen = is_alike(&device[j], &device[k]);
-            n_part += !seen;
-        }
+    Device device, earlier;
+    for (int i = 0; i < n_place(n_vehicle); i++) {
+        if (!device_at(vehicle, i, &device))
+            continue;
+        bool is_new = true;
+        for (int k = 0; k < i && is_new; k++)
+            is_new = !device_at(vehicle, k, &earlier) || !is_alike(&device, &earlier);
+        n_part += is_new;
+        any = true;
     }
     return any ? n_part : NAN;
 }

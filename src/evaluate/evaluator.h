@@ -1,4 +1,4 @@
-/* What an evaluator answers beyond its public face: to the optimiser and to reports. */
+/* Functions of an evaluator that are not public: for the optimiser and for reports. */
 #ifndef CZ_EVALUATE_EVALUATOR_H
 #define CZ_EVALUATE_EVALUATOR_H
 
@@ -26,11 +26,11 @@ CZ_MUST_CHECK CzStatus cz_evaluator_again(const CzEvaluator *evaluator, const Cz
  * squares, and the last constraints are the matches. */
 bool cz_evaluator_is_fit(const CzEvaluator *evaluator);
 
-/* Whether a constraint is a mere yes or no, or one that the objective leads to. */
+/* Whether a constraint is a yes or no, or a match, which the objective contains. */
 bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint);
 
-/* Whether a constraint is about all rules of files: a design that breaks it could not be read back;
- * and whether it is one of these rules by its name, which the other covers. */
+/* Whether a constraint stands for all rules of files; and whether it is one of these rules by name,
+ * which the former covers. */
 bool cz_evaluator_is_rules(const CzEvaluator *evaluator, int constraint);
 bool cz_evaluator_is_named_rule(const CzEvaluator *evaluator, int constraint);
 
@@ -47,9 +47,9 @@ void cz_evaluator_set_combination(const CzEvaluator *evaluator, int combination,
  * flag is borrowed. */
 void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *stop);
 
-/* Details are constraints before the worst place is taken: one per place, smooth where the worst of
- * all places has breakpoints. Without yes and no. The details of a fit are its residuals instead,
- * whose squares add up to the objective. */
+/* Details are constraints place by place: smooth where the worst of all places has breakpoints.
+ * Those that are a yes or no have none. The details of a fit are its residuals, whose squares add
+ * up to the objective. */
 int cz_evaluator_n_detail(const CzEvaluator *evaluator);
 
 /* As cz_evaluate without keeping runs, for a search: runs end once they have settled, and `detail`

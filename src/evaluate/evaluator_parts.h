@@ -1,4 +1,4 @@
-/* What an evaluator is made of. */
+/* The parts of an evaluator. */
 #ifndef CZ_EVALUATE_EVALUATOR_PARTS_H
 #define CZ_EVALUATE_EVALUATOR_PARTS_H
 
@@ -12,7 +12,7 @@ struct CzEvaluator {
     CzArena arena;
     const CzProblem *problem;
     int n_job;
-    CzManner manner; /* of what is no search */
+    CzManner manner; /* of runs that belong to no search */
     CzObstacles obstacles;
     int n_scene;
     CzScene *scene;            /* (n_scene) */

@@ -1,26 +1,26 @@
-/* Why it climbed: the run with the smallest climbing margin, its indicators, and one-variable
- * searches.
+/* Cause of an override: the run with the smallest climbing margin, its indicators, and searches
+ * over one value at a time.
  *
- * Each varied is tried at the steps of a ladder, both ways, and then between the last step that
- * leaves the verdict as it is and the first that turns it. All candidates of a round are designs of
- * one model and run side by side in lanes.
+ * Each value is changed by the steps of a list, up and down, and then between the last step that
+ * keeps the verdict and the first that turns it. All candidates of a round are designs of one model
+ * and run side by side in lanes.
  */
 #include "crushzone/explain.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "evaluate/climbing.h"
 #include "evaluate/candidate_changes.h"
-#include "evaluate/override_indicators.h"
 #include "evaluate/tasks.h"
 #include "simulate/batch.h"
 
-/* Steps of the ladder, as changes relative to the value (ours). */
+/* Steps of the list, as changes relative to the value (ours). */
 static const double up[] = {0.05, 0.1, 0.2, 0.5, 1, 3, 9};
 static const double down[] = {-0.05, -0.1, -0.2, -0.35, -0.5, -0.75, -0.9};
 enum {
@@ -29,7 +29,7 @@ enum {
     MOST_WIDTH = 64 /* designs of a batch */
 };
 
-/* One value of one varied, and what came of it. */
+/* One change of one value, and its margin. */
 typedef struct Candidate {
     int kind;
     double change, value;
@@ -43,11 +43,9 @@ typedef struct Search {
     bool is_broken; /* the verdict to turn */
     int n_candidate;
     Candidate *candidate; /* of the round (n_candidate) */
-    int width;
-    CzStatus *status; /* of each batch */
-    CzError *error;
+    int width;            /* designs of a batch */
     long n_run;
-    int n_all; /* candidates of all rounds, as far as is known */
+    int n_all; /* candidates of all rounds at most */
 } Search;
 
 CzExplainOptions cz_explain_options_default(void) {
@@ -83,7 +81,7 @@ static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzV
     }
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = false;
-    options.brief = true; /* what climbs does so long before all wheels are at rest */
+    options.brief = true; /* an override happens long before all wheels are at rest */
     const CzStatus status =
         n_design > 0 ? cz_simulate_batch(model, n_design, design, &options, run, error) : CZ_OK;
     for (int i = 0; i < n_design; i++) {
@@ -96,23 +94,20 @@ static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzV
     return status;
 }
 
-static void run_task(int index, void *data) {
+static CzStatus run_task(int index, void *data, CzError *error) {
     Search *search = data;
     const int first = index * search->width;
     const int left = search->n_candidate - first;
     const int n = left < search->width ? left : search->width;
-    if (is_stopped(search->options)) {
-        search->status[index] =
-            cz_fail(&search->error[index], CZ_STATUS_INTERRUPTED, "the search was interrupted");
-        return;
-    }
+    if (is_stopped(search->options))
+        return cz_fail(error, CZ_STATUS_INTERRUPTED, "the search was interrupted");
     CzVehicle *vehicles =
         malloc((size_t)n * (size_t)search->evaluator->n_vehicle * sizeof *vehicles);
-    search->status[index] =
-        vehicles != NULL
-            ? run_batch(search, &search->candidate[first], n, vehicles, &search->error[index])
-            : cz_fail(&search->error[index], CZ_STATUS_NO_MEMORY, "no memory for %d designs", n);
+    const CzStatus status = vehicles != NULL
+                                ? run_batch(search, &search->candidate[first], n, vehicles, error)
+                                : cz_no_memory(error, "the designs");
     free(vehicles);
+    return status;
 }
 
 /* Runs a round of candidates. */
@@ -121,21 +116,8 @@ static CzStatus run_round(Search *search, Candidate *candidate, int n, CzError *
     search->width = width < MOST_WIDTH ? width : MOST_WIDTH;
     search->candidate = candidate;
     search->n_candidate = n;
-    const int n_task = (n + search->width - 1) / search->width;
-    search->status = calloc((size_t)n_task + 1, sizeof *search->status);
-    search->error = calloc((size_t)n_task + 1, sizeof *search->error);
-    CzStatus status = CZ_OK;
-    if (search->status == NULL || search->error == NULL)
-        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n);
-    else
-        cz_tasks_run(n_task, search->evaluator->n_job, run_task, search);
-    for (int i = 0; status == CZ_OK && i < n_task; i++) {
-        status = search->status[i];
-        if (status != CZ_OK && error != NULL)
-            *error = search->error[i];
-    }
-    free(search->status);
-    free(search->error);
+    const CzStatus status = cz_tasks_run((n + search->width - 1) / search->width,
+                                         search->evaluator->n_job, run_task, search, error);
     search->n_run += n;
     if (search->options->progress != NULL)
         search->options->progress((int)search->n_run, search->n_all,
@@ -143,8 +125,7 @@ static CzStatus run_round(Search *search, Candidate *candidate, int n, CzError *
     return status;
 }
 
-/* ---- one varied -------------------------------------------------------------------------------
- */
+/* ---- one value ------------------------------------------------------------------------------- */
 
 /* Size of a change, the same for a doubling and a halving. */
 static double size_of(double change) {
@@ -159,10 +140,10 @@ static bool is_better(const Search *search, double margin, double than) {
     return search->is_broken ? margin > than : margin < than;
 }
 
-/* Looks for the smallest change that turns the verdict among candidates that go one way, in order
- * of size, from `start` on, which does not turn it. */
-static void look(const Search *search, const Candidate *candidate, int n, double start,
-                 CzCandidateChange *varied) {
+/* Finds the smallest change that turns the verdict among candidates in one direction, in order of
+ * size, after `start`, which does not turn it. */
+static void find_change(const Search *search, const Candidate *candidate, int n, double start,
+                        CzCandidateChange *varied) {
     double last = start;
     for (int i = 0; i < n; i++) {
         const bool turned = turns(search, candidate[i].margin);
@@ -183,12 +164,12 @@ static void look(const Search *search, const Candidate *candidate, int n, double
     }
 }
 
-/* The ladder of every varied, both ways. */
-static CzStatus climb_ladders(Search *search, int n, const int *kind, CzCandidateChange *varied,
-                              CzError *error) {
+/* The steps of every value, up and down. */
+static CzStatus try_steps(Search *search, int n, const int *kind, CzCandidateChange *varied,
+                          CzError *error) {
     Candidate *candidate = calloc((size_t)n * 2 * N_STEP + 1, sizeof *candidate);
     if (candidate == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d candidate changes", n);
+        return cz_no_memory(error, "the candidate changes");
     for (int i = 0; i < n * 2 * N_STEP; i++) {
         const int step = i % N_STEP;
         candidate[i].kind = kind[i / (2 * N_STEP)];
@@ -196,12 +177,12 @@ static CzStatus climb_ladders(Search *search, int n, const int *kind, CzCandidat
     }
     const CzStatus status = run_round(search, candidate, n * 2 * N_STEP, error);
     for (int i = 0; status == CZ_OK && i < 2 * n; i++)
-        look(search, &candidate[i * N_STEP], N_STEP, 0, &varied[i / 2]);
+        find_change(search, &candidate[i * N_STEP], N_STEP, 0, &varied[i / 2]);
     free(candidate);
     return status;
 }
 
-/* Between the steps where a varied turns the verdict. */
+/* Between the steps of every value that turns the verdict. */
 static CzStatus refine(Search *search, int n, const int *kind, CzCandidateChange *varied,
                        CzError *error) {
     Candidate *candidate = calloc((size_t)n * N_BETWEEN + 1, sizeof *candidate);
@@ -209,15 +190,15 @@ static CzStatus refine(Search *search, int n, const int *kind, CzCandidateChange
     int n_turning = 0;
     CzStatus status = CZ_OK;
     if (candidate == NULL || of == NULL)
-        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d candidate changes", n);
+        status = cz_no_memory(error, "the candidate changes");
     for (int i = 0; status == CZ_OK && i < n; i++) {
         if (!varied[i].turns)
             continue;
-        const double from = varied[i].not_yet, way = varied[i].change - from;
+        const double from = varied[i].not_yet, range = varied[i].change - from;
         for (int k = 0; k < N_BETWEEN; k++) {
             Candidate *next = &candidate[n_turning * N_BETWEEN + k];
             next->kind = kind[i];
-            next->change = from + way * (k + 1) / (N_BETWEEN + 1);
+            next->change = from + range * (k + 1) / (N_BETWEEN + 1);
         }
         of[n_turning++] = i;
     }
@@ -227,7 +208,7 @@ static CzStatus refine(Search *search, int n, const int *kind, CzCandidateChange
         CzCandidateChange *found = &varied[of[i]];
         const double before = found->not_yet;
         const Candidate *between = &candidate[i * N_BETWEEN];
-        look(search, between, N_BETWEEN, before, found);
+        find_change(search, between, N_BETWEEN, before, found);
         if (found->not_yet == before && found->change != between[0].change)
             found->not_yet = between[N_BETWEEN - 1].change; /* only the step itself turned it */
     }
@@ -236,11 +217,11 @@ static CzStatus refine(Search *search, int n, const int *kind, CzCandidateChange
     return status;
 }
 
-/* ---- all candidate changes
- * ------------------------------------------------------------------------------ */
+/* ---- all candidate changes --------------------------------------------------------------------
+ */
 
-/* Whether a varied is before another: the smaller change that turns the verdict, then the
- * margin that comes nearest to turning it. */
+/* Order of candidate changes: the smaller change that turns the verdict first, then the margin that
+ * is nearer to turning it. */
 static bool goes_before(const Search *search, const CzCandidateChange *a,
                         const CzCandidateChange *b) {
     if (a->turns != b->turns)
@@ -259,8 +240,7 @@ static void sort(const Search *search, int n, CzCandidateChange *varied) {
         }
 }
 
-/* Whether the run has an indicator of a cause. Every lift of a body reaches the stops in the end.
- */
+/* Whether the run has an indicator of a cause; stops do not count, since any lift reaches them. */
 static bool shows(const CzExplanation *explanation, CzCause cause) {
     for (int i = 0; i < explanation->n_indicator; i++)
         if (explanation->indicator[i].cause == cause && cause != CZ_CAUSE_SUSPENSION)
@@ -286,7 +266,7 @@ static CzStatus search_changes(Search *search, CzExplanation *explanation, CzErr
     explanation->candidate =
         calloc((size_t)cz_n_candidate_kind() + 1, sizeof *explanation->candidate);
     if (explanation->candidate == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the candidate changes");
+        return cz_no_memory(error, "the candidate changes");
     for (int k = 0; k < cz_n_candidate_kind() && n < 64; k++) {
         CzCandidateChange *varied = &explanation->candidate[n];
         if (!cz_candidate_find(k, evaluator->vehicles, evaluator->n_vehicle, varied))
@@ -296,7 +276,7 @@ static CzStatus search_changes(Search *search, CzExplanation *explanation, CzErr
         kind[n++] = k;
     }
     search->n_all = n * (2 * N_STEP + N_BETWEEN);
-    CzStatus status = climb_ladders(search, n, kind, explanation->candidate, error);
+    CzStatus status = try_steps(search, n, kind, explanation->candidate, error);
     if (status == CZ_OK)
         status = refine(search, n, kind, explanation->candidate, error);
     if (status == CZ_OK)
@@ -305,6 +285,75 @@ static CzStatus search_changes(Search *search, CzExplanation *explanation, CzErr
     if (status == CZ_OK)
         name_cause(explanation);
     return status;
+}
+
+/* ---- indicators: events before the climb, and forces beyond what a part can carry ------------ */
+
+__attribute__((format(printf, 4, 5))) static void
+indicate(CzExplanation *explanation, CzCause cause, double time, const char *format, ...) {
+    if (explanation->n_indicator == CZ_MOST_INDICATORS)
+        return;
+    CzIndicator *indicator = &explanation->indicator[explanation->n_indicator++];
+    indicator->cause = cause;
+    indicator->time = time;
+    va_list values;
+    va_start(values, format);
+    vsnprintf(indicator->what, sizeof indicator->what, format, values);
+    va_end(values);
+}
+
+static void add_event(CzExplanation *explanation, const CzEvent *event) {
+    switch (event->what) {
+    case CZ_EVENT_BOTTOMED_OUT:
+        indicate(explanation, CZ_CAUSE_BOTTOMING, event->time, "%s bottomed out", event->where);
+        return;
+    case CZ_EVENT_SWING_STOP:
+        indicate(explanation, CZ_CAUSE_STRUT, event->time, "%s met its swing stop", event->where);
+        return;
+    case CZ_EVENT_LIFT_STOP:
+        indicate(explanation, CZ_CAUSE_SUSPENSION, event->time, "lift stop of the %s met",
+                 event->where);
+        return;
+    case CZ_EVENT_BUMP_STOP:
+        indicate(explanation, CZ_CAUSE_SUSPENSION, event->time, "bump stop of the %s met",
+                 event->where);
+        return;
+    default:
+        return;
+    }
+}
+
+/* Whole kN for a sentence. */
+static long kilonewton(double force) {
+    return lround(force / 1e3);
+}
+
+static void add_of_interface(CzExplanation *explanation, const CzInterfaceResult *interface) {
+    double coupler = 0;
+    for (int i = 0; i < interface->n_element; i++)
+        if (interface->element[i].kind == CZ_ELEMENT_COUPLER)
+            coupler = fmax(coupler, interface->element[i].peak_force);
+    if (coupler > interface->critical_force)
+        indicate(explanation, CZ_CAUSE_STRUT, NAN,
+                 "%s: the coupler carried %ld kN, F_crit is %ld kN", interface->name,
+                 kilonewton(coupler), kilonewton(interface->critical_force));
+    if (interface->vertical_margin < 0)
+        indicate(explanation, CZ_CAUSE_CAPACITY, NAN,
+                 "%s: the anti-climbers slipped under a vertical force of %ld kN", interface->name,
+                 kilonewton(interface->vertical_demand));
+    if (interface->min_overlap < 0)
+        indicate(explanation, CZ_CAUSE_OVERLAP, NAN, "%s: the faces lost their overlap",
+                 interface->name);
+}
+
+/* Indicators of a run up to its climb, or over all of it when there is none. */
+static void find_indicators(const CzRunSummary *run, CzExplanation *explanation) {
+    const double until = run->beyond_validity ? run->beyond_validity_time : INFINITY;
+    for (int i = 0; i < run->n_interface; i++)
+        add_of_interface(explanation, &run->interface[i]);
+    for (int i = 0; i < run->n_event; i++)
+        if (run->event[i].time <= until)
+            add_event(explanation, &run->event[i]);
 }
 
 /* ---- the run to explain ---------------------------------------------------------------------- */
@@ -359,7 +408,7 @@ static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluatio
     explanation->climb_time = summary->beyond_validity_time;
     explanation->verdict = summary->beyond_validity ? CZ_VERDICT_FAIL : explanation->worst.verdict;
     search->is_broken = explanation->worst.margin < 0;
-    cz_override_indicators_find(summary, explanation);
+    find_indicators(summary, explanation);
     return CZ_OK;
 }
 
@@ -377,22 +426,16 @@ static CzStatus explain(CzEvaluator *evaluator, const CzExplainOptions *options,
     return status;
 }
 
-static double seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 CzStatus cz_explain(CzEvaluator *evaluator, const CzExplainOptions *options,
                     CzExplanation **explanation, CzError *error) {
-    const double started = seconds();
+    const double started = cz_clock();
     const CzExplainOptions usual = cz_explain_options_default();
     *explanation = calloc(1, sizeof **explanation);
     if (*explanation == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for an explanation");
+        return cz_no_memory(error, "an explanation");
     const CzStatus status =
         explain(evaluator, options != NULL ? options : &usual, *explanation, error);
-    (*explanation)->wall_s = seconds() - started;
+    (*explanation)->wall_s = cz_clock() - started;
     if (status == CZ_OK)
         return CZ_OK;
     cz_explanation_free(*explanation);

@@ -2,13 +2,12 @@
 #include "evaluate/match.h"
 #include "base/error.h"
 #include "base/suggest.h"
-#include "evaluate/place.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Residual of what a run does not show (ours): further off than anything worth keeping. */
+/* Residual of a value that a run does not have (ours). */
 static const double not_shown = 10;
 
 /* ---- building -------------------------------------------------------------------------------- */
@@ -32,21 +31,13 @@ static CzStatus find_event(const char *text, CzEventKind *event, CzError *error)
     return status;
 }
 
-/* Gives a failure the place of a field of the problem file. */
-static CzStatus place_failure(const CzProblem *problem, const void *field, CzStatus status,
-                              CzError *error) {
-    if (status == CZ_STATUS_INPUT && error != NULL)
-        cz_problem_place(problem, field, error);
-    return status;
-}
-
 /* Finds the channel that a text names among those of a scenario's vehicles. */
 static CzStatus find_channel(const char *text, const CzScene *scene, CzArena *arena,
                              CzColumn *column, CzError *error) {
     char nearest[CZ_CHANNEL_ROOM];
     const char **name = cz_arena_allocate(arena, (size_t)scene->n_vehicle, sizeof *name);
     if (name == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the matches");
+        return cz_no_memory(error, "the matches");
     for (int i = 0; i < scene->n_vehicle; i++)
         name[i] = scene->vehicle[i]->name;
     if (cz_column_find(text, scene->n_vehicle, name, column, nearest))
@@ -65,20 +56,19 @@ static CzStatus build_item(const CzProblem *problem, int index, int n_scene, con
         if (strcmp(scene[s].name, written->scenario) == 0)
             item->scenario = s;
     if (written->metric != NULL) {
-        CZ_TRY(place_failure(problem, &written->metric,
-                             cz_metric_parse(written->metric, &item->metric, error), error));
+        CZ_TRY(cz_problem_place_failure(problem, &written->metric,
+                                        cz_metric_parse(written->metric, &item->metric, error),
+                                        error));
         item->unit = item->metric.kind->unit->text;
         if (!cz_metric_picks(&item->metric, &scene[item->scenario]))
-            return place_failure(problem, &written->metric,
-                                 cz_fail(error, CZ_STATUS_INPUT,
-                                         "'%s' matches no place in scenario '%s'", written->metric,
-                                         scene[item->scenario].name),
-                                 error);
+            return cz_problem_fail(problem, &written->metric, error,
+                                   "'%s' matches no place in scenario '%s'", written->metric,
+                                   scene[item->scenario].name);
     } else if (written->event != NULL) {
-        CZ_TRY(place_failure(problem, &written->event,
-                             find_event(written->event, &item->event, error), error));
+        CZ_TRY(cz_problem_place_failure(problem, &written->event,
+                                        find_event(written->event, &item->event, error), error));
     } else {
-        CZ_TRY(place_failure(
+        CZ_TRY(cz_problem_place_failure(
             problem, &written->channel,
             find_channel(written->channel, &scene[item->scenario], arena, &item->column, error),
             error));
@@ -97,7 +87,7 @@ CzStatus cz_matches_build(const CzProblem *problem, int n_scene, const CzScene *
         return CZ_OK;
     list->item = cz_arena_allocate(arena, (size_t)optimise->n_match, sizeof *list->item);
     if (list->item == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the matches");
+        return cz_no_memory(error, "the matches");
     for (int i = 0; i < optimise->n_match; i++) {
         CZ_TRY(build_item(problem, i, n_scene, scene, arena, &list->item[i], error));
         list->needs_record |= list->item[i].metric.kind == NULL;
@@ -119,7 +109,8 @@ static CzStatus take_channel(const CzMatchItem *item, const CzSubject *subject, 
         snprintf(error->help, sizeof error->help,
                  "vehicles or interface lack what it is about; channels.csv has the columns that "
                  "are recorded");
-    return place_failure(subject->problem, &item->written->channel, CZ_STATUS_INPUT, error);
+    return cz_problem_place_failure(subject->problem, &item->written->channel, CZ_STATUS_INPUT,
+                                    error);
 }
 
 /* Value of a channel at a time [s], on the line between its samples; NaN beyond the run. `from` is
@@ -168,8 +159,6 @@ static void judge_history(const CzMatchItem *item, const CzRun *run, const doubl
             detail[stretch] =
                 part / sqrt((double)(i - first) * n) * sqrt(result->weight) / result->tolerance;
     }
-    result->is_history = true;
-    result->target = 0;
     result->value = sqrt(sum / n); /* NaN when the run ends too early */
     snprintf(result->where, sizeof result->where, "%s", item->written->channel);
 }
@@ -189,17 +178,24 @@ static void judge_event(const CzMatchItem *item, const CzRunSummary *run, CzMatc
     result->residual = fmax(not_shown, nearest);
 }
 
+CzMatchResult cz_match_begin(const CzMatchItem *item, const CzScene *scene) {
+    const bool is_history = item->measured != NULL;
+    return (CzMatchResult){.name = item->written->name,
+                           .scenario = scene->name,
+                           .unit = item->unit,
+                           .target = is_history ? 0 : item->written->value,
+                           .value = NAN,
+                           .tolerance = item->written->tolerance,
+                           .weight = item->written->weight,
+                           .residual = NAN,
+                           .is_history = is_history};
+}
+
 CzStatus cz_match_judge(const CzMatchItem *item, const CzSubject *subject, const CzRun *run,
                         CzMatchResult *result, double *detail, CzError *error) {
     const CzMatch *written = item->written;
-    *result = (CzMatchResult){.name = written->name,
-                              .scenario = subject->scene->name,
-                              .unit = item->unit,
-                              .target = written->value,
-                              .value = NAN,
-                              .tolerance = written->tolerance,
-                              .weight = written->weight,
-                              .residual = not_shown};
+    *result = cz_match_begin(item, subject->scene);
+    result->residual = not_shown;
     if (item->metric.kind != NULL) {
         const CzMetricValue value = cz_metric_value(&item->metric, subject, true);
         result->value = value.value;

@@ -1,10 +1,10 @@
-/* Matches: what a fit shall reproduce, and how far a run is from it.
+/* Matches: measurements that a fit reproduces, and the residuals of a run.
  *
  *   residual = (value - measured) / tolerance,   of a time history the root of its mean square
  *   objective = sum of weight x residual^2
  *
- * What a run does not show, such as an event that does not happen, counts as ten tolerances or, of
- * an event, as far as the end of the run is from the time when it should have happened.
+ * A value that a run does not have counts as ten tolerances; of an event that does not happen, the
+ * time from when it was measured to the end of the run counts where that is more.
  */
 #ifndef CZ_EVALUATE_MATCH_H
 #define CZ_EVALUATE_MATCH_H
@@ -38,6 +38,9 @@ CZ_MUST_CHECK CzStatus cz_matches_build(const CzProblem *problem, int n_scene, c
 /* Residuals that a match is made of, with the root of its weight: one for a number, up to 100 for a
  * time history, each for a stretch of it. */
 int cz_match_n_detail(const CzMatchItem *item);
+
+/* A match of a run that does not have it: value and residual are NaN. */
+CzMatchResult cz_match_begin(const CzMatchItem *item, const CzScene *scene);
 
 /* Judges one match. `subject` has the run's summary, `run` its channels. `detail` gets the
  * residuals it is made of (n_detail) unless it is NULL. Status: CZ_STATUS_INPUT for a channel that

@@ -2,19 +2,16 @@
 #include "evaluate/metric.h"
 #include "base/error.h"
 #include "base/suggest.h"
-#include "evaluate/place.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* What is smaller than this share of the smallest scale of a margin is what rounding left of zero.
- */
+/* A value below this share of the smallest scale of a margin is rounding error and counts as 0. */
 static const double rounding = 1e-9;
 
-/* ---- reading the text --------------------------------------------------------------------------
- */
+/* ---- reading the text ------------------------------------------------------------------------ */
 
-/* Takes the word behind the last dot off a text of n letters and returns it. */
+/* Cuts the word behind the last dot off a text and returns it. */
 static const char *take_last_word(char *text) {
     char *dot = strrchr(text, '.');
     if (dot == NULL)
@@ -86,10 +83,9 @@ bool cz_metric_picks(const CzMetric *metric, const CzScene *scene) {
     return cz_places_count(scene, metric->kind->level, metric->selector) > 0;
 }
 
-/* ---- value --------------------------------------------------------------------------------------
- */
+/* ---- value ----------------------------------------------------------------------------------- */
 
-/* What a walk over the places adds up. */
+/* Sums over the places. */
 typedef struct Sum {
     const CzMetricKind *kind;
     bool seeks_max;

@@ -1,7 +1,6 @@
 /* What metrics are: an entry of results.def each, and the values that are judged. */
 #include "evaluate/devices.h"
 #include "evaluate/metric.h"
-#include "evaluate/place.h"
 
 #include <math.h>
 #include <string.h>

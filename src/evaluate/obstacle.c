@@ -1,11 +1,11 @@
-/* Trains that are obstacles: nobody sits in them, so passengers' limits are not theirs.
+/* Trains that are obstacles. They carry no passengers, so limits do not apply to them.
  *
- * `role: obstacle` says so. Where no role is given, a partner is taken for an obstacle when nothing
- * of a rail vehicle is about it: one rigid vehicle of at most 20 t (the reference obstacles at
- * level crossings have 3 t and 15 t, EN 15227 from memory; the bound is ours) without coupler, side
- * buffers, anti-climber or survival space, which is never the train behind. A train behind that
- * looks like it is no help to distinguish them, and both are then judged; so is the partner of one
- * that is fixed or an obstacle by its role, else nothing would be judged.
+ * `role: obstacle` makes a train one. Without a role a partner is taken for an obstacle when it is
+ * one rigid vehicle of at most 20 t (the reference obstacles at level crossings have 3 t and 15 t,
+ * EN 15227 from memory; the bound is ours) without coupler, side buffers, anti-climber or survival
+ * space, and never the train behind. Where the train behind looks like that too, both are judged;
+ * so is the partner of a train that is fixed or an obstacle by its role, since nothing would be
+ * judged otherwise.
  */
 #include "base/error.h"
 #include "evaluate/scene.h"
@@ -91,7 +91,7 @@ CzStatus cz_obstacles_find(const CzProblem *problem, int n_scene, CzScene *scene
     bool *has_vehicle = cz_arena_allocate(arena, (size_t)n_vehicle + 1, sizeof *has_vehicle);
     *obstacles = (CzObstacles){.train = found, .has_vehicle = has_vehicle};
     if (found == NULL || has_vehicle == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the trains");
+        return cz_no_memory(error, "the trains");
     for (int train = 0; train < input->n_trains; train++) {
         const char *why = why_not_judged(input, train, n_scene, scene);
         bool collides = false;

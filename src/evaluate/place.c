@@ -45,6 +45,10 @@ static bool picks_element(const char *selector, const char *interface, const cha
     return cz_matches(selector, name);
 }
 
+static const char *vehicle_name(const CzVehicle *vehicle) {
+    return vehicle->name != NULL ? vehicle->name : "";
+}
+
 /* A walk over places. */
 typedef struct Walk {
     const CzSubject *subject;
@@ -110,11 +114,7 @@ static void visit_elements(Walk *walk, bool is_colliding) {
     }
 }
 
-/* A section is picked by its interface, which an obstacle shares with the train. */
-static bool is_obstacle_section(const Walk *walk, int vehicle) {
-    return cz_scene_has_obstacle_at(walk->subject->scene, vehicle);
-}
-
+/* A section is named by its interface, which an obstacle shares with the train. */
 static void visit_sections(Walk *walk, bool is_colliding) {
     const CzInterfaceResult *interface = walk->place.interface;
     if (!picks_interface(walk->selector, interface->name, is_colliding))
@@ -122,7 +122,8 @@ static void visit_sections(Walk *walk, bool is_colliding) {
     for (int side = 0; side < 2; side++) {
         const int vehicle = walk->place.interface_index + side;
         const CzVehicle *record = record_of(walk->subject, vehicle);
-        if (record->model == CZ_MODEL_FIXED || is_obstacle_section(walk, vehicle))
+        if (record->model == CZ_MODEL_FIXED ||
+            cz_scene_has_obstacle_at(walk->subject->scene, vehicle))
             continue;
         walk->place.record = record;
         walk->place.end = side == 0 ? &record->front : &record->rear;
@@ -159,8 +160,7 @@ static void visit_ends(Walk *walk) {
         const CzVehicle *record = &subject->vehicles[i / 2];
         const CzEnd *end = i % 2 == 0 ? &record->rear : &record->front;
         char name[CZ_WHERE_ROOM];
-        snprintf(name, sizeof name, "%s %s", record->name != NULL ? record->name : "",
-                 i % 2 == 0 ? "rear" : "front");
+        snprintf(name, sizeof name, "%s %s", vehicle_name(record), i % 2 == 0 ? "rear" : "front");
         const bool is_passed_over = subject->is_obstacle != NULL && subject->is_obstacle[i / 2] &&
                                     has_wildcard(walk->selector);
         if (!end->given || record->model == CZ_MODEL_FIXED || is_passed_over ||
@@ -190,27 +190,19 @@ int cz_places_visit(const CzSubject *subject, CzLevel level, const char *selecto
                  .place = {.scene = subject->scene, .run = subject->run, .rate = subject->rate}};
     walk.place.problem = subject->problem;
     walk.place.vehicles = subject->vehicles;
-    switch (level) {
-    case CZ_LEVEL_RUN:
+    if (level == CZ_LEVEL_RUN) {
         walk.place.must_declare = any_vehicle_is_full(subject);
         call(&walk, "");
-        break;
-    case CZ_LEVEL_DESIGN:
+    } else if (level == CZ_LEVEL_DESIGN) {
         walk.place.record = subject->vehicles;
         walk.place.n_record = subject->n_first_train;
         call(&walk, "");
-        break;
-    case CZ_LEVEL_VEHICLE:
+    } else if (level == CZ_LEVEL_VEHICLE) {
         visit_vehicles(&walk);
-        break;
-    case CZ_LEVEL_END:
+    } else if (level == CZ_LEVEL_END) {
         visit_ends(&walk);
-        break;
-    case CZ_LEVEL_INTERFACE:
-    case CZ_LEVEL_ELEMENT:
-    case CZ_LEVEL_SECTION:
+    } else {
         visit_interfaces(&walk);
-        break;
     }
     return walk.n_place;
 }
@@ -233,10 +225,6 @@ static int count_elements(const CzEnd *end, const char *vehicle, const char *int
         n += has[kind] && picks_element(selector, interface, name, is_colliding);
     }
     return n;
-}
-
-static const char *vehicle_name(const CzVehicle *vehicle) {
-    return vehicle->name != NULL ? vehicle->name : "";
 }
 
 int cz_places_count(const CzScene *scene, CzLevel level, const char *selector) {

@@ -6,7 +6,6 @@
  * threads nor the neighbours of a design change a bit of its answer.
  */
 #include "base/error.h"
-#include "evaluate/choices.h"
 #include "evaluate/compose.h"
 #include "evaluate/tasks.h"
 #include "simulate/batch.h"
@@ -22,7 +21,7 @@ typedef struct Task {
     int scene, first, n; /* designs in the block's order */
 } Task;
 
-/* One block of designs on its way through all scenarios. */
+/* One block of designs in all scenarios. */
 typedef struct Block {
     const CzEvaluator *evaluator;
     int n_point;
@@ -36,9 +35,7 @@ typedef struct Block {
     bool record, keep, brief;        /* channels are recorded, runs are kept, runs may end early */
     CzManner manner;
     int n_task;
-    Task *task;       /* (n_task) */
-    CzStatus *status; /* (n_task) */
-    CzError *error;   /* (n_task) */
+    Task *task; /* (n_task) */
 } Block;
 
 /* Runs n designs of one variant, given in the block's order, through one scenario. */
@@ -64,12 +61,12 @@ static CzStatus run_designs(const Block *block, const CzModel *model, const Task
     return status;
 }
 
-static void run_task(int index, void *data) {
+static CzStatus run_task(int index, void *data, CzError *error) {
     const Block *block = data;
     const Task *task = &block->task[index];
     const int combination = block->combination[block->order[task->first]];
     const CzModel *model = block->evaluator->variant[combination].model[task->scene];
-    block->status[index] = run_designs(block, model, task, &block->error[index]);
+    return run_designs(block, model, task, error);
 }
 
 /* Cuts designs and scenarios into tasks that fill the lanes; a task has designs of one variant. */
@@ -95,63 +92,46 @@ static void cut_tasks(Block *block) {
     }
 }
 
-/* ---- designs that are read again ------------------------------------------------------------- */
+/* ---- designs that are reread ------------------------------------------------------------------
+ */
 
-/* Builds the variant of one design and runs it through all scenarios. A design that breaks a rule
- * is refused, which is an answer and no error. */
-static void run_read_again(int index, void *data) {
+/* Builds the variant of one design and runs it in all scenarios. A design that breaks a rule is
+ * refused, which is a result and no error. */
+static CzStatus run_reread(int index, void *data, CzError *error) {
     Block *block = data;
     const CzEvaluator *evaluator = block->evaluator;
     CzVariant *variant = &block->own[index];
-    CzError *error = &block->error[index];
     CzArena arena = {0};
     CzVariantSettings settings;
-    CzStatus status = CZ_STATUS_NO_MEMORY;
+    CzStatus status;
     const double *x = block->x + index * evaluator->design.n_variable;
     if (cz_design_settings(&evaluator->design, 0, x, &arena, &settings))
         status = cz_variant_build(evaluator->problem, &settings, evaluator->n_scene,
                                   evaluator->scene, evaluator->only, variant, error);
     else
-        cz_fail(error, status, "no memory for the settings of a design");
+        status = cz_no_memory(error, "the settings of a design");
     block->is_refused[index] = status == CZ_STATUS_INPUT;
     if (status == CZ_OK)
         block->vehicle[index] = variant->vehicles;
     for (int s = 0; s < evaluator->n_scene && status == CZ_OK; s++)
         if (variant->model[s] != NULL)
             status = run_designs(block, variant->model[s], &(Task){s, index, 1}, error);
-    block->status[index] = block->is_refused[index] ? CZ_OK : status;
     cz_arena_free(&arena);
+    return block->is_refused[index] ? CZ_OK : status;
 }
 
 /* ---- a block --------------------------------------------------------------------------------- */
 
 static CzStatus run_block(Block *block, CzError *error) {
     const CzEvaluator *evaluator = block->evaluator;
-    const size_t most = (size_t)evaluator->n_scene * (size_t)block->n_point;
-    block->task = calloc(most, sizeof *block->task);
-    block->status = calloc(most, sizeof *block->status);
-    block->error = calloc(most, sizeof *block->error);
-    CzStatus status = CZ_OK;
-    if (block->task == NULL || block->status == NULL || block->error == NULL) {
-        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", block->n_point);
-    } else {
-        const bool is_read_again = evaluator->design.is_fit && block->x != NULL;
-        if (is_read_again)
-            block->n_task = block->n_point;
-        else
-            cut_tasks(block);
-        cz_tasks_run(block->n_task, evaluator->n_job, is_read_again ? run_read_again : run_task,
-                     block);
-    }
-    for (int i = 0; status == CZ_OK && i < block->n_task; i++)
-        if (block->status[i] != CZ_OK) {
-            status = block->status[i];
-            if (error != NULL)
-                *error = block->error[i];
-        }
+    if (evaluator->design.is_fit && block->x != NULL)
+        return cz_tasks_run(block->n_point, evaluator->n_job, run_reread, block, error);
+    block->task = calloc((size_t)evaluator->n_scene * (size_t)block->n_point, sizeof *block->task);
+    if (block->task == NULL)
+        return cz_no_memory(error, "the designs");
+    cut_tasks(block);
+    const CzStatus status = cz_tasks_run(block->n_task, evaluator->n_job, run_task, block, error);
     free(block->task);
-    free(block->status);
-    free(block->error);
     return status;
 }
 
@@ -162,7 +142,7 @@ static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *de
     const int n_scene = block->evaluator->n_scene;
     const CzRunSummary **summary = calloc((size_t)n_scene, sizeof *summary);
     if (summary == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d scenarios", n_scene);
+        return cz_no_memory(error, "the scenarios");
     CzStatus status = CZ_OK;
     for (int i = 0; i < block->n_point && status == CZ_OK; i++) {
         CzRun **run = &block->run[i * n_scene];
@@ -181,7 +161,7 @@ static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *de
             continue;
         evaluation[i].run = calloc((size_t)n_scene, sizeof(CzRun *));
         if (evaluation[i].run == NULL)
-            status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d runs", n_scene);
+            status = cz_no_memory(error, "the runs");
         for (int s = 0; s < n_scene && status == CZ_OK; s++)
             if (run[s] != NULL) {
                 evaluation[i].run[evaluation[i].n_run++] = run[s];
@@ -221,7 +201,7 @@ static CzStatus evaluate_block(const Block *wish, int n_point, const double *x,
     block.run = calloc((size_t)n_point * (size_t)evaluator->n_scene, sizeof(CzRun *));
     CzStatus status = CZ_OK;
     if (copies == NULL || block.run == NULL)
-        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d designs", n_point);
+        status = cz_no_memory(error, "the designs");
     sort_block(&block);
     for (int i = 0; i < n_point && status == CZ_OK; i++) {
         CzVehicle *vehicles = copies + (size_t)i * n_vehicle;

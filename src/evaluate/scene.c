@@ -1,6 +1,7 @@
 /* Who collides with whom in a scenario. */
 #include "evaluate/scene.h"
 #include "base/error.h"
+#include "base/text.h"
 
 #include <string.h>
 
@@ -12,7 +13,7 @@ static int find_train(const CzInput *input, const char *name) {
     return -1;
 }
 
-/* The scenario's own value, or the one that it falls back on. */
+/* The value of the scenario, or the train's where it has none. */
 static double value_or(double value, double fallback) {
     return isnan(value) ? fallback : value;
 }
@@ -44,7 +45,7 @@ static CzStatus list_vehicles(const CzProblem *problem, CzArena *arena, CzScene 
     const CzVehicle **vehicle = cz_arena_allocate(arena, n, sizeof *vehicle);
     int *record = cz_arena_allocate(arena, n, sizeof *record);
     if (vehicle == NULL || record == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d vehicles", scene->n_vehicle);
+        return cz_no_memory(error, "the vehicles");
     for (int i = 0; i < scene->n_vehicle; i++) {
         vehicle[i] = i < behind->n_vehicles ? &behind->vehicles[i]
                                             : &ahead->vehicles[i - behind->n_vehicles];
@@ -81,11 +82,8 @@ bool cz_scene_is(const CzScene *scene, const char *name) {
 }
 
 bool cz_scene_is_judged_by(const CzScene *scene, const char *check) {
-    const int n = scene->judged_by != NULL ? scene->judged_by->n_text : 0;
-    for (int i = 0; i < n; i++)
-        if (strcmp(scene->judged_by->text[i], check) == 0)
-            return true;
-    return n == 0;
+    const CzTexts *judges = scene->judged_by;
+    return judges == NULL || cz_text_is_among(check, judges->n_text, judges->text);
 }
 
 CzStatus cz_scenes_build(const CzProblem *problem, CzArena *arena, int *n_scene, CzScene **scene,
@@ -93,7 +91,7 @@ CzStatus cz_scenes_build(const CzProblem *problem, CzArena *arena, int *n_scene,
     *n_scene = cz_problem_n_scenario(problem);
     *scene = cz_arena_allocate(arena, (size_t)*n_scene, sizeof **scene);
     if (*scene == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d scenarios", *n_scene);
+        return cz_no_memory(error, "the scenarios");
     for (int index = 0; index < *n_scene; index++)
         CZ_TRY(build_scene(problem, index, arena, &(*scene)[index], error));
     return CZ_OK;

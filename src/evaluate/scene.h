@@ -1,4 +1,4 @@
-/* Who collides with whom in a scenario, and how fast: what the checks need to know of a problem. */
+/* Trains and speeds of a scenario, as the checks need them. */
 #ifndef CZ_EVALUATE_SCENE_H
 #define CZ_EVALUATE_SCENE_H
 

@@ -8,7 +8,7 @@ set(CZ_SOURCES_evaluate
     compose.c
     design.c
     devices.c
-    evaluator.c
+    evaluator_parts.c
     explain.c
     candidate_changes.c
     match.c
@@ -19,7 +19,6 @@ set(CZ_SOURCES_evaluate
     result_units.c
     runs.c
     scene.c
-    override_indicators.c
     sweep.c
     sweep_axis.c
     tasks.c

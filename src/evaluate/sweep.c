@@ -1,4 +1,4 @@
-/* Sweeps: each point is the problem read anew with other values, and run alone.
+/* Sweeps: each point is the problem read again with other values, and run by itself.
  *
  * Points are tasks of one thread each. They are handed out in waves, between which progress is
  * reported and the stop flag is looked at.
@@ -9,10 +9,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/number.h"
+#include "base/text.h"
 #include "evaluate/compose.h"
 #include "evaluate/tasks.h"
 #include "text/units.h"
@@ -26,9 +27,8 @@ typedef struct Sweeping {
     const CzSweepOptions *options;
     CzMetric metric[CZ_MOST_SWEPT_METRICS];
     CzSweep *sweep;
-    CzStatus *status; /* of each point (n_point) */
-    CzError *error;   /* (n_point) */
-    int first;        /* point of the wave */
+    int first;           /* point of the wave */
+    CzError first_error; /* of the first point, where its problem is invalid */
 } Sweeping;
 
 /* ---- one point ------------------------------------------------------------------------------- */
@@ -41,7 +41,7 @@ static CzStatus read_problem(const Sweeping *sweeping, const CzSweepPoint *point
     char text[CZ_MOST_AXES][sizeof options->axis->path + CZ_NUMBER_TEXT + 1];
     const char **set = malloc(((size_t)with.n_set + CZ_MOST_AXES) * sizeof *set);
     if (set == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the settings of a point");
+        return cz_no_memory(error, "the settings of a point");
     for (int i = 0; i < with.n_set; i++)
         set[i] = with.set[i];
     for (int i = 0; point != NULL && i < options->n_axis; i++) {
@@ -96,13 +96,6 @@ static double read_metrics(int n_scenario, const CzRunSummary *const *run, void 
     return 0;
 }
 
-static bool is_asked_for(const CzSweepOptions *options, const CzCheckResult *check) {
-    for (int i = 0; i < options->n_check; i++)
-        if (strcmp(options->check[i], check->name) == 0)
-            return true;
-    return options->n_check == 0;
-}
-
 /* Whether a check is to be named in place of another: where one fails the worst of those that do,
  * else the one with the smallest margin. */
 static bool is_nearer(const CzCheckResult *check, const CzCheckResult *other) {
@@ -116,7 +109,8 @@ static CzStatus judge(const CzSweepOptions *options, const CzEvaluation *evaluat
     bool any = false;
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
-        if (!is_asked_for(options, check))
+        if (options->n_check > 0 &&
+            !cz_text_is_among(check->name, options->n_check, options->check))
             continue;
         any = true;
         if (is_nearer(check, deciding))
@@ -167,21 +161,23 @@ static CzStatus evaluate(const Sweeping *sweeping, CzProblem *problem, CzSweepPo
     return status;
 }
 
-static void run_point(int index, void *data) {
-    const Sweeping *sweeping = data;
+/* An invalid or interrupted point is a result and no failure. */
+static CzStatus run_point(int index, void *data, CzError *error) {
+    Sweeping *sweeping = data;
     const int i = sweeping->first + index;
     CzSweepPoint *point = &sweeping->sweep->point[i];
-    CzError *error = &sweeping->error[i];
     CzProblem *problem = NULL;
     CzStatus status = read_problem(sweeping, point, &problem, error);
     if (status == CZ_OK)
         status = evaluate(sweeping, problem, point, error);
     cz_problem_free(problem);
-    sweeping->status[i] = status;
     if (status == CZ_STATUS_INPUT) {
         point->state = CZ_SWEEP_INVALID;
         snprintf(point->message, sizeof point->message, "%.511s", error->message);
+        if (i == 0)
+            sweeping->first_error = *error;
     }
+    return status == CZ_STATUS_INPUT || status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
 }
 
 /* ---- all points ------------------------------------------------------------------------------ */
@@ -227,12 +223,9 @@ static CzStatus prepare(Sweeping *sweeping, CzError *error) {
         sweep->metric_unit[k] = sweeping->metric[k].kind->unit->text;
         sweep->metric_doc[k] = sweeping->metric[k].kind->doc;
     }
-    const size_t n = (size_t)sweep->n_point;
-    sweep->point = calloc(n, sizeof *sweep->point);
-    sweeping->status = calloc(n, sizeof *sweeping->status);
-    sweeping->error = calloc(n, sizeof *sweeping->error);
-    if (sweep->point == NULL || sweeping->status == NULL || sweeping->error == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for %d points", sweep->n_point);
+    sweep->point = calloc((size_t)sweep->n_point, sizeof *sweep->point);
+    if (sweep->point == NULL)
+        return cz_no_memory(error, "the points");
     lay_out(sweep);
     return read_problem(sweeping, NULL, &sweep->problem, error);
 }
@@ -241,18 +234,19 @@ static bool is_stopped(const CzSweepOptions *options) {
     return options->stop != NULL && *options->stop != 0;
 }
 
-static void run_all(Sweeping *sweeping) {
+static CzStatus run_all(Sweeping *sweeping, CzError *error) {
     const CzSweepOptions *options = sweeping->options;
     const int n_job = options->n_job > 0 ? options->n_job : cz_processor_count();
     const int n_point = sweeping->sweep->n_point, n_wave = n_job * POINTS_PER_JOB;
     while (sweeping->first < n_point && !is_stopped(options)) {
         const int left = n_point - sweeping->first, n = left < n_wave ? left : n_wave;
-        cz_tasks_run(n, n_job, run_point, sweeping);
+        CZ_TRY(cz_tasks_run(n, n_job, run_point, sweeping, error));
         sweeping->first += n;
         if (options->progress != NULL)
             options->progress(sweeping->first, n_point, options->progress_data);
     }
     sweeping->sweep->is_interrupted = is_stopped(options);
+    return CZ_OK;
 }
 
 /* What a point is ordered by when the worst is searched for: run failures first, then points that
@@ -269,24 +263,16 @@ static double order_of(const CzSweepPoint *point) {
     return isnan(point->margin) ? NAN : margin;
 }
 
-/* A failure that no other point could have escaped ends the sweep. */
+/* Names the worst point; a sweep whose points are all invalid fails. */
 static CzStatus conclude(const Sweeping *sweeping, CzError *error) {
     CzSweep *sweep = sweeping->sweep;
     bool any_valid = false;
-    for (int i = 0; i < sweep->n_point; i++) {
-        const CzStatus status = sweeping->status[i];
-        any_valid |= status != CZ_STATUS_INPUT;
-        if (status == CZ_OK || status == CZ_STATUS_INPUT || status == CZ_STATUS_INTERRUPTED)
-            continue;
-        if (error != NULL)
-            *error = sweeping->error[i];
-        return status;
-    }
-    if (!any_valid) {
-        if (error != NULL)
-            *error = sweeping->error[0];
+    for (int i = 0; i < sweep->n_point; i++)
+        any_valid |= sweep->point[i].state != CZ_SWEEP_INVALID;
+    if (!any_valid && error != NULL)
+        *error = sweeping->first_error;
+    if (!any_valid)
         return CZ_STATUS_INPUT;
-    }
     sweep->worst = -1;
     for (int i = 0; i < sweep->n_point; i++) {
         const double order = order_of(&sweep->point[i]);
@@ -296,31 +282,23 @@ static CzStatus conclude(const Sweeping *sweeping, CzError *error) {
     return CZ_OK;
 }
 
-static double seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 CzStatus cz_sweep(const char *file, const CzProblemOptions *problem_options,
                   const CzSweepOptions *options, CzSweep **sweep, CzError *error) {
-    const double started = seconds();
+    const double started = cz_clock();
     const CzProblemOptions none = cz_problem_options_default();
     *sweep = calloc(1, sizeof **sweep);
     if (*sweep == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a sweep");
+        return cz_no_memory(error, "a sweep");
     Sweeping sweeping = {.file = file,
                          .problem_options = problem_options != NULL ? problem_options : &none,
                          .options = options,
                          .sweep = *sweep};
     CzStatus status = prepare(&sweeping, error);
-    if (status == CZ_OK) {
-        run_all(&sweeping);
+    if (status == CZ_OK)
+        status = run_all(&sweeping, error);
+    if (status == CZ_OK)
         status = conclude(&sweeping, error);
-    }
-    free(sweeping.status);
-    free(sweeping.error);
-    (*sweep)->wall_s = seconds() - started;
+    (*sweep)->wall_s = cz_clock() - started;
     if (status == CZ_OK)
         return CZ_OK;
     cz_sweep_free(*sweep);

@@ -12,20 +12,44 @@ typedef struct Queue {
     int n_task;
     CzTaskFunction function;
     void *data;
+    pthread_mutex_t lock; /* of what follows */
+    int failed;           /* first task that failed; n_task when none did */
+    CzStatus status;
+    CzError *error; /* NULL when nobody wants it */
 } Queue;
+
+static void note_failure(Queue *queue, int index, CzStatus status, const CzError *error) {
+    pthread_mutex_lock(&queue->lock);
+    if (index < queue->failed) {
+        queue->failed = index;
+        queue->status = status;
+        if (queue->error != NULL)
+            *queue->error = *error;
+    }
+    pthread_mutex_unlock(&queue->lock);
+}
 
 static void *work(void *argument) {
     Queue *queue = argument;
     for (;;) {
+        CzError error = {0};
         const int index = atomic_fetch_add(&queue->next, 1);
         if (index >= queue->n_task)
             return NULL;
-        queue->function(index, queue->data);
+        const CzStatus status = queue->function(index, queue->data, &error);
+        if (status != CZ_OK)
+            note_failure(queue, index, status, &error);
     }
 }
 
-void cz_tasks_run(int n_task, int n_job, CzTaskFunction function, void *data) {
-    Queue queue = {.n_task = n_task, .function = function, .data = data};
+CzStatus cz_tasks_run(int n_task, int n_job, CzTaskFunction function, void *data, CzError *error) {
+    Queue queue = {.n_task = n_task,
+                   .function = function,
+                   .data = data,
+                   .lock = PTHREAD_MUTEX_INITIALIZER,
+                   .failed = n_task,
+                   .status = CZ_OK,
+                   .error = error};
     atomic_init(&queue.next, 0);
     pthread_t thread[MOST_THREADS];
     int n_thread = 0;
@@ -36,6 +60,7 @@ void cz_tasks_run(int n_task, int n_job, CzTaskFunction function, void *data) {
     work(&queue);
     for (int i = 0; i < n_thread; i++)
         pthread_join(thread[i], NULL);
+    return queue.status;
 }
 
 int cz_processor_count(void) {

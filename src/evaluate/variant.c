@@ -10,7 +10,7 @@ static CzStatus build(const CzProblem *problem, const CzScene *scene, const char
     variant->vehicles = cz_problem_vehicles(problem, &n_vehicle);
     variant->model = calloc((size_t)variant->n_scene, sizeof(CzModel *));
     if (variant->model == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the models");
+        return cz_no_memory(error, "the models");
     for (int s = 0; s < variant->n_scene; s++)
         if (only == NULL || cz_scene_is(&scene[s], only))
             CZ_TRY(cz_model_build(problem, s, &variant->model[s], error));

@@ -1,9 +1,9 @@
 /* A variant: the problem with other settings, ready to run.
  *
  * Numbers of absorbers are written into copies of the vehicle array, so that many designs of one
- * variant run side by side. What changes more than that, such as the buffer that was chosen or a
- * mass that is being fitted, is read again from the file's tree: the variant is then judged and
- * built just as the file would be that says so, to the last bit.
+ * variant run side by side. Other changes, such as another buffer or a mass that is fitted, are
+ * settings of a problem that is reread from the file's tree: the variant is the same, to the last
+ * bit, as that of a file with these settings.
  */
 #ifndef CZ_EVALUATE_VARIANT_H
 #define CZ_EVALUATE_VARIANT_H

@@ -1,4 +1,4 @@
-/* How checks add up to a verdict: the one rule, for a scenario, a problem, a point of a sweep, a
+/* Verdict over several checks: the same rule for a scenario, a problem, a point of a sweep, a
  * design of a search, and runs that are compared.
  *
  *   FAIL         a check fails, or something climbed, after which nothing is valid
@@ -9,8 +9,8 @@
  * The exit code of a judging command is 0 for the last two, 3 when a run failed, else 1.
  */
 #include <math.h>
-#include <string.h>
 
+#include "base/text.h"
 #include "crushzone/evaluate.h"
 
 const char *cz_verdict_text(CzVerdict verdict) {
@@ -25,18 +25,11 @@ bool cz_verdict_passes(CzVerdict verdict) {
     return verdict == CZ_VERDICT_PASS || verdict == CZ_VERDICT_PROVISIONAL;
 }
 
-static bool is_among(int n_name, const char *const *name, const char *wanted) {
-    for (int i = 0; i < n_name; i++)
-        if (strcmp(name[i], wanted) == 0)
-            return true;
-    return n_name == 0;
-}
-
 CzVerdict cz_verdict_over(const CzEvaluation *evaluation, int n_name, const char *const *name) {
     bool any[4] = {false};
     int n_counted = 0;
     for (int i = 0; i < evaluation->n_check; i++) {
-        if (!is_among(n_name, name, evaluation->check[i].name))
+        if (n_name > 0 && !cz_text_is_among(evaluation->check[i].name, n_name, name))
             continue;
         any[evaluation->check[i].verdict] = true;
         n_counted++;

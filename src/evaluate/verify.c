@@ -1,20 +1,19 @@
-/* A design computed once more by other means, and how far that changes what it is judged by.
+/* A design computed again by other means, and the change of the numbers that it is judged by.
  *
- *   record --evaluate in another manner--> the same numbers again --> change = |again - record| /
- * scale
+ *   production run, the same run in another manner --> change = |again - production| / scale
  *
- * A check changes by what its margin changes by, so that a wheel lift of some micrometres does not
- * count by what it is but by what is allowed. A margin ends at 100 %: an upper limit leaves no
- * more, and of what a lower limit leaves beyond that no verdict depends. Where a limit is exceeded
- * many times over, as one on "nothing" is, the change is one of what it is exceeded by.
+ * The change of a check is that of its margin: a wheel lift of some micrometres counts against its
+ * limit. A margin above 100 % counts as 100 %, since no verdict depends on more. Where a limit is
+ * exceeded many times, as one of 0 is, the change is relative to the excess.
  *
- * Any other number changes by a share of itself. Where it is next to zero, there is nothing to take
- * a share of: an energy is then measured by a hundredth of the kinetic energy before the collision,
- * so that what passes is at most 1e-4 of it, as much as a balanced run may lose (ours); a force, a
- * length and whatever a metric is by the smallest scale of that metric's margins.
+ * The change of any other number is relative to itself. Where the number is next to 0, an energy is
+ * compared with a hundredth of the initial kinetic energy, so that at most 1e-4 of that passes,
+ * which is the tolerance of the energy balance (ours); a force, a length or another metric is
+ * compared with the smallest scale of its margins.
  */
 #include "crushzone/verify.h"
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "evaluate/evaluator_parts.h"
 
@@ -22,30 +21,26 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define LIMIT 0.01 /* largest change that passes (ours) */
-/* A factor on the step that puts it elsewhere on every event and moves its error by 6 % of itself;
- * with 33 steps for 32 the end of a run is searched for at the same moments (ours). */
+/* A factor on the step that moves it against every event and changes its error by 6 %; with 33
+ * steps for 32 the end criterion is examined at the same times (ours). */
 #define NUDGE (32.0 / 33.0)
 
-static const char *const keys[] = {
-#define CZ_VERIFY_METHOD(constant, key, text, doc) key,
-#include "crushzone/verify_methods.def"
-#undef CZ_VERIFY_METHOD
-};
-static const char *const texts[] = {
-#define CZ_VERIFY_METHOD(constant, key, text, doc) text,
+static const struct {
+    const char *key, *text;
+} methods[CZ_N_VERIFY_METHOD] = {
+#define CZ_VERIFY_METHOD(constant, key, text, doc) [constant] = {key, text},
 #include "crushzone/verify_methods.def"
 #undef CZ_VERIFY_METHOD
 };
 
 const char *cz_verify_method_key(CzVerifyMethod method) {
-    return keys[method];
+    return methods[method].key;
 }
 
 const char *cz_verify_method_text(CzVerifyMethod method) {
-    return texts[method];
+    return methods[method].text;
 }
 
 CzVerifyOptions cz_verify_options_default(void) {
@@ -57,8 +52,8 @@ static CzTrack track_of(const CzEvaluator *evaluator) {
     return cz_problem_track(evaluator->problem);
 }
 
-/* How a method makes its runs. The solvers know the modal track; what runs along with the wheels,
- * and finite elements, are compared with it, and it is compared with finite elements. */
+/* How a method makes its runs. The solvers have the modal track; the co-running track and finite
+ * elements are compared with the modal one, and that with finite elements. */
 static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyMethod method, double solver_step) {
     CzManner manner = evaluator->manner;
     switch (method) {
@@ -89,7 +84,7 @@ static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyMethod method, d
 
 /* ---- numbers of an evaluation ---------------------------------------------------------------- */
 
-/* What a design is judged by, in an order that is the same for every evaluation of it. */
+/* A number that a design is judged by; their order is the same for every evaluation. */
 typedef struct Number {
     const char *name, *scenario, *where, *unit;
     double value;
@@ -113,7 +108,7 @@ static Number number_of_check(const CzCheck *check, const CzCheckResult *result)
 
 enum { N_BULK = 3 };
 
-/* What an energy next to zero is measured by, in its unit. */
+/* Scale of an energy next to 0, in its unit. */
 static double energy_scale(const CzRunSummary *run, double per_unit) {
     const double share = 0.01; /* ours */
     return share * run->energy.initial / per_unit;
@@ -145,7 +140,7 @@ static Number bulk_of(const CzRunSummary *run, int which) {
     return number;
 }
 
-/* A value that a fit matches changes by the share of what was measured. */
+/* The change of a match is relative to the measured value. */
 static Number number_of_match(const CzMatchResult *match, const CzCheckResult *result) {
     return (Number){.name = match->name,
                     .scenario = match->scenario,
@@ -157,7 +152,7 @@ static Number number_of_match(const CzMatchResult *match, const CzCheckResult *r
                     .check = result};
 }
 
-/* What an objective that is a metric is measured by when it is next to zero. */
+/* Scale of an objective next to 0 that is a metric. */
 static double least_scale_of(const CzMetricKind *kind, const CzEvaluation *evaluation) {
     double scale = fabs(kind->scale); /* 1 of a yes or no */
     for (int i = 0; strcmp(kind->unit->text, "kJ") == 0 && i < evaluation->n_run; i++)
@@ -167,8 +162,8 @@ static double least_scale_of(const CzMetricKind *kind, const CzEvaluation *evalu
     return scale;
 }
 
-/* What the objective changes by: a margin by itself, a fit's sum of squares not at all, because it
- * is next to nothing and its terms are looked at one by one, anything else by its own size. */
+/* Scale of the objective: 1 of a margin; infinite of a fit's sum of squares, which is next to 0 and
+ * whose terms are compared one by one; else its own size. */
 static double scale_of_objective(const CzEvaluator *evaluator, const CzEvaluation *evaluation) {
     if (cz_evaluator_maximises_margin(evaluator))
         return 1.0;
@@ -180,50 +175,41 @@ static double scale_of_objective(const CzEvaluator *evaluator, const CzEvaluatio
                : fmax(own, least_scale_of(evaluator->objective.kind, evaluation));
 }
 
-/* Lists the numbers; `number` may be NULL to count them. */
+static int most_numbers(const CzEvaluator *evaluator, const CzEvaluation *evaluation) {
+    return 1 + evaluator->list.n_check + evaluation->n_match + N_BULK * evaluation->n_run;
+}
+
+/* Lists the numbers and returns how many there are. */
 static int list_numbers(const CzEvaluator *evaluator, const CzEvaluation *evaluation,
                         Number *number) {
     int n = 0, n_check = 0, n_constraint = 0;
     const CzOptimise *optimise = &cz_problem_input(evaluator->problem)->optimise;
-    if (optimise->given || evaluator->own_objective != NULL) {
-        if (number != NULL)
-            number[n] = (Number){.name = evaluator->objective_name,
-                                 .where = "",
-                                 .unit = evaluator->objective_unit,
-                                 .value = evaluation->objective,
-                                 .counted = evaluation->objective,
-                                 .beyond_validity = evaluation->beyond_validity,
-                                 .scale = scale_of_objective(evaluator, evaluation)};
-        n++;
-    }
+    if (optimise->given || evaluator->own_objective != NULL)
+        number[n++] = (Number){.name = evaluator->objective_name,
+                               .where = "",
+                               .unit = evaluator->objective_unit,
+                               .value = evaluation->objective,
+                               .counted = evaluation->objective,
+                               .beyond_validity = evaluation->beyond_validity,
+                               .scale = scale_of_objective(evaluator, evaluation)};
     for (int i = 0; i < evaluator->list.n_check; i++) {
         const CzCheck *check = &evaluator->list.check[i];
         const CzCheckResult *result = check->is_target ? &evaluation->constraint_check[n_constraint]
                                                        : &evaluation->check[n_check++];
         n_constraint += check->is_constraint;
-        if (result->is_omitted || (check->is_rule && check->scale != CZ_FLAG_SCALE))
-            continue; /* no number of a run */
-        if (number != NULL)
-            number[n] = number_of_check(check, result);
-        n++;
+        if (!result->is_omitted && (!check->is_rule || check->scale == CZ_FLAG_SCALE))
+            number[n++] = number_of_check(check, result);
     }
-    for (int i = 0; i < evaluation->n_match; i++) {
-        if (number != NULL) /* its check is among the last ones */
-            number[n] = number_of_match(&evaluation->match[i], &evaluation->check[n_check + i]);
-        n++;
-    }
-    for (int i = 0; i < evaluation->n_run; i++)
-        for (int which = 0; which < N_BULK; which++) {
-            if (number != NULL)
-                number[n] = bulk_of(cz_run_summary(evaluation->run[i]), which);
-            n++;
-        }
+    for (int i = 0; i < evaluation->n_match; i++) /* their checks are the last ones */
+        number[n++] = number_of_match(&evaluation->match[i], &evaluation->check[n_check + i]);
+    for (int i = 0; i < N_BULK * evaluation->n_run; i++)
+        number[n++] = bulk_of(cz_run_summary(evaluation->run[i / N_BULK]), i % N_BULK);
     return n;
 }
 
 /* ---- comparison ------------------------------------------------------------------------------ */
 
-/* Whether a check is judged otherwise; provisional or not is no matter of numbers. */
+/* Whether two verdicts differ; a provisional pass is a pass. */
 static bool differs(CzVerdict a, CzVerdict b) {
     return cz_verdict_passes(a) != cz_verdict_passes(b) ||
            (a == CZ_VERDICT_FAIL) != (b == CZ_VERDICT_FAIL);
@@ -257,9 +243,9 @@ static void compare(CzVerification *verification, CzVerifyMethod method, int ind
     }
 }
 
-/* Says which scenario of an evaluation failed. */
-static void tell_failure(CzVerification *verification, const char *method,
-                         const CzEvaluation *evaluation) {
+/* Writes which scenario of an evaluation failed. */
+static void write_failure(CzVerification *verification, const char *method,
+                          const CzEvaluation *evaluation) {
     verification->status = CZ_STATUS_RUN_FAILED;
     snprintf(verification->failure, sizeof verification->failure, "%s: a run failed", method);
     for (int i = 0; i < evaluation->n_run; i++) {
@@ -276,15 +262,15 @@ static void tell_failure(CzVerification *verification, const char *method,
     }
 }
 
-/* Goes one method. */
-static CzStatus go(CzVerification *verification, const CzEvaluator *evaluator,
-                   CzVerifyMethod method, const double *x, const Number *record, Number *again,
-                   CzError *error) {
+/* Computes the design by one method. */
+static CzStatus run_method(CzVerification *verification, const CzEvaluator *evaluator,
+                           CzVerifyMethod method, const double *x, const Number *record,
+                           Number *again, CzError *error) {
     const CzManner manner = manner_of(evaluator, method, verification->solver_step);
     CzEvaluation evaluation = {0};
     CZ_TRY(cz_evaluator_again(evaluator, &manner, x, &evaluation, error));
     if (evaluation.status != CZ_OK) {
-        tell_failure(verification, texts[method], &evaluation);
+        write_failure(verification, methods[method].text, &evaluation);
     } else {
         verification->is_done[method] = true;
         verification->largest_change[method] = 0.0;
@@ -296,46 +282,42 @@ static CzStatus go(CzVerification *verification, const CzEvaluator *evaluator,
     return CZ_OK;
 }
 
-static double now_s(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static CzStatus go_all(CzVerification *verification, const CzEvaluator *evaluator, const double *x,
-                       const CzEvaluation *record, CzError *error) {
-    const int n = list_numbers(evaluator, record, NULL);
-    Number *number = calloc(2 * (size_t)n + 1, sizeof *number);
-    verification->value = calloc((size_t)n + 1, sizeof *verification->value);
+static CzStatus run_methods(CzVerification *verification, const CzEvaluator *evaluator,
+                            const double *x, const CzEvaluation *record, CzError *error) {
+    const size_t most = (size_t)most_numbers(evaluator, record);
+    Number *number = calloc(2 * most, sizeof *number);
+    verification->value = calloc(most, sizeof *verification->value);
     CzStatus status = CZ_OK;
     if (number == NULL || verification->value == NULL) {
-        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the verification");
+        status = cz_no_memory(error, "the verification");
     } else {
         verification->n_value = list_numbers(evaluator, record, number);
-        for (int i = 0; i < n; i++)
+        for (int i = 0; i < verification->n_value; i++)
             begin_value(&verification->value[i], &number[i]);
     }
     for (int method = 0; method < CZ_N_VERIFY_METHOD && status == CZ_OK; method++) {
         if ((verification->methods & (1u << method)) == 0)
             continue;
-        const double began = now_s();
-        status = go(verification, evaluator, (CzVerifyMethod)method, x, number, number + n, error);
-        verification->wall_s[method] = now_s() - began;
+        const double began = cz_clock();
+        status = run_method(verification, evaluator, (CzVerifyMethod)method, x, number,
+                            number + most, error);
+        verification->wall_s[method] = cz_clock() - began;
     }
     free(number);
     return status;
 }
 
 static CzVerdict judge(const CzVerification *verification) {
-    const unsigned methods = verification->methods;
+    const unsigned requested = verification->methods;
     for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
-        if ((methods & (1u << method)) == 0)
+        if ((requested & (1u << method)) == 0)
             continue;
         if (!verification->is_done[method] || verification->n_flip[method] > 0 ||
             !(verification->largest_change[method] <= verification->limit))
             return CZ_VERDICT_FAIL;
     }
-    return verification->status == CZ_OK && methods != 0 ? CZ_VERDICT_PASS : CZ_VERDICT_NOT_CHECKED;
+    return verification->status == CZ_OK && requested != 0 ? CZ_VERDICT_PASS
+                                                           : CZ_VERDICT_NOT_CHECKED;
 }
 
 /* Verifies against a record that has its runs. */
@@ -351,13 +333,13 @@ static CzStatus verify(CzVerification *verification, CzEvaluator *evaluator, con
         verification->worst[method] = -1;
     }
     if (record->status != CZ_OK) {
-        tell_failure(verification, "the production run", record);
+        write_failure(verification, "the production run", record);
         verification->verdict = CZ_VERDICT_FAIL;
         return CZ_OK;
     }
     const volatile sig_atomic_t *stop = evaluator->stop;
     cz_evaluator_set_stop(evaluator, options->stop);
-    const CzStatus status = go_all(verification, evaluator, x, record, error);
+    const CzStatus status = run_methods(verification, evaluator, x, record, error);
     cz_evaluator_set_stop(evaluator, stop);
     verification->verdict = judge(verification);
     return status;
@@ -371,7 +353,7 @@ CzStatus cz_verify(CzEvaluator *evaluator, const double *x, const CzEvaluation *
     CzStatus status = CZ_OK;
     *made = NULL;
     if (verification == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the verification");
+        return cz_no_memory(error, "the verification");
     if (record == NULL)
         status = cz_evaluator_again(evaluator, &evaluator->manner, x, &own, error);
     if (status == CZ_OK)

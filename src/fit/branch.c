@@ -10,7 +10,7 @@ static bool make_room(CzArena *arena, int n, CzBranch *branch) {
                              &branch->squares};
     branch->n = n;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        *rows[i] = cz_arena_allocate(arena, (size_t)n, sizeof(double));
+        *rows[i] = cz_arena_numbers(arena, (size_t)n);
         if (*rows[i] == NULL)
             return false;
     }
@@ -88,8 +88,8 @@ double cz_branch_mean(const CzBranch *branch, double from, double to) {
 
 bool cz_branch_cut(CzArena *arena, const CzBranch *branch, double from, double to, CzBranch *part) {
     int n = 0;
-    double *x = cz_arena_allocate(arena, (size_t)branch->n + 2, sizeof *x);
-    double *f = cz_arena_allocate(arena, (size_t)branch->n + 2, sizeof *f);
+    double *x = cz_arena_numbers(arena, (size_t)branch->n + 2);
+    double *f = cz_arena_numbers(arena, (size_t)branch->n + 2);
     if (x == NULL || f == NULL)
         return false;
     x[n] = 0.0;

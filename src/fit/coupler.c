@@ -15,7 +15,7 @@
 #include "fit/fit.h"
 #include "fit/plateaus.h"
 
-#define GONE 0.05             /* of the highest force: below this there is none (ours) */
+#define GONE 0.05             /* of the highest force: a smaller one counts as 0 (ours) */
 #define HIGH_UP 0.5           /* of the highest force: above this the coupler still holds (ours) */
 #define LIKE_RESIDUAL 1.1     /* of the residual force: a drop to this is over (ours) */
 #define LARGEST_RESIDUAL 0.35 /* of the shear-off: more is a stage, not friction (ours) */
@@ -60,16 +60,16 @@ static int find_edge(const CzBranch *branch, double highest) {
     return edge;
 }
 
-/* What the released coupler keeps: the mean force over the second half of what is behind the edge;
- * less than a share of the highest is none. */
+/* Residual force after the shear-off: the mean over the second half of the stroke behind the edge;
+ * 0 where the last force is small. */
 static double residual_behind(const CzBranch *branch, int edge, double highest) {
     const double last = cz_branch_last(branch);
     const double kept = cz_branch_mean(branch, 0.5 * (branch->x[edge] + last), last);
     return branch->f[branch->n - 1] < GONE * highest ? 0.0 : kept;
 }
 
-/* Finds where the force drops for good, to nothing or to a residual force; otherwise `parts` ends
- * where the curve does. */
+/* Finds where the force drops for good, to 0 or to a residual force; otherwise `parts` ends with
+ * the curve. */
 static void find_drop(const CzBranch *branch, Parts *parts) {
     const int last = branch->n - 1;
     const double length = cz_branch_last(branch);
@@ -153,24 +153,23 @@ static void fit_shear_off(CzFit *fit, const CzBranch *branch, const Parts *parts
  * leaves less. */
 static CzStatus fit_buffer(CzFit *fit, const CzBranch *part, CzError *error) {
     CzStaged preloaded;
-    CzLines lines = {.n_stage = -1, .n_most = BUFFER_STAGES, .shortest = SHORTEST};
-    bool has_memory = cz_fit_lines(&fit->arena, part, &lines, &fit->buffer);
-    lines.has_preload = true;
-    has_memory = has_memory && cz_fit_lines(&fit->arena, part, &lines, &preloaded);
-    if (!has_memory)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+    const CzLines lines = {.n_stage = -1, .n_most = BUFFER_STAGES, .shortest = SHORTEST};
+    CzLines with_preload = lines;
+    with_preload.has_preload = true;
+    if (!cz_fit_lines(&fit->arena, part, &lines, &fit->buffer) ||
+        !cz_fit_lines(&fit->arena, part, &with_preload, &preloaded))
+        return cz_no_memory(error, "a fit");
     const double energy = part->area[part->n - 1];
     const double worth = WORTH_A_PRELOAD * preloaded.stage[preloaded.n_stage - 1].force;
     if (cz_staged_solve(&preloaded, part, energy) < INFINITY && preloaded.preload > worth &&
         preloaded.n_stage <= fit->buffer.n_stage)
         fit->buffer = preloaded;
     fit->buffer.bottom_stiffness = cz_fit_key(CZ_RECORD_CzBuffer, "bottom_stiffness")->absent;
-
     cz_fit_let_rise(&fit->buffer);
     return CZ_OK;
 }
 
-/* Whether the unloading comes back to where the loading began: then nothing is plastic. */
+/* Whether the unloading returns to the start of the loading: then nothing is plastic. */
 static bool is_reversible(const CzTrace *trace) {
     return trace->unloads && trace->x[trace->n - 1] < REVERSIBLE * trace->x[trace->n_loading - 1];
 }
@@ -197,7 +196,7 @@ static CzStatus left_by(CzFit *fit, const CzBranch *branch, const Parts *parts, 
     if (has_memory)
         *left = cz_fit_left_by_line(branch, from) + cz_staged_solve(&tube, &behind, NAN);
     cz_arena_free(&scratch);
-    return has_memory ? CZ_OK : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+    return has_memory ? CZ_OK : cz_no_memory(error, "a fit");
 }
 
 /* Scans around where the tube begins, ever closer. */
@@ -217,40 +216,42 @@ static CzStatus sharpen_tube(CzFit *fit, const CzBranch *branch, Parts *parts, C
     return CZ_OK;
 }
 
-/* The tube crushes once the buffer has come to its last force, not before: what the buffer's forces
- * have above that is cut. Its energy goes to both members alike, with the trigger; it would raise a
- * short tube alone far above the curve. */
-static void hold_buffer_back(CzFit *fit) {
+/* The tube crushes once the buffer has reached its last force, so higher forces of the buffer are
+ * cut. Their energy is added to both members, the trigger included; it would raise a short tube
+ * alone far above the curve. */
+static void limit_buffer(CzFit *fit) {
     CzStaged *buffer = &fit->buffer, *tube = &fit->member;
     const double found = cz_staged_energy(buffer);
-    const double flows = isnan(tube->trigger) ? tube->stage[0].force : tube->trigger;
-    buffer->preload = fmin(buffer->preload, flows);
+    const double crushes = isnan(tube->trigger) ? tube->stage[0].force : tube->trigger;
+    buffer->preload = fmin(buffer->preload, crushes);
     for (int i = 0; i < buffer->n_stage; i++)
-        buffer->stage[i].force = fmin(buffer->stage[i].force, flows);
+        buffer->stage[i].force = fmin(buffer->stage[i].force, crushes);
     const double kept = cz_staged_energy(buffer), all = kept + cz_staged_energy(tube);
     const double factor = (all + found - kept) / all;
     cz_fit_scale_forces(buffer, -1, factor);
     tube->trigger *= factor;
 }
 
+/* Plateaus of the tube over its part of the curve. */
+static bool fit_tube(CzFit *fit, const CzBranch *branch, int n_stage, const Parts *parts,
+                     CzBranch *behind) {
+    return cz_branch_cut(&fit->arena, branch, parts->tube, parts->stop, behind) &&
+           cz_fit_plateaus(&fit->arena, behind, n_stage, fit->stiffness, &fit->member);
+}
+
 /* Splits buffer and tube, and fits both. */
 static CzStatus fit_members(CzFit *fit, const CzBranch *branch, int n_stage, Parts *parts,
                             CzError *error) {
     CzBranch before, behind;
-    const double stiffness = fit->stiffness;
-    bool has_memory = cz_branch_cut(&fit->arena, branch, parts->tube, parts->stop, &behind) &&
-                      cz_fit_plateaus(&fit->arena, &behind, n_stage, stiffness, &fit->member);
-    if (has_memory) {
-        CZ_TRY(sharpen_tube(fit, branch, parts, error));
-        has_memory = cz_branch_cut(&fit->arena, branch, parts->tube, parts->stop, &behind) &&
-                     cz_fit_plateaus(&fit->arena, &behind, n_stage, stiffness, &fit->member) &&
-                     cz_branch_cut(&fit->arena, branch, 0.0, parts->tube, &before);
-    }
-    if (!has_memory)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+    if (!fit_tube(fit, branch, n_stage, parts, &behind))
+        return cz_no_memory(error, "a fit");
+    CZ_TRY(sharpen_tube(fit, branch, parts, error));
+    if (!fit_tube(fit, branch, n_stage, parts, &behind) ||
+        !cz_branch_cut(&fit->arena, branch, 0.0, parts->tube, &before))
+        return cz_no_memory(error, "a fit");
     CZ_TRY(fit_buffer(fit, &before, error));
 
-    hold_buffer_back(fit);
+    limit_buffer(fit);
     cz_fit_round_staged(&fit->buffer);
     fit->member.bottom_stiffness = parts->stop_stiffness;
     CZ_TRY(cz_fit_place_stop(fit, &parts->rise, &fit->member, &behind, error));
@@ -261,7 +262,7 @@ static CzStatus fit_members(CzFit *fit, const CzBranch *branch, int n_stage, Par
 static CzStatus fit_buffer_alone(CzFit *fit, const CzBranch *branch, Parts *parts, CzError *error) {
     CzBranch part;
     if (!cz_branch_cut(&fit->arena, branch, 0.0, parts->stop, &part))
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+        return cz_no_memory(error, "a fit");
     CZ_TRY(fit_buffer(fit, &part, error));
     CZ_TRY(cz_fit_place_stop(fit, &parts->rise, &fit->buffer, &part, error));
     CZ_TRY(cz_fit_settle(fit, &fit->buffer, &part, error));
@@ -301,7 +302,7 @@ static CzStatus find_parts(CzFit *fit, bool is_alone, int n_stage, CzBranch *bra
         return CZ_OK;
     if (!cz_branch_cut(&fit->arena, branch, 0.0, parts->stop, &whole) ||
         !cz_fit_split(&fit->arena, &whole, n_stage, &parts->tube))
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+        return cz_no_memory(error, "a fit");
     return CZ_OK;
 }
 

@@ -25,7 +25,7 @@ static CzCurve *copy_points(const CzCurvePoints *points) {
     return made;
 }
 
-/* A column of a quantity; one that has no dimension has no unit either. */
+/* A column of a quantity; one without a dimension has no unit either. */
 static CzCurveColumn column_of(const char *quantity, const char *title) {
     CzDimension dimension = 0;
     while (dimension < CZ_N_DIMENSION && strcmp(cz_dimension_text[dimension], quantity) != 0)
@@ -57,7 +57,7 @@ CzStatus cz_curve_read(const char *path, const CzCurveColumns *columns, CzCurve 
     if (status == CZ_OK) {
         *curve = copy_points(&points);
         if (*curve == NULL)
-            status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a curve");
+            status = cz_no_memory(error, "a curve");
     }
     cz_arena_free(&arena);
     return status;
@@ -102,7 +102,7 @@ CzStatus cz_curve_titles(const char *path, char separator, int *n, char ***title
         *n = cz_fields_count(line, separator).all;
         *title = fields_of(line, separator, *n);
         if (*title == NULL)
-            status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the titles of '%s'", path);
+            status = cz_no_memory(error, "the titles");
     }
     cz_arena_free(&arena);
     return status;

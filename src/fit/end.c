@@ -14,8 +14,7 @@
 
 #define ASSUMED_UNLOADING 1e8 /* of a curve that does not unload [N/m] (ours) */
 #define SHARE_STEP 0.01
-#define ONE_LINE                                                                                   \
-    0.02 /* of the unloading's length: what one line may miss by, root mean square (ours) */
+#define ONE_LINE 0.02  /* of the unloading's length: root mean square error of one line (ours) */
 #define SHORTEST 0.005 /* of a stage, as a share of the stroke (ours) */
 
 enum { STAGES = 4, SHARES = 99 };
@@ -93,7 +92,7 @@ static double steepest(const CzStaged *staged, bool of_first) {
     return rise;
 }
 
-/* How many times stiffer the unloading must be not to give back more than a stage took. */
+/* Factor on the unloading stiffness without which it would return more than a stage absorbed. */
 static double missing_stiffness(const CzFit *fit) {
     const CzVehicleEndLaw law = {.unloading = fit->unloading,
                                  .share = fit->share,
@@ -103,9 +102,9 @@ static double missing_stiffness(const CzFit *fit) {
     return fmax(later / cz_vehicle_end_steepest(&law), all / fit->unloading);
 }
 
-/* Makes the unloading stiff enough: both stages together, or as one where that is too much. */
+/* Makes the unloading stiff enough: both stages alike, or as one where a range ends. */
 static void stiffen(CzFit *fit, const CzKey *key) {
-    const double more = 1.0 + 1e-4; /* beyond what rounding takes */
+    const double more = 1.0 + 1e-4; /* for rounding */
     const double factor = missing_stiffness(fit);
     if (factor <= 1.0)
         return;
@@ -121,15 +120,15 @@ static void stiffen(CzFit *fit, const CzKey *key) {
     fit->unloading = fit->second_unloading = cz_fit_round(all * more, 1e6);
 }
 
-/* One stiffness for the whole unloading, where two stages make no sense. */
+/* One stiffness for the whole unloading. */
 static double mean_unloading(const CzTrace *trace, double peak) {
     const int top = trace->n_loading - 1, last = trace->n - 1;
     const double low = trace->f[last];
     return (peak * peak - low * low) / (-2.0 * cz_trace_work(trace, top, last));
 }
 
-/* Whether one line of that stiffness reports the measured unloading well enough. A second stage
- * would then follow the noise of the peak, with a stiffness that requires tiny time steps. */
+/* Whether one line of that stiffness describes the measured unloading. A second stage would then
+ * follow the noise of the peak, with a stiffness that needs tiny time steps. */
 static bool one_line_will_do(const CzTrace *trace, double peak, double stiffness) {
     const int top = trace->n_loading - 1;
     double squares = 0.0, weights = 0.0;
@@ -176,7 +175,7 @@ CzStatus cz_fit_end(CzFit *fit, int n_stage, CzError *error) {
         .n_stage = n_stage < 0 ? (int)STAGES : n_stage, .n_most = STAGES, .shortest = SHORTEST};
     if (!cz_branch_cut(&fit->arena, &branch, 0.0, branch.x[stop.onset], &part) ||
         !cz_fit_lines(&fit->arena, &part, &lines, &fit->member))
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+        return cz_no_memory(error, "a fit");
     fit->member.bottom_stiffness = cz_fit_key(CZ_RECORD_CzEnd, "bottom_stiffness")->absent;
     CZ_TRY(cz_fit_place_stop(fit, &stop, &fit->member, &part, error));
     CZ_TRY(cz_fit_settle(fit, &fit->member, &part, error));

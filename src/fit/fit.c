@@ -1,4 +1,4 @@
-/* From a curve to the values of a law: reading, fitting by kind, rounding, reporting. */
+/* From a curve to the values of a law: reading, fitting by kind, rounding, values of the file. */
 #include "fit/fit.h"
 
 #include <stdarg.h>
@@ -9,76 +9,21 @@
 #include "base/error.h"
 #include "base/number.h"
 
-#define FAR_OFF 0.5    /* that equal energy may move a force by: more is no fit (ours) */
-#define ROUNDING 1e-13 /* what a sum may be off by, as a share of it */
-
-static const struct {
-    const char *word, *doc;
-} kinds[CZ_N_FIT] = {
-#define CZ_FIT(constant, word, record, doc) [constant] = {word, doc},
-#include "crushzone/fits.def"
-#undef CZ_FIT
-};
-
-const char *cz_fit_kind_word(CzFitKind kind) {
-    return kinds[kind].word;
-}
-
-const char *cz_fit_kind_doc(CzFitKind kind) {
-    return kinds[kind].doc;
-}
-
 CzFitOptions cz_fit_options_default(void) {
     return (CzFitOptions){
         .kind = CZ_FIT_ANTI_CLIMBER, .n_stage = -1, .scale = 1.0, .from = NAN, .to = NAN};
 }
 
-const CzKey *cz_fit_key(CzRecordId record, const char *stem) {
-    return cz_record_key(&cz_records[record], stem);
-}
-
-void cz_fit_note_down(CzFit *fit, const char *format, ...) {
-    va_list arguments;
-    if (fit->n_note == CZ_FIT_MOST_NOTES)
-        return;
-    va_start(arguments, format);
-    vsnprintf(fit->note[fit->n_note], sizeof fit->note[0], format, arguments);
-    va_end(arguments);
-    fit->n_note++;
-}
-
-/* ---- curves ---- */
-
-double cz_fit_work(const CzFit *fit, int point) {
-    double work = 0.0;
-    for (int i = 1; i <= point; i++)
-        work += 0.5 * (fit->path_f[i] + fit->path_f[i - 1]) * (fit->path_x[i] - fit->path_x[i - 1]);
-    return work;
-}
-
-CzStatus cz_fit_branch(CzFit *fit, double stiffness, CzBranch *branch, CzError *error) {
-    const int n = fit->curve.n;
-    double *x = cz_arena_allocate(&fit->arena, (size_t)n, sizeof *x);
-    if (x == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
-    for (int i = 0; i < n; i++)
-        x[i] = fmax(fit->path_x[i] - fit->path_f[i] / stiffness, 0.0);
-    x[0] = 0.0;
-    if (!cz_branch_build(&fit->arena, n, x, fit->path_f, branch))
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
-    return CZ_OK;
-}
-
-/* The loading, from stroke 0 on: a curve that begins a little later has its first force there when
- * it begins with force, else none. */
+/* The loading from stroke 0 on: of a curve that begins a little later, with its first force when it
+ * begins with force, else with none. */
 static CzStatus make_curve(CzFit *fit, CzError *error) {
     const CzTrace *trace = &fit->trace;
     const size_t room = (size_t)trace->n_loading + 1;
     int n = 0;
-    fit->path_x = cz_arena_allocate(&fit->arena, room, sizeof *fit->path_x);
-    fit->path_f = cz_arena_allocate(&fit->arena, room, sizeof *fit->path_f);
+    fit->path_x = cz_arena_numbers(&fit->arena, room);
+    fit->path_f = cz_arena_numbers(&fit->arena, room);
     if (fit->path_x == NULL || fit->path_f == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+        return cz_no_memory(error, "a fit");
     if (trace->x[0] > 0.0) {
         const double mean =
             cz_trace_work(trace, 0, trace->n_loading - 1) / trace->x[trace->n_loading - 1];
@@ -89,134 +34,29 @@ static CzStatus make_curve(CzFit *fit, CzError *error) {
         fit->path_f[n++] = trace->f[i];
     }
     if (!cz_branch_build(&fit->arena, n, fit->path_x, fit->path_f, &fit->curve))
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+        return cz_no_memory(error, "a fit");
     fit->summary.energy = fit->summary.whole_energy = cz_fit_work(fit, n - 1);
     fit->summary.mean_force = fit->summary.energy / cz_branch_last(&fit->curve);
     return CZ_OK;
 }
 
-/* ---- rounding ---- */
+/* ---- values ---- */
 
 static bool is_close(double a, double b) {
-    return fabs(a - b) <= ROUNDING * fabs(b);
+    return fabs(a - b) <= CZ_FIT_ROUNDING * fabs(b);
 }
-
-double cz_fit_round(double value, double unit) {
-    double scale = 1.0, mantissa = value / unit;
-    if (!(mantissa > 0.0) || !isfinite(mantissa))
-        return value;
-    for (; mantissa * scale < 1e4; scale *= 10.0)
-        ;
-    for (; mantissa * scale >= 1e5; scale /= 10.0)
-        ;
-    return round(mantissa * scale) / scale * unit;
-}
-
-static void round_strokes(CzStaged *staged) {
-    for (int i = 0; i < staged->n_stage; i++)
-        staged->stage[i].stroke = cz_fit_round(staged->stage[i].stroke, 1e-3);
-    staged->trigger = cz_fit_round(staged->trigger, 1e3);
-    staged->trigger_length = cz_fit_round(staged->trigger_length, 1e-3);
-}
-
-static void round_forces(CzStaged *staged) {
-    for (int i = 0; i < staged->n_stage; i++)
-        staged->stage[i].force = cz_fit_round(staged->stage[i].force, 1e3);
-    staged->preload = cz_fit_round(staged->preload, 1e3);
-}
-
-void cz_fit_round_staged(CzStaged *staged) {
-    round_strokes(staged);
-    round_forces(staged);
-}
-
-void cz_fit_scale_forces(CzStaged *staged, int stage, double factor) {
-    for (int i = 0; i < staged->n_stage; i++)
-        staged->stage[i].force *= stage < 0 || i == stage ? factor : 1.0;
-    staged->preload *= stage < 0 ? factor : 1.0;
-}
-
-/* Newton's method with a slope by differences: the energy is almost linear in a force. Returns the
- * factor that the forces got; stage -1 represents all. */
-static double settle_energy(CzFit *fit, CzStaged *staged, int stage) {
-    const CzStaged found = *staged;
-    double factor = 1.0;
-    for (int i = 0; i < 20; i++) {
-        const double wanted = fit->summary.energy, by = 1e-6;
-        const double now = cz_fit_law_energy(fit);
-        if (fabs(wanted - now) <= ROUNDING * wanted)
-            break;
-        *staged = found;
-        cz_fit_scale_forces(staged, stage, factor + by);
-        const double slope = (cz_fit_law_energy(fit) - now) / by;
-        factor += (wanted - now) / slope;
-        *staged = found;
-        cz_fit_scale_forces(staged, stage, factor);
-    }
-    return factor;
-}
-
-static int longest_of(const CzStaged *staged) {
-    int longest = 0;
-    for (int i = 1; i < staged->n_stage; i++)
-        if (staged->stage[i].stroke > staged->stage[longest].stroke)
-            longest = i;
-    return longest;
-}
-
-void cz_fit_let_rise(CzStaged *staged) {
-    double force = staged->preload;
-    for (int i = 0; i < staged->n_stage; i++)
-        force = staged->stage[i].force = fmax(staged->stage[i].force, force);
-}
-
-/* A curve that was read well and that no law follows: the same answer as a law that is refused. */
-static CzStatus no_law(const CzFit *fit, CzError *error, const char *why) {
-    const CzStatus status = cz_fail(error, CZ_STATUS_VIOLATED, "no law as %s fits this curve: %s",
-                                    cz_fit_kind_word(fit->summary.kind), why);
-    if (error == NULL)
-        return status;
-    snprintf(error->file, sizeof error->file, "%s",
-             fit->summary.file != NULL ? fit->summary.file : "");
-    snprintf(error->help, sizeof error->help,
-             "try another --as, --from or --to, and check the units");
-    return status;
-}
-
-CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzError *error) {
-    const bool must_rise = staged == &fit->buffer;
-    round_strokes(staged);
-    for (int i = 0; i < 3; i++) { /* the elastic part depends on the last force a little */
-        CzStaged found = *staged;
-        const double others = cz_fit_law_energy(fit) - cz_staged_energy(staged);
-        if (cz_staged_solve(&found, branch, fit->summary.energy - others) < INFINITY)
-            *staged = found;
-    }
-    if (must_rise)
-        cz_fit_let_rise(staged);
-    round_forces(staged);
-    const double factor = settle_energy(fit, staged, must_rise ? -1 : longest_of(staged));
-    if (staged->trigger < staged->stage[0].force) { /* a peak that is none any more */
-        staged->trigger = NAN;
-        return cz_fit_settle(fit, staged, branch, error);
-    }
-    if (fabs(factor - 1.0) <= FAR_OFF)
-        return CZ_OK;
-    return no_law(fit, error, "stages of equal energy differ too much from its force");
-}
-
-/* ---- values ---- */
 
 __attribute__((format(printf, 3, 4))) static void put(CzFit *fit, double value, const char *format,
                                                       ...) {
     va_list arguments;
-    if (!isfinite(value) || fit->n_value == CZ_FIT_MOST_VALUES)
+    if (!isfinite(value) || fit->summary.n_value == CZ_FIT_MOST_VALUES)
         return;
+    CzFitValue *next = &fit->value[fit->summary.n_value++];
     va_start(arguments, format);
-    vsnprintf(fit->value[fit->n_value].path, sizeof fit->value[0].path, format, arguments);
+    vsnprintf(next->path, sizeof next->path, format, arguments);
     va_end(arguments);
-    const double rounded = cz_fit_round(value, 1.0); /* a change of units costs the last bits */
-    fit->value[fit->n_value++].value = is_close(rounded, value) ? rounded : value;
+    const double rounded = cz_fit_round(value, 1.0); /* the change of units alters the last bits */
+    next->value = is_close(rounded, value) ? rounded : value;
 }
 
 static void put_stages(CzFit *fit, const char *record, const CzStaged *staged) {
@@ -226,14 +66,14 @@ static void put_stages(CzFit *fit, const char *record, const CzStaged *staged) {
     }
 }
 
-/* A value that differs from the problem file's default. */
-static void put_unusual(CzFit *fit, double value, CzRecordId id, const char *stem, double unit,
-                        const char *path) {
-    if (value != cz_fit_key(id, stem)->absent)
-        put(fit, value / unit, "%s", path);
+/* A stiffness that differs from the problem file's default. */
+static void put_unusual(CzFit *fit, const char *record, CzRecordId id, const char *stem,
+                        double stiffness) {
+    if (stiffness != cz_fit_key(id, stem)->absent)
+        put(fit, stiffness / 1e6, "%s%s_MN_m", record, stem);
 }
 
-static void put_member(CzFit *fit, const char *record) {
+static void put_member(CzFit *fit, const char *record, CzRecordId id) {
     const CzStaged *member = &fit->member;
     put_stages(fit, record, member);
     put(fit, 1e-3 * member->trigger, "%strigger_kN", record);
@@ -241,6 +81,8 @@ static void put_member(CzFit *fit, const char *record) {
         put(fit, 1e3 * member->trigger_length, "%strigger_length_mm", record);
     if (fit->summary.is_dynamic)
         put(fit, 0.0, "%srate_factor_s_m", record);
+    put_unusual(fit, record, id, "stiffness", fit->stiffness);
+    put_unusual(fit, record, id, "bottom_stiffness", member->bottom_stiffness);
 }
 
 static void put_coupler(CzFit *fit) {
@@ -254,16 +96,11 @@ static void put_coupler(CzFit *fit) {
         steepest = fmax(steepest, (buffer->stage[i].force - force) / buffer->stage[i].stroke);
     if (steepest > cz_fit_key(CZ_RECORD_CzBuffer, "transition_stiffness")->absent)
         put(fit, cz_fit_round(1.001 * steepest, 1e6) * 1e-6, "buffer.transition_stiffness_MN_m");
-    put_unusual(fit, buffer->bottom_stiffness, CZ_RECORD_CzBuffer, "bottom_stiffness", 1e6,
-                "buffer.bottom_stiffness_MN_m");
+    put_unusual(fit, "buffer.", CZ_RECORD_CzBuffer, "bottom_stiffness", buffer->bottom_stiffness);
     if (fit->summary.is_dynamic)
         put(fit, 0.0, "buffer.damping_kN_s_m");
-    if (fit->member.n_stage > 0) {
-        put_member(fit, "tube.");
-        put_unusual(fit, fit->stiffness, CZ_RECORD_CzTube, "stiffness", 1e6, "tube.stiffness_MN_m");
-        put_unusual(fit, fit->member.bottom_stiffness, CZ_RECORD_CzTube, "bottom_stiffness", 1e6,
-                    "tube.bottom_stiffness_MN_m");
-    }
+    if (fit->member.n_stage > 0)
+        put_member(fit, "tube.", CZ_RECORD_CzTube);
     put(fit, 1e-3 * fit->shear_force, "shear_off.force_kN");
     if (fit->residual > 0.0)
         put(fit, 1e-3 * fit->residual, "shear_off.residual_force_kN");
@@ -281,15 +118,10 @@ static void put_values(CzFit *fit) {
         put(fit, 1e-6 * fit->unloading, "unloading_stiffness_MN_m");
         put(fit, fit->share, "unloading_share");
         put(fit, 1e-6 * fit->second_unloading, "second_unloading_stiffness_MN_m");
-        put_unusual(fit, fit->member.bottom_stiffness, CZ_RECORD_CzEnd, "bottom_stiffness", 1e6,
-                    "bottom_stiffness_MN_m");
+        put_unusual(fit, "", CZ_RECORD_CzEnd, "bottom_stiffness", fit->member.bottom_stiffness);
         break;
     default:
-        put_member(fit, "");
-        put_unusual(fit, fit->stiffness, CZ_RECORD_CzAntiClimber, "stiffness", 1e6,
-                    "stiffness_MN_m");
-        put_unusual(fit, fit->member.bottom_stiffness, CZ_RECORD_CzAntiClimber, "bottom_stiffness",
-                    1e6, "bottom_stiffness_MN_m");
+        put_member(fit, "", CZ_RECORD_CzAntiClimber);
     }
 }
 
@@ -305,10 +137,10 @@ static CzRecordId record_of(const CzFit *fit, const char *path) {
                                                   : CZ_RECORD_CzAntiClimber;
 }
 
-/* Every value is one that the problem file takes. */
+/* Fails for a value outside the range of its key. */
 static CzStatus check_values(const CzFit *fit, CzError *error) {
     char number[CZ_NUMBER_TEXT], why[160];
-    for (int i = 0; i < fit->n_value; i++) {
+    for (int i = 0; i < fit->summary.n_value; i++) {
         const char *path = fit->value[i].path, *point = strrchr(path, '.');
         const CzUnit *unit = NULL;
         const CzKey *key = cz_record_match(&cz_records[record_of(fit, path)],
@@ -320,12 +152,12 @@ static CzStatus check_values(const CzFit *fit, CzError *error) {
             continue;
         snprintf(why, sizeof why, "%.80s would be %s, which is outside the range of a problem file",
                  path, cz_number_print_short(number, fit->value[i].value));
-        return no_law(fit, error, why);
+        return cz_fit_no_law(fit, error, why);
     }
     return CZ_OK;
 }
 
-/* ---- the way through ---- */
+/* ---- the steps of a fit ---- */
 
 static CzStatus check_stages(const CzFitOptions *options, CzError *error) {
     const int least = options->kind == CZ_FIT_COUPLER ? 0 : 1;
@@ -362,6 +194,9 @@ static CzStatus fit_law(CzFit *fit, int n_stage, CzError *error) {
     cz_fit_judge(fit);
     cz_fit_load_whole(fit, &fit->whole);
     put_values(fit);
+    summary->value = fit->value;
+    summary->curve = (CzFitLoading){fit->curve.n, fit->curve.x, fit->curve.f};
+    summary->law = (CzFitLoading){fit->whole.n, fit->whole.x, fit->whole.f};
     return check_values(fit, error);
 }
 
@@ -398,42 +233,37 @@ static CzFit *begin(const char *path, const CzFitOptions *options) {
     return fit;
 }
 
-/* Hands the fit over, or frees it and passes the failure on. */
-static CzStatus finish(CzFit *fit, CzStatus status, CzFit **result) {
+/* Fits the curve of a file, or of points when `path` is NULL. */
+static CzStatus make(const char *path, int n_point, const double *stroke, const double *force,
+                     const CzFitOptions *given, CzFit **fit, CzError *error) {
+    const CzFitOptions usual = cz_fit_options_default();
+    const CzFitOptions *options = given != NULL ? given : &usual;
+    *fit = NULL;
+    CZ_TRY(check_stages(options, error));
+    CzFit *begun = begin(path, options);
+    if (begun == NULL)
+        return cz_no_memory(error, "a fit");
+    CzStatus status = path != NULL
+                          ? cz_fit_read_trace(begun, path, options, error)
+                          : cz_fit_take_points(begun, n_point, stroke, force, options, error);
     if (status == CZ_OK)
-        *result = fit;
+        status = fit_law(begun, options->n_stage, error);
+    if (status == CZ_OK && begun->arena.out_of_memory) /* a sentence is missing */
+        status = cz_no_memory(error, "a fit");
+    if (status == CZ_OK)
+        *fit = begun;
     else
-        cz_fit_free(fit);
+        cz_fit_free(begun);
     return status;
 }
 
 CzStatus cz_fit_read(const char *path, const CzFitOptions *options, CzFit **fit, CzError *error) {
-    const CzFitOptions usual = cz_fit_options_default();
-    const CzFitOptions *chosen = options != NULL ? options : &usual;
-    *fit = NULL;
-    CZ_TRY(check_stages(chosen, error));
-    CzFit *begun = begin(path, chosen);
-    if (begun == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
-    CzStatus status = cz_fit_read_trace(begun, path, chosen, error);
-    if (status == CZ_OK)
-        status = fit_law(begun, chosen->n_stage, error);
-    return finish(begun, status, fit);
+    return make(path, 0, NULL, NULL, options, fit, error);
 }
 
 CzStatus cz_fit_points(int n_point, const double *stroke, const double *force,
                        const CzFitOptions *options, CzFit **fit, CzError *error) {
-    const CzFitOptions usual = cz_fit_options_default();
-    const CzFitOptions *chosen = options != NULL ? options : &usual;
-    *fit = NULL;
-    CZ_TRY(check_stages(chosen, error));
-    CzFit *begun = begin(NULL, chosen);
-    if (begun == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
-    CzStatus status = cz_fit_take_points(begun, n_point, stroke, force, chosen, error);
-    if (status == CZ_OK)
-        status = fit_law(begun, chosen->n_stage, error);
-    return finish(begun, status, fit);
+    return make(NULL, n_point, stroke, force, options, fit, error);
 }
 
 void cz_fit_free(CzFit *fit) {
@@ -445,24 +275,4 @@ void cz_fit_free(CzFit *fit) {
 
 const CzFitSummary *cz_fit_summary(const CzFit *fit) {
     return &fit->summary;
-}
-
-int cz_fit_n_value(const CzFit *fit) {
-    return fit->n_value;
-}
-
-const char *cz_fit_value_path(const CzFit *fit, int index) {
-    return fit->value[index].path;
-}
-
-double cz_fit_value(const CzFit *fit, int index) {
-    return fit->value[index].value;
-}
-
-int cz_fit_n_note(const CzFit *fit) {
-    return fit->n_note;
-}
-
-const char *cz_fit_note(const CzFit *fit, int index) {
-    return fit->note[index];
 }

@@ -1,4 +1,4 @@
-/* What the files of this folder share: one fit on its way from a trace to the values of a law. */
+/* One fit from a trace to the values of a law: what the files of this folder share. */
 #ifndef CZ_FIT_FIT_H
 #define CZ_FIT_FIT_H
 
@@ -7,20 +7,7 @@
 #include "problem/keys.h"
 #include "problem/trace.h"
 
-enum {
-    CZ_FIT_MOST_VALUES = 4 * CZ_MAX_STAGES + 16,
-    CZ_FIT_MOST_NOTES = 12,
-    CZ_FIT_MOST_DOUBTS = 6,
-    CZ_FIT_DIGITS = 5 /* significant ones of what is written, but for the force that settles the
-                         energy */
-};
-
-typedef struct CzFitValue {
-    char path[64];
-    double value; /* in the unit of the path */
-} CzFitValue;
-
-enum { CZ_MOST_CORNERS = 2 * CZ_MOST_BENDS + 12 };
+enum { CZ_FIT_MOST_VALUES = 4 * CZ_MAX_STAGES + 16, CZ_MOST_CORNERS = 2 * CZ_MOST_BENDS + 12 };
 
 /* Force over shortening as straight lines; x never falls. */
 typedef struct CzLoading {
@@ -34,7 +21,7 @@ struct CzFit {
     CzTrace trace;
     CzBranch curve; /* the loading over the whole shortening; one point before it when the first
                        lies beyond 0 */
-    double *path_x, *path_f; /* the same before noise in its strokes was taken out */
+    double *path_x, *path_f; /* the same with the noise in its strokes */
 
     /* The law. Members that a kind lacks are absent: no stages, NaN. */
     CzStaged buffer;         /* lines */
@@ -44,20 +31,15 @@ struct CzFit {
     double shear_force;      /* [N] */
     double softening;        /* [m] */
     double retraction;       /* [m] */
-    double residual;         /* force that is kept behind the shear-off [N]; 0: none */
-    double stop_force;       /* to which the curve rises along the last stop [N]; NaN: no stop */
+    double residual;         /* force after the shear-off [N]; 0: none */
+    double stop_force;       /* force at the end of the last stop [N]; NaN: no stop */
     double unloading;        /* of an end [N/m] */
-    double share;            /* [-]; of an end, and of a buffer that gives back */
+    double share;            /* [-]; of an end, and of a buffer that returns energy */
     double second_unloading; /* [N/m] */
 
     CzLoading whole; /* over the stroke of the curve */
 
-    CzFitValue value[CZ_FIT_MOST_VALUES];
-    int n_value;
-    char note[CZ_FIT_MOST_NOTES][200];
-    int n_note;
-    char doubt[CZ_FIT_MOST_DOUBTS][160]; /* why the law is not like the curve */
-    int n_doubt;
+    CzFitValue value[CZ_FIT_MOST_VALUES]; /* (summary.n_value) */
 };
 
 /* From a file, or from points, to a trace (read.c). */
@@ -72,14 +54,24 @@ CZ_MUST_CHECK CzStatus cz_fit_plastic(CzFit *fit, int n_stage, CzError *error);
 CZ_MUST_CHECK CzStatus cz_fit_end(CzFit *fit, int n_stage, CzError *error);
 CZ_MUST_CHECK CzStatus cz_fit_coupler(CzFit *fit, int n_stage, CzError *error);
 
-/* ---- what they share ---- */
+#define CZ_FIT_ROUNDING 1e-13 /* relative error of a sum */
 
-/* The loading with the elastic shortening of a stiffness taken off. */
+/* ---- for all kinds (settle.c) ---- */
+
+/* Fails because no law of the kind fits the curve. */
+CzStatus cz_fit_no_law(const CzFit *fit, CzError *error, const char *why);
+
+/* The loading less the elastic shortening of a stiffness. */
 CZ_MUST_CHECK CzStatus cz_fit_branch(CzFit *fit, double stiffness, CzBranch *branch,
                                      CzError *error);
 
-/* Rounds to CZ_FIT_DIGITS significant digits in a unit of this SI value. */
+/* Rounds to five significant digits in a unit of this SI value. */
 double cz_fit_round(double value, double unit);
+
+/* Compliance of the elasticity in series with the members; 0 for plastic strokes [m/N]. */
+static inline double cz_fit_compliance(const CzFit *fit) {
+    return isfinite(fit->stiffness) ? 1.0 / fit->stiffness : 0.0;
+}
 
 /* Work on the device up to a point of the loading [J]. */
 double cz_fit_work(const CzFit *fit, int point);
@@ -93,13 +85,15 @@ void cz_fit_scale_forces(CzStaged *staged, int stage, double factor);
 /* Raises forces that are below the one before: a buffer's force does not fall. */
 void cz_fit_let_rise(CzStaged *staged);
 
-/* Rounds a member of the law over its part of the branch, strokes first, and settles the force of
- * its longest stage, or all forces of a buffer, so that the law takes exactly summary.energy. Fails
- * when that force would be no longer like the curve. */
+/* Rounds a member of the law over its part of the branch, strokes first, and sets the force of its
+ * longest stage, or all forces of a buffer, so that the law absorbs exactly summary.energy. Fails
+ * when that force would differ too much from the curve. */
 CZ_MUST_CHECK CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch,
                                      CzError *error);
 
+/* Adds a sentence to the summary: what a user should know, or why the law is doubtful. */
 void cz_fit_note_down(CzFit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void cz_fit_doubt_that(CzFit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Key of the problem file: its default and its range [SI]. */
 const CzKey *cz_fit_key(CzRecordId record, const char *stem);
@@ -118,9 +112,9 @@ CzStop cz_fit_find_stop(const CzFit *fit);
 /* The stiffness in series with the members, raised where the stop is as stiff. */
 double cz_fit_stiffness_for(CzFit *fit, const CzStop *stop, double stiffness);
 
-/* Lets a member end and rise along its stop so that the rise has the area and the last force of the
- * curve. The member's stages are those of its part of the curve in front of the onset, which
- * becomes as long as the member. */
+/* Ends a member where its stop begins, so that the rise along the stop has the area and the last
+ * force of the curve. The member's stages are those of its part of the curve before the onset,
+ * which gets the length of the member. */
 CZ_MUST_CHECK CzStatus cz_fit_place_stop(CzFit *fit, const CzStop *stop, CzStaged *staged,
                                          CzBranch *part, CzError *error);
 
@@ -129,8 +123,8 @@ CZ_MUST_CHECK CzStatus cz_fit_place_stop(CzFit *fit, const CzStop *stop, CzStage
 void cz_fit_load(const CzFit *fit, CzLoading *loading);
 double cz_fit_law_energy(const CzFit *fit);
 
-/* The same over the whole stroke of the curve: beyond its own the law rises along its stop, or
- * keeps what a shear-off leaves. */
+/* The same over the whole stroke of the curve: beyond its own the law rises along its stop, or has
+ * the residual force of a shear-off. */
 void cz_fit_load_whole(const CzFit *fit, CzLoading *loading);
 
 /* Fills the differences of the summary. */
@@ -138,6 +132,5 @@ void cz_fit_compare(CzFit *fit);
 
 /* Judges them (quality.c). */
 void cz_fit_judge(CzFit *fit);
-void cz_fit_doubt_that(CzFit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

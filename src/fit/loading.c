@@ -2,15 +2,15 @@
  *
  *   d = x_b(F) + s + F / k
  *
- * The members of a coupler lie in series: the buffer x_b deflects until it is on its stop or
- * the tube begins to crush, then the tube crushes by s until its stroke is exhausted, then the
- * force rises along the tube's stop until the shear-off releases. What a buffer gives back while
- * the force of the tube falls is left out.
+ * The members of a coupler are in series: the buffer x_b deflects until it is on its stop or the
+ * tube begins to crush, then the tube crushes by s until its stroke is exhausted, then the force
+ * rises along the tube's stop until the shear-off releases. The unloading of the buffer while the
+ * force of the tube falls is neglected.
  */
 #include "fit/fit.h"
 
 #define ROUNDED                                                                                    \
-    1e-3 /* of the stroke: a law that ends by less before the curve ends with it (ours) */
+    1e-3 /* of the stroke: a law that ends this much earlier ends with the curve (ours) */
 
 enum { SAMPLES = 4000, STRETCH = SAMPLES / 10 }; /* of the mean square, and of a stretch of it */
 
@@ -42,7 +42,7 @@ static double last_force(const CzLoading *loading) {
     return loading->n > 0 ? loading->f[loading->n - 1] : 0.0;
 }
 
-/* Along a stop up to a force; returns where the members' stroke has got to. */
+/* Along a stop up to a force; returns the members' stroke there. */
 static double add_stop(CzLoading *loading, double at, double force, double stiffness,
                        double compliance) {
     if (force > last_force(loading)) {
@@ -52,8 +52,13 @@ static double add_stop(CzLoading *loading, double at, double force, double stiff
     return at;
 }
 
+/* Stiffness of the stop at the end of the stroke. */
+static double last_stop(const CzFit *fit) {
+    return fit->member.n_stage > 0 ? fit->member.bottom_stiffness : fit->buffer.bottom_stiffness;
+}
+
 void cz_fit_load(const CzFit *fit, CzLoading *loading) {
-    const double compliance = isfinite(fit->stiffness) ? 1.0 / fit->stiffness : 0.0;
+    const double compliance = cz_fit_compliance(fit), stop = last_stop(fit);
     double at = 0.0;
     loading->n = 0;
     if (compliance > 0.0 || fit->buffer.n_stage > 0)
@@ -65,8 +70,6 @@ void cz_fit_load(const CzFit *fit, CzLoading *loading) {
         at = add_stop(loading, at, kinks.start, fit->buffer.bottom_stiffness, compliance);
     }
     at = add_staged(loading, &fit->member, at, compliance);
-    const double stop =
-        fit->member.n_stage > 0 ? fit->member.bottom_stiffness : fit->buffer.bottom_stiffness;
     if (!isnan(fit->stop_force))
         add_stop(loading, at, fit->stop_force, stop, compliance);
     if (isnan(fit->shear_force))
@@ -83,10 +86,8 @@ void cz_fit_load_whole(const CzFit *fit, CzLoading *loading) {
     const double last = loading->x[loading->n - 1], end = cz_branch_last(&fit->curve);
     if (end - last <= ROUNDED * end)
         return;
-    const double stop =
-        fit->member.n_stage > 0 ? fit->member.bottom_stiffness : fit->buffer.bottom_stiffness;
-    const double compliance = isfinite(fit->stiffness) ? 1.0 / fit->stiffness : 0.0;
-    const double slope = isnan(fit->shear_force) ? 1.0 / (compliance + 1.0 / stop) : 0.0;
+    const double soft = cz_fit_compliance(fit) + 1.0 / last_stop(fit);
+    const double slope = isnan(fit->shear_force) ? 1.0 / soft : 0.0;
     add(loading, end, last_force(loading) + slope * (end - last));
 }
 
@@ -126,14 +127,15 @@ static void force_at(const CzLoading *loading, double x, double *low, double *hi
         }
 }
 
+/* Force of the law less that of the curve. */
 static double difference_at(const CzLoading *loading, double x, double force) {
     double low, high;
     force_at(loading, x, &low, &high);
-    return force < low ? low - force : force > high ? force - high : 0.0;
+    return force < low ? low - force : force > high ? high - force : 0.0;
 }
 
 static void take_larger(CzFit *fit, const CzLoading *loading, double x, double force) {
-    const double difference = difference_at(loading, x, force);
+    const double difference = fabs(difference_at(loading, x, force));
     const double none = 1e-9 * fit->summary.peak_force; /* rounding */
     if (difference > fmax(fit->summary.largest_difference, none)) {
         fit->summary.largest_difference = difference;
@@ -146,10 +148,8 @@ static void compare_samples(CzFit *fit, const CzLoading *loading, double end) {
     double squares = 0.0, stretch = 0.0, last[STRETCH] = {0.0};
     fit->summary.stretch_difference = 0.0;
     for (int i = 0; i < SAMPLES; i++) {
-        const double x = end * (i + 0.5) / SAMPLES, force = cz_branch_force(&fit->curve, x);
-        double low, high;
-        force_at(loading, x, &low, &high);
-        const double difference = force < low ? low - force : force > high ? high - force : 0.0;
+        const double x = end * (i + 0.5) / SAMPLES;
+        const double difference = difference_at(loading, x, cz_branch_force(&fit->curve, x));
         squares += difference * difference;
         stretch += difference - last[i % STRETCH];
         last[i % STRETCH] = difference;

@@ -36,8 +36,8 @@ static double stiffness_of_unloading(const CzTrace *trace) {
     return returned > 0.0 ? (high * high - low * low) / (2.0 * returned) : INFINITY;
 }
 
-/* Stiffness from the rise to the first force; INFINITY when the rise is no longer than what can be
- * reported from a jump. */
+/* Stiffness from the rise to the first force; INFINITY when the rise is too short to differ from a
+ * jump. */
 static double stiffness_of_rise(const CzBranch *curve, double first, double last) {
     const double low = stroke_of(curve, RISE_LOW * first);
     const double high = stroke_of(curve, RISE_HIGH * first);
@@ -74,7 +74,7 @@ CzStatus cz_fit_plastic(CzFit *fit, int n_stage, CzError *error) {
     CZ_TRY(cz_fit_branch(fit, fit->stiffness, &branch, error));
     if (!cz_branch_cut(&fit->arena, &branch, 0.0, branch.x[stop.onset], &part) ||
         !cz_fit_plateaus(&fit->arena, &part, n_stage, fit->stiffness, &fit->member))
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+        return cz_no_memory(error, "a fit");
     fit->member.bottom_stiffness = cz_fit_key(CZ_RECORD_CzAntiClimber, "bottom_stiffness")->absent;
     CZ_TRY(cz_fit_place_stop(fit, &stop, &fit->member, &part, error));
     CZ_TRY(cz_fit_settle(fit, &fit->member, &part, error));

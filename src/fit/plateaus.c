@@ -121,7 +121,7 @@ static Peak find_peak(const CzBranch *branch) {
     return peak;
 }
 
-/* The best n plateaus for one notion of the trigger. */
+/* The best n plateaus behind a trigger peak. */
 static double best_of(const Table *table, const CzBranch *branch, int n_stage, const Peak *peak,
                       double stiffness, CzStaged *staged) {
     const double last = cz_branch_last(branch);
@@ -164,8 +164,7 @@ bool cz_fit_plateaus(CzArena *arena, const CzBranch *branch, int n_stage, double
 /* The curve read from its end. */
 static bool mirror(CzArena *arena, const CzBranch *branch, CzBranch *mirrored) {
     const int n = branch->n;
-    double *x = cz_arena_allocate(arena, (size_t)n, sizeof *x);
-    double *f = cz_arena_allocate(arena, (size_t)n, sizeof *f);
+    double *x = cz_arena_numbers(arena, (size_t)n), *f = cz_arena_numbers(arena, (size_t)n);
     if (x == NULL || f == NULL)
         return false;
     for (int i = 0; i < n; i++) {
@@ -221,8 +220,7 @@ bool cz_fit_split(CzArena *arena, const CzBranch *branch, int n_stage, double *a
 static int likely_strokes(CzArena *arena, const CzBranch *branch, double shortest,
                           double stroke[LIKELY]) {
     const double last = cz_branch_last(branch);
-    double *x = cz_arena_allocate(arena, SAMPLES, sizeof *x);
-    double *f = cz_arena_allocate(arena, SAMPLES, sizeof *f);
+    double *x = cz_arena_numbers(arena, SAMPLES), *f = cz_arena_numbers(arena, SAMPLES);
     CzCurveChange change;
     int n_corner = SAMPLES, n = 0;
     if (x == NULL || f == NULL)

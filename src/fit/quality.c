@@ -1,13 +1,12 @@
 /* Whether a law is like its curve, over the whole loading of the curve.
  *
- * Equal energy alone says little: a plateau through a curve that ruptures has it too. Levels are
- * ours; a doubtful law is written with what is doubtful, a refused one is not written.
+ * Equal energy alone says little: a plateau through a curve that ruptures has it too. The levels
+ * are ours; a doubtful law is written with the reason, a refused one is not written.
  */
 #include "fit/fit.h"
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/number.h"
 
@@ -27,36 +26,21 @@ const char *cz_fit_verdict_word(CzFitVerdict verdict) {
     return words[verdict];
 }
 
-/* Notes why a law is doubtful, or refused. */
-__attribute__((format(printf, 3, 0))) static void
-note_doubt(CzFit *fit, CzFitVerdict verdict, const char *format, va_list arguments) {
-    if (verdict > fit->summary.verdict)
-        fit->summary.verdict = verdict;
-    if (fit->n_doubt < CZ_FIT_MOST_DOUBTS)
-        vsnprintf(fit->doubt[fit->n_doubt++], sizeof fit->doubt[0], format, arguments);
-}
-
-void cz_fit_doubt_that(CzFit *fit, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    note_doubt(fit, CZ_FIT_DOUBTFUL, format, arguments);
-    va_end(arguments);
-}
-
 __attribute__((format(printf, 4, 5))) static void
 judge(CzFit *fit, double share, const Level *level, const char *format, ...) {
-    const bool is_refused = !(share <= level->refused); /* what is no number is refused */
+    char text[160];
+    va_list arguments;
+    const bool is_refused = !(share <= level->refused); /* NaN is refused */
     if (share <= level->doubtful)
         return;
-    va_list arguments;
     va_start(arguments, format);
-    note_doubt(fit, is_refused ? CZ_FIT_REFUSED : CZ_FIT_DOUBTFUL, format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    char *text = fit->doubt[fit->n_doubt - 1];
-    const size_t n = strlen(text);
-    snprintf(text + n, sizeof fit->doubt[0] - n, "; more than %g %% is %s",
-             100.0 * (is_refused ? level->refused : level->doubtful),
-             is_refused ? "refused" : "doubtful");
+    cz_fit_doubt_that(fit, "%s; more than %g %% is %s", text,
+                      100.0 * (is_refused ? level->refused : level->doubtful),
+                      is_refused ? "refused" : "doubtful");
+    if (is_refused)
+        fit->summary.verdict = CZ_FIT_REFUSED;
 }
 
 void cz_fit_judge(CzFit *fit) {
@@ -77,24 +61,4 @@ void cz_fit_judge(CzFit *fit) {
           cz_number_print_short(b, 1e-3 * summary->law_peak), 100.0 * (peak - 1.0));
     judge(fit, 1.0 - peak, &too_low, "the law's peak of %s kN is %.0f %% below the curve's",
           cz_number_print_short(b, 1e-3 * summary->law_peak), 100.0 * (1.0 - peak));
-}
-
-int cz_fit_n_doubt(const CzFit *fit) {
-    return fit->n_doubt;
-}
-
-const char *cz_fit_doubt(const CzFit *fit, int index) {
-    return fit->doubt[index];
-}
-
-void cz_fit_curve(const CzFit *fit, int *n, const double **stroke, const double **force) {
-    *n = fit->curve.n;
-    *stroke = fit->curve.x;
-    *force = fit->curve.f;
-}
-
-void cz_fit_law(const CzFit *fit, int *n, const double **stroke, const double **force) {
-    *n = fit->whole.n;
-    *stroke = fit->whole.x;
-    *force = fit->whole.f;
 }

@@ -28,7 +28,7 @@ static CzStatus make_trace(CzFit *fit, const CzSource *source, const CzFitOption
     CzMistakes mistakes = {.arena = &fit->arena};
     const bool is_made = cz_trace_make(&mistakes, source, &shape, unit, &fit->trace);
     if (fit->arena.out_of_memory)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+        return cz_no_memory(error, "a fit");
     if (!is_made && error != NULL)
         *error = mistakes.mistake[0]->error;
     for (int i = 0; is_made && i < fit->trace.n_note; i++)
@@ -73,11 +73,11 @@ CzStatus cz_fit_take_points(CzFit *fit, int n_point, const double *stroke, const
         return cz_fail(error, CZ_STATUS_INPUT, "a curve has two points or more, but this has %d",
                        n_point);
     const size_t n = (size_t)n_point;
-    trace->x = cz_arena_allocate(&fit->arena, n, sizeof *trace->x);
-    trace->f = cz_arena_allocate(&fit->arena, n, sizeof *trace->f);
+    trace->x = cz_arena_numbers(&fit->arena, n);
+    trace->f = cz_arena_numbers(&fit->arena, n);
     trace->line = cz_arena_allocate(&fit->arena, n, sizeof *trace->line);
     if (trace->x == NULL || trace->f == NULL || trace->line == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+        return cz_no_memory(error, "a fit");
     memcpy(trace->x, stroke, n * sizeof *stroke);
     memcpy(trace->f, force, n * sizeof *force);
     for (trace->n = 0; trace->n < n_point; trace->n++)

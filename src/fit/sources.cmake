@@ -10,6 +10,7 @@ set(CZ_SOURCES_fit
     plateaus.c
     quality.c
     read.c
+    settle.c
     staged.c
     stop.c
     write_yaml.c

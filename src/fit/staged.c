@@ -36,8 +36,7 @@ double cz_staged_stroke(const CzStaged *staged) {
     return cz_total_stroke(staged->stage, staged->n_stage, &none);
 }
 
-/* Strokes where a curve of these breakpoints breakpoints: its breakpoints and both ends, each once,
- * in order. */
+/* Strokes of a curve's breakpoints and of both its ends, each once, rising. */
 static int bends_of(const CzKinks *kinks, double stroke, double at[CZ_MOST_BENDS]) {
     int n = 0;
     at[n++] = 0.0;
@@ -130,7 +129,7 @@ static double product_with(const Terms *terms, const CzBranchSums *sums, const d
     return sum;
 }
 
-/* Equations for the forces and, under a condition, its multiplier. */
+/* Equations for the forces and the multiplier of the condition. */
 typedef struct Equations {
     int n;
     double a[MOST_TERMS + 1][MOST_TERMS + 1];
@@ -194,7 +193,7 @@ static double take_forces(CzStaged *staged, const Terms *terms, const CzBranchSu
  *   minimise c'A c / 2 - b'c   under   p'c = e,   c_i >= least
  *
  * by an active set: forces that would be lower are held at the bound, and released again where the
- * multiplier m = A c + l p - b says that they want to rise (Karush, Kuhn and Tucker: m >= 0). */
+ * multiplier m = A c + l p - b is negative (Karush, Kuhn and Tucker: m >= 0). */
 typedef struct Problem {
     int n;
     bool has_energy, is_held[MOST_TERMS];
@@ -244,8 +243,8 @@ static bool hold_low_ones(Problem *problem) {
     return is_low;
 }
 
-/* Lets the force go that most needs to rise; false when none does. */
-static bool let_one_go(Problem *problem) {
+/* Releases the force with the most negative multiplier; false when there is none. */
+static bool release_one(Problem *problem) {
     double lowest = 0.0;
     int which = -1;
     for (int i = 0; i < problem->n; i++) {
@@ -268,7 +267,7 @@ static bool solve_bounded(Problem *problem) {
     for (int i = 0; i < 4 * problem->n + 4; i++) {
         if (!solve_free(problem))
             return false;
-        if (!hold_low_ones(problem) && !let_one_go(problem))
+        if (!hold_low_ones(problem) && !release_one(problem))
             return true;
     }
     return false; /* forces that are held and released in turn, by rounding */

@@ -38,15 +38,15 @@ void cz_staged_kinks(const CzStaged *staged, CzKinks *kinks);
 
 double cz_staged_stroke(const CzStaged *staged);
 
-/* Energy of using up the stroke [J]. */
+/* Energy over the whole stroke [J]. */
 double cz_staged_energy(const CzStaged *staged);
 
-/* Strokes at which the curve breakpoints, from 0 to its end, rising; returns how many. */
+/* Strokes of the curve's breakpoints, from 0 to its end, rising; returns how many. */
 enum { CZ_MOST_BENDS = 2 * CZ_MAX_STAGES + 4 };
 int cz_staged_bends(const CzStaged *staged, double at[CZ_MOST_BENDS]);
 
-/* Finds the forces for the strokes as they are, none below a thousandth of the mean force; `energy`
- * NaN leaves out the condition. Returns the integral of the squared difference, INFINITY when no
+/* Finds the forces for given strokes, none below a thousandth of the mean force; without the
+ * condition when `energy` is NaN. Returns the integral of the squared difference, INFINITY when no
  * such forces have the energy. */
 double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy);
 
@@ -54,7 +54,7 @@ double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy);
  * No stage gets shorter than `shortest`. Returns the integral. */
 double cz_staged_refine(CzStaged *staged, const CzBranch *branch, double energy, double shortest);
 
-/* Integral of the squared difference that counts as none beside this branch, by rounding. */
+/* Integral of the squared difference that rounding may leave of 0. */
 double cz_staged_nothing(const CzBranch *branch);
 
 #endif

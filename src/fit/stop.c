@@ -1,4 +1,4 @@
-/* Where a curve ends in a stop, and the stop of the law.
+/* The stop at the end of a curve, and that of the law.
  *
  * The rise from the onset d_o to the last point (d_e, F_e) has the area A. A member whose last
  * force is F_p ends at d_s and rises with the stiffness k_t along a line of the same area and last
@@ -64,11 +64,11 @@ double cz_fit_stiffness_for(CzFit *fit, const CzStop *stop, double stiffness) {
     return cz_fit_round(RAISED * stop->stiffness, 1e6);
 }
 
-/* Lets a part go on at its last stage's force to the end of a member that is longer. */
+/* Extends a part to the end of a longer member with the force of its last stage. */
 static bool extend(CzArena *arena, double stroke, double force, CzBranch *part) {
     const int n = part->n;
-    double *x = cz_arena_allocate(arena, (size_t)n + 1, sizeof *x);
-    double *f = cz_arena_allocate(arena, (size_t)n + 1, sizeof *f);
+    double *x = cz_arena_numbers(arena, (size_t)n + 1);
+    double *f = cz_arena_numbers(arena, (size_t)n + 1);
     if (x == NULL || f == NULL)
         return false;
     for (int i = 0; i < n; i++) {
@@ -97,8 +97,7 @@ CzStatus cz_fit_place_stop(CzFit *fit, const CzStop *stop, CzStaged *staged, CzB
     if (!(force > plateau) || !(length > 0.0))
         return CZ_OK;
     const double moves = end - length - loading.x[loading.n - 1];
-    const double compliance = isfinite(fit->stiffness) ? 1.0 / fit->stiffness : 0.0;
-    const double soft = length / (force - plateau) - compliance;
+    const double soft = length / (force - plateau) - cz_fit_compliance(fit);
     stage->stroke = cz_fit_round(fmax(stage->stroke + moves, 0.5 * stage->stroke), 1e-3);
     staged->bottom_stiffness = cz_fit_round(fmin(fmax(1.0 / soft, key->lo), key->hi), 1e6);
     fit->stop_force = force;
@@ -107,5 +106,5 @@ CzStatus cz_fit_place_stop(CzFit *fit, const CzStop *stop, CzStaged *staged, CzB
                      cz_number_print_short(at, 1e3 * (end - length)));
     return extend(&fit->arena, cz_staged_stroke(staged), plateau, part)
                ? CZ_OK
-               : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a fit");
+               : cz_no_memory(error, "a fit");
 }

@@ -1,4 +1,4 @@
-/* A law that was found, as a catalogue with one part. */
+/* A fitted law as a catalogue with one part. */
 #include <math.h>
 #include <string.h>
 
@@ -20,7 +20,7 @@ static const char *percent_of(char text[CZ_NUMBER_TEXT], double share) {
     return cz_number_print_short(text, round(1e3 * share) / 10.0);
 }
 
-/* A force in kN; what rounding left of zero is 0. */
+/* A force in kN; rounding errors of zero are 0. */
 static const char *force_of(char text[CZ_NUMBER_TEXT], double force, double mean) {
     return text_of(text, fabs(force) <= 1e-12 * mean ? 0.0 : 1e-3 * force);
 }
@@ -65,7 +65,7 @@ static void write_values(const CzFit *fit, FILE *stream) {
     char number[CZ_NUMBER_TEXT];
     const char *record = "";
     size_t n_record = 0;
-    for (int i = 0; i < fit->n_value; i++) {
+    for (int i = 0; i < fit->summary.n_value; i++) {
         const char *path = fit->value[i].path;
         const char *point = strchr(path, '.');
         const bool is_stage = strstr(path, "stages[") != NULL;
@@ -89,10 +89,10 @@ void cz_fit_write_yaml(const CzFit *fit, FILE *stream) {
     if (fit->summary.verdict == CZ_FIT_REFUSED)
         return;
     write_head(&fit->summary, stream);
-    for (int i = 0; i < fit->n_doubt; i++)
-        fprintf(stream, "# DOUBTFUL: %s\n", fit->doubt[i]);
-    for (int i = 0; i < fit->n_note; i++)
-        fprintf(stream, "# note: %s\n", fit->note[i]);
+    for (int i = 0; i < fit->summary.n_doubt; i++)
+        fprintf(stream, "# DOUBTFUL: %s\n", fit->summary.doubt[i]);
+    for (int i = 0; i < fit->summary.n_note; i++)
+        fprintf(stream, "# note: %s\n", fit->summary.note[i]);
     fprintf(stream,
             "# Taken with %s: {use: %s, ...} by a problem file that names this one under "
             "`catalogue`.\n",

@@ -1,7 +1,6 @@
 /* Further parameter sets that fit about as well. A fit with more parameters than measurements, or
  * with insensitive ones, has many solutions, and a report of one would hide that.
  */
-#include "optimise/alternatives.h"
 #include "base/error.h"
 #include "optimise/outcome.h"
 

@@ -65,8 +65,8 @@ static double sum_of_squares(const double *r, int m) {
 static bool evaluate(Newton *newton, int n_point) {
     const CzFunction *function = newton->search->function;
     cz_search_unscale(newton->search, n_point, newton->tried, newton->x);
-    if (!cz_search_evaluate_details(newton->search, newton->phase, n_point, newton->x,
-                                    newton->many_f, newton->many_c, newton->many_d))
+    if (!cz_search_evaluate(newton->search, newton->phase, n_point, newton->x, newton->many_f,
+                            newton->many_c, newton->many_d))
         return false;
     const long first = newton->search->n_record - n_point;
     for (int i = 0; i < n_point; i++) {

@@ -120,7 +120,7 @@ static bool bridge_allocate(Bridge *bridge) {
 static bool evaluate(Bridge *bridge, int n_point) {
     if (bridge->search->n_record + n_point > bridge->limit ||
         !cz_search_evaluate(bridge->search, bridge->run->phase, n_point, bridge->x, bridge->many_f,
-                            bridge->many_c)) {
+                            bridge->many_c, NULL)) {
         nlopt_force_stop(bridge->opt);
         return false;
     }

@@ -4,11 +4,9 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "evaluate/evaluator.h"
-#include "optimise/alternatives.h"
 #include "optimise/combinations.h"
 #include "optimise/nlopt_adapter.h"
 #include "optimise/outcome.h"
-#include "optimise/sensitivity.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,8 @@
-/* An outcome: its memory, and what a search and its recall fill alike. */
+/* An outcome: its memory and its parts. */
 #ifndef CZ_OPTIMISE_OUTCOME_H
 #define CZ_OPTIMISE_OUTCOME_H
 
-#include "base/arena.h"
-#include "crushzone/optimise.h"
+#include "optimise/subspace.h"
 
 /* Creates an outcome with room for n_trial trials; start and best are those of the evaluator.
  * Status: CZ_OK, CZ_STATUS_NO_MEMORY. */
@@ -22,5 +21,17 @@ void cz_outcome_mark_bounds(const CzEvaluator *evaluator, CzOutcome *outcome);
 /* Verifies a design that passes. A signal leaves it unverified. */
 CZ_MUST_CHECK CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                          CzOutcome *outcome, CzError *error);
+
+/* Adds to the outcome of a fit the best parameter sets that fit about as well as record `best` and
+ * lie apart from it and from one another (alternatives.c). Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_alternatives_find(const CzSubspace *subspace, long best,
+                                            CzOutcome *outcome, CzError *error);
+
+/* Fills `sensitivity_increment`, `objective_change` and `constraint_change` from one run of each
+ * changed design, made as in a search; leaves the first NULL when the stop flag is up
+ * (sensitivity.c). Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_sensitivity_take(CzEvaluator *evaluator,
+                                           const volatile sig_atomic_t *stop, CzOutcome *outcome,
+                                           CzError *error);
 
 #endif

@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "optimise/outcome.h"
-#include "optimise/sensitivity.h"
 
 #include <stdio.h>
 #include <string.h>

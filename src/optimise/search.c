@@ -311,22 +311,7 @@ int cz_search_n_detail(const CzSearch *search) {
 }
 
 bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double *x,
-                        double *objective, double *constraint) {
-    return cz_search_evaluate_details(search, phase, n, x, objective, constraint, NULL);
-}
-
-bool cz_search_evaluate_start(CzSearch *search, const char *phase) {
-    double objective;
-    double *constraint = cz_search_numbers(search, (size_t)search->function->n_constraint);
-    const bool done =
-        constraint != NULL &&
-        cz_search_evaluate(search, phase, 1, search->function->start, &objective, constraint);
-    free(constraint);
-    return done;
-}
-
-bool cz_search_evaluate_details(CzSearch *search, const char *phase, int n, const double *x,
-                                double *objective, double *constraint, double *detail) {
+                        double *objective, double *constraint, double *detail) {
     if (cz_search_is_stopped(search))
         return false;
     const CzFunction *function = search->function;
@@ -354,4 +339,14 @@ bool cz_search_evaluate_details(CzSearch *search, const char *phase, int n, cons
     }
     watch_failures(search);
     return true;
+}
+
+bool cz_search_evaluate_start(CzSearch *search, const char *phase) {
+    double objective;
+    double *constraint = cz_search_numbers(search, (size_t)search->function->n_constraint);
+    const bool done =
+        constraint != NULL &&
+        cz_search_evaluate(search, phase, 1, search->function->start, &objective, constraint, NULL);
+    free(constraint);
+    return done;
 }

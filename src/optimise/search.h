@@ -95,15 +95,11 @@ double *cz_search_numbers(CzSearch *search, size_t n);
 
 /* Evaluates n designs, x in the variables' units (n x n_variable), in order. objective (n) and
  * constraint (n x n_constraint) get finite numbers; constraints far above 0 are compressed
- * logarithmically, flags are -1. Returns false when the search ended before all were evaluated; the
- * outputs are then not set. */
+ * logarithmically, flags are -1. `detail`, unless NULL, gets the uncompressed details
+ * (n x cz_search_n_detail), which are the constraints where the function has no details. Returns
+ * false when the search ended before all were evaluated; the outputs are then not set. */
 bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double *x,
-                        double *objective, double *constraint);
-
-/* The same with the uncompressed details (n x cz_search_n_detail), which are the constraints where
- * the function has no details. */
-bool cz_search_evaluate_details(CzSearch *search, const char *phase, int n, const double *x,
-                                double *objective, double *constraint, double *detail);
+                        double *objective, double *constraint, double *detail);
 int cz_search_n_detail(const CzSearch *search);
 
 /* Evaluates the start exactly as given. */

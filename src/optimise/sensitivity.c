@@ -7,7 +7,6 @@
  * see the chaotic response of a long train. Both designs are run as in a search, so that their
  * difference is that of the design alone.
  */
-#include "optimise/sensitivity.h"
 
 #include "base/error.h"
 #include "evaluate/evaluator.h"

@@ -47,7 +47,7 @@ static void screen(CzSearch *search, unsigned long seed, long n_point) {
             }
         }
         cz_search_unscale(search, batch, u, x);
-        if (!cz_search_evaluate(search, "screen", batch, x, objective, constraint))
+        if (!cz_search_evaluate(search, "screen", batch, x, objective, constraint, NULL))
             break;
     }
     free(u);

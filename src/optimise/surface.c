@@ -28,8 +28,8 @@ void cz_surface_free(CzSurface *surface) {
 
 /* Evaluates n_point designs of surface->x. */
 static bool evaluate(CzSurface *surface, const char *phase, int n_point) {
-    return cz_search_evaluate_details(surface->search, phase, n_point, surface->x, surface->many_f,
-                                      surface->many_c, surface->many_d);
+    return cz_search_evaluate(surface->search, phase, n_point, surface->x, surface->many_f,
+                              surface->many_c, surface->many_d);
 }
 
 static void set_base(CzSurface *surface, long record, int point, const double *u) {

@@ -31,6 +31,14 @@ const char *cz_problem_told_name(const CzProblem *problem, const char *name);
  * inside the input. */
 void cz_problem_place(const CzProblem *problem, const void *field, CzError *error);
 
+/* The same where the status is CZ_STATUS_INPUT and there is an error; returns the status. */
+CzStatus cz_problem_place_failure(const CzProblem *problem, const void *field, CzStatus status,
+                                  CzError *error);
+
+/* Fails with CZ_STATUS_INPUT and a sentence at that place. */
+CzStatus cz_problem_fail(const CzProblem *problem, const void *field, CzError *error,
+                         const char *format, ...) __attribute__((format(printf, 4, 5)));
+
 /* The folder that was searched after the file's own; NULL for none. Borrowed. */
 const char *cz_problem_share_folder(const CzProblem *problem);
 

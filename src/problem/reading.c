@@ -1,10 +1,12 @@
 /* From a tree to records: settings, trains, families, binding. */
 #include "problem/reading.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "tree/families.h"
 #include "tree/merge.h"
 #include "tree/trains.h"
@@ -133,4 +135,22 @@ void cz_problem_place(const CzProblem *problem, const void *field, CzError *erro
         cz_error_place(error, place->node);
     else
         snprintf(error->file, sizeof error->file, "%.255s", problem->file);
+}
+
+CzStatus cz_problem_place_failure(const CzProblem *problem, const void *field, CzStatus status,
+                                  CzError *error) {
+    if (status == CZ_STATUS_INPUT && error != NULL)
+        cz_problem_place(problem, field, error);
+    return status;
+}
+
+CzStatus cz_problem_fail(const CzProblem *problem, const void *field, CzError *error,
+                         const char *format, ...) {
+    char text[sizeof error->message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return cz_problem_place_failure(problem, field, cz_fail(error, CZ_STATUS_INPUT, "%s", text),
+                                    error);
 }

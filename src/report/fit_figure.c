@@ -10,11 +10,12 @@
 #include "report/units.h"
 
 /* Strokes in mm and forces in kN, in one block; NULL without memory. */
-static double *scaled(int n, const double *stroke, const double *force) {
+static double *scaled(const CzFitLoading *loading) {
+    const int n = loading->n;
     double *values = malloc(2 * (size_t)n * sizeof *values);
     for (int i = 0; values != NULL && i < n; i++) {
-        values[i] = stroke[i] * CZ_MILLI_PER_UNIT;
-        values[n + i] = force[i] / CZ_KILO;
+        values[i] = loading->stroke[i] * CZ_MILLI_PER_UNIT;
+        values[n + i] = loading->force[i] / CZ_KILO;
     }
     return values;
 }
@@ -25,12 +26,9 @@ static const char *verdict_text(CzFitVerdict verdict) {
 
 CzStatus cz_report_write_fit_figure(const CzFit *fit, FILE *stream, CzError *error) {
     const CzFitSummary *summary = cz_fit_summary(fit);
-    const double *stroke[2], *force[2];
-    int n[2];
+    const int n[] = {summary->curve.n, summary->law.n};
     char title[200], number[CZ_FIGURE_ROOM];
-    cz_fit_curve(fit, &n[0], &stroke[0], &force[0]);
-    cz_fit_law(fit, &n[1], &stroke[1], &force[1]);
-    double *values[] = {scaled(n[0], stroke[0], force[0]), scaled(n[1], stroke[1], force[1])};
+    double *values[] = {scaled(&summary->curve), scaled(&summary->law)};
     const bool has_memory = values[0] != NULL && values[1] != NULL;
     CzMarkup markup = {.stream = stream, .failed = !has_memory};
     if (has_memory) {

@@ -57,7 +57,7 @@ static bool moves(const CzBatch *batch, int row, size_t lane) {
            (is_end && cz_car_equipment(lanes, lane).has_slaved_ends);
 }
 
-/* Fills the places of all that moves, and of the impulse of each car, or only counts them. */
+/* Lists the places of all that moves and of the impulse of each car, with their allowed errors. */
 static size_t list_places(const CzBatch *batch, Place *place, double *allowed, double tolerance) {
     size_t n = 0;
     for (int car = 0; car < batch->model->n_car; car++) {
@@ -66,35 +66,26 @@ static size_t list_places(const CzBatch *batch, Place *place, double *allowed, d
         for (int row = 0; row < CZ_N_DOF; row++) {
             if (!moves(batch, row, lane))
                 continue;
-            if (place != NULL) {
-                place[n] = (Place){cz_row_of(&block->position, row) + i,
-                                   cz_row_of(&block->velocity, row) + i,
-                                   cz_row_of(&block->acceleration, row) + i};
-                allowed[2 * n] = tolerance * DISPLACEMENT_SCALE;
-                allowed[2 * n + 1] = tolerance * VELOCITY_SCALE;
-            }
-            n++;
+            allowed[2 * n] = tolerance * DISPLACEMENT_SCALE;
+            allowed[2 * n + 1] = tolerance * VELOCITY_SCALE;
+            place[n++] =
+                (Place){cz_row_of(&block->position, row) + i, cz_row_of(&block->velocity, row) + i,
+                        cz_row_of(&block->acceleration, row) + i};
         }
-        if (place != NULL) {
-            CzImpulse *impulse = &block->impulse;
-            place[n] = (Place){&impulse->position[i], &impulse->velocity[i], &impulse->force[i]};
-            allowed[2 * n] = allowed[2 * n + 1] = tolerance * IMPULSE_SCALE;
-        }
-        n++;
+        CzImpulse *impulse = &block->impulse;
+        allowed[2 * n] = allowed[2 * n + 1] = tolerance * IMPULSE_SCALE;
+        place[n++] = (Place){&impulse->position[i], &impulse->velocity[i], &impulse->force[i]};
     }
     return n;
 }
 
-/* Fills the lanes of the cars that are on an elastic track, or only counts them. */
+/* Lists the lanes of the cars on an elastic track. */
 static size_t list_track(const CzBatch *batch, size_t *lane) {
     const CzTrackMotion *track = batch->dynamics->track;
     size_t n = 0;
     for (size_t i = 0; track != NULL && i < track->n_under; i++)
-        if (track->under[i].state != NULL) {
-            if (lane != NULL)
-                lane[n] = i;
-            n++;
-        }
+        if (track->under[i].state != NULL)
+            lane[n++] = i;
     return n;
 }
 
@@ -164,83 +155,70 @@ static void drops(CzOde *ode, double time, const double *state, double *value) {
         value[i] = reference->drop[i].over ? 1.0 : travel(&reference->drop[i]) / SHEARED - 1.0;
 }
 
-/* Fills the shear-offs of all interfaces, or only counts them. */
+/* Lists the shear-offs of all interfaces. */
 static int list_drops(const CzBatch *batch, Drop *drop) {
     int n = 0;
-    for (int car = 0; car + 1 < batch->model->n_car; car++)
-        for (int side = 0; side < 2; side++) {
-            const size_t lane = cz_lane(batch, car, 0);
-            if (!cz_interface_equipment(batch->lanes, lane).side[side].shears_off)
-                continue;
-            if (drop != NULL)
-                drop[n] =
-                    (Drop){cz_block_of(batch->dynamics, lane), side, lane % CZ_LANE_BLOCK, false};
-            n++;
-        }
+    for (int i = 0; i < 2 * (batch->model->n_car - 1); i++) {
+        const size_t lane = cz_lane(batch, i / 2, 0);
+        if (cz_interface_equipment(batch->lanes, lane).side[i % 2].shears_off)
+            drop[n++] =
+                (Drop){cz_block_of(batch->dynamics, lane), i % 2, lane % CZ_LANE_BLOCK, false};
+    }
     return n;
 }
 
 /* ---- the run --------------------------------------------------------------------------------- */
 
-static CzStatus allocate(CzBatch *batch, CzReference **made, CzError *error) {
-    CzArena *arena = &batch->arena;
-    CzReference *reference = cz_arena_allocate(arena, 1, sizeof *reference);
-    if (reference == NULL)
-        return cz_no_memory(error, "the reference run");
-    const size_t n_place = list_places(batch, NULL, NULL, 0.0), n_track = list_track(batch, NULL);
-    const size_t n_mode = n_track > 0 ? cz_track_n_state(batch->dynamics->track->modes) : 0;
-    const size_t n_mode_all = n_track * n_mode, n = 2 * n_place + n_mode_all;
-    const int n_drop = list_drops(batch, NULL);
-    reference->n_place = n_place;
-    reference->n_track = n_track;
-    reference->n_mode = n_mode;
-    reference->place = cz_arena_allocate(arena, n_place, sizeof *reference->place);
-    reference->track = cz_arena_allocate(arena, n_track + 1, sizeof *reference->track);
-    reference->track_rate = cz_arena_allocate(arena, n_mode_all + 1, sizeof(double));
-    reference->drop = cz_arena_allocate(arena, (size_t)n_drop + 1, sizeof *reference->drop);
-    reference->at = cz_arena_allocate(arena, n, sizeof *reference->at);
-    if (arena->out_of_memory)
-        return cz_no_memory(error, "the reference run");
-    list_track(batch, reference->track);
-    reference->batch = batch;
-    reference->ode = (CzOde){.n_unknown = n,
-                             .rates = rates,
-                             .n_drop = list_drops(batch, reference->drop),
-                             .drops = drops};
-    *made = reference;
-    return CZ_OK;
-}
-
-/* Allowed local errors. The solvers take the mean of the squares over all unknowns; the
- * thousand modes of a track, most of them at rest, must not dilute it for the vehicles. */
-static void set_allowed(CzReference *reference, double tolerance, double *allowed) {
+/* Allowed local errors of the modes. The solvers take the mean of the squares over all unknowns;
+ * the thousand modes of a track, most of them at rest, must not dilute it for the vehicles. */
+static void set_allowed(const CzReference *reference, double tolerance, double *allowed) {
     const size_t n = reference->ode.n_unknown, n_vehicle = 2 * reference->n_place;
     const double share = sqrt((double)n_vehicle / (double)n);
-    list_places(reference->batch, reference->place, allowed, tolerance);
     for (size_t i = n_vehicle; i < n; i++)
         allowed[i] = tolerance * TRACK_SCALE;
     for (size_t i = 0; i < n; i++)
         allowed[i] *= share;
-    reference->ode.allowed = allowed;
 }
 
 CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance, CzReference **made,
                              CzError *error) {
-    CzReference *reference = NULL;
+    CzArena *arena = &batch->arena;
+    const CzTrackMotion *track = batch->dynamics->track;
+    const size_t n_car = (size_t)batch->model->n_car, most = n_car * (CZ_N_DOF + 1);
+    const size_t n_under = track != NULL ? track->n_under : 0;
     *made = NULL;
     if (batch->dynamics->elements != NULL || batch->dynamics->co_running != NULL)
         return cz_fail(error, CZ_STATUS_INPUT,
                        "the second solver knows the track models modal and rigid only");
-    CZ_TRY(allocate(batch, &reference, error));
-    const size_t n = reference->ode.n_unknown;
-    double *state = cz_arena_allocate(&batch->arena, n, sizeof *state);
-    double *allowed = cz_arena_allocate(&batch->arena, n, sizeof *allowed);
-    if (state == NULL || allowed == NULL)
+    CzReference *reference = cz_arena_allocate(arena, 1, sizeof *reference);
+    Place *place = cz_arena_allocate(arena, most, sizeof *place);
+    size_t *lane = cz_arena_allocate(arena, n_under, sizeof *lane);
+    Drop *drop = cz_arena_allocate(arena, 2 * n_car, sizeof *drop);
+    const size_t n_mode = n_under > 0 ? cz_track_n_state(track->modes) : 0;
+    double *allowed = cz_arena_numbers(arena, 2 * most + n_under * n_mode);
+    if (arena->out_of_memory)
+        return cz_no_memory(error, "the reference run");
+    *reference = (CzReference){.batch = batch,
+                               .n_place = list_places(batch, place, allowed, tolerance),
+                               .place = place,
+                               .n_track = list_track(batch, lane),
+                               .n_mode = n_mode,
+                               .track = lane,
+                               .drop = drop,
+                               .evaluated = NAN};
+    const size_t n_mode_all = reference->n_track * n_mode, n = 2 * reference->n_place + n_mode_all;
+    reference->ode = (CzOde){.n_unknown = n,
+                             .rates = rates,
+                             .n_drop = list_drops(batch, drop),
+                             .drops = drops,
+                             .allowed = allowed};
+    reference->track_rate = cz_arena_numbers(arena, n_mode_all);
+    reference->at = cz_arena_numbers(arena, n);
+    double *state = cz_arena_numbers(arena, n);
+    if (arena->out_of_memory)
         return cz_no_memory(error, "the reference run");
     set_allowed(reference, tolerance, allowed);
     get_state(reference, state);
-    reference->evaluated = NAN;
-    reference->committed = 0.0;
     CZ_TRY(cz_solver_create(method, &reference->ode, 0.0, state, LONGEST_STEP * batch->step,
                             &reference->solver, error));
     *made = reference;

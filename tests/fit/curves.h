@@ -90,9 +90,10 @@ static inline CzFit *fit_of(const Curve *curve, CzFitKind kind, int n_stage) {
 
 /* A value of the law; NaN when it has none of this path. */
 static inline double value_of(const CzFit *fit, const char *path) {
-    for (int i = 0; i < cz_fit_n_value(fit); i++)
-        if (strcmp(cz_fit_value_path(fit, i), path) == 0)
-            return cz_fit_value(fit, i);
+    const CzFitSummary *summary = cz_fit_summary(fit);
+    for (int i = 0; i < summary->n_value; i++)
+        if (strcmp(summary->value[i].path, path) == 0)
+            return summary->value[i].value;
     return NAN;
 }
 

@@ -205,7 +205,7 @@ static void an_end_that_does_not_unload_gets_a_stiffness_that_the_law_allows(voi
     CzFit *fit = fit_of(&curve, CZ_FIT_END, 2);
     energy_is_equal(fit, work_of_loading(&curve));
     assert_true(value_of(fit, "unloading_stiffness_MN_m") >= 400.0); /* the second stage's rise */
-    assert_true(cz_fit_n_note(fit) >= 2);
+    assert_true(cz_fit_summary(fit)->n_note >= 2);
     cz_fit_free(fit);
 }
 

@@ -97,7 +97,7 @@ static void failed_designs_have_finite_values_above_all_others(void **state) {
     cz_search_init(&search, &function, &options);
     const double x[] = {0.5, 1, 2, 2, 3, 3};
     double f[3], c[6];
-    assert_true(cz_search_evaluate(&search, "test", 3, x, f, c));
+    assert_true(cz_search_evaluate(&search, "test", 3, x, f, c, NULL));
     assert_true(isfinite(f[1]) && isfinite(f[2]) && isfinite(c[2]) && isfinite(c[4]));
     assert_true(f[1] > f[0] && f[2] > f[1]); /* the ramp rises with the distance */
     assert_true(c[2] > c[0] && c[4] > c[2]);

@@ -1,7 +1,6 @@
-/* Evaluator: its construction, and its properties that are known before any run. */
+/* Building an evaluator, and what is known of it before a run. */
 #include "evaluate/evaluator_parts.h"
 #include "base/error.h"
-#include "evaluate/choices.h"
 #include "evaluate/tasks.h"
 
 #include <stdio.h>
@@ -15,7 +14,7 @@ CzEvaluatorOptions cz_evaluator_options_default(void) {
 
 /* ---- building -------------------------------------------------------------------------------- */
 
-/* Gives a failure of a combination the place of the choices, and says which they are. */
+/* Adds the names of the choices and their place to a failure of a combination. */
 static CzStatus place_combination(const CzEvaluator *evaluator, const CzVariantSettings *settings,
                                   CzStatus status, CzError *error) {
     const CzOptimise *optimise = &cz_problem_input(evaluator->problem)->optimise;
@@ -42,7 +41,7 @@ static CzStatus build_variants(CzEvaluator *evaluator, CzError *error) {
     double *start = cz_arena_allocate(arena, (size_t)design->n_variable + 1, sizeof *start);
     evaluator->variant = cz_arena_allocate(arena, (size_t)n, sizeof *evaluator->variant);
     if (start == NULL || evaluator->variant == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the models");
+        return cz_no_memory(error, "the models");
     for (int i = 0; i < design->n_variable; i++)
         start[i] = design->variable[i].info.start;
     evaluator->own = cz_design_combination(design, start);
@@ -50,7 +49,7 @@ static CzStatus build_variants(CzEvaluator *evaluator, CzError *error) {
         CzVariantSettings settings;
         const bool is_own = evaluator->n_variant == evaluator->own;
         if (!cz_design_settings(design, evaluator->n_variant, NULL, arena, &settings))
-            return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the choices");
+            return cz_no_memory(error, "the choices");
         const CzStatus status = cz_variant_build(
             evaluator->problem, is_own ? NULL : &settings, evaluator->n_scene, evaluator->scene,
             evaluator->only, &evaluator->variant[evaluator->n_variant], error);
@@ -81,7 +80,7 @@ static CzStatus list_constraints(CzEvaluator *evaluator, CzError *error) {
     evaluator->constraint_check = cz_arena_allocate(arena, n + 1, sizeof(int));
     evaluator->constraint_name = cz_arena_allocate(arena, n + 1, sizeof(char *));
     if (evaluator->constraint_check == NULL || evaluator->constraint_name == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the constraints");
+        return cz_no_memory(error, "the constraints");
     int j = 0;
     for (int i = 0; i < evaluator->list.n_check; i++) {
         const CzCheck *check = &evaluator->list.check[i];
@@ -94,7 +93,7 @@ static CzStatus list_constraints(CzEvaluator *evaluator, CzError *error) {
         evaluator->constraint_check[j] = i;
         evaluator->constraint_name[j] = cz_arena_copy_text(arena, name, strlen(name));
         if (evaluator->constraint_name[j++] == NULL)
-            return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the constraints");
+            return cz_no_memory(error, "the constraints");
     }
     for (int i = 0; i < evaluator->matches.n_item; i++)
         evaluator->constraint_name[j++] = evaluator->matches.item[i].written->name;
@@ -123,12 +122,9 @@ static CzStatus build_objective(CzEvaluator *evaluator, CzError *error) {
         evaluator->objective_name = "weighted sum of squared residuals";
     if (!optimise->given || optimise->minimise == NULL)
         return CZ_OK;
-    const CzStatus status = cz_metric_parse(optimise->minimise, &evaluator->objective, error);
-    if (status != CZ_OK) {
-        if (error != NULL)
-            cz_problem_place(evaluator->problem, &optimise->minimise, error);
-        return status;
-    }
+    CZ_TRY(cz_problem_place_failure(
+        evaluator->problem, &optimise->minimise,
+        cz_metric_parse(optimise->minimise, &evaluator->objective, error), error));
     evaluator->objective_name = optimise->minimise;
     evaluator->objective_unit = evaluator->objective.kind->unit->text;
     return CZ_OK;
@@ -162,7 +158,7 @@ CzStatus cz_evaluator_build(const CzProblem *problem, const CzEvaluatorOptions *
                        "the factor on the step must be above 0 and the number of jobs not below 0");
     CzEvaluator *built = calloc(1, sizeof *built);
     if (built == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the evaluator");
+        return cz_no_memory(error, "the evaluator");
     built->problem = problem;
     built->n_job = given.n_job > 0 ? given.n_job : cz_processor_count();
     built->manner = (CzManner){.step_factor = given.step_factor, .integrator = given.integrator};
@@ -226,7 +222,7 @@ int cz_evaluator_n_detail(const CzEvaluator *evaluator) {
 
 bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint) {
     if (constraint >= evaluator->list.n_constraint)
-        return true; /* the objective leads to what is matched */
+        return true; /* the objective is the sum of the matches */
     return evaluator->list.check[evaluator->constraint_check[constraint]].scale == CZ_FLAG_SCALE;
 }
 
@@ -247,7 +243,8 @@ void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *
     evaluator->stop = stop;
 }
 
-/* The vehicles at the start, with what is fixed; a fit reads its designs anew. */
+/* Checks the vehicles at the start, with fixed variables at their value; those of a fit are checked
+ * when its designs are reread. */
 static CzStatus check_start_vehicles(const CzEvaluator *evaluator, CzError *error) {
     const CzDesign *design = &evaluator->design;
     const size_t n_vehicle = (size_t)evaluator->n_vehicle;
@@ -255,9 +252,9 @@ static CzStatus check_start_vehicles(const CzEvaluator *evaluator, CzError *erro
         return CZ_OK;
     double *x = calloc((size_t)design->n_variable + 1, sizeof *x);
     CzVehicle *vehicles = malloc(n_vehicle * sizeof *vehicles);
-    CzStatus status = CZ_STATUS_NO_MEMORY;
+    CzStatus status;
     if (x == NULL || vehicles == NULL) {
-        cz_fail(error, status, "no memory for the start of a search");
+        status = cz_no_memory(error, "the start of a search");
     } else {
         for (int i = 0; i < design->n_variable; i++) {
             const CzVariableInfo *info = &design->variable[i].info;

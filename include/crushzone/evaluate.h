@@ -56,7 +56,7 @@ typedef struct CzCheckResult {
     const char *profile, *clause, *source, *confidence; /* NULL when none */
 } CzCheckResult;
 
-/* How near a run comes to one measured value or time history. Texts are borrowed from the
+/* Residual of a run against one measured value or time history. Texts are borrowed from the
  * evaluator.
  */
 typedef struct CzMatchResult {
@@ -76,10 +76,10 @@ typedef struct CzMatchResult {
 /* A train that limits do not judge. Texts are borrowed from the evaluator. */
 typedef struct CzNotJudged {
     const char *train, *why;
-    bool is_inferred; /* no role was given: it is taken for an obstacle by what it is */
+    bool is_inferred; /* it has no role and is taken for an obstacle by its properties */
 } CzNotJudged;
 
-/* What one design answers. Arrays are borrowed from the evaluation and freed with it. */
+/* Results of one design. Arrays are borrowed from the evaluation and freed with it. */
 typedef struct CzEvaluation {
     CzStatus status;   /* CZ_OK, or CZ_STATUS_RUN_FAILED when a scenario failed or is incomplete */
     char failure[512]; /* the first such scenario, and why; empty otherwise */
@@ -94,9 +94,9 @@ typedef struct CzEvaluation {
     int n_check;
     CzCheckResult *check; /* the matches of a fit last (n_check) */
     CzVerdict verdict;    /* over all checks: cz_verdict_over */
-    bool beyond_validity; /* something climbed in a run */
-    int n_not_covered;    /* what the profile requires and this program cannot compute, which is no
-                             check and counts in no verdict */
+    bool beyond_validity; /* a vehicle climbed in a run */
+    int n_not_covered; /* requirements of the profile that this program cannot compute; they are no
+                          checks and count in no verdict */
     const char *const *not_covered; /* borrowed from the evaluator (n_not_covered) */
     int n_not_judged;
     const CzNotJudged *not_judged; /* obstacles, borrowed from the evaluator (n_not_judged) */
@@ -114,8 +114,8 @@ CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
 CZ_API CzVerdict cz_verdict_over(const CzEvaluation *evaluation, int n_name,
                                  const char *const *name);
 
-/* Whether a check comes before another when the worst is searched for: fails by margin, broken
- * yes-or-no checks, what was not checked, passes by margin, what does not apply. */
+/* Whether a check is worse than another: fails by margin come first, then failed yes-or-no checks,
+ * checks that were not made, passes by margin, checks that do not apply. */
 CZ_API bool cz_check_is_worse(const CzCheckResult *check, const CzCheckResult *other);
 
 typedef struct CzEvaluatorOptions {

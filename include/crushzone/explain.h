@@ -1,4 +1,5 @@
-/* Why it climbed, or how far it is from climbing: causes in order, and what would change it. */
+/* Cause of an override, or the margin against one: causes in order, and changes that would prevent
+ * or lead to it. */
 #ifndef CRUSHZONE_EXPLAIN_H
 #define CRUSHZONE_EXPLAIN_H
 
@@ -18,8 +19,8 @@ CZ_API const char *cz_cause_text(CzCause cause);
 CZ_API const char *cz_cause_doc(CzCause cause);
 
 /* One value of the vehicles, changed in all of them alike while everything else stays, and the
- * smallest change found that turns the verdict on climbing round: that restores a margin that is
- * broken, or breaks one that is kept. */
+ * smallest change found that reverses the verdict on climbing: it restores a violated margin, or
+ * violates one that is kept. */
 typedef struct CzCandidateChange {
     const char *name; /* such as "height of the anti-climber faces"; static */
     const char *key;  /* as a file spells it, such as "face_height_mm"; static */
@@ -33,14 +34,14 @@ typedef struct CzCandidateChange {
     double margin;  /* smallest climbing margin there */
 } CzCandidateChange;
 
-/* What is known of an interface or element at the time of the climb: a indicator of a cause. */
+/* An indicator of a cause at an interface or element. */
 typedef struct CzIndicator {
     CzCause cause;
     char what[CZ_WHERE_ROOM + 96]; /* a sentence without its time */
     double time;                   /* [s]; NaN when it is about the whole run */
 } CzIndicator;
 
-/* The indicators of one run that a cause is at work. */
+/* Most indicators of one run. */
 enum { CZ_MOST_INDICATORS = 24 };
 
 /* Open result, owns its memory; texts are borrowed from the evaluator. */

@@ -1,5 +1,4 @@
-/* Search for a design that passes: NLopt behind one adapter, our own strategy and incumbent around
- * it. */
+/* Search for a design that passes, with the algorithms of NLopt and a strategy of our own. */
 #ifndef CRUSHZONE_OPTIMISE_H
 #define CRUSHZONE_OPTIMISE_H
 
@@ -23,7 +22,7 @@ typedef struct CzProgress {
     bool feasible;          /* whether the incumbent is */
     double best_objective;  /* of the incumbent */
     double best_violation;  /* of the incumbent */
-    bool best_fails_a_flag; /* and nothing else: it has no margin that it misses */
+    bool best_fails_a_flag; /* it fails a yes or no only, and so violates no margin */
     const char *phase;      /* such as "screen", "descend", "polish" */
 } CzProgress;
 
@@ -31,8 +30,8 @@ typedef struct CzOptimiseOptions {
     const char *algorithm; /* "auto" or an NLopt name such as "LN_COBYLA"; NULL takes the file's */
     long evaluations;      /* most evaluations; 0 takes the file's */
     long seed;             /* -1 takes the file's */
-    unsigned verify_methods; /* ways that a design that passes is verified by, as CzVerifyOptions
-                             has them; all but Adams by default, 0 for none */
+    unsigned verify_methods;           /* methods of verification of a design that passes, as in
+                                          CzVerifyOptions; by default all but Adams, 0 for none */
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */
     void (*progress)(const CzProgress *progress, void *data); /* NULL when none */
     void *progress_data;
@@ -80,7 +79,7 @@ typedef struct CzOutcome {
 CZ_MUST_CHECK CZ_API CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                           CzOutcome **outcome, CzError *error);
 
-/* What a search wrote down. Arrays are borrowed. */
+/* The record of a search. Arrays are borrowed. */
 typedef struct CzRecall {
     CzOutcomeStatus status;
     const char *why_stopped;
@@ -91,7 +90,7 @@ typedef struct CzRecall {
 } CzRecall;
 
 /* The outcome of a search that was done before: the evaluator's start is its best design. Both are
- * evaluated, verified and varied anew. Statuses as above. */
+ * evaluated and verified again, with new sensitivities. Statuses as above. */
 CZ_MUST_CHECK CZ_API CzStatus cz_outcome_recall(CzEvaluator *evaluator, const CzRecall *recall,
                                                 CzOutcome **outcome, CzError *error);
 

@@ -67,6 +67,10 @@ CZ_MUST_CHECK CZ_API CzStatus cz_problem_find_scenario(const CzProblem *problem,
 CZ_MUST_CHECK CZ_API CzStatus cz_problem_write_resolved(const CzProblem *problem, FILE *stream,
                                                         CzError *error);
 
+/* Name and meaning of a key of a record, such as "limit", by its number; NULL beyond the last. */
+CZ_API const char *cz_key_name(const char *record, int index);
+CZ_API const char *cz_key_doc(const char *record, int index);
+
 /* Writes the JSON schema (draft-07), the key list for a terminal, and the key reference (Markdown).
  */
 CZ_API void cz_keys_write_schema(FILE *stream);

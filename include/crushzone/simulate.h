@@ -172,7 +172,7 @@ typedef struct CzEnergy {
     double balance_error; /* |residual| over the initial energy [-], the largest over the run */
 } CzEnergy;
 
-/* Everything a run answers. Open, borrowed from the run. Failed results are NaN. */
+/* Results of a run. Open, borrowed from the run. Failed results are NaN. */
 typedef struct CzRunSummary {
     const char *scenario;
     CzStatus status;   /* CZ_OK or CZ_STATUS_RUN_FAILED */

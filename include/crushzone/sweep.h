@@ -1,8 +1,8 @@
-/* Sweeps: any one or two values of a problem file go over a range, and every point is judged.
+/* Sweeps: one or two values of a problem file are varied over a range, and every point is judged.
  *
- * Each point is the problem read anew with its values set, as with `--set`, so that any path may be
- * swept: speeds, offsets, masses, stiffnesses, gaps. Points are independent and run on all threads;
- * a point's answer is that of the same problem run alone, to the last bit.
+ * Each point is the problem read again with its values set, as with `--set`, so that any path may
+ * be varied: speeds, offsets, masses, stiffnesses, gaps. Points are independent and run on all
+ * threads; the result of a point is that of the same problem run by itself, to the last bit.
  */
 #ifndef CRUSHZONE_SWEEP_H
 #define CRUSHZONE_SWEEP_H
@@ -51,7 +51,7 @@ typedef struct CzSweepOptions {
 } CzSweepOptions;
 CZ_API CzSweepOptions cz_sweep_options_default(void);
 
-/* What became of a point. */
+/* State of a point. */
 typedef enum CzSweepState {
     CZ_SWEEP_DONE,
     CZ_SWEEP_RUN_FAILED, /* a run failed or is incomplete */

@@ -60,7 +60,7 @@ typedef struct CzVerification {
     unsigned methods; /* that were requested and apply here: bit 1 << CzVerifyMethod each */
     int n_value;
     CzVerifiedValue *value;                    /* (n_value) */
-    bool is_done[CZ_N_VERIFY_METHOD];          /* this method was gone to its end */
+    bool is_done[CZ_N_VERIFY_METHOD];          /* the method was completed */
     double largest_change[CZ_N_VERIFY_METHOD]; /* over all values; NaN when not done */
     int worst[CZ_N_VERIFY_METHOD];             /* value with that change; -1 when none */
     int n_flip[CZ_N_VERIFY_METHOD];            /* changed verdicts */

@@ -133,7 +133,35 @@ static void write_units(void) {
     putchar('\n');
 }
 
-static void write_checks(void) {
+static void write_keys_of(const char *record) {
+    for (int i = 0; cz_key_name(record, i) != NULL; i++) {
+        const Entry key = {cz_key_name(record, i), cz_key_doc(record, i)};
+        write_entries(1, &key, 14);
+    }
+}
+
+static void write_design_rules(void) {
+    static const struct {
+        const char *name, *metric, *bound;
+        double limit;
+        const char *doc;
+    } rules[] = {
+#define MAX "at most"
+#define MIN "at least"
+#define CZ_RULE(name, metric, bound, limit, speeds, needs, doc) {name, metric, bound, limit, doc},
+#include "evaluate/design_rules.def"
+#undef CZ_RULE
+#undef MIN
+#undef MAX
+    };
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
+        printf("  %s: %s %s %.3g\n      ", rules[i].name, rules[i].metric, rules[i].bound,
+               rules[i].limit);
+        cz_help_write_wrapped(rules[i].doc, 6);
+    }
+}
+
+static void write_metrics(void) {
     static const struct {
         const char *name, *doc;
     } metrics[] = {
@@ -146,12 +174,27 @@ static void write_checks(void) {
     {CZ_METRIC_PREFIX_##record #key, doc},
 #include "evaluate/results.def"
     };
-    puts("Metrics for limits, targets and the objective. The worst place counts unless the name "
-         "selects\none: interfaces.A4-B1.peak_force_kN, vehicles.A1.max_pitch_mrad.\n");
     for (size_t i = 0; i < sizeof metrics / sizeof *metrics; i++) {
         printf("  %-40s ", metrics[i].name);
         cz_help_write_wrapped(metrics[i].doc, 43);
     }
+}
+
+static void write_checks(void) {
+    puts(
+        "Keys of `checks:` in a problem file. The checks are the limits of the profile, the limits "
+        "of the\nproblem's own, which replace those of the profile by name, and the design "
+        "rules:\n");
+    write_keys_of("checks");
+    puts("\nKeys of a limit, which has a max, a min or both:\n");
+    write_keys_of("limit");
+    puts("\nDesign rules. Each applies to the devices and speeds that it names, where the problem "
+         "has "
+         "them:\n");
+    write_design_rules();
+    puts("\nMetrics for limits, targets and the objective. The worst place counts unless the name "
+         "selects\none: interfaces.A4-B1.peak_force_kN, vehicles.A1.max_pitch_mrad.\n");
+    write_metrics();
 }
 
 static void write_algorithms(void) {

@@ -1,4 +1,4 @@
-/* Candidate changes: where their records stand, and how they are changed. */
+/* Candidate changes: the records that hold a value, and its change. */
 #include "evaluate/candidate_changes.h"
 
 #include <math.h>

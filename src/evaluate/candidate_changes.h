@@ -1,5 +1,4 @@
-/* Candidate changes: values of the vehicles that are changed in all of them alike, to see what a
- * result depends on. */
+/* Candidate changes: one value of the vehicles, changed in all of them alike. */
 #ifndef CZ_EVALUATE_CANDIDATE_CHANGES_H
 #define CZ_EVALUATE_CANDIDATE_CHANGES_H
 

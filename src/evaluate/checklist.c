@@ -45,13 +45,9 @@ static bool holds_in(const CzLimit *limit, const CzScene *scene) {
                : !scene->is_overload && cz_scene_is_judged_by(scene, limit->name);
 }
 
-static bool is_of_design(const CzMetric *metric) {
-    return metric->kind->level == CZ_LEVEL_END || metric->kind->level == CZ_LEVEL_DESIGN;
-}
-
 /* Adds a check in each of its scenarios. */
 static CzStatus append_in_scenarios(Builder *builder, CzCheck check, const CzLimit *limit) {
-    if (is_of_design(&check.metric)) {
+    if (cz_level_is_of_design(check.metric.kind->level)) {
         check.scenario = CZ_NO_SCENARIO;
         return append(builder, &check);
     }

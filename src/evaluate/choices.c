@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* ---- what a choice makes of a buffer --------------------------------------------------------- */
+/* ---- the buffer of a choice ------------------------------------------------------------------ */
 
 static const CzBuffer *buffer_at(const CzVehicle *vehicles, const CzDesignPlace *place) {
     return (const CzBuffer *)(const void *)((const char *)&vehicles[place->vehicle] +

@@ -41,8 +41,7 @@ static CzSubject subject_at(const CzEvaluator *evaluator, const CzVehicle *vehic
 
 static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                                const CzRunSummary *const *run) {
-    const CzLevel level = evaluator->objective.kind->level;
-    if (level == CZ_LEVEL_END || level == CZ_LEVEL_DESIGN) {
+    if (cz_level_is_of_design(evaluator->objective.kind->level)) {
         const CzSubject subject = cz_subject_of(evaluator, vehicles, CZ_NO_SCENARIO, NULL);
         return cz_metric_value(&evaluator->objective, &subject, true).value;
     }
@@ -223,7 +222,7 @@ static CzStatus compose_checks(const CzEvaluator *evaluator, const CzVehicle *ve
     return CZ_OK;
 }
 
-/* The scenario that failed, or the first that did not come to its end, and why. */
+/* The first scenario that failed, else the first incomplete one, with the reason. */
 static void note_failure(const CzEvaluator *evaluator, const CzRunSummary *const *run,
                          CzEvaluation *evaluation) {
     const CzRunSummary *first = NULL;
@@ -239,13 +238,13 @@ static void note_failure(const CzEvaluator *evaluator, const CzRunSummary *const
 }
 
 CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
-                    const CzRunSummary *const *run, CzRun *const *whole, CzEvaluation *evaluation,
-                    CzError *error) {
+                    const CzRunSummary *const *run, CzRun *const *whole, bool is_refused,
+                    CzEvaluation *evaluation, CzError *error) {
     CZ_TRY(allocate(evaluator, evaluation, error));
     CZ_TRY(compose_checks(evaluator, vehicles, run, evaluation, error));
     CZ_TRY(judge_matches(evaluator, vehicles, run, whole, evaluation, error));
     note_failure(evaluator, run, evaluation);
-    const bool failed = evaluation->failure[0] != '\0';
+    const bool failed = is_refused || evaluation->failure[0] != '\0';
     if (!failed)
         set_objective(evaluator, vehicles, run, evaluation);
     const bool has_objective = evaluator->own_objective != NULL ||
@@ -254,23 +253,6 @@ CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
         set_failed(evaluation);
     else if (!isfinite(evaluation->objective)) /* unknown, which concerns a search only */
         evaluation->objective = has_objective ? NAN : 0;
-    evaluation->verdict = cz_verdict_over(evaluation, 0, NULL);
-    return CZ_OK;
-}
-
-CzStatus cz_compose_refused(const CzEvaluator *evaluator, const CzVehicle *vehicles,
-                            CzEvaluation *evaluation, CzError *error) {
-    const size_t n_scene = (size_t)evaluator->n_scene;
-    const CzRunSummary **none = calloc(n_scene, sizeof *none);
-    CzRun **no_run = calloc(n_scene, sizeof(CzRun *));
-    const CzStatus status = none != NULL && no_run != NULL
-                                ? cz_compose(evaluator, vehicles, none, no_run, evaluation, error)
-                                : cz_no_memory(error, "the scenarios");
-    free(none);
-    free(no_run);
-    if (status != CZ_OK)
-        return status;
-    set_failed(evaluation);
     evaluation->verdict = cz_verdict_over(evaluation, 0, NULL);
     return CZ_OK;
 }

@@ -10,15 +10,12 @@ CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles,
 
 /* Fills an evaluation but for its runs. `vehicles` is the vehicle array with the design's values,
  * `run` (n_scene) with NULL for scenarios that were left out, `whole` the same runs with their
- * channels. Statuses: CZ_OK, CZ_STATUS_INPUT for a match with a channel that is none,
+ * channels. A design is refused when it breaks a rule of files; nothing of it was run. Statuses:
+ * CZ_OK, CZ_STATUS_INPUT for a match with a channel that the run does not have,
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                                   const CzRunSummary *const *run, CzRun *const *whole,
-                                  CzEvaluation *evaluation, CzError *error);
-
-/* The evaluation of a design that breaks a rule of files and was not run. Statuses as above. */
-CZ_MUST_CHECK CzStatus cz_compose_refused(const CzEvaluator *evaluator, const CzVehicle *vehicles,
-                                          CzEvaluation *evaluation, CzError *error);
+                                  bool is_refused, CzEvaluation *evaluation, CzError *error);
 
 /* Fills the details of a design whose runs all came to their end (n_detail); `whole` as above.
  * Statuses: CZ_OK, CZ_STATUS_INPUT. */

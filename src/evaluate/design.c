@@ -40,7 +40,7 @@ static bool vehicles_are_alike(const CzVehicle *a, const CzVehicle *b, bool mirr
            memcmp(&a->rear, mirrored ? &b->front : &b->rear, sizeof a->rear) == 0;
 }
 
-/* Whether the train ahead is the train behind once more, turned round or not. */
+/* Whether the train ahead is identical to the train behind, in the same or in reversed order. */
 static bool partner_is_alike(const CzScene *scene, bool mirrored) {
     const int n = scene->colliding + 1;
     if (scene->train[0] == scene->train[1] || scene->n_vehicle != 2 * n)
@@ -109,9 +109,8 @@ static CzStatus add_place(const Builder *builder, CzDesignVariable *variable,
     return CZ_OK;
 }
 
-/* The stroke that is drawn of the anti-climber whose stroke a target is: a search makes a full car
- * as much longer as the stroke, and a file with that stroke has to say from where. NaN for any
- * other number. */
+/* The drawn stroke of the anti-climber whose stroke a target is: a search lengthens a full car with
+ * the stroke, and a file with that stroke must name the drawn one. NaN for any other number. */
 static double drawn_stroke(const Builder *builder, const CzTarget *target) {
     if (target->vehicle < 0 || builder->design->is_fit)
         return NAN;
@@ -257,7 +256,7 @@ static void settle_fixed(CzVariableInfo *info) {
         info->fixed_at = by_bounds ? info->min : cz_increment_not_below(info->increment, info->min);
 }
 
-/* A start that misses a bound by what the conversion of units leaves is on it. */
+/* A start that misses a bound by a rounding error of units is moved to it. */
 static void settle_start(CzVariableInfo *info) {
     const double bounds[2] = {info->min, info->max};
     for (int i = 0; i < 2; i++)

@@ -1,4 +1,4 @@
-/* What the devices of a vehicle end need as written.
+/* Devices of a vehicle end as written.
  *
  *   length of a device  = installed length when declared, else stroke / efficiency
  *   anti-climber's path = gap + length + crush zone of the end

@@ -1,4 +1,4 @@
-/* What the devices of a vehicle end need as written: strokes, forces, room. No run is needed. */
+/* Devices of a vehicle end as written: strokes, forces, installed lengths. */
 #ifndef CZ_EVALUATE_DEVICES_H
 #define CZ_EVALUATE_DEVICES_H
 

@@ -58,7 +58,7 @@ static bool is_stopped(const CzExplainOptions *options) {
     return options->stop != NULL && *options->stop != 0;
 }
 
-/* Runs those candidates of a batch that a file may hold. `vehicles` holds room for all of them. */
+/* Runs those candidates of a batch that a file may hold; `vehicles` has room for all. */
 static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzVehicle *vehicles,
                           CzError *error) {
     const CzEvaluator *evaluator = search->evaluator;

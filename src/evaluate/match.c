@@ -1,4 +1,4 @@
-/* Matches: finding what they name, and judging runs by them. */
+/* Matches: their metrics, events and channels, and the residuals of a run. */
 #include "evaluate/match.h"
 #include "base/error.h"
 #include "base/suggest.h"

@@ -15,6 +15,11 @@ typedef enum CzLevel {
     CZ_LEVEL_DESIGN /* likewise */
 } CzLevel;
 
+/* Whether a level is that of the design as written, without a run. */
+static inline bool cz_level_is_of_design(CzLevel level) {
+    return level == CZ_LEVEL_END || level == CZ_LEVEL_DESIGN;
+}
+
 /* Where a metric is read. Only what its level has is filled. */
 typedef struct CzPlace {
     const CzScene *scene; /* NULL for the design itself */
@@ -43,7 +48,6 @@ typedef struct CzSubject {
         *vehicles; /* the problem's vehicle array with the design's values (n_vehicle) */
     int n_vehicle;
     int n_first_train;       /* the first n vehicles of the array are the first train */
-    const CzInput *input;    /* for names of trains */
     double rate;             /* crush rate that tube forces are taken at [m/s] */
     const bool *is_obstacle; /* whether a vehicle is part of an obstacle (n_vehicle); NULL: none */
 } CzSubject;

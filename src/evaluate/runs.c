@@ -148,10 +148,8 @@ static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *de
         CzRun **run = &block->run[i * n_scene];
         for (int s = 0; s < n_scene; s++)
             summary[s] = run[s] != NULL ? cz_run_summary(run[s]) : NULL;
-        status = block->is_refused[i] ? cz_compose_refused(block->evaluator, block->vehicle[i],
-                                                           &evaluation[i], error)
-                                      : cz_compose(block->evaluator, block->vehicle[i], summary,
-                                                   run, &evaluation[i], error);
+        status = cz_compose(block->evaluator, block->vehicle[i], summary, run, block->is_refused[i],
+                            &evaluation[i], error);
         for (int k = 0; detail != NULL && k < block->evaluator->n_detail; k++)
             detail[i * block->evaluator->n_detail + k] = NAN;
         if (detail != NULL && status == CZ_OK && evaluation[i].status == CZ_OK)
@@ -187,7 +185,7 @@ static void sort_block(Block *block) {
     }
 }
 
-/* `wish` says how runs are made and what is kept of them. */
+/* `wish` holds the manner of the runs and what is kept of them. */
 static CzStatus evaluate_block(const Block *wish, int n_point, const double *x,
                                CzEvaluation *evaluation, double *detail, CzError *error) {
     Block block = *wish;

@@ -5,31 +5,18 @@
 
 #include <string.h>
 
-/* Number of the train with this name, or -1. */
-static int find_train(const CzInput *input, const char *name) {
-    for (int train = 0; train < input->n_trains; train++)
-        if (strcmp(input->trains[train].name, name) == 0)
-            return train;
-    return -1;
+/* The train at a side of a scenario, which the reader has found to exist. */
+static int train_at(const CzInput *input, const CzScenario *scenario, int side) {
+    int train = side;
+    if (scenario != NULL && scenario->trains.n_text == 2)
+        for (train = 0; strcmp(input->trains[train].name, scenario->trains.text[side]) != 0;)
+            train++;
+    return train;
 }
 
 /* The value of the scenario, or the train's where it has none. */
 static double value_or(double value, double fallback) {
     return isnan(value) ? fallback : value;
-}
-
-static CzStatus choose_trains(const CzProblem *problem, const CzScenario *scenario, int train[2],
-                              CzError *error) {
-    const CzInput *input = cz_problem_input(problem);
-    for (int side = 0; side < 2; side++) {
-        train[side] = side;
-        if (scenario != NULL && scenario->trains.n_text == 2)
-            train[side] = find_train(input, scenario->trains.text[side]);
-        if (train[side] < 0 || train[side] >= input->n_trains)
-            return cz_fail(error, CZ_STATUS_INPUT, "scenario '%s' needs two trains of the problem",
-                           scenario != NULL ? scenario->name : "collision");
-    }
-    return CZ_OK;
 }
 
 static CzStatus list_vehicles(const CzProblem *problem, CzArena *arena, CzScene *scene,
@@ -61,7 +48,8 @@ static CzStatus build_scene(const CzProblem *problem, int index, CzArena *arena,
     const CzInput *input = cz_problem_input(problem);
     const CzScenario *scenario = input->n_scenarios > 0 ? &input->scenarios[index] : NULL;
     scene->name = cz_problem_scenario_name(problem, index);
-    CZ_TRY(choose_trains(problem, scenario, scene->train, error));
+    for (int side = 0; side < 2; side++)
+        scene->train[side] = train_at(input, scenario, side);
     CZ_TRY(list_vehicles(problem, arena, scene, error));
     double speed = input->trains[scene->train[0]].speed;
     double partner_speed = input->trains[scene->train[1]].speed;

@@ -48,7 +48,7 @@ bool cz_scene_is_judged_by(const CzScene *scene, const char *check);
 #define CZ_OVERLOAD_FACTOR 1.1
 
 /* Fills n_scenario scenes from a problem; memory comes from the arena. Statuses: CZ_OK,
- * CZ_STATUS_NO_MEMORY, CZ_STATUS_INPUT for a train that does not exist. */
+ * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_scenes_build(const CzProblem *problem, CzArena *arena, int *n_scene,
                                        CzScene **scene, CzError *error);
 

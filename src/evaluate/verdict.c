@@ -1,7 +1,7 @@
 /* Verdict over several checks: the same rule for a scenario, a problem, a point of a sweep, a
  * design of a search, and runs that are compared.
  *
- *   FAIL         a check fails, or something climbed, after which nothing is valid
+ *   FAIL         a check fails, or a vehicle climbed, so that later results are not valid
  *   NOT CHECKED  else: a run failed or is incomplete, a check could not be made, or there is none
  *   PROVISIONAL  else: a limit that a check satisfies has not been confirmed
  *   pass         else
@@ -41,8 +41,8 @@ CzVerdict cz_verdict_over(const CzEvaluation *evaluation, int n_name, const char
     return any[CZ_VERDICT_PROVISIONAL] ? CZ_VERDICT_PROVISIONAL : CZ_VERDICT_PASS;
 }
 
-/* Fails by margin, broken yes-or-no checks behind them, then what was not checked, then passes by
- * margin, at last what does not apply. */
+/* Order: fails by margin, failed yes-or-no checks, checks that were not made, passes by margin,
+ * checks that do not apply. */
 static double order_of(const CzCheckResult *check) {
     const double most = 1e9, margin = fmin(fmax(check->margin, -most), most);
     if (check->verdict == CZ_VERDICT_FAIL)

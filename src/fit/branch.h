@@ -1,7 +1,7 @@
 /* One branch of a measured curve: straight lines between points whose stroke never falls.
  *
  * Points of equal stroke are a jump. Integrals over any part are differences of sums that are made
- * once, so a least-squares fit costs nothing per point.
+ * once, so the cost of a least-squares fit does not depend on the number of points.
  */
 #ifndef CZ_FIT_BRANCH_H
 #define CZ_FIT_BRANCH_H

@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "base/number.h"
 
-#define RECENT 0.75 /* of the stroke so far: from there on it tells the level (ours) */
+#define RECENT 0.75 /* of the stroke so far: the level is the mean from there on (ours) */
 #define LEVEL 1.1   /* of the mean force of the stroke so far: above it a rise has begun (ours) */
 #define HEIGHT 1.5  /* of the highest force before: less is a stage (ours) */
 #define STEEP 20.0  /* times the stiffness of force over stroke: less is a stage (ours) */

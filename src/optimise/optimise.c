@@ -167,7 +167,7 @@ static CzStatus confirm_best(const Confirmation *confirmation, CzError *error) {
     return status;
 }
 
-/* Evaluates start and best once more, from the file's numbers, with everything recorded. */
+/* Evaluates start and best again, from the file's numbers, with all channels recorded. */
 static CzStatus confirm(CzEvaluator *evaluator, const CzSubspace *subspace, CzOutcome *outcome,
                         CzError *error) {
     const Confirmation confirmation = {

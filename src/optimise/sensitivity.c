@@ -2,10 +2,10 @@
  *
  *   change_ij = c_i(x + h_j e_j) - c_i(x)
  *
- * where h_j is one catalogue increment or more, at least 2 % of the range, and goes down where
- * there is no room upwards. A step of this size sees what a person would change; a derivative would
- * see the chaotic response of a long train. Both designs are run as in a search, so that their
- * difference is that of the design alone.
+ * where h_j is one catalogue increment or more, at least 2 % of the range, and negative at the
+ * upper bound. A step of this size is a change that a designer would make; a derivative would show
+ * the chaotic response of a long train. Both designs are run as in a search, so that they differ in
+ * the design alone.
  */
 
 #include "base/error.h"

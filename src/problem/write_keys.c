@@ -93,6 +93,23 @@ static const char *variation_text(CzVariation variation) {
     return texts[variation];
 }
 
+static const CzKey *key_of(const char *record, int index) {
+    for (int i = 0; i < CZ_N_RECORD; i++)
+        if (strcmp(cz_records[i].name, record) == 0 && index < cz_records[i].n_key)
+            return &cz_records[i].key[index];
+    return NULL;
+}
+
+const char *cz_key_name(const char *record, int index) {
+    const CzKey *key = key_of(record, index);
+    return key != NULL ? key->stem : NULL;
+}
+
+const char *cz_key_doc(const char *record, int index) {
+    const CzKey *key = key_of(record, index);
+    return key != NULL ? key->doc : NULL;
+}
+
 void cz_keys_write_help(FILE *stream) {
     char spelled[200];
     fputs("Keys of a problem file. Every number with a dimension carries its unit in the key.\n"

@@ -99,9 +99,8 @@ double cz_device_used(const CzBatch *batch, const CzDevice *device) {
     return stroke_of(batch, device) / device->usable;
 }
 
-/* Adds one device to the element that it belongs to. Where another takes over, what is beyond the
- * stroke is the deflection of a stop. Of a coupler that has sheared off the space to retract
- * counts, and nothing else. */
+/* Adds one device to its element. Where another device follows, travel beyond the stroke is the
+ * deflection of a stop. Of a coupler that has sheared off only the retraction space counts. */
 static void judge(const CzBatch *batch, const CzDevice *device, CzElementResult *element) {
     const double used = cz_device_used(batch, device);
     element->bottomed_out |= !device->is_followed && used > 1.0;

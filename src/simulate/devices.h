@@ -1,5 +1,4 @@
-/* The devices of an interface whose stroke can come to its end: what they have used of it, and what
- * it means when they have used it all. */
+/* Devices of an interface whose stroke can be exhausted: the share used, and bottoming out. */
 #ifndef CZ_SIMULATE_DEVICES_H
 #define CZ_SIMULATE_DEVICES_H
 
@@ -20,9 +19,9 @@ typedef struct CzDevice {
     bool from_extremes; /* the row of the largest stroke: an extreme, or a memory that only grows */
     int row;
     size_t lane;
-    double usable;      /* stroke at which it comes to its end [m] */
-    bool is_reversible; /* gives its stroke back */
-    bool is_followed;   /* another device of the element takes over then */
+    double usable;      /* usable stroke [m] */
+    bool is_reversible; /* returns from its stroke */
+    bool is_followed;   /* another device of the element carries on then */
 } CzDevice;
 
 /* Devices of side A (0) or B (1) of an interface, in the order of the list; returns how many. */

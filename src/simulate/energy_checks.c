@@ -32,7 +32,8 @@
 /* Of the initial energy: springs of the running gear, whose power is summed over oscillations of up
  * to half the largest stable step; four times the largest of 400 random designs (ours). */
 #define SPRINGS_SHARE 1e-5
-/* Of the initial energy: where the balance fails, which what is not agreed adds up to (ours). */
+/* Of the initial energy: as for the energy balance, which all these differences add up to (ours).
+ */
 #define AGREED_SHARE 1e-2
 
 /* What contradicts, and where. */

@@ -133,7 +133,7 @@ void cz_history_free(CzHistory *history);
 CZ_MUST_CHECK CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design,
                                                 CzVehicleResult *result);
 
-/* accounts.c: energy that an element has received, and what it can still give back [J]. The lane is
+/* accounts.c: energy that an element has received, and the part that it stores [J]. The lane is
  * the interface's, or the car's for what belongs to one car. */
 typedef struct CzAccount {
     double received, stored;
@@ -187,14 +187,14 @@ double cz_momentum_error(const CzBatch *batch, int design);
 double cz_law_error(const CzBatch *batch, size_t lane);
 /* interface_load.c: forces and energies of the interfaces of a design that can still change the
  * motion. */
-#define CZ_STORED_SHARE 1e-3 /* of the initial energy: what is less changes no speed (ours) */
+#define CZ_STORED_SHARE 1e-3 /* of the initial energy: less changes no speed (ours) */
 typedef struct CzInterfaceLoad CzInterfaceLoad;
 typedef struct CzLoadLeft {
     bool force;    /* an interface that can open carries one */
     bool stores;   /* `energy` is more than CZ_STORED_SHARE */
     double energy; /* largest elastic energy of an interface [J] */
 } CzLoadLeft;
-/* Whether nothing keeps the two sides from parting. */
+/* Whether the two sides can part. */
 bool cz_interface_can_open(const CzBatch *batch, int interface, int design);
 CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena);
 CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design);

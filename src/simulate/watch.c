@@ -21,7 +21,7 @@ typedef struct {
 /* Values that change only while couplers, faces or side buffers push; values that limits guard. */
 typedef enum { WHILE_PUSHED, GUARDED, N_TIME_WINDOW } When;
 
-/* The lowest thresholds of what is still watched in the lanes of a block. */
+/* The lowest thresholds of the watched values in the lanes of a block. */
 typedef struct {
     _Alignas(64) CzRow lift[4];  /* of the wheelsets */
     CzRow end[2];                /* largest shortening of the crush zones, rear and front */
@@ -259,7 +259,7 @@ static bool nothing_pushes(const CzBatch *batch) {
 }
 
 /* Whether some lane of a block, of the first n, is beyond one of its limits: all of them at once
- * cost little more than one value by its own. */
+ * cost little more than a single value. */
 static bool is_beyond(const CzBlock *block, const Limits *limits, size_t n) {
     const CzRow *lift = (const CzRow *)block->extreme.lift;
     const CzEndMemory *end = block->memory->end;

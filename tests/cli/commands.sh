@@ -26,6 +26,8 @@ told_channels() { # every column of a run of full cars, with any car, interface,
 check "help channels lists every column of a run" told_channels
 told_profiles() { for file in "$SOURCE"/problems/profiles/*.yaml; do "$C" help profiles | grep -qw -- "$(basename "$file" .yaml)" || return 1; done; }
 check "help profiles lists every shipped profile" told_profiles
+told_checks() { "$C" help checks >told.txt && for word in profile category limits design_rules metric max min scenarios "stroke used:" "override:" interfaces.peak_force_kN; do grep -q "^  $word " told.txt || return 1; done; }
+check "help checks lists the keys of the section and every design rule" told_checks
 manual() { exits 0 "$C" help --man && for word in run optimise '\\-\\-json' 'exit\\-codes' 130; do grep -q -- "$word" out.txt || return 1; done; }
 check "the manual page has commands, options, topics and exit codes" manual
 completes() { # completes WANTED WORD...: bash offers WANTED for the last word

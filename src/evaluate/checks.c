@@ -11,7 +11,8 @@ static const double satisfied_flag = 1, broken_flag = -0.01;
 /* A margin below this is rounding error and counts as 0. */
 static const double rounding = 1e-12;
 
-double cz_margin(double value, double limit, bool is_minimum, double scale) {
+/* `scale` may be CZ_FLAG_SCALE, whose margin is for a search only. NaN for NaN. */
+static double margin_of(double value, double limit, bool is_minimum, double scale) {
     if (isnan(value))
         return NAN;
     const double room = is_minimum ? value - limit : limit - value;
@@ -57,7 +58,7 @@ CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, con
         result.verdict = passing_verdict(check);
         return result;
     }
-    const double margin = cz_margin(value.value, check->limit, check->is_minimum, check->scale);
+    const double margin = margin_of(value.value, check->limit, check->is_minimum, check->scale);
     const bool fails = margin < 0;
     if (value.known == CZ_UNKNOWN && !fails) { /* a failure elsewhere stays one */
         memcpy(result.where, value.unknown_where, sizeof result.where);
@@ -117,7 +118,7 @@ typedef struct Details {
 
 static double detail_of(const Details *details, double value) {
     const CzCheck *check = details->check;
-    const double margin = cz_margin(value, check->limit, check->is_minimum, check->scale);
+    const double margin = margin_of(value, check->limit, check->is_minimum, check->scale);
     return isnan(margin) ? -1 : details->required_margin - margin;
 }
 

@@ -44,10 +44,6 @@ CZ_MUST_CHECK CzStatus cz_checklist_build(const CzProblem *problem, int n_scene,
                                           const CzScene *scene, CzArena *arena,
                                           CzChecklist *checklist, CzError *error);
 
-/* Margin of a value; `scale` may be CZ_FLAG_SCALE, whose margin is for a search only. NaN for NaN.
- */
-double cz_margin(double value, double limit, bool is_minimum, double scale);
-
 /* Judges one check. `subject` has the run of the check's scenario, NULL run when there is none;
  * `failure` is then the reason, NULL otherwise. */
 CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, const char *failure);

@@ -22,19 +22,20 @@ typedef struct Device {
     const CzTable *curve;
 } Device;
 
-double cz_buffer_stroke(const CzBuffer *buffer) {
+static double buffer_stroke(const CzBuffer *buffer) {
     return buffer->given ? cz_total_stroke(buffer->stages, buffer->n_stages, NULL) : 0;
 }
 
-double cz_tube_stroke(const CzTube *tube) {
+static double tube_stroke(const CzTube *tube) {
     return tube->given ? cz_total_stroke(tube->stages, tube->n_stages, &tube->curve) : 0;
 }
 
-double cz_anti_climber_stroke(const CzAntiClimber *device) {
+static double anti_climber_stroke(const CzAntiClimber *device) {
     return device->given ? cz_total_stroke(device->stages, device->n_stages, &device->curve) : 0;
 }
 
-double cz_end_stroke(const CzEnd *end) {
+/* Stroke of an end's crush zone outside the survival space. */
+static double end_stroke(const CzEnd *end) {
     if (end->n_stages == 0)
         return cz_total_stroke(NULL, 0, &end->curve);
     double stroke = 0;
@@ -45,14 +46,14 @@ double cz_end_stroke(const CzEnd *end) {
 }
 
 static Device tube_device(const CzTube *tube) {
-    return (Device){tube->count,      cz_tube_stroke(tube),  tube->installed_length,
+    return (Device){tube->count,      tube_stroke(tube),     tube->installed_length,
                     tube->efficiency, tube->mass_per_stroke, tube->stages,
                     tube->n_stages,   &tube->curve};
 }
 
 static Device anti_climber_device(const CzAntiClimber *anti_climber) {
     return (Device){anti_climber->count,
-                    cz_anti_climber_stroke(anti_climber),
+                    anti_climber_stroke(anti_climber),
                     anti_climber->installed_length,
                     anti_climber->efficiency,
                     anti_climber->mass_per_stroke,
@@ -93,10 +94,10 @@ double cz_stroke_fit(const CzEnd *end) {
 }
 
 double cz_length_used(const CzEnd *end) {
-    double path = end->face_gap + cz_end_stroke(end);
+    double path = end->face_gap + end_stroke(end);
     if (end->anti_climber.given) {
         const Device device = anti_climber_device(&end->anti_climber);
-        path = fmax(path, end->anti_climber.gap + installed_length(&device) + cz_end_stroke(end));
+        path = fmax(path, end->anti_climber.gap + installed_length(&device) + end_stroke(end));
     }
     return path / end->available_length;
 }
@@ -105,7 +106,7 @@ double cz_coupler_length_used(const CzEnd *end) {
     const CzCoupler *coupler = &end->coupler;
     if (!coupler->given)
         return NAN;
-    double length = cz_buffer_stroke(&coupler->buffer);
+    double length = buffer_stroke(&coupler->buffer);
     const CzTube *tube[] = {&coupler->tube, &coupler->second_tube};
     for (int i = 0; i < 2; i++)
         if (tube[i]->given) {
@@ -119,8 +120,8 @@ double cz_retraction_used(const CzEnd *end) {
     const CzCoupler *coupler = &end->coupler;
     if (!coupler->given || !coupler->shear_off.given)
         return NAN;
-    const double end_stroke = coupler->anchor == CZ_ANCHOR_END ? 0 : cz_end_stroke(end);
-    const double needed = cz_anti_climber_stroke(&end->anti_climber) + end_stroke;
+    const double behind = coupler->anchor == CZ_ANCHOR_END ? 0 : end_stroke(end);
+    const double needed = anti_climber_stroke(&end->anti_climber) + behind;
     return needed > 0 ? needed / coupler->shear_off.retraction_space : 0;
 }
 

@@ -5,14 +5,6 @@
 #include "crushzone/simulate.h"
 #include "problem/input.h"
 
-/* Usable stroke of a device [m]; 0 when it is absent. */
-double cz_buffer_stroke(const CzBuffer *buffer);
-double cz_tube_stroke(const CzTube *tube);
-double cz_anti_climber_stroke(const CzAntiClimber *anti_climber);
-
-/* Stroke of an end's crush zone outside the survival space [m]. */
-double cz_end_stroke(const CzEnd *end);
-
 /* Largest force of an element before anything bottoms out, all devices of an end together, plastic
  * parts crushing at `rate` [m/s]; 0 when it is absent [N]. */
 double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate);

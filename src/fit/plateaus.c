@@ -27,7 +27,8 @@ enum {
 #define DOWN 1.02       /* of what follows: a peak that has come down to this is over (ours) */
 #define AHEAD 0.1       /* part of the stroke that is taken for what follows (ours) */
 
-int cz_fit_stages_that_pay(const double *squares, int n, double nothing) {
+/* Number of stages beyond which further ones do not pay, from the integrals left by 1 to n. */
+static int stages_that_pay(const double *squares, int n, double nothing) {
     for (int few = 1; few < n; few++) {
         bool pays = false;
         double share = 1.0;
@@ -154,7 +155,7 @@ bool cz_fit_plateaus(CzArena *arena, const CzBranch *branch, int n_stage, double
         squares[n - 1] = best_of(table, branch, n, &peak, stiffness, &found[n - 1]);
     }
     const int n =
-        n_stage > 0 ? n_stage : cz_fit_stages_that_pay(squares, n_most, cz_staged_nothing(branch));
+        n_stage > 0 ? n_stage : stages_that_pay(squares, n_most, cz_staged_nothing(branch));
     *staged = found[n - 1];
     return true;
 }
@@ -209,7 +210,7 @@ bool cz_fit_split(CzArena *arena, const CzBranch *branch, int n_stage, double *a
     fill_table(table, &mirrored, 0.0, n_most);
     for (int n = 1; n <= n_most; n++)
         left[n - 1] = split_before(table, branch, n, &from[n - 1]);
-    *at = from[cz_fit_stages_that_pay(left, n_most, cz_staged_nothing(branch)) - 1];
+    *at = from[stages_that_pay(left, n_most, cz_staged_nothing(branch)) - 1];
     return true;
 }
 
@@ -312,8 +313,7 @@ bool cz_fit_lines(CzArena *arena, const CzBranch *branch, const CzLines *lines, 
         found[n - 1].has_preload = lines->has_preload;
         squares[n - 1] = best_lines(branch, stroke, n_stroke, shortest, &found[n - 1]);
     }
-    const int n =
-        n_stage > 0 ? n_stage : cz_fit_stages_that_pay(squares, last, cz_staged_nothing(branch));
+    const int n = n_stage > 0 ? n_stage : stages_that_pay(squares, last, cz_staged_nothing(branch));
     *staged = found[n - 1];
     return !arena->out_of_memory;
 }

@@ -28,7 +28,4 @@ double cz_fit_left_by_line(const CzBranch *branch, double to);
  * without being requested) leave the least squares. False without memory. */
 bool cz_fit_split(CzArena *arena, const CzBranch *branch, int n_stage, double *at);
 
-/* Number of stages beyond which further ones do not pay, from the integrals left by 1 to n. */
-int cz_fit_stages_that_pay(const double *squares, int n, double nothing);
-
 #endif

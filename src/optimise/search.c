@@ -42,7 +42,8 @@ long cz_search_left(const CzSearch *search) {
     return search->is_over || search->is_paused ? 0 : search->most_evaluations - search->n_record;
 }
 
-bool cz_search_is_stopped(CzSearch *search) {
+/* Ends the search when the stop flag is up; whether no evaluation is allowed now. */
+static bool is_stopped(CzSearch *search) {
     if (!search->is_over && search->stop != NULL && *search->stop != 0)
         finish(search, CZ_STATUS_INTERRUPTED, "interrupted");
     return search->is_over || search->is_paused;
@@ -312,7 +313,7 @@ int cz_search_n_detail(const CzSearch *search) {
 
 bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double *x,
                         double *objective, double *constraint, double *detail) {
-    if (cz_search_is_stopped(search))
+    if (is_stopped(search))
         return false;
     const CzFunction *function = search->function;
     if (cz_search_left(search) < n) {

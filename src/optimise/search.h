@@ -83,9 +83,6 @@ void cz_search_free(CzSearch *search);
 /* Evaluations left; 0 when the search is over or paused. */
 long cz_search_left(const CzSearch *search);
 
-/* Ends the search when the stop flag is up; whether nothing more may be evaluated now. */
-bool cz_search_is_stopped(CzSearch *search);
-
 /* Ends a pause. */
 void cz_search_resume(CzSearch *search);
 

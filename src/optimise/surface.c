@@ -39,7 +39,8 @@ static void set_base(CzSurface *surface, long record, int point, const double *u
     memcpy(surface->c, surface->many_d + point * surface->m, (size_t)surface->m * sizeof(double));
 }
 
-bool cz_surface_refresh(CzSurface *surface, const char *phase, double secant) {
+/* New secants around the base. False when the search ended. */
+static bool refresh(CzSurface *surface, const char *phase, double secant) {
     const int n = surface->n, m = surface->m;
     for (int i = 0; i < n; i++) {
         const double kept = surface->u[i];
@@ -64,7 +65,7 @@ bool cz_surface_begin(CzSurface *surface, const char *phase, const double *u, do
     if (!evaluate(surface, phase, 1))
         return false;
     set_base(surface, surface->search->n_record - 1, 0, u);
-    return cz_surface_refresh(surface, phase, secant);
+    return refresh(surface, phase, secant);
 }
 
 /* Broyden: the plane is turned as little as possible to pass through a new point. */
@@ -288,7 +289,7 @@ void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, 
             radius *= moved_to == 1 ? 0.6 : 0.2;
         else if (surface->is_fresh || search->n_record + n > limit)
             radius *= 0.1;
-        else if (cz_surface_refresh(surface, phase, fmin(secant, radius)))
+        else if (refresh(surface, phase, fmin(secant, radius)))
             radius = fmax(0.3 * radius, 0.02);
         else
             break;

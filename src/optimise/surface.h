@@ -33,9 +33,6 @@ void cz_surface_free(CzSurface *surface);
  * ended. */
 bool cz_surface_begin(CzSurface *surface, const char *phase, const double *u, double secant);
 
-/* New secants around the base. False when the search ended. */
-bool cz_surface_refresh(CzSurface *surface, const char *phase, double secant);
-
 /* Evaluates n_point scaled designs (at most `most`), corrects the slopes by each, and moves the
  * base to the best of them when that is better than the base. False when the search ended.
  * *moved_to is the index of the new base among them, or -1. */

@@ -31,9 +31,12 @@ double cz_kinetic_energy(const CzBatch *batch, int design) {
     return energy;
 }
 
-CzLedgerClass cz_ledger_class(int row) {
-    static const CzLedgerClass of_row[CZ_N_LEDGER] = {
-#define CZ_LEDGER_ENTRY(row, class, dimension, doc) [CZ_LEDGER(row)] = CZ_LEDGER_##class,
+/* Class of a row of the ledger, as in ledger.def. */
+typedef enum LedgerClass { LOST, MIXED, OUTSIDE, BODIES } LedgerClass;
+
+static LedgerClass ledger_class(int row) {
+    static const LedgerClass of_row[CZ_N_LEDGER] = {
+#define CZ_LEDGER_ENTRY(row, class, dimension, doc) [CZ_LEDGER(row)] = class,
 #include "dynamics/ledger.def"
 #undef CZ_LEDGER_ENTRY
     };
@@ -45,7 +48,7 @@ double cz_total_work(const CzBatch *batch, int design) {
     for (int car = 0; car < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         for (int row = 0; row < CZ_N_LEDGER; ++row)
-            if (cz_ledger_class(row) != CZ_LEDGER_BODIES)
+            if (ledger_class(row) != BODIES)
                 work += cz_work(batch, row, lane);
         work += cz_chains_account(batch, lane).received + cz_gear_account(batch, lane).received;
         for (int end = 0; end < 2; ++end)

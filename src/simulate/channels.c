@@ -72,7 +72,9 @@ static void put_interface(Writer *writer, int interface) {
     const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
     put(writer, CZ_CHANNEL_INTERFACE_FORCE, interface,
         1e-3 * cz_published(batch, CZ_PUBLISHED(interface.force), lane));
-    put(writer, CZ_CHANNEL_INTERFACE_CLOSURE, interface, 1e3 * cz_closure(batch, interface, 0));
+    put(writer, CZ_CHANNEL_INTERFACE_CLOSURE, interface,
+        1e3 * (cz_position(batch, CZ_DOF(body.x), lane) -
+               cz_position(batch, CZ_DOF(body.x), cz_lane(batch, interface + 1, 0))));
     if (of.has_couplers)
         put(writer, CZ_CHANNEL_COUPLER_FORCE, interface,
             1e-3 * cz_published(batch, CZ_PUBLISHED(coupler.force), lane));

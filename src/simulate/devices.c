@@ -95,14 +95,10 @@ static double stroke_of(const CzBatch *batch, const CzDevice *device) {
                                  : cz_memory(batch, device->row, device->lane);
 }
 
-double cz_device_used(const CzBatch *batch, const CzDevice *device) {
-    return stroke_of(batch, device) / device->usable;
-}
-
 /* Adds one device to its element. Where another device follows, travel beyond the stroke is the
  * deflection of a stop. Of a coupler that has sheared off only the retraction space counts. */
 static void judge(const CzBatch *batch, const CzDevice *device, CzElementResult *element) {
-    const double used = cz_device_used(batch, device);
+    const double used = stroke_of(batch, device) / device->usable;
     element->bottomed_out |= !device->is_followed && used > 1.0;
     if (device->is_reversible && !device->is_followed)
         element->stroke = stroke_of(batch, device);

@@ -28,9 +28,6 @@ typedef struct CzDevice {
 int cz_devices_list(const CzBatch *batch, int interface, int design, int side,
                     CzDevice device[CZ_N_DEVICE]);
 
-/* Largest stroke over the usable one. */
-double cz_device_used(const CzBatch *batch, const CzDevice *device);
-
 /* Puts stroke used and bottoming out into the elements of a side. */
 void cz_devices_judge(const CzBatch *batch, int interface, int design, int side, int n_element,
                       CzElementResult *element);

@@ -105,12 +105,6 @@ static inline double cz_closing_speed(const CzBatch *batch, int interface, int d
 /* The largest of them, at least 0. */
 double cz_largest_closing_speed(const CzBatch *batch, int design);
 
-/* How much nearer the cars of an interface are than at rest [m]. */
-static inline double cz_closure(const CzBatch *batch, int interface, int design) {
-    return cz_position(batch, CZ_DOF(body.x), cz_lane(batch, interface, design)) -
-           cz_position(batch, CZ_DOF(body.x), cz_lane(batch, interface + 1, design));
-}
-
 /* The end of a car at side A (0) or B (1) of an interface; side A is a front end. */
 static inline const CzEnd *cz_end_at(const CzBatch *batch, int car, int design, int side) {
     const CzVehicle *vehicle = &batch->vehicles[design][batch->model->car[car].vehicle];
@@ -171,13 +165,6 @@ double cz_kinetic_energy(const CzBatch *batch, int design);
 double cz_balance_residual(const CzBatch *batch, int design);
 /* Work that all laws have received; classes as in ledger.def. */
 double cz_total_work(const CzBatch *batch, int design);
-typedef enum CzLedgerClass {
-    CZ_LEDGER_LOST,
-    CZ_LEDGER_MIXED,
-    CZ_LEDGER_OUTSIDE,
-    CZ_LEDGER_BODIES
-} CzLedgerClass;
-CzLedgerClass cz_ledger_class(int row);
 double cz_wheel_rail_work(const CzBatch *batch, int design);
 /* Mean speed of the vehicles of a train that can move, by mass. */
 double cz_train_speed(const CzBatch *batch, int train, int design);

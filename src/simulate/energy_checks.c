@@ -4,7 +4,7 @@
  *   passive   no element has returned more than it received or stores less than 0
  *   springs   the work on the springs of the running gear is the energy that they store
  *   agreed    the work of the bodies on the chains of an interface, or on a crush zone, is the
- * energy that these received: the integral of the force over the closure
+ *             energy that these received: the integral of the force over the closure
  *
  * What an element has received is the mean force of each step times its stroke, or the mean power
  * times the step. A step that passes a corner of a law is off by up to a half of the force that it

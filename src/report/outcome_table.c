@@ -273,6 +273,9 @@ CzStatus cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluat
     fputs("\nNew values:\n", stream);
     if (setting != NULL)
         cz_overlay_write_set(n_setting, setting, stream);
+    else
+        fputs("no memory for the new values\n", stream);
+    terminal.failed |= setting == NULL;
     cz_arena_free(&arena);
     return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
 }

@@ -74,7 +74,7 @@ SEEN void *aligned_alloc(size_t alignment, size_t size) {
 
 /* ---- one try ---- */
 
-enum { MOST_WORDS = 16, NO_MEMORY = 5 };
+enum { MOST_WORDS = 16, NO_MEMORY = 5, LAST = 10 /* requests that fail always */ };
 
 typedef struct Try {
     int code;        /* exit code; 256 + signal when it was killed */
@@ -195,7 +195,14 @@ static Try attempt(int n_word, char **word, long failing) {
 
 static bool is_long;
 
-/* Lets every request fail in turn, or every `stride`-th when time is short. */
+static long step_from(long i, long n, long stride) {
+    if (is_long || i >= n - LAST)
+        return 1;
+    return i + stride < n - LAST ? stride : n - LAST - i;
+}
+
+/* Lets every request fail in turn, or every `stride`-th and the last ones, which are of what the
+ * terminal shows in the end, when time is short. */
 static void fail_every_request(const char *line, int stride) {
     char words[256], *word[MOST_WORDS] = {"crushzone"};
     int n_word = 1, n_bad = 0;
@@ -206,7 +213,7 @@ static void fail_every_request(const char *line, int stride) {
     assert_in_range(whole.code, 0, 1);
     const long n = count_requests();
     assert_in_range(n, 10, 1000000);
-    for (long i = 0; i < n && n_bad < 5; i += is_long ? 1 : stride) {
+    for (long i = 0; i < n && n_bad < 5; i += step_from(i, n, stride)) {
         const Try found = attempt(n_word, word, i);
         const bool is_told = found.code == NO_MEMORY && found.says &&
                              (fails_on || !found.is_left || found.is_search);

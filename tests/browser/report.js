@@ -194,7 +194,7 @@ async function scrub(page, share) {
   return parseFloat(await page.locator('#now').textContent());
 }
 
-/* Cars, ends and wheels stand where the channels say. */
+/* Cars, ends and wheels are at the places of the channels. */
 async function animationFollowsChannels(page, channels) {
   let crushed = 0;
   for (const share of [0, 0.05, 0.1, 0.3, 1]) {

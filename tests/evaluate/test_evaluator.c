@@ -132,7 +132,7 @@ static void design_rules_judge_the_design_and_every_scenario(void **state) {
     assert_int_equal(find(evaluation, "no shear-off at 15 km/h (service)", "service")->verdict,
                      CZ_VERDICT_PASS);
     assert_null(find(evaluation, "no shear-off at 15 km/h (service)", "crash"));
-    /* 24.7 kJ a side at 8 km/h: the stand-in has no buffer, so its tube works */
+    /* 24.7 kJ a side at 8 km/h: the stand-in has no buffer, so its tube collapses */
     const CzCheckResult *buffing =
         find(evaluation, "collapse tubes inactive at 8 km/h (buffing)", "buffing");
     assert_near(buffing->value, 40e3 / 8 * (8 / 3.6) * (8 / 3.6) / 1e3, 1e-9, 0);

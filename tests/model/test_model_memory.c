@@ -7,7 +7,7 @@
 #include "support/typed_problem.h"
 
 static int n_allowed; /* requests that succeed from now on; -1: all */
-static int n_live;    /* pieces that nobody has freed */
+static int n_live;    /* pieces not yet freed */
 
 struct CzArenaBlock {
     struct CzArenaBlock *next;

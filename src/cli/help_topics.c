@@ -301,7 +301,7 @@ static void write_events(void) {
 
 static void write_figures(void) {
     static const Entry figures[] = {
-#define CZ_CHART(constant, name, doc) {name, doc},
+#define CZ_CHART(constant, name, title, number, axes, doc) {name, doc},
 #include "crushzone/charts.def"
 #undef CZ_CHART
     };

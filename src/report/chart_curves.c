@@ -1,4 +1,4 @@
-/* Measured curves that are laid over a figure: which columns of a file go where. */
+/* Measured curves over a figure: the columns of a file, and the figure of each. */
 #include "report/chart_curves.h"
 
 #include "base/error.h"
@@ -10,19 +10,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is being read. */
+/* A file being read. */
 typedef struct Reading {
     const CzChartOptions *options;
     CzChart chart;
-    int n_title; /* 0 where they are not needed */
+    int n_title; /* 0 where titles are not needed */
     char **title;
-    bool by_unit; /* the only columns in units of the axes are wanted, wherever they are */
+    bool by_unit; /* find the columns by the units of the axes */
     int n;
     CzChartCurve *measured; /* (CZ_MOST_CHART_CURVES) */
     CzError *error;
 } Reading;
 
-/* The panel whose channels have names that begin like the title. */
+/* Finds the panel by the beginning of the title, which is that of the names of its channels. */
 static CzStatus find_panel(const Reading *reading, const char *title, CzChart *chart) {
     static const CzChart panels[] = {CZ_CHART_FORCE, CZ_CHART_VELOCITY, CZ_CHART_DISPLACEMENT,
                                      CZ_CHART_SHORTENING};
@@ -95,12 +95,12 @@ static CzStatus read_column(Reading *reading, const char *column, const char *ti
     return CZ_OK;
 }
 
-/* Reads the column that a text names: by its number or by its title. */
+/* Reads the column of a number or a title. */
 static CzStatus read_named(Reading *reading, const char *name) {
     char *end;
     const long number = strtol(name, &end, 10);
     const char *title = NULL;
-    if (reading->n_title == 0) /* there is but one */
+    if (reading->n_title == 0) /* the file has one column of values */
         return read_column(reading, name, name);
     if (*end == '\0' && number >= 1 && number <= reading->n_title)
         title = reading->title[number - 1];
@@ -113,7 +113,7 @@ static CzStatus read_named(Reading *reading, const char *name) {
                    reading->options->measured, name, reading->n_title);
 }
 
-/* Reads the columns of a list that has commas between them, unless it is a title of its own. */
+/* Reads the columns of a list with commas, unless the list is itself a title. */
 static CzStatus read_list(Reading *reading, const char *list) {
     for (int i = 0; i < reading->n_title; i++)
         if (strcmp(reading->title[i], list) == 0)
@@ -128,8 +128,8 @@ static CzStatus read_list(Reading *reading, const char *list) {
     return CZ_OK;
 }
 
-/* The first two columns, or those whose units are the figure's: the time is first in many a file of
- * a testing machine. What the first two lack is what is reported. */
+/* Reads the first two columns, or else those with the units of the axes: files of testing machines
+ * often begin with the time. A mistake is reported for the first two. */
 static CzStatus read_pair(Reading *reading) {
     CzError *error = reading->error;
     const CzStatus status = read_named(reading, "2");
@@ -160,7 +160,7 @@ static CzStatus read_columns(Reading *reading) {
     return CZ_OK;
 }
 
-/* The only one of a figure needs no name of its own. */
+/* Labels a curve "measured" where it is the only one of its figure. */
 static void name_single_ones(int n, CzChartCurve *measured) {
     for (int i = 0; i < n; i++) {
         int n_same = 0;
@@ -179,7 +179,7 @@ CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int 
     CzChartAxes axes;
     if (chart != CZ_CHART_PANELS && !cz_chart_axes(chart, &axes))
         return cz_fail(error, CZ_STATUS_INPUT, "no measured curve fits over '%s'",
-                       cz_chart_name(chart));
+                       cz_chart_info(chart)->name);
     Reading reading = {.options = options, .chart = chart, .measured = measured, .error = error};
     const bool has_list = options->column != NULL && strchr(options->column, ',') != NULL;
     const bool reads_twice = chart == CZ_CHART_PANELS || has_list;
@@ -200,7 +200,7 @@ CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int 
 
 /* ---- of a fit ---- */
 
-/* The figure over time of a page that shows such quantities; CZ_N_CHART for none. */
+/* The figure over time that shows the quantity of a channel; CZ_N_CHART for none. */
 static CzChart chart_of(CzChannel channel) {
     static const CzChart charts[] = {CZ_CHART_FORCE, CZ_CHART_VELOCITY, CZ_CHART_ENERGY,
                                      CZ_CHART_OVERLAP, CZ_CHART_PITCH};

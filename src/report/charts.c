@@ -1,12 +1,36 @@
-/* Figures of a run: which there are, and what each is made of. */
+/* The figures of a run and their curves. */
 #include "report/charts.h"
 
 #include "base/error.h"
 #include "report/figure.h"
-#include "report/chart_curves.h"
 #include "report/sheet.h"
+#include "text/curve_title.h"
 
 #include <string.h>
+
+const CzChartInfo *cz_chart_info(CzChart chart) {
+    static const CzChartInfo charts[CZ_N_CHART] = {
+#define AXES_DRAWING .is_of_curves = false
+#define AXES_CURVES(x_axis, y_axis)                                                                \
+    .is_of_curves = true, .x = CZ_DRAWN_##x_axis, .y = CZ_DRAWN_##y_axis
+#define CZ_CHART(constant, name, title, number, axes, doc)                                         \
+    {name, title, CZ_CHART_##number, AXES_##axes},
+#include "crushzone/charts.def"
+#undef CZ_CHART
+    };
+    return &charts[chart];
+}
+
+bool cz_chart_axes(CzChart chart, CzChartAxes *axes) {
+    const CzChartInfo *info = cz_chart_info(chart);
+    const CzUnit *x = cz_curve_unit_find(CZ_N_DIMENSION, cz_drawn_info(info->x)->unit);
+    const CzUnit *y = cz_curve_unit_find(CZ_N_DIMENSION, cz_drawn_info(info->y)->unit);
+    if (!info->is_of_curves || x == NULL || y == NULL)
+        return false;
+    *axes = (CzChartAxes){cz_dimension_text[x->dimension], x->si, cz_dimension_text[y->dimension],
+                          y->si};
+    return true;
+}
 
 int cz_chart_hardest_car(const CzRunSummary *run) {
     int found = 0;
@@ -30,7 +54,8 @@ static void draw_forces(CzSheet *sheet, int index) {
     cz_draw_force_limits(sheet);
 }
 
-/* What adds the curves of a figure; NULL: those of its y axis, of all cars or interfaces. */
+/* The function that adds the curves of a figure; NULL: the channel of the y axis, for all cars or
+ * interfaces. */
 static void (*const draws[CZ_N_CHART])(CzSheet *sheet, int index) = {
     [CZ_CHART_FORCE_CLOSURE] = cz_draw_force_closure,
     [CZ_CHART_ENERGY] = cz_draw_energy,
@@ -41,7 +66,7 @@ static void (*const draws[CZ_N_CHART])(CzSheet *sheet, int index) = {
     [CZ_CHART_SHORTENING] = cz_draw_shortening,
     [CZ_CHART_WHEEL_LIFT] = cz_draw_lifts};
 
-/* Whether a curve is there at any place. */
+/* Whether a channel has values at any place. */
 static bool has_any(const CzPage *page, CzDrawn drawn) {
     const CzChannelAt at = cz_drawn_info(drawn)->at;
     const int n = at == CZ_AT_RUN         ? 1
@@ -111,7 +136,7 @@ static void write_panels(const CzPage *page, int interface, CzMarkup *markup) {
     cz_markup_line(markup);
 }
 
-/* A figure of curves: gathered as data, then drawn. */
+/* Collects the curves of a figure, then draws it. */
 static void write_curves(const CzPage *page, CzChart chart, int index, CzMarkup *markup) {
     const CzChartInfo *info = cz_chart_info(chart);
     CzSheet sheet;

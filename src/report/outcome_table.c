@@ -266,10 +266,6 @@ CzStatus cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluat
     cz_checks_write_table(&outcome->best_evaluation, &outcome->start_evaluation, &terminal);
     write_violations(evaluator, outcome, &terminal);
     write_verification(outcome->verification, &terminal);
-
-    CzArena arena = {0};
-    int n_setting;
-    const char **setting = cz_overlay_settings(evaluator, outcome, NULL, &arena, &n_setting);
     fputs("\nNew values:\n", stream);
     if (setting != NULL)
         cz_overlay_write_set(n_setting, setting, stream);

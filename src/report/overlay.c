@@ -1,7 +1,8 @@
-/* The optimum as a problem file: the user's own file is extended, never rewritten. */
+/* The optimum as a problem file that extends the file of the user. */
 #define _XOPEN_SOURCE 700 /* realpath */
 #include "report/overlay.h"
 
+#include "base/arena.h"
 #include "base/error.h"
 #include "base/number.h"
 #include "problem/problem.h"
@@ -28,7 +29,7 @@ static void write_quoted(const char *text, size_t n, FILE *stream) {
     fputc('"', stream);
 }
 
-/* A value as typed; in quotes when YAML could read it otherwise. */
+/* A value as typed; in quotes where YAML could read it as something else. */
 static void write_value(const char *text, FILE *stream) {
     bool plain = text[0] != '\0';
     for (const char *c = text; *c != '\0'; c++)
@@ -39,18 +40,18 @@ static void write_value(const char *text, FILE *stream) {
         write_quoted(text, strlen(text), stream);
 }
 
-/* Whether a setting is about the path that the first n bytes of `path` are. */
+/* Whether a setting is for the path of the first n bytes of `path`. */
 static bool is_about(const char *setting, const char *path, size_t n) {
     return strncmp(setting, path, n) == 0 && setting[n] == '=';
 }
 
-/* What a variable sets at one of its places in the best design, as typed. */
+/* The value of a variable as it is typed: a number, or the name of a part. */
 static const char *value_text(const CzVariableInfo *variable, double value,
                               char number[CZ_NUMBER_TEXT]) {
     return variable->n_choice > 0 ? variable->choice[(int)value] : cz_number_print(number, value);
 }
 
-/* Adds a setting in place of an earlier one about the same path. */
+/* Adds a setting, in place of an earlier one for the same path. */
 static void add_setting(const char **setting, int *n_setting, const char *added) {
     const size_t n = strcspn(added, "=");
     for (int i = 0; i < *n_setting; i++)
@@ -61,7 +62,7 @@ static void add_setting(const char **setting, int *n_setting, const char *added)
     setting[(*n_setting)++] = added;
 }
 
-/* What a variable sets at one of its places in the best design. */
+/* The setting of a variable at one of its places in the best design. */
 static const char *setting_at(const CzVariableInfo *variable, const CzVariablePlace *place,
                               double value, CzArena *arena) {
     char number[CZ_NUMBER_TEXT];
@@ -73,7 +74,7 @@ static const char *setting_at(const CzVariableInfo *variable, const CzVariablePl
     return text;
 }
 
-/* The stroke for which the car is drawn, beside a new one. */
+/* The setting that keeps the stroke for which the car is drawn, beside a new stroke. */
 static const char *drawn_stroke_at(const CzVariablePlace *place, CzArena *arena) {
     static const char key[] = ".drawn_stroke_m=";
     char number[CZ_NUMBER_TEXT];
@@ -87,8 +88,11 @@ static const char *drawn_stroke_at(const CzVariablePlace *place, CzArena *arena)
     return text;
 }
 
-const char **cz_overlay_settings(const CzEvaluator *evaluator, const CzOutcome *outcome,
-                                 const CzReportOptions *options, CzArena *arena, int *n_setting) {
+/* Settings "path=value" that turn the problem file into the best design: those of the command line,
+ * then the best value of every place that a variable sets, exact to the last bit; no path is in it
+ * twice. NULL without memory. */
+static const char **settings_of(const CzEvaluator *evaluator, const CzOutcome *outcome,
+                                const CzReportOptions *options, CzArena *arena, int *n_setting) {
     const int n_given = options != NULL ? options->n_set : 0;
     size_t room = (size_t)n_given + 1;
     for (int variable = 0; variable < outcome->n_variable; variable++)
@@ -114,7 +118,7 @@ const char **cz_overlay_settings(const CzEvaluator *evaluator, const CzOutcome *
     return setting;
 }
 
-void cz_overlay_write_set(int n_setting, const char *const *setting, FILE *stream) {
+static void write_set(int n_setting, const char *const *setting, FILE *stream) {
     fputs("set:\n", stream);
     for (int i = 0; i < n_setting; i++) {
         const size_t n = strcspn(setting[i], "=");
@@ -124,6 +128,18 @@ void cz_overlay_write_set(int n_setting, const char *const *setting, FILE *strea
         write_value(setting[i] + n + 1, stream);
         fputc('\n', stream);
     }
+}
+
+CzStatus cz_overlay_write_values(const CzEvaluator *evaluator, const CzOutcome *outcome,
+                                 const CzReportOptions *options, FILE *stream, CzError *error) {
+    CzArena arena = {0};
+    int n_setting;
+    const char **setting = settings_of(evaluator, outcome, options, &arena, &n_setting);
+    if (setting != NULL)
+        write_set(n_setting, setting, stream);
+    cz_arena_free(&arena);
+    return setting != NULL ? CZ_OK
+                           : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
 }
 
 /* The problem read again with the best values. */
@@ -144,7 +160,7 @@ CzStatus cz_overlay_read_best(const CzProblem *problem, const CzEvaluator *evalu
                               CzProblem **best, CzError *error) {
     CzArena arena = {0};
     int n_setting;
-    const char **setting = cz_overlay_settings(evaluator, outcome, options, &arena, &n_setting);
+    const char **setting = settings_of(evaluator, outcome, options, &arena, &n_setting);
     const CzStatus status =
         setting != NULL ? read_best(problem, options, n_setting, setting, best, error)
                         : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
@@ -155,32 +171,23 @@ CzStatus cz_overlay_read_best(const CzProblem *problem, const CzEvaluator *evalu
 CzStatus cz_overlay_write_resolved(const CzProblem *problem, const CzEvaluator *evaluator,
                                    const CzOutcome *outcome, const CzReportOptions *options,
                                    FILE *stream, CzError *error) {
-    CzArena arena = {0};
-    int n_setting;
     CzProblem *best = NULL;
     CzError mistake = {0};
-    const char **setting = cz_overlay_settings(evaluator, outcome, options, &arena, &n_setting);
-    if (setting == NULL) {
-        cz_arena_free(&arena);
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
-    }
-    CzStatus status = read_best(problem, options, n_setting, setting, &best, &mistake);
+    CzStatus status = cz_overlay_read_best(problem, evaluator, outcome, options, &best, &mistake);
     if (status == CZ_OK) {
         status = cz_problem_write_resolved_there(best, stream, error);
     } else if (status == CZ_STATUS_NO_MEMORY) {
         status = cz_fail(error, status, "%s", mistake.message);
-    } else { /* such as a file that has changed meanwhile: the values must not get lost */
+    } else { /* such as a file that has changed meanwhile: the best values must still be written */
         fprintf(stream, "# The problem cannot be read again (%s), so these are the values alone.\n",
                 mistake.message);
-        cz_overlay_write_set(n_setting, setting, stream);
-        status = CZ_OK;
+        status = cz_overlay_write_values(evaluator, outcome, options, stream, error);
     }
     cz_problem_free(best);
-    cz_arena_free(&arena);
     return status;
 }
 
-/* Path of `target` as seen from `folder`, both absolute and without dots. */
+/* Path of `target` relative to `folder`; both are absolute and without dots. */
 static void relative_path(const char *folder, const char *target, size_t room, char *text) {
     size_t common = 0; /* length of the shared part, a slash at its end */
     for (size_t i = 0;; i++) {
@@ -204,7 +211,7 @@ static void relative_path(const char *folder, const char *target, size_t room, c
     snprintf(text + used, room - used, "%s", target + common);
 }
 
-/* Absolute path of a folder that may not be there yet. Its parent must be. */
+/* Absolute path of a folder that may not exist yet; its parent must exist. */
 static bool resolve_folder(const char *folder, char resolved[PATH_MAX]) {
     if (realpath(folder, resolved) != NULL)
         return true;
@@ -226,23 +233,6 @@ static bool resolve_folder(const char *folder, char resolved[PATH_MAX]) {
     return written > 0 && written < PATH_MAX;
 }
 
-/* The user's file and the settings on top of it. */
-static CzStatus write_extending(const char *path, const CzEvaluator *evaluator,
-                                const CzOutcome *outcome, const CzReportOptions *options,
-                                FILE *stream, CzError *error) {
-    CzArena arena = {0};
-    int n_setting;
-    const char **setting = cz_overlay_settings(evaluator, outcome, options, &arena, &n_setting);
-    fputs("extends: ", stream);
-    write_quoted(path, strlen(path), stream);
-    fputc('\n', stream);
-    if (setting != NULL)
-        cz_overlay_write_set(n_setting, setting, stream);
-    cz_arena_free(&arena);
-    return setting != NULL ? CZ_OK
-                           : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
-}
-
 CzStatus cz_report_write_overlay(const CzProblem *problem, const CzEvaluator *evaluator,
                                  const CzOutcome *outcome, const CzReportOptions *options,
                                  const char *folder, FILE *stream, CzError *error) {
@@ -258,7 +248,10 @@ CzStatus cz_report_write_overlay(const CzProblem *problem, const CzEvaluator *ev
     if (options->text == NULL && realpath(cz_problem_file(problem), file) != NULL &&
         resolve_folder(folder, from)) {
         relative_path(from, file, sizeof path, path);
-        CZ_TRY(write_extending(path, evaluator, outcome, options, stream, error));
+        fputs("extends: ", stream);
+        write_quoted(path, strlen(path), stream);
+        fputc('\n', stream);
+        CZ_TRY(cz_overlay_write_values(evaluator, outcome, options, stream, error));
     } else {
         CZ_TRY(cz_overlay_write_resolved(problem, evaluator, outcome, options, stream, error));
     }

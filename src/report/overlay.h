@@ -4,17 +4,15 @@
 
 #include <stdio.h>
 
-#include "base/arena.h"
 #include "crushzone/report.h"
 
-/* Settings "path=value" that turn the problem file into the best design: those of the command line
- * in `options`, then the best value of every place that a variable drives, exact to the last bit.
- * No path stands twice. NULL when there is no memory; lives as long as the arena. */
-const char **cz_overlay_settings(const CzEvaluator *evaluator, const CzOutcome *outcome,
-                                 const CzReportOptions *options, CzArena *arena, int *n_setting);
-
-/* Writes settings as the record `set:`. */
-void cz_overlay_write_set(int n_setting, const char *const *setting, FILE *stream);
+/* Writes the record `set:` of the best design: the settings of the command line in `options` (NULL:
+ * none), then the best value of every place that a variable sets, exact to the last bit. Status:
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_overlay_write_values(const CzEvaluator *evaluator,
+                                               const CzOutcome *outcome,
+                                               const CzReportOptions *options, FILE *stream,
+                                               CzError *error);
 
 /* Reads the problem again with the best values; the caller frees *best, also after a failure.
  * Statuses: as cz_problem_read. */
@@ -23,8 +21,7 @@ CZ_MUST_CHECK CzStatus cz_overlay_read_best(const CzProblem *problem, const CzEv
                                             const CzReportOptions *options, CzProblem **best,
                                             CzError *error);
 
-/* Writes the whole problem with the best values, as it is when it is read again with them. Status:
- * CZ_STATUS_NO_MEMORY. */
+/* Writes the resolved problem with the best values. Status: CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_overlay_write_resolved(const CzProblem *problem,
                                                  const CzEvaluator *evaluator,
                                                  const CzOutcome *outcome,

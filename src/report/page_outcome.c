@@ -1,4 +1,4 @@
-/* The report of a search: what changed, what it brought, how it was found, what holds it. */
+/* The report of a search: variables, active constraints, verification, course of the search. */
 #include "report/page_outcome.h"
 
 #include "base/error.h"
@@ -15,9 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_PERCENT 100.0 /* margins and violations beyond are drawn at this */
+#define MOST_PERCENT 100.0 /* larger margins and violations are drawn at this */
 
-enum { MOST_CONSTRAINTS = 8 }; /* that are reported as those that hold the optimum */
+enum { MOST_CONSTRAINTS = 8 }; /* most constraints in the table of active ones */
 
 static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const CzProblem *problem,
                          const CzOutcome *outcome) {
@@ -156,7 +156,7 @@ static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
     return CZ_OK;
 }
 
-/* ---- what holds the optimum ---- */
+/* ---- active constraints ---- */
 
 int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const int *told) {
     int found = -1;
@@ -195,21 +195,17 @@ static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const C
 
 static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
                              const CzOutcome *outcome, CzError *error) {
-    CzArena arena = {0};
     CzMemoryText memory = {0};
-    int n_setting;
     FILE *stream = cz_memory_text_open(&memory);
-    const char **setting = cz_overlay_settings(evaluator, outcome, NULL, &arena, &n_setting);
-    if (stream != NULL && setting != NULL)
-        cz_overlay_write_set(n_setting, setting, stream);
-    const bool is_closed = stream != NULL && fclose(stream) == 0;
-    const bool fits = is_closed && setting != NULL && !memory.failed && memory.text != NULL;
+    bool fits =
+        stream != NULL && cz_overlay_write_values(evaluator, outcome, NULL, stream, NULL) == CZ_OK;
+    if (stream != NULL)
+        fits &= fclose(stream) == 0 && !memory.failed && memory.text != NULL;
     if (fits) {
         cz_page_open_section(markup, "values", "New values, to paste");
         cz_markup_element(markup, "pre", memory.text);
         cz_markup_end(markup);
     }
-    cz_arena_free(&arena);
     cz_memory_text_free(&memory);
     return fits ? CZ_OK : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
 }

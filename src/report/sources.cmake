@@ -1,7 +1,6 @@
 # Sources of src/report, one per line.
 set(CZ_SOURCES_report
     standalone_figure.c
-    chart.c
     chart_curves.c
     charts.c
     charts_force.c

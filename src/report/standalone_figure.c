@@ -12,10 +12,10 @@
 #include <string.h>
 
 const char *cz_report_chart_name(int index) {
-    return index >= 0 && index < CZ_N_CHART ? cz_chart_name((CzChart)index) : NULL;
+    return index >= 0 && index < CZ_N_CHART ? cz_chart_info((CzChart)index)->name : NULL;
 }
 
-/* The scenario to draw; a failure when nothing was kept of it. */
+/* Finds the scenario to draw; fails when its run was not kept. */
 static CzStatus find_scenario(const CzReportRun *run, int *scenario, CzError *error) {
     *scenario = run->scenario >= 0 ? run->scenario : cz_page_deciding(run->evaluation);
     const bool has_run = *scenario >= 0 && *scenario < run->evaluation->n_run &&
@@ -46,9 +46,9 @@ static CzStatus find_chart(const char *what, CzChart *chart, CzError *error) {
     CzSuggestion suggestion = {0};
     for (int i = 0; i < CZ_N_CHART; i++) {
         *chart = (CzChart)i;
-        if (strcmp(cz_chart_name((CzChart)i), what) == 0)
+        if (strcmp(cz_chart_info((CzChart)i)->name, what) == 0)
             return CZ_OK;
-        cz_suggest(&suggestion, what, cz_chart_name((CzChart)i));
+        cz_suggest(&suggestion, what, cz_chart_info((CzChart)i)->name);
     }
     const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no figure '%.100s'", what);
     cz_suggest_help(&suggestion, error);
@@ -61,7 +61,7 @@ static const char *place_name(const CzPage *page, bool of_interface, int index) 
     return of_interface ? page->summary->interface[index].name : page->summary->vehicle[index].name;
 }
 
-/* Which of several figures of a kind is meant. */
+/* Finds the interface or car of a figure. */
 static CzStatus find_place(const CzPage *page, CzChart chart, const char *at, int *index,
                            CzError *error) {
     const bool of_several = chart == CZ_CHART_PANELS || chart == CZ_CHART_FRAMES;
@@ -71,7 +71,7 @@ static CzStatus find_place(const CzPage *page, CzChart chart, const char *at, in
         of_several && page->n_sample > 1 ? page->summary->n_interface : cz_chart_count(page, chart);
     if (n == 0)
         return cz_fail(error, CZ_STATUS_INPUT, "this run has no data for the figure '%s'",
-                       cz_chart_name(chart));
+                       cz_chart_info(chart)->name);
     *index = 0;
     if (!of_interface && chart != CZ_CHART_CAR_ACCELERATION)
         return CZ_OK;

@@ -76,7 +76,7 @@ void cz_metric_time_window(const CzMetricKind *kind, const CzPlace *place, doubl
 /* Whether the selector picks anything in this scene, as written. */
 bool cz_metric_picks(const CzMetric *metric, const CzScene *scene);
 
-/* What a rule between values is judged by, place by place: an end's ratio, at most 1. */
+/* The metric of a rule between values: a ratio of an end, at most 1. */
 const CzMetricKind *cz_metric_of_rule(CzValueRule rule);
 
 /* All kinds, for documents and tests. */

@@ -1,19 +1,19 @@
-/* What metrics are: an entry of results.def each, and the values that are judged. */
+/* The metrics, one per entry of results.def, and the values that are judged. */
 #include "evaluate/devices.h"
 #include "evaluate/metric.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Energies below this count as nothing, so that no share is taken of them [J]. */
+/* No share is taken of energies below this [J]. */
 static const double nothing = 100;
 
 static double share_of(double part, double whole) {
     return whole > nothing ? part / whole : NAN;
 }
 
-/* What a run has left to collide with. The rule that ends a run waits until for a pitch period none
- * closes in; what neighbours then still do is chatter, of another size at every step. */
+/* Closing speed at the end of a run; 0 when the end criterion was met: then no neighbours closed
+ * for one pitch period, and the remaining speeds are chatter that depends on the time step. */
 static double left_to_close(const CzPlace *place) {
     const CzRunSummary *run = place->run;
     const bool over = run->ended == CZ_ENDED_BY_RULE || run->ended == CZ_ENDED_SETTLED;
@@ -38,7 +38,7 @@ static bool is_judged(const CzPlace *place, int vehicle) {
     return !cz_scene_has_obstacle_at(place->scene, vehicle);
 }
 
-/* Whether anything at an interface ran beyond its last point, the devices of an obstacle aside. */
+/* Whether a device at an interface bottomed out, without those of an obstacle. */
 static double judged_bottoming(const CzPlace *place) {
     const CzInterfaceResult *interface = place->interface;
     if (is_judged(place, place->interface_index) && is_judged(place, place->interface_index + 1))
@@ -49,7 +49,7 @@ static double judged_bottoming(const CzPlace *place) {
     return 0;
 }
 
-/* Largest force through the sections at an interface that are judged. */
+/* Largest section force at an interface, without that of an obstacle. */
 static double judged_section_force(const CzPlace *place) {
     double force = NAN;
     for (int side = 0; side < 2; side++)
@@ -58,7 +58,7 @@ static double judged_section_force(const CzPlace *place) {
     return force;
 }
 
-/* Closure between the end structures over the room that the folded gangways leave; 0 at the
+/* Closure between the end structures over the clearance less the folded gangways; 0 at the
  * colliding interface, which has no gangway. */
 static double inner_gap_used(const CzPlace *place) {
     if (place->interface_index == place->scene->colliding)
@@ -92,8 +92,8 @@ static double energy_behind(const CzPlace *place) {
  *
  *   demand = used + 0.1 (1 - P / F) + E / (P stroke)
  *
- * It does not jump at the last point. A coupler with a shear-off requires nothing until it
- * releases: its tubes may be exhausted. */
+ * It is continuous at the last point. A coupler with a shear-off has no demand until it shears off,
+ * because its tubes may be exhausted. */
 static double stroke_demand(const CzPlace *place) {
     const CzElementResult *element = place->element;
     if (element->kind == CZ_ELEMENT_COUPLER && place->end->coupler.shear_off.given &&
@@ -127,7 +127,7 @@ static double judged_bogie_lift(const CzPlace *place) {
     return place->vehicle->checks_override ? place->vehicle->bogie_lift : NAN;
 }
 
-/* Of all vehicles that are judged. */
+/* Plastic energy in the survival space of all vehicles but obstacles [J]. */
 static double judged_survival(const CzPlace *place) {
     const CzRunSummary *run = place->run;
     double energy = 0.0;
@@ -158,14 +158,14 @@ static double swing_over_stop(const CzPlace *place) {
                 interface->swing[1] / interface->swing_stop[1]);
 }
 
-/* Whether a design could not be written down and read back. Memory that is lacking counts as
- * broken: such a design is not one to win with. */
+/* Whether the reader would refuse the design. Lack of memory counts as a broken rule, so that such
+ * a design cannot become the best. */
 static double breaks_rules(const CzPlace *place) {
     return cz_problem_check_vehicles(place->problem, place->vehicles, NULL) != CZ_OK;
 }
 
-/* A climb that was seen is one whatever is declared; that none was seen says something only when
- * every full vehicle can lift. */
+/* An override of a run counts in any case; that there was none is known only when every full
+ * vehicle declares its stops. */
 static double climbed(const CzPlace *place) {
     if (place->run->beyond_validity)
         return 1;

@@ -1,4 +1,4 @@
-/* Units of results, and what the names of metrics begin with. */
+/* Units of results, and prefixes of the names of metrics. */
 #ifndef CZ_EVALUATE_RESULTS_H
 #define CZ_EVALUATE_RESULTS_H
 
@@ -20,10 +20,10 @@ enum {
 };
 extern const CzResultUnit cz_result_units[CZ_N_RESULT_UNIT];
 
-/* The number of units that a document or table has of an SI value. */
+/* An SI value in a unit, as documents and tables print it. */
 double cz_result_in_unit(const CzResultUnit *unit, double si);
 
-/* The name of a metric is this, by the production run of results.def that it is in, and its key. */
+/* The name of a metric is the prefix of its record in results.def and its key. */
 #define CZ_METRIC_PREFIX_RUN ""
 #define CZ_METRIC_PREFIX_ENERGY "energy."
 #define CZ_METRIC_PREFIX_INTERFACE "interfaces."

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Limits of checks that judged the peak force of an interface. */
+/* Adds the limits of the checks of peak forces of interfaces. */
 void cz_draw_force_limits(CzSheet *sheet) {
     const CzPage *page = sheet->page;
     for (int i = 0; i < page->evaluation->n_check; i++) {
@@ -24,7 +24,7 @@ void cz_draw_force_limits(CzSheet *sheet) {
     }
 }
 
-/* The same interface in the runs beside this one. */
+/* Adds the curves of the same interface in the other runs. */
 static void add_other_loops(CzSheet *sheet, int interface) {
     const CzPage *page = sheet->page;
     for (int i = 0; i < page->n_other; i++) {

@@ -15,7 +15,8 @@ void cz_draw_cars(CzSheet *sheet, CzDrawn drawn) {
     }
 }
 
-/* Closure of an interface, and what deflects at it: side A is the front of the car behind. */
+/* Closure of an interface, and strokes of its ends and anti-climbers; the first side is the front
+ * of the rear car. */
 void cz_draw_shortening(CzSheet *sheet, int interface) {
     const CzRunSummary *run = sheet->page->summary;
     static const struct {
@@ -73,7 +74,7 @@ void cz_draw_car_acceleration(CzSheet *sheet, int car) {
                              1e3 * windows[i].window[1], i == 0 ? 1 : 2};
 }
 
-/* Wheelsets by their largest lift, highest first; only those that leave the rail. */
+/* Wheelsets in the order of their largest lift, highest first; only those that leave the rail. */
 static int rank_lifts(const CzRunSummary *run, int room, int vehicle[], int axle[]) {
     int n = 0;
     for (int i = 0; i < run->n_vehicle; i++)
@@ -120,7 +121,7 @@ void cz_draw_lifts(CzSheet *sheet, int index) {
         series->dash = i / CZ_PLOT_N_COLOUR + 2 * (i % 2);
     }
     for (int car = 0; n == 0 && car < page->summary->n_vehicle && sheet->plot.n_series == 0; car++)
-        (void)add_lift(sheet, car, 0); /* all wheels stay down: one of them shows it */
+        (void)add_lift(sheet, car, 0); /* no wheel lifts: draw one */
     if (isfinite(page->flange_height))
         cz_sheet_add_limit(sheet, page->flange_height * CZ_MILLI_PER_UNIT, "flange height");
     sheet->plot.from_zero = true;

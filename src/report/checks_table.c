@@ -25,7 +25,7 @@ static const char *spaced_unit(const CzCheckResult *check, char room[32]) {
     if (check->unit == NULL || check->unit[0] == '\0')
         return "";
     snprintf(room, 32, " %s", check->unit);
-    for (char *c = room; *c != '\0'; c++) /* m_s of a channel is m/s to people */
+    for (char *c = room; *c != '\0'; c++) /* m_s of a channel is printed as m/s */
         *c = *c == '_' ? '/' : *c;
     return room;
 }
@@ -70,8 +70,8 @@ static bool does_not_apply(const CzCheckResult *check) {
     return isnan(check->value) && cz_verdict_passes(check->verdict);
 }
 
-/* Whether check i is the worst of its name, of its family only when it is to be among those; the
- * first of equals. */
+/* Whether check i is the worst of its name, or with `of_family` of its name and family; the first
+ * of equals. */
 static bool is_worst_of_name(const CzEvaluation *evaluation, int i, bool of_family) {
     const CzCheckResult *check = evaluation->check;
     for (int k = 0; k < evaluation->n_check; k++) {

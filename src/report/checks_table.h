@@ -17,16 +17,16 @@ void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *b
 void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before, bool rest);
 
-/* A value in its unit, with as many digits as set it apart from its limit when it breaks it. */
+/* A value in its unit, with enough digits to differ from a limit that it violates. */
 void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text);
 
 /* The limit in its unit; a lower limit has "min" in front. */
 void cz_checks_format_limit(const CzCheckResult *check, size_t room, char *text);
 
-/* Its verdict as people read it: "pass", "FAIL", "n/a". */
+/* The verdict in a table: "pass", "FAIL", "n/a". */
 const char *cz_checks_word(const CzCheckResult *check);
 
-/* Whether a table that is short of room shows check i: it fails, or it is the worst of its name. */
+/* Whether a short table shows check i: it fails, or it is the worst of its name. */
 bool cz_checks_is_shown(const CzEvaluation *evaluation, int i);
 
 /* Number of checks of scenarios that were left out. */

@@ -148,7 +148,7 @@ void cz_compared_begin_checks(CzReportTable *table, int n, const CzReportRun *ru
     }
 }
 
-/* Whether any of the runs has the number: wheels of single masses have no lift. */
+/* Whether a run has the result: single masses have no wheels that lift. */
 static bool is_known(int n, const CzReportRun *run, const CzResult *result, const char *name) {
     for (int i = 0; i < n; i++)
         if (isfinite(cz_compared_value(run, i, result, name)))
@@ -156,7 +156,7 @@ static bool is_known(int n, const CzReportRun *run, const CzResult *result, cons
     return false;
 }
 
-/* With as many digits as it takes to see a difference, so shares as plain numbers. */
+/* Shares are printed as plain numbers, whose digits show small differences. */
 static void put_numbers(CzReportTable *table, int n, const CzReportRun *run, const CzResult *result,
                         const char *name) {
     const double factor = result->format == CZ_FORMAT_PERCENT ? 100 : 1;

@@ -1,4 +1,4 @@
-/* CSV tables, one function each, over a writer of fields. */
+/* CSV tables: a function for each, and a writer of fields. */
 #include "report/csv.h"
 
 #include "report/figure.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* One table being written; a row ends with end_row. */
+/* A table being written; end_row ends a row. */
 typedef struct Table {
     FILE *stream;
     char separator, decimal;
@@ -26,8 +26,8 @@ static void begin_field(Table *table) {
     table->in_row = true;
 }
 
-/* Whether a text goes on with a sign that makes a spreadsheet take a cell for a formula: = + - @,
- * and their fullwidth forms, which some take too. */
+/* Whether a text begins with a sign that makes a spreadsheet read a formula: = + - @, or the
+ * fullwidth form of one. */
 static bool begins_formula(const char *text) {
     static const char *const signs[] = {
         "=", "+", "-", "@", "\xef\xbc\x9d", "\xef\xbc\x8b", "\xef\xbc\x8d", "\xef\xbc\xa0"};
@@ -37,13 +37,13 @@ static bool begins_formula(const char *text) {
     return false;
 }
 
-/* Where a program that parts fields by another sign than ours could begin a cell. */
+/* Whether a program with another separator could begin a cell behind this sign. */
 static bool parts_fields(char sign) {
     return sign != '\0' && strchr(",;\t|\"\r\n", sign) != NULL;
 }
 
-/* Walks over a text as it is written: formulas get an apostrophe in front, quotes are doubled. With
- * `stream` NULL nothing is written; returns whether the text needs quotes around it. */
+/* Writes a text with an apostrophe before formulas and with doubled quotes; with `stream` NULL only
+ * looks at it. Returns whether the text needs quotes. */
 static bool walk_text(const Table *table, const char *text, FILE *stream) {
     bool needs_quotes = false, begins_cell = true;
     for (; *text != '\0'; text++) {
@@ -61,7 +61,7 @@ static bool walk_text(const Table *table, const char *text, FILE *stream) {
     return needs_quotes;
 }
 
-/* A text is a text wherever the file is opened, and no spreadsheet runs it. */
+/* Writes a text that no spreadsheet reads as a formula. */
 static void put_text(Table *table, const char *text) {
     begin_field(table);
     if (text == NULL)
@@ -74,7 +74,7 @@ static void put_text(Table *table, const char *text) {
         fputc('"', table->stream);
 }
 
-/* A number that was typed, or measures an error. */
+/* Writes a number that was typed or measures an error. */
 static void put_exact(Table *table, double value) {
     char text[CZ_FIGURE_ROOM];
     begin_field(table);
@@ -101,7 +101,7 @@ static void put_keys(Table *table, int n, const CzResult *const *result) {
         put_text(table, result[i]->key);
 }
 
-/* A field of a record; empty for a column that the record does not have. */
+/* Writes a field of a record; an empty one for NULL. */
 static void put_result(Table *table, const CzResult *result, CzResultContext *context,
                        const void *record) {
     switch (result != NULL ? result->form : CZ_FORM_UNWRITTEN) {
@@ -154,7 +154,7 @@ void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *
     }
 }
 
-/* One row per element, after one for the interface as a whole with an empty element. */
+/* A row for each interface, with an empty element, then one for each of its elements. */
 void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *options,
                              FILE *stream) {
     static const struct {
@@ -267,7 +267,8 @@ void cz_csv_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FI
         for (int k = 0; k < sweep->n_metric; k++)
             put_exact(&table, point->metric[k]);
         for (int k = 0; k < n_column; k++)
-            if (columns[k] == CZ_RESULT_AT(POINT, verdict)) /* in full: no column for provisional */
+            if (columns[k] ==
+                CZ_RESULT_AT(POINT, verdict)) /* in full, as there is no column for provisional */
                 put_text(&table, is_done ? cz_verdict_text(point->verdict) : NULL);
             else
                 put_result(&table, columns[k], &context, point);

@@ -13,10 +13,10 @@ void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *
 void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *options, FILE *stream);
 void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FILE *stream);
 
-/* A sweep, one line per point. */
+/* One row per point of a sweep. */
 void cz_csv_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FILE *stream);
 
-/* The search, one line per evaluation. */
+/* One row per evaluation of a search. */
 void cz_csv_write_history(const CzEvaluator *evaluator, const CzOutcome *outcome,
                           const CzReportOptions *options, FILE *stream);
 

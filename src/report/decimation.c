@@ -1,5 +1,5 @@
-/* Thinning of curves: split where the path is furthest from its chord, until no point is too far.
- */
+/* Decimation of curves: a span is split at the point furthest from its chord until all points are
+ * within the tolerance. */
 #include "report/decimation.h"
 
 #include <math.h>
@@ -35,8 +35,8 @@ static int furthest(const double *x, const double *y, Span span, double toleranc
     return found;
 }
 
-/* One pass; returns how many points are kept. `stack` holds n spans: every split adds one, and a
- * span of one step is never split. */
+/* Decimates with one tolerance; returns the number of points kept. `stack` has room for n spans:
+ * every split adds one, and a span of one step is not split. */
 static int thin_once(int n, const double *x, const double *y, double tolerance, bool *keep,
                      Span *stack) {
     int n_stack = 0, n_kept = n > 1 ? 2 : n;

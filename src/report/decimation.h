@@ -1,4 +1,4 @@
-/* Fewer points for a curve that looks the same: Douglas and Peucker's algorithm along the path. */
+/* Decimation of a curve without a visible change, by the algorithm of Douglas and Peucker. */
 #ifndef CZ_REPORT_DECIMATION_H
 #define CZ_REPORT_DECIMATION_H
 

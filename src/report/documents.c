@@ -1,4 +1,4 @@
-/* The documents: each is a record of the list, and what it is made of. */
+/* The JSON documents: the record of each, and the results that it is written from. */
 #include "crushzone/report.h"
 
 #include "base/error.h"

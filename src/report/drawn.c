@@ -1,4 +1,4 @@
-/* Curves that are drawn and were not recorded: made of what was. */
+/* Curves that figures draw and that are computed from recorded channels. */
 #include "report/drawn.h"
 
 #include "base/error.h"

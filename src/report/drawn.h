@@ -1,10 +1,10 @@
-/* What figures draw over time: recorded channels, and curves that are made of them (drawn.def). */
+/* Curves over time in figures: recorded channels, and curves computed from them (drawn.def). */
 #ifndef CZ_REPORT_DRAWN_H
 #define CZ_REPORT_DRAWN_H
 
 #include "crushzone/simulate.h"
 
-/* Recorded channels first, with the numbers that they have there. */
+/* Recorded channels first, with the values of CzChannel. */
 typedef enum CzDrawn {
 #define CZ_CHANNEL(constant, at, dimension, validity, pattern, unit, title, doc)                   \
     CZ_DRAWN_##constant,
@@ -17,7 +17,7 @@ typedef enum CzDrawn {
 /* As cz_channel_info. */
 const CzChannelInfo *cz_drawn_info(CzDrawn drawn);
 
-/* A curve that was made. */
+/* A computed curve. */
 typedef struct CzMadeCurve {
     CzDrawn drawn;
     int place;
@@ -29,18 +29,18 @@ typedef struct CzMadeCurves {
     CzMadeCurve *curve; /* (n) */
 } CzMadeCurves;
 
-/* Makes the curves of a run: all that was dissipated at interfaces; the error of the balance, where
- * there is energy at the start; accelerations through a filter CFC 60, where samples are close
- * enough; none of a run that was not recorded. Status: CZ_STATUS_NO_MEMORY; free them in any case.
- */
+/* Computes the curves of a run: energy dissipated at all interfaces; error of the energy balance,
+ * unless the initial energy is zero; accelerations through a filter CFC 60, where samples are close
+ * enough. None for a run that was not recorded. Status: CZ_STATUS_NO_MEMORY; free the curves in any
+ * case. */
 CZ_MUST_CHECK CzStatus cz_drawn_make(const CzRun *run, CzMadeCurves *made, CzError *error);
 void cz_drawn_free(CzMadeCurves *made);
 
-/* Values of a curve at a place (n_sample), recorded or made; NULL where there are none. */
+/* Values of a curve at a place (n_sample); NULL where there are none. */
 const double *cz_drawn_values(const CzRun *run, const CzMadeCurves *made, CzDrawn drawn, int place);
 
-/* Values of a channel in another run, of the vehicle or the interface that has the name of the
- * place in this one, for they may be other trains; NULL when there are none. */
+/* Values of a channel in another run, at the vehicle or interface of the same name, because the
+ * trains may differ; NULL when there are none. */
 const double *cz_drawn_beside(const CzRunSummary *run, CzChannel channel, int place,
                               const CzRun *other);
 

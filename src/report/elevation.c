@@ -1,4 +1,4 @@
-/* Side elevation of the two ends that collide, to scale, and the chain of strokes below. */
+/* Side elevation of the two colliding ends, to scale, with the chain of strokes below. */
 #include "report/elevation.h"
 
 #include "report/figure.h"
@@ -136,7 +136,7 @@ static int gather_labels(const Side *side, Label label[MOST_LABELS]) {
     return n;
 }
 
-/* Puts labels from top to bottom, a row apart at least, and none below the rail. */
+/* Places labels from top to bottom, at least a row apart and above the rail. */
 static void spread(Label *label, int n) {
     for (int i = 1; i < n; i++)
         for (int k = i; k > 0 && label[k].y < label[k - 1].y; k--) {
@@ -181,10 +181,10 @@ static void write_heights(CzMarkup *markup, const Side *side) {
 typedef struct Link {
     const char *what;
     double length; /* [m] */
-    int colour;    /* CZ_PLOT_QUIET for room that is empty */
+    int colour;    /* CZ_PLOT_QUIET for a gap */
 } Link;
 
-/* A row of lengths, one behind the other, from the foremost plane inwards, with its text above. */
+/* Draws lengths in series from the foremost plane inwards, with a text above. */
 static void write_chain(CzMarkup *markup, const Side *side, int row, const char *name, int n,
                         const Link *link) {
     const double y = CHAIN_TOP + CHAIN_ROW * row;
@@ -250,7 +250,7 @@ static void write_chains(CzMarkup *markup, const Side *side) {
 
 /* ---- the drawing ---- */
 
-/* The car's name, and how its end is at this interface. */
+/* Writes the name of the car, and the height offset of its end. */
 static void write_name(CzMarkup *markup, const Side *side) {
     char text[128], number[CZ_FIGURE_ROOM];
     snprintf(text, sizeof text, "%s", side->name);
@@ -262,7 +262,7 @@ static void write_name(CzMarkup *markup, const Side *side) {
                 side->sign > 0 ? "start" : "end", text);
 }
 
-/* How much higher the scenario puts an end: that of the train behind, or ahead. */
+/* Height offset of an end in the scenario: 0 the rear train, 1 the front one. */
 static double offset_of(const CzModel *model, int which) {
     const CzTrain *train = &cz_problem_input(model->problem)->trains[model->train[which]];
     const double of_scenario = model->scenario->height_offset;

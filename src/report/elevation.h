@@ -1,4 +1,4 @@
-/* The two ends that collide, from the side, as they were drawn up. */
+/* Side elevation of the two colliding ends. */
 #ifndef CZ_REPORT_ELEVATION_H
 #define CZ_REPORT_ELEVATION_H
 

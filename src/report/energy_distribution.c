@@ -1,4 +1,4 @@
-/* Who absorbs what: one bar per interface, its parts the kinds of elements. */
+/* Distribution of the dissipated energy: a bar per interface, split by kind of element. */
 #include "report/charts.h"
 #include "report/figure.h"
 #include "report/plot.h"
@@ -45,7 +45,7 @@ static void write_row(const CzRunSummary *run, const CzInterfaceResult *interfac
     cz_svg_text(markup, x + 6, y + 13, "start", text);
 }
 
-/* A key names what the train has. */
+/* The legend lists the kinds of elements of the train. */
 static bool has_kind(const CzRunSummary *run, int kind) {
     for (int i = 0; i < run->n_interface; i++)
         for (int k = 0; k < run->interface[i].n_element; k++)

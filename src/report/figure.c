@@ -1,5 +1,4 @@
-/* Numbers for people: the C library's formats, with the locale's decimal sign turned into a point.
- */
+/* Numbers as text: formats of the C library, with a decimal point in every locale. */
 #include "report/figure.h"
 
 #include <ctype.h>
@@ -8,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A decimal sign is whatever is neither a digit, a sign nor a letter; it may be several bytes. */
+/* The decimal sign of a locale: no digit, sign or letter; it may have several bytes. */
 static bool is_decimal_sign(char c) {
     return !isdigit((unsigned char)c) && c != '+' && c != '-' && (c < 'a' || c > 'z');
 }
@@ -22,7 +21,7 @@ double cz_figure_exact(double value) {
     return value == 0 ? 0 : value;
 }
 
-/* Takes the sign off a number whose digits are all zero. */
+/* Removes the sign of a zero. */
 static void unsign_zero(char *text) {
     if (text[0] == '-' && text[strspn(text, "-0.")] == '\0')
         memmove(text, text + 1, strlen(text));
@@ -72,8 +71,8 @@ const char *cz_figure_plain(char text[CZ_FIGURE_ROOM], double value) {
     return cz_figure_fixed(text, size < 10 ? 2 : size < 100 ? 1 : 0, value);
 }
 
-/* A percentage with `plus` before it when it is not below 0: whole from ten on where `is_whole`,
- * else two digits. */
+/* A percentage with `plus` before it unless it is negative; with two digits, or with `is_whole`
+ * without decimals from ten on. */
 static const char *write_percent(char text[CZ_FIGURE_ROOM], const char *plus, bool is_whole,
                                  double percent) {
     const double most = 999, size = fabs(cz_figure_quantity(percent));

@@ -1,4 +1,4 @@
-/* Numbers as people read them, with a decimal point whatever the locale of the host program.
+/* Numbers as text, with a decimal point in every locale.
  *
  * One rule holds in tables, JSON, CSV and pages: a quantity below 1e-9 in its printed unit is a
  * rounding residue and prints as 0; zero has no sign. Numbers that were typed, or that measure an
@@ -9,7 +9,7 @@
 
 #include <stdbool.h>
 
-enum { CZ_FIGURE_ROOM = 48 }; /* bytes that hold any number written here */
+enum { CZ_FIGURE_ROOM = 48 }; /* for any number written here [byte] */
 
 /* A quantity by this rule: the value itself, or 0. */
 double cz_figure_quantity(double value);
@@ -23,7 +23,7 @@ const char *cz_figure_digits(char text[CZ_FIGURE_ROOM], int digits, double value
 /* `decimals` places after the point, as %.*f; numbers from 1e15 on as %.15g. */
 const char *cz_figure_fixed(char text[CZ_FIGURE_ROOM], int decimals, double value);
 
-/* Three to four digits for a person: 3483, 21.5, 2.31; "-" when it is not finite. */
+/* Three to four digits: 3483, 21.5, 2.31; "-" when it is not finite. */
 const char *cz_figure_plain(char text[CZ_FIGURE_ROOM], double value);
 
 /* Share as a percentage: "56 %", "0.5 %"; ">999 %" and "<-999 %" beyond; "-" for NaN. */
@@ -32,13 +32,13 @@ const char *cz_figure_percent(char text[CZ_FIGURE_ROOM], double share);
 /* The same with its sign: "+54 %", "-0.03 %"; a negative share never reads as zero. */
 const char *cz_figure_margin(char text[CZ_FIGURE_ROOM], double share);
 
-/* A change as a percentage of two digits: what is a part in a million off is not "0 %"; ">999 %"
- * beyond; "-" for NaN. */
+/* A change as a percentage with two digits, so that a change of one in a million is not "0 %";
+ * ">999 %" beyond; "-" for NaN. */
 const char *cz_figure_change(char text[CZ_FIGURE_ROOM], double change);
 
-/* Marks a number that may be of the time beyond the model's validity: "3483*"; "-" stays. */
+/* Marks a number that may be from the time beyond model validity: "3483*"; "-" stays. */
 const char *cz_figure_mark(char text[CZ_FIGURE_ROOM], bool beyond_validity);
-/* What the mark means; printed below what shows it. */
+/* The meaning of the mark, printed with the table or figure. */
 #define CZ_FIGURE_MARK_MEANS "*: may be of later; totals are blank"
 #define CZ_FIGURE_CAUTION "Override: a run went beyond model validity (" CZ_FIGURE_MARK_MEANS ")."
 

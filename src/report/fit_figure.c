@@ -1,4 +1,4 @@
-/* A law over the curve that it was fitted to. */
+/* A fitted law and its measured curve. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* A folder of result files that appears whole or not at all. */
+/* A folder of result files that is put in place as a whole. */
 #define _XOPEN_SOURCE 700 /* realpath */
 #include "report/folder.h"
 
@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* ---- what is there already ---- */
+/* ---- checks of an existing folder ---- */
 
 /* Whether the marker lists a file, or a file inside it when it is a folder. */
 static bool lists(const char *marker, const char *name, bool is_folder) {
@@ -35,7 +35,7 @@ static const char *name_of(const char *path) {
     return slash != NULL ? slash + 1 : path;
 }
 
-/* The text with everything resolved that is there; false when nothing is. */
+/* Resolves links in a path; false when it does not exist. */
 static bool resolve(const char *path, char resolved[PATH_MAX]) {
     char *found = realpath(path, NULL);
     const bool is_there = found != NULL && strlen(found) < PATH_MAX;
@@ -56,7 +56,7 @@ bool cz_folder_lists(const char *file) {
         free(marker);
         if (is_listed)
             return true;
-        if (!resolve(folder, resolved)) /* "." has no name to put before */
+        if (!resolve(folder, resolved)) /* "." has no name */
             return false;
         snprintf(longer, sizeof longer, "%.255s/%.1000s", name_of(resolved), name);
         memcpy(name, longer, sizeof name);
@@ -66,7 +66,7 @@ bool cz_folder_lists(const char *file) {
     return false;
 }
 
-/* Looks for an entry that we did not write, at most one folder deep. */
+/* Looks for a file that crushzone did not write, in the folder and the folders in it. */
 static bool find_foreign(const char *folder, const char *marker, const char *prefix,
                          char foreign[PATH_MAX]) {
     DIR *entries = opendir(folder);
@@ -104,7 +104,7 @@ static bool is_empty_folder(const char *path) {
     return n == 2; /* . and .. */
 }
 
-/* The path without slashes at its end. What it cannot be is reported. */
+/* Removes slashes at the end of a path; fails for a path that cannot be a result folder. */
 static CzStatus clean_path(const char *path, char clean[PATH_MAX], CzError *error) {
     enum { ROOM_INSIDE = 256 }; /* for the longest name of a file in it */
     char what[CZ_FAULT_ROOM];
@@ -135,12 +135,12 @@ bool cz_folder_holds(const char *folder, const char *file) {
     return strncmp(above, below, n) == 0 && (below[n] == '/' || below[n] == '\0');
 }
 
-/* Whether nothing in a folder is not ours. */
+/* Checks that a folder holds only files of crushzone. */
 static CzStatus check_content(const char *path, bool replaces_search, CzError *error) {
     char foreign[PATH_MAX];
     char *marker = cz_marker_read(path);
     if (marker == NULL && access(path, F_OK) != 0)
-        return CZ_OK; /* not there any more, as in check_movable() */
+        return CZ_OK; /* removed meanwhile, as in check_movable() */
     if (marker == NULL)
         return cz_fail(error, CZ_STATUS_OUTPUT,
                        "the folder %.200s exists and was not written by crushzone; choose "
@@ -163,9 +163,9 @@ static CzStatus check_content(const char *path, bool replaces_search, CzError *e
     return CZ_OK;
 }
 
-/* Whether a folder that is there can be moved away: not where a disk begins, and not where we
- * stand. Removing a folder that is not empty always fails, but in another way where a disk begins;
- * one that is empty is made anew. */
+/* Checks that an existing folder can be moved: it is no mount point and does not contain the
+ * current folder. rmdir() of a folder that is not empty fails with EBUSY at a mount point; an empty
+ * folder is created again. */
 static CzStatus check_movable(const char *path, const struct stat *info, CzError *error) {
     if (cz_folder_holds(path, "."))
         return cz_fail(
@@ -180,7 +180,7 @@ static CzStatus check_movable(const char *path, const struct stat *info, CzError
                        "the result folder %.200s cannot be replaced: a file system is mounted "
                        "there; choose a folder in it",
                        path);
-    /* Not there: another process is putting its result in its place. */
+    /* ENOENT: another process is replacing it. */
     return errno == ENOTEMPTY || errno == EEXIST || errno == ENOENT
                ? CZ_OK
                : cz_cannot_write(path, errno, error);
@@ -203,13 +203,13 @@ static CzStatus check_target(const char *path, bool replaces_search, CzError *er
     return check_movable(path, &info, error);
 }
 
-/* Whether the last part of a path is the step up. */
+/* Whether the last part of a path is "..". */
 static bool steps_up(const char *path) {
     return strcmp(name_of(path), "..") == 0;
 }
 
-/* Whether a folder can be made there: one is made and removed in the nearest folder above that is
- * there. */
+/* Checks that a folder can be created: a trial folder is created and removed in the nearest folder
+ * above that exists. */
 static CzStatus check_parents(const char *path, CzError *error) {
     char parent[PATH_MAX], above[PATH_MAX], trial[PATH_MAX];
     struct stat info;
@@ -247,13 +247,13 @@ CzStatus cz_folder_check(const char *path, bool replaces_search, CzError *error)
 
 /* ---- writing ---- */
 
-/* Makes the folders above a path. */
+/* Creates the folders above a path. */
 static void make_parents(const char *path) {
     char parent[PATH_MAX];
     cz_parent_of(path, parent);
     for (char *slash = strchr(parent + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
-        (void)mkdir(parent, 0777); /* what is missing shows when the folder itself is made */
+        (void)mkdir(parent, 0777); /* a failure shows when the folder itself is created */
         *slash = '/';
     }
     (void)mkdir(parent, 0777);
@@ -281,14 +281,14 @@ CzStatus cz_folder_begin(CzFolder *folder, const char *path, bool replaces_searc
     return cz_cannot_write(folder->target, why, error);
 }
 
-/* The sentence that a file of the folder cannot be written. */
+/* Reports that a file of the folder cannot be written. */
 static CzStatus cannot_write(const CzFolder *folder, const char *name, int why, CzError *error) {
     char path[PATH_MAX];
     const bool fits = cz_path_in(path, folder->target, name, NULL) == CZ_OK;
     return cz_cannot_write(fits ? path : name, why, error);
 }
 
-/* A file is listed before it is made: what is not listed would not be removed. */
+/* A file is listed before it is created, because only listed files are removed. */
 CzStatus cz_folder_open(CzFolder *folder, const char *name, FILE **stream, CzError *error) {
     char path[PATH_MAX];
     snprintf(folder->file_name, PATH_MAX, "%s", name);
@@ -313,7 +313,7 @@ CzStatus cz_folder_open(CzFolder *folder, const char *name, FILE **stream, CzErr
     return CZ_OK;
 }
 
-/* What failed first may be long past; the same reason holds for a byte more. */
+/* The errno of the first failure is lost; writing another byte fails for the same reason. */
 int cz_stream_close(FILE *stream) {
     int why = 0;
     errno = 0;
@@ -345,7 +345,7 @@ static CzStatus move_away(CzFolder *folder, char old[PATH_MAX], CzError *error) 
         return CZ_OK;
     cz_parent_of(folder->target, parent);
     int why = cz_temporary_name(parent, old);
-    if (why == 0) /* for the next process, should this one die before the new one is in its place */
+    if (why == 0) /* so that another process can restore it if this one dies before the end */
         cz_marker_add(folder->target, CZ_MARKER_MOVED, name_of(folder->target));
     if (why == 0 && rename(folder->target, old) == 0)
         return CZ_OK;
@@ -362,7 +362,7 @@ CzStatus cz_folder_finish(CzFolder *folder, CzError *error) {
         status = cz_cannot_write(folder->target, errno, error);
     int why = status == CZ_OK ? EEXIST : 0;
     for (int attempt = 0; attempt < MOST_TRIES && (why == EEXIST || why == ENOTEMPTY); attempt++) {
-        if (old[0] != '\0') /* another process has put its results there meanwhile */
+        if (old[0] != '\0') /* another process has written its results meanwhile */
             cz_remove_listed(old);
         status = move_away(folder, old, error);
         why = status == CZ_OK && rename(folder->temporary, folder->target) != 0 ? errno : 0;
@@ -376,7 +376,7 @@ CzStatus cz_folder_finish(CzFolder *folder, CzError *error) {
         return status;
     }
     folder->temporary[0] = '\0';
-    (void)fclose(folder->marker); /* it was flushed; this lets its lock go */
+    (void)fclose(folder->marker); /* flushed before; closing releases the lock */
     folder->marker = NULL;
     if (old[0] != '\0')
         cz_remove_listed(old);

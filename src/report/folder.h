@@ -1,9 +1,8 @@
-/* A folder of result files that appears whole or not at all.
+/* A folder of result files that is put in place as a whole.
  *
- * Files are written into a folder of a temporary name beside the final one, which is renamed at the
- * end. A folder that is there already is replaced only when we wrote it: it holds a marker that
- * lists its files, and nothing that the marker does not list. The result of a search is replaced
- * only by another search, or when that is requested.
+ * Files are written into a temporary folder beside the final one, which is renamed at the end. An
+ * existing folder is replaced only when crushzone wrote it: it has a marker that lists its files,
+ * and no other files. The result of a search is replaced only by another search, or on request.
  */
 #ifndef CZ_REPORT_FOLDER_H
 #define CZ_REPORT_FOLDER_H
@@ -23,19 +22,17 @@ typedef struct CzFolder {
     bool replaces_search;
 } CzFolder;
 
-/* Whether a folder could be written there: tried, as far as it can be without writing it. Status:
- * CZ_STATUS_OUTPUT. */
+/* Checks that a folder can be written, without writing it. Status: CZ_STATUS_OUTPUT. */
 CZ_MUST_CHECK CzStatus cz_folder_check(const char *path, bool replaces_search, CzError *error);
 
 /* Whether a file lies in a folder, or in one inside it, links followed. */
 bool cz_folder_holds(const char *folder, const char *file);
 
-/* Whether a file is one that we wrote into a result folder. */
+/* Whether a file is listed in the marker of a result folder. */
 bool cz_folder_lists(const char *file);
 
-/* Starts a folder; the folders above it are made when they are not there. After a success the
- * caller ends with cz_folder_finish or cz_folder_abandon. Statuses: CZ_STATUS_OUTPUT,
- * CZ_STATUS_NO_MEMORY. */
+/* Begins a folder and creates missing folders above it. After a success the caller ends with
+ * cz_folder_finish or cz_folder_abandon. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_folder_begin(CzFolder *folder, const char *path, bool replaces_search,
                                        CzError *error);
 
@@ -44,10 +41,10 @@ CZ_MUST_CHECK CzStatus cz_folder_begin(CzFolder *folder, const char *path, bool 
 CZ_MUST_CHECK CzStatus cz_folder_open(CzFolder *folder, const char *name, FILE **stream,
                                       CzError *error);
 
-/* Closes the file; fails when anything of it could not be written. */
+/* Closes the file; fails when a part of it could not be written. */
 CZ_MUST_CHECK CzStatus cz_folder_close(CzFolder *folder, CzError *error);
 
-/* Puts the folder in its place; on failure it is abandoned. */
+/* Moves the folder to its final path; on failure it is abandoned. */
 CZ_MUST_CHECK CzStatus cz_folder_finish(CzFolder *folder, CzError *error);
 
 /* Removes what was written. */

@@ -1,6 +1,5 @@
-/* The resolved problem, read line by line: its layout is ours (two spaces per level, one key a
- * line, the origin behind #).
- */
+/* The resolved problem by lines, as cz_problem_write_resolved writes it: two spaces per level, one
+ * key a line, the origin behind #. */
 #include "report/inputs_text.h"
 
 #include "base/error.h"
@@ -47,7 +46,7 @@ static int indent_of(const char *line) {
     return (int)strspn(line, " ");
 }
 
-/* Writes a line without the problem's folder in names of files. */
+/* Writes a line, with names of files relative to the problem's folder. */
 static void write_line(const CzInputsText *inputs, const char *line, CzMarkup *markup) {
     const size_t n = strlen(inputs->folder);
     char text[2048];
@@ -67,7 +66,7 @@ static bool begins_car(const char *line) {
     return indent_of(line) == CAR_INDENT && strncmp(line + CAR_INDENT, "- name: ", 8) == 0;
 }
 
-/* First line behind a car's. */
+/* The first line after a car. */
 static int end_of_car(const CzInputsText *inputs, int first) {
     int i = first + 1;
     while (i < inputs->n_line && indent_of(inputs->line[i]) > CAR_INDENT)
@@ -85,7 +84,7 @@ static bool are_equal(const CzInputsText *inputs, int a, int b) {
     return true;
 }
 
-/* First line of an earlier car that is the same; -1 when there is none. */
+/* The first line of an earlier car with the same values; -1 when there is none. */
 static int same_car(const CzInputsText *inputs, int car) {
     for (int i = 0; i < car; i++)
         if (begins_car(inputs->line[i]) && are_equal(inputs, i, car))
@@ -137,7 +136,7 @@ static bool read_default(const char *line, char value[64], bool *is_ours) {
     return to > from;
 }
 
-/* Keeps the key of a line as the last of the path. */
+/* Makes the key of a line the last one of the path. */
 static void follow_path(char keys[MOST_LEVELS][64], int *n_level, const char *line) {
     const char *lead = line + strspn(line, "# ");
     const bool is_item = strncmp(lead, "- ", 2) == 0;

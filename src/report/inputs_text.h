@@ -1,6 +1,4 @@
-/* The resolved problem as a reader needs it: once per different car, and the defaults by
- * themselves.
- */
+/* The resolved problem on a page: different cars once, and a table of the defaults. */
 #ifndef CZ_REPORT_INPUTS_TEXT_H
 #define CZ_REPORT_INPUTS_TEXT_H
 
@@ -19,9 +17,9 @@ CZ_MUST_CHECK CzStatus cz_inputs_text_begin(CzInputsText *inputs, const CzProble
                                             CzError *error);
 void cz_inputs_text_free(CzInputsText *inputs);
 
-/* Text of the whole problem; a car that is as an earlier one is only named. */
+/* The text of the problem; of equal cars the first, and the names of the others. */
 void cz_inputs_text_write(const CzInputsText *inputs, CzMarkup *markup);
-/* A table of every default in force, once per key and value. */
+/* A table of the defaults used, once per key and value. */
 void cz_inputs_text_write_defaults(const CzInputsText *inputs, CzMarkup *markup);
 
 #endif

@@ -31,7 +31,7 @@ CzJson *cz_json_create(void) {
     return json;
 }
 
-/* Puts a new value where the document stands; takes the reference. */
+/* Adds a new value to the open record or list; takes the reference. */
 static void put(CzJson *json, const char *key, json_t *value) {
     json_t *parent = json->open[json->depth - 1];
     const int failed = key != NULL ? json_object_set_new(parent, key, value)
@@ -62,7 +62,7 @@ void cz_json_close(CzJson *json) {
         json->depth--;
 }
 
-/* A copy of a text whose bytes beyond ASCII are no valid UTF-8. */
+/* A text that is not valid UTF-8, with question marks for bytes beyond ASCII. */
 static json_t *ascii_text(const char *text) {
     const size_t n = strlen(text);
     char *copy = malloc(n + 1);
@@ -79,7 +79,7 @@ void cz_json_text(CzJson *json, const char *key, const char *text) {
     if (json == NULL || json->failed)
         return;
     json_t *value = text == NULL ? json_null() : json_string(text);
-    if (value == NULL && text != NULL) /* no UTF-8, or no memory, which shows again */
+    if (value == NULL && text != NULL) /* invalid UTF-8, or no memory, so that this fails again */
         value = ascii_text(text);
     put(json, key, value);
 }
@@ -103,7 +103,7 @@ void cz_json_flag(CzJson *json, const char *key, bool value) {
         put(json, key, json_boolean(value));
 }
 
-/* Writes one number of the document; a real loses the digits that it does not need. */
+/* Writes a number; a real gets the fewest digits that read back to the same value. */
 static void write_number(const char *number, size_t n, FILE *stream) {
     char text[48], shortest[CZ_NUMBER_TEXT];
     double value;
@@ -145,7 +145,7 @@ CzStatus cz_json_finish(CzJson *json, FILE *stream, CzError *error) {
     const bool is_whole = json != NULL && !json->failed &&
                           json_dump_callback(json->open[0], take_text, &memory,
                                              JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
-                          !memory.failed; /* which not every failure of taking text leads to */
+                          !memory.failed; /* a failure of take_text() may not stop jansson */
     if (json != NULL)
         json_decref(json->open[0]);
     free(json);

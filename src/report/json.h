@@ -1,7 +1,7 @@
 /* A JSON document, written from top to bottom.
  *
- * The first failed allocation is remembered and reported by cz_json_finish, so that the calls in
- * between read like the document. Keys keep their order.
+ * cz_json_finish reports a failed allocation; the calls before it need no check. Keys keep their
+ * order.
  */
 #ifndef CZ_REPORT_JSON_H
 #define CZ_REPORT_JSON_H
@@ -13,8 +13,7 @@
 
 typedef struct CzJson CzJson;
 
-/* A document with its outermost object open; NULL when there is no memory, which every function
- * here takes. */
+/* A document with its outermost object open; NULL without memory, which every function accepts. */
 CzJson *cz_json_create(void);
 
 /* Opens a record or a list; key is NULL inside a list. */

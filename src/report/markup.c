@@ -7,8 +7,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-/* Elements that never have content; in HTML no other may be closed in its start tag, and in SVG any
- * may. */
+/* Elements without content: in HTML only these may be closed in their start tag. */
 static bool is_empty_element(const char *element) {
     static const char *const names[] = {"meta",   "br",      "path",  "line", "rect",
                                         "circle", "polygon", "input", "wbr"};
@@ -179,7 +178,7 @@ double cz_text_width(const char *text) {
     for (; *text != '\0'; text++) {
         const unsigned char c = (unsigned char)*text;
         if (c >= 0x80 && c < 0xc0)
-            continue; /* the rest of a character of several bytes */
+            continue; /* a further byte of a character */
         if (strchr("il.,:;'|!()[] ft", c) != NULL)
             width += 0.36;
         else

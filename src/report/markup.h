@@ -1,7 +1,7 @@
 /* HTML and SVG, written from top to bottom: escaped, well-formed, the same bytes in every locale.
  *
- * What is written is HTML that an XML parser takes too. A start tag stays open for attributes until
- * the first text or child. Whether the stream took everything shows when its file is closed.
+ * The HTML is valid XML too. A start tag accepts attributes until the first text or child. A full
+ * disk shows when the file of the stream is closed.
  */
 #ifndef CZ_REPORT_MARKUP_H
 #define CZ_REPORT_MARKUP_H
@@ -19,7 +19,7 @@ enum {
 /* Zero-initialise it and set the stream. */
 typedef struct CzMarkup {
     FILE *stream;
-    bool failed; /* there was no memory for something: the page must not be shown */
+    bool failed; /* no memory: the page is incomplete */
     bool in_tag; /* attributes may follow */
     int depth;
     const char *element[CZ_MARKUP_DEPTH]; /* those that are open, outermost first; borrowed */
@@ -46,7 +46,7 @@ void cz_markup_format(CzMarkup *markup, const char *name, const char *format, ..
 
 /* Text inside the element; control characters become '?'. */
 void cz_markup_text(CzMarkup *markup, const char *text);
-/* A line end, for people who look at the source. */
+/* A line end, for readers of the source. */
 void cz_markup_line(CzMarkup *markup);
 /* Bytes as they are: a script, a style sheet. */
 void cz_markup_raw(CzMarkup *markup, const char *text);
@@ -58,7 +58,7 @@ void cz_markup_say(CzMarkup *markup, const char *element, const char *format, ..
 void cz_markup_classed(CzMarkup *markup, const char *element, const char *class_name,
                        const char *text);
 
-/* A number as an attribute would have it: at most `decimals` places, "0" and never "-0". */
+/* A number as in an attribute: at most `decimals` places, "0" and not "-0". */
 void cz_markup_write_number(FILE *stream, int decimals, double value);
 
 /* An element of a figure without content: numbers as cz_markup_numbers, then pairs of name and

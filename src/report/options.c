@@ -1,4 +1,4 @@
-/* Version of the library and the default way of writing results. */
+/* Version of the library and default options of results. */
 #include "crushzone/report.h"
 
 #include <math.h>

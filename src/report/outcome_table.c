@@ -266,12 +266,12 @@ CzStatus cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluat
     cz_checks_write_table(&outcome->best_evaluation, &outcome->start_evaluation, &terminal);
     write_violations(evaluator, outcome, &terminal);
     write_verification(outcome->verification, &terminal);
+
     fputs("\nNew values:\n", stream);
-    if (setting != NULL)
-        cz_overlay_write_set(n_setting, setting, stream);
-    else
+    const bool has_values =
+        cz_overlay_write_values(evaluator, outcome, NULL, stream, NULL) == CZ_OK;
+    if (!has_values)
         fputs("no memory for the new values\n", stream);
-    terminal.failed |= setting == NULL;
-    cz_arena_free(&arena);
+    terminal.failed |= !has_values;
     return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
 }

@@ -1,4 +1,4 @@
-/* The report of a run: its skeleton, and the elements of its parts. */
+/* The report of a run: head, contents, sections. */
 #include "report/page.h"
 
 #include "base/error.h"
@@ -6,8 +6,7 @@
 
 #include <math.h>
 
-/* Nothing may be loaded or sent; the one script and the one style sheet are known by their bytes.
- */
+/* Nothing may be loaded or sent; script and style sheet are allowed by their hashes. */
 static void write_policy(CzMarkup *markup) {
     cz_markup_open(markup, "meta");
     cz_markup_attribute(markup, "http-equiv", "Content-Security-Policy");
@@ -62,7 +61,7 @@ void cz_page_write_contents(CzPage *page, bool of_search) {
     enum { ALWAYS = 0, OF_FIGURES = 1, OF_FULL_CARS = 2, OF_BUDGET = 4, OF_SEARCH = 8 };
     static const struct {
         const char *id, *name;
-        int where; /* what has to be there */
+        int where; /* which results it needs */
     } parts[] = {{"checks", "checks", ALWAYS},
                  {"variables", "variables", OF_SEARCH},
                  {"active", "active constraints", OF_SEARCH},

@@ -1,7 +1,7 @@
-/* The report of a run as one page: what its parts share.
+/* The report of a run as one page: its contents and sections.
  *
- * A page is a pure function of finished results: no time, host or thread is in it, so the same
- * run gives the same bytes.
+ * A page depends on the results only: it has no time, host or thread, so that equal runs give equal
+ * bytes.
  */
 #ifndef CZ_REPORT_PAGE_H
 #define CZ_REPORT_PAGE_H
@@ -15,20 +15,20 @@
 #include "report/inputs_text.h"
 #include "report/markup.h"
 
-/* A further run that figures set beside the page's own. */
+/* Another run that figures compare with the page's own. */
 typedef struct CzPageOther {
     const char *label; /* such as "before" */
     const CzRun *run;
 } CzPageOther;
 
-/* What the input says about an interface that is closed slowly, as far as the run closed it. */
+/* Quasi-static curve of an interface by the input, up to the largest closure of the run. */
 typedef struct CzInputCurve {
-    int n;          /* 0 where the run never closed it */
+    int n;          /* 0 where the run did not close it */
     double *points; /* closures [mm], then forces [kN], NaN far above those of the run (2 n) */
 } CzInputCurve;
 
-/* A page. What it shows is collected before anything is drawn; drawing changes nothing but the text
- * and fails for want of room for it only. */
+/* A page. Its contents are collected before it is written; writing changes only the text, and fails
+ * only without memory. */
 typedef struct CzPage {
     /* Set by the caller, all borrowed. */
     const CzProblem
@@ -56,38 +56,39 @@ typedef struct CzPage {
 
     /* Collected by cz_page_collect_parts. */
     CzInputsText inputs;
-    struct CzChartCurve *fitted; /* time histories of a fit, which are `measured` then */
+    struct CzChartCurve *fitted; /* measured time histories of a fit; `measured` points to them */
 
     /* What was drawn. */
-    CzMarkup markup;   /* writes into memory, for a page must know how long it is */
+    CzMarkup
+        markup; /* writes into memory, because the size of the page decides how many rows it has */
     CzMemoryText text; /* what was written, known once the markup's stream was flushed */
 } CzPage;
 
-/* Collects what figures show. Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY; free the page in any
- * case. */
+/* Collects the contents of figures. Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY; free the page
+ * in any case. */
 CZ_MUST_CHECK CzStatus cz_page_begin(CzPage *page, CzError *error);
-/* Collects what the parts of a run show beside that: the problem's text, the histories of a fit.
- * Status: CZ_STATUS_NO_MEMORY. */
+/* Collects the other contents of the page of a run: the text of the problem, the measured histories
+ * of a fit. Status: CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_page_collect_parts(CzPage *page, CzError *error);
 void cz_page_free(CzPage *page);
 
-/* The scenario that decides: of a check that fails, else the smallest margin, else the first that
+/* The deciding scenario: one that failed, else the one with the worst check, else the first that
  * ran; -1 when none did. */
 int cz_page_deciding(const CzEvaluation *evaluation);
 
-/* Values of what the page draws (n_sample); NULL when there are none. */
+/* Values of a curve of the page (n_sample); NULL when there are none. */
 const double *cz_page_values(const CzPage *page, CzDrawn drawn, int place);
 
-/* Writes the whole report of a run: the checks of all scenarios and the figures of one. At the top
- * of a result folder it names the reports of the other scenarios, which are in their folders.
- * Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
+/* Writes the report of a run: the checks of all scenarios and the figures of one. With is_top it
+ * links the reports of the other scenarios in their folders. Statuses: CZ_STATUS_INPUT,
+ * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation,
                                          int scenario, bool is_top, const CzReportOptions *options,
                                          FILE *stream, CzError *error);
 
-/* Writes the report of a search: what it changed and reached, then the best design's run beside the
- * start's. `best` is the problem read with the best values. Statuses: CZ_STATUS_INPUT,
- * CZ_STATUS_NO_MEMORY. */
+/* Writes the report of a search: variables, checks before and after, then the run of the best
+ * design compared with that of the start. `best` is the problem read with the best values.
+ * Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluator,
                                              const CzOutcome *outcome,
                                              const CzReportOptions *options, FILE *stream,
@@ -96,13 +97,13 @@ CZ_MUST_CHECK CzStatus cz_page_write_outcome(const CzProblem *best, const CzEval
 /* The parts about one run, from the trains to the inputs, and the data for the script. */
 void cz_page_write_parts(CzPage *page);
 
-/* Hands what was written on to a stream, all of it or nothing. Status: CZ_STATUS_NO_MEMORY. */
+/* Copies the whole page to a stream. Status: CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_page_finish(CzPage *page, FILE *stream, CzError *error);
 
 /* The first and last lines of a page. */
 void cz_page_write_head(CzMarkup *markup, const char *title);
 void cz_page_write_foot(CzMarkup *markup);
-/* Links to the sections of a page about a run; of a search to what is before it, too. */
+/* Links to the sections of the page of a run; for a search also to its own sections. */
 void cz_page_write_contents(CzPage *page, bool of_search);
 /* Opens a section with its heading. */
 void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading);
@@ -118,10 +119,10 @@ void cz_page_write_events(CzPage *page);
 void cz_page_write_inputs(CzPage *page);
 void cz_page_write_data(CzPage *page);
 
-/* What happened, in words such as "anti-climber contact". */
+/* The words for an event, such as "anti-climber contact". */
 void cz_page_event_words(CzEventKind kind, char words[48]);
 
-/* The table of checks alone, with the values of a design before when there is one. */
+/* The table of checks, with the values of a design before unless that is NULL. */
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before);
 /* A scenario's name as the name of a folder. */

@@ -1,4 +1,4 @@
-/* What turned and lifted the bodies: impulses by source, as bars. */
+/* Impulses that pitched and lifted the bodies, by source, with bars. */
 #include "report/page.h"
 
 #include "report/figure.h"
@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* An impulse in kilo-units; what rounds to nothing has no sign. */
+/* An impulse in kilo-units; one that rounds to zero has no sign. */
 static const char *in_kilo(char text[CZ_FIGURE_ROOM], double impulse) {
     const double value = impulse / CZ_KILO;
     return cz_figure_fixed(text, 1, fabs(value) < 0.05 ? 0 : value);
@@ -44,7 +44,7 @@ static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *
     cz_table_write_page(&table, markup);
 }
 
-/* The car that lifted or pitched most; -1 when none is full. */
+/* The car with the largest wheel lift, or pitch where none lifts; -1 without full cars. */
 static int worst_car(const CzRunSummary *run) {
     int found = -1;
     double most_lift = 0, most_pitch = 0;

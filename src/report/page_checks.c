@@ -1,4 +1,4 @@
-/* Verdict and checks: the first thing that a reader searches for. */
+/* Verdict and checks, at the top of the page. */
 #include "report/page.h"
 
 #include "report/checks_table.h"
@@ -9,14 +9,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_LINKS = 12 }; /* to other reports that are in plain view */
+enum { MOST_LINKS = 12 }; /* to other reports that are shown without a click */
 
 static const char *const verdict_title[] = {[CZ_VERDICT_PASS] = "PASS",
                                             [CZ_VERDICT_PROVISIONAL] = "PROVISIONAL PASS",
                                             [CZ_VERDICT_FAIL] = "FAIL",
                                             [CZ_VERDICT_NOT_CHECKED] = "NOT CHECKED"};
 
-/* Whom no limit judges, and what the profile requires and no check is made of. */
+/* Trains without limits, and requirements of the profile that are not checked. */
 static void write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation) {
     for (int i = 0; i < evaluation->n_not_judged; i++) {
         cz_markup_say(markup, "p", "Not judged: %s, %s.", evaluation->not_judged[i].train,
@@ -69,7 +69,7 @@ void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]) {
         name[0] = '_';
 }
 
-/* A relative address: what is no letter, digit or plain sign stands as %XX. */
+/* A relative address; characters other than letters, digits and -._~ as %XX. */
 static void write_address(CzMarkup *markup, const char *folder) {
     char text[512];
     size_t used = 0;
@@ -101,7 +101,7 @@ static void write_others(CzPage *page) {
     }
 }
 
-/* Which collision the figures show, and where the others are: many of them out of the way. */
+/* The scenario of the figures, and links to the reports of the others; many links are folded. */
 static void write_scenarios(CzPage *page, bool is_top) {
     CzMarkup *markup = &page->markup;
     if (cz_n_kept_run(page->evaluation) < 2)
@@ -127,7 +127,7 @@ static void write_scenarios(CzPage *page, bool is_top) {
     cz_markup_end(markup);
 }
 
-/* What must be known before any number is believed. */
+/* Failure, override and accuracy of the run. */
 static void write_caution(CzPage *page) {
     const CzRunSummary *run = page->summary;
     char text[512], number[CZ_FIGURE_ROOM], balance[CZ_FIGURE_ROOM];

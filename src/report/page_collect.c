@@ -1,4 +1,4 @@
-/* What a page shows, collected from finished results before anything is drawn. */
+/* The contents of a page, collected from results before it is written. */
 #include "report/page.h"
 
 #include "base/error.h"
@@ -13,7 +13,9 @@
 #include <string.h>
 
 enum { INPUT_POINTS = 600 };
-#define INPUT_ROOM 1.5 /* of the largest force of the run: where an input curve is cut off */
+#define INPUT_ROOM                                                                                 \
+    1.5 /* input curves are cut off at this share of the largest force of the run                  \
+         */
 
 const double *cz_page_values(const CzPage *page, CzDrawn drawn, int place) {
     return cz_drawn_values(page->run, &page->made, drawn, place);
@@ -56,7 +58,7 @@ static double largest(const double *value, int n) {
     return most;
 }
 
-/* The input curve of an interface as far as the run closed it. */
+/* The input curve of an interface up to the largest closure of the run. */
 static CzStatus collect_input(const CzPage *page, int interface, CzInputCurve *input,
                               CzError *error) {
     const double *closure = cz_page_values(page, CZ_DRAWN_INTERFACE_CLOSURE, interface);

@@ -1,4 +1,4 @@
-/* Runs side by side as a page: checks, numbers, and force over closure on top of each other. */
+/* Comparison of runs as a page: checks, numbers, and curves over each other. */
 #include "crushzone/report.h"
 
 #include "base/error.h"

@@ -20,12 +20,12 @@ enum {
     EVEN_SAMPLES = 240,
     DIGITS = 5,
     FINEST_TIME = 6,     /* decimals of a millisecond */
-    PAGE_ROOM = 1000000, /* bytes that a page may have where all rows do not fit; ours */
-    FOOT_ROOM = 1000     /* of what follows the numbers, but for the script */
+    PAGE_ROOM = 1000000, /* largest size of a page that leaves out rows [byte]; ours */
+    FOOT_ROOM = 1000     /* size of what follows the numbers, without the script [byte] */
 };
 
-/* What the page has the numbers of, and the decimals beyond which nobody asks: what only moves the
- * animation needs no more than its drawing. */
+/* Channels in the data of the page, and their largest number of decimals; fewer for those that only
+ * move the animation. */
 static const struct {
     bool is_there;
     int decimals;
@@ -50,7 +50,7 @@ static const struct {
                        [CZ_DRAWN_INTERFACES_ENERGY] = {true, 2},
                        [CZ_DRAWN_BALANCE_ERROR] = {true, 6}};
 
-/* Adds the sample at which a channel is largest, and the one at which it is smallest. */
+/* Adds the samples at which a channel is largest and smallest. */
 static void take_extremes(const double *value, int n, bool *taken) {
     int high = 0, low = 0;
     for (int i = 1; i < n; i++) {
@@ -60,8 +60,8 @@ static void take_extremes(const double *value, int n, bool *taken) {
     taken[high] = taken[low] = true;
 }
 
-/* Rows that the cursor can be at in any case: evenly spread, every extreme of a force or an
- * acceleration, every event. */
+/* Rows that are always in the data: evenly spaced ones, extremes of forces and accelerations,
+ * events. */
 static void choose(const CzPage *page, bool *taken) {
     const int n = page->n_sample;
     for (int i = 0; i < EVEN_SAMPLES; i++)
@@ -81,7 +81,7 @@ static void choose(const CzPage *page, bool *taken) {
     }
 }
 
-/* Fewest decimals that report every row's time, as far as FINEST_TIME. */
+/* Fewest decimals that give the time of every row, at most FINEST_TIME. */
 static int decimals_of_time(const double *time, int n) {
     double unit = 1;
     int decimals = 0;
@@ -93,7 +93,7 @@ static int decimals_of_time(const double *time, int n) {
     return decimals;
 }
 
-/* Decimals that give the largest value DIGITS digits. */
+/* Decimals for which the largest value has DIGITS digits. */
 static int decimals_for(CzDrawn drawn, const double *value, int n) {
     if (drawn == CZ_DRAWN_TIME)
         return decimals_of_time(value, n);
@@ -124,7 +124,7 @@ static void write_json_text(FILE *stream, const char *text) {
     fputc('"', stream);
 }
 
-/* Rows that are written: the first ones, and some of those after them. */
+/* The rows that are written: all of the first n_first, and some after them. */
 typedef struct Rows {
     int n, n_first;
     const bool *later; /* (n) */
@@ -143,7 +143,7 @@ static void write_differences(FILE *stream, const double *value, int decimals, c
     long long last = 0, step = 0;
     double unit = 1;
     int n_run = 0;
-    bool is_gap = false; /* what the run is of */
+    bool is_gap = false; /* whether the run is of missing values */
     for (int i = 0; i < decimals; i++)
         unit *= 10;
     for (int i = 0; i < rows->n; i++) {
@@ -201,8 +201,8 @@ static bool make_text(const CzPage *page, const Rows *rows, CzMemoryText *text) 
     return stream != NULL && fclose(stream) == 0 && !text->failed;
 }
 
-/* Chooses all rows where they fit into the page, else as many of the first ones as do, and makes
- * their text. False without memory. */
+/* Makes the text of all rows, or of as many first rows as fit into the page. False without memory.
+ */
 static bool fill(const CzPage *page, Rows *rows, CzMemoryText *text) {
     const size_t taken = FOOT_ROOM + strlen(cz_report_js) + page->text.n;
     const int fine = rows->n / 64 + 1;
@@ -222,7 +222,7 @@ static bool fill(const CzPage *page, Rows *rows, CzMemoryText *text) {
     return is_whole && make_text(page, rows, text);
 }
 
-/* Which rows the cursor is at; for people, at the end of the page. */
+/* Says at the end of the page which rows the cursor covers. */
 static void write_rows(CzPage *page, const Rows *rows) {
     CzMarkup *markup = &page->markup;
     char until[CZ_FIGURE_ROOM], every[CZ_FIGURE_ROOM], text[400];
@@ -274,7 +274,7 @@ void cz_page_write_data(CzPage *page) {
     cz_markup_attribute(markup, "id", "data");
     cz_markup_raw(markup, "{");
     write_events(page, markup->stream);
-    fflush(markup->stream); /* which shows how long the page is */
+    fflush(markup->stream); /* so that the size of the page is known */
     if (later != NULL)
         choose(page, later);
     if (later == NULL || !fill(page, &rows, &text))

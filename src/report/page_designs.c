@@ -1,6 +1,4 @@
-/* Designs of a search as parallel coordinates, and the change per increment of each variable at the
- * best.
- */
+/* Designs of a search as parallel coordinates, and sensitivities of the best design. */
 #include "report/page_outcome.h"
 
 #include "base/error.h"
@@ -54,7 +52,7 @@ static void write_design(CzMarkup *markup, const Axes *axes, const double *x, do
     }
 }
 
-/* Lines of the designs of one kind in one path; of many, evenly chosen ones. */
+/* Draws the feasible designs, or the others, as one path; of many an even selection. */
 static void write_designs(CzMarkup *markup, const Axes *axes, bool feasible, const char *name) {
     const CzOutcome *outcome = axes->outcome;
     long n = 0, seen = 0, shown = 0;
@@ -136,10 +134,11 @@ static void write_figure(CzMarkup *markup, const Axes *axes, double start, doubl
     cz_markup_end(markup);
 }
 
-/* The better end of the objective's axis is its upper one; what is far worse lies at its lower. */
+/* The upper end of the axis of the objective is the better one; designs that are far worse lie at
+ * its lower end. */
 static void find_range(Axes *axes, double start, double best) {
     axes->best = best;
-    const double sign = start < best ? 1 : -1; /* which way is better */
+    const double sign = start < best ? 1 : -1; /* 1 when larger is better, else -1 */
     const double least = best - sign * 2 * fabs(best - start);
     axes->worst = start;
     for (long i = 0; i < axes->outcome->n_trial; i++) {

@@ -1,9 +1,9 @@
-/* The figures of the report, in the order in which engineers ask. */
+/* The sections of figures of the report. */
 #include "report/charts.h"
 
 #include <math.h>
 
-/* One figure with its heading; what is under the cursor is below it. */
+/* A figure with its heading; the script adds the values at the cursor below it. */
 static void write_titled(const CzPage *page, CzChart chart, int index, const char *title,
                          CzMarkup *markup) {
     cz_markup_open(markup, "figure");
@@ -33,7 +33,7 @@ static void close_figures(CzPage *page) {
     cz_markup_end(&page->markup);
 }
 
-/* Who absorbs what in the runs beside the page's own, such as the design before. */
+/* Distribution of energy in the other runs, such as that of the design before. */
 static void write_other_shares(CzPage *page) {
     for (int i = 0; i < page->n_other; i++) {
         char title[CZ_SENTENCE_ROOM];
@@ -44,7 +44,7 @@ static void write_other_shares(CzPage *page) {
     }
 }
 
-/* A section of all figures of some kinds. */
+/* A section with all figures of some kinds. */
 static void write_section(CzPage *page, const char *id, const char *heading, const char *remark,
                           int n, const CzChart *charts) {
     cz_page_open_section(&page->markup, id, heading);

@@ -1,4 +1,4 @@
-/* Events, inputs, defaults, assumptions, and how to get the same again. */
+/* Events, inputs, defaults, assumptions, and reproduction. */
 #include "report/page.h"
 
 #include "base/error.h"
@@ -50,7 +50,7 @@ void cz_page_write_events(CzPage *page) {
     cz_markup_end(&page->markup);
 }
 
-/* ---- how to get it again ---- */
+/* ---- reproduction ---- */
 
 static void quote(char *text, size_t room, const char *word) {
     const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+,:@%";

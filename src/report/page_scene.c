@@ -1,4 +1,4 @@
-/* The animation, and a strip of frames for where no script runs. */
+/* The animation, and frames where no script runs. */
 #include "report/charts.h"
 #include "report/figure.h"
 #include "report/plot.h"

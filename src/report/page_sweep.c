@@ -1,4 +1,4 @@
-/* A sweep as a page: margin and metrics over the value, or a map of verdicts over two. */
+/* A sweep as a page: margin and metrics over one value, or a map of verdicts over two. */
 #include "report/page_sweep.h"
 
 #include "base/error.h"
@@ -11,15 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_PERCENT 100.0 /* margins below are drawn at its negative */
+#define MOST_PERCENT 100.0 /* margins below its negative are drawn at it */
 #define MAP_LEFT 80.0
 #define MAP_TOP 10.0
 #define MAP_BELOW 70.0 /* numbers, label and legend */
 
 /* ---- curves over one value ---- */
 
-/* Stretches of values that fail, from halfway to the last point that does not to halfway to the
- * next. Returns how many; bands[n_point] has room. */
+/* Bands around the points that fail, to halfway between neighbouring points. Returns their number;
+ * `bands` has room for n_point. */
 static int failing_bands(const CzSweep *sweep, CzPlotBand *bands) {
     int n = 0;
     for (int i = 0; i < sweep->n_point; i++) {
@@ -79,7 +79,7 @@ static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *er
             char title[CZ_SENTENCE_ROOM];
             snprintf(title, sizeof title, "%c%s", toupper((unsigned char)*sweep->metric_doc[k]),
                      sweep->metric_doc[k] + 1);
-            if (is_known) /* the table reports of those that are not */
+            if (is_known) /* unknown metrics are in the table only */
                 write_curve(markup, sweep, title, sweep->metric[k], false, x, y, n_band, band);
         }
     }
@@ -101,7 +101,7 @@ static void write_cell(CzMarkup *markup, const CzSweepPoint *point, double x, do
                     look.sign[0] != ' ' ? look.sign : "");
 }
 
-/* A number about every `every`-th row or column. */
+/* Whether a row or column is numbered, so that numbers do not overlap. */
 static bool is_numbered(int index, double size, double needed) {
     const int every = size >= needed ? 1 : (int)ceil(needed / size);
     return index % every == 0;

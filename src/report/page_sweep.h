@@ -8,7 +8,7 @@
 #include "report/figure.h"
 #include "report/table.h"
 
-/* Whether something climbed at one of the points. */
+/* Whether a point went beyond model validity. */
 static inline bool cz_sweep_is_beyond(const CzSweep *sweep) {
     for (int i = 0; i < sweep->n_point; i++)
         if (sweep->point[i].beyond_validity)
@@ -24,7 +24,7 @@ static inline bool cz_sweep_is_beyond(const CzSweep *sweep) {
 /* Writes the page. Status: CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error);
 
-/* How a point looks: word, sign in a map, colour there, style in a table. */
+/* Word of a point, sign and colour in a map, style in a table. */
 typedef struct CzPointLook {
     const char *word, *sign, *colour;
     CzStyle style;

@@ -1,4 +1,4 @@
-/* The trains as a row, with what happened between the cars. */
+/* The trains as a row of cars, with the results of the interfaces; tables of elements and cars. */
 #include "report/page.h"
 
 #include "report/elevation.h"
@@ -17,7 +17,7 @@
 #define CAR_HEIGHT 30.0
 #define ROW_HEIGHT 146.0
 #define MOST_IN_ROW 9 /* cars that are as wide as a page */
-#define NOTHING 100.0 /* energy of an element that does not count as one that worked [J] */
+#define NOTHING 100.0 /* elements with less energy are left out of the table [J] */
 
 static void write_car(const CzPage *page, int car, double x, double y, CzMarkup *markup) {
     const CzCar *description = &page->model->car[car];
@@ -79,8 +79,8 @@ static void write_interface(const CzPage *page, int index, double x, double y, C
     }
 }
 
-/* Cars in as many rows as a page needs, of about the same length; what lies between two rows is at
- * the end of the first. */
+/* Draws the cars in rows of about the same length that fit a page; an interface between two rows is
+ * at the end of the first. */
 static void write_diagram(const CzPage *page, CzMarkup *markup) {
     const int n = page->model->n_car;
     const int n_row = (n + MOST_IN_ROW - 1) / MOST_IN_ROW, n_in_row = (n + n_row - 1) / n_row;

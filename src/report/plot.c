@@ -45,7 +45,7 @@ void cz_svg_open(CzMarkup *markup, const char *title, double width, double heigh
                          "system-ui, sans-serif", NULL);
     cz_markup_number(markup, "font-size", 1, FONT_SIZE);
     cz_markup_attributes(markup, "fill", "none", "stroke-linejoin", "round", NULL);
-    if (markup->depth == 1) /* by itself: black on white, whatever it is shown on */
+    if (markup->depth == 1) /* a figure in a file of its own has a white background */
         cz_markup_attribute(markup, "style", "background:#fff");
 }
 
@@ -110,7 +110,7 @@ static void widen(double value, double *smallest, double *largest) {
     *largest = value > *largest ? value : *largest;
 }
 
-/* A range that shows something: not empty, a little wider than the numbers. */
+/* Makes a range that is not empty and a little wider than the numbers. */
 static void give_room(double *smallest, double *largest, double share) {
     if (!(*smallest <= *largest))
         *smallest = 0, *largest = 1;
@@ -198,7 +198,7 @@ static void write_move(FILE *stream, char command, long x, long y) {
     fprintf(stream, "%c%ld%s%ld", command, x, y < 0 ? "" : " ", y);
 }
 
-/* Points from one gap to the next: those that decimation keeps, as steps on the finer grid. False
+/* Writes the points between two gaps that decimation keeps, as steps on the finer grid. False
  * without memory. */
 static bool write_piece(const Frame *frame, const CzSeries *series, int from, int to,
                         FILE *stream) {

@@ -1,5 +1,4 @@
-/* Diagrams of curves as SVG: axes, limits, shaded windows, a legend below the axes where it hides
- * nothing.
+/* Diagrams of curves as SVG: axes, limits, shaded bands, and a legend below the axes.
  *
  * Colours are those of Okabe and Ito, which people with any colour vision distinguish; dashes
  * distinguish curves without colour. Ink is `currentColor`, so that a page may be light or dark.
@@ -27,13 +26,13 @@ typedef struct CzSeries {
     int dash;            /* 0 solid, 1 dashed, 2 dotted, 3 dash-dotted */
 } CzSeries;
 
-/* A level that must not be passed. */
+/* A limit. */
 typedef struct CzPlotLimit {
     const char *name;
     double at;
 } CzPlotLimit;
 
-/* A shaded stretch of the x axis. */
+/* A shaded band of the x axis. */
 typedef struct CzPlotBand {
     const char *name; /* in the legend, once for bands of one name; NULL: not there */
     double from, to;
@@ -41,13 +40,13 @@ typedef struct CzPlotBand {
 } CzPlotBand;
 
 typedef struct CzPlot {
-    const char *title; /* what it shows, for those who cannot see it */
+    const char *title; /* for screen readers */
     const char *x_label, *y_label;
     int n_series, n_limit, n_band;
     const CzSeries *series;   /* (n_series) */
     const CzPlotLimit *limit; /* (n_limit) */
     const CzPlotBand *band;   /* (n_band) */
-    bool is_time;             /* the x axis is time, so the page's cursor goes over it */
+    bool is_time;             /* the x axis is time, so that the page's cursor covers it */
     bool from_zero;           /* the y axis includes 0 */
     double height;            /* of the area between the axes; 0: as usual */
 } CzPlot;
@@ -59,8 +58,8 @@ void cz_plot_write_figure(const CzPlot *plot, CzMarkup *markup);
 
 /* Opens an `svg` of that size with what every figure has; the caller closes it. */
 void cz_svg_open(CzMarkup *markup, const char *title, double width, double height);
-/* The same for n tiles in rows of two, each as wide as a diagram and of that height under a
- * heading; opens tile i of them with its heading, which stands `inset` from its left. */
+/* Opens an `svg` of n tiles in rows of two, each as wide as a diagram, of that height and with a
+ * heading; opens tile i with its heading, `inset` from the left. */
 void cz_svg_open_tiles(CzMarkup *markup, const char *title, int n, double height);
 void cz_svg_open_tile(CzMarkup *markup, int i, double height, double inset, const char *heading);
 /* Text in a figure, `anchor` being "start", "middle" or "end". */

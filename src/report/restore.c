@@ -1,5 +1,4 @@
-/* Puts back the folder that a process which died had moved away, or was about to put in its place.
- */
+/* Restores the result folder of a process that died while replacing it. */
 #include "report/folder.h"
 
 #include "crushzone/report.h"
@@ -11,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* What a dead process left of one result folder; paths are empty when there is none. */
+/* Folders of a dead process; paths are empty when there is none. */
 typedef struct Left {
     char made[PATH_MAX];  /* the new results, whole */
     char moved[PATH_MAX]; /* the results before them */
@@ -33,7 +32,7 @@ static void look_at(const char *parent, const char *entry, const char *name, Lef
     free(marker);
 }
 
-/* Renames a folder that no process is at work on. */
+/* Renames a folder unless a process is using it. */
 static bool put_back(const char *from, const char *to) {
     char marker[PATH_MAX];
     if (from[0] == '\0' || cz_path_in(marker, from, CZ_MARKER_NAME, NULL) != CZ_OK)
@@ -64,7 +63,7 @@ bool cz_report_restore_folder(const char *path) {
         closedir(entries);
     if (left.made[0] == '\0')
         return put_back(left.moved, clean);
-    const bool is_back = put_back(left.made, clean); /* not while its maker lives */
+    const bool is_back = put_back(left.made, clean); /* fails while its maker lives */
     if (is_back && left.moved[0] != '\0')
         cz_remove_listed(left.moved);
     return is_back;

@@ -62,7 +62,7 @@ static void write_notice(const CzError *notice, FILE *stream) {
         fprintf(stream, "  help: %s\n", notice->help);
 }
 
-/* What was done, without times: the log of the same run is the same. */
+/* The log of the run, without times, so that equal runs have equal logs. */
 static void write_log(const Results *results, FILE *stream) {
     char nlopt[32] = "";
     cz_nlopt_version(nlopt, sizeof nlopt);
@@ -89,7 +89,7 @@ static void write_log(const Results *results, FILE *stream) {
     fprintf(stream, "verdict: %s\n", cz_verdict_text(evaluation->verdict));
 }
 
-/* A file as it was read, so that the folder runs by itself wherever it is. */
+/* A copy of a file that was read, so that the folder can be moved and run again. */
 static void write_input(const CzSource *input, FILE *stream) {
     for (int i = 0; i < input->n_line; i++)
         fprintf(stream, "%s\n", input->line[i]);

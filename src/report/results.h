@@ -1,8 +1,7 @@
-/* Results by the list: what each is, how it is read from its record, and in which unit it is
- * written.
+/* The list of results: key, form, source in its record, and unit of each.
  *
- * The lists are results.def (what a run answers) and documents.def (what the documents add). Every
- * medium walks them; none names a key of its own.
+ * It is made of results.def (results of a run) and documents.def (further results of documents).
+ * JSON, CSV, tables and pages are written from it; no other file names a key.
  */
 #ifndef CZ_REPORT_RESULTS_H
 #define CZ_REPORT_RESULTS_H
@@ -29,8 +28,8 @@ typedef struct CzRunInfo {
     int n_job;              /* 0 when unknown */
 } CzRunInfo;
 
-/* What documents are made of, and what is at hand while one is written. Only what a document needs
- * is set. */
+/* The results that a document is written from, and the state while it is written. Only what a
+ * document needs is set. */
 typedef struct CzResultContext {
     const char *format; /* name of the document */
     const CzProblem *problem;

@@ -22,7 +22,7 @@ static const CzTrain *train_named(const CzInput *input, const char *name) {
     return NULL;
 }
 
-/* Speeds of the two trains of a scenario as the file says them, such as "36 km/h -> 0 km/h". */
+/* Speeds of the two trains of a scenario by the file, such as "36 km/h -> 0 km/h". */
 static void write_speeds(const CzProblem *problem, const char *name, FILE *stream) {
     const CzInput *input = cz_problem_input(problem);
     const CzTrain *train[2] = {input->n_trains > 0 ? &input->trains[0] : NULL,
@@ -191,7 +191,7 @@ static const CzCheckResult *worst_check(const CzProblem *problem, const CzEvalua
     return worst;
 }
 
-/* The run that represents a family: one that failed or was cut short, else the one with the worst
+/* The run that represents a family: one that failed or is incomplete, else the one with the worst
  * check. */
 static int worst_member(const CzProblem *problem, const CzEvaluation *evaluation,
                         const char *family) {

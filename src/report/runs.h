@@ -19,9 +19,9 @@ static inline int cz_n_kept_run(const CzEvaluation *evaluation) {
     return n;
 }
 
-/* Shares above which a run that was not stopped for it is still too inaccurate for results to rest
- * on: of the initial energy, and of the largest force of an interface. A force that is off by a
- * share does work that is off by no more. */
+/* A run with an error above this share gets a warning: of the energy balance, over the initial
+ * energy; of the laws of series chains, over the largest force of the interface. The error of the
+ * work is no larger than that of the force. */
 #define CZ_WARNING_SHARE 1e-3
 
 static inline bool cz_run_is_unbalanced(const CzRunSummary *run) {

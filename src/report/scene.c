@@ -1,8 +1,7 @@
 /* A side view: body, crush zones, anti-climbers, couplers, bogies and wheels of each car.
  *
- * x is to scale. Heights are to scale at rest; what moves up and down or pitches is magnified, so
- * that millimetres can be seen beside metres. Floor and roof are drawn where they usually are; the
- * model has no use for them.
+ * Lengths and heights at rest are to scale; vertical movement and pitch are magnified, so that
+ * millimetres show. Floor and roof are drawn at usual heights, which the model does not have.
  */
 #include "report/scene.h"
 
@@ -28,7 +27,7 @@ typedef struct Outline {
     double tip;   /* coupling face at rest */
 } Outline;
 
-/* How a car is at a sample [m, rad]. */
+/* Position of a car at a sample [m, rad]. */
 typedef struct Pose {
     double x, z, pitch, lift[4];
     double end[2], anti_climber[2]; /* strokes */
@@ -88,7 +87,7 @@ static Pose pose_of(const CzPage *page, int car, int sample) {
     return pose;
 }
 
-/* A part that gets shorter: a thick line from `from` to `to`, outwards along the car. */
+/* Draws a part that shortens as a thick line from `from` to `to`, outwards along the car. */
 static void write_part(CzMarkup *markup, const char *kind, int side, double from, double to,
                        double height, double thickness, const char *colour) {
     const double sign = side == FRONT ? S : -S;
@@ -167,8 +166,8 @@ static void write_body(const CzPage *page, int car, const Outline outline[2], Cz
                     -S * (FLOOR + ROOF) / 2, "middle", description->name);
 }
 
-/* Where the coupler of one side of an interface ends: the pair shares the room between its pivots
- * by its lengths, and neither is longer than it was built. */
+/* End of the coupler of one side: the two couplers share the distance of their pivots in proportion
+ * to their lengths, and neither is longer than undamaged. */
 static double tip_of(const CzPage *page, int car, int side, int sample) {
     const Outline own = outline_of(page, car, side);
     const int other = side == FRONT ? car + 1 : car - 1;
@@ -226,7 +225,7 @@ static void write_car(const CzPage *page, int car, int sample, double origin, bo
     cz_markup_end(markup);
 }
 
-/* Where the faces of an interface meet: halfway between the bare ends as they stand [m]. */
+/* Place of an interface, halfway between the bare ends at the sample [m]. */
 static double meeting_place(const CzPage *page, int interface, int sample) {
     double sum = 0;
     for (int side = 0; side < 2; side++) {

@@ -1,4 +1,4 @@
-/* Cars from the side, to scale, as they are at one sample of a run. */
+/* Side view of the cars, to scale, at one sample of a run. */
 #ifndef CZ_REPORT_SCENE_H
 #define CZ_REPORT_SCENE_H
 

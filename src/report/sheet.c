@@ -1,4 +1,4 @@
-/* A figure while its curves are gathered. */
+/* A figure while its curves are collected. */
 #include "report/sheet.h"
 
 #include "report/units.h"
@@ -38,7 +38,7 @@ CzSeries *cz_sheet_add(CzSheet *sheet, CzDrawn drawn, int place) {
     return series;
 }
 
-/* `colour` counts from the collision outwards. */
+/* `colour` counts from the colliding interface outwards. */
 static void mark(CzSeries *series, int colour, bool ahead) {
     series->colour = colour;
     series->dash = (ahead ? 1 : 0) + (colour >= CZ_PLOT_N_COLOUR ? 2 : 0);
@@ -66,7 +66,7 @@ CzPlotBand cz_band_beyond(const CzRunSummary *run, const double *time, int n_sam
                         time[n_sample - 1], 5};
 }
 
-/* Shades what lies beyond the model's validity. */
+/* Shades the time beyond model validity. */
 static void mark_beyond(CzSheet *sheet) {
     const CzPage *page = sheet->page;
     const int room = sizeof sheet->band / sizeof sheet->band[0];
@@ -81,7 +81,7 @@ CzSeries *cz_sheet_split_beyond(CzSheet *sheet, CzSeries *series) {
         return NULL;
     double *part = cz_arena_allocate(&sheet->arena, 2 * (size_t)series->n, sizeof *part);
     if (part == NULL)
-        return NULL; /* reported by finish */
+        return NULL; /* cz_sheet_write reports it */
     const double from = page->summary->beyond_validity_time * CZ_MILLI_PER_UNIT;
     for (int i = 0; i < series->n; i++) {
         const bool late = page->time[i] > from;

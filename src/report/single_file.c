@@ -1,4 +1,4 @@
-/* Single files that appear whole or not at all. */
+/* Single files that are put in place as a whole. */
 #include "base/error.h"
 #include "crushzone/report.h"
 #include "text/node.h"
@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Whether a path leads to something that is written to as it is: a pipe, a terminal, /dev/null. */
+/* Whether a path is a device that is written to directly: a pipe, a terminal, /dev/null. */
 static bool is_device(const char *path) {
     struct stat info;
     return stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
@@ -25,7 +25,7 @@ static bool is_same_file(const char *path, const char *other) {
            first.st_dev == second.st_dev && first.st_ino == second.st_ino;
 }
 
-/* The folder that the file is to be in. */
+/* Finds the folder of a file to write. */
 static CzStatus find_folder(const char *path, char folder[PATH_MAX], CzError *error) {
     struct stat info;
     if (path[0] == '\0')
@@ -109,7 +109,7 @@ CzStatus cz_report_write_file(const char *path, CzReportWriter *write, const voi
     if (why != 0)
         return cz_cannot_write(path, why, error);
     const CzStatus status = write(data, stream, error);
-    /* The lock goes with the stream, so the name is given up first. */
+    /* Closing the stream releases the lock, so the file is renamed before. */
     why = fflush(stream) != 0 || ferror(stream) ? -1 : 0;
     if (status == CZ_OK && why == 0 && rename(temporary, path) != 0)
         why = errno;

@@ -39,7 +39,7 @@ static void put_point(CzReportTable *table, const CzSweep *sweep, const CzSweepP
     cz_table_put(table, point->scenario);
 }
 
-/* A column of numbers; a terminal has no room for a whole path. */
+/* Adds a column of numbers; on a terminal with the last key of the path only. */
 static void add_head(CzReportTable *table, const char *path, bool whole) {
     char head[CZ_PATH_ROOM + 1];
     const char *dot = strrchr(path, '.');

@@ -124,7 +124,7 @@ static int width_of(const char *text) {
     return width;
 }
 
-/* Writes a row without the blanks at its end. */
+/* Writes a row without trailing blanks. */
 static void write_row(const CzReportTable *table, const CzReportCell *cell, const int *width,
                       CzTerminal *terminal) {
     int last = table->n_column - 1;

@@ -1,6 +1,5 @@
-/* Tables as data: columns, rows, marks. They are collected first and written as text on a terminal
- * or as HTML on a page; what is in them does not depend on how they are written.
- */
+/* Tables as data: columns, rows, styles. They are collected first, then written as text on a
+ * terminal or as HTML on a page. */
 #ifndef CZ_REPORT_TABLE_H
 #define CZ_REPORT_TABLE_H
 
@@ -18,10 +17,11 @@ typedef enum CzStyle {
     CZ_STYLE_SMALL
 } CzStyle;
 
-/* How a share is drawn on a page: to the right of the middle above zero, to the left below. */
+/* A bar on a page: to the right of the middle for positive shares, to the left for negative ones.
+ */
 typedef struct CzBar {
     const char *class_name, *fill_class; /* fill_class NULL for none */
-    double half, middle;                 /* longest way to either side, place of zero */
+    double half, middle;                 /* largest length to either side, place of zero */
     const char *below, *above;           /* colours */
 } CzBar;
 

@@ -1,4 +1,4 @@
-/* Temporary files and folders: names, locks, and what dead makers left. */
+/* Temporary files and folders: names, locks, removal of those of dead processes. */
 #include "report/temporary.h"
 
 #include "base/error.h"
@@ -41,7 +41,7 @@ CzStatus cz_cannot_write(const char *path, int why, CzError *error) {
 
 /* ---- names ---- */
 
-/* Sixteen signs that another process, or this one a moment later, does not choose. */
+/* Chooses sixteen characters that differ between processes and from call to call. */
 static void choose_name(char name[sizeof prefix + N_SIGN], int attempt) {
     struct timespec now = {0, 0};
     (void)clock_gettime(CLOCK_REALTIME, &now);
@@ -144,7 +144,7 @@ void cz_marker_add(const char *folder, const char *what, const char *name) {
     close(descriptor);
 }
 
-/* Removes temporary files in a folder that goes. */
+/* Removes temporary files in a folder that is removed. */
 static void remove_temporary(const char *folder) {
     DIR *entries = opendir(folder);
     struct dirent *entry;
@@ -159,7 +159,7 @@ static void remove_temporary(const char *folder) {
 
 void cz_remove_listed(const char *folder) {
     char path[PATH_MAX];
-    cz_marker_add(folder, given_up, ""); /* if this is cut short, the rest is cleared later */
+    cz_marker_add(folder, given_up, ""); /* if this process dies, another one removes the rest */
     remove_temporary(folder);
     char *marker = cz_marker_read(folder);
     for (int pass = 0; pass < 2 && marker != NULL; pass++) /* files, then the folders around them */
@@ -179,7 +179,7 @@ void cz_remove_listed(const char *folder) {
 
 /* ---- leftovers ---- */
 
-/* Whether a file under a path is still the one that is open. */
+/* Whether a path still leads to the open file. */
 static bool is_still(const char *path, int descriptor) {
     struct stat named, opened;
     return lstat(path, &named) == 0 && fstat(descriptor, &opened) == 0 &&
@@ -203,7 +203,7 @@ static void clear_file(const char *path) {
     close(descriptor);
 }
 
-/* Whether a folder was replaced by one that is there. */
+/* Whether the folder that replaced this one exists. */
 static bool is_replaced(const char *folder, const char *marker) {
     char parent[PATH_MAX], path[PATH_MAX], name[NAME_MAX + 1];
     struct stat info;
@@ -221,7 +221,7 @@ static void clear_folder(const char *path) {
         return;
     const int descriptor = cz_temporary_take(marker_path);
     if (descriptor < 0) {
-        (void)rmdir(path); /* its maker died before it made the marker, or tries again */
+        (void)rmdir(path); /* its maker died before it created the marker, or is trying again */
         return;
     }
     char *marker = cz_marker_read(path);
@@ -231,7 +231,7 @@ static void clear_folder(const char *path) {
     close(descriptor);
 }
 
-/* Clears what makers that died have left in a folder. */
+/* Removes temporary files and folders of dead processes. */
 static void clear_leftovers(const char *folder) {
     DIR *entries = opendir(folder);
     struct dirent *entry;
@@ -251,10 +251,10 @@ static void clear_leftovers(const char *folder) {
         closedir(entries);
 }
 
-/* ---- making them ---- */
+/* ---- creation ---- */
 
-/* Makes a file that is not there, locked. Where the system knows no locks nothing is ever cleared.
- * EAGAIN: somebody cleared it before it was locked. */
+/* Creates a new file and locks it. On a system without locks nothing is removed later. EAGAIN:
+ * another process removed it before it was locked. */
 static int make_locked(const char *path, FILE **stream) {
     const int descriptor = open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor < 0)

@@ -1,4 +1,4 @@
-/* Units that results are written in; inside everything is SI. */
+/* Units of written results; values inside are SI. */
 #ifndef CZ_REPORT_UNITS_H
 #define CZ_REPORT_UNITS_H
 

@@ -20,7 +20,7 @@ static double largest_of(const CzVerifiedValue *value) {
     return largest;
 }
 
-/* Verdicts that flip first, then the largest change; the order of the list where they are equal. */
+/* Changed verdicts first, then by the largest change, then in the order of the list. */
 static int by_change(const void *a, const void *b) {
     const CzVerifiedValue *const *p = a, *const *q = b;
     const double first = largest_of(*p), second = largest_of(*q);
@@ -105,8 +105,8 @@ static bool changes_too_much(const CzVerification *verification, const CzVerifie
     return false;
 }
 
-/* How many of the results that change too much have a scatter above the limit, so that no method
- * gives them more accurately. */
+/* Number of results that change too much, and of those with a scatter above the limit, which no
+ * method computes more accurately. */
 static void write_scatter(const CzVerification *verification, FILE *stream) {
     int n = 0, n_scatter = 0;
     for (int i = 0; i < verification->n_value; i++) {

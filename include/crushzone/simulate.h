@@ -211,7 +211,7 @@ typedef struct CzRunSummary {
 
 /* Which track an elastic one is run on; a rigid one stays rigid. */
 typedef enum CzTrackUse {
-    CZ_TRACK_USE_OWN,   /* the problem's; of a brief run: `co-running` */
+    CZ_TRACK_USE_OWN,   /* the problem's; of a brief run: `receptance` */
     CZ_TRACK_USE_MODAL, /* `modal` */
     CZ_TRACK_USE_FE     /* `fe` */
 } CzTrackUse;
@@ -224,8 +224,8 @@ typedef struct CzSimulateOptions {
                          again at more than 0.4 of the first closing speed; the run has then
                          CZ_ENDED_SETTLED and is no record */
     CzTrackUse track;
-    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI for production runs; the others support the
-                                tracks `modal` and `rigid` */
+    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI for production runs; the others support all
+                                tracks but `fe` */
     double tolerance;        /* of a reference: local error of a step, 1 m/s or 1 rad/s times it in
                                 velocities, 10 mm or 10 mrad in displacements. The default of 1e-6 adds up
                                 to far less than what the largest step leaves (ours) */

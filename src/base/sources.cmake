@@ -4,8 +4,10 @@ set(CZ_SOURCES_base
     error.c
     increment.c
     index.c
+    least_squares.c
     memory_text.c
     number.c
+    roots.c
     suggest.c
     symmetric.c
     text.c

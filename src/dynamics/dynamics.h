@@ -15,9 +15,9 @@
 #include "dynamics/ledger.h"
 #include "dynamics/memory.h"
 #include "dynamics/published.h"
+#include "dynamics/receptance.h"
 #include "dynamics/track.h"
 #include "dynamics/track_elements.h"
-#include "model/co_running.h"
 #include "model/lanes.h"
 
 /* Numbers derived from the parameters once: divisions and roots that would cost as much as a law.
@@ -123,7 +123,6 @@ typedef struct CzBlock {
     CzExtremes extreme;     /* committed */
     CzParameters parameter; /* the lanes' own */
     CzConstants constant;   /* numbers derived from the parameters once */
-    CzRow rail_mode[4][2];  /* co-running track: its mode under each axle, real and imaginary */
     CzRow rail_rest_energy; /* of the track under each car at t = 0 [J] */
     CzMemory memories[2];   /* for `memory` and `next_memory` to swap */
     CzPower powers[2];      /* for `power` and `last_power` to swap */
@@ -143,16 +142,6 @@ typedef struct CzBlock {
     CzPower *last_power;    /* committed */
 } CzBlock;
 
-/* The co-running track's one mode for a step size; the forces of steps as in track_motion.h. */
-typedef struct CzCoRunningStep {
-    CzComplex flight, kick; /* exp(lambda h); state per force */
-    CzComplex rest;         /* state per force at rest */
-    CzComplex now, past;    /* deflection per state, now and half a step ago */
-    CzComplex past_rate;    /* rate half a step ago */
-    double flexibility;     /* beside the mode [m/N] */
-    CzCoRunning part;
-} CzCoRunningStep;
-
 typedef struct CzDynamics {
     const CzLanes *lanes; /* borrowed */
     int n_block;
@@ -160,7 +149,7 @@ typedef struct CzDynamics {
     /* What lies under each lane; at most one of them is there. */
     CzTrackMotion *track;
     CzElements *elements;
-    const CzCoRunningStep *co_running;
+    CzReceptanceMotion *receptance;
 } CzDynamics;
 
 /* Evaluates accelerations, next memory and power at the current position and velocity. `step` is
@@ -201,10 +190,13 @@ bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTr
 /* Kinetic and elastic energy of the track under a car, half a step ago [J]. */
 double cz_dynamics_track_energy(const CzDynamics *dynamics, size_t lane);
 
-/* For a solver that carries the track's states itself (track.h): after an evaluation, the rates of
- * the states under one car, and the track's part of the powers. The track is `modal`, laid for a
- * step of 0.
+/* For a solver that carries the track's states itself (track.h), on `modal` or `receptance` laid
+ * for a step of 0: numbers of the state under a car, 0 without wheels or elastic rails; the states;
+ * and after an evaluation their rates, and the track's part of the powers.
  */
+size_t cz_dynamics_track_n_state(const CzDynamics *dynamics, size_t lane);
+void cz_dynamics_track_get_state(const CzDynamics *dynamics, size_t lane, double *state);
+void cz_dynamics_track_set_state(CzDynamics *dynamics, size_t lane, const double *state);
 void cz_dynamics_track_rate(CzDynamics *dynamics, size_t lane, double *rate);
 
 /* The block of a lane; its place there is lane % CZ_LANE_BLOCK. */

@@ -30,7 +30,7 @@ static void look_under(const CzTrackMotion *track, const CzTrackUnder *under, Cz
         const CzComplex seat = {cosine[4 + axle], sine[4 + axle]};
         cz_track_shape(track, ring, seat, under->shape + 4 * axle * track->modes->n_vector);
         const CzTrackPoint point = cz_track_at(track, under, axle);
-        const CzTrackSpring spring = cz_track_spring(track, seat);
+        const CzTrackSpring spring = cz_track_spring(&track->flexibility, track->per_spacing, seat);
         d->rail[axle].z[lane] = point.z;
         d->rail[axle].past[lane] = point.past;
         d->rail[axle].slope[lane] = point.slope;
@@ -69,16 +69,35 @@ static void look_at_elements(CzElements *elements, CzBlock *d, int block) {
     }
 }
 
-/* What runs along has no slope. */
-static void look_at_co_running(const CzCoRunningStep *track, CzBlock *d) {
+/* What rolls along has no slope; the flexibility beside the modes changes from seat to seat. */
+static void look_at_receptance(const CzReceptanceMotion *track, CzBlock *d, int block) {
+    const CzReceptanceBlock *under = &track->block[block];
     for (int axle = 0; axle < 4; ++axle) {
-        const double *restrict re = d->rail_mode[axle][0], *restrict im = d->rail_mode[axle][1];
-        double *restrict z = d->rail[axle].z, *restrict past = d->rail[axle].past;
-        double *restrict flexibility = d->rail[axle].flexibility;
+        CzRailRows *rail = &d->rail[axle];
+        const double *restrict bogie_x = d->parameter.bogie_x, *restrict axle_x =
+                                                                   d->parameter.axle_x;
+        const double *restrict x = d->position.wheelset[axle].x;
+        const double *restrict z = under->z[axle], *restrict past = under->past[axle];
+        _Alignas(64) CzRow seat_re, seat_im;
         CZ_LANES (i) {
-            z[i] = track->now.re * re[i] - track->now.im * im[i];
-            past[i] = track->past.re * re[i] - track->past.im * im[i];
-            flexibility[i] = track->flexibility;
+            const double place = cz_wheel_place(bogie_x[i], axle_x[i], axle) + x[i];
+            const CzComplex seat = cz_turned(place * track->per_spacing);
+            seat_re[i] = seat.re;
+            seat_im[i] = seat.im;
+            rail->z[i] = z[i];
+            rail->past[i] = past[i];
+            rail->flexibility[i] = 0.0;
+            rail->flexibility_slope[i] = 0.0;
+        }
+        for (int k = 0; k < under->n_part; ++k) {
+            const CzTrackFlexibility *flexibility = &under->part[k].steps->flexibility;
+            const double *restrict is_under = under->part[k].is_under;
+            CZ_LANES (i) {
+                const CzTrackSpring spring = cz_track_spring(flexibility, track->per_spacing,
+                                                             (CzComplex){seat_re[i], seat_im[i]});
+                rail->flexibility[i] += is_under[i] * spring.flexibility;
+                rail->flexibility_slope[i] += is_under[i] * spring.slope;
+            }
         }
     }
 }
@@ -89,8 +108,8 @@ static void look_at_rails(const CzDynamics *dynamics, int block) {
         look_at_modes(dynamics->track, d, block);
     if (dynamics->elements != NULL)
         look_at_elements(dynamics->elements, d, block);
-    if (dynamics->co_running != NULL)
-        look_at_co_running(dynamics->co_running, d);
+    if (dynamics->receptance != NULL)
+        look_at_receptance(dynamics->receptance, d, block);
 }
 
 /* One step of the rails under the forces of the last evaluation. These held for a step about its
@@ -136,21 +155,60 @@ static void advance_elements(CzElements *elements, CzBlock *d, int block) {
     }
 }
 
-static void advance_co_running(const CzCoRunningStep *track, CzBlock *d) {
-    double *restrict taken = d->work.track, *restrict given = d->work.wheel_normal;
-    for (int axle = 0; axle < 4; ++axle) {
-        const double *restrict force = d->published.wheel[axle].force, *restrict past =
-                                                                           d->rail[axle].past;
-        double *restrict re = d->rail_mode[axle][0], *restrict im = d->rail_mode[axle][1];
+/* One step of n modes under a force; adds what they deflect. */
+static void advance_pair(const CzPairStep *mode, int n, const double *restrict force, CzRow *state,
+                         double *restrict now, double *restrict past) {
+    for (int k = 0; k < n; ++k) {
+        const CzPairStep m = mode[k];
+        double *restrict re = state[2 * k], *restrict im = state[2 * k + 1];
         CZ_LANES (i) {
-            const double kicked_re = re[i] - track->kick.re * force[i];
-            const double kicked_im = im[i] - track->kick.im * force[i];
-            const double next_re = track->flight.re * kicked_re - track->flight.im * kicked_im;
-            const double next_im = track->flight.re * kicked_im + track->flight.im * kicked_re;
-            const double now = track->past.re * next_re - track->past.im * next_im;
-            const double work = force[i] * (past[i] - now);
-            re[i] = next_re;
-            im[i] = next_im;
+            const double kicked_re = re[i] + m.kick.re * force[i];
+            const double kicked_im = im[i] + m.kick.im * force[i];
+            re[i] = m.flight.re * kicked_re - m.flight.im * kicked_im;
+            im[i] = m.flight.re * kicked_im + m.flight.im * kicked_re;
+            now[i] += m.now.re * re[i] - m.now.im * im[i];
+            past[i] += m.past.re * re[i] - m.past.im * im[i];
+        }
+    }
+}
+
+/* One step of a bogie's modes of all parts of a block. */
+static void advance_bogie(CzReceptanceBlock *under, int bogie, const double *restrict rear,
+                          const double *restrict front) {
+    _Alignas(64) CzRow now[CZ_N_PAIR_MOTION] = {{0.0}}, past[CZ_N_PAIR_MOTION] = {{0.0}};
+    for (int k = 0; k < under->n_part; ++k) {
+        const CzReceptancePart *part = &under->part[k];
+        const int *n = part->steps->n;
+        const double *restrict is_under = part->is_under;
+        _Alignas(64) CzRow bounce, pitch;
+        CZ_LANES (i) {
+            bounce[i] = -0.5 * is_under[i] * (rear[i] + front[i]);
+            pitch[i] = -0.5 * is_under[i] * (rear[i] - front[i]);
+        }
+        CzRow *state = part->state + 2 * bogie * (n[0] + n[1]);
+        advance_pair(part->steps->mode[CZ_PAIR_BOUNCE], n[0], bounce, state, now[0], past[0]);
+        advance_pair(part->steps->mode[CZ_PAIR_PITCH], n[1], pitch, state + 2 * n[0], now[1],
+                     past[1]);
+    }
+    CZ_LANES (i) {
+        under->z[2 * bogie][i] = now[0][i] + now[1][i];
+        under->z[2 * bogie + 1][i] = now[0][i] - now[1][i];
+        under->past[2 * bogie][i] = past[0][i] + past[1][i];
+        under->past[2 * bogie + 1][i] = past[0][i] - past[1][i];
+    }
+}
+
+static void advance_receptance(CzReceptanceMotion *track, CzBlock *d, int block) {
+    CzReceptanceBlock *under = &track->block[block];
+    double *restrict taken = d->work.track, *restrict given = d->work.wheel_normal;
+    for (int bogie = 0; bogie < 2; ++bogie)
+        advance_bogie(under, bogie, d->published.wheel[2 * bogie].force,
+                      d->published.wheel[2 * bogie + 1].force);
+    for (int axle = 0; axle < 4; ++axle) {
+        const double *restrict force = d->published.wheel[axle].force;
+        const double *restrict before = d->rail[axle].past, *restrict past = under->past[axle];
+        CZ_LANES (i) {
+            const double work = force[i] * (before[i] - past[i]);
             taken[i] += work;
             given[i] -= work;
         }
@@ -163,13 +221,13 @@ static void advance_rails(const CzDynamics *dynamics, int block) {
         advance_modes(dynamics->track, d, block);
     if (dynamics->elements != NULL)
         advance_elements(dynamics->elements, d, block);
-    if (dynamics->co_running != NULL)
-        advance_co_running(dynamics->co_running, d);
+    if (dynamics->receptance != NULL)
+        advance_receptance(dynamics->receptance, d, block);
 }
 
 /* Whether the rails deflect. */
 static bool is_elastic(const CzDynamics *dynamics) {
-    return dynamics->track != NULL || dynamics->elements != NULL || dynamics->co_running != NULL;
+    return dynamics->track != NULL || dynamics->elements != NULL || dynamics->receptance != NULL;
 }
 
 #endif

@@ -40,17 +40,14 @@ static bool lay_elements(CzDynamics *dynamics, size_t lane, Standing *standing, 
     return true;
 }
 
-static void lay_co_running(CzDynamics *dynamics, size_t lane, Standing *standing) {
-    CzBlock *block = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    const CzCoRunningStep *track = dynamics->co_running;
-    for (int axle = 0; axle < 4; ++axle) {
-        const CzComplex y = cz_complex_scaled(-standing->load[axle], track->rest);
-        block->rail_mode[axle][0][i] = y.re;
-        block->rail_mode[axle][1][i] = y.im;
-        standing->deflection[axle] = track->now.re * y.re - track->now.im * y.im;
-        standing->flexibility[axle] = track->flexibility;
-    }
+static bool lay_receptance(CzDynamics *dynamics, size_t lane, Standing *standing, CzArena *arena) {
+    const CzBlock *block = cz_block_of(dynamics, lane);
+    const double axle_spacing = 2.0 * block->parameter.axle_x[lane % CZ_LANE_BLOCK];
+    if (!cz_receptance_lay(dynamics->receptance, lane, axle_spacing, standing->load, arena))
+        return false;
+    cz_receptance_look(dynamics->receptance, lane, standing->place, standing->deflection,
+                       standing->flexibility);
+    return true;
 }
 
 static bool lay_under(CzDynamics *dynamics, size_t lane, CzArena *arena) {
@@ -63,32 +60,13 @@ static bool lay_under(CzDynamics *dynamics, size_t lane, CzArena *arena) {
         return false;
     if (dynamics->elements != NULL && !lay_elements(dynamics, lane, &standing, arena))
         return false;
-    if (dynamics->co_running != NULL)
-        lay_co_running(dynamics, lane, &standing);
+    if (dynamics->receptance != NULL && !lay_receptance(dynamics, lane, &standing, arena))
+        return false;
     for (int axle = 0; axle < 4; ++axle)
         block->constant.wheel_rest[axle][i] = block->parameter.wheel.indentation[axle][i] +
                                               standing.flexibility[axle] * standing.load[axle] -
                                               standing.deflection[axle];
     return true;
-}
-
-/* g of a mass on a spring with its pair lambda: g^2 = 1 / (i w m), stored once for the pair. */
-static CzCoRunningStep co_running_step(const CzCoRunning *part, double step) {
-    const double decay = 0.5 * part->damping / part->mass;
-    const double w = sqrt(part->stiffness / part->mass - decay * decay);
-    const CzComplex lambda = {-decay, w}, square = {0.0, -1.0 / (w * part->mass)};
-    const CzComplex g = cz_complex_root(square);
-    const CzComplex back = cz_complex_exponential(cz_complex_scaled(-0.5 * step, lambda));
-    const CzComplex answer = cz_track_constant_answer(lambda, step);
-    return (CzCoRunningStep){.flight = cz_complex_exponential(cz_complex_scaled(step, lambda)),
-                             .kick = cz_complex_product(cz_track_kick(lambda, step), g),
-                             .rest = cz_complex_product(answer, g),
-                             .now = g,
-                             .past = cz_complex_product(back, g),
-                             .past_rate = cz_complex_product(lambda, cz_complex_product(back, g)),
-                             .flexibility =
-                                 1.0 / part->stiffness - cz_complex_product(square, answer).re,
-                             .part = *part};
 }
 
 static bool make_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTrack kind, double step,
@@ -102,14 +80,9 @@ static bool make_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTrack 
         dynamics->elements =
             cz_elements_create(&modes->seats, modes->nodes, modes->span, step, n_lane, arena);
         return dynamics->elements != NULL;
-    case CZ_TRACK_CO_RUNNING: {
-        CzCoRunningStep *made = cz_arena_allocate(arena, 1, sizeof *made);
-        const CzCoRunning part = cz_co_running(modes);
-        if (made != NULL)
-            *made = co_running_step(&part, step);
-        dynamics->co_running = made;
-        return made != NULL;
-    }
+    case CZ_TRACK_RECEPTANCE:
+        dynamics->receptance = cz_receptance_create(modes, step, dynamics->n_block, arena);
+        return dynamics->receptance != NULL;
     case CZ_TRACK_RIGID:
         break;
     }
@@ -132,17 +105,6 @@ bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTr
     return true;
 }
 
-static double co_running_energy(const CzCoRunningStep *track, const CzBlock *block, size_t i) {
-    double energy = 0.0;
-    for (int axle = 0; axle < 4; ++axle) {
-        const CzComplex y = {block->rail_mode[axle][0][i], block->rail_mode[axle][1][i]};
-        const double z = cz_complex_product(track->past, y).re;
-        const double rate = cz_complex_product(track->past_rate, y).re;
-        energy += 0.5 * (track->part.stiffness * z * z + track->part.mass * rate * rate);
-    }
-    return energy;
-}
-
 double cz_dynamics_track_energy(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *block = cz_block_of(dynamics, lane);
     if (!has_wheels(block, lane % CZ_LANE_BLOCK))
@@ -151,18 +113,48 @@ double cz_dynamics_track_energy(const CzDynamics *dynamics, size_t lane) {
         return cz_track_energy(dynamics->track, lane);
     if (dynamics->elements != NULL)
         return cz_elements_energy(dynamics->elements, lane);
-    if (dynamics->co_running != NULL)
-        return co_running_energy(dynamics->co_running, block, lane % CZ_LANE_BLOCK);
+    if (dynamics->receptance != NULL)
+        return cz_receptance_energy(dynamics->receptance, lane);
     return 0.0;
+}
+
+size_t cz_dynamics_track_n_state(const CzDynamics *dynamics, size_t lane) {
+    if (dynamics->receptance != NULL)
+        return cz_receptance_n_state(dynamics->receptance, lane);
+    const CzTrackMotion *track = dynamics->track;
+    return track != NULL && track->under[lane].state != NULL ? cz_track_n_state(track->modes) : 0;
+}
+
+void cz_dynamics_track_get_state(const CzDynamics *dynamics, size_t lane, double *state) {
+    if (cz_dynamics_track_n_state(dynamics, lane) == 0)
+        return;
+    if (dynamics->receptance != NULL)
+        cz_receptance_get_state(dynamics->receptance, lane, state);
+    else
+        cz_track_get_state(dynamics->track, lane, state);
+}
+
+void cz_dynamics_track_set_state(CzDynamics *dynamics, size_t lane, const double *state) {
+    if (cz_dynamics_track_n_state(dynamics, lane) == 0)
+        return;
+    if (dynamics->receptance != NULL)
+        cz_receptance_set_state(dynamics->receptance, lane, state);
+    else
+        cz_track_set_state(dynamics->track, lane, state);
 }
 
 void cz_dynamics_track_rate(CzDynamics *dynamics, size_t lane, double *rate) {
     CzBlock *block = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     double force[4], rail_rate[4], power = 0.0;
+    if (cz_dynamics_track_n_state(dynamics, lane) == 0)
+        return;
     for (int axle = 0; axle < 4; ++axle)
         force[axle] = -block->published.wheel[axle].force[i];
-    cz_track_rate(dynamics->track, lane, force, rate, rail_rate);
+    if (dynamics->receptance != NULL)
+        cz_receptance_rate(dynamics->receptance, lane, force, rate, rail_rate);
+    else
+        cz_track_rate(dynamics->track, lane, force, rate, rail_rate);
     for (int axle = 0; axle < 4; ++axle)
         power += force[axle] * rail_rate[axle];
     block->power->track[i] += power;

@@ -5,6 +5,7 @@ set(CZ_SOURCES_dynamics
     equipment.c
     face_moment.c
     lay_track.c
+    receptance.c
     slow_closing.c
     stored.c
     track.c

@@ -194,7 +194,8 @@ void cz_track_look(const CzTrackMotion *track, size_t index, const double place[
     look(track, &track->under[index], place, seat);
     for (int wheel = 0; wheel < 4; ++wheel) {
         deflection[wheel] = cz_track_at(track, &track->under[index], wheel).z;
-        flexibility[wheel] = cz_track_spring(track, seat[wheel]).flexibility;
+        flexibility[wheel] =
+            cz_track_spring(&track->flexibility, track->per_spacing, seat[wheel]).flexibility;
     }
 }
 

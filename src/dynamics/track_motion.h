@@ -207,8 +207,9 @@ typedef struct {
     double flexibility, slope;
 } CzTrackSpring;
 
-static inline CzTrackSpring cz_track_spring(const CzTrackMotion *track, CzComplex seat) {
-    const double *term = track->flexibility.term;
+static inline CzTrackSpring cz_track_spring(const CzTrackFlexibility *flexibility,
+                                            double per_spacing, CzComplex seat) {
+    const double *term = flexibility->term;
     double slope = 0.0, power = 1.0;
     for (int k = 1; k < CZ_TRACK_FLEX_TERMS; ++k) {
         slope += k * power * term[k];
@@ -216,9 +217,9 @@ static inline CzTrackSpring cz_track_spring(const CzTrackMotion *track, CzComple
     }
     /* d|sin(pi xi)| / d cos(2 pi xi) = -1 / (4 |sin(pi xi)|) */
     const double sine = sqrt(0.5 * fabs(1.0 - seat.re));
-    slope -= 0.25 * track->flexibility.kink / (sine + 1e-9);
-    return (CzTrackSpring){cz_track_flexibility_at(&track->flexibility, seat.re),
-                           -2.0 * CZ_PI * track->per_spacing * seat.im * slope};
+    slope -= 0.25 * flexibility->kink / (sine + 1e-9);
+    return (CzTrackSpring){cz_track_flexibility_at(flexibility, seat.re),
+                           -2.0 * CZ_PI * per_spacing * seat.im * slope};
 }
 
 #endif

@@ -52,8 +52,12 @@ static CzTrack track_of(const CzEvaluator *evaluator) {
     return cz_problem_track(evaluator->problem);
 }
 
-/* How a method makes its runs. The solvers have the modal track; the co-running track and finite
- * elements are compared with the modal one, and that with finite elements. */
+static CzTrackUse track_of_solvers(const CzEvaluator *evaluator) {
+    return track_of(evaluator) == CZ_TRACK_FE ? CZ_TRACK_USE_MODAL : CZ_TRACK_USE_OWN;
+}
+
+/* How a method makes its runs. All tracks are compared with the modal one, and that with finite
+ * elements, on which the solvers do not run. */
 static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyMethod method, double solver_step) {
     CzManner manner = evaluator->manner;
     switch (method) {
@@ -69,12 +73,12 @@ static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyMethod method, d
     case CZ_METHOD_ERK:
         manner.step_factor *= solver_step;
         manner.integrator = CZ_INTEGRATOR_ERK;
-        manner.track = CZ_TRACK_USE_MODAL;
+        manner.track = track_of_solvers(evaluator);
         break;
     case CZ_METHOD_ADAMS:
         manner.step_factor *= solver_step;
         manner.integrator = CZ_INTEGRATOR_ADAMS;
-        manner.track = CZ_TRACK_USE_MODAL;
+        manner.track = track_of_solvers(evaluator);
         break;
     case CZ_N_VERIFY_METHOD:
         break;

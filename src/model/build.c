@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "model/curve_sizes.h"
 #include "model/own_design.h"
+#include "model/receptance.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,7 +40,7 @@ static const CzSimulation *default_simulation(CzArena *arena) {
     if (simulation == NULL)
         return NULL;
     *simulation = (CzSimulation){
-        .track = CZ_TRACK_MODAL,
+        .track = CZ_TRACK_RECEPTANCE,
         .time_step = NAN,
         .duration = NAN,
         .longest = 20.0,
@@ -57,7 +58,7 @@ static CzStatus choose_scenario(CzModel *model, const CzInput *input, int scenar
     model->simulation =
         input->simulation.given ? &input->simulation : default_simulation(&model->arena);
     if (model->scenario == NULL || model->simulation == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the model");
+        return cz_no_memory(error, "the model");
     const CzScenario *chosen = model->scenario;
     model->friction = given_or(chosen->friction, given_or(model->simulation->adhesion.friction, 0));
     model->duration = given_or(chosen->duration, model->simulation->duration);
@@ -201,6 +202,31 @@ static double longest_span(const CzModel *model, const CzVehicle *vehicles) {
     return span;
 }
 
+static bool is_fitted(const CzTrackModes *modes, double axle_spacing) {
+    for (int i = 0; i < modes->n_receptance; i++)
+        if (modes->receptance[i].axle_spacing == axle_spacing)
+            return true;
+    return false;
+}
+
+/* The receptance under the bogies of all cars with wheels. */
+static CzStatus fit_receptances(CzModel *model, const CzVehicle *vehicles, CzTrackModes *modes,
+                                CzError *error) {
+    modes->receptance =
+        cz_arena_allocate(&model->arena, (size_t)model->n_car, sizeof *modes->receptance);
+    if (modes->receptance == NULL)
+        return cz_no_memory(error, "the track's receptance");
+    for (int car = 0; car < model->n_car; car++) {
+        const double axle_spacing = vehicles[model->car[car].vehicle].bogie.axle_spacing;
+        if (model->car[car].model != CZ_MODEL_FULL || is_fitted(modes, axle_spacing))
+            continue;
+        CZ_TRY(cz_receptance_fit(modes, axle_spacing, &model->arena,
+                                 &modes->receptance[modes->n_receptance], error));
+        modes->n_receptance++;
+    }
+    return CZ_OK;
+}
+
 static CzStatus build_track(CzModel *model, const CzInput *input, const CzVehicle *vehicles,
                             CzError *error) {
     const double span = longest_span(model, vehicles);
@@ -209,6 +235,7 @@ static CzStatus build_track(CzModel *model, const CzInput *input, const CzVehicl
     const CzTrackOptions options = cz_track_options_default(span);
     CzTrackModes *modes = NULL;
     CZ_TRY(cz_track_build(&input->track, &options, &model->arena, &modes, error));
+    CZ_TRY(fit_receptances(model, vehicles, modes, error));
     model->track = modes;
     return CZ_OK;
 }
@@ -240,7 +267,7 @@ static CzStatus look_at_own_design(CzModel *model, const CzVehicle *vehicles, Cz
                                    CzError *error) {
     CzLanes *lanes = cz_lanes_create(model, 1, scratch);
     if (lanes == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the model");
+        return cz_no_memory(error, "the model");
     CZ_TRY(cz_model_fill(model, vehicles, 0, lanes, error));
     CZ_TRY(cz_model_find_properties(model, lanes, error));
     CZ_TRY(cz_model_find_bounds(model, lanes, error));
@@ -268,7 +295,7 @@ static CzStatus build(CzModel *model, int scenario, CzError *error) {
 CzStatus cz_model_build(const CzProblem *problem, int scenario, CzModel **model, CzError *error) {
     *model = calloc(1, sizeof **model);
     if (*model == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the model");
+        return cz_no_memory(error, "the model");
     (*model)->problem = problem;
     const CzStatus status = build(*model, scenario, error);
     if (status != CZ_OK) {

@@ -1,7 +1,6 @@
 # Sources of src/model, one per line.
 set(CZ_SOURCES_model
     build.c
-    co_running.c
     critical_force.c
     curve_sizes.c
     properties.c
@@ -12,9 +11,11 @@ set(CZ_SOURCES_model
     kinks.c
     lanes.c
     rail.c
+    receptance.c
     layout.c
     statics.c
     step_bounds.c
+    storage.c
     strut_chain.c
     track.c
     track_block.c

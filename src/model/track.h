@@ -56,6 +56,8 @@ typedef struct CzTrackModes {
     double span;     /* first to last wheel of the longest car [m] */
     int nodes;       /* per bay, where finite elements take the place of the modes */
     CzTrackGroup *group;
+    int n_receptance; /* one for each axle spacing of the cars */
+    struct CzReceptance *receptance;
 } CzTrackModes;
 
 /* How the modes are chosen. */

@@ -9,8 +9,7 @@
  */
 #include "model/track_block.h"
 
-enum { MOST_SWEEPS = 200 };
-#define LAST_MOVE 1e-15 /* of a root's size: what a sweep may still move */
+#include "base/roots.h"
 
 CzTrackBlock cz_track_block(const CzSeats *seats, int n_seat, int j) {
     const int edge = j == 0 || 2 * j == n_seat;
@@ -142,24 +141,12 @@ static int guess(const CzTrackBlock *block, CzComplex root[CZ_BLOCK_ROOTS]) {
     return n_root;
 }
 
+static CzComplex slope_of(const void *block, CzComplex s) {
+    return cz_track_secular(block, s).degrees;
+}
+
 int cz_track_roots(const CzTrackBlock *block, CzComplex root[CZ_BLOCK_ROOTS]) {
     const int n = guess(block, root);
-    for (int sweep = 0; sweep < MOST_SWEEPS; ++sweep) {
-        double move = 0.0;
-        for (int i = 0; i < n; ++i) {
-            CzComplex pull = cz_track_secular(block, root[i]).degrees;
-            for (int m = 0; m < n; ++m)
-                if (m != i)
-                    pull = cz_complex_difference(
-                        pull, cz_complex_inverse(cz_complex_difference(root[i], root[m])));
-            const CzComplex way = cz_complex_inverse(pull);
-            if (!(cz_complex_square_size(way) < 1e300)) /* at a root P'/P is beyond all numbers */
-                continue;
-            root[i] = cz_complex_difference(root[i], way);
-            move = fmax(move, cz_complex_size(way) / cz_complex_size(root[i]));
-        }
-        if (move < LAST_MOVE)
-            break;
-    }
+    cz_find_roots(slope_of, block, n, root);
     return n;
 }

@@ -154,7 +154,7 @@ CzAccount cz_chains_account(const CzBatch *batch, size_t lane) {
 CzAccount cz_gear_account(const CzBatch *batch, size_t lane) {
     const CzDynamics *dynamics = batch->dynamics;
     const bool is_rigid =
-        dynamics->track == NULL && dynamics->elements == NULL && dynamics->co_running == NULL;
+        dynamics->track == NULL && dynamics->elements == NULL && dynamics->receptance == NULL;
     const double contact =
         is_rigid ? cz_wheels_stored(dynamics, lane) : cz_work(batch, CZ_LEDGER(wheel_normal), lane);
     return elastic(cz_secondary_stored(dynamics, lane) + cz_primary_stored(dynamics, lane) +

@@ -37,10 +37,8 @@ struct CzReference {
     CzSolver *solver;
     size_t n_place;
     Place *place;       /* (n_place); the state is each one's position and velocity in turn */
-    size_t n_track;     /* cars on an elastic track */
-    size_t n_mode;      /* numbers of the state of one of them */
-    size_t *track;      /* their lanes (n_track); their states follow those of the places */
-    double *track_rate; /* of the last evaluation (n_track x n_mode) */
+    size_t n_lane;      /* whose states of the track follow those of the places */
+    double *track_rate; /* of these states at the last evaluation */
     Drop *drop;         /* (ode.n_drop) */
     double committed;   /* time of the last commit [s] */
     double evaluated;   /* time of the last evaluation [s]; NaN: none since the commit */
@@ -79,25 +77,17 @@ static size_t list_places(const CzBatch *batch, Place *place, double *allowed, d
     return n;
 }
 
-/* Lists the lanes of the cars on an elastic track. */
-static size_t list_track(const CzBatch *batch, size_t *lane) {
-    const CzTrackMotion *track = batch->dynamics->track;
-    size_t n = 0;
-    for (size_t i = 0; track != NULL && i < track->n_under; i++)
-        if (track->under[i].state != NULL)
-            lane[n++] = i;
-    return n;
-}
-
 static void get_state(const CzReference *reference, double *state) {
     for (size_t i = 0; i < reference->n_place; i++) {
         state[2 * i] = *reference->place[i].position;
         state[2 * i + 1] = *reference->place[i].velocity;
     }
-    double *modes = state + 2 * reference->n_place;
-    for (size_t k = 0; k < reference->n_track; k++)
-        cz_track_get_state(reference->batch->dynamics->track, reference->track[k],
-                           modes + k * reference->n_mode);
+    const CzDynamics *dynamics = reference->batch->dynamics;
+    double *track = state + 2 * reference->n_place;
+    for (size_t lane = 0; lane < reference->n_lane; lane++) {
+        cz_dynamics_track_get_state(dynamics, lane, track);
+        track += cz_dynamics_track_n_state(dynamics, lane);
+    }
 }
 
 static void set_state(const CzReference *reference, const double *state) {
@@ -105,10 +95,12 @@ static void set_state(const CzReference *reference, const double *state) {
         *reference->place[i].position = state[2 * i];
         *reference->place[i].velocity = state[2 * i + 1];
     }
-    const double *modes = state + 2 * reference->n_place;
-    for (size_t k = 0; k < reference->n_track; k++)
-        cz_track_set_state(reference->batch->dynamics->track, reference->track[k],
-                           modes + k * reference->n_mode);
+    CzDynamics *dynamics = reference->batch->dynamics;
+    const double *track = state + 2 * reference->n_place;
+    for (size_t lane = 0; lane < reference->n_lane; lane++) {
+        cz_dynamics_track_set_state(dynamics, lane, track);
+        track += cz_dynamics_track_n_state(dynamics, lane);
+    }
 }
 
 /* Evaluates the laws at a state; twice the same state costs one evaluation. */
@@ -120,9 +112,11 @@ static void evaluate(CzReference *reference, double time, const double *state) {
     const double step = fmax(time - reference->committed, SHORTEST_STEP);
     CzDynamics *dynamics = reference->batch->dynamics;
     reference->batch->kernel->evaluate(dynamics, step);
-    for (size_t k = 0; k < reference->n_track; k++)
-        cz_dynamics_track_rate(dynamics, reference->track[k],
-                               reference->track_rate + k * reference->n_mode);
+    double *track_rate = reference->track_rate;
+    for (size_t lane = 0; lane < reference->n_lane; lane++) {
+        cz_dynamics_track_rate(dynamics, lane, track_rate);
+        track_rate += cz_dynamics_track_n_state(dynamics, lane);
+    }
     memcpy(reference->at, state, size);
     reference->evaluated = time;
 }
@@ -138,9 +132,8 @@ static bool rates(CzOde *ode, double time, const double *state, double *rate) {
         rate[2 * i + 1] = *reference->place[i].acceleration;
         is_finite = is_finite && isfinite(rate[2 * i + 1]);
     }
-    if (reference->n_track > 0)
-        memcpy(rate + 2 * reference->n_place, reference->track_rate,
-               reference->n_track * reference->n_mode * sizeof *rate);
+    const size_t n_vehicle = 2 * reference->n_place;
+    memcpy(rate + n_vehicle, reference->track_rate, (ode->n_unknown - n_vehicle) * sizeof *rate);
     return is_finite;
 }
 
@@ -183,36 +176,34 @@ static void set_allowed(const CzReference *reference, double tolerance, double *
 CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance, CzReference **made,
                              CzError *error) {
     CzArena *arena = &batch->arena;
-    const CzTrackMotion *track = batch->dynamics->track;
     const size_t n_car = (size_t)batch->model->n_car, most = n_car * (CZ_N_DOF + 1);
-    const size_t n_under = track != NULL ? track->n_under : 0;
+    const size_t n_lane = (size_t)batch->dynamics->n_block * CZ_LANE_BLOCK;
+    size_t n_track = 0;
     *made = NULL;
-    if (batch->dynamics->elements != NULL || batch->dynamics->co_running != NULL)
+    if (batch->dynamics->elements != NULL)
         return cz_fail(error, CZ_STATUS_INPUT,
-                       "the second solver knows the track models modal and rigid only");
+                       "the second solver knows the track models rigid, receptance and modal only");
+    for (size_t lane = 0; lane < n_lane; lane++)
+        n_track += cz_dynamics_track_n_state(batch->dynamics, lane);
     CzReference *reference = cz_arena_allocate(arena, 1, sizeof *reference);
     Place *place = cz_arena_allocate(arena, most, sizeof *place);
-    size_t *lane = cz_arena_allocate(arena, n_under, sizeof *lane);
     Drop *drop = cz_arena_allocate(arena, 2 * n_car, sizeof *drop);
-    const size_t n_mode = n_under > 0 ? cz_track_n_state(track->modes) : 0;
-    double *allowed = cz_arena_numbers(arena, 2 * most + n_under * n_mode);
+    double *allowed = cz_arena_numbers(arena, 2 * most + n_track);
     if (arena->out_of_memory)
         return cz_no_memory(error, "the reference run");
     *reference = (CzReference){.batch = batch,
                                .n_place = list_places(batch, place, allowed, tolerance),
                                .place = place,
-                               .n_track = list_track(batch, lane),
-                               .n_mode = n_mode,
-                               .track = lane,
+                               .n_lane = n_lane,
                                .drop = drop,
                                .evaluated = NAN};
-    const size_t n_mode_all = reference->n_track * n_mode, n = 2 * reference->n_place + n_mode_all;
+    const size_t n = 2 * reference->n_place + n_track;
     reference->ode = (CzOde){.n_unknown = n,
                              .rates = rates,
                              .n_drop = list_drops(batch, drop),
                              .drops = drops,
                              .allowed = allowed};
-    reference->track_rate = cz_arena_numbers(arena, n_mode_all);
+    reference->track_rate = cz_arena_numbers(arena, n_track);
     reference->at = cz_arena_numbers(arena, n);
     double *state = cz_arena_numbers(arena, n);
     if (arena->out_of_memory)

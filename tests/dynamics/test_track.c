@@ -254,7 +254,7 @@ static void stays_at_rest(const char *track) {
 static void cars_at_rest_on_any_track_stay_at_rest(void **state) {
     (void)state;
     stays_at_rest("simulation.track=modal");
-    stays_at_rest("simulation.track=co-running");
+    stays_at_rest("simulation.track=receptance");
     stays_at_rest("simulation.track=fe");
 }
 

@@ -15,8 +15,10 @@ struct CzArenaBlock {
 };
 
 void *cz_arena_allocate(CzArena *arena, size_t n, size_t size) {
-    if (n_allowed == 0)
+    if (n_allowed == 0) {
+        arena->out_of_memory = true;
         return NULL;
+    }
     n_allowed -= n_allowed > 0;
     struct CzArenaBlock *block = calloc(1, sizeof *block + n * size);
     assert_non_null(block);

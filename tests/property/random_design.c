@@ -235,7 +235,7 @@ void random_design_write(uint64_t number, const char *catalogue, FILE *file) {
     if (draw.full)
         fprintf(file, "catalogue: [%s]\n", catalogue);
     fprintf(file, "simulation:\n  track: %s\n  longest_s: 3\n",
-            draw.full && chance(&draw, 0.2) ? "co-running" : "rigid");
+            draw.full && chance(&draw, 0.2) ? "receptance" : "rigid");
     fprintf(file, "  adhesion: {friction: %.4g}\n", between(&draw, 0.05, 0.5));
     if (chance(&draw, 0.1))
         fprintf(file, "  duration_s: %.4g\n", decades(&draw, 0.02, 1));

@@ -10,7 +10,7 @@ build() { # build FOLDER OPTION...
 build_clang() { # as scripts/run-tests configures it
     (cd "$SOURCE" && cmake --preset clang -DCZ_BUILD_TESTS=ON && cmake --build --preset clang --target crushzone-program)
 }
-# Compared problems: two full cars, rigid cars in a search, a wall, two cars on co-running masses, and
+# Compared problems: two full cars, rigid cars in a search, a wall, two cars on the receptance track, and
 # two seconds of two trains of six full cars; wall and trains are on the modal track.
 results() { # results FOLDER PROGRAM OPTION...: what the program writes, into FOLDER, run_info taken out
     folder=$1
@@ -20,7 +20,7 @@ results() { # results FOLDER PROGRAM OPTION...: what the program writes, into FO
     mkdir -p "$folder"
     "$program" run "$SOURCE/problems/two-cars-25kmh.yaml" --json -o "$folder/two-cars" "$@" >"$folder/two-cars.json" &&
         "$program" run "$SOURCE/problems/wall.yaml" --json -o "$folder/wall" "$@" >"$folder/wall.json" &&
-        "$program" run "$SOURCE/problems/paper-25kmh.yaml" --json -o "$folder/paper" --set simulation.track=co-running \
+        "$program" run "$SOURCE/problems/paper-25kmh.yaml" --json -o "$folder/paper" --set simulation.track=receptance \
             "$@" >"$folder/paper.json" &&
         "$program" run "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h-partner-high --set simulation.duration_s=2 \
             --json -o "$folder/metro" "$@" >"$folder/metro.json" &&

@@ -132,7 +132,7 @@ static void instruction_sets_agree_on_two_trains(void **state) {
 }
 
 /* On elastic rails, with wheels that lift off. */
-static const char *const elastic[] = {"simulation.track=modal", "simulation.track=co-running"};
+static const char *const elastic[] = {"simulation.track=modal", "simulation.track=receptance"};
 
 static void instruction_sets_agree_on_elastic_rails(void **state) {
     (void)state;

@@ -10,7 +10,7 @@ same_page() {
     diff "$OLDPWD/shown" "$OLDPWD/now"
 }
 check "docs/track.md is up to date (scripts/write-track writes it)" same_page
-# The order of the costs is rigid < co-running < modal < fe in every measured row.
+# The order of the costs is rigid < receptance < modal < fe in every measured row.
 ordered() {
     awk -F'|' '/^\| cost of /{ n++; if (!(1 < $4 + 0 && $4 + 0 < $5 + 0) || ($6 + 0 > 0 && $5 + 0 >= $6 + 0)) exit 1 }
                END { exit n < 3 }' docs/track.md

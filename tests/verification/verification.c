@@ -279,7 +279,7 @@ static void put_numerics(void) {
           "costs: waves beyond it answer at once instead of by their mass, and that, not the "
           "elements, is nearly all by which the two tracks differ.\n"
           "Then shipped problems: peak force, closure, energy, pitch and link force on the modal "
-          "track, by finite elements, and on the co-running masses that a search may use.");
+          "track, by finite elements, and on the fitted receptance, on which runs are made.");
     rows_of_mode_convergence(&rows);
     rows_of_element_frequencies(&rows);
     rows_of_element_statics(&rows);

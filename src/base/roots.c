@@ -1,0 +1,25 @@
+/* Aberth's method. */
+#include "base/roots.h"
+
+enum { MOST_SWEEPS = 200 };
+#define LAST_MOVE 1e-15 /* of a root's size: what a sweep may still move */
+
+void cz_find_roots(CzLogarithmicSlope *slope, const void *polynomial, int n, CzComplex *root) {
+    for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
+        double move = 0.0;
+        for (int i = 0; i < n; i++) {
+            CzComplex pull = slope(polynomial, root[i]);
+            for (int m = 0; m < n; m++)
+                if (m != i)
+                    pull = cz_complex_difference(
+                        pull, cz_complex_inverse(cz_complex_difference(root[i], root[m])));
+            const CzComplex way = cz_complex_inverse(pull);
+            if (!(cz_complex_square_size(way) < 1e300)) /* at a root P'/P is beyond all numbers */
+                continue;
+            root[i] = cz_complex_difference(root[i], way);
+            move = fmax(move, cz_complex_size(way) / cz_complex_size(root[i]));
+        }
+        if (move < LAST_MOVE)
+            return;
+    }
+}

@@ -24,6 +24,27 @@ int cz_status_exit_code(CzStatus status) {
     return statuses[status].exit_code;
 }
 
+void cz_error_say(CzError *error, const char *format, va_list arguments) {
+    char sentence[2 * sizeof error->message];
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    char *help = strstr(sentence, CZ_HELP);
+    if (help != NULL)
+        *help++ = '\0';
+    cz_text_repair(sentence);
+    cz_text_copy(error->message, sizeof error->message, sentence);
+    cz_error_help(error, "%s", help != NULL ? help : "");
+}
+
+void cz_error_help(CzError *error, const char *format, ...) {
+    char sentence[2 * sizeof error->help];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    cz_text_repair(sentence);
+    cz_text_copy(error->help, sizeof error->help, sentence);
+}
+
 CzStatus cz_fail(CzError *error, CzStatus status, const char *format, ...) {
     if (error == NULL)
         return status;
@@ -31,9 +52,8 @@ CzStatus cz_fail(CzError *error, CzStatus status, const char *format, ...) {
     error->status = status;
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(error->message, sizeof error->message, format, arguments);
+    cz_error_say(error, format, arguments);
     va_end(arguments);
-    cz_text_repair(error->message);
     return status;
 }
 

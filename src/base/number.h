@@ -22,4 +22,7 @@ const char *cz_number_print(char text[CZ_NUMBER_TEXT], double value);
 /* Writes a number for a sentence: at most six significant digits. Returns `text`. */
 const char *cz_number_print_short(char text[CZ_NUMBER_TEXT], double value);
 
+/* The same as an argument of a sentence: the text lasts to the end of the block. */
+#define CZ_SHORT(value) cz_number_print_short((char[CZ_NUMBER_TEXT]){0}, (value))
+
 #endif

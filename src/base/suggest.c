@@ -1,12 +1,12 @@
 /* Did-you-mean by edit distance: insert, delete, replace and swap of neighbours, two each; a change
- * of case costs one. Words beyond LONGEST letters are not compared. */
+ * of case costs one. */
 #include "base/suggest.h"
 
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { LONGEST = 96, EDIT = 2, CASE = 1 };
+enum { LONGEST = CZ_LONGEST_SUGGESTED, EDIT = 2, CASE = 1 };
 
 static int lower(char c) {
     return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : (unsigned char)c;
@@ -40,25 +40,26 @@ static int edit_distance(const char *a, int n_a, const char *b, int n_b) {
     return row[n_a % 3][n_b];
 }
 
-void cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known) {
+bool cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known) {
     const size_t n_typed = strlen(typed), n_known = strlen(known);
     if (n_typed == 0 || n_known == 0 || n_typed > LONGEST || n_known > LONGEST)
-        return;
+        return false;
     int allowed = EDIT * (int)(n_known < 4 ? 1 : (n_known + 2) / 3);
     allowed = smaller(allowed, EDIT * (int)n_known - 1);
-    if (suggestion->best != NULL)
+    if (suggestion->best[0] != '\0')
         allowed = smaller(allowed, suggestion->distance - 1);
     const int n_more = (int)n_typed - (int)n_known; /* letters that must at least come or go */
     if (EDIT * (n_more < 0 ? -n_more : n_more) > allowed)
-        return;
+        return false;
     const int distance = edit_distance(typed, (int)n_typed, known, (int)n_known);
     if (distance > allowed)
-        return;
-    suggestion->best = known;
+        return false;
+    memcpy(suggestion->best, known, n_known + 1);
     suggestion->distance = distance;
+    return true;
 }
 
 void cz_suggest_help(const CzSuggestion *suggestion, CzError *error) {
-    if (error != NULL && suggestion->best != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean '%.200s'?", suggestion->best);
+    if (error != NULL && suggestion->best[0] != '\0')
+        snprintf(error->help, sizeof error->help, "did you mean '%s'?", suggestion->best);
 }

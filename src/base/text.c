@@ -162,6 +162,15 @@ size_t cz_text_one_line(char *text, size_t n_byte) {
     return n_kept;
 }
 
+void cz_text_copy(char *to, size_t size, const char *text) {
+    size_t n = strlen(text);
+    n = n < size ? n : size - 1;
+    while (n > 0 && ((unsigned char)text[n] & 0xc0) == 0x80)
+        n--;
+    memcpy(to, text, n);
+    to[n] = '\0';
+}
+
 void cz_text_repair(char *text) {
     const size_t n_byte = strlen(text);
     size_t n_kept = 0;

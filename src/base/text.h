@@ -38,6 +38,9 @@ bool cz_text_is_among(const char *text, int n, const char *const *list);
  * many bytes are left. */
 size_t cz_text_one_line(char *text, size_t n_byte);
 
+/* Copies a text, cut at a character's start where it does not fit. */
+void cz_text_copy(char *to, size_t size, const char *text);
+
 /* Makes a reported text valid: forbidden characters become '?', such as half a character where a
  * quoted text was cut. */
 void cz_text_repair(char *text);

@@ -1,12 +1,12 @@
 /* The command line: command first, then options and operands in any order. */
 #include "cli/arguments.h"
 
+#include "base/error.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "crushzone/sweep.h"
 
 #include <errno.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,17 +35,6 @@ typedef struct Reader {
     CzError *error;
 } Reader;
 
-__attribute__((format(printf, 2, 3))) static CzStatus misuse(CzError *error, const char *format,
-                                                             ...) {
-    memset(error, 0, sizeof *error);
-    error->status = CZ_STATUS_INPUT;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error->message, sizeof error->message, format, arguments);
-    va_end(arguments);
-    return CZ_STATUS_INPUT;
-}
-
 CzCommand cz_command_named(const char *name) {
     if (strcmp(name, "optimize") == 0)
         return CZ_COMMAND_OPTIMISE;
@@ -63,13 +52,12 @@ static CzStatus unknown_command(const char *name, CzError *error) {
     CzSuggestion suggestion = {0};
     for (int i = 0; i < CZ_N_COMMAND; i++)
         cz_suggest(&suggestion, name, cz_commands[i].name);
-    misuse(error, "there is no command '%.100s'", name);
-    if (suggestion.best != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean 'crushzone %s'?", suggestion.best);
+    cz_fail(error, CZ_STATUS_INPUT,
+            "there is no command '%.100s'" CZ_HELP "'crushzone help' lists the commands", name);
+    if (suggestion.best[0] != '\0')
+        cz_error_help(error, "did you mean 'crushzone %s'?", suggestion.best);
     else if (strstr(name, ".yaml") != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean 'crushzone run %.100s'?", name);
-    else
-        snprintf(error->help, sizeof error->help, "'crushzone help' lists the commands");
+        cz_error_help(error, "did you mean 'crushzone run %.100s'?", name);
     return CZ_STATUS_INPUT;
 }
 
@@ -100,16 +88,15 @@ static CzStatus find_long(CzCommand command, const char *name, size_t n, int *op
             longer = known;
     }
     if (of_other != NULL)
-        return misuse(error, "'crushzone %s' takes no option '--%s'", cz_commands[command].name,
-                      of_other);
-    misuse(error, "there is no option '--%s'%s", typed,
-           longer != NULL ? "; options are not abbreviated" : "");
-    const char *best = longer != NULL ? longer : suggestion.best;
-    if (best != NULL)
-        snprintf(error->help, sizeof error->help, "did you mean '--%s'?", best);
-    else
-        snprintf(error->help, sizeof error->help, "'crushzone help %s' lists its options",
-                 cz_commands[command].name);
+        return cz_fail(error, CZ_STATUS_INPUT, "'crushzone %s' takes no option '--%s'",
+                       cz_commands[command].name, of_other);
+    cz_fail(error, CZ_STATUS_INPUT,
+            "there is no option '--%s'%s" CZ_HELP "'crushzone help %s' lists its options", typed,
+            longer != NULL ? "; options are not abbreviated" : "", cz_commands[command].name);
+    if (longer != NULL)
+        cz_error_help(error, "did you mean '--%s'?", longer);
+    else if (suggestion.best[0] != '\0')
+        cz_error_help(error, "did you mean '--%s'?", suggestion.best);
     return CZ_STATUS_INPUT;
 }
 
@@ -119,10 +106,10 @@ static CzStatus find_letter(CzCommand command, char letter, int *option, CzError
             *option = i;
             return CZ_OK;
         }
-    misuse(error, "'crushzone %s' takes no option '-%c'", cz_commands[command].name, letter);
-    snprintf(error->help, sizeof error->help, "'crushzone help %s' lists its options",
-             cz_commands[command].name);
-    return CZ_STATUS_INPUT;
+    return cz_fail(error, CZ_STATUS_INPUT,
+                   "'crushzone %s' takes no option '-%c'" CZ_HELP
+                   "'crushzone help %s' lists its options",
+                   cz_commands[command].name, letter, cz_commands[command].name);
 }
 
 /* Keeps an option; `value` is what stood in the same word after it, NULL when nothing did. */
@@ -130,11 +117,11 @@ static CzStatus keep_option(Reader *reader, int option, const char *value) {
     const CzOptionInfo *info = &cz_options[option];
     CzArguments *arguments = reader->arguments;
     if (info->value == NULL && value != NULL)
-        return misuse(reader->error, "'--%s' takes no value", info->name);
+        return cz_fail(reader->error, CZ_STATUS_INPUT, "'--%s' takes no value", info->name);
     if (info->value != NULL && value == NULL) {
         if (reader->next == reader->argc)
-            return misuse(reader->error, "'--%s' needs a value: --%s %s", info->name, info->name,
-                          info->value);
+            return cz_fail(reader->error, CZ_STATUS_INPUT, "'--%s' needs a value: --%s %s",
+                           info->name, info->name, info->value);
         value = reader->argv[reader->next++];
     }
     arguments->text[option] = value != NULL ? value : "";
@@ -164,14 +151,10 @@ static CzStatus read_word(Reader *reader) {
     if (word[1] == '-') {
         const char *equals = strchr(word, '=');
         const size_t n = equals != NULL ? (size_t)(equals - word) - 2 : strlen(word) - 2;
-        const CzStatus status = find_long(command, word + 2, n, &option, reader->error);
-        if (status != CZ_OK)
-            return status;
+        CZ_TRY(find_long(command, word + 2, n, &option, reader->error));
         return keep_option(reader, option, equals != NULL ? equals + 1 : NULL);
     }
-    const CzStatus status = find_letter(command, word[1], &option, reader->error);
-    if (status != CZ_OK)
-        return status;
+    CZ_TRY(find_letter(command, word[1], &option, reader->error));
     return keep_option(reader, option, word[2] != '\0' ? word + 2 : NULL);
 }
 
@@ -184,80 +167,61 @@ static CzStatus read_whole(const CzArguments *arguments, CzOption option, long l
     errno = 0;
     *value = strtol(text, &end, 10);
     if (end == text || *end != '\0' || errno != 0 || *value < lo || *value > hi)
-        return misuse(error, "'--%s %.40s' is no whole number from %ld to %ld",
-                      cz_options[option].name, text, lo, hi);
+        return cz_fail(error, CZ_STATUS_INPUT, "'--%s %.40s' is no whole number from %ld to %ld",
+                       cz_options[option].name, text, lo, hi);
     return CZ_OK;
 }
 
-/* One of the words; *index is left alone when the option is absent. */
-static CzStatus read_choice(const CzArguments *arguments, CzOption option, int n,
-                            const char *const *words, int *index, CzError *error) {
+/* One of the words, with | between; *index is left alone when the option is absent. */
+static CzStatus read_choice(const CzArguments *arguments, CzOption option, const char *words,
+                            int *index, CzError *error) {
     const char *text = arguments->text[option];
-    for (int i = 0; text != NULL && i < n; i++)
-        if (strcmp(text, words[i]) == 0) {
+    char known[120] = "";
+    if (text == NULL)
+        return CZ_OK;
+    for (int i = 0; *words != '\0'; i++) {
+        const size_t n = strcspn(words, "|"), used = strlen(known);
+        if (strlen(text) == n && strncmp(words, text, n) == 0) {
             *index = i;
             return CZ_OK;
         }
-    if (text == NULL)
-        return CZ_OK;
-    misuse(error, "'--%s %.40s' is not known", cz_options[option].name, text);
-    snprintf(error->help, sizeof error->help, "it takes %s", words[0]);
-    for (int i = 1; i < n; i++) {
-        const size_t used = strlen(error->help);
-        snprintf(error->help + used, sizeof error->help - used, " or %s", words[i]);
+        snprintf(known + used, sizeof known - used, "%s%.*s", i > 0 ? " or " : "", (int)n, words);
+        words += n + (words[n] == '|');
     }
-    return CZ_STATUS_INPUT;
+    return cz_fail(error, CZ_STATUS_INPUT, "'--%s %.40s' is not known" CZ_HELP "it takes %s",
+                   cz_options[option].name, text, known);
 }
 
 /* Values of options as what they mean. */
 static CzStatus read_values(CzArguments *arguments, CzError *error) {
-    static const char *const colours[] = {"auto", "always", "never"};
-    static const char *const separators[] = {",", ";", "tab"};
-    static const char *const decimals[] = {".", ","};
-    static const char *const shells[] = {"bash"};
-    static const char *const integrators[] = {
-#define CZ_INTEGRATOR(constant, text, doc) text,
-#include "crushzone/integrators.def"
-#undef CZ_INTEGRATOR
-    };
-    int colour = 0, separator = 0, decimal = 0, shell = 0, integrator = CZ_INTEGRATOR_ZHAI;
+    static const CzOption by_words[] = {CZ_OPTION_COLOR, CZ_OPTION_INTEGRATOR, CZ_OPTION_BASIS,
+                                        CZ_OPTION_FLIP, CZ_OPTION_COMPLETION};
+    int chosen[] = {CZ_COLOUR_AUTO, CZ_INTEGRATOR_ZHAI, -1, -1, 0}, separator = 0, decimal = 0;
     long n_job = 0, n_stage = -1;
-    CzStatus status = CZ_OK;
-    if (status == CZ_OK)
-        status = read_whole(arguments, CZ_OPTION_JOBS, 1, 1024, &n_job, error);
-    if (status == CZ_OK)
-        status = read_whole(arguments, CZ_OPTION_EVALUATIONS, 1, 100000000, &arguments->evaluations,
-                            error);
-    if (status == CZ_OK)
-        status = read_whole(arguments, CZ_OPTION_SEED, 0, 2000000000, &arguments->seed, error);
-    if (status == CZ_OK)
-        status = read_whole(arguments, CZ_OPTION_STAGES, 0, 100, &n_stage, error);
-    if (status == CZ_OK)
-        status = read_choice(arguments, CZ_OPTION_COLOR, 3, colours, &colour, error);
-    if (status == CZ_OK)
-        status = read_choice(arguments, CZ_OPTION_INTEGRATOR, CZ_N_INTEGRATOR, integrators,
-                             &integrator, error);
-    if (status == CZ_OK)
-        status = read_choice(arguments, CZ_OPTION_CSV_SEP, 3, separators, &separator, error);
-    if (status == CZ_OK)
-        status = read_choice(arguments, CZ_OPTION_CSV_DECIMAL, 2, decimals, &decimal, error);
-    if (status == CZ_OK)
-        status = read_choice(arguments, CZ_OPTION_COMPLETION, 1, shells, &shell, error);
-    if (status != CZ_OK)
-        return status;
+    CZ_TRY(read_whole(arguments, CZ_OPTION_JOBS, 1, 1024, &n_job, error));
+    CZ_TRY(
+        read_whole(arguments, CZ_OPTION_EVALUATIONS, 1, 100000000, &arguments->evaluations, error));
+    CZ_TRY(read_whole(arguments, CZ_OPTION_SEED, 0, 2000000000, &arguments->seed, error));
+    CZ_TRY(read_whole(arguments, CZ_OPTION_STAGES, 0, 100, &n_stage, error));
+    for (size_t i = 0; i < sizeof by_words / sizeof *by_words; i++)
+        CZ_TRY(
+            read_choice(arguments, by_words[i], cz_options[by_words[i]].value, &chosen[i], error));
+    CZ_TRY(read_choice(arguments, CZ_OPTION_CSV_SEP, ",|;|tab", &separator, error));
+    CZ_TRY(read_choice(arguments, CZ_OPTION_CSV_DECIMAL, ".|,", &decimal, error));
+    arguments->colour = (CzColour)chosen[0];
+    arguments->integrator = (CzIntegrator)chosen[1];
+    arguments->basis = chosen[2];
+    arguments->flip = chosen[3];
     arguments->n_job = (int)n_job;
     arguments->n_stage = (int)n_stage;
-    arguments->colour = (CzColour)colour;
-    arguments->integrator = (CzIntegrator)integrator;
     arguments->csv_decimal = ".,"[decimal];
     /* Who writes decimal commas parts the fields by semicolons. */
     const bool implied = arguments->text[CZ_OPTION_CSV_SEP] == NULL && decimal == 1;
     arguments->csv_separator = ",;\t"[implied ? 1 : separator];
-    if (arguments->csv_separator == arguments->csv_decimal) {
-        misuse(error, "CSV files cannot have a comma both between fields and in numbers");
-        snprintf(error->help, sizeof error->help, "add --csv-sep ';'");
-        return CZ_STATUS_INPUT;
-    }
+    if (arguments->csv_separator == arguments->csv_decimal)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "CSV files cannot have a comma both between fields and in numbers" CZ_HELP
+                       "add --csv-sep ';'");
     if (arguments->text[CZ_OPTION_TIME_STEP_MS] != NULL) {
         snprintf(arguments->time_step, sizeof arguments->time_step, "simulation.time_step_ms=%.30s",
                  arguments->text[CZ_OPTION_TIME_STEP_MS]);
@@ -273,40 +237,47 @@ static CzStatus check_file_name(const char *name, CzError *error) {
     size_t at;
     if (name == NULL || !cz_text_fault(name, strlen(name), false, &at, what))
         return CZ_OK;
-    misuse(error, "the name of a file or folder on the command line contains %s", what);
-    snprintf(error->help, sizeof error->help, "rename it");
-    return CZ_STATUS_INPUT;
+    return cz_fail(
+        error, CZ_STATUS_INPUT,
+        "the name of a file or folder on the command line contains %s" CZ_HELP "rename it", what);
 }
 
 static CzStatus check_file_names(const CzArguments *arguments, CzError *error) {
     static const CzOption files[] = {CZ_OPTION_OUTPUT, CZ_OPTION_SVG, CZ_OPTION_MEASURED};
-    CzStatus status = CZ_OK;
-    for (int i = 0; i < arguments->n_operand && status == CZ_OK; i++)
-        status = check_file_name(arguments->operand[i], error);
-    for (size_t i = 0; i < sizeof files / sizeof *files && status == CZ_OK; i++)
-        status = check_file_name(arguments->text[files[i]], error);
-    return status;
+    for (int i = 0; i < arguments->n_operand; i++)
+        CZ_TRY(check_file_name(arguments->operand[i], error));
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        CZ_TRY(check_file_name(arguments->text[files[i]], error));
+    return CZ_OK;
 }
 
 static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
     const CzCommandInfo *info = &cz_commands[arguments->command];
     if (arguments->text[CZ_OPTION_HELP] != NULL)
         return CZ_OK;
+    if (arguments->n_operand < info->fewest && info->fewest > 1)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "'crushzone %s' needs %d to %d result folders or problem files, but has %d",
+                       info->name, info->fewest, info->most, arguments->n_operand);
     if (arguments->n_operand < info->fewest)
-        return misuse(error, "'crushzone %s' needs %s", info->name, info->operands);
+        return cz_fail(error, CZ_STATUS_INPUT, "'crushzone %s' needs %s", info->name,
+                       info->operands);
     if (arguments->n_operand > info->most)
-        return misuse(error, "'crushzone %s' takes no argument '%.100s'", info->name,
-                      arguments->operand[info->most]);
+        return cz_fail(error, CZ_STATUS_INPUT, "'crushzone %s' takes no argument '%.100s'",
+                       info->name, arguments->operand[info->most]);
     for (int i = 0; i < arguments->n_set; i++)
         if (strchr(arguments->set[i], '=') == NULL || arguments->set[i][0] == '=')
-            return misuse(error, "'--set %.100s' is not of the form PATH=VALUE", arguments->set[i]);
+            return cz_fail(error, CZ_STATUS_INPUT, "'--set %.100s' is not of the form PATH=VALUE",
+                           arguments->set[i]);
     if (arguments->command == CZ_COMMAND_SWEEP &&
         (arguments->n_vary < 1 || arguments->n_vary > CZ_MOST_AXES))
-        return misuse(error, "'crushzone sweep' needs --vary PATH=A:B:N once or twice");
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "'crushzone sweep' needs --vary PATH=A:B:N once or twice");
     if (arguments->text[CZ_OPTION_JSON] != NULL && arguments->n_operand > 1 &&
         arguments->command != CZ_COMMAND_COMPARE)
-        return misuse(error, "with --json 'crushzone %s' takes one FILE: it prints one document",
-                      info->name);
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "with --json 'crushzone %s' takes one FILE: it prints one document",
+                       info->name);
     return CZ_OK;
 }
 
@@ -321,33 +292,24 @@ CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzErro
     arguments->command = cz_command_named(argv[1]);
     if (arguments->command == CZ_N_COMMAND)
         return unknown_command(argv[1], error);
-    arguments->operand = calloc((size_t)argc, sizeof *arguments->operand);
-    arguments->set = calloc((size_t)argc + 1, sizeof *arguments->set);
-    arguments->vary = calloc((size_t)argc, sizeof *arguments->vary);
-    arguments->metric = calloc((size_t)argc, sizeof *arguments->metric);
-    arguments->check = calloc((size_t)argc, sizeof *arguments->check);
-    if (arguments->operand == NULL || arguments->set == NULL || arguments->vary == NULL ||
-        arguments->metric == NULL || arguments->check == NULL) {
-        misuse(error, "no memory for the command line");
-        return error->status = CZ_STATUS_NO_MEMORY;
-    }
+    const size_t most = (size_t)argc + 1; /* of each list */
+    const char **room = calloc(5 * most, sizeof *room);
+    if (room == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the command line");
+    arguments->operand = room;
+    arguments->set = room + most;
+    arguments->vary = room + 2 * most;
+    arguments->metric = room + 3 * most;
+    arguments->check = room + 4 * most;
     Reader reader = {.argc = argc, .next = 2, .argv = argv, .arguments = arguments, .error = error};
-    CzStatus status = CZ_OK;
-    while (reader.next < argc && status == CZ_OK)
-        status = read_word(&reader);
-    if (status == CZ_OK)
-        status = read_values(arguments, error);
-    if (status == CZ_OK)
-        status = check_file_names(arguments, error);
-    return status != CZ_OK ? status : check_operands(arguments, error);
+    while (reader.next < argc)
+        CZ_TRY(read_word(&reader));
+    CZ_TRY(read_values(arguments, error));
+    CZ_TRY(check_file_names(arguments, error));
+    return check_operands(arguments, error);
 }
 
 void cz_arguments_free(CzArguments *arguments) {
     free(arguments->operand);
-    free(arguments->set);
-    free(arguments->vary);
-    free(arguments->metric);
-    free(arguments->check);
-    arguments->operand = arguments->set = NULL;
-    arguments->vary = arguments->metric = arguments->check = NULL;
+    arguments->operand = NULL;
 }

@@ -1,4 +1,5 @@
 /* `fit`: a measured curve as a staged law. */
+#include "base/error.h"
 #include "base/number.h"
 #include "base/suggest.h"
 #include "cli/command.h"
@@ -9,13 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static CzStatus misuse(CzError *error, const char *sentence, const char *help) {
-    error->status = CZ_STATUS_INPUT;
-    snprintf(error->message, sizeof error->message, "%s", sentence);
-    snprintf(error->help, sizeof error->help, "%s", help);
-    return CZ_STATUS_INPUT;
-}
-
 static CzStatus take_kind(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
     const char *word = arguments->text[CZ_OPTION_AS];
     CzSuggestion suggestion = {0};
@@ -25,23 +19,23 @@ static CzStatus take_kind(const CzArguments *arguments, CzFitOptions *options, C
         if (strcmp(word, cz_fit_kind_word((CzFitKind)kind)) == 0)
             return CZ_OK;
     }
-    misuse(error, "'crushzone fit' needs '--as KIND'", "KIND is coupler, anti-climber or end");
-    if (word != NULL)
-        snprintf(error->message, sizeof error->message, "'--as %.40s' is not known", word);
+    static const char known[] = "KIND is coupler, anti-climber or end";
+    if (word == NULL)
+        return cz_fail(error, CZ_STATUS_INPUT, "'crushzone fit' needs '--as KIND'" CZ_HELP "%s",
+                       known);
+    cz_fail(error, CZ_STATUS_INPUT, "'--as %.40s' is not known" CZ_HELP "%s", word, known);
     cz_suggest_help(&suggestion, error);
     return CZ_STATUS_INPUT;
 }
 
 /* Reads the number of an option that is there. */
 static CzStatus take_number(const CzArguments *arguments, CzOption option, double *number,
-                            CzError *error) {
+                            const char *help, CzError *error) {
     const char *text = arguments->text[option];
     if (text == NULL || cz_number_parse(text, number) == NULL)
         return CZ_OK;
-    misuse(error, "", "");
-    snprintf(error->message, sizeof error->message, "'--%s %.40s' is not a number",
-             cz_options[option].name, text);
-    return CZ_STATUS_INPUT;
+    return cz_fail(error, CZ_STATUS_INPUT, "'--%s %.40s' is not a number" CZ_HELP "%s",
+                   cz_options[option].name, text, help);
 }
 
 static CzStatus take_zero(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
@@ -54,47 +48,32 @@ static CzStatus take_zero(const CzArguments *arguments, CzFitOptions *options, C
                                  : CZ_FIT_ZERO_STROKE;
     if (at_start || at_contact)
         return CZ_OK;
-    const CzStatus status = take_number(arguments, CZ_OPTION_ZERO, &options->zero_stroke, error);
-    if (status != CZ_OK)
-        snprintf(error->help, sizeof error->help,
-                 "--zero takes start, contact or a stroke in the unit of the file");
-    return status;
+    return take_number(arguments, CZ_OPTION_ZERO, &options->zero_stroke,
+                       "--zero takes start, contact or a stroke in the unit of the file", error);
 }
 
 /* Which part of the curve counts, with which signs and from which zero. */
 static CzStatus take_shape(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
-    const char *flip = arguments->text[CZ_OPTION_FLIP];
-    CzStatus status = take_zero(arguments, options, error);
-    if (status == CZ_OK)
-        status = take_number(arguments, CZ_OPTION_SCALE, &options->scale, error);
-    if (status == CZ_OK)
-        status = take_number(arguments, CZ_OPTION_FROM, &options->from, error);
-    if (status == CZ_OK)
-        status = take_number(arguments, CZ_OPTION_TO, &options->to, error);
-    if (status != CZ_OK)
-        return status;
+    CZ_TRY(take_zero(arguments, options, error));
+    CZ_TRY(take_number(arguments, CZ_OPTION_SCALE, &options->scale, "", error));
+    CZ_TRY(take_number(arguments, CZ_OPTION_FROM, &options->from, "", error));
+    CZ_TRY(take_number(arguments, CZ_OPTION_TO, &options->to, "", error));
     if (!(options->scale > 0.0))
-        return misuse(error, "'--scale' must be greater than 0", "--flip force changes the sign");
-    options->flips_stroke =
-        flip != NULL && (strcmp(flip, "stroke") == 0 || strcmp(flip, "both") == 0);
-    options->flips_force =
-        flip != NULL && (strcmp(flip, "force") == 0 || strcmp(flip, "both") == 0);
-    if (flip != NULL && !options->flips_stroke && !options->flips_force)
-        return misuse(error, "'--flip' takes stroke, force or both", "");
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "'--scale' must be greater than 0" CZ_HELP "--flip force changes the sign");
+    options->flips_stroke = arguments->flip == 0 || arguments->flip == 2;
+    options->flips_force = arguments->flip == 1 || arguments->flip == 2;
     return CZ_OK;
 }
 
 static CzStatus take_options(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
-    const char *basis = arguments->text[CZ_OPTION_BASIS];
-    const CzStatus status = take_kind(arguments, options, error);
-    if (status != CZ_OK)
-        return status;
-    options->is_dynamic = basis != NULL && strcmp(basis, "dynamic") == 0;
-    if (!options->is_dynamic && (basis == NULL || strcmp(basis, "static") != 0))
-        return misuse(
-            error, "'crushzone fit' needs '--basis static' or '--basis dynamic'",
-            "a dynamic curve was measured at speed and already contains the rise with the "
-            "rate");
+    CZ_TRY(take_kind(arguments, options, error));
+    options->is_dynamic = arguments->basis == 1;
+    if (arguments->basis < 0)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "'crushzone fit' needs '--basis static' or '--basis dynamic'" CZ_HELP
+                       "a dynamic curve was measured at speed and already contains the rise with "
+                       "the rate");
     options->n_stage = arguments->n_stage;
     options->name = arguments->text[CZ_OPTION_NAME];
     options->stroke = arguments->text[CZ_OPTION_STROKE];
@@ -149,8 +128,9 @@ int cz_command_fit(const CzArguments *arguments) {
     CzError error = {0};
     CzFit *fit = NULL;
     if (svg != NULL && strcmp(svg, "-") == 0) {
-        misuse(&error, "'--svg -' and the law cannot both go to standard output",
-               "name a file, such as --svg fit.svg");
+        cz_fail(&error, CZ_STATUS_INPUT,
+                "'--svg -' and the law cannot both go to standard output" CZ_HELP
+                "name a file, such as --svg fit.svg");
         return cz_tell_error(arguments, &error);
     }
     const int unwritable = cz_result_check(arguments, NULL, svg);

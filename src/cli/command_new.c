@@ -1,4 +1,5 @@
 /* `new`: writes a commented example that runs without changes. */
+#include "base/error.h"
 #include "base/suggest.h"
 #include "cli/command.h"
 #include "cli/messages.h"
@@ -15,9 +16,8 @@ static const char *find_template(const char *name, CzError *error) {
             return cz_templates[i].text;
         cz_suggest(&suggestion, name, cz_templates[i].name);
     }
-    error->status = CZ_STATUS_INPUT;
-    snprintf(error->message, sizeof error->message, "there is no template '%.100s'", name);
-    snprintf(error->help, sizeof error->help, "'crushzone help new' lists them");
+    cz_fail(error, CZ_STATUS_INPUT,
+            "there is no template '%.100s'" CZ_HELP "'crushzone help new' lists them", name);
     cz_suggest_help(&suggestion, error);
     return NULL;
 }
@@ -34,13 +34,12 @@ static CzStatus write_new(const char *path, const char *text, CzError *error) {
         why = why != 0 ? why : errno;
         (void)remove(path); /* it is ours: it was not there before */
     }
-    error->status = CZ_STATUS_OUTPUT;
-    snprintf(error->message, sizeof error->message, "%.300s cannot be written: %s", path,
-             why == EEXIST ? "the file exists" : strerror(why));
     if (why == EEXIST)
-        snprintf(error->help, sizeof error->help,
-                 "choose another name with -o FILE, or -o - for standard output");
-    return CZ_STATUS_OUTPUT;
+        return cz_fail(error, CZ_STATUS_OUTPUT,
+                       "%.300s cannot be written: the file exists" CZ_HELP
+                       "choose another name with -o FILE, or -o - for standard output",
+                       path);
+    return cz_fail(error, CZ_STATUS_OUTPUT, "%.300s cannot be written: %s", path, strerror(why));
 }
 
 int cz_command_new(const CzArguments *arguments) {

@@ -82,9 +82,8 @@ int cz_command_optimise(const CzArguments *arguments) {
     CzSession session;
     CzOutcome *outcome = NULL;
     int code = cz_session_begin(&session, arguments, arguments->operand[0]);
-    const CzReportOptions options = {.replaces_search = true};
-    if (code == 0 && cz_report_check_folder(session.problem, folder, &options, &error) != CZ_OK)
-        code = cz_tell_error(arguments, &error); /* before anything is searched in vain */
+    if (code == 0)
+        code = cz_session_check_folder(&session, folder, true);
     if (code == 0) {
         const CzStatus status = search(&session, &outcome, &error);
         if (outcome != NULL)

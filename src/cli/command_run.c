@@ -1,4 +1,5 @@
 /* `run` and `check`: simulate every scenario, print the table, write the result folder. */
+#include "base/error.h"
 #include "cli/command.h"
 #include "base/clock.h"
 #include "cli/messages.h"
@@ -101,10 +102,9 @@ static int run_file(const CzArguments *arguments, const char *file) {
     CzError error = {0};
     CzSession session;
     int code = cz_session_begin(&session, arguments, file);
-    const CzReportOptions options = {.replaces_search = arguments->text[CZ_OPTION_REPLACE] != NULL};
-    if (code == 0 && folder != NULL &&
-        cz_report_check_folder(session.problem, folder, &options, &error) != CZ_OK)
-        code = cz_tell_error(arguments, &error); /* before anything runs in vain */
+    if (code == 0)
+        code =
+            cz_session_check_folder(&session, folder, arguments->text[CZ_OPTION_REPLACE] != NULL);
     if (code == 0) {
         CzEvaluation evaluation = {0};
         const double started = cz_clock();
@@ -132,11 +132,11 @@ static int check_folders(const CzArguments *arguments) {
             const char *other = folder_of(arguments, arguments->operand[k], second);
             if (folder == NULL || strcasecmp(folder, other) != 0)
                 continue;
-            CzError error = {.status = CZ_STATUS_OUTPUT};
-            snprintf(error.message, sizeof error.message,
-                     "%.150s and %.150s would be written to the same folder, %.100s",
-                     arguments->operand[k], arguments->operand[i], folder);
-            snprintf(error.help, sizeof error.help, "run them one by one, each with its own -o");
+            CzError error;
+            cz_fail(&error, CZ_STATUS_OUTPUT,
+                    "%.150s and %.150s would be written to the same folder, %.100s" CZ_HELP
+                    "run them one by one, each with its own -o",
+                    arguments->operand[k], arguments->operand[i], folder);
             return cz_tell_error(arguments, &error);
         }
     return 0;

@@ -108,17 +108,15 @@ static int sweep_file(const CzSession *session, const CzSweepAxis *axis) {
 
 int cz_command_sweep(const CzArguments *arguments) {
     CzSweepAxis axis[CZ_MOST_AXES];
-    CzError error = {0};
     CzSession session;
     int code = read_axes(arguments, axis);
     if (code != 0)
         return code;
     code = cz_session_read(&session, arguments, arguments->operand[0]); /* reports every mistake */
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
-    const CzReportOptions options = {.replaces_search = arguments->text[CZ_OPTION_REPLACE] != NULL};
-    if (code == 0 && folder != NULL &&
-        cz_report_check_folder(session.problem, folder, &options, &error) != CZ_OK)
-        code = cz_tell_error(arguments, &error); /* before anything runs in vain */
+    if (code == 0)
+        code =
+            cz_session_check_folder(&session, folder, arguments->text[CZ_OPTION_REPLACE] != NULL);
     if (code == 0)
         code = sweep_file(&session, axis);
     cz_session_end(&session);

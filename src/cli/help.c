@@ -1,6 +1,7 @@
 /* Help on a terminal, made from the tables of commands and options. */
 #include "cli/help.h"
 
+#include "base/error.h"
 #include "base/suggest.h"
 #include "cli/command.h"
 #include "cli/messages.h"
@@ -88,13 +89,12 @@ static int unknown_topic(const CzArguments *arguments, const char *topic) {
         cz_suggest(&suggestion, topic, cz_commands[i].name);
     for (int i = 0; i < CZ_N_TOPIC; i++)
         cz_suggest(&suggestion, topic, cz_topics[i].name);
-    CzError error = {.status = CZ_STATUS_INPUT};
-    snprintf(error.message, sizeof error.message, "there is no help on '%.100s'", topic);
-    if (suggestion.best != NULL)
-        snprintf(error.help, sizeof error.help, "did you mean 'crushzone help %s'?",
-                 suggestion.best);
-    else
-        snprintf(error.help, sizeof error.help, "'crushzone help' lists commands and topics");
+    CzError error;
+    cz_fail(&error, CZ_STATUS_INPUT,
+            "there is no help on '%.100s'" CZ_HELP "'crushzone help' lists commands and topics",
+            topic);
+    if (suggestion.best[0] != '\0')
+        cz_error_help(&error, "did you mean 'crushzone help %s'?", suggestion.best);
     return cz_tell_error(arguments, &error);
 }
 

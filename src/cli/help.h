@@ -9,27 +9,24 @@ typedef enum CzTopic {
     CZ_N_TOPIC
 } CzTopic;
 
-typedef struct CzTopicInfo {
+/* A word and what it means. */
+typedef struct CzHelpEntry {
     const char *name, *doc;
-} CzTopicInfo;
+} CzHelpEntry;
 
-extern const CzTopicInfo cz_topics[CZ_N_TOPIC];
+extern const CzHelpEntry cz_topics[CZ_N_TOPIC];
 
 /* The topic of a name, CZ_N_TOPIC when there is none. */
 CzTopic cz_topic_named(const char *name);
 void cz_help_write_topic(CzTopic topic);
 
-/* How checks add up to a verdict: in which order the words are tried, and what is to be said
- * beside. */
-int cz_n_verdict_rule(void);
-const char *cz_verdict_rule_word(int index);
-const char *cz_verdict_rule_text(int index);
+/* How checks add up to a verdict: the words in the order in which they are tried, up to one without
+ * a name, and what is to be said beside. */
+extern const CzHelpEntry cz_verdict_rules[];
 extern const char cz_verdict_remark[];
 
-/* Codes that commands end with, a line each, with what is before it. */
-int cz_n_exit_code(void);
-const char *cz_exit_code_number(int index);
-const char *cz_exit_code_text(int index);
+/* Codes that commands end with, up to one without a name. */
+extern const CzHelpEntry cz_exit_codes[];
 
 /* Writes a text from column `indent` on, broken between words; the line is at that column. */
 void cz_help_write_wrapped(const char *text, int indent);

@@ -44,12 +44,12 @@ void cz_help_write_markdown(void) {
     for (int i = 0; i < CZ_N_TOPIC; i++)
         printf("| `%s` | %s |\n", cz_topics[i].name, cz_topics[i].doc);
     puts("\n## Verdicts\n\n| verdict | when |\n|---|---|");
-    for (int i = 0; i < cz_n_verdict_rule(); i++)
-        printf("| %s | %s |\n", cz_verdict_rule_word(i), cz_verdict_rule_text(i));
+    for (const CzHelpEntry *rule = cz_verdict_rules; rule->name != NULL; rule++)
+        printf("| %s | %s |\n", rule->name, rule->doc);
     printf("\n%s\n", cz_verdict_remark);
     puts("\n## Exit codes\n\n```");
-    for (int i = 0; i < cz_n_exit_code(); i++)
-        printf("%-4s %s\n", cz_exit_code_number(i), cz_exit_code_text(i));
+    for (const CzHelpEntry *code = cz_exit_codes; code->name != NULL; code++)
+        printf("%-4s %s\n", code->name, code->doc);
     puts("```");
 }
 
@@ -75,7 +75,7 @@ static void write_entry(const char *typed, const char *value, const char *doc) {
     fputs(".TP\n\\fB", stdout);
     write_roff(typed);
     fputs("\\fR", stdout);
-    if (value != NULL && value[0] != '\0') {
+    if (value != NULL) {
         fputs(" \\fI", stdout);
         write_roff(value);
         fputs("\\fR", stdout);
@@ -97,14 +97,12 @@ static void write_man_commands(void) {
         write_roff(info->doc);
         puts(".");
         for (int i = 0; i < CZ_N_OPTION; i++) {
-            char typed[64];
             const CzOptionInfo *option = &cz_options[i];
             if (!takes(command, i) || i == CZ_OPTION_HELP)
                 continue;
-            if (option->letter != 0)
-                snprintf(typed, sizeof typed, "-%c, --%s", option->letter, option->name);
-            else
-                snprintf(typed, sizeof typed, "--%s", option->name);
+            char typed[64], letter[] = {'-', option->letter, ',', ' ', '\0'};
+            snprintf(typed, sizeof typed, "%s--%s", option->letter != 0 ? letter : "",
+                     option->name);
             write_entry(typed, option->value, option->doc);
         }
         for (int i = 0; command == CZ_COMMAND_NEW && i < CZ_N_TEMPLATE; i++)
@@ -131,8 +129,8 @@ void cz_help_write_man(void) {
     for (int i = 0; i < CZ_N_TOPIC; i++)
         write_entry(cz_topics[i].name, NULL, cz_topics[i].doc);
     puts(".SH \"EXIT STATUS\"");
-    for (int i = 0; i < cz_n_exit_code(); i++)
-        write_entry(cz_exit_code_number(i), NULL, cz_exit_code_text(i));
+    for (const CzHelpEntry *code = cz_exit_codes; code->name != NULL; code++)
+        write_entry(code->name, NULL, code->doc);
     puts(".SH ENVIRONMENT");
     write_entry("NO_COLOR", NULL, "when it is set and not empty, no colours unless asked for");
     write_entry("TERM", NULL, "dumb: no colours and no line that rewrites itself");
@@ -144,15 +142,6 @@ void cz_help_write_man(void) {
 }
 
 /* ---- bash ---- */
-
-/* Words of a choice such as "static|dynamic"; false when the value is no choice. */
-static bool write_choice(const char *value) {
-    if (value == NULL || strchr(value, '|') == NULL)
-        return false;
-    for (const char *c = value; *c != '\0'; c++)
-        putchar(*c == '|' ? ' ' : *c);
-    return true;
-}
 
 static void write_bash_values(void) {
     puts("    case $before in");
@@ -173,7 +162,8 @@ static void write_bash_values(void) {
             puts("COMPREPLY=($(compgen -f -- \"$word\")); return ;;");
         } else if (strchr(option->value, '|') != NULL) {
             fputs("words='", stdout);
-            (void)write_choice(option->value);
+            for (const char *c = option->value; *c != '\0'; c++)
+                putchar(*c == '|' ? ' ' : *c);
             puts("' ;;");
         } else {
             puts("return ;;");

@@ -6,11 +6,13 @@
 #include "crushzone/report.h"
 
 #include "evaluate/results.h"
+#include "text/units.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
-const CzTopicInfo cz_topics[CZ_N_TOPIC] = {
+const CzHelpEntry cz_topics[CZ_N_TOPIC] = {
 #define CZ_TOPIC(constant, name, doc) {name, doc},
 #include "cli/topics.def"
 #undef CZ_TOPIC
@@ -25,7 +27,7 @@ CzTopic cz_topic_named(const char *name) {
 
 /* ---- exit codes ---- */
 
-static const char *const codes[][2] = {
+const CzHelpEntry cz_exit_codes[] = {
     {"0", "done"},
     {"1",
      "a check fails or could not be made, no feasible design (optimise), a law is refused (fit)"},
@@ -33,39 +35,21 @@ static const char *const codes[][2] = {
     {"3", "a run failed or is incomplete"},
     {"4", "results cannot be written"},
     {"5", "internal error, or no memory"},
-    {"130", "interrupted (143 by SIGTERM); the best design so far is written"}};
-
-int cz_n_exit_code(void) {
-    return (int)(sizeof codes / sizeof *codes);
-}
-const char *cz_exit_code_number(int index) {
-    return codes[index][0];
-}
-const char *cz_exit_code_text(int index) {
-    return codes[index][1];
-}
+    {"130", "interrupted (143 by SIGTERM); the best design so far is written"},
+    {NULL, NULL}};
 
 /* ---- verdicts ---- */
 
 /* The rule of cz_verdict_over. */
-static const char *const verdicts[][2] = {
+const CzHelpEntry cz_verdict_rules[] = {
     {"FAIL", "a check fails, or a vehicle climbed: later results are beyond the model"},
     {"NOT CHECKED",
      "else: a run failed or is incomplete, a check could not be made, or there is no "
      "check at all"},
     {"PROVISIONAL", "else: a check satisfies a limit that is not confirmed: its "
                     "confidence other than S1 (read in the primary text) and user (set by you)"},
-    {"pass", "else: every check is satisfied"}};
-
-int cz_n_verdict_rule(void) {
-    return (int)(sizeof verdicts / sizeof *verdicts);
-}
-const char *cz_verdict_rule_word(int index) {
-    return verdicts[index][0];
-}
-const char *cz_verdict_rule_text(int index) {
-    return verdicts[index][1];
-}
+    {"pass", "else: every check is satisfied"},
+    {NULL, NULL}};
 
 const char cz_verdict_remark[] =
     "The same rule applies to a scenario, a problem, a point of a sweep, an optimum and compared "
@@ -78,31 +62,23 @@ const char cz_verdict_remark[] =
     "required margin, and the targets: FEASIBLE means that they are satisfied; the verdict covers "
     "all checks.";
 
-static void write_verdicts(void) {
-    for (int i = 0; i < cz_n_verdict_rule(); i++) {
-        printf("  %-12s ", verdicts[i][0]);
-        cz_help_write_wrapped(verdicts[i][1], 15);
+/* ---- lists ---- */
+
+static void write_entries(int n, const CzHelpEntry *entries, int width) {
+    for (int i = 0; i < n && entries[i].name != NULL; i++) {
+        printf("  %-*s ", width, entries[i].name);
+        cz_help_write_wrapped(entries[i].doc, width + 3);
     }
+}
+
+static void write_verdicts(void) {
+    write_entries(INT_MAX, cz_verdict_rules, 12);
     putchar('\n');
     cz_help_write_wrapped(cz_verdict_remark, 0);
 }
 
 static void write_exit_codes(void) {
-    for (int i = 0; i < cz_n_exit_code(); i++)
-        printf("  %-4s %s\n", codes[i][0], codes[i][1]);
-}
-
-/* ---- lists ---- */
-
-typedef struct Entry {
-    const char *name, *doc;
-} Entry;
-
-static void write_entries(int n, const Entry *entries, int width) {
-    for (int i = 0; i < n; i++) {
-        printf("  %-*s ", width, entries[i].name);
-        cz_help_write_wrapped(entries[i].doc, width + 3);
-    }
+    write_entries(INT_MAX, cz_exit_codes, 4);
 }
 
 static void write_keys(void) {
@@ -111,31 +87,21 @@ static void write_keys(void) {
 
 static void write_units(void) {
     static const struct {
-        const char *dimension, *suffix, *text;
-    } units[] = {
-#define CZ_DIMENSION(dimension, text) {#dimension, NULL, text},
-#define CZ_UNIT(dimension, suffix, symbol, value) {#dimension, suffix, NULL},
+        const char *text, *suffixes;
+    } dimensions[] = {
+#define CZ_DIMENSION(dimension, text, units) {text, units},
+#define CZ_UNIT(dimension, suffix, symbol, value) " _" suffix
 #include "text/units.def"
-#undef CZ_DIMENSION
-#undef CZ_UNIT
     };
     puts("Every key with a dimension ends in one of its units, such as force_kN or stroke_mm:\n");
-    const char *before = "";
-    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
-        if (strcmp(units[i].dimension, "NONE") == 0)
-            continue;
-        if (units[i].text != NULL)
-            printf("%s  %-20s", before, units[i].text);
-        else
-            printf(" _%s", units[i].suffix);
-        before = "\n";
-    }
-    putchar('\n');
+    for (size_t i = 0; i < sizeof dimensions / sizeof *dimensions; i++)
+        if (i != CZ_DIMENSION_NONE)
+            printf("  %-20s%s\n", dimensions[i].text, dimensions[i].suffixes);
 }
 
 static void write_keys_of(const char *record) {
     for (int i = 0; cz_key_name(record, i) != NULL; i++) {
-        const Entry key = {cz_key_name(record, i), cz_key_doc(record, i)};
+        const CzHelpEntry key = {cz_key_name(record, i), cz_key_doc(record, i)};
         write_entries(1, &key, 14);
     }
 }
@@ -162,9 +128,7 @@ static void write_design_rules(void) {
 }
 
 static void write_metrics(void) {
-    static const struct {
-        const char *name, *doc;
-    } metrics[] = {
+    static const CzHelpEntry metrics[] = {
 #define CZ_RESULT(...)
 #define CZ_QUANTITY(...)
 #define CZ_METRIC_BY(record, key, form, source, unit, dimension, heading, judged, scale, absent,   \
@@ -174,10 +138,7 @@ static void write_metrics(void) {
     {CZ_METRIC_PREFIX_##record #key, doc},
 #include "evaluate/results.def"
     };
-    for (size_t i = 0; i < sizeof metrics / sizeof *metrics; i++) {
-        printf("  %-40s ", metrics[i].name);
-        cz_help_write_wrapped(metrics[i].doc, 43);
-    }
+    write_entries((int)(sizeof metrics / sizeof *metrics), metrics, 40);
 }
 
 static void write_checks(void) {
@@ -204,7 +165,7 @@ static void write_algorithms(void) {
 }
 
 static void write_paths(void) {
-    static const Entry paths[] = {
+    static const CzHelpEntry paths[] = {
         {"trains.A.speed_km_h", "a key of a train, by the train's name"},
         {"trains.A.vehicles.A1.mass_t", "of a vehicle, by its name"},
         {"parts.cab-end.coupler.tube.stages[0].force_kN", "of a part, wherever it is used"},
@@ -218,7 +179,7 @@ static void write_paths(void) {
 }
 
 static void write_profiles(void) {
-    static const Entry profiles[] = {
+    static const CzHelpEntry profiles[] = {
         {"en15227-2008", "EN 15227:2008+A1:2010; categories C-I, C-II, C-III, C-IV"},
         {"en15227-2020a1", "EN 15227:2020+A1:2024, where a change is announced with less "
                            "confidence; the same categories"},
@@ -254,10 +215,10 @@ static void write_channels(void) {
     for (CzChannel channel = 0; channel < CZ_N_CHANNEL; channel++) {
         char name[CZ_CHANNEL_ROOM];
         const CzChannelInfo *info = cz_channel_info(channel);
-        const Entry entry = {channel_example(info, name), info->doc};
+        const CzHelpEntry entry = {channel_example(info, name), info->doc};
         write_entries(1, &entry, 30);
     }
-    const Entry beyond = {"beyond_validity", beyond_doc};
+    const CzHelpEntry beyond = {"beyond_validity", beyond_doc};
     write_entries(1, &beyond, 30);
 }
 
@@ -290,7 +251,7 @@ static void write_results(void) {
 }
 
 static void write_events(void) {
-    static const Entry events[] = {
+    static const CzHelpEntry events[] = {
 #define CZ_EVENT(constant, text, doc) {text, doc},
 #include "crushzone/events.def"
 #undef CZ_EVENT
@@ -300,7 +261,7 @@ static void write_events(void) {
 }
 
 static void write_figures(void) {
-    static const Entry figures[] = {
+    static const CzHelpEntry figures[] = {
 #define CZ_CHART(constant, name, title, number, axes, doc) {name, doc},
 #include "crushzone/charts.def"
 #undef CZ_CHART
@@ -310,7 +271,7 @@ static void write_figures(void) {
 }
 
 static void write_files(void) {
-    static const Entry files[] = {
+    static const CzHelpEntry files[] = {
 #define CZ_RESULT_FILE(constant, name, doc) {name, doc},
 #include "crushzone/result_files.def"
 #undef CZ_RESULT_FILE

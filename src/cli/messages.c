@@ -1,6 +1,7 @@
 /* Mistakes with the line they are in and a caret under the place. */
 #include "cli/messages.h"
 
+#include "base/error.h"
 #include "crushzone/report.h"
 
 #include <errno.h>
@@ -120,19 +121,17 @@ void cz_tell(const CzArguments *arguments, const char *format, ...) {
 }
 
 CzStatus cz_end_table(CzStatus status, CzError *error) {
-    error->status = status;
-    if (status != CZ_OK)
-        snprintf(error->message, sizeof error->message, "no memory for the whole table");
-    return status;
+    return status == CZ_OK ? CZ_OK : cz_fail(error, status, "no memory for the whole table");
 }
 
 int cz_end_output(const CzArguments *arguments, int code) {
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout))
         return code;
-    CzError error = {.status = CZ_STATUS_OUTPUT};
-    snprintf(error.message, sizeof error.message, "standard output cannot be written%s%s",
-             errno != 0 ? ": " : "", errno != 0 ? strerror(errno) : "");
+    const int why = errno;
+    CzError error;
+    cz_fail(&error, CZ_STATUS_OUTPUT, "standard output cannot be written%s%s", why != 0 ? ": " : "",
+            why != 0 ? strerror(why) : "");
     cz_print_mistake(arguments, "error", NULL, &error);
     return cz_status_exit_code(CZ_STATUS_OUTPUT);
 }

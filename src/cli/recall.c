@@ -2,6 +2,7 @@
  * history.csv. */
 #include "cli/recall.h"
 
+#include "base/error.h"
 #include "cli/messages.h"
 
 #include <math.h>
@@ -153,7 +154,7 @@ static bool read_history(FILE *stream, History *history) {
 int cz_recall_outcome(const CzResult *result, const char *folder, CzOutcome **outcome) {
     char room[4096];
     const char *path;
-    CzError error = {.status = CZ_STATUS_INPUT};
+    CzError error = {0};
     History history = {.n_variable = cz_evaluator_n_variable(result->session.evaluator)};
     *outcome = NULL;
     FILE *stream = open_in(folder, "run.log", &path, room);
@@ -166,10 +167,10 @@ int cz_recall_outcome(const CzResult *result, const char *folder, CzOutcome **ou
         fclose(stream);
     int code;
     if (!fits) {
-        snprintf(error.message, sizeof error.message,
-                 "%.200s cannot be read as the history of a search", path);
-        snprintf(error.help, sizeof error.help,
-                 "for a report of the best design only give a file: -o best.html");
+        cz_fail(&error, CZ_STATUS_INPUT,
+                "%.200s cannot be read as the history of a search" CZ_HELP
+                "for a report of the best design only give a file: -o best.html",
+                path);
         code = cz_tell_error(&result->arguments, &error);
     } else {
         const CzRecall recall = {.status = history.status,

@@ -1,6 +1,7 @@
 /* Reading result folders back by running them again, and writing single files. */
 #include "cli/result.h"
 
+#include "base/error.h"
 #include "cli/messages.h"
 
 #include <stdlib.h>
@@ -52,17 +53,17 @@ static void tell_version(const CzArguments *arguments, const char *folder) {
 /* What to run for an operand: the file itself, or what its folder holds. */
 static int find_file(CzResult *result, const char *operand) {
     struct stat found;
-    CzError error = {.status = CZ_STATUS_INPUT};
+    CzError error;
     if (stat(operand, &found) != 0 || !S_ISDIR(found.st_mode)) {
         snprintf(result->file, sizeof result->file, "%s", operand);
         return 0;
     }
     if (!is_there(operand, "resolved.yaml")) {
-        snprintf(error.message, sizeof error.message,
-                 "%.200s is no result folder: it has no resolved.yaml", operand);
-        if (is_there(operand, "sweep.json"))
-            snprintf(error.help, sizeof error.help,
-                     "it is the folder of a sweep, whose report was written with it");
+        cz_fail(&error, CZ_STATUS_INPUT,
+                "%.200s is no result folder: it has no resolved.yaml" CZ_HELP "%s", operand,
+                is_there(operand, "sweep.json")
+                    ? "it is the folder of a sweep, whose report was written with it"
+                    : "");
         return cz_tell_error(&result->arguments, &error);
     }
     snprintf(result->file, sizeof result->file, "%s/resolved.yaml", operand);
@@ -123,10 +124,9 @@ int cz_result_check(const CzArguments *arguments, const CzProblem *problem, cons
                           ? cz_report_check_page(problem, path, &error)
                           : cz_report_check_file(problem, path, &error);
     if (status == CZ_OK && is_read(arguments, path)) {
-        error.status = status = CZ_STATUS_OUTPUT;
-        snprintf(error.message, sizeof error.message,
-                 "%.200s is read and would be replaced by what is written; choose another file",
-                 path);
+        status = cz_fail(
+            &error, CZ_STATUS_OUTPUT,
+            "%.200s is read and would be replaced by what is written; choose another file", path);
     }
     return status == CZ_OK ? 0 : cz_tell_error(arguments, &error);
 }

@@ -2,6 +2,7 @@
 #include "cli/session.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "cli/messages.h"
 
 #include <stdio.h>
@@ -14,15 +15,12 @@ enum { LARGEST_INPUT = 20 << 20 }; /* more than any problem file may have [byte]
 /* Reads standard input to its end, or a little more than a problem file may have. */
 static CzStatus read_input(CzSession *session, CzError *error) {
     session->text = malloc(LARGEST_INPUT);
-    if (session->text == NULL) {
-        snprintf(error->message, sizeof error->message, "no memory for standard input");
-        return error->status = CZ_STATUS_NO_MEMORY;
-    }
+    if (session->text == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for standard input");
     session->n_text = fread(session->text, 1, LARGEST_INPUT, stdin);
     if (!ferror(stdin))
         return CZ_OK;
-    snprintf(error->message, sizeof error->message, "standard input cannot be read");
-    return error->status = CZ_STATUS_INPUT;
+    return cz_fail(error, CZ_STATUS_INPUT, "standard input cannot be read");
 }
 
 CzProblemOptions cz_session_problem_options(const CzArguments *arguments) {
@@ -37,9 +35,7 @@ static CzStatus read_problem(CzSession *session, CzError *error) {
     const CzProblemOptions options = cz_session_problem_options(session->arguments);
     if (strcmp(session->file, "-") != 0)
         return cz_problem_read(session->file, &options, &session->problem, error);
-    const CzStatus status = read_input(session, error);
-    if (status != CZ_OK)
-        return status;
+    CZ_TRY(read_input(session, error));
     return cz_problem_read_text(session->text, session->n_text, "<standard input>", ".", &options,
                                 &session->problem, error);
 }
@@ -120,6 +116,15 @@ CzReportOptions cz_session_report_options(const CzSession *session, double wall_
     options.n_text = session->n_text;
     options.replaces_search = session->arguments->text[CZ_OPTION_REPLACE] != NULL;
     return options;
+}
+
+int cz_session_check_folder(const CzSession *session, const char *folder, bool replaces_search) {
+    const CzReportOptions options = {.replaces_search = replaces_search};
+    CzError error = {0};
+    if (folder == NULL ||
+        cz_report_check_folder(session->problem, folder, &options, &error) == CZ_OK)
+        return 0;
+    return cz_tell_error(session->arguments, &error);
 }
 
 /* Mistakes that were found while reading are reported all; later ones alone, with their source

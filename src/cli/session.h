@@ -36,6 +36,11 @@ void cz_session_end(CzSession *session);
 /* How the results of this session are written. */
 CzReportOptions cz_session_report_options(const CzSession *session, double wall_s);
 
+/* Whether results can be written to a folder (NULL: to none), before anything runs in vain; returns
+ * the exit code. */
+CZ_MUST_CHECK int cz_session_check_folder(const CzSession *session, const char *folder,
+                                          bool replaces_search);
+
 /* Reports a failure of this session's problem; returns its exit code. */
 int cz_session_fail(const CzSession *session, const CzError *error);
 

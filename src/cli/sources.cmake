@@ -1,5 +1,6 @@
 # Sources of src/cli, one per line.
 set(CZ_SOURCES_cli
+    ../base/error.c
     ../base/number.c
     ../base/suggest.c
     ../base/text.c

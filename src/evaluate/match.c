@@ -43,8 +43,8 @@ static CzStatus find_channel(const char *text, const CzScene *scene, CzArena *ar
     if (cz_column_find(text, scene->n_vehicle, name, column, nearest))
         return CZ_OK;
     cz_fail(error, CZ_STATUS_INPUT, "there is no channel '%.127s'", text);
-    const CzSuggestion suggestion = {.best = nearest[0] != '\0' ? nearest : NULL};
-    cz_suggest_help(&suggestion, error);
+    if (nearest[0] != '\0' && error != NULL)
+        cz_error_help(error, "did you mean '%s'?", nearest);
     return CZ_STATUS_INPUT;
 }
 

@@ -7,11 +7,7 @@
 
 /* The train at a side of a scenario, which the reader has found to exist. */
 static int train_at(const CzInput *input, const CzScenario *scenario, int side) {
-    int train = side;
-    if (scenario != NULL && scenario->trains.n_text == 2)
-        for (train = 0; strcmp(input->trains[train].name, scenario->trains.text[side]) != 0;)
-            train++;
-    return train;
+    return (int)(cz_input_train(input, scenario, side) - input->trains);
 }
 
 /* The value of the scenario, or the train's where it has none. */

@@ -65,8 +65,8 @@ CzStatus cz_nlopt_check(const char *algorithm, CzError *error) {
         cz_fail(error, CZ_STATUS_INPUT, "there is no algorithm '%s'", algorithm);
     if (error != NULL)
         snprintf(error->help, sizeof error->help, "%s%s%s'auto' is the usual choice",
-                 nearest.best != NULL ? "did you mean '" : "",
-                 nearest.best != NULL ? nearest.best : "", nearest.best != NULL ? "'? " : "");
+                 nearest.best[0] != '\0' ? "did you mean '" : "", nearest.best,
+                 nearest.best[0] != '\0' ? "'? " : "");
     return status;
 }
 

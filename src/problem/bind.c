@@ -53,13 +53,11 @@ void cz_bind_absent(const CzRecord *record, void *record_memory) {
 
 /* ---- keys that are not what they should be ---- */
 
-/* The nearest key of a record, spelled out in `text`. */
-static const CzKey *nearest_key(const CzRecord *record, const char *typed, char *text,
-                                size_t size) {
-    CzSuggestion suggestion = {0};
+/* The nearest key of a record. */
+static const CzKey *nearest_key(const CzRecord *record, const char *typed,
+                                CzSuggestion *suggestion) {
     const CzKey *nearest = NULL;
-    char spelled[96];
-    text[0] = '\0';
+    char spelled[CZ_LONGEST_SUGGESTED];
     for (int i = 0; i < record->n_key; i++) {
         const CzKey *key = &record->key[i];
         const bool is_number = key->kind == CZ_KEY_NUMBER;
@@ -67,12 +65,8 @@ static const CzKey *nearest_key(const CzRecord *record, const char *typed, char 
              unit != NULL; unit = cz_unit_next(unit)) {
             snprintf(spelled, sizeof spelled, "%s%s%s", key->stem,
                      unit->suffix[0] != '\0' ? "_" : "", unit->suffix);
-            cz_suggest(&suggestion, typed, spelled);
-            if (suggestion.best != spelled)
-                continue;
-            snprintf(text, size, "%s", spelled);
-            suggestion.best = text;
-            nearest = key;
+            if (cz_suggest(suggestion, typed, spelled))
+                nearest = key;
         }
     }
     return nearest;
@@ -94,7 +88,6 @@ static const CzKey *key_of_stem(const CzRecord *record, const char *typed) {
     return best;
 }
 
-/* Says where a key that reuses belongs. */
 static const CzReuseKey *find_reuse_key(const char *typed) {
     for (int i = 0; i < cz_n_reuse_key; i++)
         if (strcmp(cz_reuse_keys[i].key, typed) == 0)
@@ -102,94 +95,88 @@ static const CzReuseKey *find_reuse_key(const char *typed) {
     return NULL;
 }
 
+/* Reports a number whose key has no unit, or another than its own. */
 static void report_unit(CzBinder binder, const Record *record, const CzNode *typed,
                         const CzKey *key, const CzTrail *trail) {
-    char spellings[200];
-    cz_key_spellings(spellings, sizeof spellings, key->stem, key->dimension);
+    char spellings[200], wrong[80] = " takes no unit";
     const char *suffix = typed->text + strlen(key->stem);
-    if (key->dimension == CZ_DIMENSION_NONE)
-        cz_mistake(&binder.reader->mistakes, typed, trail, "key '%s' in %s takes no unit",
-                   typed->text, record->record->name);
-    else if (*suffix == '\0')
-        cz_mistake(&binder.reader->mistakes, typed, trail, "key '%s' in %s needs a unit",
-                   typed->text, record->record->name);
-    else
-        cz_mistake(&binder.reader->mistakes, typed, trail, "key '%s' in %s: '%s' is no unit of %s",
-                   typed->text, record->record->name, suffix + 1,
-                   cz_dimension_text[key->dimension]);
-    cz_mistake_help(&binder.reader->mistakes, "write %s", spellings);
+    cz_key_spellings(spellings, sizeof spellings, key->stem, key->dimension);
+    if (key->dimension != CZ_DIMENSION_NONE && *suffix == '\0')
+        snprintf(wrong, sizeof wrong, " needs a unit");
+    else if (key->dimension != CZ_DIMENSION_NONE)
+        snprintf(wrong, sizeof wrong, ": '%s' is no unit of %s", suffix + 1,
+                 cz_dimension_text[key->dimension]);
+    cz_mistake(&binder.reader->mistakes, typed, trail, "key '%s' in %s%s" CZ_HELP "write %s",
+               typed->text, record->record->name, wrong, spellings);
 }
 
-/* The key that reuses and is nearest to a typed one; NULL when none is near. */
-static const char *nearest_reuse_key(const CzRecord *record, const char *typed) {
-    CzSuggestion suggestion = {0};
+/* Offers the keys that reuse and may be in a record. */
+static void suggest_reuse(CzSuggestion *suggestion, const CzRecord *record, const char *typed) {
     for (int i = 0; i < cz_n_reuse_key; i++)
         if (cz_reuse_keys[i].record[0] == '\0' ||
             strcmp(cz_reuse_keys[i].record, record->name) == 0)
-            cz_suggest(&suggestion, typed, cz_reuse_keys[i].key);
-    return suggestion.best;
+            cz_suggest(suggestion, typed, cz_reuse_keys[i].key);
 }
 
 /* Says of which inner record a key is, when it is one level too far out. */
-static void help_inwards(CzMistakes *mistakes, const CzRecord *record, const char *typed) {
-    for (int i = 0; i < record->n_key; i++) {
+static void help_inwards(char help[160], const CzRecord *record, const char *typed) {
+    for (int i = 0; i < record->n_key && help[0] == '\0'; i++) {
         const CzKey *key = &record->key[i];
         const CzUnit *unit = NULL;
         const bool is_list = key->kind == CZ_KEY_STAGES || key->kind == CZ_KEY_LIST;
-        if ((key->kind != CZ_KEY_CHILD && !is_list) ||
-            cz_record_match(key->child, typed, &unit) == NULL)
-            continue;
-        cz_mistake_help(mistakes, "it belongs to '%s', one level further in: %s: %s{%s: ...}%s",
-                        key->stem, key->stem, is_list ? "[" : "", typed, is_list ? "]" : "");
-        return;
+        if ((key->kind == CZ_KEY_CHILD || is_list) &&
+            cz_record_match(key->child, typed, &unit) != NULL)
+            snprintf(help, 160, "it belongs to '%s', one level further in: %s: %s{%s: ...}%s",
+                     key->stem, key->stem, is_list ? "[" : "", typed, is_list ? "]" : "");
     }
 }
 
 /* Reports a key that the record does not have; the key that was meant, when that is plain. */
 static const CzKey *report_unknown(CzBinder binder, const Record *record, const CzNode *typed,
                                    const CzTrail *trail) {
-    char nearest[96];
-    const CzKey *near = nearest_key(record->record, typed->text, nearest, sizeof nearest);
+    char help[160] = "";
+    CzMistakes *mistakes = &binder.reader->mistakes;
+    CzSuggestion suggestion = {0};
+    const CzKey *near = nearest_key(record->record, typed->text, &suggestion);
     const CzKey *stem = key_of_stem(record->record, typed->text);
     const CzReuseKey *reuse = find_reuse_key(typed->text);
     if (stem != NULL && (near == NULL || near == stem)) {
         report_unit(binder, record, typed, stem, trail);
         return stem;
     }
-    cz_mistake(&binder.reader->mistakes, typed, trail, "unknown key '%s' in %s", typed->text,
-               record->record->name);
     if (reuse != NULL && reuse->record[0] != '\0')
-        cz_mistake_help(&binder.reader->mistakes, "'%s' belongs to a %s", typed->text,
-                        reuse->record);
-    else if (near != NULL)
-        cz_mistake_suggest(&binder.reader->mistakes, nearest);
-    else if (nearest_reuse_key(record->record, typed->text) != NULL)
-        cz_mistake_suggest(&binder.reader->mistakes,
-                           nearest_reuse_key(record->record, typed->text));
-    else
-        help_inwards(&binder.reader->mistakes, record->record, typed->text);
+        snprintf(help, sizeof help, "'%s' belongs to a %s", typed->text, reuse->record);
+    else if (near == NULL)
+        suggest_reuse(&suggestion, record->record, typed->text);
+    if (suggestion.best[0] == '\0')
+        help_inwards(help, record->record, typed->text);
+    cz_mistake(mistakes, typed, trail, "unknown key '%s' in %s" CZ_HELP "%s", typed->text,
+               record->record->name, help);
+    if (help[0] == '\0')
+        cz_mistake_suggest(mistakes, &suggestion);
     return reuse == NULL ? near : NULL;
 }
 
 static void report_missing(CzBinder binder, const Record *record, const CzKey *key) {
-    char spellings[200];
+    char spellings[200] = "";
     const bool is_vehicle = record->record == &cz_records[CZ_RECORD_CzVehicle];
     const bool is_full = key->presence == CZ_PRESENCE_REQUIRED_FULL;
-    cz_mistake(&binder.reader->mistakes, record->node, record->trail, "%s%s%s lacks '%s': %s",
-               is_full && is_vehicle ? "full " : "", record->record->name,
-               is_full && !is_vehicle ? " of a full vehicle" : "", key->stem, key->doc);
-    if (key->kind != CZ_KEY_NUMBER || key->dimension == CZ_DIMENSION_NONE)
-        return;
-    cz_key_spellings(spellings, sizeof spellings, key->stem, key->dimension);
-    cz_mistake_help(&binder.reader->mistakes, "write %s", spellings);
+    const bool has_unit = key->kind == CZ_KEY_NUMBER && key->dimension != CZ_DIMENSION_NONE;
+    if (has_unit)
+        cz_key_spellings(spellings, sizeof spellings, key->stem, key->dimension);
+    cz_mistake(&binder.reader->mistakes, record->node, record->trail,
+               "%s%s%s lacks '%s': %s" CZ_HELP "%s%s", is_full && is_vehicle ? "full " : "",
+               record->record->name, is_full && !is_vehicle ? " of a full vehicle" : "", key->stem,
+               key->doc, has_unit ? "write " : "", spellings);
 }
 
 static bool is_list(CzBinder binder, const CzNode *key, const CzNode *value, const CzTrail *trail) {
     if (value->kind == CZ_NODE_LIST)
         return true;
-    cz_mistake(&binder.reader->mistakes, value, trail, "'%s' needs a list, but this is %s",
+    cz_mistake(&binder.reader->mistakes, value, trail,
+               "'%s' needs a list, but this is %s" CZ_HELP
+               "begin each item with '-', or write [first, second]",
                key->text, cz_node_what(value));
-    cz_mistake_help(&binder.reader->mistakes, "begin each item with '-', or write [first, second]");
     binder.reader->has_holes = true;
     return false;
 }
@@ -210,68 +197,55 @@ static void add_place(CzBinder binder, const void *address, const CzEntry *entry
 static bool bind_choice(CzValue value, const CzWordSet *set, int *choice) {
     char words[160] = "";
     size_t n = 0;
+    CzSuggestion suggestion = {0};
     if (!cz_value_is_there(value))
         return false;
-    const int nearest = cz_word_nearest(set, value.node->text);
-    if (nearest >= 0)
-        *choice = nearest;
-    if (nearest >= 0 && strcmp(set->word[nearest].word, value.node->text) == 0)
-        return true;
     for (int i = 0; i < set->n_word; i++) {
         const char *before = i == 0 ? "" : i + 1 < set->n_word ? ", " : " or ";
         n += (size_t)snprintf(words + n, sizeof words - n, "%s%s", before, set->word[i].word);
         n = n < sizeof words ? n : sizeof words - 1;
+        if (cz_suggest(&suggestion, value.node->text, set->word[i].word))
+            *choice = i;
     }
+    if (strcmp(suggestion.best, value.node->text) == 0)
+        return true;
     cz_mistake(value.mistakes, value.node, value.trail, "%s: '%.60s' is not %s", value.key,
                value.node->text, words);
-    cz_mistake_suggest(value.mistakes, nearest >= 0 ? set->word[nearest].word : NULL);
+    cz_mistake_suggest(value.mistakes, &suggestion);
     return false;
 }
 
-static void bind_stages(CzBinder binder, const Record *record, const CzKey *key,
-                        const CzEntry *entry, const CzTrail *trail) {
-    const CzNode *list = entry->value;
-    CzStage *stage = (CzStage *)(void *)(record->memory + key->offset);
-    if (!is_list(binder, entry->key, list, trail))
-        return;
-    if (list->n_entry > CZ_MAX_STAGES) {
-        cz_mistake(&binder.reader->mistakes, list, trail, "'%s' has %d stages; %d is the most",
-                   key->stem, list->n_entry, (int)CZ_MAX_STAGES);
-        binder.reader->has_holes = true;
-        return;
-    }
-    if (list->n_entry == 0) {
-        cz_mistake(&binder.reader->mistakes, list, trail, "'%s' has no stage", key->stem);
-        binder.reader->has_holes = true;
-    }
-    for (int i = 0; i < list->n_entry; i++)
-        bind_record(binder, key->child, list->entry[i].value,
-                    cz_entry_trail(&list->entry[i], trail), &stage[i]);
-    *(int *)(void *)(record->memory + key->n_offset) = list->n_entry;
-}
-
+/* The items of a list of records, which the record has by pointer, of a list of stages, by value.
+ */
 static void bind_list(CzBinder binder, const Record *record, const CzKey *key, const CzEntry *entry,
                       const CzTrail *trail) {
     const CzNode *list = entry->value;
-    const size_t size = key->child->size;
+    const bool is_stages = key->kind == CZ_KEY_STAGES;
     if (!is_list(binder, entry->key, list, trail))
         return;
-    if (list->n_entry == 0 && key->presence == CZ_PRESENCE_REQUIRED)
-        cz_mistake(&binder.reader->mistakes, list, trail, "'%s' is empty", key->stem);
-    if (list->n_entry == 0) {
+    const bool is_too_long = is_stages && list->n_entry > CZ_MAX_STAGES;
+    if (is_too_long)
+        cz_mistake(&binder.reader->mistakes, list, trail, "'%s' has %d stages; %d is the most",
+                   key->stem, list->n_entry, (int)CZ_MAX_STAGES);
+    else if (list->n_entry == 0 && (is_stages || key->presence == CZ_PRESENCE_REQUIRED))
+        cz_mistake(&binder.reader->mistakes, list, trail,
+                   is_stages ? "'%s' has no stage" : "'%s' is empty", key->stem);
+    if (is_too_long || list->n_entry == 0) {
         binder.reader->has_holes = true;
         return;
     }
-    int *n_item = (int *)(void *)(record->memory + key->n_offset);
-    char **items = (char **)(void *)(record->memory + key->offset);
-    if (*items == NULL) /* trains and vehicles have their room already */
-        *items = cz_arena_allocate(&binder.reader->arena, (size_t)list->n_entry, size);
-    if (*items == NULL)
-        return;
-    for (int i = 0; i < list->n_entry; i++)
+    char *items = record->memory + key->offset;
+    if (!is_stages) {
+        char **pointer = (char **)(void *)items;
+        if (*pointer == NULL) /* trains and vehicles have their room already */
+            *pointer =
+                cz_arena_allocate(&binder.reader->arena, (size_t)list->n_entry, key->child->size);
+        items = *pointer;
+    }
+    for (int i = 0; items != NULL && i < list->n_entry; i++)
         bind_record(binder, key->child, list->entry[i].value,
-                    cz_entry_trail(&list->entry[i], trail), *items + (size_t)i * size);
-    *n_item = list->n_entry;
+                    cz_entry_trail(&list->entry[i], trail), items + (size_t)i * key->child->size);
+    *(int *)(void *)(record->memory + key->n_offset) = items != NULL ? list->n_entry : 0;
 }
 
 static void bind_texts(CzBinder binder, const Record *record, const CzKey *key,
@@ -306,8 +280,7 @@ static void bind_value(CzBinder binder, const Record *record, const CzKey *key, 
     case CZ_KEY_COUNT:
         if (!cz_value_count(value, key->lo, key->hi, field) &&
             record->record == &cz_records[CZ_RECORD_CzInput])
-            cz_mistake_help(&reader->mistakes, "this program reads version %.0f of the format",
-                            key->hi);
+            cz_mistake_help(&reader->mistakes, "this program reads version 1 of the format");
         break;
     case CZ_KEY_CHOICE:
         if (!bind_choice(value, key->words, field))
@@ -322,15 +295,13 @@ static void bind_value(CzBinder binder, const Record *record, const CzKey *key, 
     case CZ_KEY_CHILD:
         bind_record(binder, key->child, entry->value, trail, field);
         break;
-    case CZ_KEY_STAGES:
-        bind_stages(binder, record, key, entry, trail);
-        break;
     case CZ_KEY_TABLE: {
         const CzNode *node = cz_take_part(reader, binder.tree, entry->value, trail);
         if (node != NULL)
             cz_bind_table(reader, binder.curves, key, node, trail, field);
         break;
     }
+    case CZ_KEY_STAGES:
     case CZ_KEY_LIST:
         bind_list(binder, record, key, entry, trail);
         break;
@@ -389,10 +360,10 @@ static const char *find_model(const CzNode *node) {
     for (int i = 0; i < node->n_entry; i++) {
         const CzEntry *entry = &node->entry[i];
         const CzUnit *unit = NULL;
-        char nearest[96];
+        CzSuggestion suggestion = {0};
         const CzKey *key = cz_record_match(record, entry->key->text, &unit);
         if (key == NULL)
-            key = nearest_key(record, entry->key->text, nearest, sizeof nearest);
+            key = nearest_key(record, entry->key->text, &suggestion);
         if (key == model && entry->value->kind == CZ_NODE_TEXT)
             return entry->value->text;
     }
@@ -410,12 +381,11 @@ static void bind_record(CzBinder binder, const CzRecord *of, const CzNode *node,
     Record record = {.record = of, .trail = trail, .memory = memory};
     cz_bind_absent(of, memory);
     if (node->kind != CZ_NODE_MAPPING) {
+        const bool may_be_part = node->kind == CZ_NODE_TEXT && node->text[0] != '\0';
         cz_mistake(&binder.reader->mistakes, node, trail,
-                   "%s needs keys with values, but this is %s", record.record->name,
-                   cz_node_what(node));
-        if (node->kind == CZ_NODE_TEXT && node->text[0] != '\0')
-            cz_mistake_help(&binder.reader->mistakes, "a part is taken with {use: %.80s}",
-                            node->text);
+                   "%s needs keys with values, but this is %s" CZ_HELP "%s%.80s%s", of->name,
+                   cz_node_what(node), may_be_part ? "a part is taken with {use: " : "",
+                   may_be_part ? node->text : "", may_be_part ? "}" : "");
         binder.reader->has_holes = true;
         return;
     }

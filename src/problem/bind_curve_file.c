@@ -182,14 +182,11 @@ static bool keep_loading(const Reading *reading, const CzSource *source, CzTrace
     const Jump jump = merge_points(trace);
     if (trace->n >= 2 && fabs(area_of(trace) - before) <= JUMP * before)
         return true;
-    char at[CZ_NUMBER_TEXT], from[CZ_NUMBER_TEXT], to[CZ_NUMBER_TEXT];
-    cz_mistake_at(
-        mistakes, source, jump.line, 1, "the force jumps from %s to %s kN at one stroke, %s mm",
-        cz_number_print_short(from, 1e-3 * jump.from), cz_number_print_short(to, 1e-3 * jump.to),
-        cz_number_print_short(at, 1e3 * jump.x));
-    cz_mistake_help(mistakes,
-                    "a curve of a device has one force at a stroke: give the second point "
-                    "a stroke that is a little larger, or use stages");
+    cz_mistake_at(mistakes, source, jump.line, 1,
+                  "the force jumps from %s to %s kN at one stroke, %s mm" CZ_HELP
+                  "a curve of a device has one force at a stroke: give the second point a stroke "
+                  "that is a little larger, or use stages",
+                  CZ_SHORT(1e-3 * jump.from), CZ_SHORT(1e-3 * jump.to), CZ_SHORT(1e3 * jump.x));
     return false;
 }
 

@@ -79,9 +79,9 @@ static bool read_columns(Curve *curve, const CzNode *node) {
         columns->value->entry[0].value->kind != CZ_NODE_TEXT ||
         columns->value->entry[1].value->kind != CZ_NODE_TEXT) {
         cz_mistake(&curve->reader->mistakes, columns != NULL ? columns->value : node, curve->trail,
-                   "'%s' needs 'columns', the names of its two columns", curve->key->stem);
-        cz_mistake_help(&curve->reader->mistakes, "for example columns: [%s_mm, %s_kN]",
-                        curve->key->x, curve->key->y);
+                   "'%s' needs 'columns', the names of its two columns" CZ_HELP
+                   "for example columns: [%s_mm, %s_kN]",
+                   curve->key->stem, curve->key->x, curve->key->y);
         return false;
     }
     const CzNode *x = columns->value->entry[0].value, *y = columns->value->entry[1].value;
@@ -124,10 +124,9 @@ static bool read_basis(Curve *curve, const CzNode *node, CzTable *table) {
             return true;
     }
     cz_mistake(&curve->reader->mistakes, basis != NULL ? basis->value : node, curve->trail,
-               "'%s' needs 'basis': static or dynamic", curve->key->stem);
-    cz_mistake_help(
-        &curve->reader->mistakes,
-        "a dynamic curve was measured at speed and already contains the rise with the rate");
+               "'%s' needs 'basis': static or dynamic" CZ_HELP
+               "a dynamic curve was measured at speed and already contains the rise with the rate",
+               curve->key->stem);
     return false;
 }
 
@@ -166,7 +165,6 @@ static void check_keys(Curve *curve, const CzNode *node, bool has_file) {
 }
 
 static void reduce(Curve *curve, const CzNode *node, CzTable *table) {
-    char energy[CZ_NUMBER_TEXT], force[CZ_NUMBER_TEXT];
     const int n_before = curve->points.n;
     double largest = 0.0;
     CzCurveChange change;
@@ -180,11 +178,10 @@ static void reduce(Curve *curve, const CzNode *node, CzTable *table) {
             &curve->reader->warnings, node, curve->trail,
             "'%s' was reduced from %d to %d points: energy %s kJ as before, force differs by up "
             "to %s kN",
-            curve->key->stem, n_before, curve->points.n,
-            cz_number_print_short(energy, change.area / 1e3),
-            cz_number_print_short(force, change.largest_difference <= 1e-12 * largest
-                                             ? 0.0 /* what rounding leaves of it */
-                                             : change.largest_difference / 1e3));
+            curve->key->stem, n_before, curve->points.n, CZ_SHORT(change.area / 1e3),
+            CZ_SHORT(change.largest_difference <= 1e-12 * largest
+                         ? 0.0 /* what rounding leaves of it */
+                         : change.largest_difference / 1e3));
     table->n_point = curve->points.n;
     memcpy(table->x, curve->points.x, (size_t)curve->points.n * sizeof table->x[0]);
     memcpy(table->y, curve->points.f, (size_t)curve->points.n * sizeof table->y[0]);

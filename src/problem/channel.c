@@ -64,8 +64,8 @@ const char *cz_channel_name(const CzChannelInfo *info, int place, const char *na
 typedef struct Search {
     const char *text;
     CzColumn *column;
+    bool is_asked; /* for the nearest name */
     CzSuggestion suggestion;
-    char *nearest; /* NULL: not requested */
 } Search;
 
 /* Whether one of the places of a vehicle, an interface or the run has that name. */
@@ -78,20 +78,15 @@ static bool try_places(Search *search, CzChannel channel, int index, const char 
             *search->column = (CzColumn){channel, place};
             return true;
         }
-        if (search->nearest == NULL)
-            continue;
-        cz_suggest(&search->suggestion, search->text, text);
-        if (search->suggestion.best == text)
-            search->suggestion.best = strcpy(search->nearest, text);
+        if (search->is_asked)
+            cz_suggest(&search->suggestion, search->text, text);
     }
     return false;
 }
 
 bool cz_column_find(const char *text, int n_vehicle, const char *const *vehicle, CzColumn *column,
                     char nearest[CZ_CHANNEL_ROOM]) {
-    Search search = {.text = text, .column = column, .nearest = nearest};
-    if (nearest != NULL)
-        nearest[0] = '\0';
+    Search search = {.text = text, .column = column, .is_asked = nearest != NULL};
     for (CzChannel channel = 0; channel < CZ_N_CHANNEL; channel++) {
         const CzChannelAt at = channels[channel].at;
         const int n = at == CZ_AT_RUN ? 1 : at == CZ_AT_INTERFACE ? n_vehicle - 1 : n_vehicle;
@@ -106,5 +101,7 @@ bool cz_column_find(const char *text, int n_vehicle, const char *const *vehicle,
                 return true;
         }
     }
+    if (nearest != NULL)
+        snprintf(nearest, CZ_CHANNEL_ROOM, "%s", search.suggestion.best);
     return false;
 }

@@ -16,15 +16,9 @@ enum {
     CZ_MAX_CURVE_POINTS = 64 /* points of one table after reading */
 };
 
-#define CZ_CHOICE_SET(set, type) typedef enum type {
-#define CZ_WORD(set, constant, word, doc) constant,
-#define CZ_CHOICE_SET_END(set, type)                                                               \
-    }                                                                                              \
-    type;
+#define CZ_WORDS(set, type, words) typedef enum type { words } type;
+#define CZ_WORD(constant, word, doc) constant,
 #include "problem/choices.def"
-#undef CZ_CHOICE_SET
-#undef CZ_WORD
-#undef CZ_CHOICE_SET_END
 
 /* Basis of a measured curve: a dynamic one already contains the rate effect. */
 typedef enum CzBasis { CZ_BASIS_STATIC, CZ_BASIS_DYNAMIC } CzBasis;
@@ -49,9 +43,11 @@ typedef struct CzTexts {
 } CzTexts;
 
 /* Names of the types that the macros paste. */
-#define CZ_RECORD(type, name, doc)                                                                 \
+#define CZ_RECORD(type, name, doc, keys)                                                           \
     typedef struct type {                                                                          \
-        bool given;
+        bool given;                                                                                \
+        keys                                                                                       \
+    } type;
 #define CZ_NUMBER(type, stem, dimension, lo, hi, presence, absent, kind, doc) double stem;
 #define CZ_COUNT(type, stem, lo, hi, presence, absent, doc) int stem;
 #define CZ_CHOICE(type, stem, set, presence, absent, doc) int stem;
@@ -66,10 +62,6 @@ typedef struct CzTexts {
     child *stem;                                                                                   \
     int n_##stem;
 #define CZ_TEXTS(type, stem, presence, doc) CzTexts stem;
-#define CZ_RECORD_END(type)                                                                        \
-    }                                                                                              \
-    type;
 #include "problem/keys.def"
-#include "problem/keys_undefine.def"
 
 #endif

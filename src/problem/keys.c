@@ -8,19 +8,11 @@
 
 /* ---- words ---- */
 
-#define CZ_CHOICE_SET(set, type) static const CzWord words_##set[] = {
-#define CZ_WORD(set, constant, word, doc) {word, doc},
-#define CZ_CHOICE_SET_END(set, type)                                                               \
-    }                                                                                              \
-    ;
+#define CZ_WORDS(set, type, words) static const CzWord words_##set[] = {words};
+#define CZ_WORD(constant, word, doc) {word, doc},
 #include "problem/choices.def"
-#undef CZ_CHOICE_SET
-#undef CZ_WORD
-#undef CZ_CHOICE_SET_END
 
-#define CZ_CHOICE_SET(set, type) {#set, sizeof words_##set / sizeof words_##set[0], words_##set},
-#define CZ_WORD(set, constant, word, doc)
-#define CZ_CHOICE_SET_END(set, type)
+#define CZ_WORDS(set, type, words) {#set, sizeof words_##set / sizeof words_##set[0], words_##set},
 const CzWordSet cz_word_sets[CZ_N_WORDS] = {
 #include "problem/choices.def"
 };
@@ -28,13 +20,10 @@ const CzWordSet cz_word_sets[CZ_N_WORDS] = {
 const char *cz_track_word(CzTrack track) {
     return cz_word_sets[CZ_WORDS_TRACK].word[track].word;
 }
-#undef CZ_CHOICE_SET
-#undef CZ_WORD
-#undef CZ_CHOICE_SET_END
 
 /* ---- records ---- */
 
-#define CZ_RECORD(type, record, text) static const CzKey type##_keys[] = {
+#define CZ_RECORD(type, record, text, keys) static const CzKey type##_keys[] = {keys};
 #define FIELD(key_kind, type, field, required, text)                                               \
     .kind = key_kind, .stem = #field, .presence = CZ_PRESENCE_##required, .doc = text,             \
     .offset = offsetof(type, field)
@@ -65,21 +54,17 @@ const char *cz_track_word(CzTrack track) {
     {FIELD(CZ_KEY_LIST, type, stem, presence, doc), .child = &cz_records[CZ_RECORD_##inside],      \
      .n_offset = offsetof(type, n_##stem)},
 #define CZ_TEXTS(type, stem, presence, doc) {FIELD(CZ_KEY_TEXTS, type, stem, presence, doc)},
-#define CZ_RECORD_END(type)                                                                        \
-    }                                                                                              \
-    ;
 #include "problem/keys.def"
-#include "problem/keys_undefine.def"
 #undef FIELD
 
-#define CZ_RECORD(type, record, text)                                                              \
+#define CZ_RECORD(type, record, text, keys)                                                        \
     {.name = #record,                                                                              \
      .doc = text,                                                                                  \
      .size = sizeof(type),                                                                         \
      .n_key = sizeof type##_keys / sizeof type##_keys[0],                                          \
      .key = type##_keys},
 const CzRecord cz_records[CZ_N_RECORD] = {
-#include "problem/keys_records.def"
+#include "problem/keys.def"
 };
 
 /* ---- reuse ---- */

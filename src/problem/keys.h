@@ -6,24 +6,19 @@
 
 /* ---- closed sets of words (choices.def) ---- */
 
-#define CZ_CHOICE_SET(set, type) CZ_WORDS_##set,
-#define CZ_WORD(set, constant, word, doc)
-#define CZ_CHOICE_SET_END(set, type)
+#define CZ_WORDS(set, type, words) CZ_WORDS_##set,
 enum {
 #include "problem/choices.def"
     CZ_N_WORDS
 };
-#undef CZ_CHOICE_SET
-#undef CZ_WORD
-#undef CZ_CHOICE_SET_END
 
 extern const CzWordSet cz_word_sets[CZ_N_WORDS];
 
 /* ---- records (keys.def) ---- */
 
-#define CZ_RECORD(type, name, doc) CZ_RECORD_##type,
+#define CZ_RECORD(type, name, doc, keys) CZ_RECORD_##type,
 typedef enum CzRecordId {
-#include "problem/keys_records.def"
+#include "problem/keys.def"
     CZ_N_RECORD
 } CzRecordId;
 

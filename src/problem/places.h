@@ -1,5 +1,4 @@
-/* Places of records and their values in the files, found by address in a time almost independent of
- * their number. */
+/* Places of records and their values in the files, found by address. */
 #ifndef CZ_PROBLEM_PLACES_H
 #define CZ_PROBLEM_PLACES_H
 
@@ -19,26 +18,24 @@ typedef struct CzPlace {
     const CzUnit *unit;
 } CzPlace;
 
-/* A record's memory, from start to before end, and the record around it: -1 for none. */
-typedef struct CzPlacedRecord {
+/* The memory of a place, from start to before end, and the record around it: -1 for none. */
+typedef struct CzPlaced {
     uintptr_t start, end;
     int place, around;
-} CzPlacedRecord;
+} CzPlaced;
 
 /* Zero-initialise it and set the arena. */
 typedef struct CzPlaces {
     CzArena *arena; /* is reported when memory is short */
     int n_place, n_allocated;
     CzPlace *place;
-    int n_slot; /* fields by address */
-    int *slot;
-    int n_record; /* records by address, as of the last cz_places_sort */
-    CzPlacedRecord *record;
+    int n_placed; /* by address, as of the last cz_places_sort */
+    CzPlaced *placed;
 } CzPlaces;
 
 void cz_places_add(CzPlaces *places, CzPlace place);
 
-/* Makes the records that were added be found; reading a record does it at its end. */
+/* Makes what was added be found; reading a record does it at its end. */
 void cz_places_sort(CzPlaces *places);
 
 void cz_places_free(CzPlaces *places);

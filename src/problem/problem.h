@@ -3,6 +3,8 @@
 #ifndef CZ_PROBLEM_PROBLEM_H
 #define CZ_PROBLEM_PROBLEM_H
 
+#include <string.h>
+
 #include "crushzone/names.h"
 #include "crushzone/problem.h"
 #include "problem/input.h"
@@ -11,6 +13,20 @@
  * file order. */
 const CzInput *cz_problem_input(const CzProblem *problem);
 const CzVehicle *cz_problem_vehicles(const CzProblem *problem, int *n_vehicle);
+
+/* The train behind (side 0) or ahead (1) that collides in a scenario, NULL for the trains as
+ * written; NULL when there is none. */
+static inline const CzTrain *cz_input_train(const CzInput *input, const CzScenario *scenario,
+                                            int side) {
+    const bool has_names = scenario != NULL && scenario->trains.n_text == 2;
+    if (!has_names)
+        return side < input->n_trains ? &input->trains[side] : NULL;
+    for (int i = 0; i < input->n_trains; i++)
+        if (input->trains[i].name != NULL &&
+            strcmp(input->trains[i].name, scenario->trains.text[side]) == 0)
+            return &input->trains[i];
+    return NULL;
+}
 
 /* The track that makes a difference: rigid where no vehicle has wheels. */
 CzTrack cz_problem_track(const CzProblem *problem);

@@ -11,9 +11,8 @@
 
 enum { LONGEST_NAME = 96 };
 
-/* Offers the names of all profiles in a folder; the nearest is copied to `best`. */
-static void suggest_profiles(CzSuggestion *suggestion, char best[LONGEST_NAME], const char *folder,
-                             const char *name) {
+/* Offers the names of all profiles in a folder. */
+static void suggest_profiles(CzSuggestion *suggestion, const char *folder, const char *name) {
     char path[512], known[LONGEST_NAME];
     snprintf(path, sizeof path, "%s/profiles", folder);
     DIR *directory = opendir(path);
@@ -25,8 +24,6 @@ static void suggest_profiles(CzSuggestion *suggestion, char best[LONGEST_NAME], 
             continue;
         snprintf(known, sizeof known, "%.*s", (int)(end - file->d_name), file->d_name);
         cz_suggest(suggestion, name, known);
-        if (suggestion->best == known)
-            suggestion->best = strcpy(best, known);
     }
     closedir(directory);
 }
@@ -35,7 +32,7 @@ static void suggest_profiles(CzSuggestion *suggestion, char best[LONGEST_NAME], 
 static const char *locate(CzReader *reader, const CzPlace *named) {
     const char *name = named->value->text;
     const char *folders[] = {named->value->source->folder, reader->share_folder};
-    char file[LONGEST_NAME + 20], best[LONGEST_NAME];
+    char file[LONGEST_NAME + 20];
     CzSuggestion suggestion = {0};
     snprintf(file, sizeof file, "profiles/%.*s.yaml", LONGEST_NAME, name);
     for (int i = 0; i < 2; i++) {
@@ -44,11 +41,11 @@ static const char *locate(CzReader *reader, const CzPlace *named) {
         if (path != NULL && cz_path_exists(path))
             return path;
         if (folders[i] != NULL)
-            suggest_profiles(&suggestion, best, folders[i], name);
+            suggest_profiles(&suggestion, folders[i], name);
     }
     cz_mistake(&reader->mistakes, named->value, named->trail,
                "there is no profile '%.96s': no file profiles/%.96s.yaml", name, name);
-    cz_mistake_suggest(&reader->mistakes, suggestion.best);
+    cz_mistake_suggest(&reader->mistakes, &suggestion);
     return NULL;
 }
 
@@ -98,7 +95,7 @@ static bool check_category(CzProblem *problem, const CzProfile *profile, const C
     } else if (checks->category != NULL && !is_known) {
         cz_mistake(&reader->mistakes, place->value, place->trail,
                    "profile '%.96s' has no category '%.96s'", named->value->text, category);
-        cz_mistake_suggest(&reader->mistakes, suggestion.best);
+        cz_mistake_suggest(&reader->mistakes, &suggestion);
     }
     return is_good;
 }

@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "problem/acts_on.h"
-#include "problem/acts_with.h"
+#include "problem/acts.h"
 #include "problem/measured.h"
 #include "problem/profile.h"
 #include "problem/rules.h"
@@ -40,6 +39,8 @@ static CzStatus begin(const CzProblemOptions *options, const char *file, CzProbl
 
 static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOptions *options) {
     CzReader *reader = &problem->reader;
+    CzSource *first = reader->sources.first;
+    first->is_general = strstr(first->line[0], CZ_RESOLVED_MARK) != NULL;
     problem->tree = cz_load_tree(reader, top);
     if (problem->tree.root == NULL || reader->arena.out_of_memory)
         return;
@@ -61,8 +62,7 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     cz_rules_check_design(&rules, problem->targets);
     cz_rules_check_fit(&rules);
     cz_usual_check(&reader->warnings, &problem->places);
-    cz_acts_on_check(problem);
-    cz_acts_with_check(problem);
+    cz_acts_check(problem);
 }
 
 /* Sorts what was found and reports the first mistake. */

@@ -7,6 +7,10 @@
 #include "problem/problem.h"
 #include "tree/settings.h"
 
+/* In the first line of a resolved problem: all is written out, and warnings of what has no effect
+ * belong to the files that it was made of. */
+#define CZ_RESOLVED_MARK " resolved: parts, copies and defaults filled in"
+
 struct CzProblem {
     CzReader reader;
     CzTree tree; /* as in the files, before settings */

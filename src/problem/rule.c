@@ -26,13 +26,12 @@ static const CzPlace *find_place(const CzRules *rules, const void *field) {
 
 static void tell(const CzRules *rules, CzMistakes *mistakes, const void *field, const char *format,
                  va_list arguments) {
-    char sentence[400];
     const CzPlace *place = find_place(rules, field);
     if (place == NULL || mistakes == NULL)
         return;
-    vsnprintf(sentence, sizeof sentence, format, arguments);
     const bool is_value = place->value != NULL && place->value->kind == CZ_NODE_TEXT;
-    cz_mistake(mistakes, is_value ? place->value : place->node, place->trail, "%s", sentence);
+    cz_mistake_list(mistakes, is_value ? place->value : place->node, place->trail, format,
+                    arguments);
 }
 
 void cz_rule_broken(const CzRules *rules, const void *field, const char *format, ...) {
@@ -64,8 +63,7 @@ bool cz_rule_is_written(const CzRules *rules, const void *field) {
 }
 
 const char *cz_rule_text(char text[48], double si, const char *unit, double unit_si) {
-    char number[CZ_NUMBER_TEXT];
-    snprintf(text, 48, "%s %s", cz_number_print_short(number, si / unit_si), unit);
+    snprintf(text, 48, "%s %s", CZ_SHORT(si / unit_si), unit);
     return text;
 }
 

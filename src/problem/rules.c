@@ -49,15 +49,28 @@ static void check_payload(const CzRules *rules) {
         cz_rule_warning(rules, share, "no effect: no vehicle has a 'payload'");
 }
 
+/* The end criterion and its longest time matter to runs without a duration. */
+static void check_times(const CzRules *rules) {
+    const CzSimulation *simulation = &rules->input->simulation;
+    bool all_have = rules->input->n_scenarios > 0;
+    for (int i = 0; i < rules->input->n_scenarios; i++)
+        all_have &= rules->input->scenarios[i].duration > 0;
+    if (all_have && cz_rule_is_written(rules, &simulation->duration))
+        cz_rule_warning(rules, &simulation->duration,
+                        "no effect: every scenario has a duration of its own");
+    if ((all_have || simulation->duration > 0) && cz_rule_is_written(rules, &simulation->longest))
+        cz_rule_warning(rules, &simulation->longest,
+                        "no effect: every run has a duration, and ends when it is over");
+}
+
 /* A step of the simulation cannot be longer than what is written out. */
 static void check_simulation(const CzRules *rules) {
     const CzSimulation *simulation = &rules->input->simulation;
-    char step[48], output[48];
     if (simulation->time_step > simulation->output_step)
         cz_rule_broken(rules, &simulation->time_step,
                        "a time step of %s is longer than the output step of %s",
-                       cz_rule_text(step, simulation->time_step, "ms", 1e-3),
-                       cz_rule_text(output, simulation->output_step, "ms", 1e-3));
+                       CZ_IN_UNIT(simulation->time_step, "ms", 1e-3),
+                       CZ_IN_UNIT(simulation->output_step, "ms", 1e-3));
     const CzAdhesion *adhesion = &simulation->adhesion;
     if (adhesion->given && adhesion->sliding_friction > adhesion->friction)
         cz_rule_broken(rules, &adhesion->sliding_friction,
@@ -80,6 +93,7 @@ void cz_rules_check_collision(const CzRules *rules) {
     check_simulation(rules);
     check_what_acts(rules);
     check_payload(rules);
+    check_times(rules);
     cz_rules_check_names(rules);
     check_vehicles(rules);
     cz_rules_check_trains(rules);

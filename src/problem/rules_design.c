@@ -17,7 +17,7 @@ static void check_scenario_named(const CzRules *rules, const char *const *name) 
     if (cz_input_find_scenario(rules->input, *name, &suggestion) >= 0)
         return;
     cz_rule_broken(rules, name, "there is no scenario '%.48s'", *name);
-    cz_mistake_suggest(rules->mistakes, suggestion.best);
+    cz_mistake_suggest(rules->mistakes, &suggestion);
 }
 
 /* A word that is none of the list passes as PROVISIONAL: no reason to stop, but perhaps a typing
@@ -36,7 +36,7 @@ static void check_confidence(const CzRules *rules, const char *const *confidence
                     "confidence '%.40s' is none of S1, S2, X, M1, M2, M3 and user: the limit "
                     "passes as PROVISIONAL at most",
                     *confidence);
-    cz_mistake_suggest(rules->warnings, suggestion.best);
+    cz_mistake_suggest(rules->warnings, &suggestion);
 }
 
 static void check_limits(const CzRules *rules, const CzLimit *limits, int n_limit) {
@@ -64,17 +64,13 @@ static bool is_fit(const CzRules *rules) {
 static void check_target(const CzRules *rules, const CzVariable *variable, const char *const *path,
                          const CzTarget *target, const CzTarget *first) {
     if (!target->may_vary && !(target->may_fit && is_fit(rules))) {
-        cz_rule_broken(rules, path, "'%.120s' is data, not a %s", *path,
-                       is_fit(rules) ? "parameter of a fit" : "design variable");
-        if (is_fit(rules))
-            cz_mistake_help(rules->mistakes, "`crushzone help keys` lists what may be fitted");
-        else
-            cz_mistake_help(rules->mistakes,
-                            target->may_fit
-                                ? "stage forces and strokes, trigger and shear-off forces and "
-                                  "gaps may vary; this may, too, in a fit to `match`"
-                                : "stage forces and strokes, trigger and shear-off forces and "
-                                  "gaps may vary");
+        cz_rule_broken(rules, path, "'%.120s' is data, not a %s" CZ_HELP "%s%s", *path,
+                       is_fit(rules) ? "parameter of a fit" : "design variable",
+                       is_fit(rules) ? "`crushzone help keys` lists what may be fitted"
+                                     : "stage forces and strokes, trigger and shear-off forces and "
+                                       "gaps may vary",
+                       !is_fit(rules) && target->may_fit ? "; this may, too, in a fit to `match`"
+                                                         : "");
         return;
     }
     if (cz_strokes_depend_on(rules->input, target->field))
@@ -85,14 +81,13 @@ static void check_target(const CzRules *rules, const CzVariable *variable, const
     const CzPlace *place = cz_places_find(&rules->problem->places, target->field);
     if (place == NULL || place->address != target->field || place->key == NULL)
         return;
-    char limit[CZ_NUMBER_TEXT];
     const double lo = place->key->lo / first->unit, hi = place->key->hi / first->unit;
     if (variable->min < lo)
         cz_rule_broken(rules, &variable->min, "%s can be no smaller than %s %s", place->key->stem,
-                       cz_number_print_short(limit, lo), first->suffix);
+                       CZ_SHORT(lo), first->suffix);
     if (variable->max > hi)
         cz_rule_broken(rules, &variable->max, "%s can be no larger than %s %s", place->key->stem,
-                       cz_number_print_short(limit, hi), first->suffix);
+                       CZ_SHORT(hi), first->suffix);
 }
 
 /* Finds what a path names and adds it to the targets of its variable; how many there are more, 0
@@ -116,9 +111,7 @@ static int find(const CzRules *rules, const char *path, CzTargets *targets, CzEr
 /* Reports why a path names nothing, or a choice cannot be made. */
 static void tell_error(const CzRules *rules, const void *field, const char *before,
                        const CzError *error) {
-    cz_rule_broken(rules, field, "%s%s", before, error->message);
-    if (error->help[0] != '\0')
-        cz_mistake_help(rules->mistakes, "%s", error->help);
+    cz_rule_broken(rules, field, "%s%s" CZ_HELP "%s", before, error->message, error->help);
 }
 
 static void check_path(const CzRules *rules, const CzVariable *variable, const char *const *path,

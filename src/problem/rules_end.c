@@ -9,51 +9,45 @@ enum { MOST_END_STAGES = 4 };
 /* Turns "at most" into "below" where a rule says so. */
 static const double just_above = 1 + 1e-9;
 
-static const char no_plateau[] = "a plateau without force absorbs no energy";
-
 /* ---- curves ---- */
 
 static bool is_there(const CzRules *rules, const void *field) {
     return cz_rule_is_written(rules, field);
 }
 
-/* A device needs stages or a curve, and only one of them. */
-static void check_law(const CzRules *rules, const void *record, const char *what,
-                      const CzStage *stages, const CzTable *curve) {
-    const bool has_stages = is_there(rules, stages), has_curve = is_there(rules, curve);
+/* What has a law of stages or a curve. */
+typedef struct Crushing {
+    const void *record;
+    const char *what;
+    const CzStage *stages;
+    int n_stage;
+    const CzTable *curve;
+} Crushing;
+
+/* It needs stages or a curve, and only one of them. */
+static void check_law(const CzRules *rules, const Crushing *crushing) {
+    const bool has_stages = is_there(rules, crushing->stages);
+    const bool has_curve = is_there(rules, crushing->curve);
     if (!has_stages && !has_curve)
-        cz_rule_absent(rules, record, "%s needs 'stages' or a 'curve'", what);
+        cz_rule_absent(rules, crushing->record, "%s needs 'stages' or a 'curve'", crushing->what);
     if (has_stages && has_curve)
-        cz_rule_broken(rules, curve,
-                       "%s has 'stages' and a 'curve'; one of them must go (stages: null)", what);
+        cz_rule_broken(rules, crushing->curve,
+                       "%s has 'stages' and a 'curve'; one of them must go (stages: null)",
+                       crushing->what);
 }
 
-static void check_curve_start(const CzRules *rules, const CzTable *curve) {
-    char text[48];
+/* A curve begins at stroke 0; every stage carries a force, or ends at one. */
+static void check_forces(const CzRules *rules, const Crushing *crushing, const char *otherwise) {
+    const CzTable *curve = crushing->curve;
     if (curve->given && curve->x[0] != 0)
         cz_rule_broken(rules, curve, "a curve must begin at stroke 0, but this one begins at %s",
-                       CZ_MM(text, curve->x[0]));
-}
-
-/* Every stage carries a force, or ends at one. */
-static void check_forces(const CzRules *rules, const CzStage *stages, int n_stage,
-                         const char *otherwise) {
-    for (int i = 0; i < n_stage; i++) {
-        cz_rule_note(rules, CZ_VALUE_RULE_FORCE, stages[i].force <= 0, 0);
-        if (stages[i].force <= 0)
-            cz_rule_broken(rules, &stages[i].force, "%s", otherwise);
+                       CZ_MM(curve->x[0]));
+    for (int i = 0; i < crushing->n_stage; i++) {
+        const CzStage *stage = &crushing->stages[i];
+        cz_rule_note(rules, CZ_VALUE_RULE_FORCE, stage->force <= 0, 0);
+        if (stage->force <= 0)
+            cz_rule_broken(rules, &stage->force, "%s", otherwise);
     }
-}
-
-/* The trigger peak is at least as high as the first plateau. */
-static void check_trigger(const CzRules *rules, const double *trigger, const CzStage *stages,
-                          int n_stage, const CzTable *curve) {
-    char peak[48], first[48];
-    const double plateau = curve->given ? curve->y[0] : n_stage > 0 ? stages[0].force : NAN;
-    cz_rule_note(rules, CZ_VALUE_RULE_TRIGGER, plateau, *trigger);
-    if (*trigger < plateau)
-        cz_rule_broken(rules, trigger, "a trigger of %s is below the first plateau of %s",
-                       CZ_KN(peak, *trigger), CZ_KN(first, plateau));
 }
 
 /* A curve measured at speed already holds the rise with the rate. */
@@ -64,43 +58,49 @@ static void check_rate(const CzRules *rules, const double *factor, const CzTable
             "a dynamic curve already contains the rate effect; this would count it twice");
 }
 
-/* A device is longer than its usable stroke. */
-static void check_installed(const CzRules *rules, const double *installed, double efficiency,
-                            double stroke) {
-    char stroke_text[48], length[48], usable[48];
+/* A tube or anti-climber: the peak that starts the crush is no lower than what follows, and the
+ * device is longer than its usable stroke. */
+static void check_device(const CzRules *rules, const Crushing *crushing, const double *trigger,
+                         const double *rate_factor, const double *installed, double efficiency) {
+    const CzTable *curve = crushing->curve;
+    const double plateau = curve->given            ? curve->y[0]
+                           : crushing->n_stage > 0 ? crushing->stages[0].force
+                                                   : NAN;
+    const double stroke = cz_total_stroke(crushing->stages, crushing->n_stage, curve);
+    check_law(rules, crushing);
+    check_forces(rules, crushing, "a plateau without force absorbs no energy");
+    cz_rule_note(rules, CZ_VALUE_RULE_TRIGGER, plateau, *trigger);
+    if (*trigger < plateau)
+        cz_rule_broken(rules, trigger, "a trigger of %s is below the first plateau of %s",
+                       CZ_KN(*trigger), CZ_KN(plateau));
+    check_rate(rules, rate_factor, curve);
     cz_rule_note(rules, CZ_VALUE_RULE_INSTALLED, stroke, efficiency * *installed);
     if (stroke > efficiency * *installed * (1 + 1e-12))
         cz_rule_broken(rules, installed,
                        "a stroke of %s does not fit: %s installed at an efficiency of %g give %s",
-                       CZ_MM(stroke_text, stroke), CZ_MM(length, *installed), efficiency,
-                       CZ_MM(usable, efficiency * *installed));
+                       CZ_MM(stroke), CZ_MM(*installed), efficiency,
+                       CZ_MM(efficiency * *installed));
 }
 
 /* ---- devices ---- */
 
 static void check_buffer(const CzRules *rules, const CzBuffer *buffer) {
-    char now[48], before[48];
     double force = buffer->preload;
     for (int i = 0; buffer->given && i < buffer->n_stages; i++) {
         cz_rule_note(rules, CZ_VALUE_RULE_BUFFER, force, buffer->stages[i].force);
         if (buffer->stages[i].force < force)
             cz_rule_broken(rules, &buffer->stages[i].force,
                            "a buffer's force cannot fall while it is pressed: %s after %s",
-                           CZ_KN(now, buffer->stages[i].force), CZ_KN(before, force));
+                           CZ_KN(buffer->stages[i].force), CZ_KN(force));
         force = buffer->stages[i].force;
     }
 }
 
 static void check_tube(const CzRules *rules, const CzTube *tube) {
-    if (!tube->given)
-        return;
-    check_law(rules, tube, "a tube", tube->stages, &tube->curve);
-    check_curve_start(rules, &tube->curve);
-    check_forces(rules, tube->stages, tube->n_stages, no_plateau);
-    check_trigger(rules, &tube->trigger, tube->stages, tube->n_stages, &tube->curve);
-    check_rate(rules, &tube->rate_factor, &tube->curve);
-    check_installed(rules, &tube->installed_length, tube->efficiency,
-                    cz_total_stroke(tube->stages, tube->n_stages, &tube->curve));
+    const Crushing crushing = {tube, "a tube", tube->stages, tube->n_stages, &tube->curve};
+    if (tube->given)
+        check_device(rules, &crushing, &tube->trigger, &tube->rate_factor, &tube->installed_length,
+                     tube->efficiency);
 }
 
 static double tube_stroke(const CzTube *tube) {
@@ -114,7 +114,6 @@ static double coupler_stroke(const CzCoupler *coupler) {
 
 static void check_coupler(const CzRules *rules, const CzVehicle *vehicle,
                           const CzCoupler *coupler) {
-    char stroke[48], length[48];
     if (!coupler->given)
         return;
     check_buffer(rules, &coupler->buffer);
@@ -125,23 +124,20 @@ static void check_coupler(const CzRules *rules, const CzVehicle *vehicle,
     if (coupler_stroke(coupler) >= coupler->length)
         cz_rule_broken(rules, &coupler->length,
                        "buffer and tubes have a stroke of %s in a coupler of %s",
-                       CZ_MM(stroke, coupler_stroke(coupler)), CZ_MM(length, coupler->length));
+                       CZ_MM(coupler_stroke(coupler)), CZ_MM(coupler->length));
     if (coupler->anchor == CZ_ANCHOR_END && vehicle->model != CZ_MODEL_FULL)
         cz_rule_broken(rules, &coupler->anchor,
                        "only a full vehicle has an end mass that a coupler can be anchored to");
 }
 
 static void check_anti_climber(const CzRules *rules, const CzAntiClimber *device) {
+    const Crushing crushing = {device, "an anti-climber", device->stages, device->n_stages,
+                               &device->curve};
     if (!device->given)
         return;
-    check_law(rules, device, "an anti-climber", device->stages, &device->curve);
-    check_curve_start(rules, &device->curve);
-    check_forces(rules, device->stages, device->n_stages, no_plateau);
-    check_trigger(rules, &device->trigger, device->stages, device->n_stages, &device->curve);
-    check_rate(rules, &device->rate_factor, &device->curve);
+    check_device(rules, &crushing, &device->trigger, &device->rate_factor,
+                 &device->installed_length, device->efficiency);
     check_rate(rules, &device->speed_factor, &device->curve);
-    check_installed(rules, &device->installed_length, device->efficiency,
-                    cz_total_stroke(device->stages, device->n_stages, &device->curve));
 }
 
 /* ---- the crushable structure ---- */
@@ -170,7 +166,6 @@ static double steepest_rise(const CzEnd *end) {
 }
 
 static void check_unloading(const CzRules *rules, const CzEnd *end) {
-    char stiffness[48], rise[48];
     const double steepest = steepest_rise(end);
     const bool crushes = is_there(rules, end->stages) || is_there(rules, &end->curve);
     if (crushes && !is_there(rules, &end->unloading_stiffness))
@@ -183,8 +178,7 @@ static void check_unloading(const CzRules *rules, const CzEnd *end) {
             rules, &end->unloading_stiffness,
             "an end cannot unload more softly than it was loaded: %s against %s in its steepest "
             "stage",
-            cz_rule_text(stiffness, end->unloading_stiffness, "MN/m", 1e6),
-            cz_rule_text(rise, steepest, "MN/m", 1e6));
+            CZ_IN_UNIT(end->unloading_stiffness, "MN/m", 1e6), CZ_IN_UNIT(steepest, "MN/m", 1e6));
 }
 
 /* Stroke in front of the survival space [m]. */
@@ -198,7 +192,6 @@ static double free_stroke(const CzEnd *end) {
 }
 
 static void check_available(const CzRules *rules, const CzEnd *end) {
-    char stroke_text[48], available[48];
     const CzAntiClimber *device = &end->anti_climber;
     double stroke = free_stroke(end);
     if (device->given)
@@ -208,18 +201,18 @@ static void check_available(const CzRules *rules, const CzEnd *end) {
         cz_rule_broken(
             rules, &end->available_length,
             "anti-climber and end crush %s in front of the survival space, but only %s are there",
-            CZ_MM(stroke_text, stroke), CZ_MM(available, end->available_length));
+            CZ_MM(stroke), CZ_MM(end->available_length));
 }
 
 static void check_structure(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end) {
     const bool is_rigid = !is_there(rules, end->stages) && !is_there(rules, &end->curve);
+    const Crushing crushing = {end, "an end", end->stages, end->n_stages, &end->curve};
     if (!is_rigid || vehicle->model == CZ_MODEL_FULL) /* others may have a rigid end */
-        check_law(rules, end, "an end", end->stages, &end->curve);
-    check_curve_start(rules, &end->curve);
+        check_law(rules, &crushing);
     if (end->n_stages > MOST_END_STAGES)
         cz_rule_broken(rules, end->stages, "an end has %d stages; %d is the most", end->n_stages,
                        (int)MOST_END_STAGES);
-    check_forces(rules, end->stages, end->n_stages, "a stage of an end must end at a force");
+    check_forces(rules, &crushing, "a stage of an end must end at a force");
     check_zones(rules, end);
     check_unloading(rules, end);
     check_available(rules, end);
@@ -228,7 +221,6 @@ static void check_structure(const CzRules *rules, const CzVehicle *vehicle, cons
 /* ---- devices side by side ---- */
 
 static void check_gaps(const CzRules *rules, const CzEnd *end) {
-    char gap[48], other[48];
     const CzAntiClimber *device = &end->anti_climber;
     const CzCoupler *coupler = &end->coupler;
     if (device->given)
@@ -237,7 +229,7 @@ static void check_gaps(const CzRules *rules, const CzEnd *end) {
         cz_rule_broken(
             rules, &device->gap,
             "an anti-climber %s behind the foremost plane lies behind the bare end at %s",
-            CZ_MM(gap, device->gap), CZ_MM(other, end->face_gap));
+            CZ_MM(device->gap), CZ_MM(end->face_gap));
     if (!device->given || !coupler->given)
         return;
     cz_rule_note(rules, CZ_VALUE_RULE_REACHED, device->gap, coupler->gap + coupler->length);
@@ -246,7 +238,7 @@ static void check_gaps(const CzRules *rules, const CzEnd *end) {
             rules, &device->gap,
             "an anti-climber %s behind the foremost plane is never reached: the coupler is only %s "
             "long",
-            CZ_MM(gap, device->gap), CZ_MM(other, coupler->length));
+            CZ_MM(device->gap), CZ_MM(coupler->length));
     const double travel = coupler_stroke(coupler) + coupler->shear_off.retraction_space;
     if (coupler->shear_off.given)
         cz_rule_note(rules, CZ_VALUE_RULE_RETRACTION, device->gap, coupler->gap + travel);
@@ -254,20 +246,18 @@ static void check_gaps(const CzRules *rules, const CzEnd *end) {
         cz_rule_broken(
             rules, &coupler->shear_off.retraction_space,
             "the released coupler comes to its stop after %s, before the anti-climber is met at %s",
-            CZ_MM(other, coupler->gap + travel), CZ_MM(gap, device->gap));
+            CZ_MM(coupler->gap + travel), CZ_MM(device->gap));
 }
 
 /* What a sheared coupler keeps is less than what sheared it. */
 static void check_shear_off(const CzRules *rules, const CzShearOff *device) {
-    char kept[48], force[48];
     if (device->given && device->residual_force >= device->force)
         cz_rule_broken(rules, &device->residual_force,
                        "a residual force of %s is no less than the shear-off force of %s",
-                       CZ_KN(kept, device->residual_force), CZ_KN(force, device->force));
+                       CZ_KN(device->residual_force), CZ_KN(device->force));
 }
 
 void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end) {
-    char distance[48], half[48];
     if (!end->given)
         return;
     check_structure(rules, vehicle, end);
@@ -288,5 +278,5 @@ void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const Cz
     if (vehicle->model == CZ_MODEL_FULL && end->distance > vehicle->length / 2)
         cz_rule_broken(rules, &end->distance,
                        "an end mass %s from the middle lies beyond half the vehicle's length, %s",
-                       CZ_MM(distance, end->distance), CZ_MM(half, vehicle->length / 2));
+                       CZ_MM(end->distance), CZ_MM(vehicle->length / 2));
 }

@@ -64,7 +64,7 @@ static void check_scenario(const CzRules *rules, const CzMatch *match) {
             cz_suggest(&nearest, match->scenario, known);
     }
     cz_rule_broken(rules, &match->scenario, "there is no scenario '%.48s'", match->scenario);
-    cz_mistake_suggest(rules->mistakes, nearest.best);
+    cz_mistake_suggest(rules->mistakes, &nearest);
 }
 
 void cz_rules_check_fit(const CzRules *rules) {

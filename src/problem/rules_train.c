@@ -18,33 +18,29 @@ static double body_mass(const CzVehicle *vehicle) {
 }
 
 static void check_full_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
-    char first[48], second[48];
     if (!cz_rule_is_written(rules, &vehicle->length))
         cz_rule_absent(rules, vehicle, "a full vehicle needs its length: length_m or length_mm");
     if (body_mass(vehicle) <= 0)
         cz_rule_broken(rules, &vehicle->mass,
                        "no mass is left for the body: ends, bogies and wheelsets have %s of %s",
-                       cz_rule_text(first, vehicle->mass - body_mass(vehicle), "t", 1e3),
-                       cz_rule_text(second, vehicle->mass, "t", 1e3));
+                       CZ_IN_UNIT(vehicle->mass - body_mass(vehicle), "t", 1e3),
+                       CZ_IN_UNIT(vehicle->mass, "t", 1e3));
     if (vehicle->bogie_spacing + vehicle->bogie.axle_spacing >= vehicle->length)
-        cz_rule_broken(rules, &vehicle->bogie_spacing,
-                       "axles %s apart do not fit under a vehicle of %s",
-                       CZ_MM(first, vehicle->bogie_spacing + vehicle->bogie.axle_spacing),
-                       CZ_MM(second, vehicle->length));
-    if (vehicle->bogie.axle_spacing >= vehicle->bogie_spacing)
         cz_rule_broken(
-            rules, &vehicle->bogie_spacing, "bogies %s apart with axles %s apart would overlap",
-            CZ_MM(first, vehicle->bogie_spacing), CZ_MM(second, vehicle->bogie.axle_spacing));
+            rules, &vehicle->bogie_spacing, "axles %s apart do not fit under a vehicle of %s",
+            CZ_MM(vehicle->bogie_spacing + vehicle->bogie.axle_spacing), CZ_MM(vehicle->length));
+    if (vehicle->bogie.axle_spacing >= vehicle->bogie_spacing)
+        cz_rule_broken(rules, &vehicle->bogie_spacing,
+                       "bogies %s apart with axles %s apart would overlap",
+                       CZ_MM(vehicle->bogie_spacing), CZ_MM(vehicle->bogie.axle_spacing));
     if (vehicle->cg_height <= vehicle->bogie.wheel_radius)
         cz_rule_broken(rules, &vehicle->cg_height,
                        "a body with its centre of gravity at %s would lie below the axles at %s",
-                       CZ_MM(first, vehicle->cg_height),
-                       CZ_MM(second, vehicle->bogie.wheel_radius));
+                       CZ_MM(vehicle->cg_height), CZ_MM(vehicle->bogie.wheel_radius));
     if (vehicle->bogie.axle_spacing <= 2 * vehicle->bogie.wheel_radius)
         cz_rule_broken(rules, &vehicle->bogie.axle_spacing,
                        "wheels with a radius of %s overlap on axles %s apart",
-                       CZ_MM(first, vehicle->bogie.wheel_radius),
-                       CZ_MM(second, vehicle->bogie.axle_spacing));
+                       CZ_MM(vehicle->bogie.wheel_radius), CZ_MM(vehicle->bogie.axle_spacing));
 }
 
 void cz_rules_check_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
@@ -186,7 +182,7 @@ static const CzTrain *find_train(const CzRules *rules, const char *const *name) 
         cz_suggest(&suggestion, *name, train->name);
     }
     cz_rule_broken(rules, name, "there is no train '%.48s'", *name);
-    cz_mistake_suggest(rules->mistakes, suggestion.best);
+    cz_mistake_suggest(rules->mistakes, &suggestion);
     return NULL;
 }
 
@@ -218,7 +214,6 @@ static double chosen(double own, double otherwise) {
 /* The train behind must come nearer to the one ahead. */
 static void check_closing(const CzRules *rules, const CzScenario *scenario,
                           const CzTrain *const pair[2]) {
-    char first[48], second[48];
     const double behind = chosen(scenario->speed, pair[0]->speed);
     const double ahead = chosen(scenario->partner_speed, pair[1]->speed);
     const void *place = cz_rule_is_written(rules, &scenario->speed) ? (const void *)&scenario->speed
@@ -228,8 +223,8 @@ static void check_closing(const CzRules *rules, const CzScenario *scenario,
     if (behind <= ahead)
         cz_rule_broken(rules, place,
                        "the trains never meet: '%.40s' runs at %s behind '%.40s' at %s",
-                       name_of(pair[0]->name), cz_rule_text(first, behind, "km/h", 1 / 3.6),
-                       name_of(pair[1]->name), cz_rule_text(second, ahead, "km/h", 1 / 3.6));
+                       name_of(pair[0]->name), CZ_IN_UNIT(behind, "km/h", 1 / 3.6),
+                       name_of(pair[1]->name), CZ_IN_UNIT(ahead, "km/h", 1 / 3.6));
     if (has(pair[0], CZ_MODEL_FIXED) && scenario->speed != 0 && !isnan(scenario->speed))
         cz_rule_broken(rules, &scenario->speed, "a train with a fixed vehicle must have speed 0");
     if (has(pair[1], CZ_MODEL_FIXED) && scenario->partner_speed != 0 &&
@@ -242,7 +237,7 @@ static void check_closing(const CzRules *rules, const CzScenario *scenario,
 static void check_interface(const CzRules *rules, const CzScenario *scenario,
                             const CzTrain *const pair[2]) {
     CzSuggestion suggestion = {0};
-    char known[CZ_INTERFACE_ROOM], best[CZ_INTERFACE_ROOM];
+    char known[CZ_INTERFACE_ROOM];
     if (scenario->perturbed_interface == NULL) {
         if (scenario->perturbation != 0 && cz_rule_is_written(rules, &scenario->perturbation))
             cz_rule_broken(rules, &scenario->perturbation,
@@ -258,12 +253,10 @@ static void check_interface(const CzRules *rules, const CzScenario *scenario,
             if (strcmp(known, scenario->perturbed_interface) == 0)
                 return;
             cz_suggest(&suggestion, scenario->perturbed_interface, known);
-            if (suggestion.best == known)
-                suggestion.best = memcpy(best, known, sizeof best);
         }
     cz_rule_broken(rules, &scenario->perturbed_interface, "there is no inner interface '%.96s'",
                    scenario->perturbed_interface);
-    cz_mistake_suggest(rules->mistakes, suggestion.best);
+    cz_mistake_suggest(rules->mistakes, &suggestion);
 }
 
 /* A height offset tilts what can tilt: a full vehicle that meets one that moves. */

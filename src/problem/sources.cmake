@@ -1,7 +1,6 @@
 # Sources of src/problem, one per line.
 set(CZ_SOURCES_problem
-    acts_on.c
-    acts_with.c
+    acts.c
     reread.c
     bind.c
     bind_curve_file.c

@@ -41,22 +41,18 @@ __attribute__((format(printf, 2, 3))) static void note(CzTrace *trace, const cha
 
 __attribute__((format(printf, 3, 4))) static bool refuse(const Making *making, int point,
                                                          const char *format, ...) {
-    char sentence[300];
+    const CzNode place = {
+        .source = making->source, .line = making->trace->line[point], .column = 1};
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(sentence, sizeof sentence, format, arguments);
+    cz_mistake_list(making->mistakes, &place, NULL, format, arguments);
     va_end(arguments);
-    cz_mistake_at(making->mistakes, making->source, making->trace->line[point], 1, "%s", sentence);
     return false;
 }
 
-static const char *mm(char text[CZ_NUMBER_TEXT], double stroke) {
-    return cz_number_print_short(text, 1e3 * stroke);
-}
-
-static const char *kN(char text[CZ_NUMBER_TEXT], double force) {
-    return cz_number_print_short(text, 1e-3 * force);
-}
+/* Numbers of a sentence. */
+#define MM(stroke) CZ_SHORT(1e3 * (stroke))
+#define KN(force) CZ_SHORT(1e-3 * (force))
 
 /* Least and largest value. */
 typedef struct Range {
@@ -80,7 +76,6 @@ static void flip(double *value, int n) {
 }
 
 static bool set_indicators(Making *making) {
-    char from[CZ_NUMBER_TEXT], to[CZ_NUMBER_TEXT];
     CzTrace *trace = making->trace;
     const CzTraceShape *shape = making->shape;
     for (int i = 0; i < trace->n; i++)
@@ -105,21 +100,18 @@ static bool set_indicators(Making *making) {
         }
         return true;
     }
+    const char *help = shape->flip_help != NULL ? shape->flip_help : "";
     if (stroke_falls)
-        refuse(making, 0,
-               "the stroke falls from %s to %s mm while the force is positive: either its sign is "
-               "that of an opening, or the points are in the reverse order",
-               mm(from, trace->x[0]), mm(to, x.least));
-    else
-        refuse(making, 0,
-               "the forces are negative, to %s kN, while the stroke grows: either they count "
-               "tension positive, or this is a test in tension",
-               kN(to, f.least));
-    if (shape->flip_help != NULL)
-        cz_mistake_help(
-            making->mistakes, "%s%s", shape->flip_help,
-            stroke_falls ? "; lines in the reverse order have to be sorted by the stroke" : "");
-    return false;
+        return refuse(
+            making, 0,
+            "the stroke falls from %s to %s mm while the force is positive: either its "
+            "sign is that of an opening, or the points are in the reverse order" CZ_HELP "%s%s",
+            MM(trace->x[0]), MM(x.least), help,
+            help[0] != '\0' ? "; lines in the reverse order have to be sorted by the stroke" : "");
+    return refuse(making, 0,
+                  "the forces are negative, to %s kN, while the stroke grows: either they count "
+                  "tension positive, or this is a test in tension" CZ_HELP "%s",
+                  KN(f.least), help);
 }
 
 /* ---- the part that counts, and its zero ---- */
@@ -166,13 +158,12 @@ static void end_at(CzTrace *trace, double at) {
 }
 
 static bool take_part(Making *making) {
-    char from[CZ_NUMBER_TEXT], to[CZ_NUMBER_TEXT];
     CzTrace *trace = making->trace;
     const double low = making->shape->from * making->unit, high = making->shape->to * making->unit;
     const Range x = range_of(trace->x, trace->n);
     if (low >= x.largest || high <= x.least || low >= high)
         return refuse(making, 0, "no stroke is left: those of the file go from %s to %s mm",
-                      mm(from, x.least), mm(to, x.largest));
+                      MM(x.least), MM(x.largest));
     if (!isnan(high))
         end_at(trace, high);
     if (!isnan(low))
@@ -183,7 +174,6 @@ static bool take_part(Making *making) {
 /* Refuses strokes that turn, by more than noise, as often as those of no order or of many cycles;
  * what is said of their beginning would mislead. */
 static bool check_turns(const Making *making) {
-    char from[CZ_NUMBER_TEXT], to[CZ_NUMBER_TEXT];
     const CzTrace *trace = making->trace;
     const Range x = range_of(trace->x, trace->n);
     const double noise = STROKE_NOISE * (x.largest - x.least);
@@ -202,12 +192,11 @@ static bool check_turns(const Making *making) {
     }
     if (n_turn <= MOST_TURNS)
         return true;
-    refuse(making, first, "the strokes turn %d times, first from %s to %s mm", n_turn,
-           mm(from, turned_at), mm(to, trace->x[first]));
-    cz_mistake_help(making->mistakes,
-                    "a curve loads once, in the order of the strokes, and unloads "
-                    "at most once; sort the lines, or leave out cycles");
-    return false;
+    return refuse(making, first,
+                  "the strokes turn %d times, first from %s to %s mm" CZ_HELP
+                  "a curve loads once, in the order of the strokes, and unloads at most once; sort "
+                  "the lines, or leave out cycles",
+                  n_turn, MM(turned_at), MM(trace->x[first]));
 }
 
 /* Point at which the force begins: the last one before it rises above the noise. */
@@ -220,7 +209,6 @@ static int find_contact(const CzTrace *trace, double peak) {
 
 /* The zero of a curve about which nothing was said. */
 static bool find_zero(Making *making, double peak, double *zero) {
-    char at[CZ_NUMBER_TEXT], force[CZ_NUMBER_TEXT];
     CzTrace *trace = making->trace;
     const Range x = range_of(trace->x, trace->n);
     const double first = trace->x[0];
@@ -229,20 +217,18 @@ static bool find_zero(Making *making, double peak, double *zero) {
         return true;
     *zero = first;
     if (trace->f[0] <= FORCE_NOISE * peak || !isnan(making->shape->from)) {
-        note(trace, "strokes count from %s mm of the file, where it begins", mm(at, first));
+        note(trace, "strokes count from %s mm of the file, where it begins", MM(first));
         return true;
     }
     refuse(making, 0,
            "the curve begins at a stroke of %s mm with a force of %s kN: either stroke 0 is there, "
            "or the points before are missing",
-           mm(at, first), kN(force, trace->f[0]));
-    if (making->shape->zero_help != NULL)
-        cz_mistake_help(making->mistakes, "%s", making->shape->zero_help);
+           MM(first), KN(trace->f[0]));
+    cz_mistake_help(making->mistakes, making->shape->zero_help);
     return false;
 }
 
 static bool set_zero(Making *making) {
-    char at[CZ_NUMBER_TEXT];
     CzTrace *trace = making->trace;
     const double peak = range_of(trace->f, trace->n).largest;
     double zero = trace->x[0];
@@ -253,7 +239,7 @@ static bool set_zero(Making *making) {
     case CZ_ZERO_AT_CONTACT:
         drop_before(trace, find_contact(trace, peak));
         zero = trace->x[0];
-        note(trace, "strokes count from %s mm of the file, where the force begins", mm(at, zero));
+        note(trace, "strokes count from %s mm of the file, where the force begins", MM(zero));
         break;
     case CZ_ZERO_AT_START:
         break;
@@ -273,7 +259,6 @@ static bool set_zero(Making *making) {
 
 /* Strokes and forces a little below zero are the noise of a sensor and become zero. */
 static bool check_sizes(Making *making) {
-    char number[CZ_NUMBER_TEXT];
     CzTrace *trace = making->trace;
     const double far = range_of(trace->x, trace->n).largest;
     const double peak = range_of(trace->f, trace->n).largest;
@@ -283,18 +268,18 @@ static bool check_sizes(Making *making) {
             return refuse(making, i,
                           "a stroke of %s mm is below zero; a curve begins at 0 and compression "
                           "counts positive",
-                          mm(number, x));
+                          MM(x));
         if (x > CZ_LARGEST_STROKE)
             return refuse(making, i,
                           "a stroke of %s mm is more than any stage may have; is the unit right?",
-                          mm(number, x));
+                          MM(x));
         if (f > CZ_LARGEST_FORCE)
             return refuse(making, i,
                           "a force of %s kN is more than any stage may have; is the unit right?",
-                          kN(number, f));
+                          KN(f));
         if (f < -FORCE_NOISE * fmax(peak, 0.0) || (peak <= 0.0 && f < 0.0))
             return refuse(making, i, "a force of %s kN is below zero; compression counts positive",
-                          kN(number, f));
+                          KN(f));
         trace->x[i] = fmax(x, 0.0);
         trace->f[i] = fmax(f, 0.0);
     }
@@ -303,22 +288,19 @@ static bool check_sizes(Making *making) {
 
 /* Strokes may go back by noise, else only once, behind the largest. */
 static bool check_order(const Making *making) {
-    char from[CZ_NUMBER_TEXT], to[CZ_NUMBER_TEXT];
     const CzTrace *trace = making->trace;
     const double noise = STROKE_NOISE * trace->x[trace->n_loading - 1];
     double furthest = trace->x[0];
     for (int i = 1; i < trace->n; i++) {
         const bool is_loading = i < trace->n_loading;
         const double back = is_loading ? furthest - trace->x[i] : trace->x[i] - furthest;
-        if (back > noise) {
-            refuse(making, i, "the stroke goes %s from %s to %s mm %s the largest",
-                   is_loading ? "back" : "on", mm(from, furthest), mm(to, trace->x[i]),
-                   is_loading ? "before" : "again behind");
-            cz_mistake_help(making->mistakes,
-                            "a curve loads once, in the order of the strokes, and unloads at most "
-                            "once; leave out cycles between");
-            return false;
-        }
+        if (back > noise)
+            return refuse(making, i,
+                          "the stroke goes %s from %s to %s mm %s the largest" CZ_HELP
+                          "a curve loads once, in the order of the strokes, and unloads at most "
+                          "once; leave out cycles between",
+                          is_loading ? "back" : "on", MM(furthest), MM(trace->x[i]),
+                          is_loading ? "before" : "again behind");
         furthest = is_loading ? fmax(furthest, trace->x[i]) : fmin(furthest, trace->x[i]);
     }
     return true;
@@ -343,11 +325,10 @@ static bool check_energy(Making *making) {
 }
 
 static void note_free_travel(CzTrace *trace) {
-    char at[CZ_NUMBER_TEXT];
     const int first = find_contact(trace, range_of(trace->f, trace->n).largest);
     if (first < trace->n_loading && trace->x[first] > FREE_TRAVEL * trace->x[trace->n_loading - 1])
         note(trace, "there is no force up to a stroke of %s mm; a gap is no part of the law",
-             mm(at, trace->x[first]));
+             MM(trace->x[first]));
 }
 
 bool cz_trace_make(CzMistakes *mistakes, const CzSource *source, const CzTraceShape *shape,

@@ -23,40 +23,36 @@ static const Usual usual[] = {
 enum { N_USUAL = sizeof usual / sizeof usual[0] };
 
 /* Prints a number with its unit, if it has one. */
-static const char *with_unit(char text[CZ_NUMBER_TEXT + 16], double value, const char *unit) {
-    char number[CZ_NUMBER_TEXT];
-    snprintf(text, CZ_NUMBER_TEXT + 16, "%s%s%s", cz_number_print_short(number, value),
-             unit[0] != '\0' ? " " : "", unit);
+static const char *with_unit(char text[CZ_NUMBER_TEXT + 16], double value, const CzUnit *unit) {
+    snprintf(text, CZ_NUMBER_TEXT + 16, "%s%s%s", CZ_SHORT(value),
+             unit->symbol[0] != '\0' ? " " : "", unit->symbol);
     return text;
 }
+#define WITH_UNIT(value, unit) with_unit((char[CZ_NUMBER_TEXT + 16]){0}, value, unit)
 
 static void warn(CzMistakes *warnings, const CzPlace *place, const Usual *range,
                  const CzUnit *unit) {
-    char own[CZ_NUMBER_TEXT + 16], lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT + 16];
     const double si = *(const double *)place->address;
     const double size = fabs(si) / unit->si, scale = unit->si / place->unit->si;
     if (!(size > 0.0) || (size >= range->lo && size <= range->hi))
         return;
     cz_mistake(warnings, place->value, place->trail,
-               "%s of this %s is unusual: %s, where %s to %s is usual; is it in the right unit?",
+               "%s of this %s is unusual: %s, where %s to %s is usual; is it in the right "
+               "unit?" CZ_HELP
+               "the value is used as written; 'crushzone help keys' lists the usual ranges",
                place->key->stem, cz_records[range->record].name,
-               with_unit(own, si / place->unit->si, place->unit->symbol),
-               cz_number_print_short(lo, range->lo * scale),
-               with_unit(hi, range->hi * scale, place->unit->symbol));
-    cz_mistake_help(warnings,
-                    "the value is used as written; 'crushzone help keys' lists the usual ranges");
+               WITH_UNIT(si / place->unit->si, place->unit), CZ_SHORT(range->lo * scale),
+               WITH_UNIT(range->hi * scale, place->unit));
 }
 
 void cz_usual_write(FILE *stream, const CzKey *key) {
     const char *before = "; usually ";
     for (int i = 0; i < N_USUAL; i++) {
         const Usual *range = &usual[i];
-        char lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT + 16];
         if (cz_record_key(&cz_records[range->record], range->stem) != key)
             continue;
         const CzUnit *unit = cz_unit_find(key->dimension, range->unit);
-        fprintf(stream, "%s%s to %s", before, cz_number_print_short(lo, range->lo),
-                with_unit(hi, range->hi, unit->symbol));
+        fprintf(stream, "%s%s to %s", before, CZ_SHORT(range->lo), WITH_UNIT(range->hi, unit));
         before = ", ";
     }
 }

@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "problem/acts_on.h"
-#include "problem/acts_with.h"
+#include "problem/acts.h"
 #include "problem/usual.h"
 
 /* Writes what may represent a key: "stroke_m or stroke_mm". */
@@ -18,13 +17,11 @@ static void spell(char *text, size_t size, const CzKey *key) {
 
 /* Writes what kind of value a key takes: "number, 0 to 10 m". */
 static void write_kind(FILE *stream, const CzKey *key) {
-    char lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT];
     const CzWordSet *set = key->words;
     switch (key->kind) {
     case CZ_KEY_NUMBER:
-        fprintf(stream, "%s to %s%s%s", cz_number_print_short(lo, key->lo),
-                cz_number_print_short(hi, key->hi), key->dimension != CZ_DIMENSION_NONE ? " " : "",
-                cz_unit_si(key->dimension)->symbol);
+        fprintf(stream, "%s to %s%s%s", CZ_SHORT(key->lo), CZ_SHORT(key->hi),
+                key->dimension != CZ_DIMENSION_NONE ? " " : "", cz_unit_si(key->dimension)->symbol);
         cz_usual_write(stream, key);
         break;
     case CZ_KEY_COUNT:
@@ -60,13 +57,11 @@ static void write_kind(FILE *stream, const CzKey *key) {
         fputs("list of texts", stream);
         break;
     }
-    cz_acts_on_write(stream, key);
-    cz_acts_with_write(stream, key);
+    cz_acts_write(stream, key);
 }
 
 /* Writes whether a key must be there, or what holds without it. */
 static void write_presence(FILE *stream, const CzKey *key) {
-    char number[CZ_NUMBER_TEXT];
     if (key->presence == CZ_PRESENCE_REQUIRED)
         fputs("required", stream);
     else if (key->presence == CZ_PRESENCE_REQUIRED_FULL)
@@ -78,7 +73,7 @@ static void write_presence(FILE *stream, const CzKey *key) {
     else if (key->kind == CZ_KEY_FLAG)
         fprintf(stream, "default %s", key->absent != 0 ? "true" : "false");
     else
-        fprintf(stream, "default %s%s%s", cz_number_print_short(number, key->absent),
+        fprintf(stream, "default %s%s%s", CZ_SHORT(key->absent),
                 key->dimension != CZ_DIMENSION_NONE ? " " : "", cz_unit_si(key->dimension)->symbol);
 }
 

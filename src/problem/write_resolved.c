@@ -8,8 +8,7 @@
 
 #include "base/error.h"
 #include "base/number.h"
-#include "problem/acts_on.h"
-#include "problem/acts_with.h"
+#include "problem/acts.h"
 
 enum { COMMENT_COLUMN = 44 };
 
@@ -299,10 +298,10 @@ static void write_child(const Writer *writer, const CzKey *key, const char *fiel
     write_record(&inside, record, field, indent + 2, "");
 }
 
-/* Whether a number is its default and does nothing: written down it would be warned of. */
+/* Whether a number is its default and does nothing. */
 static bool is_idle_default(const Writer *writer, const CzKey *key, const char *field) {
     return key->kind == CZ_KEY_NUMBER && *(const double *)(const void *)field == key->absent &&
-           !cz_acts_with(writer->problem, key, field);
+           !cz_field_acts(writer->problem, key, field);
 }
 
 /* Writes the keys of a record that do something; `dash` goes before the first. */
@@ -311,7 +310,8 @@ static void write_record(const Writer *writer, const CzRecord *record, const cha
     for (int i = 0; i < record->n_key; i++) {
         const CzKey *key = &record->key[i];
         const char *field = memory + key->offset;
-        if (!cz_field_acts(writer->problem, key, field) || is_idle_default(writer, key, field))
+        if (!cz_field_acts_on_model(writer->problem, key, field) ||
+            is_idle_default(writer, key, field))
             continue;
         switch (key->kind) {
         case CZ_KEY_CHILD:
@@ -340,7 +340,7 @@ static void write_record(const Writer *writer, const CzRecord *record, const cha
 static void write_resolved(const CzProblem *problem, bool is_there, FILE *stream) {
     const Writer writer = {problem, stream, "", is_there};
     fprintf(stream,
-            "# %s resolved: parts, copies and defaults filled in, values in SI.\n"
+            "# %s" CZ_RESOLVED_MARK ", values in SI.\n"
             "# Behind each value: where it was written, or that it is a default.\n",
             cz_problem_told_name(problem, problem->file));
     for (const CzSource *source = problem->reader.sources.first; source != NULL;

@@ -26,17 +26,11 @@ static void open_property(FILE *stream, bool *is_first, const char *stem, const 
     *is_first = false;
 }
 
-/* A limit in a unit, with the digits that a person would write. */
-static const char *in_unit(char text[CZ_NUMBER_TEXT], double si, double unit) {
-    return cz_number_print_short(text, si / unit);
-}
-
 static void write_number(FILE *stream, bool *is_first, const CzKey *key) {
-    char lo[CZ_NUMBER_TEXT], hi[CZ_NUMBER_TEXT];
     for (const CzUnit *unit = cz_unit_si(key->dimension); unit != NULL; unit = cz_unit_next(unit)) {
         open_property(stream, is_first, key->stem, unit->suffix, key->doc);
         fprintf(stream, ", \"type\": \"number\", \"minimum\": %s, \"maximum\": %s}",
-                in_unit(lo, key->lo, unit->si), in_unit(hi, key->hi, unit->si));
+                CZ_SHORT(key->lo / unit->si), CZ_SHORT(key->hi / unit->si));
     }
 }
 

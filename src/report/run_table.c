@@ -15,25 +15,17 @@ static double given_or(double given, double otherwise) {
     return isnan(given) ? otherwise : given;
 }
 
-static const CzTrain *train_named(const CzInput *input, const char *name) {
-    for (int i = 0; i < input->n_trains; i++)
-        if (strcmp(input->trains[i].name, name) == 0)
-            return &input->trains[i];
-    return NULL;
-}
-
 /* Speeds of the two trains of a scenario by the file, such as "36 km/h -> 0 km/h". */
 static void write_speeds(const CzProblem *problem, const char *name, FILE *stream) {
     const CzInput *input = cz_problem_input(problem);
-    const CzTrain *train[2] = {input->n_trains > 0 ? &input->trains[0] : NULL,
-                               input->n_trains > 1 ? &input->trains[1] : NULL};
+    const CzTrain *train[2] = {cz_input_train(input, NULL, 0), cz_input_train(input, NULL, 1)};
     double speed[2] = {NAN, NAN};
     for (int i = 0; i < input->n_scenarios; i++) {
         const CzScenario *scenario = &input->scenarios[i];
         if (strcmp(scenario->name, name) != 0)
             continue;
-        for (int side = 0; side < scenario->trains.n_text && side < 2; side++)
-            train[side] = train_named(input, scenario->trains.text[side]);
+        for (int side = 0; side < 2; side++)
+            train[side] = cz_input_train(input, scenario, side);
         speed[0] = scenario->speed;
         speed[1] = scenario->partner_speed;
     }

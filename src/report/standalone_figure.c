@@ -50,10 +50,10 @@ static CzStatus find_chart(const char *what, CzChart *chart, CzError *error) {
             return CZ_OK;
         cz_suggest(&suggestion, what, cz_chart_info((CzChart)i)->name);
     }
-    const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no figure '%.100s'", what);
+    const CzStatus status =
+        cz_fail(error, CZ_STATUS_INPUT,
+                "there is no figure '%.100s'" CZ_HELP "'crushzone help figures' lists them", what);
     cz_suggest_help(&suggestion, error);
-    if (suggestion.best == NULL && error != NULL)
-        snprintf(error->help, sizeof error->help, "'crushzone help figures' lists them");
     return status;
 }
 

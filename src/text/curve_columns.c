@@ -81,9 +81,10 @@ static bool look_below(CzCurveReading *reading, int line) {
         const char *text = reading->source.line[reading->data];
         if (numbers_in(reading, text) >= 2)
             return true;
-        if (reading->units == NULL && is_of_units(reading, text, true))
+        if (reading->units == NULL && is_of_units(reading, text, true)) {
             reading->units = text;
-        else if (is_by_number(reading))
+            reading->unit_line = reading->data;
+        } else if (is_by_number(reading))
             return false; /* nothing but units is between titles and points */
     }
     return false;
@@ -133,11 +134,6 @@ static void list_titles(const CzCurveReading *reading, char *text, size_t size) 
                               (int)(field.n < 30 ? field.n : 30), field.text);
 }
 
-void cz_reading_help(const CzCurveReading *reading, const char *text) {
-    if (text != NULL)
-        cz_mistake_help(reading->mistakes, "%s", text);
-}
-
 bool cz_reading_has_whole_quotes(const CzCurveReading *reading, int line) {
     const char *text = reading->source.line[line];
     int n = 0, column = 1, last = 1;
@@ -155,18 +151,14 @@ bool cz_reading_has_whole_quotes(const CzCurveReading *reading, int line) {
 
 /* Hints at the title that is nearest to a mistyped one; false when none is near. */
 static bool suggest(const CzCurveReading *reading, const char *typed) {
-    char title[CZ_MOST_FIELD_TEXT], best[CZ_MOST_FIELD_TEXT];
+    char title[CZ_MOST_FIELD_TEXT];
     CzSuggestion nearest = {0};
     CzFieldWalk walk = cz_fields_begin(reading->titles, reading->separator);
     CzField field;
-    while (cz_fields_next(&walk, &field)) {
+    while (cz_fields_next(&walk, &field))
         cz_suggest(&nearest, typed, cz_field_text(&field, title));
-        if (nearest.best == title)
-            nearest.best = memcpy(best, title, sizeof best);
-    }
-    if (nearest.best != NULL)
-        cz_mistake_suggest(reading->mistakes, best);
-    return nearest.best != NULL;
+    cz_mistake_suggest(reading->mistakes, &nearest);
+    return nearest.best[0] != '\0';
 }
 
 /* Says which of the columns is not there, or there more than once. */
@@ -190,7 +182,7 @@ static bool refuse_titles(const CzCurveReading *reading, const int found[2]) {
                                      : "no column is %s; the titles are %s",
                       wanted, titles);
     if (column[i].title == NULL || found[i] != -1 || !suggest(reading, column[i].title))
-        cz_reading_help(reading, reading->request->column_help);
+        cz_mistake_help(reading->mistakes, reading->request->column_help);
     return false;
 }
 
@@ -213,7 +205,8 @@ static bool begin_without_titles(CzCurveReading *reading) {
                       column[reading->index[0] < 0 ? 0 : 1].name);
     else
         return true;
-    cz_reading_help(reading, reading->data < n_line ? reading->request->column_help : NULL);
+    cz_mistake_help(reading->mistakes,
+                    reading->data < n_line ? reading->request->column_help : NULL);
     return false;
 }
 
@@ -221,36 +214,35 @@ static bool begin_without_titles(CzCurveReading *reading) {
 
 /* What the file says about the unit of a column. */
 typedef struct Units {
-    CzField field; /* the title */
+    CzField field, below; /* the title, and the field of the row of units */
     char title[CZ_MOST_FIELD_TEXT];
     const CzUnit *in_title, *in_row;
-    bool has_unknown; /* the row of units has something there that is none: */
-    char unknown[CZ_MOST_FIELD_TEXT];
+    bool has_unknown; /* the row of units has something there that is none */
 } Units;
 
 static Units units_of(const CzCurveReading *reading, int i) {
-    Units units = {.field = {.text = "", .column = 1}};
-    CzField below;
+    Units units = {.field = {.text = "", .column = 1}, .below = {.text = "", .column = 1}};
     const int index = reading->index[i];
     if (reading->titles != NULL &&
         cz_field_take(reading->titles, reading->separator, index, &units.field))
         units.in_title = cz_curve_unit_of_title(cz_field_text(&units.field, units.title), NULL);
-    if (reading->units != NULL && cz_field_take(reading->units, reading->separator, index, &below))
-        units.in_row = cz_curve_unit_alone(&below);
-    else
-        below = (CzField){.text = ""};
-    units.has_unknown = units.in_row == NULL && below.n > 0 && strchr("-1", below.text[0]) == NULL;
-    if (units.has_unknown)
-        (void)cz_field_text(&below, units.unknown);
+    if (reading->units != NULL &&
+        cz_field_take(reading->units, reading->separator, index, &units.below))
+        units.in_row = cz_curve_unit_alone(&units.below);
+    units.has_unknown =
+        units.in_row == NULL && units.below.n > 0 && strchr("-1", units.below.text[0]) == NULL;
     if (units.in_title == NULL && units.in_row == NULL && units.field.n > 1)
         units.in_title = cz_curve_unit_alone(&units.field);
     return units;
 }
 
+/* Says what is wrong with the unit of a column, where it is: in the title or in the row below. */
 static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *column,
                         const Units *units) {
-    char list[120], sentence[CZ_MOST_FIELD_TEXT + 200];
+    char list[120], below[CZ_MOST_FIELD_TEXT], sentence[CZ_MOST_FIELD_TEXT + 200];
     const CzUnit *unit = units->in_title != NULL ? units->in_title : units->in_row;
+    const bool is_in_row =
+        column->unit == NULL && units->in_title == NULL && (unit != NULL || units->has_unknown);
     cz_curve_unit_list(column->dimension, list, sizeof list);
     if (column->unit != NULL)
         snprintf(sentence, sizeof sentence, "'%.60s' is no unit of the %s, which takes %s",
@@ -266,18 +258,19 @@ static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *colu
                  units->title, unit->suffix, column->name, list);
     else if (units->has_unknown)
         snprintf(sentence, sizeof sentence,
-                 "'%.60s' in the row of units is no unit of the %s, which takes %s", units->unknown,
-                 column->name, list);
+                 "'%.60s' in the row of units is no unit of the %s, which takes %s",
+                 cz_field_text(&units->below, below), column->name, list);
+    else if (units->title[0] != '\0')
+        snprintf(sentence, sizeof sentence, "the unit of column '%.60s', the %s, is not known",
+                 units->title, column->name);
     else
-        snprintf(sentence, sizeof sentence, "the unit of %s%.60s%sthe %s%s is not known",
-                 units->title[0] != '\0' ? "column '" : "", units->title,
-                 units->title[0] != '\0' ? "', " : "", column->name,
-                 units->title[0] != '\0' ? "," : "");
-    const bool has_titles = reading->titles != NULL;
-    cz_mistake_at(reading->mistakes, &reading->source,
-                  (has_titles ? reading->title_line : reading->data) + 1,
-                  has_titles ? units->field.column : 1, "%s", sentence);
-    cz_reading_help(reading, reading->request->unit_help);
+        snprintf(sentence, sizeof sentence, "the unit of the %s is not known", column->name);
+    const int line = is_in_row                 ? reading->unit_line
+                     : reading->titles != NULL ? reading->title_line
+                                               : reading->data;
+    cz_mistake_at(reading->mistakes, &reading->source, line + 1,
+                  is_in_row ? units->below.column : units->field.column, "%s", sentence);
+    cz_mistake_help(reading->mistakes, reading->request->unit_help);
     return false;
 }
 

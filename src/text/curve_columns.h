@@ -37,7 +37,7 @@ typedef struct CzCurveReading {
     int first;          /* line behind the one that announces the separator */
     const char *titles; /* NULL without */
     const char *units;  /* line of units; NULL without */
-    int title_line;
+    int title_line, unit_line;
     int data; /* first line of points */
     int index[2];
     int n_field[2]; /* of the titles, or of the first point: all, and up to the last filled one */
@@ -61,8 +61,5 @@ bool cz_reading_find_titles(CzCurveReading *reading);
 
 /* Finds the unit of one of the columns: from the request, the title, or the row of units. */
 bool cz_reading_find_unit(CzCurveReading *reading, int column);
-
-/* Adds a hint of the request to the last mistake; NULL adds none. */
-void cz_reading_help(const CzCurveReading *reading, const char *text);
 
 #endif

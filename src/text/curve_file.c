@@ -58,11 +58,11 @@ static bool refuse_open(const CzCurveReading *reading, const Evidence *evidence,
     print_reading(field, '.', point);
     print_reading(field, ',', comma);
     cz_mistake_at(reading->mistakes, &reading->source, evidence->line[sign], field->column,
-                  "'%s' may be %s or %s: no number of the file shows which sign parts decimals",
-                  cz_field_text(field, text), point, comma);
-    cz_mistake_help(reading->mistakes, "%s%s'.' reads %s, ',' reads %s",
-                    reading->request->decimal_help != NULL ? reading->request->decimal_help : "",
-                    reading->request->decimal_help != NULL ? ": " : "", point, comma);
+                  "'%s' may be %s or %s: no number of the file shows which sign parts "
+                  "decimals" CZ_HELP "%s%s'.' reads %s, ',' reads %s",
+                  cz_field_text(field, text), point, comma,
+                  reading->request->decimal_help != NULL ? reading->request->decimal_help : "",
+                  reading->request->decimal_help != NULL ? ": " : "", point, comma);
     return false;
 }
 
@@ -160,7 +160,7 @@ static void refuse_number(const CzCurveReading *reading, int line, int i, const 
                       : is_one                              ? "is too large for a number"
                                                             : "is not a number");
     if (is_other)
-        cz_reading_help(reading, reading->request->decimal_help);
+        cz_mistake_help(reading->mistakes, reading->request->decimal_help);
 }
 
 /* A line with too many or too few fields: with decimal commas between commas both readings are
@@ -169,15 +169,13 @@ static void refuse_count(const CzCurveReading *reading, int line, int n) {
     char other[60] = "the first point has";
     if (reading->titles != NULL)
         snprintf(other, sizeof other, "the titles in line %d have", reading->title_line + 1);
-    cz_mistake_at(reading->mistakes, &reading->source, line + 1, 1, "this line has %d %s, %s %d", n,
-                  n == 1 ? "column" : "columns", other, reading->n_field[0]);
-    if (reading->separator == ',' && n > reading->n_field[0])
-        cz_mistake_help(reading->mistakes,
-                        "commas part columns here: numbers with decimal commas or grouped "
-                        "thousands need quotes around them, or ';' between the columns");
-    else
-        cz_mistake_help(reading->mistakes,
-                        "a line that is no point, or no line of titles, is left out when it "
+    cz_mistake_at(reading->mistakes, &reading->source, line + 1, 1,
+                  "this line has %d %s, %s %d" CZ_HELP "%s", n, n == 1 ? "column" : "columns",
+                  other, reading->n_field[0],
+                  reading->separator == ',' && n > reading->n_field[0]
+                      ? "commas part columns here: numbers with decimal commas or grouped "
+                        "thousands need quotes around them, or ';' between the columns"
+                      : "a line that is no point, or no line of titles, is left out when it "
                         "begins with '#'");
 }
 
@@ -316,12 +314,9 @@ CzStatus cz_curve_points_read_memory(CzArena *arena, const char *name, const cha
                                      size_t n_byte, const CzCurveRequest *request,
                                      CzCurvePoints *points, CzError *error) {
     CzMistakes mistakes = {.arena = arena};
-    CzSource *source = cz_arena_allocate(arena, 1, sizeof *source);
-    if (source != NULL) {
-        source->name = cz_arena_copy_text(arena, name, strlen(name));
-        source->folder = ".";
-    }
-    if (source != NULL && source->name != NULL)
+    CzSources sources = {.arena = arena, .hash = CZ_HASH_START};
+    CzSource *source = cz_sources_add(&sources, name, ".", "", 0);
+    if (source != NULL)
         read_points(&mistakes, source, text, n_byte, request, points);
     return finish(&mistakes, name, error);
 }
@@ -334,32 +329,22 @@ CzStatus cz_curve_points_read_file(CzArena *arena, const char *path, const CzCur
     return finish(&mistakes, path, error);
 }
 
-/* Finds the titles in a text; NULL with a mistake or without memory. */
-static const char *titles_in(CzArena *arena, CzMistakes *mistakes, const CzSource *source,
-                             const char *text, size_t n_byte, char *separator) {
-    static const CzCurveRequest any = {.column = {{.title = "1"}, {.title = "2"}}};
-    CzCurveReading reading = {
-        .mistakes = mistakes, .source = *source, .request = &any, .separator = *separator};
-    if (!begin(arena, text, n_byte, &reading))
-        return NULL;
-    *separator = reading.separator;
-    if (cz_reading_find_titles(&reading))
-        return reading.titles;
-    cz_mistake_at(mistakes, &reading.source, 1, 1,
-                  "this file has no line of titles with two columns of numbers below it");
-    return NULL;
-}
-
 CzStatus cz_curve_titles_read(CzArena *arena, const char *path, char *separator,
                               const char **titles, CzError *error) {
+    static const CzCurveRequest any = {.column = {{.title = "1"}, {.title = "2"}}};
     CzMistakes mistakes = {.arena = arena};
     CzSources sources = {.arena = arena, .hash = CZ_HASH_START};
     char *text = NULL;
     size_t n_byte = 0;
     const CzSource *source = cz_sources_read(&sources, &mistakes, path, NULL, &text, &n_byte);
-    *titles = NULL;
+    CzCurveReading reading = {.mistakes = &mistakes, .request = &any, .separator = *separator};
     if (source != NULL)
-        *titles = titles_in(arena, &mistakes, source, text, n_byte, separator);
+        reading.source = *source;
+    if (source != NULL && begin(arena, text, n_byte, &reading) && !cz_reading_find_titles(&reading))
+        cz_mistake_at(&mistakes, &reading.source, 1, 1,
+                      "this file has no line of titles with two columns of numbers below it");
+    *separator = reading.separator;
+    *titles = reading.titles;
     free(text);
     return finish(&mistakes, path, error);
 }

@@ -1,6 +1,7 @@
 /* Mistakes: collecting, sorting, naming the part that they came through. */
 #include "text/mistakes.h"
 
+#include "base/error.h"
 #include "base/text.h"
 
 #include <stdarg.h>
@@ -8,29 +9,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cuts a text that did not fit at a character's start. */
-static void end_at_character(char *text, size_t size) {
-    size_t n = strlen(text);
-    if (n + 1 < size)
-        return;
-    while (n > 0 && ((unsigned char)text[n - 1] & 0xc0) == 0x80)
-        n--;
-    if (n > 0 && (unsigned char)text[n - 1] >= 0xc0)
-        n--;
-    text[n] = '\0';
-}
-
 static void append_trail(CzError *error, const CzTrail *trail) {
-    for (; trail != NULL && trail->part != NULL; trail = trail->from) {
-        size_t n = strlen(error->message);
-        snprintf(error->message + n, sizeof error->message - n, "; in part '%s' (%s:%d)",
-                 trail->part, trail->written->source->name, trail->written->line);
-        n = strlen(error->message);
-        if (trail->used != NULL)
-            snprintf(error->message + n, sizeof error->message - n, ", used at %s:%d",
-                     trail->used->source->name, trail->used->line);
+    char sentence[2 * sizeof error->message];
+    size_t n = (size_t)snprintf(sentence, sizeof sentence, "%s", error->message);
+    for (; trail != NULL && trail->part != NULL && n < sizeof sentence; trail = trail->from) {
+        n += (size_t)snprintf(sentence + n, sizeof sentence - n, "; in part '%s' (%s:%d)",
+                              trail->part, trail->written->source->name, trail->written->line);
+        if (trail->used != NULL && n < sizeof sentence)
+            n += (size_t)snprintf(sentence + n, sizeof sentence - n, ", used at %s:%d",
+                                  trail->used->source->name, trail->used->line);
     }
-    end_at_character(error->message, sizeof error->message);
+    cz_text_copy(error->message, sizeof error->message, sentence);
 }
 
 static bool is_known(const CzMistakes *mistakes, const CzError *error) {
@@ -45,9 +34,7 @@ static bool is_known(const CzMistakes *mistakes, const CzError *error) {
     return false;
 }
 
-static void add(CzMistakes *mistakes, CzError *error, int order, const CzTrail *trail) {
-    end_at_character(error->message, sizeof error->message);
-    cz_text_repair(error->message);
+static void add(CzMistakes *mistakes, const CzError *error, int order, const CzTrail *trail) {
     mistakes->last = NULL;
     if (is_known(mistakes, error))
         return;
@@ -58,7 +45,6 @@ static void add(CzMistakes *mistakes, CzError *error, int order, const CzTrail *
     CzMistake *mistake = cz_arena_allocate(mistakes->arena, 1, sizeof *mistake);
     if (mistake == NULL)
         return;
-    error->status = CZ_STATUS_INPUT;
     mistake->error = *error;
     mistake->order = order;
     mistake->n_stated = (int)strlen(error->message);
@@ -68,18 +54,16 @@ static void add(CzMistakes *mistakes, CzError *error, int order, const CzTrail *
 }
 
 void cz_error_place(CzError *error, const CzNode *place) {
-    snprintf(error->file, sizeof error->file, "%s", place->source->name);
-    end_at_character(error->file, sizeof error->file);
+    cz_text_copy(error->file, sizeof error->file, place->source->name);
     error->line = place->line;
     error->column = place->column;
 }
 
-/* Adds a mistake at a place, of whose node only source, line and column count. */
-static void tell(CzMistakes *mistakes, const CzNode *place, const CzTrail *trail,
-                 const char *format, va_list arguments) {
-    CzError error = {0};
+void cz_mistake_list(CzMistakes *mistakes, const CzNode *place, const CzTrail *trail,
+                     const char *format, va_list arguments) {
+    CzError error = {.status = CZ_STATUS_INPUT};
     cz_error_place(&error, place);
-    vsnprintf(error.message, sizeof error.message, format, arguments);
+    cz_error_say(&error, format, arguments);
     add(mistakes, &error, place->source->order, trail);
 }
 
@@ -87,7 +71,7 @@ void cz_mistake(CzMistakes *mistakes, const CzNode *place, const CzTrail *trail,
                 ...) {
     va_list arguments;
     va_start(arguments, format);
-    tell(mistakes, place, trail, format, arguments);
+    cz_mistake_list(mistakes, place, trail, format, arguments);
     va_end(arguments);
 }
 
@@ -96,25 +80,18 @@ void cz_mistake_at(CzMistakes *mistakes, const CzSource *source, int line, int c
     const CzNode place = {.source = source, .line = line, .column = column};
     va_list arguments;
     va_start(arguments, format);
-    tell(mistakes, &place, NULL, format, arguments);
+    cz_mistake_list(mistakes, &place, NULL, format, arguments);
     va_end(arguments);
 }
 
-void cz_mistake_help(CzMistakes *mistakes, const char *format, ...) {
-    if (mistakes->last == NULL)
-        return;
-    CzError *error = &mistakes->last->error;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error->help, sizeof error->help, format, arguments);
-    va_end(arguments);
-    end_at_character(error->help, sizeof error->help);
-    cz_text_repair(error->help);
+void cz_mistake_help(CzMistakes *mistakes, const char *help) {
+    if (mistakes->last != NULL && help != NULL)
+        cz_error_help(&mistakes->last->error, "%s", help);
 }
 
-void cz_mistake_suggest(CzMistakes *mistakes, const char *best) {
-    if (best != NULL)
-        cz_mistake_help(mistakes, "did you mean '%s'?", best);
+void cz_mistake_suggest(CzMistakes *mistakes, const CzSuggestion *suggestion) {
+    if (mistakes->last != NULL)
+        cz_suggest_help(suggestion, &mistakes->last->error);
 }
 
 static int compare_numbers(int a, int b) {

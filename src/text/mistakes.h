@@ -2,7 +2,8 @@
 #ifndef CZ_TEXT_MISTAKES_H
 #define CZ_TEXT_MISTAKES_H
 
-#include "crushzone/status.h"
+#include "base/error.h"
+#include "base/suggest.h"
 #include "text/node.h"
 
 enum { CZ_MAX_MISTAKES = 100 }; /* further ones are counted only */
@@ -22,21 +23,26 @@ typedef struct CzMistakes {
     CzMistake *last; /* the one added last; NULL when it was known before or left out */
 } CzMistakes;
 
-/* Adds a mistake at the place of a node. When the node came through a part, the sentence goes on to
- * say so. The same sentence at the same place is kept once. */
+/* Adds a mistake at the place of a node, in a sentence with its hint behind CZ_HELP. When the node
+ * came through a part, the sentence goes on to say so. The same sentence at the same place is kept
+ * once. */
 void cz_mistake(CzMistakes *mistakes, const CzNode *place, const CzTrail *trail, const char *format,
                 ...) __attribute__((format(printf, 4, 5)));
+
+/* The same with its arguments as a list. Of the place's node only source, line and column count. */
+void cz_mistake_list(CzMistakes *mistakes, const CzNode *place, const CzTrail *trail,
+                     const char *format, va_list arguments);
 
 /* Adds one at a line and column of a source (0: the source as a whole). */
 void cz_mistake_at(CzMistakes *mistakes, const CzSource *source, int line, int column,
                    const char *format, ...) __attribute__((format(printf, 5, 6)));
 
-/* Gives the mistake added last a hint, unless it was known before or left out. */
-void cz_mistake_help(CzMistakes *mistakes, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+/* Gives the mistake added last a hint, unless it is NULL, or the mistake was known before or left
+ * out. */
+void cz_mistake_help(CzMistakes *mistakes, const char *help);
 
 /* Adds a hint "did you mean 'best'?" when there is a best word. */
-void cz_mistake_suggest(CzMistakes *mistakes, const char *best);
+void cz_mistake_suggest(CzMistakes *mistakes, const CzSuggestion *suggestion);
 
 /* Puts the mistakes into the order of files, lines and columns, and adds one that counts those left
  * out. */

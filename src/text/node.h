@@ -16,7 +16,7 @@
 typedef struct CzSource {
     const char *name;   /* for messages */
     const char *folder; /* relative paths start here */
-    bool is_catalogue;  /* parts for any problem */
+    bool is_general;    /* it has more than one problem needs: a catalogue, a resolved problem */
     int order;          /* order of reading, for sorting messages */
     int n_line;
     const char *const *line; /* each ended by a zero (n_line) */

@@ -139,15 +139,15 @@ static FILE *open_file(const char *path, const char **why) {
 
 static void refuse_file(CzMistakes *mistakes, const char *path, const CzNode *place,
                         const char *why) {
-    const CzSource itself = {.name = path};
-    if (place != NULL)
-        cz_mistake(mistakes, place, NULL, "cannot read '%s': %s", path, why);
-    else
-        cz_mistake_at(mistakes, &itself, 0, 0, "cannot read '%s': %s", path, why);
+    const CzSource source = {.name = path};
+    const CzNode itself = {.source = &source};
     char resolved[4096];
     snprintf(resolved, sizeof resolved, "%.4000s/resolved.yaml", path);
-    if (cz_path_exists(resolved))
-        cz_mistake_help(mistakes, "the problem of a result folder is its %s", resolved);
+    const bool is_folder = cz_path_exists(resolved);
+    cz_mistake(mistakes, place != NULL ? place : &itself, NULL,
+               "cannot read '%s': %s" CZ_HELP "%s%s", path, why,
+               is_folder ? "the problem of a result folder is its " : "",
+               is_folder ? resolved : "");
 }
 
 /* Folder of a path: what is before its last slash, "." without one. */
@@ -225,11 +225,10 @@ bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char 
         line += n_end > 0;
         i += n_end > 0 ? n_end : cz_text_character(text + i, n_byte - i);
     }
-    cz_mistake_at(mistakes, source, line, column, "the file contains %s", what);
-    if (cz_text_character(text + at, n_byte - at) == 0)
-        cz_mistake_help(mistakes, "save it as UTF-8");
-    else
-        cz_mistake_help(mistakes, "remove it, or replace it by a blank");
+    cz_mistake_at(mistakes, source, line, column, "the file contains %s" CZ_HELP "%s", what,
+                  cz_text_character(text + at, n_byte - at) == 0
+                      ? "save it as UTF-8"
+                      : "remove it, or replace it by a blank");
     return false;
 }
 

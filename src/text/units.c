@@ -4,22 +4,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#define CZ_DIMENSION(dimension, text)
+#define CZ_DIMENSION(dimension, text, units) units
 #define CZ_UNIT(dimension, suffix, symbol, si) {CZ_DIMENSION_##dimension, suffix, symbol, si},
 const CzUnit cz_units[] = {
 #include "text/units.def"
 };
-#undef CZ_DIMENSION
-#undef CZ_UNIT
 const int cz_n_unit = sizeof cz_units / sizeof cz_units[0];
 
-#define CZ_DIMENSION(dimension, text) text,
-#define CZ_UNIT(dimension, suffix, symbol, si)
+#define CZ_DIMENSION(dimension, text, units) text,
 const char *const cz_dimension_text[CZ_N_DIMENSION] = {
 #include "text/units.def"
 };
-#undef CZ_DIMENSION
-#undef CZ_UNIT
 
 const CzUnit *cz_unit_si(CzDimension dimension) {
     int unit = 0;

@@ -7,14 +7,11 @@
 
 #include "base/gravity.h"
 
-#define CZ_DIMENSION(dimension, text) CZ_DIMENSION_##dimension,
-#define CZ_UNIT(dimension, suffix, symbol, si)
+#define CZ_DIMENSION(dimension, text, units) CZ_DIMENSION_##dimension,
 typedef enum CzDimension {
 #include "text/units.def"
     CZ_N_DIMENSION
 } CzDimension;
-#undef CZ_DIMENSION
-#undef CZ_UNIT
 
 typedef struct CzUnit {
     CzDimension dimension;

@@ -44,15 +44,14 @@ static bool refuse(CzValue value, const char *wrong) {
 }
 
 static bool is_in_range(CzValue value, const CzUnit *unit, double lo, double hi, double si) {
-    char limit[CZ_NUMBER_TEXT];
     const bool is_low = si < lo - ROUNDING * fabs(lo);
     const bool is_high = si > hi + ROUNDING * fabs(hi);
     if (!is_low && !is_high)
         return true;
-    cz_number_print_short(limit, (is_low ? lo : hi) / unit->si);
     cz_mistake(value.mistakes, value.node, value.trail, "%s: %.60s is %s allowed %s%s%s", value.key,
-               value.node->text, is_low ? "below the smallest" : "above the largest", limit,
-               unit->symbol[0] != '\0' ? " " : "", unit->symbol);
+               value.node->text, is_low ? "below the smallest" : "above the largest",
+               CZ_SHORT((is_low ? lo : hi) / unit->si), unit->symbol[0] != '\0' ? " " : "",
+               unit->symbol);
     return false;
 }
 

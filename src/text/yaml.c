@@ -9,12 +9,15 @@
 #include "base/text.h"
 #include "text/source.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include <yaml.h>
 
 enum { DEEPEST = 32, MOST_NODES = 250000, MOST_ENTRIES = 20000, MOST_KEYS = 2000 };
+
+#define USE_A_PART CZ_HELP "name a part under 'parts:' and take it with 'use:'"
 
 typedef struct {
     CzMistakes *mistakes;
@@ -38,6 +41,23 @@ static void fail_without_memory(Document *document) {
     document->failed = true;
 }
 
+/* What a complaint of libyaml most often comes from. */
+static const struct {
+    const char *problem, *help;
+} hints[] = {
+    {"found a tab character", "tabs cannot indent; write blanks"},
+    {"cannot start any token",
+     "tabs cannot indent, and texts that begin with @, ` or % need quotes"},
+    {"mapping values are not allowed",
+     "is a line indented too far, a ':' without quotes, or the line before without one?"},
+    {"did not find expected ','",
+     "is a bracket open, or a text between brackets without quotes though it holds a bracket "
+     "itself, as 'stages[0].force_kN' does?"},
+    {"did not find expected key",
+     "keys of one mapping begin in the same column, and a quotation mark "
+     "that opens a text must close it"},
+};
+
 /* Says why libyaml cannot read the text. */
 static void report_syntax(Document *document) {
     const yaml_parser_t *parser = &document->parser;
@@ -47,33 +67,19 @@ static void report_syntax(Document *document) {
         return;
     }
     const char *problem = parser->problem != NULL ? parser->problem : "unreadable";
+    char began[80] = "", help[160] = "";
     if (parser->context != NULL)
-        cz_mistake_at(document->mistakes, document->source, line_of(parser->problem_mark),
-                      column_of(parser->problem_mark),
-                      "this is not YAML: %s %s, which began at line %d", problem, parser->context,
-                      line_of(parser->context_mark));
-    else
-        cz_mistake_at(document->mistakes, document->source, line_of(parser->problem_mark),
-                      column_of(parser->problem_mark), "this is not YAML: %s", problem);
+        snprintf(began, sizeof began, ", which began at line %d", line_of(parser->context_mark));
     if (strstr(problem, "could not find expected ':'") != NULL)
-        cz_mistake_help(document->mistakes, "line %d lacks a colon, or the blank behind it",
-                        line_of(parser->context_mark));
-    else if (strstr(problem, "found a tab character") != NULL)
-        cz_mistake_help(document->mistakes, "tabs cannot indent; write blanks");
-    else if (strstr(problem, "cannot start any token") != NULL)
-        cz_mistake_help(document->mistakes,
-                        "tabs cannot indent, and texts that begin with @, ` or %% need quotes");
-    else if (strstr(problem, "mapping values are not allowed") != NULL)
-        cz_mistake_help(
-            document->mistakes,
-            "is a line indented too far, a ':' without quotes, or the line before without one?");
-    else if (strstr(problem, "did not find expected ','") != NULL)
-        cz_mistake_help(document->mistakes,
-                        "is a bracket open, or a text between brackets without quotes though it "
-                        "holds a bracket itself, as 'stages[0].force_kN' does?");
-    else if (strstr(problem, "did not find expected key") != NULL)
-        cz_mistake_help(document->mistakes, "keys of one mapping begin in the same column, and a "
-                                            "quotation mark that opens a text must close it");
+        snprintf(help, sizeof help, "line %d lacks a colon, or the blank behind it",
+                 line_of(parser->context_mark));
+    for (size_t i = 0; i < sizeof hints / sizeof *hints && help[0] == '\0'; i++)
+        if (strstr(problem, hints[i].problem) != NULL)
+            snprintf(help, sizeof help, "%s", hints[i].help);
+    cz_mistake_at(document->mistakes, document->source, line_of(parser->problem_mark),
+                  column_of(parser->problem_mark), "this is not YAML: %s%s%s%s" CZ_HELP "%s",
+                  problem, parser->context != NULL ? " " : "",
+                  parser->context != NULL ? parser->context : "", began, help);
 }
 
 /* Takes the next event; false at a failure. */
@@ -88,17 +94,22 @@ static bool next_event(Document *document) {
     return false;
 }
 
-static void refuse(Document *document, const char *sentence) {
-    cz_mistake_at(document->mistakes, document->source, line_of(document->event.start_mark),
-                  column_of(document->event.start_mark), "%s", sentence);
+/* Reports a mistake where the event at hand begins. */
+__attribute__((format(printf, 2, 3))) static void refuse(Document *document, const char *format,
+                                                         ...) {
+    const CzNode place = {.source = document->source,
+                          .line = line_of(document->event.start_mark),
+                          .column = column_of(document->event.start_mark)};
+    va_list arguments;
+    va_start(arguments, format);
+    cz_mistake_list(document->mistakes, &place, NULL, format, arguments);
+    va_end(arguments);
 }
 
 static void refuse_decorations(Document *document, const yaml_char_t *anchor,
                                const yaml_char_t *tag) {
-    if (anchor != NULL) {
-        refuse(document, "anchors ('&') are not read here");
-        cz_mistake_help(document->mistakes, "name a part under 'parts:' and take it with 'use:'");
-    }
+    if (anchor != NULL)
+        refuse(document, "anchors ('&') are not read here" USE_A_PART);
     if (tag != NULL)
         refuse(document, "tags ('!') are not read here");
 }
@@ -106,9 +117,7 @@ static void refuse_decorations(Document *document, const yaml_char_t *anchor,
 static CzNode *node_create(Document *document, CzNodeKind kind) {
     if (++document->n_node > MOST_NODES) {
         if (!document->failed)
-            cz_mistake_at(document->mistakes, document->source, line_of(document->event.start_mark),
-                          column_of(document->event.start_mark), "the file has more than %d values",
-                          (int)MOST_NODES);
+            refuse(document, "the file has more than %d values", (int)MOST_NODES);
         document->failed = true;
         return NULL;
     }
@@ -139,12 +148,11 @@ static CzNode *read_text(Document *document) {
         fail_without_memory(document);
         return node;
     }
-    char what[CZ_FAULT_ROOM], sentence[CZ_FAULT_ROOM + 40];
+    char what[CZ_FAULT_ROOM];
     size_t at;
     n_byte = cz_text_one_line(text, n_byte); /* blocks of text have several */
     if (cz_text_fault(text, n_byte, false, &at, what)) {
-        snprintf(sentence, sizeof sentence, "a text cannot contain %s", what);
-        refuse(document, sentence);
+        refuse(document, "a text cannot contain %s", what);
         node->text = "";
         node->is_refused = true;
     }
@@ -153,8 +161,7 @@ static CzNode *read_text(Document *document) {
 
 /* Stands for an alias, which is refused, so that reading can go on. */
 static CzNode *read_alias(Document *document) {
-    refuse(document, "aliases ('*') are not read here");
-    cz_mistake_help(document->mistakes, "name a part under 'parts:' and take it with 'use:'");
+    refuse(document, "aliases ('*') are not read here" USE_A_PART);
     CzNode *node = node_create(document, CZ_NODE_TEXT);
     if (node != NULL) {
         node->text = "";
@@ -235,8 +242,7 @@ static CzNode *read_key(Document *document, Mapping *mapping, int depth, bool *i
     if (is_behind_comma(document, mapping, key)) {
         /* reported */
     } else if (strcmp(key->text, "<<") == 0) {
-        cz_mistake(document->mistakes, key, NULL, "merge keys ('<<') are not read here");
-        cz_mistake_help(document->mistakes, "name a part under 'parts:' and take it with 'use:'");
+        cz_mistake(document->mistakes, key, NULL, "merge keys ('<<') are not read here" USE_A_PART);
     } else if (first >= 0) {
         cz_mistake(document->mistakes, key, NULL, "key '%s' is there twice, first at line %d",
                    key->text, first);
@@ -279,10 +285,7 @@ static CzNode *read_mapping(Document *document, int depth) {
 /* Reads the node that the event at hand begins. NULL at a failure. */
 static CzNode *read_node(Document *document, int depth) {
     if (depth > DEEPEST) {
-        char sentence[80];
-        snprintf(sentence, sizeof sentence, "records and lists are nested more than %d deep",
-                 (int)DEEPEST);
-        refuse(document, sentence);
+        refuse(document, "records and lists are nested more than %d deep", (int)DEEPEST);
         document->failed = true;
         return NULL;
     }

@@ -14,12 +14,9 @@ enum { DEEPEST_CHAIN = 16 };
 
 typedef struct {
     CzReader *reader;
-    CzPart *part; /* all parts of catalogues so far */
-    int n_part;
-    CzIndex by_name;        /* of the parts */
+    CzTree tree;            /* so far without root: all parts of catalogues */
     const char *loaded[64]; /* paths of the catalogues read */
     int n_loaded;
-    bool lacks_parts; /* a catalogue could not be read */
 } Loader;
 
 const CzNode *cz_load_file(CzReader *reader, const char *path, const CzNode *place) {
@@ -49,30 +46,24 @@ const char *cz_load_locate(CzReader *reader, const char *name, const CzNode *pla
     for (int i = 0; i < 3; i++)
         if (candidates[i] != NULL && cz_path_exists(candidates[i]))
             return candidates[i];
-    cz_mistake(&reader->mistakes, place, NULL, "there is no file '%s'", beside);
-    if (in_share != NULL && name[0] != '/')
-        cz_mistake_help(&reader->mistakes, "searched beside the file that names it and in '%s'",
-                        reader->share_folder);
+    const bool is_searched = in_share != NULL && name[0] != '/';
+    cz_mistake(&reader->mistakes, place, NULL, "there is no file '%s'" CZ_HELP "%s%s%s", beside,
+               is_searched ? "searched beside the file that names it and in '" : "",
+               is_searched ? reader->share_folder : "", is_searched ? "'" : "");
     return NULL;
 }
 
 /* ---- parts ---- */
 
-static CzPart *find_part(const Loader *loader, const char *name) {
-    const int at = cz_index_find(&loader->by_name, name, strlen(name));
-    return at >= 0 ? &loader->part[at] : NULL;
-}
-
 static void add_part(Loader *loader, const CzEntry *entry) {
     const char *name = entry->key->text;
-    CzPart *part =
-        cz_arena_grow(&loader->reader->arena, loader->part, loader->n_part, sizeof *part);
+    CzTree *tree = &loader->tree;
+    CzPart *part = cz_arena_grow(&loader->reader->arena, tree->part, tree->n_part, sizeof *part);
     if (part == NULL)
         return;
-    loader->part = part;
-    if (!cz_index_add(&loader->by_name, name, strlen(name), loader->n_part))
-        return;
-    loader->part[loader->n_part++] = (CzPart){name, entry->key, entry->value, 0};
+    tree->part = part;
+    if (cz_index_add(&tree->by_name, name, strlen(name), tree->n_part))
+        part[tree->n_part++] = (CzPart){name, entry->key, entry->value, 0};
 }
 
 static bool is_part(CzReader *reader, const CzEntry *entry) {
@@ -90,7 +81,8 @@ static bool is_part(CzReader *reader, const CzEntry *entry) {
 static void gather_catalogue_parts(Loader *loader, const CzNode *parts) {
     for (int i = 0; i < parts->n_entry; i++) {
         const CzEntry *entry = &parts->entry[i];
-        const CzPart *first = find_part(loader, entry->key->text);
+        const CzPart *first =
+            cz_tree_part(&loader->tree, entry->key->text, strlen(entry->key->text));
         if (first != NULL)
             cz_mistake(&loader->reader->mistakes, entry->key, NULL,
                        "part '%s' is in another catalogue too (%s:%d)", entry->key->text,
@@ -104,7 +96,7 @@ static void gather_catalogue_parts(Loader *loader, const CzNode *parts) {
 static void gather_own_parts(Loader *loader, const CzNode *parts) {
     for (int i = 0; i < parts->n_entry; i++) {
         const CzEntry *entry = &parts->entry[i];
-        CzPart *first = find_part(loader, entry->key->text);
+        CzPart *first = cz_tree_part(&loader->tree, entry->key->text, strlen(entry->key->text));
         if (!is_part(loader->reader, entry))
             continue;
         if (first == NULL) {
@@ -140,7 +132,7 @@ static void check_catalogue_keys(CzReader *reader, const CzNode *top) {
             continue;
         cz_mistake(&reader->mistakes, top->entry[i].key, NULL, "unknown key '%s' in a catalogue",
                    top->entry[i].key->text);
-        cz_mistake_suggest(&reader->mistakes, suggestion.best);
+        cz_mistake_suggest(&reader->mistakes, &suggestion);
     }
 }
 
@@ -159,7 +151,7 @@ static void load_catalogue(Loader *loader, const CzNode *named) {
     CzReader *reader = loader->reader;
     const char *name = cz_value_text(cz_reader_value(reader, "catalogue", named, NULL));
     const char *path = name != NULL ? cz_load_locate(reader, name, named, "catalogue") : NULL;
-    loader->lacks_parts |= path == NULL;
+    loader->tree.lacks_parts |= path == NULL;
     if (path == NULL || is_loaded(loader, path))
         return;
     if (loader->n_loaded == (int)(sizeof loader->loaded / sizeof loader->loaded[0])) {
@@ -169,11 +161,11 @@ static void load_catalogue(Loader *loader, const CzNode *named) {
     }
     loader->loaded[loader->n_loaded++] = path;
     const CzNode *top = cz_load_file(reader, path, named);
-    loader->lacks_parts |= top == NULL;
+    loader->tree.lacks_parts |= top == NULL;
     if (top == NULL)
         return;
     for (CzSource *source = reader->sources.first; source != NULL; source = source->next)
-        source->is_catalogue |= source == top->source;
+        source->is_general |= source == top->source;
     check_catalogue_keys(reader, top);
     load_catalogues(loader, top);
     const CzNode *parts = expect(reader, top, "parts", CZ_NODE_MAPPING);
@@ -225,7 +217,7 @@ static const CzNode *load_bases(Loader *loader, const CzNode *top, const char **
 }
 
 CzTree cz_load_tree(CzReader *reader, const CzNode *top) {
-    Loader loader = {.reader = reader, .by_name = {.arena = &reader->arena}};
+    Loader loader = {.reader = reader, .tree.by_name.arena = &reader->arena};
     const char *chain[DEEPEST_CHAIN + 1] = {top->source->name};
     const CzNode *root = load_bases(&loader, top, chain, 1);
     const CzNode *parts = root != NULL ? expect(reader, root, "parts", CZ_NODE_MAPPING) : NULL;
@@ -235,7 +227,7 @@ CzTree cz_load_tree(CzReader *reader, const CzNode *top) {
     for (int i = 0; root != NULL && i < 3; i++)
         if (cz_node_find(root, done[i]) != NULL)
             root = cz_node_without(&reader->arena, root, done[i]);
-    CzTree tree = {root, loader.n_part, loader.part, loader.by_name, loader.lacks_parts};
-    cz_parts_measure(reader, &tree);
-    return tree;
+    loader.tree.root = root;
+    cz_parts_measure(reader, &loader.tree);
+    return loader.tree;
 }

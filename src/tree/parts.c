@@ -75,13 +75,13 @@ static const CzPart *find_part(CzReader *reader, const CzTree *tree, const CzNod
     if (tree->lacks_parts)
         return NULL;
     CzSuggestion suggestion = {0};
-    cz_mistake(&reader->mistakes, used, trail, "there is no part '%s'", used->text);
+    cz_mistake(&reader->mistakes, used, trail,
+               "there is no part '%s'" CZ_HELP
+               "parts belong under 'parts:' or in the files of 'catalogue:'",
+               used->text);
     for (int i = 0; reader->mistakes.last != NULL && i < tree->n_part; i++)
         cz_suggest(&suggestion, used->text, tree->part[i].name);
-    cz_mistake_suggest(&reader->mistakes, suggestion.best);
-    if (suggestion.best == NULL)
-        cz_mistake_help(&reader->mistakes,
-                        "parts belong under 'parts:' or in the files of 'catalogue:'");
+    cz_mistake_suggest(&reader->mistakes, &suggestion);
     return NULL;
 }
 

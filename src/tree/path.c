@@ -101,9 +101,10 @@ static bool read_path(Walk *walk, const char *path) {
     }
     if (is_path)
         return true;
-    cz_mistake(&walk->reader->mistakes, walk->place, NULL, "'%s' is not a path", path);
-    cz_mistake_help(&walk->reader->mistakes,
-                    "paths look like trains.A.vehicles.A1.front.stages[0].force_kN");
+    cz_mistake(&walk->reader->mistakes, walk->place, NULL,
+               "'%s' is not a path" CZ_HELP
+               "paths look like trains.A.vehicles.A1.front.stages[0].force_kN",
+               path);
     return false;
 }
 
@@ -111,12 +112,10 @@ static bool read_path(Walk *walk, const char *path) {
 __attribute__((format(printf, 3, 4))) static void refuse(Walk *walk, int level, const char *format,
                                                          ...) {
     const CzNode place = place_of(walk, level);
-    char sentence[sizeof((CzError *)0)->message];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(sentence, sizeof sentence, format, arguments);
+    cz_mistake_list(&walk->reader->mistakes, &place, NULL, format, arguments);
     va_end(arguments);
-    cz_mistake(&walk->reader->mistakes, &place, NULL, "%s", sentence);
     walk->failed = true;
 }
 
@@ -243,11 +242,9 @@ static void report_unknown(Walk *walk, const CzNode *mapping, Step step) {
     for (int i = 0; step.record != NULL && i < step.record->n_key; i++)
         if (step.record->key[i].kind >= CZ_KEY_CHILD)
             cz_suggest(&suggestion, name, step.record->key[i].stem);
-    const bool is_known =
-        suggestion.best != NULL && strcmp(suggestion.best, name) == 0; /* a key, but not there */
     refuse(walk, step.level, "there is no '%s' in %s", name, here(walk));
-    if (!is_known)
-        cz_mistake_suggest(&walk->reader->mistakes, suggestion.best);
+    if (strcmp(suggestion.best, name) != 0) /* else it is a key, but not there */
+        cz_mistake_suggest(&walk->reader->mistakes, &suggestion);
 }
 
 /* A train that copies another has no vehicles of its own to change. */
@@ -258,10 +255,10 @@ static bool is_copied(Walk *walk, const CzNode *mapping, Step step) {
         return false;
     if (step.is_open)
         return true;
-    refuse(walk, step.level, "%s copies train '%s' and has no vehicles of its own", walk->at,
-           copied);
-    cz_mistake_help(&walk->reader->mistakes, "trains.%s.vehicles names those of both trains",
-                    copied);
+    refuse(walk, step.level,
+           "%s copies train '%s' and has no vehicles of its own" CZ_HELP
+           "trains.%s.vehicles names those of both trains",
+           walk->at, copied, copied);
     return true;
 }
 
@@ -323,14 +320,13 @@ static const char *name_of_item(Walk *walk, const CzNode *item, const CzRecord *
 
 static void report_no_item(Walk *walk, const CzNode *list, Step step) {
     const Segment *segment = &walk->segment[step.level];
-    CzMistakes *mistakes = &walk->reader->mistakes;
     if (segment->kind == SEGMENT_INDEX) {
         refuse(walk, step.level, "%s has %d items, counted from 0; there is no [%d]", walk->at,
                list->n_entry, segment->index);
         return;
     }
     CzSuggestion suggestion = {0};
-    char best[LONGEST_NAME] = "", text[LONGEST_NAME];
+    char text[LONGEST_NAME];
     for (int i = 0, position = 1; i < list->n_entry; i++) {
         const CzNode *item = list->entry[i].value;
         const int n_repeat = is_record(step.record, "vehicle") ? cz_vehicle_repeat(item) : 1;
@@ -339,21 +335,19 @@ static void report_no_item(Walk *walk, const CzNode *list, Step step) {
             if (strcmp(text, segment->name) == 0) {
                 cz_vehicle_name(text, sizeof text, item, walk->train, position, 0);
                 refuse(walk, step.level,
-                       "vehicle '%s' is '%s' repeated and has no values of its own", segment->name,
-                       text);
-                cz_mistake_help(mistakes, "'%s' names all %d of them", text, n_repeat);
+                       "vehicle '%s' is '%s' repeated and has no values of its own" CZ_HELP
+                       "'%s' names all %d of them",
+                       segment->name, text, text, n_repeat);
                 return;
             }
         }
         const char *name = name_of_item(walk, item, step.record, position, text, sizeof text);
         if (name != NULL)
             cz_suggest(&suggestion, segment->name, name);
-        if (name != NULL && suggestion.best == name)
-            suggestion.best = strcpy(best, strlen(name) < sizeof best ? name : "");
         position += n_repeat;
     }
     refuse(walk, step.level, "there is no '%s' in %s", segment->name, walk->at);
-    cz_mistake_suggest(mistakes, suggestion.best);
+    cz_mistake_suggest(&walk->reader->mistakes, &suggestion);
 }
 
 /* Goes on into one item, or puts the value in its place when the path ends there. */
@@ -440,7 +434,7 @@ static bool put_into_part(Walk *walk, CzTree *tree) {
     else
         refuse(walk, walk->n_segment > 1 ? 1 : 0,
                "'parts' is followed by the name of a part and one of its keys");
-    cz_mistake_suggest(&walk->reader->mistakes, suggestion.best);
+    cz_mistake_suggest(&walk->reader->mistakes, &suggestion);
     return true;
 }
 

@@ -7,12 +7,11 @@
 
 int cz_word_nearest(const CzWordSet *set, const char *typed) {
     CzSuggestion suggestion = {0};
+    int nearest = -1;
     for (int i = 0; i < set->n_word; i++)
-        cz_suggest(&suggestion, typed, set->word[i].word);
-    for (int i = 0; i < set->n_word; i++)
-        if (suggestion.best == set->word[i].word)
-            return i;
-    return -1;
+        if (cz_suggest(&suggestion, typed, set->word[i].word))
+            nearest = i;
+    return nearest;
 }
 
 const CzKey *cz_record_key(const CzRecord *record, const char *stem) {

@@ -226,7 +226,7 @@ static Train *find_original(Trains *trains, const Train *train) {
     } else if (name != NULL) {
         cz_mistake(&reader->mistakes, train->copy->value, trail, "there is no train '%s' to copy",
                    name);
-        cz_mistake_suggest(&reader->mistakes, suggestion.best);
+        cz_mistake_suggest(&reader->mistakes, &suggestion);
     }
     return NULL;
 }

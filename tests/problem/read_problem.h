@@ -19,6 +19,9 @@ static inline void print_mistakes(const CzProblem *problem) {
     }
 }
 
+/* Of rigid.yaml and what extends it: an anti-climber on an end that meets nothing. */
+enum { OWN_WARNINGS = 1 };
+
 /* Reads a file of the folder `good`, which must be valid. */
 static inline CzProblem *read_good(const char *name, int n_set, const char *const *set) {
     char path[300];

@@ -6,8 +6,7 @@
 
 #include <stdbool.h>
 
-#include "problem/acts_on.h"
-#include "problem/acts_with.h"
+#include "problem/acts.h"
 #include "problem/every_key.h"
 
 /* ---- changes ---- */
@@ -156,7 +155,7 @@ static void look_at_lacking(Walk *walk, CzRecordId id, int index, const Changes 
         bool is_warned = false;
         const Effect effect = effect_of(walk, trail, changes->text[i], key, &is_warned);
         if (effect == DIFFERENCE)
-            print_error("%s of a %s acts where acts_with.def excludes it: %s\n", key->stem,
+            print_error("%s of a %s acts where acts.def excludes it: %s\n", key->stem,
                         cz_records[id].name, changes->text[i]);
         if (effect == NOTHING && !is_warned)
             print_error("nothing warns of %s of a %s\n", key->stem, cz_records[id].name);
@@ -171,7 +170,7 @@ static void look_at_key(Walk *walk, CzRecordId id, int index, const char *record
     Found *found = &walk->found[id][index][walk->setting->model];
     const bool acts = cz_key_acts_on(key, walk->setting->model);
     const Changes changes = changes_of(id, key, record);
-    if (acts && !cz_acts_with(walk->problem, key, record + key->offset)) {
+    if (acts && !cz_field_acts(walk->problem, key, record + key->offset)) {
         look_at_lacking(walk, id, index, &changes, trail);
         return;
     }
@@ -183,7 +182,7 @@ static void look_at_key(Walk *walk, CzRecordId id, int index, const char *record
         effect = next > effect ? next : effect;
     }
     if (!acts && effect == DIFFERENCE)
-        print_error("%s of a %s acts on a model that acts_on.def excludes\n", key->stem,
+        print_error("%s of a %s acts on a model that acts.def excludes\n", key->stem,
                     cz_records[id].name);
     const bool is_well = acts ? effect != NOTHING : effect != DIFFERENCE && is_warned_of(walk, key);
     *found = is_well ? ACTS : IDLE;
@@ -196,8 +195,7 @@ static void look_at_child(Walk *walk, CzRecordId id, int index, const Trail *tra
     snprintf(gone, sizeof gone, "%s: null", key->stem);
     const Effect effect = effect_of(walk, trail, gone, NULL, NULL);
     if (effect != NOTHING)
-        print_error("%s of a %s acts where acts_with.def excludes it\n", key->stem,
-                    cz_records[id].name);
+        print_error("%s of a %s acts where acts.def excludes it\n", key->stem, cz_records[id].name);
     walk->n_wrong += effect != NOTHING;
     walk->lacked[id][index] = true;
 }
@@ -207,9 +205,14 @@ static void look_at_stages(Walk *walk, const CzStage *stage, int n_stage, const 
     const CzRecord *record = &cz_records[CZ_RECORD_CzStage];
     for (int index = 0; index < record->n_key; index++) {
         Found *found = &walk->found[CZ_RECORD_CzStage][index][walk->setting->model];
-        for (int of = 0; of < n_stage && *found != ACTS; of++) {
-            const Changes changes =
-                changes_of(CZ_RECORD_CzStage, &record->key[index], (const char *)&stage[of]);
+        for (int of = 0; of < n_stage; of++) {
+            const char *memory = (const char *)&stage[of];
+            const Changes changes = changes_of(CZ_RECORD_CzStage, &record->key[index], memory);
+            const bool acts = cz_field_acts(walk->problem, &record->key[index],
+                                            memory + record->key[index].offset);
+            const Found before = *found;
+            if (acts && before == ACTS)
+                continue;
             *found = IDLE;
             for (int i = 0; i < changes.n && *found != ACTS; i++) {
                 char text[1024] = "stages: [";
@@ -236,6 +239,14 @@ static void look_at_stages(Walk *walk, const CzStage *stage, int n_stage, const 
                 snprintf(text + strlen(text), sizeof text - strlen(text), "]");
                 *found = effect_of(walk, trail, text, NULL, NULL) != NOTHING ? ACTS : IDLE;
             }
+            if (acts)
+                continue;
+            if (*found == ACTS)
+                print_error("%s of a stage acts where acts.def excludes it\n",
+                            record->key[index].stem);
+            walk->n_wrong += *found == ACTS;
+            walk->lacked[CZ_RECORD_CzStage][index] = true;
+            *found = before;
         }
     }
 }
@@ -247,7 +258,7 @@ static void look_at_record(Walk *walk, CzRecordId id, const char *memory, const 
         const CzKey *key = &record->key[index];
         Trail inside = *trail;
         if (key->kind == CZ_KEY_CHILD && cz_key_acts_on(key, walk->setting->model) &&
-            !cz_acts_with(walk->problem, key, memory + key->offset)) {
+            !cz_field_acts(walk->problem, key, memory + key->offset)) {
             look_at_child(walk, id, index, trail);
         } else if (key->kind == CZ_KEY_CHILD && cz_key_acts_on(key, walk->setting->model)) {
             inside.name[inside.n++] = key->stem;
@@ -297,28 +308,19 @@ static bool is_of_vehicles(CzRecordId id, CzRecordId in) {
     return is_in;
 }
 
-/* Number of lines of acts_with.def that no setting shows. */
+/* Number of conditions of acts.def that no setting shows. */
 static int count_conditions_without_case(bool lacked[CZ_N_RECORD][MOST_KEYS]) {
-    static const struct {
-        CzRecordId record;
-        const char *stem;
-    } conditions[] = {
-#define CZ_ACTS_BESIDE(type, stem, sibling) {CZ_RECORD_##type, #stem},
-#define CZ_ACTS_AT(type, stem, sibling, constant, word) {CZ_RECORD_##type, #stem},
-#define CZ_ACTS_AGAINST(type, stem, meeting) {CZ_RECORD_##type, #stem},
-#include "problem/acts_with.def"
-    };
     int n = 0;
-    for (size_t i = 0; i < sizeof conditions / sizeof conditions[0]; i++) {
-        const CzRecord *record = &cz_records[conditions[i].record];
-        const CzKey *key = cz_record_key(record, conditions[i].stem);
-        assert_non_null(key);
-        if (lacked[conditions[i].record][key - record->key] ||
-            !is_of_vehicles(conditions[i].record, CZ_RECORD_CzVehicle))
-            continue;
-        print_error("no setting lacks what %s of a %s acts with\n", key->stem, record->name);
-        n++;
-    }
+    for (CzRecordId id = 0; id < CZ_N_RECORD; id++)
+        for (int index = 0; index < cz_records[id].n_key; index++) {
+            const CzKey *key = &cz_records[id].key[index];
+            if (!cz_key_is_conditional(key) || lacked[id][index] ||
+                !is_of_vehicles(id, CZ_RECORD_CzVehicle))
+                continue;
+            print_error("no setting lacks what %s of a %s acts with\n", key->stem,
+                        cz_records[id].name);
+            n++;
+        }
     return n;
 }
 

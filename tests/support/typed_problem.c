@@ -10,10 +10,12 @@
 #define ABSENT_REQUIRED_FULL(value) NAN
 #define ABSENT_OPTIONAL(value) NAN
 #define ABSENT_DEFAULT(value) (value)
-#define CZ_RECORD(type, name, doc)                                                                 \
+#define CZ_RECORD(type, name, doc, keys)                                                           \
     type default_##type(void) {                                                                    \
         type record;                                                                               \
-        memset(&record, 0, sizeof record);
+        memset(&record, 0, sizeof record);                                                         \
+        keys return record;                                                                        \
+    }
 #define CZ_NUMBER(type, stem, dimension, lo, hi, presence, absent, kind, doc)                      \
     record.stem = ABSENT_##presence(absent);
 #define CZ_COUNT(type, stem, lo, hi, presence, absent, doc) record.stem = absent;
@@ -25,9 +27,6 @@
 #define CZ_TABLE(type, stem, x, x_dimension, y, y_dimension, presence, doc)
 #define CZ_LIST(type, stem, child, presence, doc)
 #define CZ_TEXTS(type, stem, presence, doc)
-#define CZ_RECORD_END(type)                                                                        \
-    return record;                                                                                 \
-    }
 #include "problem/keys.def"
 
 /* ---- what the reader does ---- */

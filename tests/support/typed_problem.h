@@ -6,8 +6,8 @@
 #include "problem/problem.h"
 
 /* A record as the reader would leave it when nothing is given: default_CzTube() and so on. */
-#define CZ_RECORD(type, name, doc) type default_##type(void);
-#include "problem/keys_records.def"
+#define CZ_RECORD(type, name, doc, keys) type default_##type(void);
+#include "problem/keys.def"
 
 enum { TYPED_MAX_VEHICLE = 16, TYPED_MAX_SCENARIO = 4 };
 

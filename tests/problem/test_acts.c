@@ -1,5 +1,5 @@
 /* Keys that lack the key they act with are warned of once, at their place, and only where they act
- * nowhere. acts_with.def lists the needs of each key, and problem-every-key tries all of them. */
+ * nowhere. acts.def lists the needs of each key, and problem-every-key tries all of them. */
 #include "problem/read_problem.h"
 
 #include <dirent.h>
@@ -40,7 +40,7 @@ static void a_key_beside_its_sibling_is_not_warned_of(void **state) {
     static const char *const set[] = {"parts.bumper.anti_climber.speed_reference_m_s=8",
                                       "parts.bumper.anti_climber.speed_factor=0.1"};
     CzProblem *problem = read_good("rigid.yaml", 2, set);
-    assert_null(warning_of(problem, ""));
+    assert_null(warning_of(problem, "speed"));
     cz_problem_free(problem);
 }
 
@@ -127,6 +127,86 @@ static void a_rigid_end_needs_no_unloading_and_is_warned_of_one(void **state) {
     cz_problem_free(problem);
 }
 
+static void devices_of_an_end_that_meets_nothing_are_warned_of(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text(
+        RIGID_TRAINS "trains:\n"
+                     "  - {name: A, speed_m_s: 2, vehicles: [{use: car}]}\n"
+                     "  - name: B\n"
+                     "    vehicles: [{use: car, front: {coupler: {buffer: {use: gear}}}}]\n");
+    const CzError *warning = warning_of(problem, "coupler: this end meets nothing");
+    assert_non_null(warning);
+    assert_int_equal(warning->line, 10);
+    assert_int_equal(warning->column, 35);
+    cz_problem_free(problem);
+}
+
+/* Its mass acts. */
+static void a_tube_with_a_mass_is_not_warned_of_where_it_meets_nothing(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text(
+        RIGID_TRAINS
+        "trains:\n"
+        "  - {name: A, speed_m_s: 2, vehicles: [{use: car}]}\n"
+        "  - name: B\n"
+        "    vehicles: [{use: car, front: {coupler: {length_m: 1, tube: {mass_per_stroke_kg_m: 90, "
+        "stages: [{stroke_mm: 200, force_kN: 900}]}}}}]\n");
+    assert_null(warning_of(problem, "this end meets nothing"));
+    cz_problem_free(problem);
+}
+
+static void a_zone_acts_in_the_stages_of_an_end_only(void **state) {
+    (void)state;
+    static const char *const set[] = {"parts.bumper.anti_climber.stages[0].zone=temporary",
+                                      "parts.bumper.stages[0].zone=crush"};
+    CzProblem *problem = read_good("rigid.yaml", 2, set);
+    const CzError *warning = warning_of(problem, "zone: only the stages of an end itself");
+    assert_non_null(warning);
+    assert_int_equal(warning->line, 1); /* of the settings */
+    assert_int_equal(cz_problem_n_warning(problem), OWN_WARNINGS + 1);
+    cz_problem_free(problem);
+}
+
+static void times_that_end_no_run_are_warned_of(void **state) {
+    (void)state;
+    static const char *const set[] = {"simulation.longest_s=2", "simulation.duration_s=0.3",
+                                      "scenarios.fast.duration_s=0.2",
+                                      "scenarios.slow.duration_s=0.2"};
+    CzProblem *problem = read_good("rigid.yaml", 1, set);
+    assert_int_equal(cz_problem_n_warning(problem), OWN_WARNINGS);
+    cz_problem_free(problem);
+    problem = read_good("rigid.yaml", 2, set);
+    assert_non_null(warning_of(problem, "every run has a duration"));
+    assert_null(warning_of(problem, "of its own"));
+    cz_problem_free(problem);
+    problem = read_good("rigid.yaml", 4, set);
+    assert_non_null(warning_of(problem, "every scenario has a duration of its own"));
+    cz_problem_free(problem);
+}
+
+/* There all parts are written out, those of a catalogue, too. */
+static void a_resolved_problem_is_not_warned_of_what_its_source_was_not(void **state) {
+    (void)state;
+    CzProblem *problem =
+        read_good_text(RIGID_TRAINS "trains:\n"
+                                    "  - {name: A, speed_m_s: 2, vehicles: [{use: car}]}\n"
+                                    "  - {name: B, vehicles: [{use: car, repeat: 2}]}\n");
+    assert_null(warning_of(problem, ""));
+    char *text = NULL;
+    size_t n_byte = 0;
+    FILE *stream = open_memstream(&text, &n_byte);
+    assert_non_null(stream);
+    assert_int_equal(cz_problem_write_resolved(problem, stream, NULL), CZ_OK);
+    fclose(stream);
+    cz_problem_free(problem);
+    assert_non_null(strstr(text, "draw_slack"));
+    assert_int_equal(cz_problem_read_text(text, n_byte, "resolved.yaml", ".", NULL, &problem, NULL),
+                     CZ_OK);
+    assert_null(warning_of(problem, ""));
+    cz_problem_free(problem);
+    free(text);
+}
+
 /* Parts of a catalogue serve any problem. */
 static void shipped_problems_have_no_key_without_effect(void **state) {
     (void)state;
@@ -159,6 +239,11 @@ int main(void) {
         cmocka_unit_test(what_needs_another_record_is_warned_of_without_it),
         cmocka_unit_test(a_part_that_acts_in_one_place_is_not_warned_of_in_others),
         cmocka_unit_test(a_rigid_end_needs_no_unloading_and_is_warned_of_one),
+        cmocka_unit_test(devices_of_an_end_that_meets_nothing_are_warned_of),
+        cmocka_unit_test(a_tube_with_a_mass_is_not_warned_of_where_it_meets_nothing),
+        cmocka_unit_test(a_zone_acts_in_the_stages_of_an_end_only),
+        cmocka_unit_test(times_that_end_no_run_are_warned_of),
+        cmocka_unit_test(a_resolved_problem_is_not_warned_of_what_its_source_was_not),
         cmocka_unit_test(shipped_problems_have_no_key_without_effect),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

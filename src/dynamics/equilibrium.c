@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/gravity.h"
+#include "dynamics/track.h"
 #include "integrate/integrator.h"
 #include "laws/suspension.h"
 #include "laws/wheel_rail.h"
@@ -31,17 +32,9 @@ typedef struct Car {
     double end_x[2], end_mass[2], body_mass, bogie_mass, wheelset_mass;
     CzSuspensionLaw secondary, primary;
     double hertz;
-    double influence[4][4]; /* rail's way upwards at i per force downwards at j [m/N] */
+    double influence[4][4]; /* rail's deflection upwards at i per force downwards at j [m/N] */
     double flexibility[4];  /* beside it, under the wheel itself [m/N] */
 } Car;
-
-static double value(const CzLanes *lanes, CzParameter parameter, size_t lane) {
-    return *cz_lane_parameter(lanes, parameter, lane);
-}
-
-static double mass(const CzLanes *lanes, int dof, size_t lane) {
-    return *cz_lane_mass(lanes, dof, lane);
-}
 
 /* A spring from its unloaded length on, without the stops that it does not reach at rest. */
 static CzSuspensionLaw unloaded_spring(double stiffness, bool pulls) {
@@ -52,22 +45,21 @@ static CzSuspensionLaw unloaded_spring(double stiffness, bool pulls) {
 }
 
 static Car car_of(const CzLanes *lanes, size_t lane) {
-    Car car = {
-        .bogie_x = value(lanes, CZ_PARAMETER(bogie_x), lane),
-        .axle_x = value(lanes, CZ_PARAMETER(axle_x), lane),
-        .end_x = {value(lanes, CZ_PARAMETER(end[0].x), lane),
-                  value(lanes, CZ_PARAMETER(end[1].x), lane)},
-        .end_mass = {mass(lanes, CZ_DOF(end[0].x), lane), mass(lanes, CZ_DOF(end[1].x), lane)},
-        .body_mass = mass(lanes, CZ_DOF(body.z), lane),
-        .bogie_mass = mass(lanes, CZ_DOF(bogie[0].z), lane),
-        .wheelset_mass = mass(lanes, CZ_DOF(wheelset[0].z), lane),
-        .hertz = value(lanes, CZ_PARAMETER(wheel.hertz), lane)};
-    car.secondary =
-        unloaded_spring(value(lanes, CZ_PARAMETER(secondary.stiffness), lane),
-                        value(lanes, CZ_PARAMETER(secondary_preload[0]), lane) >= CZ_NEVER);
-    car.primary = unloaded_spring(value(lanes, CZ_PARAMETER(primary.stiffness), lane),
-                                  value(lanes, CZ_PARAMETER(primary_preload[0]), lane) >= CZ_NEVER);
-    return car;
+    const CzParameters *rows = &cz_lane_block(lanes, lane)->parameter;
+    const CzState *mass = &cz_lane_block(lanes, lane)->mass;
+    const size_t i = lane % CZ_LANE_BLOCK;
+    return (Car){.bogie_x = rows->bogie_x[i],
+                 .axle_x = rows->axle_x[i],
+                 .end_x = {rows->end[0].x[i], rows->end[1].x[i]},
+                 .end_mass = {mass->end[0].x[i], mass->end[1].x[i]},
+                 .body_mass = mass->body.z[i],
+                 .bogie_mass = mass->bogie[0].z[i],
+                 .wheelset_mass = mass->wheelset[0].z[i],
+                 .secondary = unloaded_spring(rows->secondary.stiffness[i],
+                                              rows->secondary_preload[0][i] >= CZ_NEVER),
+                 .primary = unloaded_spring(rows->primary.stiffness[i],
+                                            rows->primary_preload[0][i] >= CZ_NEVER),
+                 .hertz = rows->wheel.hertz[i]};
 }
 
 /* What the rail deflects under each wheel per force under each. */
@@ -108,7 +100,7 @@ static double primary_compression(const Car *car, const double *q, int axle) {
            (q[BOGIE_Z + bogie] + side_of(axle) * car->axle_x * q[BOGIE_PITCH + bogie]);
 }
 
-static double rail_way(const Car *car, const double *q, int axle) {
+static double rail_deflection(const Car *car, const double *q, int axle) {
     double z = 0.0;
     for (int j = 0; j < 4; j++)
         z += car->influence[axle][j] * q[LOAD + j];
@@ -134,7 +126,7 @@ static void residuals(CzEquations *equations, const double *q, double *residual)
     for (int axle = 0; axle < 4; axle++) {
         const int bogie = axle / 2;
         const double force = cz_suspension_spring(&car->primary, primary_compression(car, q, axle));
-        const double approach = rail_way(car, q, axle) - q[WHEEL_Z + axle];
+        const double approach = rail_deflection(car, q, axle) - q[WHEEL_Z + axle];
         residual[BOGIE_Z + bogie] += force;
         residual[BOGIE_PITCH + bogie] += side_of(axle) * car->axle_x * force;
         residual[WHEEL_Z + axle] = q[LOAD + axle] - force - car->wheelset_mass * CZ_GRAVITY;
@@ -168,7 +160,7 @@ static CzEquilibrium read(Car *car, const double *q, double weight) {
         const double flexible = car->flexibility[axle] * q[LOAD + axle];
         found.primary[axle] = primary_compression(car, q, axle);
         found.wheel_load[axle] = q[LOAD + axle];
-        found.rail[axle] = flexible - rail_way(car, q, axle);
+        found.rail[axle] = flexible - rail_deflection(car, q, axle);
         found.indentation[axle] = -q[WHEEL_Z + axle] - found.rail[axle];
     }
     return found;

@@ -5,8 +5,8 @@
 
 #include "base/arena.h"
 #include "crushzone/status.h"
-#include "dynamics/track.h"
 #include "model/lanes.h"
+#include "model/track.h"
 
 /* A car at rest, all measured from springs without load and wheels that just touch. */
 typedef struct CzEquilibrium {
@@ -14,7 +14,7 @@ typedef struct CzEquilibrium {
     double secondary[2];       /* compression, rear and front [m] */
     double primary[4];         /* [m] */
     double wheel_load[4];      /* force of a wheelset on the rails [N] */
-    double rail[4];            /* the rails' way downwards under each wheelset [m] */
+    double rail[4];            /* deflection of the rails downwards under each wheelset [m] */
     double indentation[4];     /* of the contact [m] */
     double residual;           /* largest force left unbalanced over the car's weight [-] */
 } CzEquilibrium;

@@ -3,67 +3,59 @@
 
 #include <math.h>
 
-#include "model/kinks.h"
-
-static double parameter(const CzLanes *lanes, CzParameter row, size_t lane) {
-    return *cz_lane_parameter(lanes, row, lane);
-}
-
 CzInterfaceEquipment cz_interface_equipment(const CzLanes *lanes, size_t lane) {
+    const CzLane at = cz_lane_at(lanes, lane);
+    const CzCouplerRows *coupler = &at.rows->coupler;
+    const CzSideBufferRows *side_buffers = &at.rows->side_buffers;
+    const CzFaceRows *face = &at.rows->face;
+    const size_t i = at.i;
     CzInterfaceEquipment of = {
-        .has_couplers = parameter(lanes, CZ_PARAMETER(coupler.exists), lane) > 0.5,
-        .is_coupled = parameter(lanes, CZ_PARAMETER(coupler.coupled), lane) > 0.5 ||
-                      parameter(lanes, CZ_PARAMETER(draw_gear.slack), lane) < CZ_MISSING,
-        .has_side_buffers = parameter(lanes, CZ_PARAMETER(side_buffers.exists), lane) > 0.5,
-        .has_superstructures = parameter(lanes, CZ_PARAMETER(superstructure.strength), lane) > 0.0,
-        .has_draw_gears = parameter(lanes, CZ_PARAMETER(draw_gear.slack), lane) < CZ_MISSING,
-        .can_climb = parameter(lanes, CZ_PARAMETER(face.overlap), lane) < CZ_MISSING,
-        .friction = parameter(lanes, CZ_PARAMETER(face.friction), lane),
+        .has_couplers = coupler->exists[i] > 0.5,
+        .is_coupled = coupler->coupled[i] > 0.5 ||
+                      at.rows->draw_gear
+                          .slack[i]<CZ_MISSING, .has_side_buffers = side_buffers->exists[i]> 0.5,
+        .has_superstructures = at.rows->superstructure.strength[i] > 0.0,
+        .has_draw_gears = at.rows->draw_gear.slack[i] < CZ_MISSING,
+        .can_climb = face->overlap[i] < CZ_MISSING,
+        .friction = face->friction[i],
     };
     for (int side = 0; side < 2; ++side) {
-        const double stop =
-            parameter(lanes, CZ_PARAMETER(coupler.side[side].hinge_vertical.stop), lane);
-        of.couplers_on_ends |=
-            parameter(lanes, CZ_PARAMETER(coupler.side[side].on_end), lane) > 0.5;
+        const double stop = coupler->side[side].hinge_vertical.stop[i];
+        of.couplers_on_ends |= coupler->side[side].on_end[i] > 0.5;
         of.side[side].has_coupler =
-            of.has_couplers && parameter(lanes, CZ_PARAMETER(coupler.side[side].buffer.transition),
-                                         lane) <= CZ_MISSING;
+            of.has_couplers && coupler->side[side].buffer.transition[i] <= CZ_MISSING;
         of.side[side].has_side_buffers =
-            of.has_side_buffers &&
-            parameter(lanes, CZ_PARAMETER(side_buffers.side[side].buffer.transition), lane) <=
-                CZ_MISSING;
+            of.has_side_buffers && side_buffers->side[side].buffer.transition[i] <= CZ_MISSING;
         of.side[side].has_anti_climber =
             lanes->curve[CZ_CURVE(face[side])].start[lane] <= CZ_MISSING;
-        of.side[side].shears_off =
-            of.has_couplers &&
-            parameter(lanes, CZ_PARAMETER(coupler.side[side].shear.force), lane) < CZ_NEVER;
-        of.side[side].has_massless_end =
-            parameter(lanes, CZ_PARAMETER(face.side[side].has_massless), lane) > 0.5;
-        of.side[side].retraction_space =
-            parameter(lanes, CZ_PARAMETER(coupler.side[side].shear.space), lane);
+        of.side[side].shears_off = of.has_couplers && coupler->side[side].shear.force[i] < CZ_NEVER;
+        of.side[side].has_massless_end = face->side[side].has_massless[i] > 0.5;
+        of.side[side].retraction_space = coupler->side[side].shear.space[i];
         of.side[side].swing_stop = stop < CZ_MISSING ? stop : INFINITY;
-        of.side[side].strut_length =
-            parameter(lanes, CZ_PARAMETER(coupler.side[side].strut_length), lane);
+        of.side[side].strut_length = coupler->side[side].strut_length[i];
     }
     return of;
 }
 
 CzCarEquipment cz_car_equipment(const CzLanes *lanes, size_t lane) {
+    const CzLane at = cz_lane_at(lanes, lane);
+    const CzWheelRows *wheel = &at.rows->wheel;
+    const CzDragRows *drag = &at.rows->drag;
+    const size_t i = at.i;
     return (CzCarEquipment){
-        .has_slaved_ends = parameter(lanes, CZ_PARAMETER(slaved_ends), lane) > 0.5,
-        .is_held = parameter(lanes, CZ_PARAMETER(wheel.brake_moment[0]), lane) > 0.0 ||
-                   parameter(lanes, CZ_PARAMETER(wheel.brake_moment[3]), lane) > 0.0 ||
-                   parameter(lanes, CZ_PARAMETER(drag.brake), lane) > 0.0 ||
-                   parameter(lanes, CZ_PARAMETER(drag.slide), lane) > 0.0,
-        .lift_stop = parameter(lanes, CZ_PARAMETER(secondary.lift_gap), lane),
-        .bump_stop = parameter(lanes, CZ_PARAMETER(secondary.bump_gap), lane),
-        .slide_length = parameter(lanes, CZ_PARAMETER(drag.slide_length), lane),
-        .inverse_mass = parameter(lanes, CZ_PARAMETER(inverse.body.mass), lane),
+        .has_slaved_ends = at.rows->slaved_ends[i] > 0.5,
+        .is_held = wheel->brake_moment[0][i] > 0.0 || wheel->brake_moment[3][i] > 0.0 ||
+                   drag->brake[i] > 0.0 || drag->slide[i] > 0.0,
+        .lift_stop = at.rows->secondary.lift_gap[i],
+        .bump_stop = at.rows->secondary.bump_gap[i],
+        .slide_length = drag->slide_length[i],
+        .inverse_mass = at.rows->inverse.body.mass[i],
     };
 }
 
 bool cz_coupler_is_sheared(const CzDynamics *dynamics, size_t lane, int side) {
     const CzBlock *block = cz_block_of(dynamics, lane);
-    return block->memory->coupler.side[side].shear[lane % CZ_LANE_BLOCK] >=
-           parameter(dynamics->lanes, CZ_PARAMETER(coupler.side[side].shear.softening), lane);
+    const size_t i = lane % CZ_LANE_BLOCK;
+    return block->memory->coupler.side[side].shear[i] >=
+           block->parameter.coupler.side[side].shear.softening[i];
 }

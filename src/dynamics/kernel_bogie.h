@@ -8,7 +8,7 @@
 #define CZ_DYNAMICS_KERNEL_BOGIE_H
 
 #include "dynamics/kernel_bogie_line.h"
-#include "dynamics/suspension_rows.h"
+#include "dynamics/law_rows.h"
 
 static void bogie_to_body(CzBlock *d, int bogie) {
     const double sign = bogie == 0 ? -1.0 : 1.0;

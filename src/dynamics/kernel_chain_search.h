@@ -18,8 +18,7 @@
 #define CZ_DYNAMICS_KERNEL_CHAIN_SEARCH_H
 
 #include "dynamics/kernel_chain.h"
-
-#include "laws/shear_off.h"
+#include "dynamics/law_rows.h"
 
 enum {
     SEARCH_MEMBERS = 8,      /* two springs and up to six plastic members */
@@ -32,11 +31,6 @@ enum {
 #define RIGID 1e25           /* a stiffness or strength from here on never deflects */
 #define ALIKE 1e-9           /* relative difference of members that are alike */
 #define BEYOND_FALL 1e-4     /* stroke beyond the fall at which they are compared [m] (ours) */
-
-static inline CzShearOffLaw shear_off_law(const CzShearOffRows *rows, size_t i) {
-    return (CzShearOffLaw){rows->force[i], rows->residual[i], cz_larger(rows->softening[i], 1e-6),
-                           rows->space[i], rows->bottom[i]};
-}
 
 typedef struct Search {
     const Chain *chain;
@@ -106,7 +100,7 @@ static double plastic_force(const Search *s, int number, double stroke) {
     const PlasticState *plastic = &s->chain->now.plastic[number];
     if (s->holds)
         return plastic->strength[i] + way / plastic->flow[i];
-    const CzShearOffLaw law = shear_off_law(member->shear, i);
+    const CzShearOffLaw law = cz_shear_off_at(member->shear, i);
     return cz_shear_off(&law, stroke).strength + CZ_SMALLEST_RESISTANCE * way;
 }
 

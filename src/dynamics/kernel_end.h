@@ -9,7 +9,6 @@
 #include "dynamics/kernel_end_line.h"
 #include "dynamics/kernel_massless.h"
 #include "laws/slider.h"
-#include "laws/vehicle_end.h"
 
 /* Force of the crush zone along the axis. */
 static void crush_end(CzBlock *d, int end, const EndLine *restrict line) {
@@ -36,7 +35,7 @@ static void crush_end(CzBlock *d, int end, const EndLine *restrict line) {
     }
     evaluate_curve(backbone, stroke, &curve);
     CZ_LANES (i) {
-        const CzVehicleEndLaw law = crush_law(rows, i);
+        const CzVehicleEndLaw law = cz_crush_at(rows, i);
         const CzVehicleEndResponse response = cz_vehicle_end_of(
             &law, compliance[i], second[i], curve.value[i], peak->force[i], stroke[i], largest[i]);
         const double damped = cz_vehicle_end_damping(rows->damping[i], stroke[i], line->rate[i]);

@@ -5,7 +5,6 @@
 
 #include "dynamics/kernel_chain_solve.h"
 #include "laws/buffer.h"
-#include "laws/vehicle_end.h"
 
 #define LARGE_DROP 0.01 /* share of its force that a spring loses in a step (ours) */
 
@@ -26,11 +25,6 @@ typedef struct {
     _Alignas(64) CzRow rise[2]; /* of the anti-climbers' strength by the speed at first contact */
 } FaceChain;
 
-static inline CzVehicleEndLaw crush_law(const CzCrushRows *rows, size_t i) {
-    return (CzVehicleEndLaw){cz_larger(rows->unloading[i], 1.0), rows->share[i],
-                             cz_larger(rows->second_unloading[i], 1.0), rows->tension[i]};
-}
-
 /* Linearises the crush zone of a side. A lane without one is rigid: its compliance is 0. */
 static double linearise_massless(Chain *chain, int side, int again) {
     const Massless *massless = &((const FaceChain *)chain)->massless[side];
@@ -50,7 +44,7 @@ static double linearise_massless(Chain *chain, int side, int again) {
     evaluate_curve(massless->curve, largest, &peak);
     evaluate_curve(massless->curve, trial.stroke, &curve);
     CZ_LANES (i) {
-        const CzVehicleEndLaw law = crush_law(rows, i);
+        const CzVehicleEndLaw law = cz_crush_at(rows, i);
         const double shortening = trial.stroke[i], slope = curve.slope[i];
         const CzVehicleEndResponse response =
             cz_vehicle_end(&law, curve.value[i], peak.value[i], shortening, largest[i]);
@@ -77,7 +71,7 @@ static double linearise_massless(Chain *chain, int side, int again) {
 /* The law of that in one lane. */
 static double massless_force(const Chain *chain, int side, size_t i, double shortening) {
     const Massless *massless = &((const FaceChain *)chain)->massless[side];
-    const CzVehicleEndLaw law = crush_law(massless->rows, i);
+    const CzVehicleEndLaw law = cz_crush_at(massless->rows, i);
     const double largest = cz_smaller(massless->memory->peak[i], massless->curve->usable[i]);
     const double committed = massless->memory->stroke[i];
     double backbone, peak, slope;

@@ -17,7 +17,6 @@
 
 #include "dynamics/kernel_buffer.h"
 #include "dynamics/kernel_chain_solve.h"
-#include "laws/shear_off.h"
 
 enum { SHEAR_OFF = 4 }; /* plastic member of the chain, of side A */
 
@@ -49,7 +48,7 @@ static double linearise_shear_off(Chain *chain, int side, int again) {
     const double *restrict travel = again ? trial : chain->plastic[member].stroke;
     double *restrict damage = again ? unused : ((CouplerChain *)chain)->damage;
     CZ_LANES (i) {
-        const CzShearOffLaw law = shear_off_law(rows, i);
+        const CzShearOffLaw law = cz_shear_off_at(rows, i);
         const CzShearOffResponse response = cz_shear_off(&law, travel[i]);
         curve.value[i] = response.strength;
         curve.slope[i] = response.slope;

@@ -6,10 +6,7 @@
 
 #include <math.h>
 
-#include "dynamics/stored.h"
 #include "laws/shear_off.h"
-#include "model/kinks.h"
-#include "model/own_design.h"
 
 enum { MOST_MEMBERS = 8 };
 
@@ -29,8 +26,7 @@ typedef struct Path {
 } Path;
 
 static double strength(const Path *path, const Member *member) {
-    return cz_curve_value(&path->lanes->curve[member->curve], path->lanes->stride, member->lane,
-                          member->stroke);
+    return cz_curve_value(&path->lanes->curve[member->curve], member->lane, member->stroke);
 }
 
 /* Adds a member unless it is one that never deflects. */
@@ -64,66 +60,64 @@ static Path path_of(const CzLanes *lanes) {
         .lanes = lanes, .released_at = NAN, .shear_off = {.force = INFINITY, .space = CZ_NEVER}};
 }
 
+static void add_end(Path *path, int interface, int side) {
+    add(path, side == 0 ? CZ_CURVE(end[1]) : CZ_CURVE(end[0]), (size_t)(interface + side));
+}
+
 static Path coupler_path(const CzLanes *lanes, int interface) {
     Path path = path_of(lanes);
     const size_t lane = (size_t)interface;
-    if (cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.exists)) < 0.5)
+    const CzLane at = cz_lane_at(lanes, lane);
+    const CzCouplerRows *rows = &at.rows->coupler;
+    if (rows->exists[at.i] < 0.5)
         return path;
-    path.starts_at = cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.pivot.distance)) -
-                     cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.length));
+    path.starts_at = rows->pivot.distance[at.i] - rows->length[at.i];
     for (int side = 0; side < 2; side++) {
-        const int car = interface + side;
         add(&path, CZ_CURVE(buffer[side]), lane);
         add(&path, CZ_CURVE(tube[side]), lane);
         add(&path, CZ_CURVE(second_tube[side]), lane);
-        if (cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].on_end)) > 0.5)
-            add(&path, side == 0 ? CZ_CURVE(end[1]) : CZ_CURVE(end[0]), (size_t)car);
-        const double force =
-            cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].shear.force));
-        const double softening =
-            cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].shear.softening));
+        if (rows->side[side].on_end[at.i] > 0.5)
+            add_end(&path, interface, side);
+        const double force = rows->side[side].shear.force[at.i];
+        const double softening = rows->side[side].shear.softening[at.i];
         CzShearOffLaw *weaker = &path.shear_off;
         if (force < weaker->force || (force == weaker->force && softening > weaker->softening)) {
             weaker->softening = softening; /* of the weaker one: a wall has none that counts */
-            weaker->residual =
-                cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].shear.residual));
+            weaker->residual = rows->side[side].shear.residual[at.i];
         }
         weaker->force = fmin(weaker->force, force);
     }
     return path;
 }
 
-/* Crush zones that are behind what presses on the end of a car. */
-static void add_ends(Path *path, const CzModel *model, int interface) {
-    for (int side = 0; side < 2; side++) {
-        const int car = interface + side;
-        if (model->car[car].model == CZ_MODEL_FULL)
-            add(path, side == 0 ? CZ_CURVE(end[1]) : CZ_CURVE(end[0]), (size_t)car);
-    }
+/* A path of two members on each side, and of the crush zones behind them. */
+static Path contact_path(const CzModel *model, const CzLanes *lanes, int interface,
+                         double starts_at, const CzCurveId member[4]) {
+    Path path = path_of(lanes);
+    path.starts_at = starts_at;
+    for (int k = 0; k < 4; k++)
+        add(&path, member[k], (size_t)interface);
+    for (int side = 0; side < 2; side++)
+        if (model->car[interface + side].model == CZ_MODEL_FULL)
+            add_end(&path, interface, side);
+    return path;
 }
 
 static Path face_path(const CzModel *model, const CzLanes *lanes, int interface) {
-    Path path = path_of(lanes);
-    path.starts_at = cz_lane_value(lanes, interface, CZ_PARAMETER(face.contact.distance));
-    for (int side = 0; side < 2; side++) {
-        add(&path, CZ_CURVE(face[side]), (size_t)interface);
-        add(&path, CZ_CURVE(massless[side]), (size_t)interface);
-    }
-    add_ends(&path, model, interface);
-    return path;
+    static const CzCurveId member[] = {CZ_CURVE(face[0]), CZ_CURVE(massless[0]), CZ_CURVE(face[1]),
+                                       CZ_CURVE(massless[1])};
+    const CzLane at = cz_lane_at(lanes, (size_t)interface);
+    return contact_path(model, lanes, interface, at.rows->face.contact.distance[at.i], member);
 }
 
 static Path side_path(const CzModel *model, const CzLanes *lanes, int interface) {
-    Path path = path_of(lanes);
-    if (cz_lane_value(lanes, interface, CZ_PARAMETER(side_buffers.exists)) < 0.5)
-        return path;
-    path.starts_at = cz_lane_value(lanes, interface, CZ_PARAMETER(side_buffers.contact.distance));
-    for (int side = 0; side < 2; side++) {
-        add(&path, CZ_CURVE(side_buffer[side]), (size_t)interface);
-        add(&path, CZ_CURVE(side_tube[side]), (size_t)interface);
-    }
-    add_ends(&path, model, interface);
-    return path;
+    static const CzCurveId member[] = {CZ_CURVE(side_buffer[0]), CZ_CURVE(side_tube[0]),
+                                       CZ_CURVE(side_buffer[1]), CZ_CURVE(side_tube[1])};
+    const CzLane at = cz_lane_at(lanes, (size_t)interface);
+    if (at.rows->side_buffers.exists[at.i] < 0.5)
+        return path_of(lanes);
+    return contact_path(model, lanes, interface, at.rows->side_buffers.contact.distance[at.i],
+                        member);
 }
 
 void cz_slow_closing(const CzModel *model, const CzLanes *lanes, int interface, double longest,

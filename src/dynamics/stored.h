@@ -61,8 +61,4 @@ double cz_slide_stored(const CzDynamics *dynamics, size_t lane);
 /* Kinetic and elastic energy of the track under a car above that at t = 0. */
 double cz_track_stored(const CzDynamics *dynamics, size_t lane);
 
-/* Value [N] and integral from 0 [J] of a curve in a lane. */
-double cz_curve_value(const CzCurveLanes *curve, size_t stride, size_t lane, double x);
-double cz_curve_integral(const CzCurveLanes *curve, size_t stride, size_t lane, double x);
-
 #endif

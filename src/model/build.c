@@ -19,46 +19,30 @@ static double given_or(double value, double otherwise) {
 /* ---- what collides ---- */
 
 /* Defaults of an absent scenario and an absent simulation record. */
-static const CzScenario *default_scenario(CzArena *arena) {
-    CzScenario *scenario = cz_arena_allocate(arena, 1, sizeof *scenario);
-    if (scenario == NULL)
-        return NULL;
-    *scenario = (CzScenario){.name = "collision",
-                             .speed = NAN,
-                             .partner_speed = NAN,
-                             .height_offset = NAN,
-                             .brake_ratio = NAN,
-                             .partner_brake_ratio = NAN,
-                             .friction = NAN,
-                             .mass_factor = 1.0,
-                             .duration = NAN};
-    return scenario;
-}
-
-static const CzSimulation *default_simulation(CzArena *arena) {
-    CzSimulation *simulation = cz_arena_allocate(arena, 1, sizeof *simulation);
-    if (simulation == NULL)
-        return NULL;
-    *simulation = (CzSimulation){
-        .track = CZ_TRACK_RECEPTANCE,
-        .time_step = NAN,
-        .duration = NAN,
-        .longest = 20.0,
-        .output_step = 1e-3,
-        .adhesion = {.sliding_friction = NAN, .peak_creepage = 0.01, .fall_speed = 3.0}};
-    return simulation;
-}
+static const CzScenario default_scenario = {.name = "collision",
+                                            .speed = NAN,
+                                            .partner_speed = NAN,
+                                            .height_offset = NAN,
+                                            .brake_ratio = NAN,
+                                            .partner_brake_ratio = NAN,
+                                            .friction = NAN,
+                                            .mass_factor = 1.0,
+                                            .duration = NAN};
+static const CzSimulation default_simulation = {
+    .track = CZ_TRACK_RECEPTANCE,
+    .time_step = NAN,
+    .duration = NAN,
+    .longest = 20.0,
+    .output_step = 1e-3,
+    .adhesion = {.sliding_friction = NAN, .peak_creepage = 0.01, .fall_speed = 3.0}};
 
 static CzStatus choose_scenario(CzModel *model, const CzInput *input, int scenario,
                                 CzError *error) {
     const bool has_default = input->n_scenarios == 0 && scenario == 0;
     if (!has_default && (scenario < 0 || scenario >= input->n_scenarios))
         return cz_fail(error, CZ_STATUS_INPUT, "there is no scenario number %d", scenario);
-    model->scenario = has_default ? default_scenario(&model->arena) : &input->scenarios[scenario];
-    model->simulation =
-        input->simulation.given ? &input->simulation : default_simulation(&model->arena);
-    if (model->scenario == NULL || model->simulation == NULL)
-        return cz_no_memory(error, "the model");
+    model->scenario = has_default ? &default_scenario : &input->scenarios[scenario];
+    model->simulation = input->simulation.given ? &input->simulation : &default_simulation;
     const CzScenario *chosen = model->scenario;
     model->friction = given_or(chosen->friction, given_or(model->simulation->adhesion.friction, 0));
     model->duration = given_or(chosen->duration, model->simulation->duration);
@@ -262,10 +246,10 @@ static void choose_hold(CzModel *model) {
             model->hold = fmax(model->hold, 1.0 / model->properties[car].pitch_frequency);
 }
 
-/* Facts and bounds are read off the lanes of the problem's own design. */
+/* Properties and bounds are read off the lanes of the problem's own design. */
 static CzStatus look_at_own_design(CzModel *model, const CzVehicle *vehicles, CzArena *scratch,
                                    CzError *error) {
-    CzLanes *lanes = cz_lanes_create(model, 1, scratch);
+    CzLanes *lanes = cz_model_lanes(model, 1, scratch);
     if (lanes == NULL)
         return cz_no_memory(error, "the model");
     CZ_TRY(cz_model_fill(model, vehicles, 0, lanes, error));

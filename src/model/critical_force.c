@@ -10,44 +10,43 @@ typedef struct Design {
     int number;
 } Design;
 
-static double value(const Design *design, int car, CzParameter parameter) {
-    return cz_lane_value(design->lanes, car * design->lanes->n_design + design->number, parameter);
+static CzLane lane_of(const Design *design, int car) {
+    return cz_lane_at(design->lanes, (size_t)(car * design->lanes->n_design + design->number));
 }
 
 /* A bogie's secondary suspension in series with its two primaries. */
 static CzChainCar chain_car(const Design *design, int car) {
+    const CzLane at = lane_of(design, car);
     if (design->model->car[car].model != CZ_MODEL_FULL)
         return (CzChainCar){0};
-    const double secondary = value(design, car, CZ_PARAMETER(secondary.stiffness));
-    const double primaries = 2.0 * value(design, car, CZ_PARAMETER(primary.stiffness));
+    const double secondary = at.rows->secondary.stiffness[at.i];
+    const double primaries = 2.0 * at.rows->primary.stiffness[at.i];
     return (CzChainCar){.spring = secondary * primaries / (secondary + primaries),
-                        .half_spacing = value(design, car, CZ_PARAMETER(bogie_x))};
+                        .half_spacing = at.rows->bogie_x[at.i]};
 }
 
 static CzChainPivot chain_pivot(const Design *design, int interface, int side) {
-    const bool is_front = side == CZ_SIDE_A; /* of its car */
-    const int car = interface + side, end = is_front ? CZ_FRONT : CZ_REAR;
-    const double outwards = is_front ? 1.0 : -1.0;
-    const double arm = outwards * value(design, interface,
-                                        is_front ? CZ_PARAMETER(coupler.pivot.x[0])
-                                                 : CZ_PARAMETER(coupler.pivot.x[1]));
-    CzChainPivot pivot = {.hinge = value(design, interface,
-                                         CZ_PARAMETER(coupler.side[side].hinge_vertical.stiffness)),
-                          .body_arm = arm};
-    if (value(design, interface, CZ_PARAMETER(coupler.side[side].on_end)) > 0.0) {
-        pivot.body_arm = outwards * value(design, car, CZ_PARAMETER(end[end].x));
-        pivot.end_arm = arm;
-        pivot.end_guide = value(design, car, CZ_PARAMETER(end[end].guide_vertical.stiffness));
-        pivot.end_fold = value(design, car, CZ_PARAMETER(end[end].fold_pitch.stiffness));
-    }
-    return pivot;
+    const CzLane at = lane_of(design, interface), car = lane_of(design, interface + side);
+    const CzCouplerRows *rows = &at.rows->coupler;
+    const CzEndRows *end = &car.rows->end[side == CZ_SIDE_A ? CZ_FRONT : CZ_REAR];
+    const double outwards = side == CZ_SIDE_A ? 1.0 : -1.0;
+    const double arm = outwards * rows->pivot.x[side][at.i];
+    const double hinge = rows->side[side].hinge_vertical.stiffness[at.i];
+    if (!(rows->side[side].on_end[at.i] > 0.0))
+        return (CzChainPivot){.hinge = hinge, .body_arm = arm};
+    return (CzChainPivot){.hinge = hinge,
+                          .body_arm = outwards * end->x[car.i],
+                          .end_arm = arm,
+                          .end_guide = end->guide_vertical.stiffness[car.i],
+                          .end_fold = end->fold_pitch.stiffness[car.i]};
 }
 
 static CzChainStrut chain_strut(const Design *design, int interface) {
-    if (!(value(design, interface, CZ_PARAMETER(coupler.exists)) > 0.0))
+    const CzLane at = lane_of(design, interface);
+    if (!(at.rows->coupler.exists[at.i] > 0.0))
         return (CzChainStrut){0};
-    return (CzChainStrut){.length = value(design, interface, CZ_PARAMETER(coupler.length)),
-                          .tilts = value(design, interface, CZ_PARAMETER(tilts)) > 0.0,
+    return (CzChainStrut){.length = at.rows->coupler.length[at.i],
+                          .tilts = at.rows->tilts[at.i] > 0.0,
                           .pivot = {chain_pivot(design, interface, CZ_SIDE_A),
                                     chain_pivot(design, interface, CZ_SIDE_B)}};
 }

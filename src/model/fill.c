@@ -27,10 +27,10 @@ CzStatus cz_fill_refuse(const CzFill *fill, CzPartName part, const void *field, 
     return CZ_STATUS_INPUT;
 }
 
-CzStatus cz_fill_curve(const CzFill *fill, CzPartName part, const void *field, CzCurveId id,
-                       const CzKinks *kinks) {
+/* Puts a curve into a lane; fails when it has more breakpoints than the problem's own. */
+static CzStatus fill_curve(const CzFill *fill, CzPartName part, const void *field, CzCurveId id,
+                           const CzKinks *kinks) {
     CzCurveLanes *curve = &fill->lanes->curve[id];
-    const size_t stride = fill->lanes->stride;
     const size_t lane = cz_fill_lane(fill, part.lane);
     if (kinks->n > curve->n_kink)
         return cz_fill_refuse(fill, part, field, "has more stages than the problem file gives it");
@@ -41,7 +41,7 @@ CzStatus cz_fill_curve(const CzFill *fill, CzPartName part, const void *field, C
      * order. */
     const int last = kinks->n - 1;
     for (int i = 0; i < curve->n_kink && last >= 0; i++) {
-        const size_t slot = (size_t)i * stride + lane;
+        const size_t slot = (size_t)i * curve->stride + lane;
         const int k = i < last ? i : last;
         const bool is_used = i < last || i == curve->n_kink - 1;
         curve->at[slot] = kinks->at[k];
@@ -101,6 +101,13 @@ static CzStatus check_strength(const CzFill *fill, CzPartName part, const void *
     return table->given ? check_table(fill, part, table) : check_stages(fill, part, stage, n_stage);
 }
 
+static CzStatus check_trigger(const CzFill *fill, CzPartName part, const double *trigger) {
+    if (*trigger < 0.0)
+        return cz_fill_refuse(fill, part, trigger, "trigger of %g kN; it must not be negative",
+                              *trigger * 1e-3);
+    return CZ_OK;
+}
+
 /* A buffer's force must not fall, nor rise faster than it falls between its two curves. */
 static CzStatus check_rise(const CzFill *fill, CzPartName part, const CzBuffer *buffer) {
     double force = buffer->preload;
@@ -152,7 +159,7 @@ CzStatus cz_fill_buffer(const CzFill *fill, CzPartName part, const CzBuffer *buf
     CzKinks kinks;
     if (buffer == NULL) {
         cz_kinks_spring(&kinks, CZ_NEVER);
-        return cz_fill_curve(fill, part, NULL, id, &kinks);
+        return fill_curve(fill, part, NULL, id, &kinks);
     }
     if (buffer->n_stages < 1)
         return cz_fill_refuse(fill, part, buffer, "has no stages");
@@ -162,53 +169,48 @@ CzStatus cz_fill_buffer(const CzFill *fill, CzPartName part, const CzBuffer *buf
     cz_kinks_loading(&kinks, buffer->preload, buffer->stages, buffer->n_stages, &none,
                      buffer->bottom_stiffness);
     cz_kinks_scale(&kinks, count);
-    return cz_fill_curve(fill, part, buffer, id, &kinks);
+    return fill_curve(fill, part, buffer, id, &kinks);
 }
 
 CzStatus cz_fill_tube(const CzFill *fill, CzPartName part, const CzTube *tube, int count,
                       CzCurveId id) {
     CzKinks kinks;
-    if (tube == NULL || !tube->given) {
+    if (!tube->given) {
         cz_kinks_rigid_member(&kinks);
-        return cz_fill_curve(fill, part, tube, id, &kinks);
+        return fill_curve(fill, part, tube, id, &kinks);
     }
     CZ_TRY(check_strength(fill, part, tube, tube->stages, tube->n_stages, &tube->curve,
                           tube->rate_factor));
-    if (tube->trigger < 0.0)
-        return cz_fill_refuse(fill, part, &tube->trigger,
-                              "trigger of %g kN; it must not be negative", tube->trigger * 1e-3);
+    CZ_TRY(check_trigger(fill, part, &tube->trigger));
     cz_kinks_strength(&kinks, tube->stages, tube->n_stages, &tube->curve, tube->trigger,
                       tube->trigger_length, tube->bottom_stiffness);
     cz_kinks_scale(&kinks, (double)tube->count * count);
-    return cz_fill_curve(fill, part, tube, id, &kinks);
+    return fill_curve(fill, part, tube, id, &kinks);
 }
 
 CzStatus cz_fill_anti_climber(const CzFill *fill, CzPartName part,
                               const CzAntiClimber *anti_climber, CzCurveId id) {
     CzKinks kinks;
-    if (anti_climber == NULL || !anti_climber->given) {
+    if (anti_climber == NULL) {
         cz_kinks_rigid_member(&kinks);
-        return cz_fill_curve(fill, part, anti_climber, id, &kinks);
+        return fill_curve(fill, part, anti_climber, id, &kinks);
     }
     CZ_TRY(check_strength(fill, part, anti_climber, anti_climber->stages, anti_climber->n_stages,
                           &anti_climber->curve,
                           anti_climber->rate_factor + anti_climber->speed_factor));
-    if (anti_climber->trigger < 0.0)
-        return cz_fill_refuse(fill, part, &anti_climber->trigger,
-                              "trigger of %g kN; it must not be negative",
-                              anti_climber->trigger * 1e-3);
+    CZ_TRY(check_trigger(fill, part, &anti_climber->trigger));
     cz_kinks_strength(&kinks, anti_climber->stages, anti_climber->n_stages, &anti_climber->curve,
                       anti_climber->trigger, anti_climber->trigger_length,
                       anti_climber->bottom_stiffness);
     cz_kinks_scale(&kinks, anti_climber->count);
-    return cz_fill_curve(fill, part, anti_climber, id, &kinks);
+    return fill_curve(fill, part, anti_climber, id, &kinks);
 }
 
 CzStatus cz_fill_end(const CzFill *fill, CzPartName part, const CzEnd *end, CzCurveId id) {
     CzKinks kinks;
     if (!cz_end_crushes(end)) {
         cz_kinks_spring(&kinks, end->bottom_stiffness);
-        return cz_fill_curve(fill, part, end, id, &kinks);
+        return fill_curve(fill, part, end, id, &kinks);
     }
     CZ_TRY(check_strength(fill, part, end, end->stages, end->n_stages, &end->curve, 0.0));
     if (end->curve.given && (end->curve.x[0] != 0.0 || end->curve.y[0] != 0.0))
@@ -216,7 +218,7 @@ CzStatus cz_fill_end(const CzFill *fill, CzPartName part, const CzEnd *end, CzCu
                               "the curve must start at stroke 0 with force 0");
     CZ_TRY(check_unloading(fill, part, end));
     cz_kinks_loading(&kinks, 0.0, end->stages, end->n_stages, &end->curve, end->bottom_stiffness);
-    return cz_fill_curve(fill, part, end, id, &kinks);
+    return fill_curve(fill, part, end, id, &kinks);
 }
 
 /* ---- all cars ---- */

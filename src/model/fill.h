@@ -40,7 +40,7 @@ typedef struct CzFill {
 typedef struct CzPartName {
     int car;
     int end;  /* -1: the car as a whole */
-    int lane; /* car in whose lane its numbers stand: at interfaces the one behind */
+    int lane; /* car in whose lane its numbers are: at interfaces the one behind */
     const char *what;
 } CzPartName;
 
@@ -52,17 +52,9 @@ static inline size_t cz_fill_lane(const CzFill *fill, int car) {
     return (size_t)car * (size_t)fill->lanes->n_design + (size_t)fill->design;
 }
 
-static inline void cz_put(const CzFill *fill, int car, CzParameter parameter, double value) {
-    *cz_lane_parameter(fill->lanes, parameter, cz_fill_lane(fill, car)) = value;
-}
-
 /* Writes "<part>: <sentence>" with the place of `field`, an address inside the vehicle array. */
 CzStatus cz_fill_refuse(const CzFill *fill, CzPartName part, const void *field, const char *format,
                         ...) __attribute__((format(printf, 4, 5)));
-
-/* Puts a curve into a lane; fails when it has more breakpoints than the problem's own. */
-CZ_MUST_CHECK CzStatus cz_fill_curve(const CzFill *fill, CzPartName part, const void *field,
-                                     CzCurveId id, const CzKinks *kinks);
 
 /* Curves of devices, checked; forces of all `count` devices together. */
 CZ_MUST_CHECK CzStatus cz_fill_buffer(const CzFill *fill, CzPartName part, const CzBuffer *buffer,
@@ -73,6 +65,9 @@ CZ_MUST_CHECK CzStatus cz_fill_anti_climber(const CzFill *fill, CzPartName part,
                                             const CzAntiClimber *anti_climber, CzCurveId id);
 CZ_MUST_CHECK CzStatus cz_fill_end(const CzFill *fill, CzPartName part, const CzEnd *end,
                                    CzCurveId id);
+
+/* Numbers of a crush zone beside its curve. */
+void cz_fill_crush(CzCrushRows *rows, size_t i, const CzEnd *end);
 
 /* statics.c */
 CZ_MUST_CHECK CzStatus cz_fill_statics(const CzFill *fill, int car, CzStatics *statics);

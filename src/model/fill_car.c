@@ -38,59 +38,69 @@ static double inverse(double value) {
     return value > 0.0 ? 1.0 / value : 0.0;
 }
 
-static void put_dof(const CzFill *fill, int car, int dof, double mass, double velocity) {
-    const size_t lane = cz_fill_lane(fill, car);
-    *cz_lane_mass(fill->lanes, dof, lane) = mass;
-    *cz_lane_velocity(fill->lanes, dof, lane) = velocity;
+/* A car of a design: its rows, and its place in them. */
+typedef struct Car {
+    const CzFill *fill;
+    int car;
+    const CzCar *place;
+    const CzVehicle *vehicle;
+    const CzStatics *statics;
+    CzLaneBlock *block;
+    CzParameters *rows; /* of the block */
+    size_t i;
+} Car;
+
+/* Mass and start velocity of a body that moves in all directions of the plane. */
+static void put_plane(const Car *car, CzPlane *masses, CzPlane *velocity, double mass,
+                      double inertia) {
+    masses->x[car->i] = masses->z[car->i] = mass;
+    masses->pitch[car->i] = inertia;
+    velocity->x[car->i] = car->place->speed;
+    velocity->z[car->i] = velocity->pitch[car->i] = 0.0;
 }
 
 /* ---- crush zones ---- */
 
-static CzStatus fill_crush_zone(const CzFill *fill, int car, int which) {
-    const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
-    const CzEnd *end = cz_end_of(vehicle, which);
-    const double speed = fill->model->car[car].speed;
-    const bool is_rear = which == CZ_REAR;
+void cz_fill_crush(CzCrushRows *rows, size_t i, const CzEnd *end) {
+    rows->unloading[i] = end->unloading_stiffness;
+    rows->share[i] = end->unloading_share;
+    rows->second_unloading[i] = cz_second_unloading(end);
+    rows->damping[i] = end->damping;
+}
 
-    cz_put(fill, car, CZ_PARAMETER(inverse.end[which].mass), 1.0 / end->mass);
-    cz_put(fill, car, CZ_PARAMETER(inverse.end[which].inertia_pitch), inverse(end->pitch_inertia));
-    cz_put(fill, car, CZ_PARAMETER(end[which].x), is_rear ? -end->distance : end->distance);
-    cz_put(fill, car, CZ_PARAMETER(end[which].body_z), end->crush_height - vehicle->cg_height);
-    cz_put(fill, car, CZ_PARAMETER(end[which].mass_z), end->crush_height - end->cg_height);
-    put_dof(fill, car, CZ_DOF(end[which].x), end->mass, speed);
-    put_dof(fill, car, CZ_DOF(end[which].z), end->mass, 0.0);
-    put_dof(fill, car, CZ_DOF(end[which].pitch), end->pitch_inertia, 0.0);
-
-    /* Along the car. */
-    CZ_TRY(cz_fill_end(fill, (CzPartName){car, which, car, "end"}, end, CZ_CURVE(end[which])));
-    const CzCurveLanes *curve = &fill->lanes->curve[CZ_CURVE(end[which])];
-    const size_t lane = cz_fill_lane(fill, car);
-    double first_slope = 0.0;
-    for (int i = 0; i < curve->n_kink; i++) {
-        const size_t slot = (size_t)i * fill->lanes->stride + lane;
-        first_slope += curve->at[slot] == 0.0 ? curve->slope_change[slot] : 0.0;
-    }
-    cz_put(fill, car, CZ_PARAMETER(end[which].crush.unloading), end->unloading_stiffness);
-    cz_put(fill, car, CZ_PARAMETER(end[which].crush.share), end->unloading_share);
-    cz_put(fill, car, CZ_PARAMETER(end[which].crush.second_unloading), cz_second_unloading(end));
-    cz_put(fill, car, CZ_PARAMETER(end[which].crush.damping), end->damping);
-    cz_put(fill, car, CZ_PARAMETER(end[which].crush.tension), first_slope);
-
-    /* Across it. */
+/* Guidance across the crush zone, and against pitching. */
+static void fill_guidance(CzEndRows *rows, size_t i, const CzEnd *end) {
     const bool z_locked = end->vertical == CZ_GUIDANCE_LOCKED;
     const bool pitch_locked = end->pitch == CZ_GUIDANCE_LOCKED;
     const double square = LOCKED_FREQUENCY * LOCKED_FREQUENCY;
     const double guide = z_locked ? end->mass * square : end->vertical_stiffness;
     const double fold = pitch_locked ? end->pitch_inertia * square : end->pitch_stiffness;
-    const double fold_damping =
+    rows->guide_vertical.stiffness[i] = guide;
+    rows->guide_vertical.damping[i] = 2.0 * GUIDE_DAMPING * sqrt(guide * end->mass);
+    rows->fold_pitch.stiffness[i] = fold;
+    rows->fold_pitch.damping[i] =
         pitch_locked ? 2.0 * GUIDE_DAMPING * sqrt(fold * end->pitch_inertia) : end->pitch_damping;
-    cz_put(fill, car, CZ_PARAMETER(end[which].guide_vertical.stiffness), guide);
-    cz_put(fill, car, CZ_PARAMETER(end[which].guide_vertical.damping),
-           2.0 * GUIDE_DAMPING * sqrt(guide * end->mass));
-    cz_put(fill, car, CZ_PARAMETER(end[which].fold_pitch.stiffness), fold);
-    cz_put(fill, car, CZ_PARAMETER(end[which].fold_pitch.damping), fold_damping);
-    cz_put(fill, car, CZ_PARAMETER(end[which].fold_pitch.moment),
-           pitch_locked ? CZ_NEVER : end->hinge_moment);
+    rows->fold_pitch.moment[i] = pitch_locked ? CZ_NEVER : end->hinge_moment;
+}
+
+static CzStatus fill_crush_zone(const Car *car, int which) {
+    const CzEnd *end = cz_end_of(car->vehicle, which);
+    const CzCurveId backbone = CZ_CURVE(end[which]);
+    CzEndRows *rows = &car->rows->end[which];
+    CzInverse *divisor = &car->rows->inverse.end[which];
+    const size_t i = car->i;
+    divisor->mass[i] = 1.0 / end->mass;
+    divisor->inertia_pitch[i] = inverse(end->pitch_inertia);
+    put_plane(car, &car->block->mass.end[which], &car->block->velocity.end[which], end->mass,
+              end->pitch_inertia);
+    rows->x[i] = which == CZ_REAR ? -end->distance : end->distance;
+    rows->body_z[i] = end->crush_height - car->vehicle->cg_height;
+    rows->mass_z[i] = end->crush_height - end->cg_height;
+    CZ_TRY(cz_fill_end(car->fill, (CzPartName){car->car, which, car->car, "end"}, end, backbone));
+    cz_fill_crush(&rows->crush, i, end);
+    rows->crush.tension[i] =
+        cz_curve_slope(&car->fill->lanes->curve[backbone], cz_fill_lane(car->fill, car->car), 0.0);
+    fill_guidance(rows, i, end);
     return CZ_OK;
 }
 
@@ -107,55 +117,44 @@ static double gap_or_never(double gap) {
     return isnan(gap) ? CZ_NEVER : gap;
 }
 
-static void fill_suspensions(const CzFill *fill, int car, const CzBogie *bogie,
-                             const CzStatics *statics) {
-    const CzSuspension *secondary = &bogie->secondary, *primary = &bogie->primary;
-    cz_put(fill, car, CZ_PARAMETER(secondary.stiffness), secondary->stiffness);
-    cz_put(fill, car, CZ_PARAMETER(secondary_preload[0]),
-           secondary->carries_tension ? CZ_NEVER : statics->secondary_load[CZ_REAR]);
-    cz_put(fill, car, CZ_PARAMETER(secondary_preload[1]),
-           secondary->carries_tension ? CZ_NEVER : statics->secondary_load[CZ_FRONT]);
-    cz_put(fill, car, CZ_PARAMETER(secondary.damping), secondary->damping);
-    cz_put(fill, car, CZ_PARAMETER(secondary.blow_off_rate), blow_off_rate(secondary));
-    cz_put(fill, car, CZ_PARAMETER(secondary.damping_beyond), secondary->damping_beyond);
-    cz_put(fill, car, CZ_PARAMETER(secondary.bump_gap), gap_or_never(secondary->bump_gap));
-    cz_put(fill, car, CZ_PARAMETER(secondary.bump_stiffness), secondary->bump_stiffness);
-    cz_put(fill, car, CZ_PARAMETER(secondary.lift_gap), gap_or_never(secondary->lift_gap));
-    cz_put(fill, car, CZ_PARAMETER(secondary.lift_stiffness), secondary->lift_stiffness);
-
-    cz_put(fill, car, CZ_PARAMETER(primary.stiffness), primary->stiffness);
-    for (int axle = 0; axle < 4; axle++)
-        cz_put(fill, car, CZ_PARAMETER(primary_preload[axle]),
-               primary->carries_tension ? CZ_NEVER : statics->primary_load[axle]);
-    cz_put(fill, car, CZ_PARAMETER(primary.damping), primary->damping);
-    cz_put(fill, car, CZ_PARAMETER(primary.blow_off_rate), blow_off_rate(primary));
-    cz_put(fill, car, CZ_PARAMETER(primary.damping_beyond), primary->damping_beyond);
-    cz_put(fill, car, CZ_PARAMETER(primary.bump_gap), gap_or_never(primary->bump_gap));
-    cz_put(fill, car, CZ_PARAMETER(primary.bump_stiffness), primary->bump_stiffness);
-    cz_put(fill, car, CZ_PARAMETER(primary.lift_gap), gap_or_never(primary->lift_gap));
-    cz_put(fill, car, CZ_PARAMETER(primary.lift_stiffness), primary->lift_stiffness);
+static void fill_suspension(CzSuspensionRows *rows, size_t i, const CzSuspension *suspension) {
+    rows->stiffness[i] = suspension->stiffness;
+    rows->damping[i] = suspension->damping;
+    rows->blow_off_rate[i] = blow_off_rate(suspension);
+    rows->damping_beyond[i] = suspension->damping_beyond;
+    rows->bump_gap[i] = gap_or_never(suspension->bump_gap);
+    rows->bump_stiffness[i] = suspension->bump_stiffness;
+    rows->lift_gap[i] = gap_or_never(suspension->lift_gap);
+    rows->lift_stiffness[i] = suspension->lift_stiffness;
 }
 
-static void fill_bogies(const CzFill *fill, int car) {
-    const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
+static void fill_bogies(const Car *car) {
+    const CzVehicle *vehicle = car->vehicle;
     const CzBogie *bogie = &vehicle->bogie;
-    const double speed = fill->model->car[car].speed;
-    cz_put(fill, car, CZ_PARAMETER(inverse.bogie.mass), 1.0 / bogie->mass);
-    cz_put(fill, car, CZ_PARAMETER(inverse.bogie.inertia_pitch), 1.0 / bogie->pitch_inertia);
-    cz_put(fill, car, CZ_PARAMETER(bogie_x), vehicle->bogie_spacing / 2.0);
-    cz_put(fill, car, CZ_PARAMETER(link.body_z), bogie->link.height - vehicle->cg_height);
-    cz_put(fill, car, CZ_PARAMETER(link.bogie_z), bogie->link.height - bogie->cg_height);
-    cz_put(fill, car, CZ_PARAMETER(link.strut.stiffness), bogie->link.stiffness);
-    cz_put(fill, car, CZ_PARAMETER(link.strut.damping), bogie->link.damping);
-    cz_put(fill, car, CZ_PARAMETER(axle_x), bogie->axle_spacing / 2.0);
-    cz_put(fill, car, CZ_PARAMETER(axle_z), bogie->wheel_radius - bogie->cg_height);
-    cz_put(fill, car, CZ_PARAMETER(axle_guidance.stiffness), bogie->guidance_stiffness);
-    cz_put(fill, car, CZ_PARAMETER(axle_guidance.damping), bogie->guidance_damping);
-    for (int dof = CZ_DOF(bogie[0].x); dof <= CZ_DOF(bogie[1].pitch); dof += 3) {
-        put_dof(fill, car, dof, bogie->mass, speed);
-        put_dof(fill, car, (int)(dof + 1), bogie->mass, 0.0);
-        put_dof(fill, car, (int)(dof + 2), bogie->pitch_inertia, 0.0);
+    CzParameters *rows = car->rows;
+    const size_t i = car->i;
+    rows->inverse.bogie.mass[i] = 1.0 / bogie->mass;
+    rows->inverse.bogie.inertia_pitch[i] = 1.0 / bogie->pitch_inertia;
+    rows->bogie_x[i] = vehicle->bogie_spacing / 2.0;
+    rows->link.body_z[i] = bogie->link.height - vehicle->cg_height;
+    rows->link.bogie_z[i] = bogie->link.height - bogie->cg_height;
+    rows->link.strut.stiffness[i] = bogie->link.stiffness;
+    rows->link.strut.damping[i] = bogie->link.damping;
+    rows->axle_x[i] = bogie->axle_spacing / 2.0;
+    rows->axle_z[i] = bogie->wheel_radius - bogie->cg_height;
+    rows->axle_guidance.stiffness[i] = bogie->guidance_stiffness;
+    rows->axle_guidance.damping[i] = bogie->guidance_damping;
+    fill_suspension(&rows->secondary, i, &bogie->secondary);
+    fill_suspension(&rows->primary, i, &bogie->primary);
+    for (int k = 0; k < 2; k++) {
+        put_plane(car, &car->block->mass.bogie[k], &car->block->velocity.bogie[k], bogie->mass,
+                  bogie->pitch_inertia);
+        rows->secondary_preload[k][i] =
+            bogie->secondary.carries_tension ? CZ_NEVER : car->statics->secondary_load[k];
     }
+    for (int axle = 0; axle < 4; axle++)
+        rows->primary_preload[axle][i] =
+            bogie->primary.carries_tension ? CZ_NEVER : car->statics->primary_load[axle];
 }
 
 typedef struct {
@@ -176,96 +175,108 @@ static double braked_part(const CzBrake *brake, int axle) {
     return fmin(fmax(n_braked - (3 - axle), 0.0), 1.0);
 }
 
-static void fill_wheels(const CzFill *fill, int car, const CzStatics *statics) {
-    const CzCar *place = &fill->model->car[car];
-    const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
-    const CzBogie *bogie = &vehicle->bogie;
-    const CzAdhesion *adhesion = &fill->model->simulation->adhesion;
-    const double radius = bogie->wheel_radius;
-    const double hertz = hertz_constant(radius, bogie->tread);
+static void fill_wheelset(const Car *car, int axle) {
+    const CzBogie *bogie = &car->vehicle->bogie;
+    CzWheelset *mass = &car->block->mass.wheelset[axle];
+    CzWheelset *velocity = &car->block->velocity.wheelset[axle];
+    CzWheelRows *rows = &car->rows->wheel;
+    const double load = car->statics->wheel_load[axle], radius = bogie->wheel_radius;
+    const size_t i = car->i;
+    const double indentation = cbrt(load / rows->hertz[i]);
+    rows->indentation[axle][i] = indentation * indentation;
+    rows->brake_moment[axle][i] =
+        braked_part(car->place->brake, axle) * (car->place->brake_ratio * load * radius);
+    mass->x[i] = mass->z[i] = bogie->wheelset_mass;
+    mass->spin[i] = bogie->wheelset_inertia;
+    velocity->x[i] = car->place->speed;
+    velocity->z[i] = 0.0;
+    velocity->spin[i] = car->place->speed / radius;
+}
+
+static void fill_wheels(const Car *car) {
+    const CzBogie *bogie = &car->vehicle->bogie;
+    const CzModel *model = car->fill->model;
+    const CzAdhesion *adhesion = &model->simulation->adhesion;
+    const Friction friction = friction_of(model);
+    CzWheelRows *rows = &car->rows->wheel;
+    const size_t i = car->i;
     double load = 0.0;
-
-    cz_put(fill, car, CZ_PARAMETER(inverse.wheelset.mass), 1.0 / bogie->wheelset_mass);
-    cz_put(fill, car, CZ_PARAMETER(inverse.wheelset.inertia_pitch), 1.0 / bogie->wheelset_inertia);
-    cz_put(fill, car, CZ_PARAMETER(wheel.radius), radius);
-    cz_put(fill, car, CZ_PARAMETER(wheel.hertz), hertz);
+    car->rows->inverse.wheelset.mass[i] = 1.0 / bogie->wheelset_mass;
+    car->rows->inverse.wheelset.inertia_pitch[i] = 1.0 / bogie->wheelset_inertia;
+    rows->radius[i] = bogie->wheel_radius;
+    rows->hertz[i] = hertz_constant(bogie->wheel_radius, bogie->tread);
     for (int axle = 0; axle < 4; axle++) {
-        const double indentation = cbrt(statics->wheel_load[axle] / hertz);
-        const double moment = place->brake_ratio * statics->wheel_load[axle] * radius;
-        cz_put(fill, car, CZ_PARAMETER(wheel.indentation[axle]), indentation * indentation);
-        cz_put(fill, car, CZ_PARAMETER(wheel.brake_moment[axle]),
-               braked_part(place->brake, axle) * moment);
-        put_dof(fill, car, (int)(CZ_DOF(wheelset[axle].x)), bogie->wheelset_mass, place->speed);
-        put_dof(fill, car, (int)(CZ_DOF(wheelset[axle].z)), bogie->wheelset_mass, 0.0);
-        put_dof(fill, car, (int)(CZ_DOF(wheelset[axle].spin)), bogie->wheelset_inertia,
-                place->speed / radius);
-        load += statics->wheel_load[axle] / 4.0;
+        fill_wheelset(car, axle);
+        load += car->statics->wheel_load[axle] / 4.0;
     }
-    cz_put(fill, car, CZ_PARAMETER(wheel.brake_stiffness),
-           bogie->wheelset_inertia * HELD_AXLE_FREQUENCY * HELD_AXLE_FREQUENCY);
-
-    const Friction friction = friction_of(fill->model);
-    cz_put(fill, car, CZ_PARAMETER(wheel.creep_stiffness),
-           friction.peak * load / (adhesion->peak_creepage * CONTACT_LENGTH));
-    cz_put(fill, car, CZ_PARAMETER(wheel.creep_length), CONTACT_LENGTH);
-    cz_put(fill, car, CZ_PARAMETER(wheel.friction_peak), friction.peak);
-    cz_put(fill, car, CZ_PARAMETER(wheel.friction_sliding), friction.sliding);
-    cz_put(fill, car, CZ_PARAMETER(wheel.friction_fall_speed), adhesion->fall_speed);
-    cz_put(fill, car, CZ_PARAMETER(wheel.rolling_resistance), vehicle->rolling_resistance);
-    fill->lanes->has_rolling |= vehicle->rolling_resistance > 0.0;
+    rows->brake_stiffness[i] = bogie->wheelset_inertia * HELD_AXLE_FREQUENCY * HELD_AXLE_FREQUENCY;
+    rows->creep_stiffness[i] = friction.peak * load / (adhesion->peak_creepage * CONTACT_LENGTH);
+    rows->creep_length[i] = CONTACT_LENGTH;
+    rows->friction_peak[i] = friction.peak;
+    rows->friction_sliding[i] = friction.sliding;
+    rows->friction_fall_speed[i] = adhesion->fall_speed;
+    rows->rolling_resistance[i] = car->vehicle->rolling_resistance;
+    car->fill->lanes->has_rolling |= car->vehicle->rolling_resistance > 0.0;
 }
 
 /* ---- cars without running gear ---- */
 
 /* Brakes that require more than the peak friction lock the wheels. */
-static void fill_drag(const CzFill *fill, int car, const CzStatics *statics) {
-    const CzCar *place = &fill->model->car[car];
-    const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
-    const Friction friction = friction_of(fill->model);
-    const double braked = place->brake == NULL ? 0.0 : place->brake->axle_share * statics->weight;
-    const double ratio = fmin(place->brake_ratio, friction.peak);
-    const bool locks = place->brake_ratio > friction.peak;
-    const double rolling = vehicle->rolling_resistance * statics->weight;
-    cz_put(fill, car, CZ_PARAMETER(drag.brake), ratio * braked);
-    cz_put(fill, car, CZ_PARAMETER(drag.brake_sliding),
-           (locks ? friction.sliding : ratio) * braked);
-    cz_put(fill, car, CZ_PARAMETER(wheel.friction_fall_speed),
-           fill->model->simulation->adhesion.fall_speed);
-    cz_put(fill, car, CZ_PARAMETER(drag.rolling), rolling);
-    fill->lanes->has_drag |= ratio * braked + rolling > 0.0;
+static void fill_drag(const Car *car) {
+    const CzModel *model = car->fill->model;
+    const CzBrake *brake = car->place->brake;
+    CzDragRows *rows = &car->rows->drag;
+    const Friction friction = friction_of(model);
+    const double weight = car->statics->weight, asked = car->place->brake_ratio;
+    const double braked = brake == NULL ? 0.0 : brake->axle_share * weight;
+    const double ratio = fmin(asked, friction.peak);
+    const bool locks = asked > friction.peak;
+    rows->brake[car->i] = ratio * braked;
+    rows->brake_sliding[car->i] = (locks ? friction.sliding : ratio) * braked;
+    rows->rolling[car->i] = car->vehicle->rolling_resistance * weight;
+    car->rows->wheel.friction_fall_speed[car->i] = model->simulation->adhesion.fall_speed;
+    car->fill->lanes->has_drag |= rows->brake[car->i] + rows->rolling[car->i] > 0.0;
 }
 
-static void fill_slide(const CzFill *fill, int car, const CzSlide *slide) {
+static void fill_slide(const Car *car) {
+    const CzSlide *slide = cz_slide_of(car->vehicle);
+    CzDragRows *rows = &car->rows->drag;
     if (slide == NULL)
         return;
-    cz_put(fill, car, CZ_PARAMETER(drag.slide), slide->force);
-    cz_put(fill, car, CZ_PARAMETER(drag.slide_length), slide->length);
-    cz_put(fill, car, CZ_PARAMETER(drag.slide_stiffness), slide->bottom_stiffness);
-    fill->lanes->has_drag = 1;
+    rows->slide[car->i] = slide->force;
+    rows->slide_length[car->i] = slide->length;
+    rows->slide_stiffness[car->i] = slide->bottom_stiffness;
+    car->fill->lanes->has_drag = 1;
 }
 
-CzStatus cz_fill_car(const CzFill *fill, int car, const CzStatics *statics) {
-    const CzCar *place = &fill->model->car[car];
-    cz_put(fill, car, CZ_PARAMETER(inverse.body.mass), inverse(statics->body_mass));
-    cz_put(fill, car, CZ_PARAMETER(inverse.body.inertia_pitch), inverse(statics->body_inertia));
-    put_dof(fill, car, CZ_DOF(body.x), statics->body_mass, place->speed);
-    if (place->model != CZ_MODEL_FULL) {
-        put_dof(fill, car, CZ_DOF(end[0].x), 0.0, place->speed);
-        put_dof(fill, car, CZ_DOF(end[1].x), 0.0, place->speed);
-        if (place->model == CZ_MODEL_RIGID)
-            fill_drag(fill, car, statics);
-        else
-            fill_slide(fill, car, cz_slide_of(cz_fill_vehicle(fill, car)));
-        return CZ_OK;
-    }
-    fill->lanes->has_full_cars = 1;
-    cz_put(fill, car, CZ_PARAMETER(slaved_ends), 0.0);
-    put_dof(fill, car, CZ_DOF(body.z), statics->body_mass, 0.0);
-    put_dof(fill, car, CZ_DOF(body.pitch), statics->body_inertia, 0.0);
-    CZ_TRY(fill_crush_zone(fill, car, CZ_REAR));
-    CZ_TRY(fill_crush_zone(fill, car, CZ_FRONT));
-    fill_suspensions(fill, car, &cz_fill_vehicle(fill, car)->bogie, statics);
-    fill_bogies(fill, car);
-    fill_wheels(fill, car, statics);
+CzStatus cz_fill_car(const CzFill *fill, int number, const CzStatics *statics) {
+    const size_t lane = cz_fill_lane(fill, number), i = lane % CZ_LANE_BLOCK;
+    CzLaneBlock *block = cz_lane_block(fill->lanes, lane);
+    const Car car = {.fill = fill,
+                     .car = number,
+                     .place = &fill->model->car[number],
+                     .vehicle = cz_fill_vehicle(fill, number),
+                     .statics = statics,
+                     .block = block,
+                     .rows = &block->parameter,
+                     .i = i};
+    block->parameter.inverse.body.mass[i] = inverse(statics->body_mass);
+    block->parameter.inverse.body.inertia_pitch[i] = inverse(statics->body_inertia);
+    block->mass.body.x[i] = statics->body_mass;
+    block->velocity.body.x[i] = block->velocity.end[0].x[i] = block->velocity.end[1].x[i] =
+        car.place->speed;
+    if (car.place->model == CZ_MODEL_FULL) {
+        fill->lanes->has_full_cars = 1;
+        block->parameter.slaved_ends[i] = 0.0;
+        put_plane(&car, &block->mass.body, &block->velocity.body, statics->body_mass,
+                  statics->body_inertia);
+        CZ_TRY(fill_crush_zone(&car, CZ_REAR));
+        CZ_TRY(fill_crush_zone(&car, CZ_FRONT));
+        fill_bogies(&car);
+        fill_wheels(&car);
+    } else if (car.place->model == CZ_MODEL_RIGID)
+        fill_drag(&car);
+    else
+        fill_slide(&car);
     return CZ_OK;
 }

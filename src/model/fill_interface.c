@@ -1,4 +1,4 @@
-/* Numbers of one interface: where the two ends are at t = 0, and what they are made of.
+/* Numbers of one interface: places of the two ends at t = 0, and their parts.
  *
  *   distance of a pair of parts = distance of the foremost planes + gap_A + gap_B
  *
@@ -6,92 +6,163 @@
  * Colliding interface: the nearest pair of parts of one kind touches. A fixed partner without a
  * part of its own meets the other's with its foremost plane, at the other's height.
  */
-#include "model/meeting.h"
+#include "model/fill.h"
 
 #include "base/error.h"
 
-#define BARE_COMPLIANCE 1e-9 /* of two ends without anti-climbers [m/N] (ours) */
-#define SMALLEST_COMPLIANCE                                                                        \
-    1e-14                      /* where a crush zone in series deflects instead [m/N] (ours)       \
-                                */
-#define OVERLAP_TOLERANCE 1e-9 /* of rounding [m] */
+#define BARE_COMPLIANCE 1e-9      /* of two ends without anti-climbers [m/N] (ours) */
+#define SMALLEST_COMPLIANCE 1e-14 /* where a crush zone in series deflects instead [m/N] (ours) */
+#define OVERLAP_TOLERANCE 1e-9    /* of rounding [m] */
 
-static CzSide make_side(const CzFill *fill, int car, int which, const CzStatics *statics) {
+/* Kinds of parts by which two ends meet; draw gears carry tension only and never touch. */
+typedef enum Kind { COUPLER, FACE, SIDE_BUFFERS, SUPERSTRUCTURE, DRAW_GEAR, N_KIND } Kind;
+enum { N_TOUCHING = DRAW_GEAR };
+
+/* A part of an end. */
+typedef struct Part {
+    bool is_there;
+    double gap;    /* behind the foremost plane [m] */
+    double height; /* above rail [m]; NaN: as the other side's */
+} Part;
+
+/* One side of the interface. */
+typedef struct Side {
+    int car;
+    int which; /* end of that car */
+    bool is_full, is_fixed;
+    const CzVehicle *vehicle;
+    const CzEnd *end;
+    Part part[N_KIND]; /* the face is an anti-climber's where there is one, else the bare end's */
+    double plane;      /* foremost plane from the body's centre of gravity, outwards [m] */
+    double sign;       /* of outwards along x */
+    double offset;     /* how much higher it is than built [m] */
+} Side;
+
+typedef struct Pair {
+    const CzFill *fill;
+    int lane;           /* car in whose lane the numbers are */
+    CzParameters *rows; /* of its block */
+    size_t i;           /* its place there */
+    Side side[2];
+    bool has[N_KIND];
+    bool tilts;      /* a car that moves up and down meets one that can move */
+    double distance; /* of the foremost planes at t = 0 [m] */
+} Pair;
+
+static CzPartName part_name(const Pair *pair, int side, const char *what) {
+    return (CzPartName){pair->side[side].car, pair->side[side].which, pair->lane, what};
+}
+
+static void list_parts(Side *side) {
+    const CzEnd *end = side->end;
+    const CzAntiClimber *device = &end->anti_climber;
+    for (int kind = 0; kind < N_KIND; kind++)
+        side->part[kind] = (Part){.height = NAN};
+    if (!end->given)
+        return;
+    side->part[FACE] = device->given ? (Part){true, device->gap, device->height}
+                                     : (Part){false, end->face_gap, end->crush_height};
+    if (end->coupler.given)
+        side->part[COUPLER] = (Part){true, end->coupler.gap, end->coupler.height};
+    if (end->side_buffers.given)
+        side->part[SIDE_BUFFERS] = (Part){true, end->side_buffers.gap, end->side_buffers.height};
+    if (end->superstructure.given)
+        side->part[SUPERSTRUCTURE] =
+            (Part){side->is_full, end->superstructure.gap, end->superstructure.height};
+    if (end->draw_gear.given)
+        side->part[DRAW_GEAR] = (Part){true, 0.0, end->draw_gear.height};
+}
+
+static Side make_side(const CzFill *fill, int car, int which, const CzStatics *statics) {
     const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
     const CzVehicleModel model = fill->model->car[car].model;
-    return (CzSide){.car = car,
-                    .which = which,
-                    .is_full = model == CZ_MODEL_FULL,
-                    .is_fixed = model == CZ_MODEL_FIXED,
-                    .vehicle = vehicle,
-                    .end = cz_end_of(vehicle, which),
-                    .plane = statics->plane[which],
-                    .sign = which == CZ_FRONT ? 1.0 : -1.0};
+    Side side = {.car = car,
+                 .which = which,
+                 .is_full = model == CZ_MODEL_FULL,
+                 .is_fixed = model == CZ_MODEL_FIXED,
+                 .vehicle = vehicle,
+                 .end = cz_end_of(vehicle, which),
+                 .plane = statics->plane[which],
+                 .sign = which == CZ_FRONT ? 1.0 : -1.0};
+    list_parts(&side);
+    return side;
 }
 
-static bool has_coupler(const CzSide *side) {
-    return side->end->given && side->end->coupler.given;
+static bool both_have(const Pair *pair, Kind kind) {
+    return pair->side[CZ_SIDE_A].part[kind].is_there && pair->side[CZ_SIDE_B].part[kind].is_there;
 }
 
-static bool has_anti_climber(const CzSide *side) {
-    return side->end->given && side->end->anti_climber.given;
+/* Parts pair when both sides have them, or one has and the other is fixed. */
+static bool pairs(const Pair *pair, Kind kind) {
+    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
+    return both_have(pair, kind) || (a->part[kind].is_there && b->is_fixed) ||
+           (b->part[kind].is_there && a->is_fixed);
 }
 
-/* ---- gaps behind the foremost plane, and heights above rail (NaN: as the other side's) ---- */
-
-static double coupler_gap(const CzSide *side) {
-    return has_coupler(side) ? side->end->coupler.gap : 0.0;
+static double gaps_of(const Pair *pair, Kind kind) {
+    return pair->side[CZ_SIDE_A].part[kind].gap + pair->side[CZ_SIDE_B].part[kind].gap;
 }
 
-/* Pivot to face, of a coupler that takes part in a strut; 0 of one that pushes along the track. */
-static double strut_length(const CzMeeting *pair, int which) {
-    const CzSide *side = &pair->side[which];
-    const bool has_pivot = side->is_full || (pair->tilts && !side->is_fixed);
-    return has_coupler(side) && has_pivot ? side->end->coupler.length : 0.0;
+/* Distance of the parts of a kind along the track at t = 0 [m]. */
+static double distance_of(const Pair *pair, Kind kind) {
+    return pair->distance + pair->side[CZ_SIDE_A].part[kind].gap +
+           pair->side[CZ_SIDE_B].part[kind].gap;
 }
 
-static double face_gap(const CzSide *side) {
-    if (!side->end->given)
-        return 0.0;
-    return has_anti_climber(side) ? side->end->anti_climber.gap : side->end->face_gap;
+/* Heights of both sides as built, and how much higher B's part is than A's with the offsets. */
+typedef struct Heights {
+    double side[2]; /* above rail [m] */
+    double rise;    /* [m] */
+} Heights;
+
+static Heights heights_of(const Pair *pair, Kind kind) {
+    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
+    Heights heights = {.side = {a->part[kind].height, b->part[kind].height}};
+    if (isnan(heights.side[0]))
+        heights.side[0] = isnan(heights.side[1]) ? 0.0 : heights.side[1];
+    if (isnan(heights.side[1]))
+        heights.side[1] = heights.side[0];
+    heights.rise = heights.side[1] + b->offset - heights.side[0] - a->offset;
+    return heights;
 }
 
-static double coupler_height(const CzSide *side) {
-    return has_coupler(side) ? side->end->coupler.height : NAN;
+/* Where the parts of a kind meet; on the end masses, or on bodies without them. */
+static void fill_contact(const Pair *pair, Kind kind, CzPairRows *contact) {
+    const Heights heights = heights_of(pair, kind);
+    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
+        const Side *side = &pair->side[which];
+        const double carrier = side->is_full ? side->end->distance : 0.0;
+        contact->x[which][pair->i] = side->sign * (side->plane - side->part[kind].gap - carrier);
+        contact->z[which][pair->i] =
+            side->is_full ? heights.side[which] - side->end->cg_height : 0.0;
+    }
+    contact->distance[pair->i] = distance_of(pair, kind);
+    contact->rise[pair->i] = heights.rise;
 }
 
-static double face_height(const CzSide *side) {
-    if (!side->end->given)
-        return NAN;
-    return has_anti_climber(side) ? side->end->anti_climber.height : side->end->crush_height;
-}
+/* ---- places of the two cars ---- */
 
-/* ---- where the two cars stand ---- */
-
-static CzStatus place_cars(CzMeeting *pair) {
+static CzStatus place_cars(Pair *pair) {
     const CzModel *model = pair->fill->model;
-    const CzSide *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
-    const double couplers = coupler_gap(a) + coupler_gap(b);
-    const double faces = face_gap(a) + face_gap(b);
-    double nearest = faces;
-    if (pair->has_couplers)
-        nearest = fmin(nearest, couplers);
-    nearest = fmin(nearest, cz_contacts_gap(pair));
-
+    double nearest = gaps_of(pair, FACE);
+    for (int kind = 0; kind < N_TOUCHING; kind++)
+        if (pair->has[kind])
+            nearest = fmin(nearest, gaps_of(pair, (Kind)kind));
     if (pair->lane == model->colliding) {
         pair->distance = -nearest;
         return CZ_OK;
     }
-    pair->distance = pair->has_couplers ? -couplers : 0.0;
+    pair->distance = pair->has[COUPLER] ? -gaps_of(pair, COUPLER) : 0.0;
     if (pair->distance + nearest < -OVERLAP_TOLERANCE)
         return cz_fill_refuse(
-            pair->fill, part_name(pair, CZ_SIDE_A, "coupler"), &a->end->coupler.gap,
+            pair->fill, part_name(pair, CZ_SIDE_A, "coupler"),
+            &pair->side[CZ_SIDE_A].end->coupler.gap,
             "other parts of interface %s overlap by %g mm when its couplers touch",
             model->interface_name[pair->lane], -(pair->distance + nearest) * 1e3);
     return CZ_OK;
 }
 
-static void set_offsets(CzMeeting *pair) {
+static void set_offsets(Pair *pair) {
     const CzModel *model = pair->fill->model;
     const CzInput *input = cz_problem_input(model->problem);
     const CzScenario *scenario = model->scenario;
@@ -105,212 +176,292 @@ static void set_offsets(CzMeeting *pair) {
         pair->side[CZ_SIDE_B].offset = scenario->perturbation;
 }
 
+/* ---- devices of couplers and side buffers ---- */
+
+/* A buffer of a side, `count` of them together; NULL: none. */
+static CzStatus fill_buffer(const Pair *pair, CzPartName name, const CzBuffer *buffer, int count,
+                            CzCurveId curve, CzBufferRows *rows) {
+    CZ_TRY(cz_fill_buffer(pair->fill, name, buffer, count, curve));
+    if (buffer == NULL)
+        return CZ_OK;
+    rows->transition[pair->i] = buffer->transition_stiffness * count;
+    rows->share[pair->i] = buffer->unloading_share;
+    rows->damping[pair->i] = buffer->damping * count;
+    rows->quadratic[pair->i] = buffer->quadratic_damping * count;
+    return CZ_OK;
+}
+
+/* Collapse tubes of a side likewise. */
+static CzStatus fill_tube(const Pair *pair, CzPartName name, const CzTube *tube, int count,
+                          CzCurveId curve, double *rate) {
+    if (tube->given)
+        rate[pair->i] = tube->rate_factor;
+    return cz_fill_tube(pair->fill, name, tube, count, curve);
+}
+
+static double tube_compliance(const CzTube *tube, int count) {
+    return tube->given ? 1.0 / (tube->stiffness * tube->count * count) : 0.0;
+}
+
 /* ---- couplers ---- */
 
-static CzStatus fill_tubes(const CzMeeting *pair, int which, double *compliance) {
-    const CzSide *side = &pair->side[which];
-    const CzCoupler *coupler = has_coupler(side) ? &side->end->coupler : NULL;
-    const CzTube *first = coupler == NULL ? NULL : &coupler->tube;
-    const CzTube *second = coupler == NULL ? NULL : &coupler->second_tube;
-    CZ_TRY(cz_fill_tube(pair->fill, part_name(pair, which, "coupler tube"), first, 1,
-                        CZ_CURVE(tube[which])));
-    CZ_TRY(cz_fill_tube(pair->fill, part_name(pair, which, "second coupler tube"), second, 1,
-                        CZ_CURVE(second_tube[which])));
-    if (first != NULL && first->given) {
-        put(pair, CZ_PARAMETER(coupler.side[which].tube_rate), first->rate_factor);
-        *compliance += 1.0 / (first->stiffness * first->count);
-    }
-    if (second != NULL && second->given) {
-        put(pair, CZ_PARAMETER(coupler.side[which].second_tube_rate), second->rate_factor);
-        *compliance += 1.0 / (second->stiffness * second->count);
-    }
-    return CZ_OK;
+/* Pivot to face, of a coupler that takes part in a strut; 0 of one that pushes along the track. */
+static double strut_length(const Pair *pair, int which) {
+    const Side *side = &pair->side[which];
+    const bool has_pivot = side->is_full || (pair->tilts && !side->is_fixed);
+    return side->part[COUPLER].is_there && has_pivot ? side->end->coupler.length : 0.0;
 }
 
-static void fill_coupler_pivot(const CzMeeting *pair, int which, double height) {
-    const CzSide *side = &pair->side[which];
-    const double length = strut_length(pair, which), behind = coupler_gap(side) + length;
+static void fill_pivot(const Pair *pair, int which, double height) {
+    CzCouplerRows *rows = &pair->rows->coupler;
+    const Side *side = &pair->side[which];
+    const size_t i = pair->i;
+    const double length = strut_length(pair, which), behind = side->part[COUPLER].gap + length;
     const bool on_end =
-        side->is_full && has_coupler(side) && side->end->coupler.anchor == CZ_ANCHOR_END;
+        side->is_full && side->part[COUPLER].is_there && side->end->coupler.anchor == CZ_ANCHOR_END;
     const double carrier = on_end ? side->end->cg_height : side->vehicle->cg_height;
     const double arm = side->plane - behind - (on_end ? side->end->distance : 0.0);
-    put(pair, CZ_PARAMETER(coupler.side[which].on_end), on_end);
-    put(pair,
-        which == CZ_SIDE_A ? CZ_PARAMETER(coupler.pivot.x[0]) : CZ_PARAMETER(coupler.pivot.x[1]),
-        side->sign * (side->is_full ? arm : 0.0));
-    put(pair,
-        which == CZ_SIDE_A ? CZ_PARAMETER(coupler.pivot.z[0]) : CZ_PARAMETER(coupler.pivot.z[1]),
-        side->is_full ? height - carrier : 0.0);
+    rows->side[which].on_end[i] = on_end;
+    rows->pivot.x[which][i] = side->sign * (side->is_full ? arm : 0.0);
+    rows->pivot.z[which][i] = side->is_full ? height - carrier : 0.0;
     if (length > 0.0)
-        put(pair, CZ_PARAMETER(coupler.side[which].strut_length), length);
+        rows->side[which].strut_length[i] = length;
 }
 
-static void fill_shear_off(const CzMeeting *pair, int which, const CzShearOff *shear_off) {
-    put(pair, CZ_PARAMETER(coupler.side[which].shear.force), shear_off->force);
-    put(pair, CZ_PARAMETER(coupler.side[which].shear.residual), shear_off->residual_force);
-    put(pair, CZ_PARAMETER(coupler.side[which].shear.softening), shear_off->softening_length);
-    put(pair, CZ_PARAMETER(coupler.side[which].shear.space),
-        shear_off->softening_length + shear_off->retraction_space);
-    put(pair, CZ_PARAMETER(coupler.side[which].shear.bottom), shear_off->bottom_stiffness);
-}
-
-static CzStatus fill_coupler_side(const CzMeeting *pair, int which) {
-    const CzSide *side = &pair->side[which];
-    const CzCurveId curve = CZ_CURVE(buffer[which]);
-    const CzPartName name = part_name(pair, which, "coupler buffer");
-    if (!has_coupler(side))
-        return cz_fill_buffer(pair->fill, name, NULL, 1, curve);
-
-    const CzCoupler *coupler = &side->end->coupler;
-    const CzBuffer *buffer = &coupler->buffer;
-    CZ_TRY(cz_fill_buffer(pair->fill, name, buffer, 1, curve));
-    put(pair, CZ_PARAMETER(coupler.side[which].buffer.transition), buffer->transition_stiffness);
-    put(pair, CZ_PARAMETER(coupler.side[which].buffer.share), buffer->unloading_share);
-    put(pair, CZ_PARAMETER(coupler.side[which].buffer.damping), buffer->damping);
-    put(pair, CZ_PARAMETER(coupler.side[which].buffer.quadratic), buffer->quadratic_damping);
-    put(pair, CZ_PARAMETER(coupler.side[which].buffer.draw_stiffness), buffer->draw_stiffness);
-    put(pair, CZ_PARAMETER(coupler.side[which].buffer.draw_slack), buffer->draw_slack);
-    if (coupler->shear_off.given)
-        fill_shear_off(pair, which, &coupler->shear_off);
-    if (coupler->hinge.given) {
-        const CzHinge *hinge = &coupler->hinge;
-        put(pair, CZ_PARAMETER(coupler.side[which].hinge_vertical.stiffness), hinge->stiffness);
-        put(pair, CZ_PARAMETER(coupler.side[which].hinge_vertical.moment), hinge->moment_capacity);
-        put(pair, CZ_PARAMETER(coupler.side[which].hinge_vertical.stop), hinge->swing_stop);
-        put(pair, CZ_PARAMETER(coupler.side[which].hinge_vertical.stop_stiffness),
-            hinge->stop_stiffness);
+static void fill_overload_devices(const Pair *pair, int which, const CzCoupler *coupler) {
+    CzShearOffRows *shear = &pair->rows->coupler.side[which].shear;
+    CzHingeRows *turns = &pair->rows->coupler.side[which].hinge_vertical;
+    const CzShearOff *shear_off = &coupler->shear_off;
+    const CzHinge *hinge = &coupler->hinge;
+    const size_t i = pair->i;
+    if (shear_off->given) {
+        shear->force[i] = shear_off->force;
+        shear->residual[i] = shear_off->residual_force;
+        shear->softening[i] = shear_off->softening_length;
+        shear->space[i] = shear_off->softening_length + shear_off->retraction_space;
+        shear->bottom[i] = shear_off->bottom_stiffness;
     }
-    return CZ_OK;
+    if (hinge->given) {
+        turns->stiffness[i] = hinge->stiffness;
+        turns->moment[i] = hinge->moment_capacity;
+        turns->stop[i] = hinge->swing_stop;
+        turns->stop_stiffness[i] = hinge->stop_stiffness;
+    }
 }
 
-static CzStatus fill_couplers(const CzMeeting *pair) {
-    const CzSide *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
-    if (!pair->has_couplers)
+static CzStatus fill_coupler_side(const Pair *pair, int which, double *compliance) {
+    const Side *side = &pair->side[which];
+    const CzCoupler none = {.given = false};
+    const CzCoupler *coupler = side->part[COUPLER].is_there ? &side->end->coupler : &none;
+    const CzBuffer *given = coupler->given ? &coupler->buffer : NULL;
+    CzCouplerRows *rows = &pair->rows->coupler;
+    CzBufferRows *buffer = &rows->side[which].buffer;
+    CZ_TRY(fill_buffer(pair, part_name(pair, which, "coupler buffer"), given, 1,
+                       CZ_CURVE(buffer[which]), buffer));
+    if (given != NULL) {
+        buffer->draw_stiffness[pair->i] = given->draw_stiffness;
+        buffer->draw_slack[pair->i] = given->draw_slack;
+        fill_overload_devices(pair, which, coupler);
+    }
+    *compliance += tube_compliance(&coupler->tube, 1);
+    *compliance += tube_compliance(&coupler->second_tube, 1);
+    CZ_TRY(fill_tube(pair, part_name(pair, which, "coupler tube"), &coupler->tube, 1,
+                     CZ_CURVE(tube[which]), rows->side[which].tube_rate));
+    return fill_tube(pair, part_name(pair, which, "second coupler tube"), &coupler->second_tube, 1,
+                     CZ_CURVE(second_tube[which]), rows->side[which].second_tube_rate);
+}
+
+static CzStatus fill_couplers(const Pair *pair) {
+    CzCouplerRows *rows = &pair->rows->coupler;
+    const size_t i = pair->i;
+    if (!pair->has[COUPLER])
         return CZ_OK;
-    const CzHeights heights = heights_of(pair, coupler_height);
+    const Heights heights = heights_of(pair, COUPLER);
     const double rise = pair->tilts ? heights.rise : 0.0;
     const double length = strut_length(pair, CZ_SIDE_A) + strut_length(pair, CZ_SIDE_B);
     double compliance = 0.0;
     for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
-        fill_coupler_pivot(pair, which, heights.side[which]);
-        CZ_TRY(fill_coupler_side(pair, which));
-        CZ_TRY(fill_tubes(pair, which, &compliance));
+        fill_pivot(pair, which, heights.side[which]);
+        CZ_TRY(fill_coupler_side(pair, which, &compliance));
     }
-    const bool is_inner = pair->lane != pair->fill->model->colliding;
-    put(pair, CZ_PARAMETER(coupler.exists), 1.0);
-    put(pair, CZ_PARAMETER(coupler.coupled), is_inner && has_coupler(a) && has_coupler(b));
-    put(pair, CZ_PARAMETER(coupler.pivot.distance),
-        pair->distance + coupler_gap(a) + coupler_gap(b) + length);
-    put(pair, CZ_PARAMETER(coupler.pivot.rise), rise);
-    put(pair, CZ_PARAMETER(coupler.length), sqrt(length * length + rise * rise));
-    put(pair, CZ_PARAMETER(coupler.along), length);
-    put(pair, CZ_PARAMETER(coupler.compliance), compliance);
+    rows->exists[i] = 1.0;
+    rows->coupled[i] = pair->lane != pair->fill->model->colliding && both_have(pair, COUPLER);
+    rows->pivot.distance[i] = distance_of(pair, COUPLER) + length;
+    rows->pivot.rise[i] = rise;
+    rows->length[i] = sqrt(length * length + rise * rise);
+    rows->along[i] = length;
+    rows->compliance[i] = compliance;
     pair->fill->lanes->has_couplers = 1;
     return CZ_OK;
 }
 
 /* ---- anti-climbers and crush zones without end mass ---- */
 
-static CzStatus fill_massless_end(const CzMeeting *pair, int which) {
-    const CzSide *side = &pair->side[which];
-    const CzEnd *end = side->end;
-    if (side->is_full || !cz_end_crushes(end))
-        return CZ_OK;
-    CZ_TRY(cz_fill_end(pair->fill, part_name(pair, which, "end"), end, CZ_CURVE(massless[which])));
-    put(pair, CZ_PARAMETER(face.side[which].has_massless), 1.0);
-    put(pair, CZ_PARAMETER(face.side[which].massless.unloading), end->unloading_stiffness);
-    put(pair, CZ_PARAMETER(face.side[which].massless.share), end->unloading_share);
-    put(pair, CZ_PARAMETER(face.side[which].massless.damping), end->damping);
-    put(pair, CZ_PARAMETER(face.side[which].massless.second_unloading), cz_second_unloading(end));
-    return CZ_OK;
+/* Both sides in series; a side without the part is rigid. */
+static double in_series(double a, double b) {
+    const double sum = a + b;
+    return sum > 0.0 ? a * b / sum : 0.0;
 }
 
-static CzStatus fill_face_side(const CzMeeting *pair, int which, double height,
-                               double *compliance) {
-    const CzSide *side = &pair->side[which];
-    const double carrier = side->is_full ? side->end->distance : 0.0;
-    const double arm = side->plane - face_gap(side) - carrier;
-    put(pair,
-        which == CZ_SIDE_A ? CZ_PARAMETER(face.contact.x[0]) : CZ_PARAMETER(face.contact.x[1]),
-        side->sign * arm);
-    put(pair,
-        which == CZ_SIDE_A ? CZ_PARAMETER(face.contact.z[0]) : CZ_PARAMETER(face.contact.z[1]),
-        side->is_full ? height - side->end->cg_height : 0.0);
-    const CzAntiClimber *anti_climber = has_anti_climber(side) ? &side->end->anti_climber : NULL;
-    CZ_TRY(cz_fill_anti_climber(pair->fill, part_name(pair, which, "anti-climber"), anti_climber,
+static double value_or_zero(double value) {
+    return isnan(value) ? 0.0 : value;
+}
+
+static bool is_massless(const Side *side) {
+    return !side->is_full && cz_end_crushes(side->end);
+}
+
+static CzStatus fill_face_side(const Pair *pair, int which, double *compliance) {
+    const Side *side = &pair->side[which];
+    const CzEnd *end = side->end;
+    const CzAntiClimber *device = side->part[FACE].is_there ? &end->anti_climber : NULL;
+    CzFaceRows *rows = &pair->rows->face;
+    CZ_TRY(cz_fill_anti_climber(pair->fill, part_name(pair, which, "anti-climber"), device,
                                 CZ_CURVE(face[which])));
-    CZ_TRY(fill_massless_end(pair, which));
-    if (anti_climber == NULL)
-        return CZ_OK;
-    put(pair, CZ_PARAMETER(face.side[which].rate), anti_climber->rate_factor);
-    put(pair, CZ_PARAMETER(face.side[which].speed_factor),
-        anti_climber->speed_factor / anti_climber->speed_reference);
-    *compliance += 1.0 / (anti_climber->stiffness * anti_climber->count);
+    if (is_massless(side)) {
+        CZ_TRY(
+            cz_fill_end(pair->fill, part_name(pair, which, "end"), end, CZ_CURVE(massless[which])));
+        rows->side[which].has_massless[pair->i] = 1.0;
+        cz_fill_crush(&rows->side[which].massless, pair->i, end);
+    }
+    if (device != NULL) {
+        rows->side[which].rate[pair->i] = device->rate_factor;
+        rows->side[which].speed_factor[pair->i] = device->speed_factor / device->speed_reference;
+        *compliance += 1.0 / (device->stiffness * device->count);
+    }
     return CZ_OK;
 }
 
 /* What keeps two anti-climbers from sliding over each other. */
-static void fill_ribs(const CzMeeting *pair) {
+static void fill_ribs(const Pair *pair) {
+    CzFaceRows *rows = &pair->rows->face;
+    const size_t i = pair->i;
     const CzAntiClimber *a = &pair->side[CZ_SIDE_A].end->anti_climber;
     const CzAntiClimber *b = &pair->side[CZ_SIDE_B].end->anti_climber;
-    const double capacity_a = a->rib_count * a->count * value_or_zero(a->rib_strength);
-    const double capacity_b = b->rib_count * b->count * value_or_zero(b->rib_strength);
-    const double capacity = fmin(capacity_a, capacity_b);
-    put(pair, CZ_PARAMETER(face.friction),
-        fmin(value_or_zero(a->friction), value_or_zero(b->friction)));
-    put(pair, CZ_PARAMETER(face.stiffness_vertical),
-        in_series(a->vertical_stiffness, b->vertical_stiffness));
-    put(pair, CZ_PARAMETER(face.rib_capacity), capacity);
+    const double capacity = fmin(a->rib_count * a->count * value_or_zero(a->rib_strength),
+                                 b->rib_count * b->count * value_or_zero(b->rib_strength));
+    rows->friction[i] = fmin(value_or_zero(a->friction), value_or_zero(b->friction));
+    rows->stiffness_vertical[i] = in_series(a->vertical_stiffness, b->vertical_stiffness);
+    rows->rib_capacity[i] = capacity;
     if (capacity > 0.0)
-        put(pair, CZ_PARAMETER(face.rib_depth), fmax(a->rib_depth, b->rib_depth));
+        rows->rib_depth[i] = fmax(a->rib_depth, b->rib_depth);
     if (!pair->side[CZ_SIDE_A].is_full || !pair->side[CZ_SIDE_B].is_full)
         return;
-    /* The faces released over one pitch as their overlap runs out, whatever their ribs carry. */
-    put(pair, CZ_PARAMETER(face.rib_pitch),
-        fmax(a->face_height / a->rib_count, b->face_height / b->rib_count));
-    put(pair, CZ_PARAMETER(face.overlap), (a->face_height + b->face_height) / 2.0);
+    /* The faces release over one pitch as their overlap is exhausted, whatever the ribs carry. */
+    rows->rib_pitch[i] = fmax(a->face_height / a->rib_count, b->face_height / b->rib_count);
+    rows->overlap[i] = (a->face_height + b->face_height) / 2.0;
 }
 
-static CzStatus fill_faces(const CzMeeting *pair) {
-    const CzSide *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
-    const CzHeights heights = heights_of(pair, face_height);
-    double compliance = 0.0;
-    CZ_TRY(fill_face_side(pair, CZ_SIDE_A, heights.side[CZ_SIDE_A], &compliance));
-    CZ_TRY(fill_face_side(pair, CZ_SIDE_B, heights.side[CZ_SIDE_B], &compliance));
-    const bool a_is_massless = !a->is_full && cz_end_crushes(a->end);
-    const bool b_is_massless = !b->is_full && cz_end_crushes(b->end);
+static CzStatus fill_faces(const Pair *pair) {
+    CzFaceRows *rows = &pair->rows->face;
+    const Side *side = pair->side;
+    double compliance = 0.0, damping[2] = {0.0, 0.0};
+    fill_contact(pair, FACE, &rows->contact);
+    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
+        CZ_TRY(fill_face_side(pair, which, &compliance));
+        if (side[which].part[FACE].is_there)
+            damping[which] =
+                side[which].end->anti_climber.damping * side[which].end->anti_climber.count;
+    }
+    const bool has_massless = is_massless(&side[CZ_SIDE_A]) || is_massless(&side[CZ_SIDE_B]);
     if (compliance == 0.0)
-        compliance = a_is_massless || b_is_massless ? SMALLEST_COMPLIANCE : BARE_COMPLIANCE;
-    put(pair, CZ_PARAMETER(face.contact.distance), pair->distance + face_gap(a) + face_gap(b));
-    put(pair, CZ_PARAMETER(face.contact.rise), heights.rise);
-    put(pair, CZ_PARAMETER(face.compliance), compliance);
-
-    const bool a_has = has_anti_climber(a), b_has = has_anti_climber(b);
-    const double damping_a =
-        a_has ? a->end->anti_climber.damping * a->end->anti_climber.count : 0.0;
-    const double damping_b =
-        b_has ? b->end->anti_climber.damping * b->end->anti_climber.count : 0.0;
-    put(pair, CZ_PARAMETER(face.damping),
-        a_has && b_has ? in_series(damping_a, damping_b) : damping_a + damping_b);
-    if (a_has && b_has)
+        compliance = has_massless ? SMALLEST_COMPLIANCE : BARE_COMPLIANCE;
+    rows->compliance[pair->i] = compliance;
+    rows->damping[pair->i] =
+        both_have(pair, FACE) ? in_series(damping[0], damping[1]) : damping[0] + damping[1];
+    if (both_have(pair, FACE))
         fill_ribs(pair);
     return CZ_OK;
 }
 
+/* ---- side buffers ---- */
+
+static CzStatus fill_side_buffers(const Pair *pair) {
+    CzSideBufferRows *rows = &pair->rows->side_buffers;
+    double compliance = 0.0;
+    if (!pair->has[SIDE_BUFFERS])
+        return CZ_OK;
+    fill_contact(pair, SIDE_BUFFERS, &rows->contact);
+    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
+        const Side *side = &pair->side[which];
+        const CzSideBuffers none = {.count = 1};
+        const CzSideBuffers *set =
+            side->part[SIDE_BUFFERS].is_there ? &side->end->side_buffers : &none;
+        CZ_TRY(fill_buffer(pair, part_name(pair, which, "side buffer"),
+                           set->given ? &set->buffer : NULL, set->count,
+                           CZ_CURVE(side_buffer[which]), &rows->side[which].buffer));
+        CZ_TRY(fill_tube(pair, part_name(pair, which, "side buffer tube"), &set->tube, set->count,
+                         CZ_CURVE(side_tube[which]), rows->side[which].tube_rate));
+        compliance += tube_compliance(&set->tube, set->count);
+    }
+    rows->exists[pair->i] = 1.0;
+    rows->compliance[pair->i] = compliance;
+    if (both_have(pair, SIDE_BUFFERS))
+        rows->friction[pair->i] =
+            fmin(value_or_zero(pair->side[CZ_SIDE_A].end->side_buffers.friction),
+                 value_or_zero(pair->side[CZ_SIDE_B].end->side_buffers.friction));
+    pair->fill->lanes->has_side_buffers = 1;
+    return CZ_OK;
+}
+
+/* ---- superstructures ---- */
+
+static void fill_superstructures(const Pair *pair) {
+    CzSuperstructureRows *rows = &pair->rows->superstructure;
+    const CzSuperstructure *a = &pair->side[CZ_SIDE_A].end->superstructure;
+    const CzSuperstructure *b = &pair->side[CZ_SIDE_B].end->superstructure;
+    if (!pair->has[SUPERSTRUCTURE])
+        return;
+    fill_contact(pair, SUPERSTRUCTURE, &rows->contact);
+    rows->stiffness[pair->i] = in_series(a->stiffness, b->stiffness);
+    rows->strength[pair->i] = fmin(a->strength, b->strength);
+    pair->fill->lanes->has_superstructures = 1;
+}
+
+/* ---- draw gears ---- */
+
+/* The hooks meet midway between the foremost planes, without force at t = 0. */
+static void fill_draw_gears(const Pair *pair) {
+    CzDrawGearRows *rows = &pair->rows->draw_gear;
+    const CzDrawGear *a = &pair->side[CZ_SIDE_A].end->draw_gear;
+    const CzDrawGear *b = &pair->side[CZ_SIDE_B].end->draw_gear;
+    const size_t i = pair->i;
+    if (!pair->has[DRAW_GEAR])
+        return;
+    const Heights heights = heights_of(pair, DRAW_GEAR);
+    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
+        const Side *side = &pair->side[which];
+        rows->contact.x[which][i] = side->sign * (side->plane + 0.5 * pair->distance);
+        rows->contact.z[which][i] =
+            side->is_full ? heights.side[which] - side->vehicle->cg_height : 0.0;
+    }
+    rows->contact.rise[i] = heights.rise;
+    rows->stiffness[i] = in_series(a->stiffness, b->stiffness);
+    rows->slack[i] = a->slack + b->slack;
+    pair->fill->lanes->has_draw_gears = 1;
+}
+
 CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *behind,
                            const CzStatics *ahead) {
-    CzMeeting pair = {.fill = fill,
-                      .lane = interface,
-                      .side = {make_side(fill, interface, CZ_FRONT, behind),
-                               make_side(fill, interface + 1, CZ_REAR, ahead)}};
-    const CzSide *a = &pair.side[CZ_SIDE_A], *b = &pair.side[CZ_SIDE_B];
+    const size_t lane = cz_fill_lane(fill, interface);
+    Pair pair = {.fill = fill,
+                 .lane = interface,
+                 .rows = &cz_lane_block(fill->lanes, lane)->parameter,
+                 .i = lane % CZ_LANE_BLOCK,
+                 .side = {make_side(fill, interface, CZ_FRONT, behind),
+                          make_side(fill, interface + 1, CZ_REAR, ahead)}};
+    const Side *a = &pair.side[CZ_SIDE_A], *b = &pair.side[CZ_SIDE_B];
     pair.tilts = (a->is_full || b->is_full) && !a->is_fixed && !b->is_fixed;
-    put(&pair, CZ_PARAMETER(tilts), pair.tilts);
-    pair.has_couplers = pairs(pair.side, has_coupler);
-    cz_contacts_find(&pair);
+    pair.rows->tilts[pair.i] = pair.tilts;
+    pair.has[COUPLER] = pairs(&pair, COUPLER);
+    pair.has[SIDE_BUFFERS] = pairs(&pair, SIDE_BUFFERS);
+    pair.has[SUPERSTRUCTURE] = both_have(&pair, SUPERSTRUCTURE);
+    pair.has[DRAW_GEAR] = interface != fill->model->colliding && both_have(&pair, DRAW_GEAR);
     set_offsets(&pair);
     CZ_TRY(place_cars(&pair));
     CZ_TRY(fill_couplers(&pair));
     CZ_TRY(fill_faces(&pair));
-    return cz_fill_contacts(&pair);
+    fill_superstructures(&pair);
+    fill_draw_gears(&pair);
+    return fill_side_buffers(&pair);
 }

@@ -1,76 +1,76 @@
 /* Memory of the lanes, with neutral numbers everywhere. */
-#include "model/kinks.h"
-#include "model/model.h"
+#include "model/lanes.h"
 
-/* Neutral values that are not zero. */
-static const struct {
-    CzParameter parameter;
-    double value;
-} neutral[] = {
-    {CZ_PARAMETER(slaved_ends), 1.0},
-    {CZ_PARAMETER(end[0].fold_pitch.moment), CZ_NEVER},
-    {CZ_PARAMETER(end[1].fold_pitch.moment), CZ_NEVER},
-    {CZ_PARAMETER(end[0].crush.unloading), CZ_NEVER},
-    {CZ_PARAMETER(end[1].crush.unloading), CZ_NEVER},
-    {CZ_PARAMETER(end[0].crush.second_unloading), CZ_NEVER},
-    {CZ_PARAMETER(end[1].crush.second_unloading), CZ_NEVER},
-    {CZ_PARAMETER(secondary.blow_off_rate), CZ_NEVER},
-    {CZ_PARAMETER(secondary.bump_gap), CZ_NEVER},
-    {CZ_PARAMETER(secondary.lift_gap), CZ_NEVER},
-    {CZ_PARAMETER(primary.blow_off_rate), CZ_NEVER},
-    {CZ_PARAMETER(primary.bump_gap), CZ_NEVER},
-    {CZ_PARAMETER(primary.lift_gap), CZ_NEVER},
-    {CZ_PARAMETER(wheel.radius), 1.0},
-    {CZ_PARAMETER(wheel.creep_length), 1.0},
-    {CZ_PARAMETER(wheel.friction_fall_speed), 1.0},
-    {CZ_PARAMETER(wheel.brake_stiffness), 1.0},
-    {CZ_PARAMETER(drag.slide_length), CZ_NEVER},
-    {CZ_PARAMETER(coupler.pivot.distance), 1.0},
-    {CZ_PARAMETER(coupler.length), 1.0},
-    {CZ_PARAMETER(coupler.side[0].strut_length), CZ_NEVER},
-    {CZ_PARAMETER(coupler.side[1].strut_length), CZ_NEVER},
-    {CZ_PARAMETER(coupler.side[0].buffer.transition), CZ_NEVER},
-    {CZ_PARAMETER(coupler.side[1].buffer.transition), CZ_NEVER},
-    {CZ_PARAMETER(coupler.side[0].shear.force), CZ_NEVER},
-    {CZ_PARAMETER(coupler.side[1].shear.force), CZ_NEVER},
-    {CZ_PARAMETER(coupler.side[0].shear.softening), 1.0},
-    {CZ_PARAMETER(coupler.side[1].shear.softening), 1.0},
-    {CZ_PARAMETER(coupler.side[0].shear.space), CZ_NEVER},
-    {CZ_PARAMETER(coupler.side[1].shear.space), CZ_NEVER},
-    {CZ_PARAMETER(coupler.side[0].hinge_vertical.stop), CZ_NEVER},
-    {CZ_PARAMETER(coupler.side[1].hinge_vertical.stop), CZ_NEVER},
-    {CZ_PARAMETER(face.contact.distance), CZ_NEVER},
-    {CZ_PARAMETER(face.compliance), 1e-9},
-    {CZ_PARAMETER(face.overlap), CZ_NEVER},
-    {CZ_PARAMETER(face.rib_pitch), 1.0},
-    {CZ_PARAMETER(face.rib_depth), 1.0},
-    {CZ_PARAMETER(face.stiffness_vertical), 1.0},
-    {CZ_PARAMETER(face.side[0].massless.unloading), CZ_NEVER},
-    {CZ_PARAMETER(face.side[1].massless.unloading), CZ_NEVER},
-    {CZ_PARAMETER(face.side[0].massless.second_unloading), CZ_NEVER},
-    {CZ_PARAMETER(face.side[1].massless.second_unloading), CZ_NEVER},
-    {CZ_PARAMETER(side_buffers.contact.distance), CZ_NEVER},
-    {CZ_PARAMETER(superstructure.contact.distance), CZ_NEVER},
-    {CZ_PARAMETER(superstructure.stiffness), 1.0},
-    {CZ_PARAMETER(draw_gear.stiffness), 1.0},
-    {CZ_PARAMETER(draw_gear.slack), CZ_NEVER},
-    {CZ_PARAMETER(side_buffers.side[0].buffer.transition), CZ_NEVER},
-    {CZ_PARAMETER(side_buffers.side[1].buffer.transition), CZ_NEVER},
-};
-
-/* Springs are rigid where they are missing, plastic members never yield. */
-static bool is_spring(CzCurveId id) {
-    return id < CZ_CURVE(tube[0]) || (id >= CZ_CURVE(massless[0]) && id < CZ_CURVE(side_tube[0]));
-}
+#include <math.h>
+#include <stdbool.h>
 
 static void set_row(double *row, size_t n, double value) {
     for (size_t lane = 0; lane < n; lane++)
         row[lane] = value;
 }
 
+static void set(CzRow row, double value) {
+    set_row(row, CZ_LANE_BLOCK, value);
+}
+
+/* Neutral values that are not zero: of both ends of a car, and of both sides of an interface. */
+static void set_neutral_pairs(CzParameters *rows) {
+    for (int k = 0; k < 2; k++) {
+        set(rows->end[k].fold_pitch.moment, CZ_NEVER);
+        set(rows->end[k].crush.unloading, CZ_NEVER);
+        set(rows->end[k].crush.second_unloading, CZ_NEVER);
+        set(rows->coupler.side[k].strut_length, CZ_NEVER);
+        set(rows->coupler.side[k].buffer.transition, CZ_NEVER);
+        set(rows->coupler.side[k].shear.force, CZ_NEVER);
+        set(rows->coupler.side[k].shear.softening, 1.0);
+        set(rows->coupler.side[k].shear.space, CZ_NEVER);
+        set(rows->coupler.side[k].hinge_vertical.stop, CZ_NEVER);
+        set(rows->face.side[k].massless.unloading, CZ_NEVER);
+        set(rows->face.side[k].massless.second_unloading, CZ_NEVER);
+        set(rows->side_buffers.side[k].buffer.transition, CZ_NEVER);
+    }
+}
+
+static void set_neutral_suspension(CzSuspensionRows *rows) {
+    set(rows->blow_off_rate, CZ_NEVER);
+    set(rows->bump_gap, CZ_NEVER);
+    set(rows->lift_gap, CZ_NEVER);
+}
+
+static void set_neutral(CzParameters *rows) {
+    set_neutral_pairs(rows);
+    set_neutral_suspension(&rows->secondary);
+    set_neutral_suspension(&rows->primary);
+    set(rows->slaved_ends, 1.0);
+    set(rows->wheel.radius, 1.0);
+    set(rows->wheel.creep_length, 1.0);
+    set(rows->wheel.friction_fall_speed, 1.0);
+    set(rows->wheel.brake_stiffness, 1.0);
+    set(rows->drag.slide_length, CZ_NEVER);
+    set(rows->coupler.pivot.distance, 1.0);
+    set(rows->coupler.length, 1.0);
+    set(rows->face.contact.distance, CZ_NEVER);
+    set(rows->face.compliance, 1e-9);
+    set(rows->face.overlap, CZ_NEVER);
+    set(rows->face.rib_pitch, 1.0);
+    set(rows->face.rib_depth, 1.0);
+    set(rows->face.stiffness_vertical, 1.0);
+    set(rows->side_buffers.contact.distance, CZ_NEVER);
+    set(rows->superstructure.contact.distance, CZ_NEVER);
+    set(rows->superstructure.stiffness, 1.0);
+    set(rows->draw_gear.stiffness, 1.0);
+    set(rows->draw_gear.slack, CZ_NEVER);
+}
+
+/* Springs are rigid where they are missing, plastic members never yield. */
+static bool is_spring(CzCurveId id) {
+    return id < CZ_CURVE(tube[0]) || (id >= CZ_CURVE(massless[0]) && id < CZ_CURVE(side_tube[0]));
+}
+
 static bool create_curve(CzCurveLanes *curve, CzCurveId id, int n_kink, size_t stride,
                          CzArena *arena) {
     curve->n_kink = n_kink;
+    curve->stride = stride;
     curve->start = cz_arena_allocate(arena, stride, sizeof(double));
     curve->usable = cz_arena_allocate(arena, stride, sizeof(double));
     curve->at = cz_arena_allocate(arena, (size_t)n_kink * stride, sizeof(double));
@@ -91,25 +91,47 @@ static size_t blocks(size_t n) {
     return (n + CZ_LANE_BLOCK - 1) / CZ_LANE_BLOCK * CZ_LANE_BLOCK;
 }
 
-CzLanes *cz_lanes_create(const CzModel *model, int n_design, CzArena *arena) {
+CzLanes *cz_lanes_create(int n_car, int n_design, const int n_kink[CZ_N_CURVE], CzArena *arena) {
     CzLanes *lanes = cz_arena_allocate(arena, 1, sizeof *lanes);
     if (lanes == NULL)
         return NULL;
-    lanes->n_car = model->n_car;
+    lanes->n_car = n_car;
     lanes->n_design = n_design;
-    lanes->n_lane = blocks((size_t)model->n_car * (size_t)n_design);
+    lanes->n_lane = blocks((size_t)n_car * (size_t)n_design);
     lanes->stride = blocks(lanes->n_lane + (size_t)n_design);
     const size_t n_block = lanes->stride / CZ_LANE_BLOCK;
     lanes->block = cz_arena_allocate(arena, n_block, sizeof *lanes->block);
     if (lanes->block == NULL)
         return NULL;
     for (int id = 0; id < CZ_N_CURVE; id++)
-        if (!create_curve(&lanes->curve[id], (CzCurveId)id, model->n_kink[id], lanes->stride,
-                          arena))
+        if (!create_curve(&lanes->curve[id], id, n_kink[id], lanes->stride, arena))
             return NULL;
-    for (size_t i = 0; i < sizeof neutral / sizeof neutral[0]; i++)
-        for (size_t k = 0; k < n_block; k++)
-            set_row(cz_row_of(&lanes->block[k].parameter, neutral[i].parameter), CZ_LANE_BLOCK,
-                    neutral[i].value);
+    for (size_t k = 0; k < n_block; k++)
+        set_neutral(&lanes->block[k].parameter);
     return lanes;
+}
+
+/* ---- curves in a lane ---- */
+
+double cz_curve_value(const CzCurveLanes *curve, size_t lane, double x) {
+    double value = curve->start[lane];
+    for (size_t at = lane; at < (size_t)curve->n_kink * curve->stride; at += curve->stride)
+        value += curve->slope_change[at] * fmax(x - curve->at[at], 0.0);
+    return value;
+}
+
+double cz_curve_slope(const CzCurveLanes *curve, size_t lane, double x) {
+    double slope = 0.0;
+    for (size_t at = lane; at < (size_t)curve->n_kink * curve->stride; at += curve->stride)
+        slope += curve->at[at] <= x ? curve->slope_change[at] : 0.0;
+    return slope;
+}
+
+double cz_curve_integral(const CzCurveLanes *curve, size_t lane, double x) {
+    double integral = curve->start[lane] * x;
+    for (size_t at = lane; at < (size_t)curve->n_kink * curve->stride; at += curve->stride) {
+        const double beyond = fmax(x - curve->at[at], 0.0);
+        integral += 0.5 * curve->slope_change[at] * beyond * beyond;
+    }
+    return integral;
 }

@@ -8,6 +8,7 @@
 #ifndef CZ_MODEL_LANES_H
 #define CZ_MODEL_LANES_H
 
+#include "base/arena.h"
 #include "model/parameters.h"
 
 /* Force-stroke curves of a lane, by name, such as CZ_CURVE(tube[0]).
@@ -35,6 +36,7 @@ enum { CZ_N_CURVE = sizeof(CzCurveNames) };
 /* One curve in all lanes. */
 typedef struct CzCurveLanes {
     int n_kink;           /* breakpoints in every lane; spare ones have slope_change 0 */
+    size_t stride;        /* row length of every array */
     double *start;        /* value at 0 [N] (stride) */
     double *at;           /* place of a breakpoint [m] (n_kink x stride) */
     double *slope_change; /* [N/m] (n_kink x stride) */
@@ -52,7 +54,7 @@ typedef struct CzLanes {
     int n_car;
     int n_design;
     size_t n_lane;      /* n_car * n_design, rounded up to CZ_LANE_BLOCK */
-    size_t stride;      /* row length of every array */
+    size_t stride;      /* n_lane and the lanes of one car more, in whole blocks */
     CzLaneBlock *block; /* (stride / CZ_LANE_BLOCK) */
     CzCurveLanes curve[CZ_N_CURVE];
     int has_side_buffers;    /* any interface has them */
@@ -64,15 +66,38 @@ typedef struct CzLanes {
     int has_drag;            /* the track holds back some car without running gear */
 } CzLanes;
 
+/* Memory for the lanes of n_design designs of n_car cars, neutral everywhere, with n_kink
+ * breakpoints for each curve; NULL when there is none. */
+CzLanes *cz_lanes_create(int n_car, int n_design, const int n_kink[CZ_N_CURVE], CzArena *arena);
+
+/* The block of a lane; its place there is lane % CZ_LANE_BLOCK. */
+static inline CzLaneBlock *cz_lane_block(const CzLanes *lanes, size_t lane) {
+    return &lanes->block[lane / CZ_LANE_BLOCK];
+}
+
+/* The parameters of a lane, such as lane.rows->tilts[lane.i]. */
+typedef struct CzLane {
+    const CzParameters *rows; /* of its block */
+    size_t i;                 /* its place there */
+} CzLane;
+static inline CzLane cz_lane_at(const CzLanes *lanes, size_t lane) {
+    return (CzLane){&cz_lane_block(lanes, lane)->parameter, lane % CZ_LANE_BLOCK};
+}
+
 /* The number in a lane by the name of its row: CZ_PARAMETER(...), CZ_DOF(...). */
 static inline double *cz_lane_parameter(const CzLanes *lanes, CzParameter row, size_t lane) {
-    return cz_row_of(&lanes->block[lane / CZ_LANE_BLOCK].parameter, row) + lane % CZ_LANE_BLOCK;
+    return cz_row_of(&cz_lane_block(lanes, lane)->parameter, row) + lane % CZ_LANE_BLOCK;
 }
 static inline double *cz_lane_mass(const CzLanes *lanes, int dof, size_t lane) {
-    return cz_row_of(&lanes->block[lane / CZ_LANE_BLOCK].mass, dof) + lane % CZ_LANE_BLOCK;
+    return cz_row_of(&cz_lane_block(lanes, lane)->mass, dof) + lane % CZ_LANE_BLOCK;
 }
 static inline double *cz_lane_velocity(const CzLanes *lanes, int dof, size_t lane) {
-    return cz_row_of(&lanes->block[lane / CZ_LANE_BLOCK].velocity, dof) + lane % CZ_LANE_BLOCK;
+    return cz_row_of(&cz_lane_block(lanes, lane)->velocity, dof) + lane % CZ_LANE_BLOCK;
 }
+
+/* Value [N], slope upwards [N/m] and integral from 0 [J] of a curve in a lane. */
+double cz_curve_value(const CzCurveLanes *curve, size_t lane, double x);
+double cz_curve_slope(const CzCurveLanes *curve, size_t lane, double x);
+double cz_curve_integral(const CzCurveLanes *curve, size_t lane, double x);
 
 #endif

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "model/fill.h"
-#include "model/own_design.h"
 
 /* Drawn half length of a vehicle that states no length [m] (ours). */
 static double drawn_half(const CzModel *model, int car) {
@@ -16,16 +15,14 @@ static double drawn_half(const CzModel *model, int car) {
 
 /* Distance of an end's face from the body's centre of gravity, outwards. Without a length the
  * face's arm starts at the foremost plane instead. */
-static double face(const CzModel *model, const CzVehicle *vehicles, const CzLanes *lanes,
+static double face(const CzModel *model, const CzVehicle *vehicles, const CzPairRows *contact,
                    int interface, int side) {
     const int place = interface + side;
     const CzCar *car = &model->car[place];
     const CzVehicle *vehicle = &vehicles[car->vehicle];
     const CzEnd *end = cz_end_of(vehicle, side == CZ_SIDE_A ? CZ_FRONT : CZ_REAR);
-    const double arm = side == CZ_SIDE_A
-                           ? cz_lane_value(lanes, interface, CZ_PARAMETER(face.contact.x[0]))
-                           : -cz_lane_value(lanes, interface, CZ_PARAMETER(face.contact.x[1]));
-    return arm + (car->model == CZ_MODEL_FULL ? end->distance : 0.0) +
+    const double x = contact->x[side][interface % CZ_LANE_BLOCK];
+    return (side == CZ_SIDE_A ? x : -x) + (car->model == CZ_MODEL_FULL ? end->distance : 0.0) +
            (isnan(vehicle->length) ? drawn_half(model, place) : 0.0);
 }
 
@@ -33,7 +30,7 @@ CzStatus cz_model_layout(const CzModel *model, CzLayout *stand, CzError *error) 
     CzArena arena = {0};
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
-    CzLanes *lanes = cz_lanes_create(model, 1, &arena);
+    CzLanes *lanes = cz_model_lanes(model, 1, &arena);
     CzStatus status = lanes == NULL ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a picture")
                                     : cz_model_fill(model, vehicles, 0, lanes, error);
     for (int car = 0; status == CZ_OK && car < model->n_car; car++) {
@@ -43,11 +40,12 @@ CzStatus cz_model_layout(const CzModel *model, CzLayout *stand, CzError *error) 
             stand[car].plane[end] = isnan(length) ? drawn_half(model, car) : length / 2.0;
         if (car == 0)
             continue;
-        stand[car].x = stand[car - 1].x + face(model, vehicles, lanes, car - 1, CZ_SIDE_A) +
-                       cz_lane_value(lanes, car - 1, CZ_PARAMETER(face.contact.distance)) +
-                       face(model, vehicles, lanes, car - 1, CZ_SIDE_B);
+        const CzLane at = cz_lane_at(lanes, (size_t)car - 1);
+        const CzPairRows *contact = &at.rows->face.contact;
+        stand[car].x = stand[car - 1].x + face(model, vehicles, contact, car - 1, CZ_SIDE_A) +
+                       contact->distance[at.i] + face(model, vehicles, contact, car - 1, CZ_SIDE_B);
         if (car - 1 == model->colliding || car - 1 == model->perturbed)
-            stand[car].rise = cz_lane_value(lanes, car - 1, CZ_PARAMETER(face.contact.rise));
+            stand[car].rise = contact->rise[at.i];
     }
     cz_arena_free(&arena);
     return status;

@@ -49,7 +49,9 @@ struct CzModel {
 };
 
 /* Memory for the lanes of n_design designs, neutral everywhere; NULL when there is none. */
-CzLanes *cz_lanes_create(const CzModel *model, int n_design, CzArena *arena);
+static inline CzLanes *cz_model_lanes(const CzModel *model, int n_design, CzArena *arena) {
+    return cz_lanes_create(model->n_car, n_design, model->n_kink, arena);
+}
 
 /* Fills the lanes of one design from a vehicle array (the problem's own or a candidate's). Fails
  * with CZ_STATUS_INPUT and a sentence when the values make no vehicle (strokes not positive, masses

@@ -1,14 +1,9 @@
-/* What is found out from filled lanes: of the problem's own design facts and step bounds, of any
- * design F_crit. */
+/* What is found out from filled lanes: of the problem's own design properties and step bounds, of
+ * any design F_crit. */
 #ifndef CZ_MODEL_OWN_DESIGN_H
 #define CZ_MODEL_OWN_DESIGN_H
 
 #include "model/model.h"
-
-/* Parameter in a lane; in lanes of one design that is the car's number. */
-static inline double cz_lane_value(const CzLanes *lanes, int lane, CzParameter parameter) {
-    return *cz_lane_parameter(lanes, parameter, (size_t)lane);
-}
 
 /* Writes F_crit of the interfaces of one design of filled lanes (n_car - 1), as
  * cz_strut_chain_fold; NaN without couplers or full cars [N]. Statuses: CZ_OK,
@@ -16,7 +11,7 @@ static inline double cz_lane_value(const CzLanes *lanes, int lane, CzParameter p
 CZ_MUST_CHECK CzStatus cz_critical_forces(const CzModel *model, const CzLanes *lanes, int design,
                                           double *force, CzError *error);
 
-/* Sets model->facts and model->interface_properties. Statuses: CZ_OK, CZ_STATUS_INPUT,
+/* Sets model->properties and model->interface_properties. Statuses: CZ_OK, CZ_STATUS_INPUT,
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_model_find_properties(CzModel *model, CzLanes *lanes, CzError *error);
 

@@ -1,4 +1,4 @@
-/* Facts of vehicles and interfaces before a run: loads at rest, frequencies, couplers. */
+/* Properties of vehicles and interfaces before a run: loads at rest, frequencies, couplers. */
 #include "base/error.h"
 #include "model/fill.h"
 #include "model/own_design.h"
@@ -32,61 +32,50 @@ static CzVehicleProperties vehicle_properties(const CzVehicle *vehicle, const Cz
 
 /* ---- couplers ---- */
 
-static double smaller(double a, double b) {
-    if (isnan(a))
-        return b;
-    return isnan(b) || a < b ? a : b;
-}
-
 /* Largest strength of a tube before it bottoms out. */
-static double largest_strength(const CzLanes *lanes, CzCurveId id, int lane) {
-    const CzCurveLanes *curve = &lanes->curve[id];
+static double largest_strength(const CzCurveLanes *curve, size_t lane) {
     double largest = curve->start[lane];
     for (int i = 0; i < curve->n_kink; i++) {
-        const double x = curve->at[(size_t)i * lanes->stride + (size_t)lane];
-        double value = curve->start[lane];
-        for (int j = 0; j < curve->n_kink; j++) {
-            const size_t slot = (size_t)j * lanes->stride + (size_t)lane;
-            value += curve->slope_change[slot] * fmax(x - curve->at[slot], 0.0);
-        }
-        if (x <= curve->usable[lane] && value > largest)
-            largest = value;
+        const double x = curve->at[(size_t)i * curve->stride + lane];
+        if (x <= curve->usable[lane])
+            largest = fmax(largest, cz_curve_value(curve, lane, x));
     }
     return largest;
 }
 
 /* Largest plastic force of one side before it shears off; NaN without tubes. */
 static double tube_force(const CzLanes *lanes, int interface, int side) {
-    const double first = largest_strength(lanes, CZ_CURVE(tube[side]), interface);
-    const double second = largest_strength(lanes, CZ_CURVE(second_tube[side]), interface);
-    const double shear =
-        cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.side[side].shear.force));
+    const CzLane at = cz_lane_at(lanes, (size_t)interface);
+    const size_t lane = (size_t)interface;
+    const double first = largest_strength(&lanes->curve[CZ_CURVE(tube[side])], lane);
+    const double second = largest_strength(&lanes->curve[CZ_CURVE(second_tube[side])], lane);
     if (first >= CZ_NEVER && second >= CZ_NEVER)
         return NAN;
     const double largest = first >= CZ_NEVER    ? second
                            : second >= CZ_NEVER ? first
                                                 : fmax(first, second);
-    return fmin(largest, shear);
+    return fmin(largest, at.rows->coupler.side[side].shear.force[at.i]);
 }
 
 static CzInterfaceProperties interface_properties(const CzModel *model, const CzLanes *lanes,
                                                   const CzVehicle *vehicles, int interface,
                                                   double critical_force) {
+    const CzLane at = cz_lane_at(lanes, (size_t)interface);
+    const CzCouplerRows *coupler = &at.rows->coupler;
     CzInterfaceProperties properties = {.strut_length = NAN,
                                         .critical_force = critical_force,
                                         .tube_force = NAN,
                                         .anti_climber_gap = NAN};
-    if (cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.exists)) > 0.0) {
-        if (cz_lane_value(lanes, interface, CZ_PARAMETER(tilts)) > 0.0)
-            properties.strut_length = cz_lane_value(lanes, interface, CZ_PARAMETER(coupler.length));
-        properties.tube_force = smaller(tube_force(lanes, interface, CZ_SIDE_A),
-                                        tube_force(lanes, interface, CZ_SIDE_B));
+    if (coupler->exists[at.i] > 0.0) {
+        if (at.rows->tilts[at.i] > 0.0)
+            properties.strut_length = coupler->length[at.i];
+        properties.tube_force =
+            fmin(tube_force(lanes, interface, CZ_SIDE_A), tube_force(lanes, interface, CZ_SIDE_B));
     }
     const CzEnd *a = &vehicles[model->car[interface].vehicle].front;
     const CzEnd *b = &vehicles[model->car[interface + 1].vehicle].rear;
     if ((a->given && a->anti_climber.given) || (b->given && b->anti_climber.given))
-        properties.anti_climber_gap =
-            cz_lane_value(lanes, interface, CZ_PARAMETER(face.contact.distance));
+        properties.anti_climber_gap = at.rows->face.contact.distance[at.i];
     return properties;
 }
 

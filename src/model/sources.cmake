@@ -6,7 +6,6 @@ set(CZ_SOURCES_model
     properties.c
     fill.c
     fill_car.c
-    fill_contacts.c
     fill_interface.c
     kinks.c
     lanes.c

@@ -85,7 +85,7 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     const CzVehicle **used = cz_arena_allocate(&batch->arena, (size_t)n_design, sizeof *used);
     batch->design = cz_arena_allocate(&batch->arena, (size_t)n_design, sizeof *batch->design);
     batch->load = cz_interface_loads_begin(batch, &batch->arena);
-    batch->lanes = cz_lanes_create(model, n_design, &batch->arena);
+    batch->lanes = cz_model_lanes(model, n_design, &batch->arena);
     if (used == NULL || batch->design == NULL || batch->load == NULL || batch->lanes == NULL)
         return cz_no_memory(error, "the designs");
     for (int design = 0; design < n_design; ++design) {

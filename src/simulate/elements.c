@@ -95,8 +95,8 @@ static bool fill_draw_gear(const CzBatch *batch, size_t lane, int car, CzElement
 /* Energy under the backbone between two shortenings. */
 static double area(const CzBatch *batch, int curve, size_t lane, double from, double to) {
     const CzCurveLanes *lanes = &batch->lanes->curve[curve];
-    const double stride_to = cz_curve_integral(lanes, batch->lanes->stride, lane, to);
-    return to > from ? stride_to - cz_curve_integral(lanes, batch->lanes->stride, lane, from) : 0.0;
+    const double stride_to = cz_curve_integral(lanes, lane, to);
+    return to > from ? stride_to - cz_curve_integral(lanes, lane, from) : 0.0;
 }
 
 /* Splits the plastic energy of a crush zone among the zones of its stages, in proportion to the

@@ -7,7 +7,7 @@
 CzStatus cz_input_curve(const CzModel *model, int interface, double longest, int n, double *closure,
                         double *force, CzError *error) {
     CzArena arena = {0};
-    CzLanes *lanes = cz_lanes_create(model, 1, &arena);
+    CzLanes *lanes = cz_model_lanes(model, 1, &arena);
     int n_vehicle;
     CzStatus status = lanes == NULL
                           ? cz_no_memory(error, "the input curve")

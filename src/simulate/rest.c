@@ -63,7 +63,7 @@ CzStatus cz_rest_find(const CzModel *model, CzRest *rest, CzError *error) {
     CzArena arena = {0};
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
-    CzLanes *lanes = cz_lanes_create(model, 1, &arena);
+    CzLanes *lanes = cz_model_lanes(model, 1, &arena);
     CzStatus status = lanes != NULL ? cz_model_fill(model, vehicles, 0, lanes, error)
                                     : cz_no_memory(error, "the vehicles");
     for (int i = 0; i < model->n_car && status == CZ_OK; i++)

@@ -20,7 +20,7 @@ static inline Built build_model(struct CzProblem *problem) {
     CzError error = {0};
     if (cz_model_build(problem, 0, &built.model, &error) != CZ_OK)
         fail_msg("%s", error.message);
-    built.lanes = cz_lanes_create(built.model, 1, &built.arena);
+    built.lanes = cz_model_lanes(built.model, 1, &built.arena);
     assert_non_null(built.lanes);
     if (cz_model_fill(built.model, problem->vehicle, 0, built.lanes, &error) != CZ_OK)
         fail_msg("%s", error.message);
@@ -33,7 +33,7 @@ static inline void free_model(Built *built) {
 }
 
 static inline double parameter(const Built *built, int car, CzParameter which) {
-    return cz_lane_value(built->lanes, car, which);
+    return *cz_lane_parameter(built->lanes, which, (size_t)car);
 }
 
 static inline double mass_of(const Built *built, int car, int dof) {

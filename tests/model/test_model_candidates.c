@@ -13,7 +13,7 @@ static void make_problem(void) {
 
 static CzLanes *filled(const CzModel *model, int n_design, const CzVehicle *const *design,
                        CzArena *arena) {
-    CzLanes *lanes = cz_lanes_create(model, n_design, arena);
+    CzLanes *lanes = cz_model_lanes(model, n_design, arena);
     assert_non_null(lanes);
     for (int i = 0; i < n_design; i++) {
         CzError error = {0};
@@ -81,7 +81,7 @@ static void filling_again_forgets_the_last_candidate(void **state) {
     const CzVehicle *own = problem.vehicle;
     CzArena arena = {0};
     const CzLanes *fresh = filled(built.model, 1, &own, &arena);
-    CzLanes *used = cz_lanes_create(built.model, 1, &arena);
+    CzLanes *used = cz_model_lanes(built.model, 1, &arena);
     assert_int_equal(cz_model_fill(built.model, other, 0, used, NULL), CZ_OK);
     assert_true(*cz_lane_parameter(used, CZ_PARAMETER(coupler.side[0].shear.force), 1) == 1.2e6);
     other[0].front.coupler.tube.stages[0].stroke = -1.0; /* fails before all lanes are filled */

@@ -26,7 +26,7 @@ static inline Motion motion_open(const char *file, const char *const *set) {
     CzError error = {0};
     motion.step = motion.collision.model->time_step;
     motion.kernel = cz_kernel("auto");
-    motion.lanes = cz_lanes_create(motion.collision.model, 1, &motion.arena);
+    motion.lanes = cz_model_lanes(motion.collision.model, 1, &motion.arena);
     assert_non_null(motion.lanes);
     if (cz_model_fill(motion.collision.model, vehicles, 0, motion.lanes, &error) != CZ_OK)
         fail_msg("%s", error.message);

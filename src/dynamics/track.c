@@ -39,26 +39,27 @@ static CzTrackRows rows_of(const CzTrackGroup *group, double step) {
     return rows;
 }
 
-static CzTrackAmplitudes amplitudes_of(const CzTrackBlock *block, const CzTrackGroup *group, int i,
-                                       double step) {
+static void add_amplitudes(const CzTrackBlock *block, const CzTrackGroup *group, int i, double step,
+                           CzTrackAmplitudes *amplitudes) {
     const CzSeats *seats = block->seats;
     const CzComplex lambda = group->lambda[i], pad = group->pad[i];
-    CzTrackAmplitudes amplitudes;
-    memset(&amplitudes, 0, sizeof amplitudes);
-    amplitudes.back = cz_complex_exponential(cz_complex_scaled(-0.5 * step, lambda));
-    amplitudes.wave[0] = group->direct[i];
+    CzTrackRow *re = amplitudes->part_re, *im = amplitudes->part_im;
+    put(lambda, i, amplitudes->lambda_re, amplitudes->lambda_im);
+    put(cz_complex_exponential(cz_complex_scaled(-0.5 * step, lambda)), i, amplitudes->back_re,
+        amplitudes->back_im);
+    put(group->direct[i], i, re[CZ_RAIL_WAVE], im[CZ_RAIL_WAVE]);
     if (cz_complex_square_size(pad) == 0.0)
-        return amplitudes;
+        return;
     for (int w = 1; w < block->n_wave; ++w)
-        amplitudes.wave[w] = cz_complex_scaled(
-            -block->crests, cz_complex_product(cz_track_wave_answer(block, w, lambda), pad));
+        put(cz_complex_scaled(-block->crests,
+                              cz_complex_product(cz_track_wave_answer(block, w, lambda), pad)),
+            i, re[CZ_RAIL_WAVE + w], im[CZ_RAIL_WAVE + w]);
     const CzTrackBelow below = cz_track_below(block, lambda);
     const CzComplex stiffness = {seats->pad_k + seats->pad_c * lambda.re, seats->pad_c * lambda.im};
-    amplitudes.force = pad;
-    amplitudes.stretch = cz_complex_ratio(pad, stiffness);
-    amplitudes.sleeper = cz_complex_product(below.sleeper, pad);
-    amplitudes.ballast = cz_complex_product(below.ballast, pad);
-    return amplitudes;
+    put(pad, i, re[CZ_PAD_FORCE], im[CZ_PAD_FORCE]);
+    put(cz_complex_ratio(pad, stiffness), i, re[CZ_PAD_STRETCH], im[CZ_PAD_STRETCH]);
+    put(cz_complex_product(below.sleeper, pad), i, re[CZ_SLEEPER], im[CZ_SLEEPER]);
+    put(cz_complex_product(below.ballast, pad), i, re[CZ_BALLAST], im[CZ_BALLAST]);
 }
 
 /* Blocks and their modes' amplitudes; false when there is no memory. */
@@ -67,7 +68,7 @@ static bool prepare_energy(CzTrackMotion *track, CzArena *arena) {
     const size_t n_block = (size_t)modes->n_seat / 2 + 1;
     CzTrackBlock *block = cz_arena_allocate(arena, n_block, sizeof *block);
     CzTrackAmplitudes *amplitudes =
-        cz_arena_allocate(arena, (size_t)modes->n_group * CZ_TRACK_WIDTH, sizeof *amplitudes);
+        cz_arena_allocate(arena, (size_t)modes->n_group, sizeof *amplitudes);
     if (block == NULL || amplitudes == NULL)
         return false;
     for (size_t j = 0; j < n_block; ++j)
@@ -75,9 +76,8 @@ static bool prepare_energy(CzTrackMotion *track, CzArena *arena) {
     for (int k = 0; k < modes->n_group; ++k)
         for (int i = 0; i < CZ_TRACK_WIDTH; ++i)
             if (is_mode(&modes->group[k], i))
-                amplitudes[CZ_TRACK_WIDTH * k + i] =
-                    amplitudes_of(&block[modes->group[k].vector * CZ_TRACK_WIDTH + i],
-                                  &modes->group[k], i, track->step);
+                add_amplitudes(&block[modes->group[k].vector * CZ_TRACK_WIDTH + i],
+                               &modes->group[k], i, track->step, &amplitudes[k]);
     track->block = block;
     track->amplitudes = amplitudes;
     return true;
@@ -139,34 +139,42 @@ static void look(const CzTrackMotion *track, const CzTrackUnder *under, const do
     }
 }
 
-/* g(x) of a mode at a wheel, where the shapes were taken. */
-static CzComplex shape_under(const CzTrackModes *modes, const CzTrackUnder *under, int k, int i,
-                             int wheel) {
-    const CzTrackGroup *group = &modes->group[k];
-    const CzTrackRow *shape = under->shape + 4 * (wheel * modes->n_vector + group->vector);
-    return cz_complex_sum(cz_complex_scaled(shape[group->copy][i], group->direct[i]),
-                          cz_complex_scaled(shape[2 + group->copy][i], group->alias[i]));
-}
-
-/* Load of a mode: sum of g(x) P. */
-static CzComplex load_under(const CzTrackModes *modes, const CzTrackUnder *under, int k, int i) {
-    CzComplex sum = {0.0, 0.0};
-    for (int wheel = 0; wheel < 4; ++wheel)
-        sum = cz_complex_sum(
-            sum, cz_complex_scaled(under->force[wheel], shape_under(modes, under, k, i, wheel)));
-    return sum;
+/* Load of the modes of a group: sum of g(x) P over the wheels, where the shapes were taken. */
+static void load_group(const CzTrackMotion *track, const CzTrackUnder *under, int k,
+                       double *restrict re, double *restrict im) {
+    const CzTrackGroup *group = &track->modes->group[k];
+    const CzTrackRows *restrict rows = &track->rows[k];
+    CZ_WAVES(i) {
+        re[i] = im[i] = 0.0;
+    }
+    for (int wheel = 0; wheel < 4; ++wheel) {
+        const CzTrackRow *shape =
+            under->shape + 4 * (wheel * track->modes->n_vector + group->vector);
+        const double *restrict direct = shape[group->copy], *restrict alias =
+                                                                shape[2 + group->copy];
+        const double force = under->force[wheel];
+        CZ_WAVES(i) {
+            re[i] += force * (direct[i] * rows->now_re[i] + alias[i] * rows->alias_now_re[i]);
+            im[i] += force * (direct[i] * rows->now_im[i] + alias[i] * rows->alias_now_im[i]);
+        }
+    }
 }
 
 /* The modes that the constant forces of the wheels make. */
-static void rest_under(const CzTrackModes *modes, const CzTrackUnder *under, double step) {
-    for (int k = 0; k < modes->n_group; ++k)
+static void rest_under(const CzTrackMotion *track, const CzTrackUnder *under) {
+    const CzTrackModes *modes = track->modes;
+    for (int k = 0; k < modes->n_group; ++k) {
+        CzTrackRow re, im;
+        load_group(track, under, k, re, im);
         for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
             CzComplex y = {0.0, 0.0};
             if (is_mode(&modes->group[k], i))
-                y = cz_complex_product(load_under(modes, under, k, i),
-                                       cz_track_constant_answer(modes->group[k].lambda[i], step));
+                y = cz_complex_product(
+                    (CzComplex){re[i], im[i]},
+                    cz_track_constant_answer(modes->group[k].lambda[i], track->step));
             put(y, i, under->state[2 * k], under->state[2 * k + 1]);
         }
+    }
 }
 
 bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], const double load[4],
@@ -183,7 +191,7 @@ bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], con
     look(track, under, place, seat);
     for (int wheel = 0; wheel < 4; ++wheel)
         under->force[wheel] = -load[wheel];
-    rest_under(modes, under, track->step);
+    rest_under(track, under);
     cz_track_read(track, under);
     return true;
 }
@@ -201,86 +209,71 @@ void cz_track_look(const CzTrackMotion *track, size_t index, const double place[
 
 /* ---- energy ---- */
 
-/* What moves in one block: displacement and rate of each part at its crest. */
+/* Displacement and rate of each part of eight neighbouring blocks at its crest. */
 typedef struct Parts {
-    double wave[CZ_BLOCK_WAVES], wave_rate[CZ_BLOCK_WAVES];
-    double force, stretch, stretch_rate; /* of a pad */
-    double sleeper, sleeper_rate, ballast, ballast_rate;
+    CzTrackRow value[CZ_TRACK_PARTS], rate[CZ_TRACK_PARTS];
 } Parts;
 
-/* A mode and its rate, the force that still acts included. */
-typedef struct Motion {
-    CzComplex y, rate;
-} Motion;
-
-static void add_part(CzComplex amplitude, const Motion *motion, double *value, double *rate) {
-    *value += cz_complex_product(amplitude, motion->y).re;
-    *rate += cz_complex_product(amplitude, motion->rate).re;
-}
-
-static void add_mode(const CzTrackAmplitudes *amplitudes, int n_wave, const Motion *motion,
-                     Parts *parts) {
-    for (int w = 0; w < n_wave; ++w)
-        add_part(amplitudes->wave[w], motion, &parts->wave[w], &parts->wave_rate[w]);
-    double none = 0.0;
-    add_part(amplitudes->force, motion, &parts->force, &none);
-    add_part(amplitudes->stretch, motion, &parts->stretch, &parts->stretch_rate);
-    add_part(amplitudes->sleeper, motion, &parts->sleeper, &parts->sleeper_rate);
-    add_part(amplitudes->ballast, motion, &parts->ballast, &parts->ballast_rate);
+/* Adds the modes of a group when the last force was about to end: the present state without half a
+ * flight, and its rate, the force that still acts included. */
+static void add_group(const CzTrackMotion *track, const CzTrackUnder *under, int k, Parts *parts) {
+    const CzTrackAmplitudes *restrict of = &track->amplitudes[k];
+    const double *restrict re = under->state[2 * k], *restrict im = under->state[2 * k + 1];
+    CzTrackRow y_re, y_im, rate_re, rate_im, load_re, load_im;
+    load_group(track, under, k, load_re, load_im);
+    CZ_WAVES(i) {
+        y_re[i] = of->back_re[i] * re[i] - of->back_im[i] * im[i];
+        y_im[i] = of->back_re[i] * im[i] + of->back_im[i] * re[i];
+        rate_re[i] = of->lambda_re[i] * y_re[i] - of->lambda_im[i] * y_im[i] + load_re[i];
+        rate_im[i] = of->lambda_re[i] * y_im[i] + of->lambda_im[i] * y_re[i] + load_im[i];
+    }
+    for (int part = 0; part < CZ_TRACK_PARTS; ++part) {
+        const double *restrict a_re = of->part_re[part], *restrict a_im = of->part_im[part];
+        double *restrict value = parts->value[part], *restrict rate = parts->rate[part];
+        CZ_WAVES(i) {
+            value[i] += a_re[i] * y_re[i] - a_im[i] * y_im[i];
+            rate[i] += a_re[i] * rate_re[i] - a_im[i] * rate_im[i];
+        }
+    }
 }
 
 static double square(double value) {
     return value * value;
 }
 
-static void parts_energy(const CzTrackBlock *block, const Parts *parts, double *energy,
+static void parts_energy(const CzTrackBlock *block, const Parts *parts, int i, double *energy,
                          double *loss) {
     const CzSeats *seats = block->seats;
     const double coupled = square(2.0 * cz_turned(0.5 * block->turns).im);
+    const CzTrackRow *value = parts->value, *rate = parts->rate;
     for (int w = 0; w < block->n_wave; ++w)
         *energy += 0.5 * block->mass[w] / block->wave[w].share *
-                   (square(parts->wave_rate[w]) + block->wave[w].bending * square(parts->wave[w]));
-    const double upper = parts->sleeper - parts->ballast;
-    const double upper_rate = parts->sleeper_rate - parts->ballast_rate;
+                   (square(rate[CZ_RAIL_WAVE + w][i]) +
+                    block->wave[w].bending * square(value[CZ_RAIL_WAVE + w][i]));
+    const double upper = value[CZ_SLEEPER][i] - value[CZ_BALLAST][i];
+    const double upper_rate = rate[CZ_SLEEPER][i] - rate[CZ_BALLAST][i];
     *energy += 0.5 * block->crests *
-               (seats->pad_k * square(parts->stretch) + block->rest * square(parts->force) +
-                seats->sleeper * square(parts->sleeper_rate) + seats->upper_k * square(upper) +
-                seats->ballast * square(parts->ballast_rate) +
-                (seats->lower_k + coupled * seats->across_k) * square(parts->ballast));
+               (seats->pad_k * square(value[CZ_PAD_STRETCH][i]) +
+                block->rest * square(value[CZ_PAD_FORCE][i]) +
+                seats->sleeper * square(rate[CZ_SLEEPER][i]) + seats->upper_k * square(upper) +
+                seats->ballast * square(rate[CZ_BALLAST][i]) +
+                (seats->lower_k + coupled * seats->across_k) * square(value[CZ_BALLAST][i]));
     *loss += block->crests *
-             (seats->pad_c * square(parts->stretch_rate) + seats->upper_c * square(upper_rate) +
-              (seats->lower_c + coupled * seats->across_c) * square(parts->ballast_rate));
-}
-
-/* A mode when the last force was about to end: the present state without half a flight. */
-static Motion half_a_step_ago(const CzTrackMotion *track, size_t index, int k, int i) {
-    const CzTrackUnder *under = &track->under[index];
-    const CzComplex lambda = track->modes->group[k].lambda[i];
-    const CzComplex now = {under->state[2 * k][i], under->state[2 * k + 1][i]};
-    const CzComplex y = cz_complex_product(track->amplitudes[CZ_TRACK_WIDTH * k + i].back, now);
-    return (Motion){
-        y, cz_complex_sum(cz_complex_product(lambda, y), load_under(track->modes, under, k, i))};
+             (seats->pad_c * square(rate[CZ_PAD_STRETCH][i]) + seats->upper_c * square(upper_rate) +
+              (seats->lower_c + coupled * seats->across_c) * square(rate[CZ_BALLAST][i]));
 }
 
 static void add_up(const CzTrackMotion *track, size_t index, double *energy, double *loss) {
     const CzTrackModes *modes = track->modes;
-    for (int row = 0; row < 2 * modes->n_vector; ++row)
-        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
-            const int j = row % modes->n_vector * CZ_TRACK_WIDTH + i;
-            if (2 * j > modes->n_seat)
-                continue;
-            const CzTrackBlock *block = &track->block[j];
-            Parts parts;
-            memset(&parts, 0, sizeof parts);
-            for (int k = track->span[row].first; k < track->span[row].end; ++k) {
-                if (!is_mode(&modes->group[k], i))
-                    continue;
-                const Motion motion = half_a_step_ago(track, index, k, i);
-                add_mode(&track->amplitudes[CZ_TRACK_WIDTH * k + i], block->n_wave, &motion,
-                         &parts);
-            }
-            parts_energy(block, &parts, energy, loss);
-        }
+    for (int row = 0; row < 2 * modes->n_vector; ++row) {
+        const int first = row % modes->n_vector * CZ_TRACK_WIDTH;
+        Parts parts;
+        memset(&parts, 0, sizeof parts);
+        for (int k = track->span[row].first; k < track->span[row].end; ++k)
+            add_group(track, &track->under[index], k, &parts);
+        for (int i = 0; i < CZ_TRACK_WIDTH && 2 * (first + i) <= modes->n_seat; ++i)
+            parts_energy(&track->block[first + i], &parts, i, energy, loss);
+    }
 }
 
 double cz_track_energy(const CzTrackMotion *track, size_t index) {

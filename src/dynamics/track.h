@@ -26,13 +26,16 @@ typedef struct CzTrackRows {
     CzTrackRow alias_past_re, alias_past_im;
 } CzTrackRows;
 
-/* What a mode of one block means for the block's parts, per state: their amplitudes at the crest.
+/* Parts of a block: a pad, sleeper, ballast block, and the rail's waves. */
+enum { CZ_PAD_FORCE, CZ_PAD_STRETCH, CZ_SLEEPER, CZ_BALLAST, CZ_RAIL_WAVE };
+enum { CZ_TRACK_PARTS = CZ_RAIL_WAVE + CZ_BLOCK_WAVES };
+
+/* What the modes of a group are for the parts of their blocks, per state: amplitudes at the crest.
  */
 typedef struct CzTrackAmplitudes {
-    CzComplex back;                 /* exp(-lambda h / 2): from the state to half a step ago */
-    CzComplex wave[CZ_BLOCK_WAVES]; /* of the rail */
-    CzComplex force, stretch;       /* of a pad */
-    CzComplex sleeper, ballast;
+    _Alignas(64) CzTrackRow lambda_re, lambda_im;
+    CzTrackRow back_re, back_im; /* exp(-lambda h / 2): from the state to half a step ago */
+    CzTrackRow part_re[CZ_TRACK_PARTS], part_im[CZ_TRACK_PARTS];
 } CzTrackAmplitudes;
 
 /* Groups of one copy and vector: first ... end - 1. */
@@ -63,7 +66,7 @@ typedef struct CzTrackMotion {
     const CzTrackSpan *span;        /* (2 n_vector) */
     const CzTrackRow *wavenumber;   /* direct, alias [1/m] (2 n_vector) */
     const CzTrackBlock *block;      /* for the energy, as are the amplitudes (n_seat / 2 + 1) */
-    const CzTrackAmplitudes *amplitudes; /* (n_group x CZ_TRACK_WIDTH) */
+    const CzTrackAmplitudes *amplitudes; /* (n_group) */
     CzTrackFlexibility flexibility;      /* under a wheel, beside the modes */
     size_t n_under;
     CzTrackUnder *under; /* (n_under) */

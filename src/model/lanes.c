@@ -1,8 +1,9 @@
 /* Memory of the lanes, with neutral numbers everywhere. */
 #include "model/lanes.h"
 
-#include <math.h>
 #include <stdbool.h>
+
+#include "laws/law.h"
 
 static void set_row(double *row, size_t n, double value) {
     for (size_t lane = 0; lane < n; lane++)
@@ -116,7 +117,7 @@ CzLanes *cz_lanes_create(int n_car, int n_design, const int n_kink[CZ_N_CURVE], 
 double cz_curve_value(const CzCurveLanes *curve, size_t lane, double x) {
     double value = curve->start[lane];
     for (size_t at = lane; at < (size_t)curve->n_kink * curve->stride; at += curve->stride)
-        value += curve->slope_change[at] * fmax(x - curve->at[at], 0.0);
+        value += curve->slope_change[at] * cz_positive_part(x - curve->at[at]);
     return value;
 }
 
@@ -130,7 +131,7 @@ double cz_curve_slope(const CzCurveLanes *curve, size_t lane, double x) {
 double cz_curve_integral(const CzCurveLanes *curve, size_t lane, double x) {
     double integral = curve->start[lane] * x;
     for (size_t at = lane; at < (size_t)curve->n_kink * curve->stride; at += curve->stride) {
-        const double beyond = fmax(x - curve->at[at], 0.0);
+        const double beyond = cz_positive_part(x - curve->at[at]);
         integral += 0.5 * curve->slope_change[at] * beyond * beyond;
     }
     return integral;

@@ -55,26 +55,15 @@ const CzKernel *cz_kernel(const char *isa) {
     return NULL;
 }
 
-/* Extremes start below anything that a run can reach. */
 static void start_extremes(CzExtremes *extreme) {
-    static const double start[CZ_N_EXTREME] = {
-#define CZ_EXTREME_ENTRY(row, start, doc) [CZ_EXTREME(row)] = start,
-#include "dynamics/extremes.def"
-#undef CZ_EXTREME_ENTRY
-    };
-    for (int row = 0; row < CZ_N_EXTREME; ++row)
-        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
-            cz_row_of(extreme, row)[i] = start[row];
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+        extreme->face_lost_margin[i] = extreme->face_lost_overlap[i] = extreme->climb_time[i] =
+            CZ_NOT_YET;
 }
 
 /* Each list has every row of its struct, and all are those of the plane. */
 enum {
     PLANE = 1,
-#define CZ_EXTREME_ENTRY(row, start, doc) +1
-    N_EXTREMES_LISTED = 0
-#include "dynamics/extremes.def"
-#undef CZ_EXTREME_ENTRY
-    ,
 #define CZ_LEDGER_ENTRY(row, class, dimension, doc) +dimension
     N_LEDGER_LISTED = 0
 #include "dynamics/ledger.def"
@@ -85,7 +74,6 @@ enum {
 #include "model/dof.def"
 #undef CZ_DOF_ENTRY
 };
-_Static_assert((int)N_EXTREMES_LISTED == (int)CZ_N_EXTREME, "extremes.def lists CzExtremes");
 _Static_assert((int)N_LEDGER_LISTED == (int)CZ_N_LEDGER, "ledger.def lists CzPower");
 _Static_assert((int)N_DOF_LISTED == (int)CZ_N_DOF, "dof.def lists CzState");
 

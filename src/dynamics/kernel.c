@@ -8,14 +8,13 @@
  */
 #include "dynamics/dynamics.h"
 
-#include "dynamics/kernel_axle.h"
-#include "dynamics/kernel_bogie.h"
 #include "dynamics/kernel_coupler.h"
 #include "dynamics/kernel_drag.h"
 #include "dynamics/kernel_draw_gear.h"
 #include "dynamics/kernel_end.h"
 #include "dynamics/kernel_extremes.h"
 #include "dynamics/kernel_face.h"
+#include "dynamics/kernel_gear.h"
 #include "dynamics/kernel_neighbours.h"
 #include "dynamics/kernel_side_buffers.h"
 #include "dynamics/kernel_superstructure.h"
@@ -95,14 +94,12 @@ static void divide_by_masses(CzBlock *d) {
     divide_along(d);
     divide_up(d);
     divide(force->body.pitch, rows->inverse.body.inertia_pitch, a->body.pitch);
-    for (int end = 0; end < 2; ++end) {
-        divide(force->end[end].z, rows->inverse.end[end].mass, a->end[end].z);
-        divide(force->end[end].pitch, rows->inverse.end[end].inertia_pitch, a->end[end].pitch);
-    }
-    for (int bogie = 0; bogie < 2; ++bogie) {
-        divide(force->bogie[bogie].x, rows->inverse.bogie.mass, a->bogie[bogie].x);
-        divide(force->bogie[bogie].z, rows->inverse.bogie.mass, a->bogie[bogie].z);
-        divide(force->bogie[bogie].pitch, rows->inverse.bogie.inertia_pitch, a->bogie[bogie].pitch);
+    for (int k = 0; k < 2; ++k) {
+        divide(force->end[k].z, rows->inverse.end[k].mass, a->end[k].z);
+        divide(force->end[k].pitch, rows->inverse.end[k].inertia_pitch, a->end[k].pitch);
+        divide(force->bogie[k].x, rows->inverse.bogie.mass, a->bogie[k].x);
+        divide(force->bogie[k].z, rows->inverse.bogie.mass, a->bogie[k].z);
+        divide(force->bogie[k].pitch, rows->inverse.bogie.inertia_pitch, a->bogie[k].pitch);
     }
     for (int axle = 0; axle < 4; ++axle) {
         divide(force->wheelset[axle].x, rows->inverse.wheelset.mass, a->wheelset[axle].x);

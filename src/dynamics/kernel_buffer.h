@@ -72,6 +72,15 @@ static double linearise_buffer(Chain *chain, int side, int again) {
     return accept(&chain->now, side, again, &trial);
 }
 
+static const SpringLaw buffers = {linearise_buffer, buffer_force, NULL};
+
+/* Lists the buffer of a side; the energies of the side are listed beside it. */
+static void list_buffer(BufferChain *of, int side, Buffer buffer) {
+    of->buffer[side] = buffer;
+    of->chain.spring[side].stroke = buffer.memory->stroke;
+    of->chain.spring[side].next = buffer.next->stroke;
+}
+
 /* Rates of the buffers over the step, for the next one. */
 static void keep_rates(const BufferChain *of) {
     const double per_step = 1.0 / of->chain.step;

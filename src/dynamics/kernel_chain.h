@@ -35,6 +35,13 @@ typedef double ForceAt(const Chain *chain, int side, size_t lane, double stroke)
  * rise again (`rises`); infinite where there is none. */
 typedef double TurnsAt(const Chain *chain, int side, size_t lane, double from, int rises);
 
+/* The law of the springs of a chain. */
+typedef struct {
+    Linearise *linearise;
+    ForceAt *force_at;
+    TurnsAt *turns_at; /* NULL: no spring ever falls */
+} SpringLaw;
+
 /* A plastic member: tube, anti-climber or shear-off. */
 typedef struct {
     const CzBlockCurve *curve;   /* of its strength; NULL for a shear-off */
@@ -85,9 +92,7 @@ struct Chain {
     const double *compliance; /* of all tubes together */
     const double *last;       /* force, committed */
     double *next;
-    Linearise *linearise;
-    ForceAt *force_at;
-    TurnsAt *turns_at; /* NULL: no spring ever falls */
+    const SpringLaw *law;
     Spring spring[2];
     Plastic plastic[MOST_PLASTIC];
     ChainState now;
@@ -98,6 +103,33 @@ typedef struct {
     _Alignas(64) CzRow stroke;
     CzRow force, up, down;
 } Trial;
+
+/* Begins the list of a chain with two plastic members that have curves: `last` and `next` are its
+ * force, committed and to be. */
+static void begin_chain(Chain *chain, const SpringLaw *law, const double *closure, double step,
+                        const double *last, double *next) {
+    chain->n_plastic = chain->n_curve = 2;
+    chain->step = step;
+    chain->closure = closure;
+    chain->last = last;
+    chain->next = next;
+    chain->law = law;
+}
+
+/* A tube or an anti-climber whose strength does not depend on the closing speed. */
+static Plastic collapsing(const CzBlockCurve *strength, const double *rate, const double *stroke,
+                          double *next) {
+    return (Plastic){
+        .curve = strength, .rate = rate, .rise = zeros, .stroke = stroke, .next = next};
+}
+
+static void list_energies(Spring *side, const double *energy, double *next_energy,
+                          const double *plastic_energy, double *next_plastic_energy) {
+    side->energy = energy;
+    side->next_energy = next_energy;
+    side->plastic_energy = plastic_energy;
+    side->next_plastic_energy = next_plastic_energy;
+}
 
 /* Whether a plastic member is missing in all lanes: it would neither yield nor add to any sum. */
 static int is_missing(const Plastic *member) {

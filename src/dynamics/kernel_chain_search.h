@@ -106,7 +106,7 @@ static double plastic_force(const Search *s, int number, double stroke) {
 
 static double law_at(const Search *s, int member, double stroke) {
     const double moved = stroke - s->start[member];
-    const double force = member < 2 ? s->chain->force_at(s->chain, member, s->lane, stroke)
+    const double force = member < 2 ? s->chain->law->force_at(s->chain, member, s->lane, stroke)
                                     : plastic_force(s, member - 2, stroke);
     return force + SEARCH_STIFFNESS * moved;
 }
@@ -129,9 +129,9 @@ static double plastic_turns_at(const Search *s, int number, double from, int ris
 static double turns_at(const Search *s, int member, double from, int rises) {
     if (member >= 2)
         return plastic_turns_at(s, member - 2, from, rises);
-    if (s->chain->turns_at == NULL)
+    if (s->chain->law->turns_at == NULL)
         return rises ? from : INFINITY;
-    return s->chain->turns_at(s->chain, member, s->lane, from, rises);
+    return s->chain->law->turns_at(s->chain, member, s->lane, from, rises);
 }
 
 /* ---- one unknown in a bracket ---------------------------------------------------------------- */

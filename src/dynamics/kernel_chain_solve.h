@@ -27,7 +27,7 @@ static int start_chain(Chain *chain) {
     memset(now->falls, 0, sizeof(CzRow));
     memset(now->distance, 0, sizeof(CzRow));
     for (int side = 0; side < 2; ++side)
-        chain->linearise(chain, side, 0);
+        chain->law->linearise(chain, side, 0);
     for (int member = 0; member < chain->n_curve; ++member)
         if (!is_missing(&chain->plastic[member]))
             prepare_plastic(chain, member);
@@ -57,7 +57,7 @@ static int settle_chain(Chain *chain, CzPublished *published, Linearise *others,
     int n_anew = 0, settled = 0;
     for (int pass = 1; found && !settled && pass < CHAIN_PASSES; ++pass) {
         memset(chain->now.distance, 0, sizeof(CzRow));
-        double n_changed = chain->linearise(chain, 0, 1) + chain->linearise(chain, 1, 1);
+        double n_changed = chain->law->linearise(chain, 0, 1) + chain->law->linearise(chain, 1, 1);
         for (int member = 0; member < chain->n_curve; ++member)
             if (!is_missing(&chain->plastic[member]))
                 n_changed += relinearise_plastic(chain, member);

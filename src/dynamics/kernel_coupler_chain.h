@@ -15,39 +15,25 @@ static void list_couplers(CzBlock *d, const CouplerLine *line, double step, Coup
     const CzCouplerMemory *memory = &d->memory->coupler;
     CzCouplerMemory *next = &d->next_memory->coupler;
     Chain *chain = &of->buffers.chain;
+    begin_chain(chain, &buffers, line->closure, step, memory->force, next->force);
+    chain->compliance = rows->compliance;
     chain->n_plastic = 6;
     chain->n_curve = 4;
-    chain->step = step;
-    chain->closure = line->closure;
-    chain->compliance = rows->compliance;
-    chain->last = memory->force;
-    chain->next = next->force;
-    chain->linearise = linearise_buffer;
-    chain->force_at = buffer_force;
-    chain->turns_at = NULL;
     for (int side = 0; side < 2; ++side) {
-        of->buffers.buffer[side] = (Buffer){&rows->side[side].buffer, &d->curve.buffer[side],
-                                            d->constant.buffer_compliance[side],
-                                            &memory->side[side].buffer, &next->side[side].buffer};
-        chain->spring[side] =
-            (Spring){memory->side[side].buffer.stroke, memory->side[side].energy,
-                     memory->side[side].tube_energy,   next->side[side].buffer.stroke,
-                     next->side[side].energy,          next->side[side].tube_energy};
-        chain->plastic[side] = (Plastic){.curve = &d->curve.tube[side],
-                                         .rate = rows->side[side].tube_rate,
-                                         .rise = zeros,
-                                         .stroke = memory->side[side].tube,
-                                         .next = next->side[side].tube};
-        chain->plastic[2 + side] = (Plastic){.curve = &d->curve.second_tube[side],
-                                             .rate = rows->side[side].second_tube_rate,
-                                             .rise = zeros,
-                                             .stroke = memory->side[side].second_tube,
-                                             .next = next->side[side].second_tube};
-        chain->plastic[SHEAR_OFF + side] = (Plastic){.shear = &rows->side[side].shear,
-                                                     .rate = zeros,
-                                                     .rise = zeros,
-                                                     .stroke = memory->side[side].shear,
-                                                     .next = next->side[side].shear};
+        list_buffer(&of->buffers, side,
+                    (Buffer){&rows->side[side].buffer, &d->curve.buffer[side],
+                             d->constant.buffer_compliance[side], &memory->side[side].buffer,
+                             &next->side[side].buffer});
+        list_energies(&chain->spring[side], memory->side[side].energy, next->side[side].energy,
+                      memory->side[side].tube_energy, next->side[side].tube_energy);
+        chain->plastic[side] = collapsing(&d->curve.tube[side], rows->side[side].tube_rate,
+                                          memory->side[side].tube, next->side[side].tube);
+        chain->plastic[2 + side] =
+            collapsing(&d->curve.second_tube[side], rows->side[side].second_tube_rate,
+                       memory->side[side].second_tube, next->side[side].second_tube);
+        chain->plastic[SHEAR_OFF + side] =
+            collapsing(NULL, zeros, memory->side[side].shear, next->side[side].shear);
+        chain->plastic[SHEAR_OFF + side].shear = &rows->side[side].shear;
     }
 }
 

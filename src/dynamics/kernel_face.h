@@ -18,15 +18,8 @@ static void list_faces(CzBlock *d, const Contact *contact, double step, FaceChai
     const CzFaceMemory *memory = &d->memory->face;
     CzFaceMemory *next = &d->next_memory->face;
     Chain *chain = &of->chain;
-    chain->n_plastic = chain->n_curve = 2;
-    chain->step = step;
-    chain->closure = contact->closure;
+    begin_chain(chain, &crush_zones, contact->closure, step, memory->force, next->force);
     chain->compliance = rows->compliance;
-    chain->last = memory->force;
-    chain->next = next->force;
-    chain->linearise = linearise_massless;
-    chain->force_at = massless_force;
-    chain->turns_at = massless_turns;
     for (int side = 0; side < 2; ++side) {
         const CzMasslessMemory *before = &memory->side[side].massless;
         CzMasslessMemory *after = &next->side[side].massless;
@@ -36,13 +29,13 @@ static void list_faces(CzBlock *d, const Contact *contact, double step, FaceChai
                                         &d->curve.massless[side],
                                         before,
                                         after};
-        chain->spring[side] = (Spring){before->stroke, before->energy, memory->side[side].energy,
-                                       after->stroke,  after->energy,  next->side[side].energy};
-        chain->plastic[side] = (Plastic){.curve = &d->curve.face[side],
-                                         .rate = rows->side[side].rate,
-                                         .rise = of->rise[side],
-                                         .stroke = memory->side[side].stroke,
-                                         .next = next->side[side].stroke};
+        chain->spring[side].stroke = before->stroke;
+        chain->spring[side].next = after->stroke;
+        list_energies(&chain->spring[side], before->energy, after->energy,
+                      memory->side[side].energy, next->side[side].energy);
+        chain->plastic[side] = collapsing(&d->curve.face[side], rows->side[side].rate,
+                                          memory->side[side].stroke, next->side[side].stroke);
+        chain->plastic[side].rise = of->rise[side];
     }
 }
 

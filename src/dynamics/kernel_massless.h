@@ -91,6 +91,8 @@ static double massless_turns(const Chain *chain, int side, size_t i, double from
     return curve_turns_at(massless->curve, i, loaded, rises, &added);
 }
 
+static const SpringLaw crush_zones = {linearise_massless, massless_force, massless_turns};
+
 /* Largest shortening, and what the damping took in the step. */
 static void keep_massless(const Massless *massless, double step) {
     const CzMasslessMemory *restrict before = massless->memory;

@@ -12,29 +12,17 @@ static void list_side_buffers(CzBlock *d, const Contact *contact, double step, B
     const CzSideBufferRows *rows = &d->parameter.side_buffers;
     const CzSideBufferMemory *memory = &d->memory->side_buffers;
     CzSideBufferMemory *next = &d->next_memory->side_buffers;
-    Chain *chain = &of->chain;
-    chain->n_plastic = chain->n_curve = 2;
-    chain->step = step;
-    chain->closure = contact->closure;
-    chain->compliance = rows->compliance;
-    chain->last = memory->force;
-    chain->next = next->force;
-    chain->linearise = linearise_buffer;
-    chain->force_at = buffer_force;
-    chain->turns_at = NULL;
+    begin_chain(&of->chain, &buffers, contact->closure, step, memory->force, next->force);
+    of->chain.compliance = rows->compliance;
     for (int side = 0; side < 2; ++side) {
-        of->buffer[side] = (Buffer){&rows->side[side].buffer, &d->curve.side_buffer[side],
-                                    d->constant.side_compliance[side], &memory->side[side].buffer,
-                                    &next->side[side].buffer};
-        chain->spring[side] =
-            (Spring){memory->side[side].buffer.stroke, memory->side[side].energy,
-                     memory->side[side].tube_energy,   next->side[side].buffer.stroke,
-                     next->side[side].energy,          next->side[side].tube_energy};
-        chain->plastic[side] = (Plastic){.curve = &d->curve.side_tube[side],
-                                         .rate = rows->side[side].tube_rate,
-                                         .rise = zeros,
-                                         .stroke = memory->side[side].tube,
-                                         .next = next->side[side].tube};
+        list_buffer(of, side,
+                    (Buffer){&rows->side[side].buffer, &d->curve.side_buffer[side],
+                             d->constant.side_compliance[side], &memory->side[side].buffer,
+                             &next->side[side].buffer});
+        list_energies(&of->chain.spring[side], memory->side[side].energy, next->side[side].energy,
+                      memory->side[side].tube_energy, next->side[side].tube_energy);
+        of->chain.plastic[side] = collapsing(&d->curve.side_tube[side], rows->side[side].tube_rate,
+                                             memory->side[side].tube, next->side[side].tube);
     }
 }
 

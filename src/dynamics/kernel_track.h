@@ -7,17 +7,29 @@
 #include "dynamics/kernel_lanes.h"
 #include "dynamics/track_motion.h"
 
-/* The rails under the four wheelsets of one car, at their places now. Ring and bay are turned in
- * one go: four of each fill a register. */
+/* Places of the wheelsets of one car now. */
+static void find_wheels(const CzBlock *d, size_t lane, double place[4]) {
+    for (int axle = 0; axle < 4; ++axle)
+        place[axle] = cz_wheel_place(d->parameter.bogie_x[lane], d->parameter.axle_x[lane], axle) +
+                      d->position.wheelset[axle].x[lane];
+}
+
+static void put_rail(CzRailRows *rail, size_t lane, CzRailPoint point) {
+    rail->z[lane] = point.z;
+    rail->past[lane] = point.past;
+    rail->slope[lane] = point.slope;
+    rail->flexibility[lane] = point.flexibility;
+    rail->flexibility_slope[lane] = point.flexibility_slope;
+}
+
+/* The rails under one car. Ring and bay are turned in one go: four of each fill a register. */
 static void look_under(const CzTrackMotion *track, const CzTrackUnder *under, CzBlock *d,
-                       int lane) {
-    double turns[8], cosine[8], sine[8];
+                       size_t lane) {
+    double place[4], turns[8], cosine[8], sine[8];
+    find_wheels(d, lane, place);
     for (int axle = 0; axle < 4; ++axle) {
-        const double place =
-            cz_wheel_place(d->parameter.bogie_x[lane], d->parameter.axle_x[lane], axle) +
-            d->position.wheelset[axle].x[lane];
-        turns[axle] = place * track->per_length;
-        turns[4 + axle] = place * track->per_spacing;
+        turns[axle] = place[axle] * track->per_length;
+        turns[4 + axle] = place[axle] * track->per_spacing;
     }
     _Static_assert(CZ_LANE_BLOCK == 8, "two of each axle");
     CZ_LANES (i) {
@@ -29,43 +41,32 @@ static void look_under(const CzTrackMotion *track, const CzTrackUnder *under, Cz
         const CzComplex ring = {cosine[axle], sine[axle]};
         const CzComplex seat = {cosine[4 + axle], sine[4 + axle]};
         cz_track_shape(track, ring, seat, under->shape + 4 * axle * track->modes->n_vector);
-        const CzTrackPoint point = cz_track_at(track, under, axle);
-        const CzTrackSpring spring = cz_track_spring(&track->flexibility, track->per_spacing, seat);
-        d->rail[axle].z[lane] = point.z;
-        d->rail[axle].past[lane] = point.past;
-        d->rail[axle].slope[lane] = point.slope;
-        d->rail[axle].flexibility[lane] = spring.flexibility;
-        d->rail[axle].flexibility_slope[lane] = spring.slope;
+        put_rail(&d->rail[axle], lane,
+                 cz_track_on_spring(&track->flexibility, track->per_spacing,
+                                    cz_track_at(track, under, axle), seat));
     }
 }
 
 /* The rails under the wheels of a block, where these are now. */
 static void look_at_modes(const CzTrackMotion *track, CzBlock *d, int block) {
-    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
-        const CzTrackUnder *under = &track->under[block * CZ_LANE_BLOCK + i];
+    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
+        const CzTrackUnder *under = &track->under[(size_t)block * CZ_LANE_BLOCK + i];
         if (under->state != NULL)
             look_under(track, under, d, i);
     }
 }
 
 static void look_at_elements(CzElements *elements, CzBlock *d, int block) {
-    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
-        const size_t index = (size_t)(block * CZ_LANE_BLOCK + i);
+    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
+        const size_t index = (size_t)block * CZ_LANE_BLOCK + i;
+        double place[4];
+        CzRailPoint point[4];
         if (!elements->under[index].is_laid)
             continue;
-        double place[4];
-        CzElementsPoint point[4];
-        for (int axle = 0; axle < 4; ++axle)
-            place[axle] = cz_wheel_place(d->parameter.bogie_x[i], d->parameter.axle_x[i], axle) +
-                          d->position.wheelset[axle].x[i];
+        find_wheels(d, i, place);
         cz_elements_look(elements, index, place, point);
-        for (int axle = 0; axle < 4; ++axle) {
-            d->rail[axle].z[i] = point[axle].z;
-            d->rail[axle].past[i] = point[axle].past;
-            d->rail[axle].slope[i] = point[axle].slope;
-            d->rail[axle].flexibility[i] = point[axle].flexibility;
-            d->rail[axle].flexibility_slope[i] = point[axle].flexibility_slope;
-        }
+        for (int axle = 0; axle < 4; ++axle)
+            put_rail(&d->rail[axle], i, point[axle]);
     }
 }
 
@@ -93,10 +94,11 @@ static void look_at_receptance(const CzReceptanceMotion *track, CzBlock *d, int 
             const CzTrackFlexibility *flexibility = &under->part[k].steps->flexibility;
             const double *restrict is_under = under->part[k].is_under;
             CZ_LANES (i) {
-                const CzTrackSpring spring = cz_track_spring(flexibility, track->per_spacing,
-                                                             (CzComplex){seat_re[i], seat_im[i]});
-                rail->flexibility[i] += is_under[i] * spring.flexibility;
-                rail->flexibility_slope[i] += is_under[i] * spring.slope;
+                const CzRailPoint point =
+                    cz_track_on_spring(flexibility, track->per_spacing, (CzRailPoint){0.0},
+                                       (CzComplex){seat_re[i], seat_im[i]});
+                rail->flexibility[i] += is_under[i] * point.flexibility;
+                rail->flexibility_slope[i] += is_under[i] * point.flexibility_slope;
             }
         }
     }
@@ -112,46 +114,48 @@ static void look_at_rails(const CzDynamics *dynamics, int block) {
         look_at_receptance(dynamics->receptance, d, block);
 }
 
+static void take_work(CzBlock *d, size_t lane, double work) {
+    d->work.track[lane] += work;
+    d->work.wheel_normal[lane] -= work;
+}
+
+/* Forces of the wheels of one car on its rails, upwards. */
+static void press_rails(const CzBlock *d, size_t lane, double force[4]) {
+    for (int axle = 0; axle < 4; ++axle)
+        force[axle] = -d->published.wheel[axle].force[lane];
+}
+
 /* One step of the rails under the forces of the last evaluation. These held for a step about its
  * time, and their work is what the rail deflected from half a step before to half a step after. */
 static void advance_modes(const CzTrackMotion *track, CzBlock *d, int block) {
-    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
-        CzTrackUnder *under = &track->under[block * CZ_LANE_BLOCK + i];
+    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
+        CzTrackUnder *under = &track->under[(size_t)block * CZ_LANE_BLOCK + i];
+        double work = 0.0;
         if (under->state == NULL)
             continue;
-        for (int axle = 0; axle < 4; ++axle)
-            under->force[axle] = -d->published.wheel[axle].force[i];
+        press_rails(d, i, under->force);
         cz_track_step(track, under, under->force);
-        double work = 0.0;
         for (int axle = 0; axle < 4; ++axle)
             work +=
                 under->force[axle] * (cz_track_at(track, under, axle).past - d->rail[axle].past[i]);
-        d->work.track[i] += work;
-        d->work.wheel_normal[i] -= work;
+        take_work(d, i, work);
     }
 }
 
 static void advance_elements(CzElements *elements, CzBlock *d, int block) {
-    const size_t first = (size_t)(block * CZ_LANE_BLOCK);
+    CzElementsUnder *under = elements->under + (size_t)block * CZ_LANE_BLOCK;
     if (elements->block[block].u == NULL)
         return;
-    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
-        double force[4];
-        for (int axle = 0; axle < 4; ++axle)
-            force[axle] = -d->published.wheel[axle].force[i];
-        cz_elements_press(elements, first + (size_t)i, force);
-    }
+    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
+        press_rails(d, i, under[i].force);
     cz_elements_step(elements, (size_t)block);
-    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
-        const size_t lane = first + (size_t)i;
+    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
         double work = 0.0;
-        if (!elements->under[lane].is_laid)
-            continue;
-        for (int axle = 0; axle < 4; ++axle)
-            work += elements->under[lane].force[axle] *
-                    (cz_elements_past(elements, lane, axle) - d->rail[axle].past[i]);
-        d->work.track[i] += work;
-        d->work.wheel_normal[i] -= work;
+        for (int axle = 0; axle < 4 && under[i].is_laid; ++axle)
+            work += under[i].force[axle] *
+                    (cz_elements_past(elements, (size_t)block * CZ_LANE_BLOCK + i, axle) -
+                     d->rail[axle].past[i]);
+        take_work(d, i, work);
     }
 }
 

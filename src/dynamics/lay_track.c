@@ -29,7 +29,7 @@ static bool lay_modes(CzDynamics *dynamics, size_t lane, Standing *standing, CzA
 }
 
 static bool lay_elements(CzDynamics *dynamics, size_t lane, Standing *standing, CzArena *arena) {
-    CzElementsPoint point[4];
+    CzRailPoint point[4];
     if (!cz_elements_lay(dynamics->elements, lane, standing->place, standing->load, arena))
         return false;
     cz_elements_look(dynamics->elements, lane, standing->place, point);

@@ -24,30 +24,44 @@ typedef struct CzPower {
 #define CZ_LEDGER(member) CZ_ROW_OF(CzPower, member)
 enum { CZ_N_LEDGER = CZ_ROWS_IN(CzPower) };
 
-#define CZ_NOT_YET                                                                                 \
-    -1e300 /* start of an extreme that may stay below 0: below all that a run reaches */
+/* Start of an extreme that may stay below 0: below all that a run reaches. */
+#define CZ_NOT_YET -1e300
 
-/* Largest values over all steps; extremes.def says what each row is. */
+/* Largest values over all steps; smallest ones are kept with their sign turned. Those of an
+ * interface are in the lane of the rear car. All start at 0 but for those marked CZ_NOT_YET. */
 typedef struct CzExtremes {
-    CzRow interface_force, interface_time, interface_shortening;
-    CzRow coupler_force, face_force, superstructure_force, draw_gear_force;
-    CzRow buffer[2], side_buffer[2], side_force;
-    CzRow face_demand_vertical, face_lost_margin, face_lost_overlap;
-    CzRow face_overlap_time, face_margin_time, face_ramp;
-    CzRow underframe_rise, swing_vertical[2], face_climbed;
-    CzRow end_force[2], section[2];
-    CzRow link_force, link_travel;
-    CzRow body_acceleration, body_pitch;
-    CzRow lift[4], lift_time[4], bogie_lift[2], bogie_lift_time[2];
-    CzRow climb_time;
-    CzRow slide_travel, slide_force;
-    CzRow chain_residual, chain_distance;
-    CzRow coupler_closure, face_closure, side_closure;
-    CzRow searched;
+    CzRow interface_force, interface_time; /* total longitudinal force [N], and when [s] */
+    CzRow interface_shortening;            /* closure between the bodies [m] */
+    CzRow draw_gear_force;                 /* tension [N] */
+    CzRow coupler_force, face_force, superstructure_force, side_force; /* [N] */
+    CzRow buffer[2], side_buffer[2];                                   /* strokes [m] */
+    CzRow face_demand_vertical; /* vertical force between the anti-climbers [N] */
+    CzRow face_lost_margin;  /* CZ_NOT_YET; vertical demand less capacity in full engagement while
+                                the faces push, and once they slip the force that would have held
+                                the slip [N] */
+    CzRow face_lost_overlap; /* CZ_NOT_YET; minus the remaining overlap while the faces push [m] */
+    CzRow face_overlap_time, face_margin_time; /* when overlap and margin were smallest [s] */
+    CzRow face_ramp;                           /* slope of the faces while they push [-] */
+    CzRow underframe_rise;   /* change of the height of one underframe over the other at the pivots
+                                [m] */
+    CzRow swing_vertical[2]; /* angle of the engaged coupler against its car [rad] */
+    CzRow face_climbed;      /* 1 once the faces had no overlap left under load */
+    CzRow end_force[2];      /* of the rear and the front crush zone [N] */
+    CzRow section[2];        /* force through the section behind an end, all paths [N] */
+    CzRow link_force, link_travel;           /* of a traction link [N], of a bogie there [m] */
+    CzRow body_acceleration;                 /* longitudinal [m/s2] */
+    CzRow body_pitch;                        /* [rad] */
+    CzRow lift[4], lift_time[4];             /* of a wheelset over the rail [m], and when [s] */
+    CzRow bogie_lift[2], bogie_lift_time[2]; /* of the lower wheelset of a bogie */
+    CzRow climb_time;                /* CZ_NOT_YET; minus the time of the first override [s] */
+    CzRow slide_travel, slide_force; /* of a buffer stop: travel [m]; jaws and end stop [N] */
+    CzRow chain_residual;            /* closure that the series chains left unbalanced [m] */
+    CzRow chain_distance; /* largest distance of a member of a series chain from its law [N] */
+    CzRow coupler_closure, face_closure, side_closure; /* [m] */
+    CzRow searched; /* series chains that were searched for: a sum over the steps */
 } CzExtremes;
 
 /* A row of it by its name, such as CZ_EXTREME(lift[0]). */
 #define CZ_EXTREME(member) CZ_ROW_OF(CzExtremes, member)
-enum { CZ_N_EXTREME = CZ_ROWS_IN(CzExtremes) };
 
 #endif

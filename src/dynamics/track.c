@@ -3,9 +3,6 @@
 
 #include <string.h>
 
-#include "dynamics/track_motion.h"
-#include "model/track_block.h"
-
 /* ---- constants of a step ---- */
 
 static void put(CzComplex value, int i, CzTrackRow re, CzTrackRow im) {
@@ -202,8 +199,7 @@ void cz_track_look(const CzTrackMotion *track, size_t index, const double place[
     look(track, &track->under[index], place, seat);
     for (int wheel = 0; wheel < 4; ++wheel) {
         deflection[wheel] = cz_track_at(track, &track->under[index], wheel).z;
-        flexibility[wheel] =
-            cz_track_spring(&track->flexibility, track->per_spacing, seat[wheel]).flexibility;
+        flexibility[wheel] = cz_track_flexibility_at(&track->flexibility, seat[wheel].re);
     }
 }
 

@@ -360,7 +360,7 @@ static void follow(const CzElements *elements, size_t lane, const double place[4
 }
 
 void cz_elements_look(CzElements *elements, size_t lane, const double place[4],
-                      CzElementsPoint point[4]) {
+                      CzRailPoint point[4]) {
     const CzSeats *seats = &elements->seats;
     const CzElementsBlock *block = block_of(elements, lane);
     CzElementsUnder *under = &elements->under[lane];
@@ -374,14 +374,14 @@ void cz_elements_look(CzElements *elements, size_t lane, const double place[4],
         shape_of(seats, l, stand.x, shape);
         shape_slope_of(seats, l, stand.x, slope);
         const double z = between(&stand, block->u, k, shape);
-        point[wheel] = (CzElementsPoint){
-            .z = z,
-            .past = 0.5 * (z + between(&stand, block->before, k, shape)),
-            .slope = between(&stand, block->u, k, slope),
-            .flexibility = held_flexibility(seats, l, stand.x),
-            .flexibility_slope = (held_flexibility(seats, l, fmin(stand.x + beside, 1.0)) -
-                                  held_flexibility(seats, l, fmax(stand.x - beside, 0.0))) /
-                                 (2.0 * beside * l)};
+        point[wheel] = (CzRailPoint){.z = z,
+                                     .past = 0.5 * (z + between(&stand, block->before, k, shape)),
+                                     .slope = between(&stand, block->u, k, slope),
+                                     .flexibility = held_flexibility(seats, l, stand.x),
+                                     .flexibility_slope =
+                                         (held_flexibility(seats, l, fmin(stand.x + beside, 1.0)) -
+                                          held_flexibility(seats, l, fmax(stand.x - beside, 0.0))) /
+                                         (2.0 * beside * l)};
     }
 }
 
@@ -393,10 +393,6 @@ double cz_elements_past(const CzElements *elements, size_t lane, int wheel) {
     double shape[4];
     shape_of(&elements->seats, elements->seats.spacing / elements->nodes, stand.x, shape);
     return 0.5 * (between(&stand, block->u, k, shape) + between(&stand, block->before, k, shape));
-}
-
-void cz_elements_press(CzElements *elements, size_t lane, const double force[4]) {
-    memcpy(elements->under[lane].force, force, sizeof elements->under[lane].force);
 }
 
 void cz_elements_step(CzElements *elements, size_t block_index) {

@@ -21,6 +21,7 @@
 #include <stddef.h>
 
 #include "base/arena.h"
+#include "dynamics/rail_point.h"
 #include "model/lanes.h"
 #include "model/rail.h"
 
@@ -72,19 +73,14 @@ bool cz_elements_lay(CzElements *elements, size_t lane, const double place[4], c
 
 /* The rail under each wheel: deflection now and half a step ago, slope, flexibility beside the
  * nodes and its change along the track. Moves the piece when the car has left its middle. */
-typedef struct CzElementsPoint {
-    double z, past, slope, flexibility, flexibility_slope;
-} CzElementsPoint;
 void cz_elements_look(CzElements *elements, size_t lane, const double place[4],
-                      CzElementsPoint point[4]);
+                      CzRailPoint point[4]);
 
 /* Deflection half a step ago at the places of the last look. */
 double cz_elements_past(const CzElements *elements, size_t lane, int wheel);
 
-/* Forces of the next steps at the places of the last look, upwards on the rail [N]. */
-void cz_elements_press(CzElements *elements, size_t lane, const double force[4]);
-
-/* One step of all cars of a block. */
+/* One step of all cars of a block under the forces that are noted at the places of the last look.
+ */
 void cz_elements_step(CzElements *elements, size_t block);
 
 /* Kinetic and elastic energy half a step ago [J]. */

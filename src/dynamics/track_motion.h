@@ -12,7 +12,65 @@
 #ifndef CZ_DYNAMICS_TRACK_MOTION_H
 #define CZ_DYNAMICS_TRACK_MOTION_H
 
-#include "dynamics/track.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "dynamics/rail_point.h"
+#include "model/track.h"
+#include "model/track_block.h"
+
+typedef double CzTrackRow[CZ_TRACK_WIDTH];
+
+/* Numbers of a group of modes for one step size. */
+typedef struct CzTrackRows {
+    _Alignas(64) CzTrackRow flight_re, flight_im; /* exp(lambda h) */
+    CzTrackRow kick_re, kick_im;                  /* state per force on the direct wave */
+    CzTrackRow alias_kick_re, alias_kick_im;      /* on the alias wave */
+    CzTrackRow now_re, now_im;                    /* displacement of the direct wave per state */
+    CzTrackRow alias_now_re, alias_now_im;        /* of the alias wave */
+    CzTrackRow past_re, past_im; /* the same half a step ago, without forces since */
+    CzTrackRow alias_past_re, alias_past_im;
+} CzTrackRows;
+
+/* Parts of a block: a pad, sleeper, ballast block, and the rail's waves. */
+enum { CZ_PAD_FORCE, CZ_PAD_STRETCH, CZ_SLEEPER, CZ_BALLAST, CZ_RAIL_WAVE };
+enum { CZ_TRACK_PARTS = CZ_RAIL_WAVE + CZ_BLOCK_WAVES };
+
+/* What the modes of a group are for the parts of their blocks, per state: amplitudes at the crest.
+ */
+typedef struct CzTrackAmplitudes {
+    _Alignas(64) CzTrackRow lambda_re, lambda_im;
+    CzTrackRow back_re, back_im; /* exp(-lambda h / 2): from the state to half a step ago */
+    CzTrackRow part_re[CZ_TRACK_PARTS], part_im[CZ_TRACK_PARTS];
+} CzTrackAmplitudes;
+
+/* Groups of one copy and vector: first ... end - 1. */
+typedef struct CzTrackSpan {
+    int first, end;
+} CzTrackSpan;
+
+/* Under one car. */
+typedef struct CzTrackUnder {
+    CzTrackRow *state; /* real and imaginary parts in turn (2 n_group); NULL without wheels */
+    CzTrackRow
+        *wave; /* of the state: direct now and half a step ago, alias likewise (2 n_vector x 4) */
+    CzTrackRow *shape; /* of the last look: cosine, sine, alias's (4 wheels x n_vector x 4) */
+    double force[4];   /* of the last step, upwards on the rail [N] */
+} CzTrackUnder;
+
+typedef struct CzTrackMotion {
+    const CzTrackModes *modes;      /* borrowed */
+    double step;                    /* h [s] */
+    double per_length, per_spacing; /* 1 / length of the ring, 1 / spacing [1/m] */
+    const CzTrackRows *rows;        /* (n_group) */
+    const CzTrackSpan *span;        /* (2 n_vector) */
+    const CzTrackRow *wavenumber;   /* direct, alias [1/m] (2 n_vector) */
+    const CzTrackBlock *block;      /* for the energy, as are the amplitudes (n_seat / 2 + 1) */
+    const CzTrackAmplitudes *amplitudes; /* (n_group) */
+    CzTrackFlexibility flexibility;      /* under a wheel, beside the modes */
+    size_t n_under;
+    CzTrackUnder *under; /* (n_under) */
+} CzTrackMotion;
 
 #define CZ_WAVES(i) _Pragma("omp simd") for (int i = 0; i < CZ_TRACK_WIDTH; ++i)
 
@@ -169,13 +227,9 @@ static inline void cz_track_step(const CzTrackMotion *track, CzTrackUnder *under
         }
 }
 
-/* The rail at the place of a wheel: displacement upwards now and half a step ago, slope now. */
-typedef struct {
-    double z, past, slope;
-} CzTrackPoint;
-
-static inline CzTrackPoint cz_track_at(const CzTrackMotion *track, const CzTrackUnder *under,
-                                       int wheel) {
+/* The modes at the place of a wheel: displacement upwards now and half a step ago, slope now. */
+static inline CzRailPoint cz_track_at(const CzTrackMotion *track, const CzTrackUnder *under,
+                                      int wheel) {
     CzTrackRow z = {0.0}, past = {0.0}, slope = {0.0};
     const int n = track->modes->n_vector;
     for (int v = 0; v < n; ++v) {
@@ -198,17 +252,14 @@ static inline CzTrackPoint cz_track_at(const CzTrackMotion *track, const CzTrack
             slope[i] += ak[i] * (by_sine[2][i] * ac[i] - by_cosine[2][i] * as[i]);
         }
     }
-    return (CzTrackPoint){cz_track_sum(z), cz_track_sum(past), cz_track_sum(slope)};
+    return (CzRailPoint){
+        .z = cz_track_sum(z), .past = cz_track_sum(past), .slope = cz_track_sum(slope)};
 }
 
-/* What lies between a wheel and the modes: flexibility [m/N] and its change along the track [1/N].
- */
-typedef struct {
-    double flexibility, slope;
-} CzTrackSpring;
-
-static inline CzTrackSpring cz_track_spring(const CzTrackFlexibility *flexibility,
-                                            double per_spacing, CzComplex seat) {
+/* Adds what lies between a wheel and the modes. */
+static inline CzRailPoint cz_track_on_spring(const CzTrackFlexibility *flexibility,
+                                             double per_spacing, CzRailPoint point,
+                                             CzComplex seat) {
     const double *term = flexibility->term;
     double slope = 0.0, power = 1.0;
     for (int k = 1; k < CZ_TRACK_FLEX_TERMS; ++k) {
@@ -218,8 +269,9 @@ static inline CzTrackSpring cz_track_spring(const CzTrackFlexibility *flexibilit
     /* d|sin(pi xi)| / d cos(2 pi xi) = -1 / (4 |sin(pi xi)|) */
     const double sine = sqrt(0.5 * fabs(1.0 - seat.re));
     slope -= 0.25 * flexibility->kink / (sine + 1e-9);
-    return (CzTrackSpring){cz_track_flexibility_at(flexibility, seat.re),
-                           -2.0 * CZ_PI * per_spacing * seat.im * slope};
+    point.flexibility = cz_track_flexibility_at(flexibility, seat.re);
+    point.flexibility_slope = -2.0 * CZ_PI * per_spacing * seat.im * slope;
+    return point;
 }
 
 #endif

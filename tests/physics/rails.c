@@ -2,7 +2,7 @@
 #include "physics/rails.h"
 
 #include "dynamics/track_elements.h"
-#include "dynamics/track_motion.h"
+#include "dynamics/track.h"
 #include "model/receptance.h"
 #include "model/track_block.h"
 #include "physics/collision.h"
@@ -194,7 +194,7 @@ void rows_of_running_tracks(Rows *rows) {
         CzElements *elements = cz_elements_create(&modes->seats, 4, 18.26, 1e-4, 1, &arena);
         assert_non_null(elements);
         assert_true(cz_elements_lay(elements, 0, at, load, &arena));
-        CzElementsPoint point[4];
+        CzRailPoint point[4];
         cz_elements_look(elements, 0, at, point);
         ROW(rows, "mm", 1e3 * (point[0].flexibility * load[0] - point[0].z), known[i], 5e-3, 0.0,
             "finite elements, 70 kN a rail %s: deflection", where);
@@ -324,7 +324,7 @@ void rows_of_element_statics(Rows *rows) {
             CzElements *elements = cz_elements_create(&seats, nodes, 18.26, 1e-4, 1, &arena);
             assert_non_null(elements);
             assert_true(cz_elements_lay(elements, 0, place, load, &arena));
-            CzElementsPoint point[4];
+            CzRailPoint point[4];
             cz_elements_look(elements, 0, place, point);
             const double exact = load[0] * cz_ring_flexibility(&seats, 62, x / 0.6);
             const double found = point[0].flexibility * load[0] - point[0].z;
@@ -377,10 +377,10 @@ static void impact_on_elements(int nodes, double way[N_IMPACT]) {
     assert_true(cz_elements_lay(elements, 0, at, none, &arena));
     for (int i = 0; i < N_IMPACT; ++i) {
         const double force[4] = {-impact(i), 0.0, 0.0, 0.0};
-        CzElementsPoint point[4];
+        CzRailPoint point[4];
         cz_elements_look(elements, 0, at, point);
         way[i] = point[0].flexibility * impact(i) - point[0].z;
-        cz_elements_press(elements, 0, force);
+        memcpy(elements->under[0].force, force, sizeof force);
         cz_elements_step(elements, 0);
     }
     cz_arena_free(&arena);

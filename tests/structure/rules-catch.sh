@@ -89,13 +89,13 @@ done
 check "a heading is accepted" sh -c '! grep -q by_hand.c:4 found.txt'
 check "printing in the library is found" finds '^src/report/table.c:4:' library_manners
 put src/simulate/bends.c '/* n */
-double a = cz_lane_value(lanes, car, row);
+CzLane a = cz_lane_at(lanes, car);
 double b = *cz_lane_parameter(lanes, CZ_PARAMETER(tilts), lane);
 double c = block->turned.body.sine[0];
 double d = sin(pitch);
 double e = cz_published(batch, row, lane);'
 put src/dynamics/bends.c '/* n */
-double a = cz_lane_value(lanes, car, row);'
+CzLane a = cz_lane_at(lanes, car);'
 mechanics_outside_dynamics >bends.txt
 for line in 2 3 4 5; do
     check "mechanics outside dynamics is found: line $line" grep -q "^src/simulate/bends.c:$line:" bends.txt

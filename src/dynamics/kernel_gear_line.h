@@ -1,7 +1,7 @@
 /* Bogies and axles lined up and put: as the body sees a bogie, and a bogie its axles. Part of
  * kernel.c only. */
-#ifndef CZ_DYNAMICS_KERNEL_BOGIE_LINE_H
-#define CZ_DYNAMICS_KERNEL_BOGIE_LINE_H
+#ifndef CZ_DYNAMICS_KERNEL_GEAR_LINE_H
+#define CZ_DYNAMICS_KERNEL_GEAR_LINE_H
 
 #include "dynamics/kernel_carrier.h"
 

@@ -149,30 +149,30 @@ static int falls_below(const double *row, double value) {
 static void note_falling(CzBlockCurve *curve) {
     CzRow slope = {0.0};
     curve->falls = 0;
-    for (int k = 0; k < curve->n_kink; ++k) {
+    for (int k = 0; k < curve->n_breakpoint; ++k) {
         for (int i = 0; i < CZ_LANE_BLOCK; ++i)
-            slope[i] += curve->kink[2 * k + 1][i];
+            slope[i] += curve->breakpoint[k].change[i];
         curve->falls |= falls_below(slope, CZ_FALLING);
     }
 }
 
-static int copy_curve(CzBlockCurve *to, const CzCurveLanes *from, size_t stride, size_t base,
-                      CzArena *arena) {
+static int copy_curve(CzBlockCurve *to, const CzCurveLanes *from, size_t base, CzArena *arena) {
+    CzBreakpoint *breakpoint =
+        cz_arena_allocate(arena, (size_t)from->n_breakpoint, sizeof *breakpoint);
+    if (breakpoint == NULL)
+        return 0;
     memcpy(to->start, from->start + base, sizeof(CzRow));
     memcpy(to->usable, from->usable + base, sizeof(CzRow));
-    CzRow *kink = cz_arena_allocate(arena, 2 * (size_t)from->n_kink, sizeof *kink);
-    if (kink == NULL)
-        return 0;
     to->is_there = falls_below(to->start, CZ_NEVER);
-    to->n_kink = 0;
-    to->kink = (const CzRow *)kink;
-    for (int k = 0; k < from->n_kink; ++k) {
-        const double *change = cz_row(from->slope_change, stride, k) + base;
-        if (!changes_a_lane(change))
+    to->n_breakpoint = 0;
+    to->breakpoint = breakpoint;
+    for (int k = 0; k < from->n_breakpoint; ++k) {
+        const size_t slot = (size_t)k * from->stride + base;
+        if (!changes_a_lane(from->slope_change + slot))
             continue;
-        memcpy(kink[2 * to->n_kink], cz_row(from->at, stride, k) + base, sizeof(CzRow));
-        memcpy(kink[2 * to->n_kink + 1], change, sizeof(CzRow));
-        ++to->n_kink;
+        memcpy(breakpoint[to->n_breakpoint].at, from->at + slot, sizeof(CzRow));
+        memcpy(breakpoint[to->n_breakpoint].change, from->slope_change + slot, sizeof(CzRow));
+        ++to->n_breakpoint;
     }
     note_falling(to);
     return 1;
@@ -182,7 +182,7 @@ static int copy_curve(CzBlockCurve *to, const CzCurveLanes *from, size_t stride,
 static int copy_curves(CzBlockCurves *to, const CzLanes *lanes, size_t base, CzArena *arena) {
     CzBlockCurve *curve = to->end; /* one after the other, in the order of CzCurveNames */
     for (int id = 0; id < CZ_N_CURVE; ++id)
-        if (!copy_curve(&curve[id], &lanes->curve[id], lanes->stride, base, arena))
+        if (!copy_curve(&curve[id], &lanes->curve[id], base, arena))
             return 0;
     return 1;
 }

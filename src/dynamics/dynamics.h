@@ -79,14 +79,18 @@ typedef struct CzRailRows {
 
 #define CZ_FALLING (-1.0) /* slope below which a curve falls, others are level [N/m] (ours) */
 
+typedef struct CzBreakpoint {
+    CzRow at, change; /* stroke [m], change of the slope [N/m] */
+} CzBreakpoint;
+
 /* A curve in the lanes of a block, without the breakpoints that change no lane. */
 typedef struct CzBlockCurve {
     _Alignas(64) CzRow start; /* value at 0 [N] */
     CzRow usable;             /* stroke at which it bottoms out [m] */
-    int n_kink;
-    int falls;         /* some lane has a falling part */
-    int is_there;      /* some lane's value is below CZ_NEVER: a plastic member can crush */
-    const CzRow *kink; /* place [m] and change of slope [N/m], in turn (2 n_kink) */
+    int n_breakpoint;
+    int falls;    /* some lane has a falling part */
+    int is_there; /* some lane's value is below CZ_NEVER: a plastic member can crush */
+    const CzBreakpoint *breakpoint; /* (n_breakpoint) */
 } CzBlockCurve;
 
 /* The curves of a block, named as in CzCurveNames. */
@@ -202,11 +206,6 @@ void cz_dynamics_track_rate(CzDynamics *dynamics, size_t lane, double *rate);
 /* The block of a lane; its place there is lane % CZ_LANE_BLOCK. */
 static inline CzBlock *cz_block_of(const CzDynamics *dynamics, size_t lane) {
     return &dynamics->block[lane / CZ_LANE_BLOCK];
-}
-
-/* A row of a curve's array of lanes. */
-static inline double *cz_row(double *array, size_t stride, int row) {
-    return array + (size_t)row * stride;
 }
 
 #endif

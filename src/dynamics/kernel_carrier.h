@@ -98,34 +98,34 @@ static inline CzPair cz_met_midway(CzCarrier a, CzCarrier b, CzPair pair, size_t
     return pair;
 }
 
-/* A point outside a carrier as the carrier sees it: along and across its own axis, and how fast. */
+/* A point in the frame of a carrier: along and across its axis, and the rates there. */
 typedef struct {
     double along, up;           /* [m] */
     double rate_along, rate_up; /* [m/s] */
-} CzSight;
+} CzInFrame;
 
 /* `x` and `z` lead from the carrier's centre of gravity to the point, `rate_x` and `rate_z` are the
  * point's velocity less that of the centre. */
-static inline CzSight cz_sight_of(CzCarrier frame, size_t i, CzPoint point) {
+static inline CzInFrame cz_in_frame(CzCarrier frame, size_t i, CzPoint point) {
     const double c = frame.turned->cosine[i], s = frame.turned->sine[i];
     const double turn = frame.rate->pitch[i];
-    CzSight sight;
-    sight.along = c * point.arm_x + s * point.arm_z;
-    sight.up = c * point.arm_z - s * point.arm_x;
-    sight.rate_along = c * point.velocity_x + s * point.velocity_z + turn * sight.up;
-    sight.rate_up = c * point.velocity_z - s * point.velocity_x - turn * sight.along;
-    return sight;
+    CzInFrame at;
+    at.along = c * point.arm_x + s * point.arm_z;
+    at.up = c * point.arm_z - s * point.arm_x;
+    at.rate_along = c * point.velocity_x + s * point.velocity_z + turn * at.up;
+    at.rate_up = c * point.velocity_z - s * point.velocity_x - turn * at.along;
+    return at;
 }
 
-/* Puts a force on a carrier at what it sees, and returns the one that acts on the other: `pull`
+/* Puts a force on a carrier at a point in its frame, and returns that on the other body: `pull`
  * along the carrier's axis, forward on the other, `lifted` across it, downward on the other. */
-static inline CzPush cz_put_seen(CzPlane *on, CzCarrier frame, size_t i, CzSight sight, double pull,
-                                 double lifted) {
+static inline CzPush cz_put_in_frame(CzPlane *on, CzCarrier frame, size_t i, CzInFrame at,
+                                     double pull, double lifted) {
     const double c = frame.turned->cosine[i], s = frame.turned->sine[i];
     const CzPush other = {c * pull + s * lifted, s * pull - c * lifted, 0.0};
     on->x[i] -= other.x;
     on->z[i] -= other.z;
-    on->pitch[i] += sight.along * lifted + sight.up * pull;
+    on->pitch[i] += at.along * lifted + at.up * pull;
     return other;
 }
 

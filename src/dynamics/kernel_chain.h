@@ -66,7 +66,7 @@ typedef struct {
 
 /* A plastic member linearised. */
 typedef struct {
-    CzRow strength, flow; /* crush: compliance of the step beyond the strength */
+    CzRow strength, compliance; /* compliance of the step beyond the strength */
 } PlasticState;
 
 /* Where a chain is in its solution. */
@@ -159,9 +159,10 @@ static void unbalance(const Chain *chain, CurveAt *restrict sum) {
         const double *restrict stroke = chain->plastic[member].stroke;
         const PlasticState *plastic = &now->plastic[member];
         CZ_LANES (i) {
-            const double yields = now->force[i] > plastic->strength[i] ? plastic->flow[i] : 0.0;
-            sum->value[i] +=
-                stroke[i] + cz_plastic_flow(now->force[i], plastic->strength[i], plastic->flow[i]);
+            const double yields =
+                now->force[i] > plastic->strength[i] ? plastic->compliance[i] : 0.0;
+            sum->value[i] += stroke[i] + cz_plastic_crush(now->force[i], plastic->strength[i],
+                                                          plastic->compliance[i]);
             sum->slope[i] += yields;
         }
     }
@@ -256,7 +257,7 @@ static void prepare_plastic(Chain *chain, int number) {
     evaluate_curve(member->curve, member->stroke, &curve);
     CZ_LANES (i) {
         const double scaled = curve.value[i] * (1.0 + rise[i]);
-        plastic->flow[i] =
+        plastic->compliance[i] =
             cz_plastic_compliance(scaled, curve.slope[i] * (1.0 + rise[i]), rate[i], step);
         plastic->strength[i] = scaled;
     }
@@ -267,13 +268,13 @@ static double trial_of_plastic(const Chain *chain, int number, double *restrict 
     const double *restrict committed = chain->plastic[number].stroke;
     const double *restrict force = chain->now.force;
     const PlasticState *plastic = &chain->now.plastic[number];
-    double n_flowing = 0.0;
-    CZ_LANES_SUM(i, n_flowing) {
+    double n_crushing = 0.0;
+    CZ_LANES_SUM(i, n_crushing) {
         stroke[i] =
-            committed[i] + cz_plastic_flow(force[i], plastic->strength[i], plastic->flow[i]);
-        n_flowing += stroke[i] > committed[i] ? 1.0 : 0.0;
+            committed[i] + cz_plastic_crush(force[i], plastic->strength[i], plastic->compliance[i]);
+        n_crushing += stroke[i] > committed[i] ? 1.0 : 0.0;
     }
-    return n_flowing;
+    return n_crushing;
 }
 
 /* Linearises a plastic member about a trial stroke where its strength there, `curve`, is not the
@@ -288,16 +289,16 @@ static double accept_plastic(Chain *chain, int number, const double *restrict st
     const double step = chain->step;
     double n_changed = 0.0;
     CZ_LANES_SUM(i, n_changed) {
-        const double way = stroke[i] - committed[i];
+        const double moved = stroke[i] - committed[i];
         const double tangent = cz_positive_part(curve->slope[i]);
         const double compliance = cz_plastic_compliance(curve->value[i], tangent, rate[i], step);
-        const double start = curve->value[i] - tangent * way;
-        const double flows = way > 0.0 ? now->active[i] : 0.0;
-        const double off = flows * fabs(start + way / compliance - now->force[i]);
+        const double start = curve->value[i] - tangent * moved;
+        const double crushes = moved > 0.0 ? now->active[i] : 0.0;
+        const double off = crushes * fabs(start + moved / compliance - now->force[i]);
         const double changed = off > LAW_TOLERANCE ? 1.0 : 0.0;
         now->distance[i] = cz_larger(now->distance[i], off);
         plastic->strength[i] = changed > 0.0 ? start : plastic->strength[i];
-        plastic->flow[i] = changed > 0.0 ? compliance : plastic->flow[i];
+        plastic->compliance[i] = changed > 0.0 ? compliance : plastic->compliance[i];
         n_changed += changed;
     }
     return n_changed;

@@ -60,9 +60,9 @@ typedef struct Resistance {
 static double curve_turns_at(const CzBlockCurve *curve, size_t lane, double from, int rises,
                              const Resistance *added) {
     double slope = 0.0, value = curve->start[lane], begin = 0.0;
-    for (int kink = 0; kink <= curve->n_kink; ++kink) {
-        const int is_last = kink == curve->n_kink;
-        const double end = is_last ? INFINITY : curve->kink[2 * kink][lane];
+    for (int k = 0; k <= curve->n_breakpoint; ++k) {
+        const int is_last = k == curve->n_breakpoint;
+        const double end = is_last ? INFINITY : curve->breakpoint[k].at[lane];
         if (end > from) {
             const double gain = added->gain, first = cz_larger(begin, from);
             const double at_first = value + slope * (first - begin);
@@ -79,29 +79,29 @@ static double curve_turns_at(const CzBlockCurve *curve, size_t lane, double from
         if (!is_last && end < CZ_NEVER) {
             value += slope * (end - begin);
             begin = end;
-            slope += curve->kink[2 * kink + 1][lane];
+            slope += curve->breakpoint[k].change[lane];
         }
     }
     return INFINITY;
 }
 
-/* Force of a plastic member that has yielded by `way` in the step. */
+/* Force of a plastic member that has moved in the step. */
 static double plastic_force(const Search *s, int number, double stroke) {
     const Plastic *member = &s->chain->plastic[number];
     const size_t i = s->lane;
-    const double way = stroke - s->start[2 + number];
+    const double moved = stroke - s->start[2 + number];
     if (number < s->chain->n_curve) {
         double value, slope;
         curve_at(member->curve, i, stroke, &value, &slope);
         const double strength = value * (1.0 + member->rise[i]);
         return strength +
-               way / cz_plastic_compliance(strength, 0.0, member->rate[i], s->chain->step);
+               moved / cz_plastic_compliance(strength, 0.0, member->rate[i], s->chain->step);
     }
     const PlasticState *plastic = &s->chain->now.plastic[number];
     if (s->holds)
-        return plastic->strength[i] + way / plastic->flow[i];
+        return plastic->strength[i] + moved / plastic->compliance[i];
     const CzShearOffLaw law = cz_shear_off_at(member->shear, i);
-    return cz_shear_off(&law, stroke).strength + CZ_SMALLEST_RESISTANCE * way;
+    return cz_shear_off(&law, stroke).strength + CZ_SMALLEST_RESISTANCE * moved;
 }
 
 static double law_at(const Search *s, int member, double stroke) {
@@ -406,8 +406,8 @@ static void strokes_of(const Search *s, double *stroke) {
     for (int member = 0; member < s->chain->n_plastic; ++member)
         stroke[2 + member] =
             s->start[2 + member] + (s->is_there[2 + member]
-                                        ? cz_plastic_flow(force, now->plastic[member].strength[i],
-                                                          now->plastic[member].flow[i])
+                                        ? cz_plastic_crush(force, now->plastic[member].strength[i],
+                                                           now->plastic[member].compliance[i])
                                         : 0.0);
 }
 
@@ -421,12 +421,12 @@ static void keep_answer(ChainState *now, const Search *s, const double *stroke, 
     }
     for (int member = 0; member < s->chain->n_plastic; ++member) {
         PlasticState *plastic = &now->plastic[member];
-        const double way = stroke[2 + member] - s->start[2 + member];
+        const double moved = stroke[2 + member] - s->start[2 + member];
         if (!s->is_there[2 + member])
             continue;
-        if (way > 0.0) {
-            plastic->strength[i] = force - CZ_SMALLEST_RESISTANCE * way;
-            plastic->flow[i] = 1.0 / CZ_SMALLEST_RESISTANCE;
+        if (moved > 0.0) {
+            plastic->strength[i] = force - CZ_SMALLEST_RESISTANCE * moved;
+            plastic->compliance[i] = 1.0 / CZ_SMALLEST_RESISTANCE;
         } else
             plastic->strength[i] = cz_larger(plastic->strength[i], force);
     }

@@ -95,7 +95,8 @@ static int solve_chain(Chain *chain, CzPublished *published) {
     return n_anew == 0;
 }
 
-/* Takes the springs to the end of the step and adds the mean force times their way to the energies.
+/* Takes the springs to the end of the step and adds the mean force times their travel to the
+ * energies.
  */
 static void move_springs(const Chain *chain) {
     const ChainState *now = &chain->now;
@@ -106,14 +107,14 @@ static void move_springs(const Chain *chain) {
         CZ_LANES (i) {
             const double excess = now->active[i] * (now->force[i] - spring->force[i]);
             const double c = excess > 0.0 ? spring->up[i] : spring->down[i];
-            const double way = now->active[i] * (spring->at[i] - rows->stroke[i]) + excess * c;
-            rows->next[i] = rows->stroke[i] + way;
-            rows->next_energy[i] = rows->energy[i] + 0.5 * (last[i] + now->force[i]) * way;
+            const double moved = now->active[i] * (spring->at[i] - rows->stroke[i]) + excess * c;
+            rows->next[i] = rows->stroke[i] + moved;
+            rows->next_energy[i] = rows->energy[i] + 0.5 * (last[i] + now->force[i]) * moved;
         }
     }
 }
 
-/* The same for the plastic members, whose way counts for both energies of their side; `first`
+/* The same for the plastic members, whose travel counts for both energies of their side; `first`
  * begins the sum of the plastic ones. */
 static void move_plastic(const Chain *chain, int member, int first) {
     const Plastic *rows = &chain->plastic[member];
@@ -122,9 +123,10 @@ static void move_plastic(const Chain *chain, int member, int first) {
     const double *restrict last = chain->last, *restrict force = chain->now.force;
     const double *restrict before = first ? side->plastic_energy : side->next_plastic_energy;
     CZ_LANES (i) {
-        const double way = cz_plastic_flow(force[i], plastic->strength[i], plastic->flow[i]);
-        rows->next[i] = rows->stroke[i] + way;
-        side->next_energy[i] += 0.5 * (last[i] + force[i]) * way;
+        const double moved =
+            cz_plastic_crush(force[i], plastic->strength[i], plastic->compliance[i]);
+        rows->next[i] = rows->stroke[i] + moved;
+        side->next_energy[i] += 0.5 * (last[i] + force[i]) * moved;
         side->next_plastic_energy[i] =
             before[i] + 0.5 * (last[i] + force[i]) * (rows->next[i] - rows->stroke[i]);
     }

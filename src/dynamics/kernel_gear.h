@@ -1,7 +1,7 @@
 /* Suspensions, traction links and axle guidance: each bogie in the frame of the body, each axle in
  * the frame of its bogie. Part of kernel.c only.
  *
- * A bogie is seen by the body at the pin of its link, an axle by the bogie at its centre; both may
+ * The body takes a bogie at the pin of its link, the bogie an axle at its centre; both may
  * turn by any angle, as a bogie does whose wheels are off the rail. Strokes and rates are each
  * other's integrals at any, so that the springs give back no more than they took.
  */
@@ -35,11 +35,12 @@ static void bogie_to_body(CzBlock *d, int bogie) {
     CZ_LANES (i) {
         const Rest rest = {sign * rows->bogie_x[i], rows->link.body_z[i]};
         const BogieLine line = line_up_bogie(body, frame, rows, rest, i);
-        const StrutStrokes at = strokes_seen(line.seen, rest);
+        const StrutStrokes at = strokes_in_frame(line.at, rest);
         const CzSuspensionLaw law = cz_suspension_at(&rows->secondary, preload, i);
         const GearForces of = gear_forces(&law, &rows->link.strut, at, i);
         const double lifted = of.spring + of.damper, pull = of.guides + of.resisted;
-        cz_put_force(on_bogie, i, line.pin, cz_put_seen(on_body, body, i, line.seen, pull, lifted));
+        cz_put_force(on_bogie, i, line.pin,
+                     cz_put_in_frame(on_body, body, i, line.at, pull, lifted));
         published->secondary[bogie].compression[i] = at.compression;
         published->secondary[bogie].force[i] = lifted;
         published->secondary[bogie].stop_vertical[i] = cz_suspension_stops(&law, at.compression);
@@ -67,13 +68,13 @@ static void axle_to_bogie(CzBlock *d, int axle) {
     double *restrict stretched = d->published.axle_guidance[axle].travel;
     CZ_LANES (i) {
         const Rest rest = {sign * rows->axle_x[i], rows->axle_z[i]};
-        const CzSight seen = line_up_axle(frame, at_axle, rate, rest, i);
-        const StrutStrokes at = strokes_seen(seen, rest);
+        const CzInFrame seat = line_up_axle(frame, at_axle, rate, rest, i);
+        const StrutStrokes at = strokes_in_frame(seat, rest);
         const CzSuspensionLaw law = cz_suspension_at(&rows->primary, preload, i);
         const GearForces of = gear_forces(&law, &rows->axle_guidance, at, i);
-        put_on_axle(
-            on_axle, i,
-            cz_put_seen(on_bogie, frame, i, seen, of.guides + of.resisted, of.spring + of.damper));
+        put_on_axle(on_axle, i,
+                    cz_put_in_frame(on_bogie, frame, i, seat, of.guides + of.resisted,
+                                    of.spring + of.damper));
         compressed[i] = at.compression;
         stretched[i] = at.stretch;
         power->primary[i] += of.spring * at.rate;

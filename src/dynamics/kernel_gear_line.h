@@ -1,17 +1,17 @@
-/* Bogies and axles lined up and put: as the body sees a bogie, and a bogie its axles. Part of
- * kernel.c only. */
+/* Bogies and axles lined up and put: a bogie in the frame of the body, axles in that of a bogie.
+ * Part of kernel.c only. */
 #ifndef CZ_DYNAMICS_KERNEL_GEAR_LINE_H
 #define CZ_DYNAMICS_KERNEL_GEAR_LINE_H
 
 #include "dynamics/kernel_carrier.h"
 
-/* A bogie lined up: the pin from the bogie's centre of gravity, and as the body sees it. */
+/* A bogie lined up: the pin from its centre of gravity, and in the frame of the body. */
 typedef struct {
     CzPoint pin;
-    CzSight seen;
+    CzInFrame at;
 } BogieLine;
 
-/* Where a point is at rest, from the carrier that sees it. */
+/* Place of a point at rest, in the frame of its carrier. */
 typedef struct {
     double along, up; /* [m] */
 } Rest;
@@ -34,21 +34,20 @@ static inline BogieLine line_up_bogie(CzCarrier body, CzCarrier bogie, const CzP
         rest.up - link_bogie + (bogie.displacement->z[i] - body.displacement->z[i]) + pin.arm_z,
         bogie.rate->x[i] - body.rate->x[i] - pin.arm_z * turn,
         bogie.rate->z[i] - body.rate->z[i] + pin.arm_x * turn};
-    return (BogieLine){pin, cz_sight_of(body, i, from_body)};
+    return (BogieLine){pin, cz_in_frame(body, i, from_body)};
 }
 
-static inline StrutStrokes strokes_seen(CzSight seen, Rest rest) {
-    return (StrutStrokes){seen.up - rest.up, seen.rate_up, rest.along - seen.along,
-                          -seen.rate_along};
+static inline StrutStrokes strokes_in_frame(CzInFrame at, Rest rest) {
+    return (StrutStrokes){at.up - rest.up, at.rate_up, rest.along - at.along, -at.rate_along};
 }
 
-/* The axle as the bogie sees it. */
-static inline CzSight line_up_axle(CzCarrier bogie, const CzWheelset *at, const CzWheelset *rate,
-                                   Rest rest, size_t i) {
+/* The axle in the frame of the bogie. */
+static inline CzInFrame line_up_axle(CzCarrier bogie, const CzWheelset *at, const CzWheelset *rate,
+                                     Rest rest, size_t i) {
     const CzPoint from_bogie = {rest.along + (at->x[i] - bogie.displacement->x[i]),
                                 rest.up + (at->z[i] - bogie.displacement->z[i]),
                                 rate->x[i] - bogie.rate->x[i], rate->z[i] - bogie.rate->z[i]};
-    return cz_sight_of(bogie, i, from_bogie);
+    return cz_in_frame(bogie, i, from_bogie);
 }
 
 /* ---- put ---- */
@@ -71,14 +70,14 @@ static void note_bogie(CzBlock *d, int bogie, const CzPlane *restrict before) {
         const BogieLine line = line_up_bogie(
             body, frame, rows, (Rest){sign * rows->bogie_x[i], rows->link.body_z[i]}, i);
         const double stop = d->published.secondary[bogie].stop_vertical[i];
-        const double of_link = line.seen.up * d->published.link[bogie].force[i];
+        const double of_link = line.at.up * d->published.link[bogie].force[i];
         const double lift = body.turned->cosine[i] * stop;
         budget->link_moment[i] += of_link;
         budget->stop_lift[i] += lift;
-        budget->stop_moment[i] += line.seen.along * stop;
+        budget->stop_moment[i] += line.at.along * stop;
         budget->suspension_lift[i] += after->z[i] - before->z[i] - lift;
         budget->suspension_moment[i] +=
-            after->pitch[i] - before->pitch[i] - of_link - line.seen.along * stop;
+            after->pitch[i] - before->pitch[i] - of_link - line.at.along * stop;
     }
 }
 

@@ -39,9 +39,9 @@ static void evaluate_curve(const CzBlockCurve *curve, const double *restrict x,
         at->value[i] = curve->start[i];
         at->slope[i] = 0.0;
     }
-    for (int kink = 0; kink < curve->n_kink; ++kink) {
-        const double *restrict place = curve->kink[2 * kink];
-        const double *restrict change = curve->kink[2 * kink + 1];
+    for (int k = 0; k < curve->n_breakpoint; ++k) {
+        const double *restrict place = curve->breakpoint[k].at;
+        const double *restrict change = curve->breakpoint[k].change;
         CZ_LANES (i) {
             const double beyond = x[i] - place[i];
             const double counted = beyond >= 0.0 ? change[i] : 0.0;
@@ -56,9 +56,9 @@ static void curve_at(const CzBlockCurve *curve, size_t lane, double x, double *v
                      double *slope) {
     *value = curve->start[lane];
     *slope = 0.0;
-    for (int kink = 0; kink < curve->n_kink; ++kink) {
-        const double beyond = x - curve->kink[2 * kink][lane];
-        const double counted = beyond >= 0.0 ? curve->kink[2 * kink + 1][lane] : 0.0;
+    for (int k = 0; k < curve->n_breakpoint; ++k) {
+        const double beyond = x - curve->breakpoint[k].at[lane];
+        const double counted = beyond >= 0.0 ? curve->breakpoint[k].change[lane] : 0.0;
         *value += counted * beyond;
         *slope += counted;
     }
@@ -68,9 +68,9 @@ static void curve_at(const CzBlockCurve *curve, size_t lane, double x, double *v
 static void count_turns(const CzBlockCurve *curve, const double *restrict from,
                         const double *restrict to, double *restrict count) {
     _Alignas(64) CzRow slope = {0.0};
-    for (int kink = 0; curve->falls && kink < curve->n_kink; ++kink) {
-        const double *restrict at = curve->kink[2 * kink];
-        const double *restrict change = curve->kink[2 * kink + 1];
+    for (int k = 0; curve->falls && k < curve->n_breakpoint; ++k) {
+        const double *restrict at = curve->breakpoint[k].at;
+        const double *restrict change = curve->breakpoint[k].change;
         CZ_LANES (i) {
             const double after = slope[i] + change[i];
             const double turns = cz_smaller(slope[i], after) < CZ_FALLING ? 1.0 : 0.0;

@@ -99,11 +99,11 @@ static void keep_massless(const Massless *massless, double step) {
     CzMasslessMemory *restrict next = massless->next;
     const double *restrict damping = massless->rows->damping;
     CZ_LANES (i) {
-        const double way = next->stroke[i] - before->stroke[i];
-        const double resisting = cz_vehicle_end_damper(damping[i], before->stroke[i], step) * way;
+        const double moved = next->stroke[i] - before->stroke[i];
+        const double resisting = cz_vehicle_end_damper(damping[i], before->stroke[i], step) * moved;
         next->peak[i] = cz_larger(before->peak[i], next->stroke[i]);
         next->resists[i] = resisting;
-        next->damped[i] = before->damped[i] + 0.5 * (before->resists[i] + resisting) * way;
+        next->damped[i] = before->damped[i] + 0.5 * (before->resists[i] + resisting) * moved;
     }
 }
 

@@ -2,7 +2,7 @@
  *
  * A shear-off releases inside a step. The chain is first solved as if it held, which gives when its
  * force F_x is reached: the closure beyond that is what it would have to yield. Then it releases,
- * and the step's mean force is that of the way through F_x,
+ * and the step's mean force is that of the path through F_x,
  *
  *   theta (F_last + F_x) / 2 + (1 - theta) (s (F_x + F_end) / 2 + (1 - s) F_end)
  *
@@ -23,7 +23,7 @@ enum { SHEAR_OFF = 4 }; /* plastic member of the chain, of side A */
 /* A release in this step. */
 typedef struct {
     CzRow force; /* at which a shear-off releases; 0 where none does [N] */
-    CzRow way;   /* closure of the step that is left then [m] */
+    CzRow left;  /* closure of the step that is left then [m] */
     CzRow more;  /* what the mean force of the step is more than the mean of its ends [N] */
 } Release;
 
@@ -58,7 +58,7 @@ static double linearise_shear_off(Chain *chain, int side, int again) {
         return accept_plastic(chain, member, trial, &curve);
     CZ_LANES (i) {
         plastic->strength[i] = curve.value[i];
-        plastic->flow[i] = cz_plastic_compliance(curve.value[i], curve.slope[i], 0.0, step);
+        plastic->compliance[i] = cz_plastic_compliance(curve.value[i], curve.slope[i], 0.0, step);
     }
     return (double)CZ_LANE_BLOCK;
 }
@@ -69,75 +69,81 @@ static double linearise_shear_off(Chain *chain, int side, int again) {
 static int mark_release(CouplerChain *of) {
     Chain *chain = &of->buffers.chain;
     ChainState *now = &chain->now;
-    const PlasticState *a = &now->plastic[SHEAR_OFF], *b = &now->plastic[SHEAR_OFF + 1];
-    const double *restrict travel_a = chain->plastic[SHEAR_OFF].stroke,
-                           *restrict travel_b = chain->plastic[SHEAR_OFF + 1].stroke;
+    const Plastic *shear_off = &chain->plastic[SHEAR_OFF];
+    const PlasticState *state = &now->plastic[SHEAR_OFF];
     const double *restrict compliance = chain->compliance;
-    double n_flowing = 0.0;
-    CZ_LANES_SUM(i, n_flowing) {
+    double n_crushing = 0.0;
+    CZ_LANES_SUM(i, n_crushing) {
         const double force = now->force[i];
-        const double way_a = cz_plastic_flow(force, a->strength[i], a->flow[i]);
-        const double way_b = cz_plastic_flow(force, b->strength[i], b->flow[i]);
-        const double new_a = travel_a[i] > 0.0 ? 0.0 : way_a;
-        const double new_b = travel_b[i] > 0.0 ? 0.0 : way_b;
-        const double of_a = new_a > 0.0 ? a->strength[i] : CZ_NEVER;
-        const double of_b = new_b > 0.0 ? b->strength[i] : CZ_NEVER;
-        const double begins = new_a + new_b > 0.0 ? now->active[i] : 0.0;
-        const double at = begins > 0.0 ? cz_smaller(of_a, of_b) : force;
+        double all_moved = 0.0, new_moved = 0.0, weakest = CZ_NEVER;
+        for (int side = 0; side < 2; ++side) {
+            const double strength = state[side].strength[i];
+            const double moved = cz_plastic_crush(force, strength, state[side].compliance[i]);
+            const double begun = shear_off[side].stroke[i] > 0.0 ? 0.0 : moved;
+            all_moved += moved;
+            new_moved += begun;
+            weakest = cz_smaller(weakest, begun > 0.0 ? strength : CZ_NEVER);
+        }
+        const double begins = new_moved > 0.0 ? now->active[i] : 0.0;
+        const double at = begins > 0.0 ? weakest : force;
         const double sprung =
             (compliance[i] + now->spring[0].up[i] + now->spring[1].up[i]) * (force - at);
-        now->active[i] = way_a + way_b > 0.0 ? now->active[i] : 0.0;
+        now->active[i] = all_moved > 0.0 ? now->active[i] : 0.0;
         of->release.force[i] = begins * at;
-        of->release.way[i] = begins * (new_a + new_b + sprung);
-        n_flowing += now->active[i];
+        of->release.left[i] = begins * (new_moved + sprung);
+        n_crushing += now->active[i];
     }
-    return n_flowing > 0.0;
+    return n_crushing > 0.0;
 }
 
-/* What a shear-off of one side keeps. */
+/* What the shear-offs that release keep, of both sides. */
 typedef struct {
-    _Alignas(64) CzRow left; /* force at the end of the step in which it releases; CZ_NEVER where it
-                                does not [N] */
-    CzRow softening;         /* its length; 0 where it does not [m] */
+    _Alignas(
+        64) CzRow force; /* smallest at the end of the step; CZ_NEVER where none releases [N] */
+    CzRow residual;      /* largest that friction keeps [N] */
+    CzRow softening;     /* sum of their lengths [m] */
 } Kept;
 
-/* Without what the smallest resistance adds to so long a way. */
-static void released_to(const Chain *chain, int side, Kept *restrict kept) {
+/* Adds one side, without what the smallest resistance adds over so long a travel. */
+static void add_kept(const Chain *chain, int side, Kept *restrict kept) {
     const double *restrict force = chain->now.force;
     const double *restrict travel = chain->plastic[SHEAR_OFF + side].stroke;
     const PlasticState *plastic = &chain->now.plastic[SHEAR_OFF + side];
-    const double *restrict length = chain->plastic[SHEAR_OFF + side].shear->softening;
+    const CzShearOffRows *restrict rows = chain->plastic[SHEAR_OFF + side].shear;
     CZ_LANES (i) {
-        const double way = cz_plastic_flow(force[i], plastic->strength[i], plastic->flow[i]);
-        const double begins = travel[i] > 0.0 ? 0.0 : way;
-        const double keeps = force[i] - CZ_SMALLEST_RESISTANCE * way;
-        kept->left[i] = begins > 0.0 ? keeps : CZ_NEVER;
-        kept->softening[i] = begins > 0.0 ? length[i] : 0.0;
+        const double moved =
+            cz_plastic_crush(force[i], plastic->strength[i], plastic->compliance[i]);
+        const double begins = travel[i] > 0.0 ? 0.0 : moved;
+        const double keeps = force[i] - CZ_SMALLEST_RESISTANCE * moved;
+        const double softening = begins > 0.0 ? rows->softening[i] : 0.0;
+        kept->force[i] = cz_smaller(kept->force[i], begins > 0.0 ? keeps : CZ_NEVER);
+        kept->residual[i] = cz_larger(kept->residual[i], softening > 0.0 ? rows->residual[i] : 0.0);
+        kept->softening[i] += softening;
     }
 }
 
 /* Where a shear-off releases: what the bodies get beyond the force at the end of the step. */
-static void release_impulse(const CzCouplerRows *restrict rows, const double *restrict rate,
-                            CouplerChain *of) {
+static void release_impulse(const double *restrict rate, CouplerChain *of) {
     const Chain *chain = &of->buffers.chain;
     const ChainState *now = &chain->now;
-    const double *restrict last = chain->last;
+    const double *restrict last = chain->last, *restrict compliance = chain->compliance;
     const double step = chain->step;
     Release *release = &of->release;
-    Kept a, b;
-    released_to(chain, 0, &a);
-    released_to(chain, 1, &b);
+    Kept kept = {.residual = {0.0}, .softening = {0.0}};
     CZ_LANES (i) {
-        const double released = release->force[i], beyond = release->way[i];
+        kept.force[i] = CZ_NEVER;
+    }
+    for (int side = 0; side < 2; ++side)
+        add_kept(chain, side, &kept);
+    CZ_LANES (i) {
+        const double released = release->force[i], beyond = release->left[i];
         const double rest = beyond / cz_larger(cz_larger(rate[i] * step, beyond), 1e-30);
-        const double of_a = a.softening[i] > 0.0 ? rows->side[0].shear.residual[i] : 0.0;
-        const double of_b = b.softening[i] > 0.0 ? rows->side[1].shear.residual[i] : 0.0;
-        const double dropped = cz_positive_part(released - cz_larger(of_a, of_b));
+        const double dropped = cz_positive_part(released - kept.residual[i]);
         const double back =
-            (rows->compliance[i] + now->spring[0].down[i] + now->spring[1].down[i]) * dropped;
-        const double length = a.softening[i] + b.softening[i] - back;
+            (compliance[i] + now->spring[0].down[i] + now->spring[1].down[i]) * dropped;
+        const double length = kept.softening[i] - back;
         const double falls = cz_clamp(length / cz_larger(beyond, 1e-30), 0.0, 1.0);
-        const double end = cz_smaller(cz_smaller(a.left[i], b.left[i]), released);
+        const double end = cz_smaller(kept.force[i], released);
         const double before = 0.5 * (last[i] + released);
         const double after = end + 0.5 * falls * (released - end);
         const double mean = before + rest * (after - before);
@@ -157,7 +163,7 @@ static int release(CzBlock *d, const double *restrict rate, CouplerChain *of) {
         const int found = solve_linear(chain);
         n_anew = 1 + settle_chain(chain, &d->published, linearise_shear_off, found);
     }
-    release_impulse(&d->parameter.coupler, rate, of);
+    release_impulse(rate, of);
     return n_anew;
 }
 
@@ -169,10 +175,10 @@ static void release_work(CzBlock *d, const double *restrict rate, const CouplerC
     CzCouplerMemory *restrict next = &d->next_memory->coupler;
     for (int side = 0; side < 2; ++side)
         CZ_LANES (i) {
-            const double way = memory->side[side].shear[i] > 0.0 ? 0.0 : next->side[side].shear[i];
-            const double other_way =
+            const double own = memory->side[side].shear[i] > 0.0 ? 0.0 : next->side[side].shear[i];
+            const double other =
                 memory->side[1 - side].shear[i] > 0.0 ? 0.0 : next->side[1 - side].shear[i];
-            const double share = way / cz_larger(way + other_way, 1e-30);
+            const double share = own / cz_larger(own + other, 1e-30);
             const double work = share * more[i] * rate[i] * step;
             next->side[side].energy[i] += work;
             next->side[side].tube_energy[i] += work;
@@ -180,24 +186,24 @@ static void release_work(CzBlock *d, const double *restrict rate, const CouplerC
 }
 
 /* Buffers that snap back as a shear-off releases: their force falls along their own law, at least
- * to that at the end of the step, and not in proportion to their way. What the mean force of the
+ * to that at the end of the step, and not in proportion to their travel. What the mean force of the
  * step would have them give back beyond that, the shear-off does not get. */
 static void snap_work(const CzCouplerMemory *restrict memory, CzCouplerMemory *restrict next) {
     CZ_LANES (i) {
-        const double way_a = next->side[0].shear[i] - memory->side[0].shear[i];
-        const double way_b = next->side[1].shear[i] - memory->side[1].shear[i];
-        const double ways = way_a + way_b;
-        const double falls =
-            ways > 0.0 ? 0.5 * cz_positive_part(memory->force[i] - next->force[i]) : 0.0;
-        const double kept_a = falls * cz_positive_part(memory->side[0].buffer.stroke[i] -
-                                                       next->side[0].buffer.stroke[i]);
-        const double kept_b = falls * cz_positive_part(memory->side[1].buffer.stroke[i] -
-                                                       next->side[1].buffer.stroke[i]);
-        const double lost = (kept_a + kept_b) / cz_larger(ways, 1e-30);
-        next->side[0].energy[i] += kept_a - lost * way_a;
-        next->side[1].energy[i] += kept_b - lost * way_b;
-        next->side[0].tube_energy[i] -= lost * way_a;
-        next->side[1].tube_energy[i] -= lost * way_b;
+        double moved[2], back[2];
+        for (int side = 0; side < 2; ++side) {
+            moved[side] = next->side[side].shear[i] - memory->side[side].shear[i];
+            back[side] = cz_positive_part(memory->side[side].buffer.stroke[i] -
+                                          next->side[side].buffer.stroke[i]);
+        }
+        const double all_moved = moved[0] + moved[1];
+        const double fell = 0.5 * cz_positive_part(memory->force[i] - next->force[i]);
+        const double falls = all_moved > 0.0 ? fell : 0.0;
+        const double lost = (falls * back[0] + falls * back[1]) / cz_larger(all_moved, 1e-30);
+        for (int side = 0; side < 2; ++side) {
+            next->side[side].energy[i] += falls * back[side] - lost * moved[side];
+            next->side[side].tube_energy[i] -= lost * moved[side];
+        }
     }
 }
 

@@ -243,8 +243,8 @@ static double area_of_path(const CzCurveLanes *curve, size_t lane, double from, 
                            double slope, double end) {
     double area = 0.0, begin = from, backbone_slope = 0.0;
     double value = from < to ? cz_curve_value(curve, lane, from) : 0.0;
-    for (int k = 0; k <= curve->n_kink && begin < to; ++k) {
-        const bool is_last = k == curve->n_kink;
+    for (int k = 0; k <= curve->n_breakpoint && begin < to; ++k) {
+        const bool is_last = k == curve->n_breakpoint;
         const size_t slot = (size_t)k * curve->stride + lane;
         const double stop = is_last ? to : cz_smaller(curve->at[slot], to);
         if (stop > begin) {

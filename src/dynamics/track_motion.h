@@ -268,7 +268,7 @@ static inline CzRailPoint cz_track_on_spring(const CzTrackFlexibility *flexibili
     }
     /* d|sin(pi xi)| / d cos(2 pi xi) = -1 / (4 |sin(pi xi)|) */
     const double sine = sqrt(0.5 * fabs(1.0 - seat.re));
-    slope -= 0.25 * flexibility->kink / (sine + 1e-9);
+    slope -= 0.25 * flexibility->corner / (sine + 1e-9);
     point.flexibility = cz_track_flexibility_at(flexibility, seat.re);
     point.flexibility_slope = -2.0 * CZ_PI * per_spacing * seat.im * slope;
     return point;

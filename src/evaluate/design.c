@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/increment.h"
 #include "base/number.h"
-#include "model/kinks.h"
+#include "model/breakpoints.h"
 #include "problem/strokes.h"
 
 #include <float.h>

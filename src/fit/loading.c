@@ -26,13 +26,13 @@ static void add(CzLoading *loading, double x, double f) {
 static double add_staged(CzLoading *loading, const CzStaged *staged, double from,
                          double compliance) {
     double at[CZ_MOST_BENDS];
-    CzKinks kinks;
+    CzBreakpoints breakpoints;
     if (staged->n_stage == 0)
         return from;
-    cz_staged_kinks(staged, &kinks);
+    cz_staged_breakpoints(staged, &breakpoints);
     const int n = cz_staged_bends(staged, at);
     for (int i = 0; i < n; i++) {
-        const double force = cz_kinks_value(&kinks, at[i]);
+        const double force = cz_breakpoints_value(&breakpoints, at[i]);
         add(loading, from + at[i] + force * compliance, force);
     }
     return from + at[n - 1];
@@ -65,9 +65,9 @@ void cz_fit_load(const CzFit *fit, CzLoading *loading) {
         add(loading, 0.0, 0.0);
     at = add_staged(loading, &fit->buffer, at, compliance);
     if (fit->buffer.n_stage > 0 && fit->member.n_stage > 0) {
-        CzKinks kinks;
-        cz_staged_kinks(&fit->member, &kinks);
-        at = add_stop(loading, at, kinks.start, fit->buffer.bottom_stiffness, compliance);
+        CzBreakpoints breakpoints;
+        cz_staged_breakpoints(&fit->member, &breakpoints);
+        at = add_stop(loading, at, breakpoints.start, fit->buffer.bottom_stiffness, compliance);
     }
     at = add_staged(loading, &fit->member, at, compliance);
     if (!isnan(fit->stop_force))

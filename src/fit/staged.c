@@ -17,18 +17,19 @@ CzStaged cz_staged_begin(bool is_strength) {
     return (CzStaged){.is_strength = is_strength, .trigger = NAN, .trigger_length = 0.01};
 }
 
-static void kinks_of(const CzStaged *staged, const CzStage *stage, double trigger, double preload,
-                     CzKinks *kinks) {
+static void breakpoints_of(const CzStaged *staged, const CzStage *stage, double trigger,
+                           double preload, CzBreakpoints *breakpoints) {
     static const CzTable none;
     if (staged->is_strength)
-        cz_kinks_strength(kinks, stage, staged->n_stage, &none, trigger, staged->trigger_length,
-                          staged->bottom_stiffness);
+        cz_breakpoints_strength(breakpoints, stage, staged->n_stage, &none, trigger,
+                                staged->trigger_length, staged->bottom_stiffness);
     else
-        cz_kinks_loading(kinks, preload, stage, staged->n_stage, &none, staged->bottom_stiffness);
+        cz_breakpoints_loading(breakpoints, preload, stage, staged->n_stage, &none,
+                               staged->bottom_stiffness);
 }
 
-void cz_staged_kinks(const CzStaged *staged, CzKinks *kinks) {
-    kinks_of(staged, staged->stage, staged->trigger, staged->preload, kinks);
+void cz_staged_breakpoints(const CzStaged *staged, CzBreakpoints *breakpoints) {
+    breakpoints_of(staged, staged->stage, staged->trigger, staged->preload, breakpoints);
 }
 
 double cz_staged_stroke(const CzStaged *staged) {
@@ -37,12 +38,12 @@ double cz_staged_stroke(const CzStaged *staged) {
 }
 
 /* Strokes of a curve's breakpoints and of both its ends, each once, rising. */
-static int bends_of(const CzKinks *kinks, double stroke, double at[CZ_MOST_BENDS]) {
+static int bends_of(const CzBreakpoints *breakpoints, double stroke, double at[CZ_MOST_BENDS]) {
     int n = 0;
     at[n++] = 0.0;
     at[n++] = stroke;
-    for (int i = 0; i < kinks->n; i++) {
-        const double x = kinks->at[i];
+    for (int i = 0; i < breakpoints->n; i++) {
+        const double x = breakpoints->at[i];
         int place = 0;
         while (place < n && at[place] < x)
             place++;
@@ -57,19 +58,20 @@ static int bends_of(const CzKinks *kinks, double stroke, double at[CZ_MOST_BENDS
 }
 
 int cz_staged_bends(const CzStaged *staged, double at[CZ_MOST_BENDS]) {
-    CzKinks kinks;
-    cz_staged_kinks(staged, &kinks);
-    return bends_of(&kinks, cz_staged_stroke(staged), at);
+    CzBreakpoints breakpoints;
+    cz_staged_breakpoints(staged, &breakpoints);
+    return bends_of(&breakpoints, cz_staged_stroke(staged), at);
 }
 
 double cz_staged_energy(const CzStaged *staged) {
     double at[CZ_MOST_BENDS], energy = 0.0;
-    CzKinks kinks;
-    cz_staged_kinks(staged, &kinks);
-    const int n = bends_of(&kinks, cz_staged_stroke(staged), at);
+    CzBreakpoints breakpoints;
+    cz_staged_breakpoints(staged, &breakpoints);
+    const int n = bends_of(&breakpoints, cz_staged_stroke(staged), at);
     for (int i = 1; i < n; i++)
         energy += 0.5 * (at[i] - at[i - 1]) *
-                  (cz_kinks_value(&kinks, at[i]) + cz_kinks_value(&kinks, at[i - 1]));
+                  (cz_breakpoints_value(&breakpoints, at[i]) +
+                   cz_breakpoints_value(&breakpoints, at[i - 1]));
     return energy;
 }
 
@@ -83,25 +85,26 @@ typedef struct Terms {
     double phi[MOST_TERMS][CZ_MOST_BENDS];
 } Terms;
 
-static void put_values(const Terms *terms, const CzKinks *kinks, double *value) {
+static void put_values(const Terms *terms, const CzBreakpoints *breakpoints, double *value) {
     for (int i = 0; i < terms->n_bend; i++)
-        value[i] = cz_kinks_value(kinks, terms->at[i]);
+        value[i] = cz_breakpoints_value(breakpoints, terms->at[i]);
 }
 
 static void make_terms(const CzStaged *staged, Terms *terms) {
     CzStage unit[CZ_MAX_STAGES];
-    CzKinks kinks;
+    CzBreakpoints breakpoints;
     for (int i = 0; i < staged->n_stage; i++)
         unit[i] = (CzStage){.stroke = staged->stage[i].stroke, .end_force = NAN};
-    kinks_of(staged, unit, staged->trigger, 0.0, &kinks);
-    terms->n_bend = bends_of(&kinks, cz_staged_stroke(staged), terms->at);
-    put_values(terms, &kinks, terms->fixed);
+    breakpoints_of(staged, unit, staged->trigger, 0.0, &breakpoints);
+    terms->n_bend = bends_of(&breakpoints, cz_staged_stroke(staged), terms->at);
+    put_values(terms, &breakpoints, terms->fixed);
     terms->n_term = staged->n_stage + (staged->has_preload ? 1 : 0);
     for (int term = 0; term < terms->n_term; term++) {
         if (term < staged->n_stage)
             unit[term].force = 1.0;
-        kinks_of(staged, unit, isnan(staged->trigger) ? NAN : 0.0, term == staged->n_stage, &kinks);
-        put_values(terms, &kinks, terms->phi[term]);
+        breakpoints_of(staged, unit, isnan(staged->trigger) ? NAN : 0.0, term == staged->n_stage,
+                       &breakpoints);
+        put_values(terms, &breakpoints, terms->phi[term]);
         if (term < staged->n_stage)
             unit[term].force = 0.0;
     }

@@ -14,7 +14,7 @@
 #define CZ_FIT_STAGED_H
 
 #include "fit/branch.h"
-#include "model/kinks.h"
+#include "model/breakpoints.h"
 
 #define CZ_LONGEST_TRIGGER 0.2 /* trigger_length of the problem file [m] */
 #define CZ_SHORTEST_STAGE 1e-4 /* stroke of a stage there [m] */
@@ -34,7 +34,7 @@ typedef struct CzStaged {
 CzStaged cz_staged_begin(bool is_strength);
 
 /* The curve as the model builds it. */
-void cz_staged_kinks(const CzStaged *staged, CzKinks *kinks);
+void cz_staged_breakpoints(const CzStaged *staged, CzBreakpoints *breakpoints);
 
 double cz_staged_stroke(const CzStaged *staged);
 

@@ -25,7 +25,7 @@ static inline double cz_plastic_compliance(double strength, double slope, double
 }
 
 /* Flow of the step under the chain's force [m], never negative. */
-static inline double cz_plastic_flow(double force, double strength, double compliance) {
+static inline double cz_plastic_crush(double force, double strength, double compliance) {
     return cz_positive_part(force - strength) * compliance;
 }
 

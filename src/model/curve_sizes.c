@@ -3,18 +3,18 @@
 
 #include "model/fill.h"
 
-static void need(CzModel *model, CzCurveId id, int n_kink) {
-    if (n_kink > model->n_kink[id])
-        model->n_kink[id] = n_kink;
+static void need(CzModel *model, CzCurveId id, int n_breakpoint) {
+    if (n_breakpoint > model->n_breakpoint[id])
+        model->n_breakpoint[id] = n_breakpoint;
 }
 
 static int in_tube(const CzTube *tube) {
-    return tube->given ? cz_kinks_in_strength(tube->n_stages, &tube->curve) : 0;
+    return tube->given ? cz_breakpoints_in_strength(tube->n_stages, &tube->curve) : 0;
 }
 
 static int in_buffer(const CzBuffer *buffer) {
     const CzTable none = {.given = false};
-    return buffer->given ? cz_kinks_in_loading(buffer->n_stages, &none) : 0;
+    return buffer->given ? cz_breakpoints_in_loading(buffer->n_stages, &none) : 0;
 }
 
 static void size_side(CzModel *model, const CzEnd *end, int side) {
@@ -27,7 +27,7 @@ static void size_side(CzModel *model, const CzEnd *end, int side) {
     const CzAntiClimber *anti_climber = &end->anti_climber;
     if (anti_climber->given)
         need(model, CZ_CURVE(face[side]),
-             cz_kinks_in_strength(anti_climber->n_stages, &anti_climber->curve));
+             cz_breakpoints_in_strength(anti_climber->n_stages, &anti_climber->curve));
     if (end->side_buffers.given) {
         need(model, CZ_CURVE(side_buffer[side]), in_buffer(&end->side_buffers.buffer));
         need(model, CZ_CURVE(side_tube[side]), in_tube(&end->side_buffers.tube));
@@ -38,8 +38,8 @@ static void size_end(CzModel *model, const CzEnd *end, int which, bool is_full) 
     if (!cz_end_crushes(end))
         return;
     const int side = which == CZ_FRONT ? CZ_SIDE_A : CZ_SIDE_B;
-    const int n_kink = cz_kinks_in_loading(end->n_stages, &end->curve);
-    need(model, is_full ? CZ_CURVE(end[which]) : CZ_CURVE(massless[side]), n_kink);
+    const int n_breakpoint = cz_breakpoints_in_loading(end->n_stages, &end->curve);
+    need(model, is_full ? CZ_CURVE(end[which]) : CZ_CURVE(massless[side]), n_breakpoint);
 }
 
 void cz_model_size_curves(CzModel *model, const CzVehicle *vehicles) {

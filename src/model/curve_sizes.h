@@ -4,8 +4,8 @@
 
 #include "model/model.h"
 
-/* Sets model->n_kink so that every design with the stages and points of the problem's own vehicles
- * fits. */
+/* Sets model->n_breakpoint so that every design with the stages and points of the problem's own
+ * vehicles fits. */
 void cz_model_size_curves(CzModel *model, const CzVehicle *vehicles);
 
 #endif

@@ -29,23 +29,23 @@ CzStatus cz_fill_refuse(const CzFill *fill, CzPartName part, const void *field, 
 
 /* Puts a curve into a lane; fails when it has more breakpoints than the problem's own. */
 static CzStatus fill_curve(const CzFill *fill, CzPartName part, const void *field, CzCurveId id,
-                           const CzKinks *kinks) {
+                           const CzBreakpoints *breakpoints) {
     CzCurveLanes *curve = &fill->lanes->curve[id];
     const size_t lane = cz_fill_lane(fill, part.lane);
-    if (kinks->n > curve->n_kink)
+    if (breakpoints->n > curve->n_breakpoint)
         return cz_fill_refuse(fill, part, field, "has more stages than the problem file gives it");
-    curve->start[lane] = kinks->start;
-    curve->usable[lane] = kinks->usable;
+    curve->start[lane] = breakpoints->start;
+    curve->usable[lane] = breakpoints->usable;
 
     /* The last breakpoint stays last; spare ones are at its place before it, so breakpoints are in
      * order. */
-    const int last = kinks->n - 1;
-    for (int i = 0; i < curve->n_kink && last >= 0; i++) {
+    const int last = breakpoints->n - 1;
+    for (int i = 0; i < curve->n_breakpoint && last >= 0; i++) {
         const size_t slot = (size_t)i * curve->stride + lane;
         const int k = i < last ? i : last;
-        const bool is_used = i < last || i == curve->n_kink - 1;
-        curve->at[slot] = kinks->at[k];
-        curve->slope_change[slot] = is_used ? kinks->slope_change[k] : 0.0;
+        const bool is_used = i < last || i == curve->n_breakpoint - 1;
+        curve->at[slot] = breakpoints->at[k];
+        curve->slope_change[slot] = is_used ? breakpoints->slope_change[k] : 0.0;
     }
     return CZ_OK;
 }
@@ -156,69 +156,70 @@ static CzStatus check_unloading(const CzFill *fill, CzPartName part, const CzEnd
 
 CzStatus cz_fill_buffer(const CzFill *fill, CzPartName part, const CzBuffer *buffer, int count,
                         CzCurveId id) {
-    CzKinks kinks;
+    CzBreakpoints breakpoints;
     if (buffer == NULL) {
-        cz_kinks_spring(&kinks, CZ_NEVER);
-        return fill_curve(fill, part, NULL, id, &kinks);
+        cz_breakpoints_spring(&breakpoints, CZ_NEVER);
+        return fill_curve(fill, part, NULL, id, &breakpoints);
     }
     if (buffer->n_stages < 1)
         return cz_fill_refuse(fill, part, buffer, "has no stages");
     CZ_TRY(check_stages(fill, part, buffer->stages, buffer->n_stages));
     CZ_TRY(check_rise(fill, part, buffer));
     const CzTable none = {.given = false};
-    cz_kinks_loading(&kinks, buffer->preload, buffer->stages, buffer->n_stages, &none,
-                     buffer->bottom_stiffness);
-    cz_kinks_scale(&kinks, count);
-    return fill_curve(fill, part, buffer, id, &kinks);
+    cz_breakpoints_loading(&breakpoints, buffer->preload, buffer->stages, buffer->n_stages, &none,
+                           buffer->bottom_stiffness);
+    cz_breakpoints_scale(&breakpoints, count);
+    return fill_curve(fill, part, buffer, id, &breakpoints);
 }
 
 CzStatus cz_fill_tube(const CzFill *fill, CzPartName part, const CzTube *tube, int count,
                       CzCurveId id) {
-    CzKinks kinks;
+    CzBreakpoints breakpoints;
     if (!tube->given) {
-        cz_kinks_rigid_member(&kinks);
-        return fill_curve(fill, part, tube, id, &kinks);
+        cz_breakpoints_rigid_member(&breakpoints);
+        return fill_curve(fill, part, tube, id, &breakpoints);
     }
     CZ_TRY(check_strength(fill, part, tube, tube->stages, tube->n_stages, &tube->curve,
                           tube->rate_factor));
     CZ_TRY(check_trigger(fill, part, &tube->trigger));
-    cz_kinks_strength(&kinks, tube->stages, tube->n_stages, &tube->curve, tube->trigger,
-                      tube->trigger_length, tube->bottom_stiffness);
-    cz_kinks_scale(&kinks, (double)tube->count * count);
-    return fill_curve(fill, part, tube, id, &kinks);
+    cz_breakpoints_strength(&breakpoints, tube->stages, tube->n_stages, &tube->curve, tube->trigger,
+                            tube->trigger_length, tube->bottom_stiffness);
+    cz_breakpoints_scale(&breakpoints, (double)tube->count * count);
+    return fill_curve(fill, part, tube, id, &breakpoints);
 }
 
 CzStatus cz_fill_anti_climber(const CzFill *fill, CzPartName part,
                               const CzAntiClimber *anti_climber, CzCurveId id) {
-    CzKinks kinks;
+    CzBreakpoints breakpoints;
     if (anti_climber == NULL) {
-        cz_kinks_rigid_member(&kinks);
-        return fill_curve(fill, part, anti_climber, id, &kinks);
+        cz_breakpoints_rigid_member(&breakpoints);
+        return fill_curve(fill, part, anti_climber, id, &breakpoints);
     }
     CZ_TRY(check_strength(fill, part, anti_climber, anti_climber->stages, anti_climber->n_stages,
                           &anti_climber->curve,
                           anti_climber->rate_factor + anti_climber->speed_factor));
     CZ_TRY(check_trigger(fill, part, &anti_climber->trigger));
-    cz_kinks_strength(&kinks, anti_climber->stages, anti_climber->n_stages, &anti_climber->curve,
-                      anti_climber->trigger, anti_climber->trigger_length,
-                      anti_climber->bottom_stiffness);
-    cz_kinks_scale(&kinks, anti_climber->count);
-    return fill_curve(fill, part, anti_climber, id, &kinks);
+    cz_breakpoints_strength(&breakpoints, anti_climber->stages, anti_climber->n_stages,
+                            &anti_climber->curve, anti_climber->trigger,
+                            anti_climber->trigger_length, anti_climber->bottom_stiffness);
+    cz_breakpoints_scale(&breakpoints, anti_climber->count);
+    return fill_curve(fill, part, anti_climber, id, &breakpoints);
 }
 
 CzStatus cz_fill_end(const CzFill *fill, CzPartName part, const CzEnd *end, CzCurveId id) {
-    CzKinks kinks;
+    CzBreakpoints breakpoints;
     if (!cz_end_crushes(end)) {
-        cz_kinks_spring(&kinks, end->bottom_stiffness);
-        return fill_curve(fill, part, end, id, &kinks);
+        cz_breakpoints_spring(&breakpoints, end->bottom_stiffness);
+        return fill_curve(fill, part, end, id, &breakpoints);
     }
     CZ_TRY(check_strength(fill, part, end, end->stages, end->n_stages, &end->curve, 0.0));
     if (end->curve.given && (end->curve.x[0] != 0.0 || end->curve.y[0] != 0.0))
         return cz_fill_refuse(fill, part, &end->curve,
                               "the curve must start at stroke 0 with force 0");
     CZ_TRY(check_unloading(fill, part, end));
-    cz_kinks_loading(&kinks, 0.0, end->stages, end->n_stages, &end->curve, end->bottom_stiffness);
-    return fill_curve(fill, part, end, id, &kinks);
+    cz_breakpoints_loading(&breakpoints, 0.0, end->stages, end->n_stages, &end->curve,
+                           end->bottom_stiffness);
+    return fill_curve(fill, part, end, id, &breakpoints);
 }
 
 /* ---- all cars ---- */

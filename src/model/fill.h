@@ -2,7 +2,7 @@
 #ifndef CZ_MODEL_FILL_H
 #define CZ_MODEL_FILL_H
 
-#include "model/kinks.h"
+#include "model/breakpoints.h"
 #include "model/model.h"
 
 /* The two ends of a car; also the two sides of an interface: side A is a front end, B a rear end.

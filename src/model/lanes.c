@@ -68,20 +68,20 @@ static bool is_spring(CzCurveId id) {
     return id < CZ_CURVE(tube[0]) || (id >= CZ_CURVE(massless[0]) && id < CZ_CURVE(side_tube[0]));
 }
 
-static bool create_curve(CzCurveLanes *curve, CzCurveId id, int n_kink, size_t stride,
+static bool create_curve(CzCurveLanes *curve, CzCurveId id, int n_breakpoint, size_t stride,
                          CzArena *arena) {
-    curve->n_kink = n_kink;
+    curve->n_breakpoint = n_breakpoint;
     curve->stride = stride;
     curve->start = cz_arena_allocate(arena, stride, sizeof(double));
     curve->usable = cz_arena_allocate(arena, stride, sizeof(double));
-    curve->at = cz_arena_allocate(arena, (size_t)n_kink * stride, sizeof(double));
-    curve->slope_change = cz_arena_allocate(arena, (size_t)n_kink * stride, sizeof(double));
+    curve->at = cz_arena_allocate(arena, (size_t)n_breakpoint * stride, sizeof(double));
+    curve->slope_change = cz_arena_allocate(arena, (size_t)n_breakpoint * stride, sizeof(double));
     if (curve->start == NULL || curve->usable == NULL || curve->at == NULL ||
         curve->slope_change == NULL)
         return false;
     set_row(curve->usable, stride, CZ_NEVER);
     if (is_spring(id))
-        set_row(curve->slope_change + (size_t)(n_kink - 1) * stride, stride, CZ_NEVER);
+        set_row(curve->slope_change + (size_t)(n_breakpoint - 1) * stride, stride, CZ_NEVER);
     else
         set_row(curve->start, stride, CZ_NEVER);
     return true;
@@ -92,7 +92,8 @@ static size_t blocks(size_t n) {
     return (n + CZ_LANE_BLOCK - 1) / CZ_LANE_BLOCK * CZ_LANE_BLOCK;
 }
 
-CzLanes *cz_lanes_create(int n_car, int n_design, const int n_kink[CZ_N_CURVE], CzArena *arena) {
+CzLanes *cz_lanes_create(int n_car, int n_design, const int n_breakpoint[CZ_N_CURVE],
+                         CzArena *arena) {
     CzLanes *lanes = cz_arena_allocate(arena, 1, sizeof *lanes);
     if (lanes == NULL)
         return NULL;
@@ -105,7 +106,7 @@ CzLanes *cz_lanes_create(int n_car, int n_design, const int n_kink[CZ_N_CURVE], 
     if (lanes->block == NULL)
         return NULL;
     for (int id = 0; id < CZ_N_CURVE; id++)
-        if (!create_curve(&lanes->curve[id], id, n_kink[id], lanes->stride, arena))
+        if (!create_curve(&lanes->curve[id], id, n_breakpoint[id], lanes->stride, arena))
             return NULL;
     for (size_t k = 0; k < n_block; k++)
         set_neutral(&lanes->block[k].parameter);
@@ -116,21 +117,21 @@ CzLanes *cz_lanes_create(int n_car, int n_design, const int n_kink[CZ_N_CURVE], 
 
 double cz_curve_value(const CzCurveLanes *curve, size_t lane, double x) {
     double value = curve->start[lane];
-    for (size_t at = lane; at < (size_t)curve->n_kink * curve->stride; at += curve->stride)
+    for (size_t at = lane; at < (size_t)curve->n_breakpoint * curve->stride; at += curve->stride)
         value += curve->slope_change[at] * cz_positive_part(x - curve->at[at]);
     return value;
 }
 
 double cz_curve_slope(const CzCurveLanes *curve, size_t lane, double x) {
     double slope = 0.0;
-    for (size_t at = lane; at < (size_t)curve->n_kink * curve->stride; at += curve->stride)
+    for (size_t at = lane; at < (size_t)curve->n_breakpoint * curve->stride; at += curve->stride)
         slope += curve->at[at] <= x ? curve->slope_change[at] : 0.0;
     return slope;
 }
 
 double cz_curve_integral(const CzCurveLanes *curve, size_t lane, double x) {
     double integral = curve->start[lane] * x;
-    for (size_t at = lane; at < (size_t)curve->n_kink * curve->stride; at += curve->stride) {
+    for (size_t at = lane; at < (size_t)curve->n_breakpoint * curve->stride; at += curve->stride) {
         const double beyond = cz_positive_part(x - curve->at[at]);
         integral += 0.5 * curve->slope_change[at] * beyond * beyond;
     }

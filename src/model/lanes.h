@@ -35,11 +35,11 @@ enum { CZ_N_CURVE = sizeof(CzCurveNames) };
 
 /* One curve in all lanes. */
 typedef struct CzCurveLanes {
-    int n_kink;           /* breakpoints in every lane; spare ones have slope_change 0 */
+    int n_breakpoint;     /* breakpoints in every lane; spare ones have slope_change 0 */
     size_t stride;        /* row length of every array */
     double *start;        /* value at 0 [N] (stride) */
-    double *at;           /* place of a breakpoint [m] (n_kink x stride) */
-    double *slope_change; /* [N/m] (n_kink x stride) */
+    double *at;           /* place of a breakpoint [m] (n_breakpoint x stride) */
+    double *slope_change; /* [N/m] (n_breakpoint x stride) */
     double *usable;       /* stroke at which it bottoms out [m] (stride) */
 } CzCurveLanes;
 
@@ -66,9 +66,10 @@ typedef struct CzLanes {
     int has_drag;            /* the track holds back some car without running gear */
 } CzLanes;
 
-/* Memory for the lanes of n_design designs of n_car cars, neutral everywhere, with n_kink
+/* Memory for the lanes of n_design designs of n_car cars, neutral everywhere, with n_breakpoint
  * breakpoints for each curve; NULL when there is none. */
-CzLanes *cz_lanes_create(int n_car, int n_design, const int n_kink[CZ_N_CURVE], CzArena *arena);
+CzLanes *cz_lanes_create(int n_car, int n_design, const int n_breakpoint[CZ_N_CURVE],
+                         CzArena *arena);
 
 /* The block of a lane; its place there is lane % CZ_LANE_BLOCK. */
 static inline CzLaneBlock *cz_lane_block(const CzLanes *lanes, size_t lane) {

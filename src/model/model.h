@@ -41,16 +41,16 @@ struct CzModel {
     double hold; /* time for which the end-of-run conditions must hold: the longest body pitch
                     period; 0.02 s without full cars (ours) [s] */
     int n_bound;
-    CzStepBound *bound;     /* smallest first */
-    int n_kink[CZ_N_CURVE]; /* breakpoints that hold every design: counted from the number of stages
-                               or points */
+    CzStepBound *bound;           /* smallest first */
+    int n_breakpoint[CZ_N_CURVE]; /* breakpoints that hold every design: counted from the number of
+                               stages or points */
     CzVehicleProperties *properties;             /* (n_car) */
     CzInterfaceProperties *interface_properties; /* (n_car - 1) */
 };
 
 /* Memory for the lanes of n_design designs, neutral everywhere; NULL when there is none. */
 static inline CzLanes *cz_model_lanes(const CzModel *model, int n_design, CzArena *arena) {
-    return cz_lanes_create(model->n_car, n_design, model->n_kink, arena);
+    return cz_lanes_create(model->n_car, n_design, model->n_breakpoint, arena);
 }
 
 /* Fills the lanes of one design from a vehicle array (the problem's own or a candidate's). Fails

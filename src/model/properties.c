@@ -35,7 +35,7 @@ static CzVehicleProperties vehicle_properties(const CzVehicle *vehicle, const Cz
 /* Largest strength of a tube before it bottoms out. */
 static double largest_strength(const CzCurveLanes *curve, size_t lane) {
     double largest = curve->start[lane];
-    for (int i = 0; i < curve->n_kink; i++) {
+    for (int i = 0; i < curve->n_breakpoint; i++) {
         const double x = curve->at[(size_t)i * curve->stride + lane];
         if (x <= curve->usable[lane])
             largest = fmax(largest, cz_curve_value(curve, lane, x));

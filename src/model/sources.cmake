@@ -7,7 +7,7 @@ set(CZ_SOURCES_model
     fill.c
     fill_car.c
     fill_interface.c
-    kinks.c
+    breakpoints.c
     lanes.c
     rail.c
     receptance.c

@@ -65,7 +65,7 @@ static double steepest(const Car *car, CzCurveId id) {
     const CzCurveLanes *curve = &car->lanes->curve[id];
     const size_t lane = (size_t)car->car;
     double largest = 0.0;
-    for (int i = 0; i < curve->n_kink; i++)
+    for (int i = 0; i < curve->n_breakpoint; i++)
         largest =
             fmax(largest, cz_curve_slope(curve, lane, curve->at[(size_t)i * curve->stride + lane]));
     return largest;

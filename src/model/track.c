@@ -249,16 +249,16 @@ CzTrackFlexibility cz_track_flexibility(const CzTrackModes *modes, double step) 
     const CzSeats *seats = &modes->seats;
     CzTrackFlexibility flexibility;
     const double beside = 1e-6;
-    flexibility.kink = (cz_ring_flexibility(seats, modes->n_seat, beside) -
-                        cz_ring_flexibility(seats, modes->n_seat, 0.0)) /
-                       cz_turned(0.5 * beside).im;
+    flexibility.corner = (cz_ring_flexibility(seats, modes->n_seat, beside) -
+                          cz_ring_flexibility(seats, modes->n_seat, 0.0)) /
+                         cz_turned(0.5 * beside).im;
 
     /* The rest of the exact statics at Chebyshev's places. */
     double series[n] = {0.0};
     for (int i = 0; i < n; ++i) {
         const double place = (i + 0.5) / (2.0 * n);
         const double exact = cz_ring_flexibility(seats, modes->n_seat, place);
-        const double smooth = exact - flexibility.kink * cz_turned(0.5 * place).im;
+        const double smooth = exact - flexibility.corner * cz_turned(0.5 * place).im;
         for (int k = 0; k < n; ++k)
             series[k] += (k == 0 ? 1.0 : 2.0) / n * smooth * cz_turned(k * place).re;
     }

@@ -75,10 +75,10 @@ CZ_MUST_CHECK CzStatus cz_track_build(const CzRoadbed *roadbed, const CzTrackOpt
                                       CzArena *arena, CzTrackModes **modes, CzError *error);
 
 /* A function of the place between two seats, a share xi of the spacing past the last one:
- * breakpoint |sin(pi xi)| + sum of term[k] times the k-th power of cos(2 pi xi). Over a seat the
+ * corner |sin(pi xi)| + sum of term[k] times the k-th power of cos(2 pi xi). Over a seat the
  * rail's shear has a jump, so the statics have a breakpoint there. */
 typedef struct CzTrackFlexibility {
-    double kink;                      /* [m/N] */
+    double corner;                    /* [m/N] */
     double term[CZ_TRACK_FLEX_TERMS]; /* [m/N] */
 } CzTrackFlexibility;
 
@@ -86,7 +86,7 @@ static inline double cz_track_flexibility_at(const CzTrackFlexibility *flexibili
     double value = 0.0;
     for (int k = CZ_TRACK_FLEX_TERMS - 1; k >= 0; --k)
         value = value * cosine + flexibility->term[k];
-    return value + flexibility->kink * sqrt(0.5 * fabs(1.0 - cosine));
+    return value + flexibility->corner * sqrt(0.5 * fabs(1.0 - cosine));
 }
 
 /* What must lie under each force beside the modes so that a force at rest deflects the ring as

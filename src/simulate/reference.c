@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "model/kinks.h"
+#include "model/breakpoints.h"
 
 #define LONGEST_STEP 0.5 /* of the model's step, so that peaks are seen (ours) */
 #define SHORTEST_STEP                                                                              \

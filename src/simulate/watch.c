@@ -60,7 +60,7 @@ static void watch(CzWatch *list, const CzBatch *batch, CzEventKind what, Source 
 /* Place of the second breakpoint: the end of the first stage. */
 static double first_stage(const CzBatch *batch, int curve, size_t lane) {
     const CzCurveLanes *lanes = &batch->lanes->curve[curve];
-    return lanes->n_kink > 1 ? cz_row(lanes->at, batch->lanes->stride, 1)[lane] : INFINITY;
+    return lanes->n_breakpoint > 1 ? lanes->at[lanes->stride + lane] : INFINITY;
 }
 
 /* Strokes that are exhausted, but not of a reversible device that another one follows: that happens

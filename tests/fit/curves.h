@@ -6,7 +6,7 @@
 #include "support/check.h"
 
 #include "crushzone/fit.h"
-#include "model/kinks.h"
+#include "model/breakpoints.h"
 #include "problem/strokes.h"
 
 enum { MOST_POINTS = 4000 };
@@ -32,16 +32,16 @@ static inline double noise(unsigned *seed) {
 static inline void load_plastic(Curve *curve, const CzStage *stage, int n_stage, double trigger,
                                 double length, double stiffness) {
     static const CzTable none;
-    CzKinks kinks;
-    cz_kinks_strength(&kinks, stage, n_stage, &none, trigger, length, 1e9);
+    CzBreakpoints breakpoints;
+    cz_breakpoints_strength(&breakpoints, stage, n_stage, &none, trigger, length, 1e9);
     const double stroke = cz_total_stroke(stage, n_stage, &none);
     enum { RISE = 20, FLOW = 2000 };
     for (int i = 0; i < RISE; i++) {
-        const double force = cz_kinks_value(&kinks, 0.0) * i / RISE;
+        const double force = cz_breakpoints_value(&breakpoints, 0.0) * i / RISE;
         add_point(curve, force / stiffness, force);
     }
     for (int i = 0; i <= FLOW; i++) {
-        const double s = stroke * i / FLOW, force = cz_kinks_value(&kinks, s);
+        const double s = stroke * i / FLOW, force = cz_breakpoints_value(&breakpoints, s);
         add_point(curve, s + force / stiffness, force);
     }
 }
@@ -49,11 +49,12 @@ static inline void load_plastic(Curve *curve, const CzStage *stage, int n_stage,
 static inline void load_lines(Curve *curve, double first, const CzStage *stage, int n_stage,
                               int n_point) {
     static const CzTable none;
-    CzKinks kinks;
-    cz_kinks_loading(&kinks, first, stage, n_stage, &none, 1e9);
+    CzBreakpoints breakpoints;
+    cz_breakpoints_loading(&breakpoints, first, stage, n_stage, &none, 1e9);
     const double stroke = cz_total_stroke(stage, n_stage, &none);
     for (int i = 0; i <= n_point; i++)
-        add_point(curve, stroke * i / n_point, cz_kinks_value(&kinks, stroke * i / n_point));
+        add_point(curve, stroke * i / n_point,
+                  cz_breakpoints_value(&breakpoints, stroke * i / n_point));
 }
 
 static inline void make_noisy(Curve *curve, double of_force, double of_stroke) {

@@ -2,7 +2,7 @@
 #include "fit/curves.h"
 
 #include "fit/staged.h"
-#include "model/kinks.h"
+#include "model/breakpoints.h"
 
 static Curve curve; /* large; each test begins it anew */
 
@@ -266,13 +266,13 @@ static void an_end_whose_force_falls_to_zero_is_fitted(void **state) {
 }
 
 static double left_with(const CzStaged *staged, const CzBranch *branch) {
-    CzKinks kinks;
+    CzBreakpoints breakpoints;
     double squares = 0.0;
-    cz_staged_kinks(staged, &kinks);
+    cz_staged_breakpoints(staged, &breakpoints);
     enum { N = 20000 };
     for (int i = 0; i < N; i++) {
         const double x = cz_branch_last(branch) * (i + 0.5) / N;
-        const double d = cz_kinks_value(&kinks, x) - cz_branch_force(branch, x);
+        const double d = cz_breakpoints_value(&breakpoints, x) - cz_branch_force(branch, x);
         squares += d * d * cz_branch_last(branch) / N;
     }
     return squares;

@@ -65,9 +65,9 @@ static void cz_face_at(const double *input, double *output) {
 }
 
 /* Force, strength, slope, rate factor, step. */
-static void cz_plastic_flow_at(const double *input, double *output) {
+static void cz_plastic_crush_at(const double *input, double *output) {
     const double compliance = cz_plastic_compliance(input[1], input[2], input[3], input[4]);
-    output[0] = cz_plastic_flow(input[0], input[1], compliance);
+    output[0] = cz_plastic_crush(input[0], input[1], compliance);
 }
 
 /* Travel, softening length, space. */
@@ -159,7 +159,7 @@ static const Law range_cz_buffer = {
     .n_output = 2,
     .scale = {1e6, 0.1},
 };
-static const Law range_cz_plastic_flow = {
+static const Law range_cz_plastic_crush = {
     .n_input = 5,
     .low = {0, 0, -1e8, 0, 1e-6},
     .high = {2e6, 2e6, 1e8, 0.2, 1e-3},

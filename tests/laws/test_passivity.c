@@ -68,7 +68,7 @@ static double tube_force(Element *element, double x) {
     const double compliance =
         cz_plastic_compliance(strength, backbone_slope(element->backbone, stroke), 0.0, 1e-4);
     const double force = series_force(2e8, x - stroke, strength, compliance);
-    element->memory[0] += cz_plastic_flow(force, strength, compliance);
+    element->memory[0] += cz_plastic_crush(force, strength, compliance);
     return force;
 }
 
@@ -77,7 +77,7 @@ static double shear_force(Element *element, double x) {
         cz_shear_off(&(CzShearOffLaw){9e5, 2e5, 0.01, 0.06, 1e9}, element->memory[0]);
     const double compliance = cz_plastic_compliance(device.strength, device.slope, 0.0, 1e-4);
     const double force = series_force(2e8, x - element->memory[0], device.strength, compliance);
-    element->memory[0] += cz_plastic_flow(force, device.strength, compliance);
+    element->memory[0] += cz_plastic_crush(force, device.strength, compliance);
     return force;
 }
 

@@ -35,21 +35,21 @@ static double chain_force(Element *element, double x) {
     const double flowing =
         (trial + stiffness * compliance * strength) / (1.0 + stiffness * compliance);
     const double force = cz_positive_part(trial > strength ? flowing : trial);
-    element->memory[0] += cz_plastic_flow(force, strength, compliance);
+    element->memory[0] += cz_plastic_crush(force, strength, compliance);
     return force;
 }
 
 static void below_its_strength_a_member_does_not_crush(void **state) {
     (void)state;
     const double compliance = cz_plastic_compliance(6e5, 0.0, 0.05, 1e-4);
-    assert_near(cz_plastic_flow(-1e5, 6e5, compliance), 0.0, 0.0, 0.0);
-    assert_near(cz_plastic_flow(6e5, 6e5, compliance), 0.0, 0.0, 0.0);
-    assert_true(cz_plastic_flow(6e5 + 1.0, 6e5, compliance) > 0.0);
+    assert_near(cz_plastic_crush(-1e5, 6e5, compliance), 0.0, 0.0, 0.0);
+    assert_near(cz_plastic_crush(6e5, 6e5, compliance), 0.0, 0.0, 0.0);
+    assert_true(cz_plastic_crush(6e5 + 1.0, 6e5, compliance) > 0.0);
 }
 
 static void a_missing_member_never_crushes(void **state) {
     (void)state;
-    assert_near(cz_plastic_flow(1e9, 1e30, cz_plastic_compliance(1e30, 0.0, 0.0, 1e-4)), 0.0, 0.0,
+    assert_near(cz_plastic_crush(1e9, 1e30, cz_plastic_compliance(1e30, 0.0, 0.0, 1e-4)), 0.0, 0.0,
                 0.0);
 }
 
@@ -92,7 +92,7 @@ static void the_rate_factor_raises_the_plastic_force(void **state) {
     (void)state;
     for (double step = 1e-6; step < 1e-3; step *= 10.0) {
         const double compliance = cz_plastic_compliance(6e5, 0.0, 0.05, step);
-        assert_near(cz_plastic_flow(6.6e5, 6e5, compliance) / step, 2.0, 5e-3, 0.0);
+        assert_near(cz_plastic_crush(6.6e5, 6e5, compliance) / step, 2.0, 5e-3, 0.0);
     }
 }
 

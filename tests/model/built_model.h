@@ -4,7 +4,7 @@
 
 #include "support/check.h"
 
-#include "model/kinks.h"
+#include "model/breakpoints.h"
 #include "model/own_design.h"
 #include "support/typed_problem.h"
 
@@ -47,7 +47,7 @@ static inline double velocity_of(const Built *built, int car, int dof) {
 static inline double curve_at(const CzLanes *lanes, size_t lane, CzCurveId id, double x) {
     const CzCurveLanes *curve = &lanes->curve[id];
     double value = curve->start[lane];
-    for (int i = 0; i < curve->n_kink; i++) {
+    for (int i = 0; i < curve->n_breakpoint; i++) {
         const size_t slot = (size_t)i * lanes->stride + lane;
         value += curve->slope_change[slot] * fmax(x - curve->at[slot], 0.0);
     }

@@ -36,10 +36,10 @@ static void assert_same_design(const CzLanes *a, int in_a, const CzLanes *b, int
         }
         for (int id = 0; id < CZ_N_CURVE; id++) {
             const CzCurveLanes *ca = &a->curve[id], *cb = &b->curve[id];
-            assert_int_equal(ca->n_kink, cb->n_kink);
+            assert_int_equal(ca->n_breakpoint, cb->n_breakpoint);
             assert_true(ca->start[la] == cb->start[lb]);
             assert_true(ca->usable[la] == cb->usable[lb]);
-            for (size_t k = 0; k < (size_t)ca->n_kink; k++) {
+            for (size_t k = 0; k < (size_t)ca->n_breakpoint; k++) {
                 assert_true(ca->at[k * a->stride + la] == cb->at[k * b->stride + lb]);
                 assert_true(ca->slope_change[k * a->stride + la] ==
                             cb->slope_change[k * b->stride + lb]);
@@ -141,9 +141,10 @@ static void the_last_breakpoint_is_the_end_of_the_stroke(void **state) {
     for (int id = 0; id < CZ_N_CURVE; id++) {
         const CzCurveLanes *curve = &built.lanes->curve[id];
         for (size_t lane = 0; lane < (size_t)built.lanes->n_car; lane++)
-            if (curve->n_kink > 0 && curve->usable[lane] < 1e30)
-                assert_true(curve->at[(size_t)(curve->n_kink - 1) * built.lanes->stride + lane] ==
-                            curve->usable[lane]);
+            if (curve->n_breakpoint > 0 && curve->usable[lane] < 1e30)
+                assert_true(
+                    curve->at[(size_t)(curve->n_breakpoint - 1) * built.lanes->stride + lane] ==
+                    curve->usable[lane]);
     }
     free_model(&built);
 }
@@ -156,7 +157,7 @@ static void breakpoints_of_a_lane_are_in_order_of_stroke(void **state) {
     for (int id = 0; id < CZ_N_CURVE; id++) {
         const CzCurveLanes *curve = &built.lanes->curve[id];
         for (size_t lane = 0; lane < (size_t)built.lanes->n_car; lane++)
-            for (int k = 1; k < curve->n_kink; k++) {
+            for (int k = 1; k < curve->n_breakpoint; k++) {
                 const double *at = curve->at + (size_t)k * built.lanes->stride + lane;
                 assert_true(at[0] >= *(at - built.lanes->stride));
             }

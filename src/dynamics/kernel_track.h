@@ -95,7 +95,7 @@ static void look_at_receptance(const CzReceptanceMotion *track, CzBlock *d, int 
             const double *restrict is_under = under->part[k].is_under;
             CZ_LANES (i) {
                 const CzRailPoint point =
-                    cz_track_on_spring(flexibility, track->per_spacing, (CzRailPoint){0.0},
+                    cz_track_on_spring(flexibility, track->per_spacing, (CzRailPoint){.z = 0.0},
                                        (CzComplex){seat_re[i], seat_im[i]});
                 rail->flexibility[i] += is_under[i] * point.flexibility;
                 rail->flexibility_slope[i] += is_under[i] * point.flexibility_slope;

@@ -29,7 +29,7 @@ typedef struct CzBreakpoints {
     double slope_change[CZ_MAX_BREAKPOINTS]; /* [N/m] (n) */
 } CzBreakpoints;
 
-/* Breakpoints that a strength or a loading curve has, whatever its numbers are. */
+/* Number of breakpoints of a strength or a loading curve, for any values. */
 int cz_breakpoints_in_strength(int n_stage, const CzTable *table);
 int cz_breakpoints_in_loading(int n_stage, const CzTable *table);
 

@@ -237,7 +237,7 @@ static CzComplex receptance_of_a_wheel(const CzTrackModes *modes, double w, CzAr
     if (!cz_track_spectrum(modes, 2.5, arena, &spectrum))
         fail_msg("no memory");
     CzComplex sum = {
-        flexibility.kink * 2.0 / CZ_PI + flexibility.term[0] + 0.5 * flexibility.term[2], 0.0};
+        flexibility.corner * 2.0 / CZ_PI + flexibility.term[0] + 0.5 * flexibility.term[2], 0.0};
     for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++)
         sum = cz_complex_sum(
             sum, cz_complex_scaled(0.5, cz_track_receptance(&spectrum, (CzPairMotion)motion,

@@ -211,6 +211,23 @@ static CzStatus fit_receptances(CzModel *model, const CzVehicle *vehicles, CzTra
     return CZ_OK;
 }
 
+/* Where a track cannot be fitted, runs on the fit are refused; searches on other tracks stay on
+ * them. */
+static CzStatus fit_if_possible(CzModel *model, const CzVehicle *vehicles, CzTrackModes *modes,
+                                CzError *error) {
+    CzError failure = {0};
+    const CzStatus status = fit_receptances(model, vehicles, modes, &failure);
+    if (status == CZ_STATUS_INPUT && model->simulation->track != CZ_TRACK_RECEPTANCE) {
+        modes->n_receptance = 0;
+        return CZ_OK;
+    }
+    if (status == CZ_STATUS_INPUT)
+        cz_problem_place(model->problem, &cz_problem_input(model->problem)->track, &failure);
+    if (status != CZ_OK && error != NULL)
+        *error = failure;
+    return status;
+}
+
 static CzStatus build_track(CzModel *model, const CzInput *input, const CzVehicle *vehicles,
                             CzError *error) {
     const double span = longest_span(model, vehicles);
@@ -219,7 +236,7 @@ static CzStatus build_track(CzModel *model, const CzInput *input, const CzVehicl
     const CzTrackOptions options = cz_track_options_default(span);
     CzTrackModes *modes = NULL;
     CZ_TRY(cz_track_build(&input->track, &options, &model->arena, &modes, error));
-    CZ_TRY(fit_receptances(model, vehicles, modes, error));
+    CZ_TRY(fit_if_possible(model, vehicles, modes, error));
     model->track = modes;
     return CZ_OK;
 }

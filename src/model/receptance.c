@@ -11,13 +11,13 @@
 /* Samples and first poles stand evenly in the logarithm of frequency: samples from 1/300 of the cut
  * of the modes to the cut and on to 13 times the cut, where the fit must fall off as the modes do;
  * poles from 1/100 of the cut to the cut (ours). */
-enum { N_BELOW = 140, N_BEYOND = 20, N_SAMPLE = N_BELOW + N_BEYOND };
+enum { N_BELOW = 200, N_BEYOND = 20, N_SAMPLE = N_BELOW + N_BEYOND };
 #define LOG_300 5.703782474656201
 #define LOG_100 4.605170185988092
 #define LOG_13 2.564949357461537
 #define FIRST_DAMPING 0.1 /* damping ratio of the first poles (ours) */
 
-enum { FEWEST_PAIRS = 8, MOST_PAIRS = 12, N_ITERATION = 5, MOST_REPAIRS = 8 }; /* (ours) */
+enum { FEWEST_PAIRS = 8, MOST_PAIRS = 16, N_ITERATION = 8, MOST_REPAIRS = 8 }; /* (ours) */
 _Static_assert(CZ_MOST_PAIR_MODES >= 2 * MOST_PAIRS + MOST_REPAIRS, "every pole may be real");
 
 #define LARGEST_ERROR 3e-3  /* of the largest receptance, at the samples (ours) */
@@ -387,12 +387,12 @@ static CzStatus fit(const CzTrackModes *modes, CzArena *arena, CzArena *scratch,
         if (!fit_motion(samples, modes->cut, a, own) || !find_storage(own, arena, scratch))
             return scratch->out_of_memory || arena->out_of_memory
                        ? cz_no_memory(error, "the track's receptance")
-                       : cz_fail(
-                             error, CZ_STATUS_INPUT,
-                             "the receptance of the track under a bogie with an axle spacing of "
-                             "%g m cannot be fitted by few modes: its masses, stiffnesses and "
-                             "damping lie too far apart",
-                             receptance->axle_spacing);
+                       : cz_fail(error, CZ_STATUS_INPUT,
+                                 "no few modes are the receptance of this track under a bogie with "
+                                 "an axle spacing of %g m to 0.3 %%: its masses, stiffnesses and "
+                                 "damping lie too far apart" CZ_HELP
+                                 "simulation: {track: modal} runs on all of its modes",
+                                 receptance->axle_spacing);
     }
     return CZ_OK;
 }

@@ -37,7 +37,7 @@ bool cz_track_spectrum(const CzTrackModes *modes, double axle_spacing, CzArena *
  * the modes [m/N]. */
 CzComplex cz_track_receptance(const CzTrackSpectrum *spectrum, CzPairMotion motion, CzComplex s);
 
-enum { CZ_MOST_PAIR_MODES = 32 };
+enum { CZ_MOST_PAIR_MODES = 40 };
 
 /* deflection = real part of g y, y' = lambda y + g force. One of a pair is stored; a real lambda
  * has a g that is real or imaginary. */

@@ -56,13 +56,13 @@ static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *erro
     return CZ_OK;
 }
 
-/* A search runs on the receptance track; the production run is run on the file's own. */
+/* A search runs on the receptance track where there is one, a production run on the file's own. */
 static CzTrack track_of(const CzBatch *batch, CzTrackUse use) {
     const CzTrack own = (CzTrack)batch->model->simulation->track;
     if (own == CZ_TRACK_RIGID)
         return own;
     if (use == CZ_TRACK_USE_OWN)
-        return batch->brief ? CZ_TRACK_RECEPTANCE : own;
+        return batch->brief && batch->model->track->n_receptance > 0 ? CZ_TRACK_RECEPTANCE : own;
     return use == CZ_TRACK_USE_MODAL ? CZ_TRACK_MODAL : CZ_TRACK_FE;
 }
 

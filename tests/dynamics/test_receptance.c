@@ -43,6 +43,59 @@ static void the_fit_is_within_its_error_of_the_modes(void **state) {
     cz_arena_free(&arena);
 }
 
+/* Half as stiff or heavy, twice as stiff or heavy as the usual track, and other bogies. */
+static void tracks_of_other_lines_are_fitted(void **state) {
+    (void)state;
+    const CzRoadbed usual = usual_roadbed();
+    for (int i = 0; i < 64; i++) {
+        CzArena arena = {0};
+        CzRoadbed roadbed = usual;
+        roadbed.pad_stiffness *= i & 1 ? 2.0 : 0.5;
+        roadbed.pad_damping *= i & 2 ? 1.5 : 0.7;
+        roadbed.sleeper_mass *= i & 4 ? 1.5 : 0.5;
+        roadbed.ballast_mass *= i & 8 ? 1.5 : 0.7;
+        roadbed.ballast_stiffness *= i & 16 ? 2.0 : 0.5;
+        roadbed.subgrade_stiffness *= i & 32 ? 2.0 : 0.5;
+        const CzTrackOptions options = cz_track_options_default(SPAN);
+        CzTrackModes *modes = NULL;
+        CzError error = {0};
+        assert_int_equal(cz_track_build(&roadbed, &options, &arena, &modes, &error), CZ_OK);
+        fitted(modes, spacings[i % N_SPACING], &arena);
+        cz_arena_free(&arena);
+    }
+}
+
+/* A track that hardly anything damps: the default model is refused with the way out, which runs,
+ * and a search on it stays on it. */
+static void a_track_that_cannot_be_fitted_is_refused_with_a_way_out(void **state) {
+    (void)state;
+#define UNDAMPED                                                                                   \
+    "track.pad_damping_N_s_m=1000", "track.ballast_damping_N_s_m=0",                               \
+        "track.subgrade_damping_N_s_m=0"
+    const char *file = CZ_SOURCE_FOLDER "/problems/two-cars-25kmh.yaml";
+    CzProblemOptions options = cz_problem_options_default();
+    options.set = WITH("simulation.track=receptance", UNDAMPED);
+    options.n_set = 4;
+    CzProblem *problem = NULL;
+    CzModel *model = NULL;
+    CzError error = {0};
+    assert_int_equal(cz_problem_read(file, &options, &problem, &error), CZ_OK);
+    assert_int_equal(cz_model_build(problem, 0, &model, &error), CZ_STATUS_INPUT);
+    assert_non_null(strstr(error.message, "receptance"));
+    assert_non_null(strstr(error.help, "track: modal"));
+    cz_problem_free(problem);
+    CzSimulateOptions brief = cz_simulate_options_default();
+    brief.brief = true;
+    brief.record = false;
+    for (int i = 0; i < 2; i++) {
+        CzSimulateOptions simulate = i == 0 ? cz_simulate_options_default() : brief;
+        Collision collision = collide_so("problems/two-cars-25kmh.yaml",
+                                         WITH("simulation.track=modal", UNDAMPED), 0, &simulate);
+        assert_true(collision.summary->interface[0].peak_force > 0.0);
+        collision_free(&collision);
+    }
+}
+
 /* As on the modal track: what four powers of a cosine leave out of the statics (test_track.c). */
 static void one_wheel_at_rest_deflects_the_track_as_its_statics(void **state) {
     (void)state;
@@ -159,6 +212,8 @@ static void cars_with_other_bogies_have_their_own_track(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_fit_is_within_its_error_of_the_modes),
+        cmocka_unit_test(tracks_of_other_lines_are_fitted),
+        cmocka_unit_test(a_track_that_cannot_be_fitted_is_refused_with_a_way_out),
         cmocka_unit_test(one_wheel_at_rest_deflects_the_track_as_its_statics),
         cmocka_unit_test(a_swinging_mass_stores_its_energy),
         cmocka_unit_test(fitted_modes_give_back_no_more_than_they_took),

@@ -90,8 +90,8 @@ static void one_curve_is_read_however_it_is_written(void **state) {
         "stroke_mm;force_kN;\n0;0;\n1.5;300;\n300;1050.5;\n;;\n",
         "Speed (mm/s),s (mm),F (kN)\n0,0,0\n9,1.5,300\n9,300,1050.5\n",
         "mm;kN\n0;0\n1.5;300\n300;1050.5",
-        "Samples\t20\t20\t\nX\tstroke (mm)\tforce (kN)\tComment\n0\t0\t0\n1\t1.5\t300\n"
-        "2\t300\t1050.5\n",
+        ("Samples\t20\t20\t\nX\tstroke (mm)\tforce (kN)\tComment\n0\t0\t0\n1\t1.5\t300\n"
+         "2\t300\t1050.5\n"),
         "t;stroke_mm;force_kN;Comment\n0;0;0\n1;1.5;300\n2;300;1050.5\n",
         "% stroke_mm force_kN\n0 0\n1.5 3e2\n3.0E+02 1.0505E+03\n"};
     (void)state;

@@ -102,6 +102,8 @@ static const char *what_is_wrong(const char *text, const char *end) {
     if (*end == ':')
         return "is not a number: ':' has no meaning in one";
     end += strspn(end, " ");
+    if (*end == '\0')
+        return "is not a number: a blank follows it";
     if (*end == '#' || strncmp(end, "//", 2) == 0)
         return "is not a number: a comment begins with a blank and '#'";
     const char *operand = end + 1 + strspn(end + 1, " ");

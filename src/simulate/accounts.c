@@ -27,18 +27,18 @@ static CzAccount share_of(double share, CzAccount a) {
 }
 
 bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind kind) {
-    const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
+    const CzInterfaceEquipment *of = &batch->equipment[lane];
     switch (kind) {
     case CZ_ELEMENT_COUPLER:
-        return of.side[side].has_coupler;
+        return of->side[side].has_coupler;
     case CZ_ELEMENT_ANTI_CLIMBER:
-        return of.side[side].has_anti_climber;
+        return of->side[side].has_anti_climber;
     case CZ_ELEMENT_SIDE_BUFFERS:
-        return of.side[side].has_side_buffers;
+        return of->side[side].has_side_buffers;
     case CZ_ELEMENT_SUPERSTRUCTURE:
-        return of.has_superstructures;
+        return of->has_superstructures;
     case CZ_ELEMENT_DRAW_GEAR:
-        return of.has_draw_gears;
+        return of->has_draw_gears;
     default:
         return false;
     }

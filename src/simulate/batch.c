@@ -66,6 +66,15 @@ static CzTrack track_of(const CzBatch *batch, CzTrackUse use) {
     return use == CZ_TRACK_USE_MODAL ? CZ_TRACK_MODAL : CZ_TRACK_FE;
 }
 
+/* What interfaces are equipped with does not change in a run. */
+static bool list_equipment(CzBatch *batch) {
+    const size_t n = (size_t)batch->model->n_car * (size_t)batch->n_design;
+    batch->equipment = cz_arena_allocate(&batch->arena, n, sizeof *batch->equipment);
+    for (size_t lane = 0; batch->equipment != NULL && lane < n; lane++)
+        batch->equipment[lane] = cz_interface_equipment(batch->lanes, lane);
+    return batch->equipment != NULL;
+}
+
 /* Memory, lanes and state at t = 0. */
 static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
                       const CzVehicle *const *vehicles, const CzSimulateOptions *options,
@@ -98,7 +107,7 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     batch->vehicles = used;
     CZ_TRY(fill_designs(batch, own, error));
     batch->dynamics = cz_dynamics_create(batch->lanes, &batch->arena);
-    if (batch->dynamics == NULL)
+    if (batch->dynamics == NULL || !list_equipment(batch))
         return cz_no_memory(error, "the designs");
     const double track_step = batch->integrator == CZ_INTEGRATOR_ZHAI ? batch->step : 0.0;
     if (model->track != NULL &&

@@ -55,13 +55,13 @@ static void put_car(Writer *writer, int car) {
 static void put_face(Writer *writer, int interface) {
     const CzBatch *batch = writer->batch;
     const size_t lane = cz_lane(batch, interface, 0);
-    const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
+    const CzInterfaceEquipment *of = &batch->equipment[lane];
     for (int side = 0; side < 2; ++side)
-        if (of.side[side].has_anti_climber)
+        if (of->side[side].has_anti_climber)
             put(writer, CZ_CHANNEL_ANTI_CLIMBER_STROKE, cz_end_place(interface + side, side == 0),
                 1e3 * cz_memory(batch, CZ_MEMORY(face.side[side].stroke), lane));
     const bool pushes = cz_published(batch, CZ_PUBLISHED(face.force), lane) > 0.0;
-    if (of.can_climb) /* there is no overlap until they meet */
+    if (of->can_climb) /* there is no overlap until they meet */
         put(writer, CZ_CHANNEL_ANTI_CLIMBER_OVERLAP, interface,
             pushes ? 1e3 * cz_published(batch, CZ_PUBLISHED(face.remaining), lane) : NAN);
 }
@@ -69,20 +69,20 @@ static void put_face(Writer *writer, int interface) {
 static void put_interface(Writer *writer, int interface) {
     const CzBatch *batch = writer->batch;
     const size_t lane = cz_lane(batch, interface, 0);
-    const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
+    const CzInterfaceEquipment *of = &batch->equipment[lane];
     put(writer, CZ_CHANNEL_INTERFACE_FORCE, interface,
         1e-3 * cz_published(batch, CZ_PUBLISHED(interface.force), lane));
     put(writer, CZ_CHANNEL_INTERFACE_CLOSURE, interface,
         1e3 * (cz_position(batch, CZ_DOF(body.x), lane) -
                cz_position(batch, CZ_DOF(body.x), cz_lane(batch, interface + 1, 0))));
-    if (of.has_couplers)
+    if (of->has_couplers)
         put(writer, CZ_CHANNEL_COUPLER_FORCE, interface,
             1e-3 * cz_published(batch, CZ_PUBLISHED(coupler.force), lane));
     put(writer, CZ_CHANNEL_ANTI_CLIMBER_FORCE, interface,
         1e-3 * cz_published(batch, CZ_PUBLISHED(face.force), lane));
     put(writer, CZ_CHANNEL_ANTI_CLIMBER_VERTICAL, interface,
         1e-3 * cz_published(batch, CZ_PUBLISHED(face.demand_vertical), lane));
-    if (of.has_side_buffers)
+    if (of->has_side_buffers)
         put(writer, CZ_CHANNEL_SIDE_BUFFER_FORCE, interface,
             1e-3 * cz_published(batch, CZ_PUBLISHED(side_buffers.force), lane));
     put_face(writer, interface);

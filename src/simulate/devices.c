@@ -30,11 +30,11 @@ static bool has_element(const CzBatch *batch, size_t lane, int car, CzDeviceClas
     const bool full = batch->model->car[car].model == CZ_MODEL_FULL;
     if (class == CZ_DEVICE_END || class == CZ_DEVICE_MASSLESS_END)
         return full == (class == CZ_DEVICE_END);
-    const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
+    const CzInterfaceEquipment *of = &batch->equipment[lane];
     if (classes[class].element == CZ_ELEMENT_COUPLER)
-        return of.has_couplers;
+        return of->has_couplers;
     if (classes[class].element == CZ_ELEMENT_SIDE_BUFFERS)
-        return of.has_side_buffers;
+        return of->has_side_buffers;
     return true;
 }
 
@@ -47,7 +47,7 @@ static bool has_slide(const CzBatch *batch, int car, int design, int side) {
 /* Stroke of a device of a side, or an end, in its lane. */
 static double usable_of(const CzBatch *batch, const Class *kind, int which, size_t lane) {
     if (kind->limit == RETRACTION_SPACE)
-        return cz_interface_equipment(batch->lanes, lane).side[which].retraction_space;
+        return batch->equipment[lane].side[which].retraction_space;
     return kind->limit == SLIDE_LENGTH ? cz_car_equipment(batch->lanes, lane).slide_length
                                        : batch->lanes->curve[kind->of[which]].usable[lane];
 }

@@ -258,19 +258,19 @@ static void fill_climbing(const CzBatch *batch, int interface, int design,
                           CzInterfaceResult *result) {
     const size_t lane = cz_lane(batch, interface, design);
     const bool pushed = !isnan(result->min_overlap);
-    const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
+    const CzInterfaceEquipment *of = &batch->equipment[lane];
     result->overlap_time = extreme_if(pushed, batch, CZ_EXTREME(face_overlap_time), lane);
     result->margin_time =
         extreme_if(!isnan(result->vertical_margin), batch, CZ_EXTREME(face_margin_time), lane);
     result->ramp = extreme_if(pushed, batch, CZ_EXTREME(face_ramp), lane);
-    result->friction = pushed ? of.friction : NAN;
-    result->underframe_rise = extreme_if(of.has_couplers && !of.couplers_on_ends, batch,
+    result->friction = pushed ? of->friction : NAN;
+    result->underframe_rise = extreme_if(of->has_couplers && !of->couplers_on_ends, batch,
                                          CZ_EXTREME(underframe_rise), lane);
     for (int side = 0; side < 2; ++side) {
-        const double stop = of.side[side].swing_stop;
+        const double stop = of->side[side].swing_stop;
         result->swing[side] =
-            extreme_if(of.has_couplers, batch, CZ_EXTREME(swing_vertical[side]), lane);
-        result->swing_stop[side] = of.has_couplers && isfinite(stop) ? stop : NAN;
+            extreme_if(of->has_couplers, batch, CZ_EXTREME(swing_vertical[side]), lane);
+        result->swing_stop[side] = of->has_couplers && isfinite(stop) ? stop : NAN;
     }
 }
 
@@ -286,7 +286,7 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
         cz_extreme(batch, CZ_EXTREME(section[0]), cz_lane(batch, interface + 1, design));
     const double lost_overlap = cz_extreme(batch, CZ_EXTREME(face_lost_overlap), lane);
     const double lost_margin = cz_extreme(batch, CZ_EXTREME(face_lost_margin), lane);
-    const bool can_climb = cz_interface_equipment(batch->lanes, lane).can_climb;
+    const bool can_climb = batch->equipment[lane].can_climb;
     result->min_overlap = can_climb && lost_overlap > CZ_NOT_YET ? -lost_overlap : NAN;
     result->vertical_margin = can_climb && lost_margin > CZ_NOT_YET ? -lost_margin : NAN;
     result->vertical_demand = cz_extreme(batch, CZ_EXTREME(face_demand_vertical), lane);

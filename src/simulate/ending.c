@@ -157,8 +157,7 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
          ++car)
         for (int side = 0; side < 2; ++side) {
             const size_t lane = cz_lane(batch, car, design);
-            const double length =
-                cz_interface_equipment(batch->lanes, lane).side[side].strut_length;
+            const double length = batch->equipment[lane].side[side].strut_length;
             double shortened = cz_memory(batch, CZ_MEMORY(coupler.side[side].buffer.stroke), lane);
             for (int k = 0; k < N_OF_COUPLER; ++k)
                 shortened += cz_memory(batch, plastic[k].stroke[side], lane);

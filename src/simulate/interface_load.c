@@ -36,7 +36,7 @@ CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena) 
 
 bool cz_interface_can_open(const CzBatch *batch, int interface, int design) {
     const size_t lane = cz_lane(batch, interface, design);
-    bool whole = cz_interface_equipment(batch->lanes, lane).is_coupled;
+    bool whole = batch->equipment[lane].is_coupled;
     for (int side = 0; side < 2; ++side)
         whole &= !cz_coupler_is_sheared(batch->dynamics, lane, side);
     return !whole;

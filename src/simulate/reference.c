@@ -153,7 +153,7 @@ static int list_drops(const CzBatch *batch, Drop *drop) {
     int n = 0;
     for (int i = 0; i < 2 * (batch->model->n_car - 1); i++) {
         const size_t lane = cz_lane(batch, i / 2, 0);
-        if (cz_interface_equipment(batch->lanes, lane).side[i % 2].shears_off)
+        if (batch->equipment[lane].side[i % 2].shears_off)
             drop[n++] =
                 (Drop){cz_block_of(batch->dynamics, lane), i % 2, lane % CZ_LANE_BLOCK, false};
     }

@@ -58,6 +58,7 @@ typedef struct CzBatch {
     const CzKernel *kernel;
     CzLanes *lanes;
     CzDynamics *dynamics;
+    CzInterfaceEquipment *equipment;  /* by lane */
     const CzVehicle *const *vehicles; /* (n_design) */
     int n_design;
     bool brief; /* end once settled */

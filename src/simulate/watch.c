@@ -79,7 +79,7 @@ static void watch_devices(CzWatch *list, const CzBatch *batch, int interface, in
 
 static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int side) {
     const size_t lane = cz_lane(batch, interface, 0), own = cz_lane(batch, interface + side, 0);
-    const CzInterfaceEquipment of = cz_interface_equipment(batch->lanes, lane);
+    const CzInterfaceEquipment *of = &batch->equipment[lane];
     const char *name = batch->model->car[interface + side].name;
     const int which = side == 0 ? 1 : 0;
     watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY, CZ_MEMORY(coupler.side[side].tube),
@@ -91,7 +91,7 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
     watch(list, batch, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY,
           CZ_MEMORY(side_buffers.side[side].tube), lane, CRUSHED, "side buffers", name);
     watch_devices(list, batch, interface, side);
-    if (of.side[side].has_massless_end) {
+    if (of->side[side].has_massless_end) {
         const int massless = CZ_CURVE(massless[side]);
         watch(list, batch, CZ_EVENT_END_CRUSH, FROM_MEMORY,
               CZ_MEMORY(face.side[side].massless.peak), lane, first_stage(batch, massless, lane),
@@ -102,9 +102,9 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
         watch(list, batch, CZ_EVENT_END_CRUSH, FROM_MEMORY, CZ_MEMORY(end[which].peak), own,
               first_stage(batch, end, own), "end", name);
     }
-    if (of.has_couplers)
+    if (of->has_couplers)
         watch(list, batch, CZ_EVENT_SWING_STOP, FROM_EXTREME, CZ_EXTREME(swing_vertical[side]),
-              lane, of.side[side].swing_stop, "coupler", name);
+              lane, of->side[side].swing_stop, "coupler", name);
 }
 
 static void watch_interface(CzWatch *list, const CzBatch *batch, int interface) {

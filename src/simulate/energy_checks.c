@@ -197,8 +197,9 @@ bool cz_energy_checks_fail(const CzBatch *batch, int design, char *where, char *
     if (!(fabs(sum - energy.absorbers) <= rounding))
         return note(&fault, "sum of", "elements", "misses the ledger by %.4g J, an internal error",
                     sum - energy.absorbers);
-    const double available = energy.initial - energy.moving_load + released_by_track(batch, design);
-    return !(energy.dissipated <= available + open) &&
+    const double available = energy.initial - energy.moving_load;
+    return !(energy.dissipated <= available + open ||
+             energy.dissipated <= available + open + released_by_track(batch, design)) &&
            note(&fault, "all", "elements", "dissipated %.4g kJ, more than the available %.4g kJ",
                 1e-3 * energy.dissipated, 1e-3 * available);
 }

@@ -62,4 +62,15 @@ static inline const CzVehicle *find_vehicle(const CzProblem *problem, const char
     return NULL;
 }
 
+/* The resolved problem as text; the caller frees it. */
+static inline char *resolved_text(const CzProblem *problem) {
+    char *text = NULL;
+    size_t n_byte = 0;
+    FILE *stream = open_memstream(&text, &n_byte);
+    assert_non_null(stream);
+    assert_int_equal(cz_problem_write_resolved(problem, stream, NULL), CZ_OK);
+    fclose(stream);
+    return text;
+}
+
 #endif

@@ -4,16 +4,6 @@
 #include "problem/keys.h"
 #include "support/shipped.h"
 
-static char *resolve(const CzProblem *problem) {
-    char *text = NULL;
-    size_t n_byte = 0;
-    FILE *stream = open_memstream(&text, &n_byte);
-    assert_non_null(stream);
-    assert_int_equal(cz_problem_write_resolved(problem, stream, NULL), CZ_OK);
-    fclose(stream);
-    return text;
-}
-
 static void check_same_texts(const CzTexts *a, const CzTexts *b) {
     assert_int_equal(a->n_text, b->n_text);
     for (int i = 0; i < a->n_text; i++)
@@ -85,7 +75,7 @@ static void check_round_trip(const char *name, const char *folder) {
     char path[400];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     assert_int_equal(cz_problem_read(path, NULL, &problem, NULL), CZ_OK);
-    char *text = resolve(problem);
+    char *text = resolved_text(problem);
     const CzStatus status =
         cz_problem_read_text(text, strlen(text), "resolved.yaml", folder, NULL, &again, NULL);
     if (status != CZ_OK)
@@ -116,7 +106,7 @@ static void shipped_problems_resolve_to_themselves(void **state) {
 static void variables_of_the_resolved_file_drive_the_same_places(void **state) {
     (void)state;
     CzProblem *problem = read_good("full.yaml", 0, NULL), *again = NULL;
-    char *text = resolve(problem);
+    char *text = resolved_text(problem);
     assert_int_equal(read_text(text, &again), CZ_OK);
     const CzOptimise *optimise = &cz_problem_input(again)->optimise;
     assert_int_equal(optimise->n_variables, 3); /* two stages of one path, and the gap */
@@ -136,7 +126,7 @@ static void the_origin_of_every_value_is_given_behind_it(void **state) {
     (void)state;
     static const char *const set[] = {"trains.A.speed_km_h=18"};
     CzProblem *problem = read_good("rigid.yaml", 1, set);
-    char *text = resolve(problem);
+    char *text = resolved_text(problem);
     assert_non_null(
         strstr(text, "speed_m_s: 5                             # --set:1, speed_km_h: 18\n"));
     assert_non_null(strstr(text, "rigid.yaml:12, gap_mm: 100, part bumper, part car\n"));

@@ -1,0 +1,133 @@
+/* What surrounds a run: start of the program, reading, building, recording, writing. */
+#include "bench/cases.h"
+
+#include <spawn.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static const char problem_file[] = "problems/metro-6-car.yaml";
+static const char recorded_file[] = "problems/two-cars-25kmh.yaml";
+static const char result_folder[] = "build/bench-results";
+
+/* ---- the program ---- */
+
+/* `crushzone version` to its end, on the wall. */
+static double start_program(void *data) {
+    const char *program = data;
+    char *const arguments[] = {(char *)program, "version", "--json", NULL};
+    char *const environment[] = {NULL};
+    posix_spawn_file_actions_t quiet;
+    pid_t child;
+    int status = 1;
+    posix_spawn_file_actions_init(&quiet);
+    posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", 1, 0);
+    const double start = bench_wall();
+    if (posix_spawn(&child, program, &quiet, NULL, arguments, environment) != 0 ||
+        waitpid(child, &status, 0) != child || status != 0)
+        bench_stop("the program cannot be started");
+    const double time = bench_wall() - start;
+    posix_spawn_file_actions_destroy(&quiet);
+    return time;
+}
+
+/* ---- reading and building ---- */
+
+static CzProblem *read_file(const char *file) {
+    CzProblemOptions options = cz_problem_options_default();
+    CzProblem *problem = NULL;
+    CzError error = {0};
+    options.share_folder = "problems";
+    if (cz_problem_read(file, &options, &problem, &error) != CZ_OK)
+        bench_stop(error.message);
+    return problem;
+}
+
+static double read_problem(void *data) {
+    const double start = bench_processor();
+    CzProblem *problem = read_file(data);
+    const double time = bench_processor() - start;
+    cz_problem_free(problem);
+    return time;
+}
+
+static double build_model(void *data) {
+    CzModel *model = NULL;
+    CzError error = {0};
+    const double start = bench_processor();
+    if (cz_model_build(data, 0, &model, &error) != CZ_OK)
+        bench_stop(error.message);
+    const double time = bench_processor() - start;
+    cz_model_free(model);
+    return time;
+}
+
+/* ---- writing ---- */
+
+/* An evaluation with everything recorded, made once. */
+typedef struct Finished {
+    CzProblem *problem;
+    CzEvaluator *evaluator;
+    CzEvaluation evaluation;
+} Finished;
+
+static Finished *finish(const char *file) {
+    Finished *finished = calloc(1, sizeof *finished);
+    CzEvaluatorOptions options = cz_evaluator_options_default();
+    CzError error = {0};
+    if (finished == NULL)
+        bench_stop("no memory");
+    finished->problem = read_file(file);
+    if (cz_evaluator_build(finished->problem, &options, &finished->evaluator, &error) != CZ_OK ||
+        cz_evaluate(finished->evaluator, 1, NULL, true, &finished->evaluation, &error) != CZ_OK)
+        bench_stop(error.message);
+    return finished;
+}
+
+static double write_page(void *data) {
+    const Finished *finished = data;
+    const CzReportRun run = {.label = "",
+                             .problem = finished->problem,
+                             .evaluation = &finished->evaluation,
+                             .scenario = -1};
+    CzError error = {0};
+    FILE *stream = tmpfile();
+    if (stream == NULL)
+        bench_stop("no temporary file");
+    const double start = bench_processor();
+    if (cz_report_write_page(&run, NULL, stream, &error) != CZ_OK)
+        bench_stop(error.message);
+    const double time = bench_processor() - start;
+    fclose(stream);
+    return time;
+}
+
+static double write_folder(void *data) {
+    const Finished *finished = data;
+    CzError error = {0};
+    const double start = bench_processor();
+    if (cz_report_write_folder(finished->problem, &finished->evaluation, NULL, result_folder,
+                               &error) != CZ_OK)
+        bench_stop(error.message);
+    return bench_processor() - start;
+}
+
+void bench_add_program(Bench *bench, const char *program) {
+    bench_add(bench, "program.start", "crushzone version", start_program, (void *)program)
+        ->is_wall = true;
+    bench_add(bench, "program.read", "reading metro-6-car.yaml", read_problem,
+              (void *)problem_file);
+    bench_add(bench, "program.build", "set-up of one scenario of the metro", build_model,
+              read_file(problem_file));
+    BenchRun *plain = bench_problem(recorded_file, NULL);
+    BenchRun *recorded = bench_problem(recorded_file, NULL);
+    recorded->options.record = true;
+    bench_add(bench, "program.run", "two cars at 25 km/h each, not recorded", bench_run, plain);
+    bench_add(bench, "program.record", "two cars at 25 km/h each, recorded", bench_run, recorded);
+    Finished *finished = finish(recorded_file);
+    bench_add(bench, "program.page", "report of the same as one page", write_page, finished);
+    bench_add(bench, "program.folder", "whole result folder of the same", write_folder, finished);
+    bench_add_figure(bench, (BenchFigure){"recording", "recorded run over the same not recorded",
+                                          BENCH_RATIO, "program.record", "program.run", 1.0, 1.15,
+                                          .is_minimum = false});
+}

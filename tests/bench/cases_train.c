@@ -1,0 +1,281 @@
+/* Full vehicles: lengths and tracks, batches and threads, gradient, second solvers, the published
+ * example. */
+#include "bench/cases.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "evaluate/evaluator.h"
+#include "simulate/batch.h"
+
+enum { MOST_DESIGNS = 8, MOST_SET = 4, GRADIENT = 12 };
+
+/* ---- problems and runs ---- */
+
+static CzProblem *read_problem(const char *file, const char *const *set) {
+    CzProblemOptions options = cz_problem_options_default();
+    CzProblem *problem = NULL;
+    CzError error = {0};
+    options.share_folder = "problems";
+    options.set = set;
+    while (set != NULL && set[options.n_set] != NULL)
+        options.n_set++;
+    if (cz_problem_read(file, &options, &problem, &error) != CZ_OK)
+        bench_stop(error.message);
+    return problem;
+}
+
+BenchRun *bench_problem(const char *file, const char *const *set) {
+    BenchRun *run = calloc(1, sizeof *run);
+    CzError error = {0};
+    if (run == NULL)
+        bench_stop("no memory");
+    run->problem = read_problem(file, set);
+    if (cz_model_build(run->problem, 0, &run->model, &error) != CZ_OK)
+        bench_stop(error.message);
+    run->options = cz_simulate_options_default();
+    run->options.record = false;
+    run->n_design = 1;
+    return run;
+}
+
+BenchRun *bench_chain(int n) {
+    char first[64], second[64];
+    snprintf(first, sizeof first, "trains.A.vehicles[0].repeat=%d", n - 1);
+    snprintf(second, sizeof second, "trains.B.vehicles[0].repeat=%d", n);
+    return bench_problem("tests/bench/chain.yaml", (const char *const[]){first, second, NULL});
+}
+
+BenchRun *bench_train(int n, const char *track) {
+    char length[64], on[48];
+    snprintf(on, sizeof on, "simulation.track=%s", track);
+    snprintf(length, sizeof length, "trains.A.vehicles[0].repeat=%d", n - 1);
+    if (n == 1)
+        return bench_problem("tests/bench/pair.yaml", (const char *const[]){on, NULL});
+    return bench_problem("tests/bench/train.yaml", (const char *const[]){on, length, NULL});
+}
+
+/* Runs all designs once and gives the first run, to be freed. */
+static CzRun *simulate(const BenchRun *run) {
+    CzRun *made[MOST_DESIGNS] = {NULL};
+    CzError error = {0};
+    if (cz_simulate_batch(run->model, run->n_design, NULL, &run->options, made, &error) != CZ_OK)
+        bench_stop(error.message);
+    for (int i = 0; i < run->n_design; i++)
+        if (cz_run_summary(made[i])->status != CZ_OK)
+            bench_stop(cz_run_summary(made[i])->failure);
+    for (int i = 1; i < run->n_design; i++)
+        cz_run_free(made[i]);
+    return made[0];
+}
+
+double bench_run(void *run) {
+    const double start = bench_processor();
+    CzRun *made = simulate(run);
+    const double time = bench_processor() - start;
+    cz_run_free(made);
+    return time;
+}
+
+/* ---- lengths and tracks ---- */
+
+static const char *const tracks[] = {"rigid", "receptance", "modal"};
+
+void bench_add_trains(Bench *bench, bool is_short) {
+    char key[48], what[96];
+    for (int n = 1; n <= (is_short ? 1 : 16); n *= 2)
+        for (size_t track = 0; track < sizeof tracks / sizeof *tracks; track++) {
+            snprintf(key, sizeof key, "train.%s.%d", tracks[track], n);
+            snprintf(what, sizeof what, "full vehicles %d+%d, track %s", n, n, tracks[track]);
+            bench_add(bench, key, what, bench_run, bench_train(n, tracks[track]));
+        }
+    bench_add_figure(bench, (BenchFigure){"modal-over-mujoco",
+                                          "full vehicles 8+8 on the modal track over MuJoCo's "
+                                          "simple chain 8+8 (aim: 0.5)",
+                                          BENCH_RATIO, "train.modal.8", "chain.MuJoCo.8", 1.0, 1.0,
+                                          .is_minimum = false});
+    bench_add_figure(bench, (BenchFigure){"receptance-over-mujoco",
+                                          "the same on the receptance track, the default",
+                                          BENCH_RATIO, "train.receptance.8", "chain.MuJoCo.8", 1.0,
+                                          NAN, .is_minimum = false});
+    static const BenchFigure growth[] = {
+        {"growth-rigid", "exponent of the growth from 2 to 32 cars, rigid", BENCH_EXPONENT,
+         "train.rigid.16", "train.rigid.1", 16.0, 1.0, .is_minimum = false},
+        {"growth-receptance", "exponent of the growth from 2 to 32 cars, receptance",
+         BENCH_EXPONENT, "train.receptance.16", "train.receptance.1", 16.0, 1.0,
+         .is_minimum = false},
+        {"growth-modal", "exponent of the growth from 2 to 32 cars, modal", BENCH_EXPONENT,
+         "train.modal.16", "train.modal.1", 16.0, 1.0, .is_minimum = false}};
+    for (size_t i = 0; i < sizeof growth / sizeof *growth; i++)
+        bench_add_figure(bench, growth[i]);
+}
+
+/* ---- batches and threads ---- */
+
+/* Designs through all scenarios as a search runs them. */
+typedef struct Search {
+    CzEvaluator *evaluator;
+    int n_design;
+    const double *x; /* (n_design x n_variable); NULL: the file's own values */
+    bool is_wall;
+} Search;
+
+static double search(void *data) {
+    const Search *made = data;
+    double (*const clock)(void) = made->is_wall ? bench_wall : bench_processor;
+    CzEvaluation *evaluation = calloc((size_t)made->n_design, sizeof *evaluation);
+    CzError error = {0};
+    if (evaluation == NULL)
+        bench_stop("no memory");
+    const double start = clock();
+    if (cz_evaluator_search(made->evaluator, made->n_design, made->x, evaluation, NULL, &error) !=
+        CZ_OK)
+        bench_stop(error.message);
+    const double time = clock() - start;
+    for (int i = 0; i < made->n_design; i++)
+        cz_evaluation_free(&evaluation[i]);
+    free(evaluation);
+    return time;
+}
+
+static Search *new_search(const CzProblem *problem, int n_job, int n_design, const double *x) {
+    Search *made = calloc(1, sizeof *made);
+    CzEvaluatorOptions options = cz_evaluator_options_default();
+    CzError error = {0};
+    options.n_job = n_job;
+    if (made == NULL || cz_evaluator_build(problem, &options, &made->evaluator, &error) != CZ_OK)
+        bench_stop(made == NULL ? "no memory" : error.message);
+    made->n_design = n_design;
+    made->x = x;
+    return made;
+}
+
+static void add_threads(Bench *bench, int n_design) {
+    char key[48], what[96];
+    for (int n_job = 1; n_job <= 2; n_job++) {
+        const BenchRun *run = bench_train(8, "receptance");
+        Search *made = new_search(run->problem, n_job, n_design, NULL);
+        made->is_wall = true;
+        snprintf(key, sizeof key, "threads.%d", n_job);
+        snprintf(what, sizeof what, "a design of %d, 8+8 in a search, %d thread%s", n_design, n_job,
+                 n_job > 1 ? "s" : "");
+        BenchCase *added = bench_add(bench, key, what, search, made);
+        added->is_wall = true;
+        added->per = n_design;
+    }
+}
+
+void bench_add_batches(Bench *bench, bool is_short) {
+    char key[48], what[96];
+    for (int n = 1; n <= (is_short ? 1 : 8); n *= 8)
+        for (int n_design = 1; n_design <= MOST_DESIGNS; n_design *= 2) {
+            BenchRun *run = bench_train(n, "receptance");
+            run->options.brief = true;
+            run->n_design = n_design;
+            snprintf(key, sizeof key, "batch.%d.%d", n, n_design);
+            snprintf(what, sizeof what, "a design of %d in lanes, %d+%d as in a search", n_design,
+                     n, n);
+            bench_add(bench, key, what, bench_run, run)->per = n_design;
+        }
+    if (!is_short)
+        add_threads(bench, 24);
+    static const BenchFigure figures[] = {
+        {"batch-2", "a design in a batch of 8 over one alone, 1+1", BENCH_RATIO, "batch.1.8",
+         "batch.1.1", 1.0, 1.0 / 3.0, .is_minimum = false},
+        {"batch-16", "a design in a batch of 8 over one alone, 8+8", BENCH_RATIO, "batch.8.8",
+         "batch.8.1", 1.0, 1.0 / 3.0, .is_minimum = false},
+        {"threads", "one thread over two threads, 8+8 in a search, on the wall", BENCH_RATIO,
+         "threads.1", "threads.2", 1.0, 1.85, .is_minimum = true},
+        {"designs", "10,000 designs in 3 scenarios of 8+8 cars on two threads, projected [s]",
+         BENCH_TIME, "threads.2", NULL, 30000.0, 60.0, .is_minimum = false}};
+    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
+        bench_add_figure(bench, figures[i]);
+}
+
+/* ---- gradient ---- */
+
+void bench_add_gradient(Bench *bench) {
+    static double x[(GRADIENT + 1) * GRADIENT]; /* the start, and a step along each variable */
+    const CzProblem *problem = read_problem("tests/bench/variables.yaml", NULL);
+    Search *all = new_search(problem, 1, GRADIENT + 1, x), *one = new_search(problem, 1, 1, x);
+    if (cz_evaluator_n_variable(all->evaluator) != GRADIENT)
+        bench_stop("variables.yaml has not twelve variables");
+    for (int point = 0; point <= GRADIENT; point++)
+        for (int i = 0; i < GRADIENT; i++) {
+            const CzVariableInfo *info = cz_evaluator_variable(all->evaluator, i);
+            x[point * GRADIENT + i] =
+                info->start + (point == i + 1 ? 1e-3 * (info->max - info->min) : 0.0);
+        }
+    bench_add(bench, "gradient.13", "two cars, value and 12 differences together", search, all);
+    bench_add(bench, "gradient.1", "two cars, one evaluation in a search", search, one);
+    bench_add_figure(bench, (BenchFigure){"gradient",
+                                          "gradient of 12 variables over 13 single evaluations",
+                                          BENCH_RATIO, "gradient.13", "gradient.1",
+                                          1.0 / (GRADIENT + 1), 0.4, .is_minimum = false});
+}
+
+/* ---- second solvers ---- */
+
+void bench_add_references(Bench *bench, bool is_short) {
+    static const char *const names[] = {"zhai", "erk", "adams"};
+    char key[48], what[96];
+    for (int n = 1; n <= (is_short ? 1 : 8); n *= 8)
+        for (int i = 0; i < CZ_N_INTEGRATOR; i++) {
+            BenchRun *run = bench_train(n, "rigid");
+            run->options.integrator = (CzIntegrator)i;
+            snprintf(key, sizeof key, "solver.%s.%d", names[i], n);
+            snprintf(what, sizeof what, "full vehicles %d+%d, rigid track, %s", n, n,
+                     cz_integrator_text((CzIntegrator)i));
+            bench_add(bench, key, what, bench_run, run);
+        }
+    static const BenchFigure figures[] = {
+        {"erk", "Runge-Kutta of SUNDIALS over the production run, 8+8", BENCH_RATIO, "solver.erk.8",
+         "solver.zhai.8", 1.0, NAN, .is_minimum = false},
+        {"adams", "Adams of SUNDIALS over the production run, 8+8", BENCH_RATIO, "solver.adams.8",
+         "solver.zhai.8", 1.0, NAN, .is_minimum = false}};
+    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
+        bench_add_figure(bench, figures[i]);
+}
+
+/* ---- the published example ---- */
+
+static const char *const example[] = {"simulation.track=modal", "simulation.duration_ms=200", NULL};
+
+/* The steps alone, by the run's own clock. */
+static double run_example(void *data) {
+    CzRun *made = simulate(data);
+    const double time = cz_run_summary(made)->wall_s;
+    cz_run_free(made);
+    return time;
+}
+
+/* Everything before the first step. */
+static double set_up_example(void *data) {
+    (void)data;
+    const double start = bench_wall();
+    BenchRun *run = bench_problem("problems/paper-25kmh.yaml", example);
+    double time = bench_wall() - start;
+    CzRun *made = simulate(run);
+    time += cz_run_summary(made)->setup_s;
+    cz_run_free(made);
+    cz_model_free(run->model);
+    cz_problem_free(run->problem);
+    free(run);
+    return time;
+}
+
+void bench_add_example(Bench *bench) {
+    BenchRun *run = bench_problem("problems/paper-25kmh.yaml", example);
+    bench_add(bench, "example.run", "published example, modal track, 0.2 s: steps", run_example,
+              run)
+        ->is_wall = true;
+    bench_add(bench, "example.setup", "published example: reading and set-up", set_up_example, NULL)
+        ->is_wall = true;
+    bench_add_figure(bench,
+                     (BenchFigure){"example-run", "published example, steps of 0.2 s [ms]",
+                                   BENCH_TIME, "example.run", NULL, 1e3, 2.7, .is_minimum = false});
+    bench_add_figure(bench, (BenchFigure){"example-setup",
+                                          "published example, reading and set-up [ms]", BENCH_TIME,
+                                          "example.setup", NULL, 1e3, 10.0, .is_minimum = false});
+}

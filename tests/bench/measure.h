@@ -1,0 +1,75 @@
+/* Cases that are timed in turn, numbers made of their times, and both as a table and as JSON. */
+#ifndef CZ_BENCH_MEASURE_H
+#define CZ_BENCH_MEASURE_H
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <time.h>
+
+enum { BENCH_MOST_CASES = 96, BENCH_MOST_FIGURES = 48, BENCH_MOST_ROUNDS = 100 };
+
+/* One thing that is timed. `run` does it once and returns the time that it took [s]. */
+typedef struct BenchCase {
+    char key[48];  /* such as "train.modal.8" */
+    char what[96]; /* in words */
+    double (*run)(void *data);
+    void *data;
+    bool is_wall; /* `run` measures time on the wall; else processor time of one core */
+    double per;   /* times are divided by this number of designs or runs */
+    double error; /* difference from a reference; NaN where there is none */
+    int n;
+    double time[BENCH_MOST_ROUNDS]; /* [s] */
+    double least, median;           /* [s] */
+} BenchCase;
+
+typedef enum BenchForm {
+    BENCH_RATIO,    /* time of a over time of b, times factor */
+    BENCH_EXPONENT, /* of the growth from b to a: log(a / b) / log(factor) */
+    BENCH_TIME      /* time of a, times factor */
+} BenchForm;
+
+/* A number made of times, and what is asked of it. */
+typedef struct BenchFigure {
+    const char *key, *what;
+    BenchForm form;
+    const char *a, *b; /* keys of cases; b is NULL for a time */
+    double factor;
+    double limit; /* NaN where nothing is asked */
+    bool is_minimum;
+    double value, median; /* by the least times and by their medians; NaN without the cases */
+} BenchFigure;
+
+typedef struct Bench {
+    int n_case, n_figure, n_round;
+    BenchCase cases[BENCH_MOST_CASES];
+    BenchFigure figure[BENCH_MOST_FIGURES];
+} Bench;
+
+/* Clocks [s]. */
+static inline double bench_clock(clockid_t clock) {
+    struct timespec now;
+    clock_gettime(clock, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+static inline double bench_processor(void) {
+    return bench_clock(CLOCK_PROCESS_CPUTIME_ID);
+}
+static inline double bench_wall(void) {
+    return bench_clock(CLOCK_MONOTONIC);
+}
+
+/* Ends the program. */
+_Noreturn void bench_stop(const char *message);
+
+/* Adds a case; the caller may change what it has by default. */
+BenchCase *bench_add(Bench *bench, const char *key, const char *what, double (*run)(void *data),
+                     void *data);
+void bench_add_figure(Bench *bench, BenchFigure figure);
+
+/* Times every case once in each round, then fills medians and figures. */
+void bench_measure(Bench *bench, int n_round, const char *only);
+
+void bench_write_json(const Bench *bench, FILE *stream);
+void bench_write_table(const Bench *bench, FILE *stream);
+
+#endif

@@ -191,8 +191,8 @@ CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena);
 bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTrack kind,
                            double step, CzArena *arena);
 
-/* Kinetic and elastic energy of the track under a car, half a step ago [J]. */
-double cz_dynamics_track_energy(const CzDynamics *dynamics, size_t lane);
+/* Kinetic and elastic energy of the track under each car of a block, half a step ago [J]. */
+void cz_dynamics_track_energy(const CzDynamics *dynamics, int block, CzRow energy);
 
 /* For a solver that carries the track's states itself (track.h), on `modal` or `receptance` laid
  * for a step of 0: numbers of the state under a car, 0 without wheels or elastic rails; the states;

@@ -63,25 +63,20 @@ static Car car_of(const CzLanes *lanes, size_t lane) {
 }
 
 /* What the rail deflects under each wheel per force under each. */
-static bool find_influence(Car *car, const CzTrackModes *modes) {
-    CzArena arena = {0};
-    CzTrackMotion *track = cz_track_motion_create(modes, 0.0, 4, &arena);
-    bool fits = track != NULL;
+static bool find_influence(Car *car, CzTrackMotion *track, CzArena *arena) {
     double place[4];
     for (int axle = 0; axle < 4; axle++)
         place[axle] = cz_wheel_place(car->bogie_x, car->axle_x, axle);
-    for (size_t j = 0; j < 4 && fits; j++) {
+    for (size_t j = 0; j < 4; j++) {
         double load[4] = {0.0}, deflection[4];
         load[j] = 1.0;
-        fits = cz_track_lay(track, j, place, load, &arena);
-        if (!fits)
-            break;
+        if (!cz_track_lay(track, j, place, load, arena))
+            return false;
         cz_track_look(track, j, place, deflection, car->flexibility);
         for (int i = 0; i < 4; i++)
             car->influence[i][j] = deflection[i];
     }
-    cz_arena_free(&arena);
-    return fits;
+    return true;
 }
 
 /* ---- the equations --------------------------------------------------------------------------- */
@@ -198,10 +193,10 @@ static CzStatus tell_unrest(const Car *car, const double *q, double weight, CzEr
     return status;
 }
 
-CzStatus cz_equilibrium_find(const CzLanes *lanes, size_t lane, const CzTrackModes *modes,
-                             CzEquilibrium *equilibrium, CzError *error) {
+CzStatus cz_equilibrium_find(const CzLanes *lanes, size_t lane, CzTrackMotion *track,
+                             CzArena *arena, CzEquilibrium *equilibrium, CzError *error) {
     Car car = car_of(lanes, lane);
-    if (modes != NULL && !find_influence(&car, modes))
+    if (track != NULL && !find_influence(&car, track, arena))
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the track");
     const double weight = CZ_GRAVITY * (car.body_mass + car.end_mass[0] + car.end_mass[1] +
                                         2.0 * car.bogie_mass + 4.0 * car.wheelset_mass);

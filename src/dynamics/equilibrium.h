@@ -5,8 +5,8 @@
 
 #include "base/arena.h"
 #include "crushzone/status.h"
+#include "dynamics/track.h"
 #include "model/lanes.h"
-#include "model/track.h"
 
 /* A car at rest, all measured from springs without load and wheels that just touch. */
 typedef struct CzEquilibrium {
@@ -19,10 +19,11 @@ typedef struct CzEquilibrium {
     double residual;           /* largest force left unbalanced over the car's weight [-] */
 } CzEquilibrium;
 
-/* Solves for the full car in a lane; `modes` is its track, NULL for a rigid one. Statuses: CZ_OK,
+/* Solves for the full car in a lane. `track` is one for a step of 0 and four cars that the search
+ * may lay anew, with memory from the arena; NULL on rigid rails. Statuses: CZ_OK,
  * CZ_STATUS_RUN_FAILED, CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_equilibrium_find(const CzLanes *lanes, size_t lane,
-                                           const CzTrackModes *modes, CzEquilibrium *equilibrium,
+CZ_MUST_CHECK CzStatus cz_equilibrium_find(const CzLanes *lanes, size_t lane, CzTrackMotion *track,
+                                           CzArena *arena, CzEquilibrium *equilibrium,
                                            CzError *error);
 
 #endif

@@ -6,8 +6,6 @@ CzFacePush cz_face_push(const CzDynamics *dynamics, size_t lane, size_t own, int
     const CzBlock *car = cz_block_of(dynamics, own);
     const size_t i = lane % CZ_LANE_BLOCK, k = own % CZ_LANE_BLOCK;
     const int end = side == 0 ? 1 : 0;
-    if (rows->face_x[i] == 0.0 && rows->face_z[i] == 0.0)
-        return (CzFacePush){0.0, 0.0}; /* most of the time; both are zero as they came */
     const CzEndRows *at = &car->parameter.end[end];
     const CzPlane *mass = &car->position.end[end], *body = &car->position.body;
     const double sign = side == 0 ? -1.0 : 1.0;

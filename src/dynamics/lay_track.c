@@ -96,26 +96,29 @@ bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTr
         return false;
     if (kind == CZ_TRACK_RIGID)
         return true;
-    for (size_t lane = 0; lane < n_lane; ++lane) {
+    for (size_t lane = 0; lane < n_lane; ++lane)
         if (!lay_under(dynamics, lane, arena))
             return false;
-        cz_block_of(dynamics, lane)->rail_rest_energy[lane % CZ_LANE_BLOCK] =
-            cz_dynamics_track_energy(dynamics, lane);
-    }
+    for (int i = 0; i < dynamics->n_block; ++i)
+        cz_dynamics_track_energy(dynamics, i, dynamics->block[i].rail_rest_energy);
     return true;
 }
 
-double cz_dynamics_track_energy(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *block = cz_block_of(dynamics, lane);
-    if (!has_wheels(block, lane % CZ_LANE_BLOCK))
+/* Under one car on a track of modes or of elements. */
+static double energy_under(const CzDynamics *dynamics, size_t lane) {
+    if (!has_wheels(cz_block_of(dynamics, lane), lane % CZ_LANE_BLOCK))
         return 0.0;
-    if (dynamics->track != NULL)
-        return cz_track_energy(dynamics->track, lane);
-    if (dynamics->elements != NULL)
-        return cz_elements_energy(dynamics->elements, lane);
+    return dynamics->track != NULL      ? cz_track_energy(dynamics->track, lane)
+           : dynamics->elements != NULL ? cz_elements_energy(dynamics->elements, lane)
+                                        : 0.0;
+}
+
+void cz_dynamics_track_energy(const CzDynamics *dynamics, int block, CzRow energy) {
     if (dynamics->receptance != NULL)
-        return cz_receptance_energy(dynamics->receptance, lane);
-    return 0.0;
+        cz_receptance_energy(dynamics->receptance, block, energy);
+    else
+        for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
+            energy[i] = energy_under(dynamics, (size_t)block * CZ_LANE_BLOCK + i);
 }
 
 size_t cz_dynamics_track_n_state(const CzDynamics *dynamics, size_t lane) {

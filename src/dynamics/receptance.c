@@ -146,34 +146,42 @@ void cz_receptance_look(const CzReceptanceMotion *track, size_t lane, const doub
     }
 }
 
-/* What the modes of one motion of a bogie could still give back per wheel, half a step ago. */
-static double stored(const CzReceptancePart *part, int bogie, int motion, size_t i) {
+/* Adds what the modes of one motion of a bogie could still give back, half a step ago, in all lanes
+ * of a part. */
+static void add_stored(const CzReceptancePart *part, int bogie, int motion, CzRow energy) {
     const CzRow *state = states_of(part, bogie, motion);
     const double *storage = part->steps->receptance->motion[motion].storage;
     const int n = part->steps->n[motion];
-    double x[2 * CZ_MOST_PAIR_MODES], product[2 * CZ_MOST_PAIR_MODES] = {0.0}, energy = 0.0;
+    CzRow x[2 * CZ_MOST_PAIR_MODES];
     for (int k = 0; k < n; k++) {
-        const CzComplex now = {state[2 * k][i], state[2 * k + 1][i]};
-        const CzComplex past = cz_complex_product(part->steps->mode[motion][k].back, now);
-        x[2 * k] = past.re;
-        x[2 * k + 1] = past.im;
+        const CzComplex back = part->steps->mode[motion][k].back;
+        for (int i = 0; i < CZ_LANE_BLOCK; i++) {
+            const CzComplex now = {state[2 * k][i], state[2 * k + 1][i]};
+            const CzComplex past = cz_complex_product(back, now);
+            x[2 * k][i] = past.re;
+            x[2 * k + 1][i] = past.im;
+        }
     }
-    for (int j = 0; j < 2 * n; j++)
-        for (int k = 0; k < 2 * n; k++)
-            product[k] += x[j] * storage[2 * n * j + k];
-    for (int k = 0; k < 2 * n; k++)
-        energy += x[k] * product[k];
-    return energy;
+    for (int k = 0; k < 2 * n; k++) { /* the form is symmetric: half of it, twice */
+        CzRow product;
+        for (int i = 0; i < CZ_LANE_BLOCK; i++)
+            product[i] = 0.5 * storage[2 * n * k + k] * x[k][i];
+        for (int j = 0; j < k; j++)
+            for (int i = 0; i < CZ_LANE_BLOCK; i++)
+                product[i] += storage[2 * n * k + j] * x[j][i];
+        for (int i = 0; i < CZ_LANE_BLOCK; i++)
+            energy[i] += 4.0 * part->is_under[i] * x[k][i] * product[i]; /* of two wheels */
+    }
 }
 
-double cz_receptance_energy(const CzReceptanceMotion *track, size_t lane) {
-    const CzReceptancePart *part =
-        part_under(&track->block[lane / CZ_LANE_BLOCK], lane % CZ_LANE_BLOCK);
-    double energy = 0.0;
-    for (int bogie = 0; part != NULL && bogie < 2; bogie++)
-        for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++)
-            energy += 2.0 * stored(part, bogie, motion, lane % CZ_LANE_BLOCK);
-    return energy;
+void cz_receptance_energy(const CzReceptanceMotion *track, int block, CzRow energy) {
+    const CzReceptanceBlock *under = &track->block[block];
+    for (int i = 0; i < CZ_LANE_BLOCK; i++)
+        energy[i] = 0.0;
+    for (int k = 0; k < under->n_part; k++)
+        for (int bogie = 0; bogie < 2; bogie++)
+            for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++)
+                add_stored(&under->part[k], bogie, motion, energy);
 }
 
 /* ---- for a solver of ordinary differential equations ----------------------------------------- */

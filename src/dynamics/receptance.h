@@ -62,8 +62,8 @@ bool cz_receptance_lay(CzReceptanceMotion *track, size_t lane, double axle_spaci
 void cz_receptance_look(const CzReceptanceMotion *track, size_t lane, const double place[4],
                         double deflection[4], double flexibility[4]);
 
-/* Energy that the track under a car can still give back, half a step ago [J]. */
-double cz_receptance_energy(const CzReceptanceMotion *track, size_t lane);
+/* Energy that the track under each car of a block can still give back, half a step ago [J]. */
+void cz_receptance_energy(const CzReceptanceMotion *track, int block, CzRow energy);
 
 /* For a solver that carries the states, as in track.h: numbers of the state under a car, 0 without
  * wheels, the states themselves, and their rates under forces upwards on the rail [N], with the

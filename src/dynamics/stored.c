@@ -58,7 +58,7 @@ static double buffer_stored(const BufferAt *buffer, size_t lane) {
     return below + 0.5 * over * over / transition + stop;
 }
 
-double cz_coupler_stored(const CzDynamics *dynamics, size_t lane, int side) {
+static double coupler_stored(const CzDynamics *dynamics, size_t lane, int side) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const BufferAt buffer = {&d->parameter.coupler.side[side].buffer,
                              &d->memory->coupler.side[side].buffer,
@@ -67,7 +67,7 @@ double cz_coupler_stored(const CzDynamics *dynamics, size_t lane, int side) {
     return exists ? buffer_stored(&buffer, lane) : 0.0;
 }
 
-double cz_side_stored(const CzDynamics *dynamics, size_t lane, int side) {
+static double side_stored(const CzDynamics *dynamics, size_t lane, int side) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const BufferAt buffer = {&d->parameter.side_buffers.side[side].buffer,
                              &d->memory->side_buffers.side[side].buffer,
@@ -76,7 +76,7 @@ double cz_side_stored(const CzDynamics *dynamics, size_t lane, int side) {
     return exists ? buffer_stored(&buffer, lane) : 0.0;
 }
 
-double cz_hinge_stored(const CzDynamics *dynamics, size_t lane, int side) {
+static double hinge_stored(const CzDynamics *dynamics, size_t lane, int side) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     const CzHingeRows *rows = &d->parameter.coupler.side[side].hinge_vertical;
@@ -91,13 +91,13 @@ double cz_hinge_stored(const CzDynamics *dynamics, size_t lane, int side) {
             cz_stop_energy(rows->stop_stiffness[i], rows->stop[i], swing));
 }
 
-double cz_coupler_tubes_stored(const CzDynamics *dynamics, size_t lane) {
+static double coupler_tubes_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     return by_stretch(d->parameter.coupler.compliance[i], d->memory->coupler.force[i]);
 }
 
-double cz_side_tubes_stored(const CzDynamics *dynamics, size_t lane) {
+static double side_tubes_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     return by_stretch(d->parameter.side_buffers.compliance[i], d->memory->side_buffers.force[i]);
@@ -121,38 +121,38 @@ double cz_side_touch(const CzDynamics *dynamics, size_t lane, int side, double s
                  stroke);
 }
 
-double cz_superstructure_stored(const CzDynamics *dynamics, size_t lane) {
+static double superstructure_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     return by_force(d->published.superstructure.force[i], d->parameter.superstructure.stiffness[i]);
 }
 
-double cz_draw_gear_stored(const CzDynamics *dynamics, size_t lane) {
+static double draw_gear_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     return by_force(d->published.draw_gear.force[i], d->parameter.draw_gear.stiffness[i]);
 }
 
-double cz_face_stored(const CzDynamics *dynamics, size_t lane) {
+static double face_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     const double held = 1.0 - d->memory->face.lost[i];
     return by_stretch(held * d->parameter.face.compliance[i], d->memory->face.force[i]);
 }
 
-double cz_face_sliding_stored(const CzDynamics *dynamics, size_t lane) {
+static double face_sliding_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     return by_force(d->published.face.demand_vertical[i], d->parameter.face.stiffness_vertical[i]);
 }
 
-double cz_side_sliding_stored(const CzDynamics *dynamics, size_t lane) {
+static double side_sliding_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     return by_force(d->published.side_buffers.sliding_vertical[lane % CZ_LANE_BLOCK],
                     CZ_PLATE_STIFFNESS);
 }
 
-double cz_secondary_stored(const CzDynamics *dynamics, size_t lane) {
+static double secondary_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     double stored = 0.0;
@@ -164,7 +164,7 @@ double cz_secondary_stored(const CzDynamics *dynamics, size_t lane) {
     return stored;
 }
 
-double cz_primary_stored(const CzDynamics *dynamics, size_t lane) {
+static double primary_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     double stored = 0.0;
@@ -176,7 +176,7 @@ double cz_primary_stored(const CzDynamics *dynamics, size_t lane) {
     return stored;
 }
 
-double cz_link_stored(const CzDynamics *dynamics, size_t lane) {
+static double link_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     double stored = 0.0;
@@ -186,7 +186,7 @@ double cz_link_stored(const CzDynamics *dynamics, size_t lane) {
     return stored;
 }
 
-double cz_axle_guidance_stored(const CzDynamics *dynamics, size_t lane) {
+static double axle_guidance_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     double stored = 0.0;
@@ -197,7 +197,7 @@ double cz_axle_guidance_stored(const CzDynamics *dynamics, size_t lane) {
 }
 
 /* Integral of K d^1.5 - N_0 over the approach d, from that at rest on. */
-double cz_wheels_stored(const CzDynamics *dynamics, size_t lane) {
+static double wheels_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     const double hertz = d->parameter.wheel.hertz[i];
@@ -212,14 +212,14 @@ double cz_wheels_stored(const CzDynamics *dynamics, size_t lane) {
     return stored;
 }
 
-double cz_guide_stored(const CzDynamics *dynamics, size_t lane, int end) {
+static double guide_stored(const CzDynamics *dynamics, size_t lane, int end) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     return by_stretch(d->parameter.end[end].guide_vertical.stiffness[i],
                       d->published.end[end].slip_vertical[i]);
 }
 
-double cz_fold_stored(const CzDynamics *dynamics, size_t lane, int end) {
+static double fold_stored(const CzDynamics *dynamics, size_t lane, int end) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     const double folded = d->position.end[end].pitch[i] - d->position.body.pitch[i];
@@ -285,74 +285,100 @@ static double crush_stored(const CzCurveLanes *curve, size_t lane, const CzVehic
     return below + above + stop;
 }
 
-/* Work of loading to the largest shortening less what unloading from there gives back, and what is
- * stored: a function of the state alone, so that nothing adds up on the way. */
-static double crush_received(const CzCurveLanes *curve, size_t lane, const CzVehicleEndLaw *law,
-                             double x, double largest) {
+/* Work of loading to a largest shortening less what unloading from there gives back. */
+static double crush_lost(const CzCurveLanes *curve, size_t lane, const CzVehicleEndLaw *law,
+                         double largest) {
     const double held = cz_smaller(largest, curve->usable[lane]);
-    const double loading = cz_curve_integral(curve, lane, held);
-    const double given_back = crush_stored(curve, lane, law, held, held);
-    return loading - given_back + crush_stored(curve, lane, law, x, largest);
+    return cz_curve_integral(curve, lane, held) - crush_stored(curve, lane, law, held, held);
 }
 
-typedef double OfCrush(const CzCurveLanes *curve, size_t lane, const CzVehicleEndLaw *law, double x,
-                       double largest);
+/* What a crush zone has received is a function of its state alone, so that nothing adds up on the
+ * way. */
+static void fill_crush(const CzCurveLanes *curve, size_t lane, const CzVehicleEndLaw *law, double x,
+                       double largest, CzCrushEnergy *energy) {
+    if (largest != energy->largest)
+        energy->lost = crush_lost(curve, lane, law, largest);
+    energy->largest = largest;
+    energy->stored = crush_stored(curve, lane, law, x, largest);
+    energy->received = energy->lost + energy->stored;
+}
 
-static double of_end(const CzDynamics *dynamics, size_t lane, int end, OfCrush *function) {
+static void fill_end(const CzDynamics *dynamics, size_t lane, int end, CzCrushEnergy *energy) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     const CzVehicleEndLaw law = cz_crush_at(&d->parameter.end[end].crush, i);
-    if (d->parameter.slaved_ends[i] > 0.5)
-        return 0.0;
-    return function(&dynamics->lanes->curve[CZ_CURVE(end[end])], lane, &law,
-                    d->published.end[end].stroke[i], d->memory->end[end].peak[i]);
+    if (d->parameter.slaved_ends[i] < 0.5)
+        fill_crush(&dynamics->lanes->curve[CZ_CURVE(end[end])], lane, &law,
+                   d->published.end[end].stroke[i], d->memory->end[end].peak[i], energy);
 }
 
-static double of_massless_at(const CzDynamics *dynamics, size_t lane, int side, OfCrush *function,
-                             double x, double largest) {
-    const CzFaceRows *rows = &cz_block_of(dynamics, lane)->parameter.face;
+static void fill_massless(const CzDynamics *dynamics, size_t lane, int side,
+                          CzCrushEnergy *energy) {
+    const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
+    const CzFaceRows *rows = &d->parameter.face;
+    const CzMasslessMemory *memory = &d->memory->face.side[side].massless;
     const CzVehicleEndLaw law = cz_crush_at(&rows->side[side].massless, i);
-    if (rows->side[side].has_massless[i] < 0.5)
-        return 0.0;
-    return function(&dynamics->lanes->curve[CZ_CURVE(massless[side])], lane, &law, x, largest);
-}
-
-static double of_massless(const CzDynamics *dynamics, size_t lane, int side, OfCrush *function) {
-    const CzMasslessMemory *memory = &cz_block_of(dynamics, lane)->memory->face.side[side].massless;
-    const size_t i = lane % CZ_LANE_BLOCK;
-    return of_massless_at(dynamics, lane, side, function, memory->stroke[i], memory->peak[i]);
-}
-
-double cz_end_stored(const CzDynamics *dynamics, size_t lane, int end) {
-    return of_end(dynamics, lane, end, crush_stored);
-}
-
-double cz_end_received(const CzDynamics *dynamics, size_t lane, int end) {
-    return of_end(dynamics, lane, end, crush_received);
-}
-
-double cz_massless_stored(const CzDynamics *dynamics, size_t lane, int side) {
-    return of_massless(dynamics, lane, side, crush_stored);
-}
-
-double cz_massless_received(const CzDynamics *dynamics, size_t lane, int side) {
-    return of_massless(dynamics, lane, side, crush_received);
+    if (rows->side[side].has_massless[i] > 0.5)
+        fill_crush(&dynamics->lanes->curve[CZ_CURVE(massless[side])], lane, &law, memory->stroke[i],
+                   memory->peak[i], energy);
 }
 
 double cz_massless_received_at(const CzDynamics *dynamics, size_t lane, int side, double x,
                                double largest) {
-    return of_massless_at(dynamics, lane, side, crush_received, x, largest);
+    const CzFaceRows *rows = &cz_block_of(dynamics, lane)->parameter.face;
+    const size_t i = lane % CZ_LANE_BLOCK;
+    const CzCurveLanes *curve = &dynamics->lanes->curve[CZ_CURVE(massless[side])];
+    const CzVehicleEndLaw law = cz_crush_at(&rows->side[side].massless, i);
+    if (rows->side[side].has_massless[i] < 0.5)
+        return 0.0;
+    return crush_lost(curve, lane, &law, largest) + crush_stored(curve, lane, &law, x, largest);
 }
 
-double cz_slide_stored(const CzDynamics *dynamics, size_t lane) {
+static double slide_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const CzDragRows *rows = &d->parameter.drag;
     const size_t i = lane % CZ_LANE_BLOCK;
     return cz_stop_energy(rows->slide_stiffness[i], rows->slide_length[i], d->position.body.x[i]);
 }
 
-double cz_track_stored(const CzDynamics *dynamics, size_t lane) {
-    return cz_dynamics_track_energy(dynamics, lane) -
-           cz_block_of(dynamics, lane)->rail_rest_energy[lane % CZ_LANE_BLOCK];
+static void fill_interface(const CzDynamics *dynamics, size_t lane, CzStored *stored) {
+    for (int side = 0; side < 2; ++side) {
+        stored->coupler[side] = coupler_stored(dynamics, lane, side);
+        stored->hinge[side] = hinge_stored(dynamics, lane, side);
+        stored->side_buffers[side] = side_stored(dynamics, lane, side);
+        fill_massless(dynamics, lane, side, &stored->massless[side]);
+    }
+    stored->coupler_tubes = coupler_tubes_stored(dynamics, lane);
+    stored->side_tubes = side_tubes_stored(dynamics, lane);
+    stored->side_sliding = side_sliding_stored(dynamics, lane);
+    stored->face = face_stored(dynamics, lane);
+    stored->face_sliding = face_sliding_stored(dynamics, lane);
+    stored->superstructure = superstructure_stored(dynamics, lane);
+    stored->draw_gear = draw_gear_stored(dynamics, lane);
+}
+
+static void fill_car(const CzDynamics *dynamics, size_t lane, CzStored *stored) {
+    for (int end = 0; end < 2; ++end) {
+        fill_end(dynamics, lane, end, &stored->end[end]);
+        stored->guide[end] = guide_stored(dynamics, lane, end);
+        stored->fold[end] = fold_stored(dynamics, lane, end);
+    }
+    stored->secondary = secondary_stored(dynamics, lane);
+    stored->primary = primary_stored(dynamics, lane);
+    stored->link = link_stored(dynamics, lane);
+    stored->axle_guidance = axle_guidance_stored(dynamics, lane);
+    stored->wheels = wheels_stored(dynamics, lane);
+    stored->slide = slide_stored(dynamics, lane);
+}
+
+void cz_stored_fill(const CzDynamics *dynamics, size_t lane, CzStored *stored) {
+    fill_interface(dynamics, lane, stored);
+    fill_car(dynamics, lane, stored);
+}
+
+void cz_track_stored(const CzDynamics *dynamics, int block, CzRow stored) {
+    cz_dynamics_track_energy(dynamics, block, stored);
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+        stored[i] -= dynamics->block[block].rail_rest_energy[i];
 }

@@ -7,58 +7,47 @@
 
 #define CZ_PLATE_STIFFNESS 2e7 /* vertical stiffness of buffer plates that stick [N/m] (ours) */
 
-/* Buffers of one side. */
-double cz_coupler_stored(const CzDynamics *dynamics, size_t lane, int side);
-double cz_side_stored(const CzDynamics *dynamics, size_t lane, int side);
+/* A crush zone: what it stores, and what it has received so far, which is that and what was lost
+ * in loading it to its largest shortening. */
+typedef struct CzCrushEnergy {
+    double stored, received;
+    double largest, lost; /* shortening [m] that `lost` belongs to: found again when it grows */
+} CzCrushEnergy;
 
-/* Tubes of both sides, in their elasticity; superstructures of both sides, where there are. */
-double cz_coupler_tubes_stored(const CzDynamics *dynamics, size_t lane);
-double cz_side_tubes_stored(const CzDynamics *dynamics, size_t lane);
-double cz_superstructure_stored(const CzDynamics *dynamics, size_t lane);
+/* All that a lane stores; 0 where an element is not there. */
+typedef struct CzStored {
+    /* of the interface */
+    double coupler[2]; /* buffers of a side */
+    double hinge[2];   /* with the swing stop */
+    double side_buffers[2];
+    double coupler_tubes, side_tubes;  /* of both sides, in their elasticity */
+    double face;                       /* of both sides, along the normal */
+    double face_sliding, side_sliding; /* across it: faces, plates of side buffers */
+    double superstructure, draw_gear;  /* of both sides */
+    CzCrushEnergy massless[2];         /* crush zones of ends without mass */
+    /* of the car */
+    double secondary, primary, link, axle_guidance; /* springs of the running gear */
+    double wheels;        /* contact with a rail that does not deflect, and their weight */
+    CzCrushEnergy end[2]; /* crush zones of ends with mass */
+    double guide[2];      /* guidance of an end mass across the axis */
+    double fold[2];       /* its hinge */
+    double slide;         /* end stop of a buffer stop that was dragged as far as it goes */
+} CzStored;
 
-/* Draw gears of both sides; 0 without. */
-double cz_draw_gear_stored(const CzDynamics *dynamics, size_t lane);
+/* Fills in what a lane stores now. `stored` is zero at first and keeps what was found before. */
+void cz_stored_fill(const CzDynamics *dynamics, size_t lane, CzStored *stored);
 
 /* What a step of a stroke that touches the buffer of one side may be off by: the force that it
  * rises by, preload and transition, times the stroke. */
 double cz_coupler_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke);
 double cz_side_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke);
 
-/* Hinge and swing stop of one side. */
-double cz_hinge_stored(const CzDynamics *dynamics, size_t lane, int side);
-
-/* Both sides of the faces: along the normal, and across it; plates of side buffers across it. */
-double cz_face_stored(const CzDynamics *dynamics, size_t lane);
-double cz_face_sliding_stored(const CzDynamics *dynamics, size_t lane);
-double cz_side_sliding_stored(const CzDynamics *dynamics, size_t lane);
-
-/* Crush zones with and without an end mass: what they store, and what they have received so far:
- * the work of loading to their largest shortening less what unloading from there gave back. */
-double cz_end_stored(const CzDynamics *dynamics, size_t lane, int end);
-double cz_end_received(const CzDynamics *dynamics, size_t lane, int end);
-double cz_massless_stored(const CzDynamics *dynamics, size_t lane, int side);
-double cz_massless_received(const CzDynamics *dynamics, size_t lane, int side);
-/* The latter of a state that is none yet: shortened by x, at most by `largest` so far. */
+/* What a crush zone without mass has received in a state that is none yet: shortened by x, at most
+ * by `largest` so far. */
 double cz_massless_received_at(const CzDynamics *dynamics, size_t lane, int side, double x,
                                double largest);
 
-/* Springs of the running gear, all of a car. */
-double cz_secondary_stored(const CzDynamics *dynamics, size_t lane);
-double cz_primary_stored(const CzDynamics *dynamics, size_t lane);
-double cz_link_stored(const CzDynamics *dynamics, size_t lane);
-double cz_axle_guidance_stored(const CzDynamics *dynamics, size_t lane);
-
-/* Contact of the wheels with a rail that does not deflect, and their weight. */
-double cz_wheels_stored(const CzDynamics *dynamics, size_t lane);
-
-/* Guidance of an end mass across the axis, and its hinge. */
-double cz_guide_stored(const CzDynamics *dynamics, size_t lane, int end);
-double cz_fold_stored(const CzDynamics *dynamics, size_t lane, int end);
-
-/* In the end stop of a buffer stop that was dragged as far as it goes. */
-double cz_slide_stored(const CzDynamics *dynamics, size_t lane);
-
-/* Kinetic and elastic energy of the track under a car above that at t = 0. */
-double cz_track_stored(const CzDynamics *dynamics, size_t lane);
+/* Kinetic and elastic energy of the track under each car of a block above that at t = 0 [J]. */
+void cz_track_stored(const CzDynamics *dynamics, int block, CzRow stored);
 
 #endif

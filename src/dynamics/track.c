@@ -179,9 +179,11 @@ bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], con
     const CzTrackModes *modes = track->modes;
     CzTrackUnder *under = &track->under[index];
     const size_t n_vector = (size_t)modes->n_vector;
-    under->state = cz_arena_allocate(arena, 2 * (size_t)modes->n_group, sizeof *under->state);
-    under->wave = cz_arena_allocate(arena, 8 * n_vector, sizeof *under->wave);
-    under->shape = cz_arena_allocate(arena, 16 * n_vector, sizeof *under->shape);
+    if (under->state == NULL) {
+        under->state = cz_arena_allocate(arena, 2 * (size_t)modes->n_group, sizeof *under->state);
+        under->wave = cz_arena_allocate(arena, 8 * n_vector, sizeof *under->wave);
+        under->shape = cz_arena_allocate(arena, 16 * n_vector, sizeof *under->shape);
+    }
     if (under->state == NULL || under->wave == NULL || under->shape == NULL)
         return false;
     CzComplex seat[4];

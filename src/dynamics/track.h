@@ -17,8 +17,8 @@
 CzTrackMotion *cz_track_motion_create(const CzTrackModes *modes, double step, size_t n_under,
                                       CzArena *arena);
 
-/* Gives a car its track, at rest under the forces of its wheels [N] at their places [m]; false when
- * there is no memory. */
+/* Gives a car its track, or another one, at rest under the forces of its wheels [N] at their places
+ * [m]; false when there is no memory. */
 bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], const double load[4],
                   CzArena *arena);
 

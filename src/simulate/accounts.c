@@ -13,6 +13,25 @@
 
 #include <math.h>
 
+void cz_accounts_take(const CzBatch *batch, int design) {
+    long *taken = &batch->design[design].accounts_taken;
+    if (*taken == batch->n_step + 1)
+        return;
+    *taken = batch->n_step + 1;
+    for (int car = 0; car < batch->model->n_car; ++car) {
+        const size_t lane = cz_lane(batch, car, design);
+        cz_stored_fill(batch->dynamics, lane, &batch->stored[lane]);
+    }
+}
+
+double cz_track_account(const CzBatch *batch, size_t lane) {
+    CzTrackAccount *account = &batch->in_track[lane / CZ_LANE_BLOCK];
+    if (account->taken != batch->n_step + 1)
+        cz_track_stored(batch->dynamics, (int)(lane / CZ_LANE_BLOCK), account->stored);
+    account->taken = batch->n_step + 1;
+    return account->stored[lane % CZ_LANE_BLOCK];
+}
+
 static CzAccount sum_of(CzAccount a, CzAccount b) {
     return (CzAccount){a.received + b.received, a.stored + b.stored};
 }
@@ -55,34 +74,30 @@ static CzAccount elastic(double stored) {
 }
 
 CzAccount cz_coupler_account(const CzBatch *batch, size_t lane, int side) {
-    const CzDynamics *dynamics = batch->dynamics;
+    const CzStored *stored = &batch->stored[lane];
     const CzAccount members = {cz_memory(batch, CZ_MEMORY(coupler.side[side].energy), lane),
-                               cz_coupler_stored(dynamics, lane, side)};
-    const CzAccount hinge = {cz_work(batch, CZ_LEDGER(hinge[side]), lane),
-                             cz_hinge_stored(dynamics, lane, side)};
-    const CzAccount tubes = elastic(cz_coupler_tubes_stored(dynamics, lane));
+                               stored->coupler[side]};
+    const CzAccount hinge = {cz_work(batch, CZ_LEDGER(hinge[side]), lane), stored->hinge[side]};
+    const CzAccount tubes = elastic(stored->coupler_tubes);
     const double share = half_of(batch, lane, side, CZ_ELEMENT_COUPLER);
     return sum_of(sum_of(members, hinge), share_of(share, tubes));
 }
 
 CzAccount cz_side_account(const CzBatch *batch, size_t lane, int side) {
-    const CzDynamics *dynamics = batch->dynamics;
+    const CzStored *stored = &batch->stored[lane];
     const CzAccount members = {cz_memory(batch, CZ_MEMORY(side_buffers.side[side].energy), lane),
-                               cz_side_stored(dynamics, lane, side)};
-    const CzAccount sliding = {cz_work(batch, CZ_LEDGER(side_sliding), lane),
-                               cz_side_sliding_stored(dynamics, lane)};
-    const CzAccount tubes = elastic(cz_side_tubes_stored(dynamics, lane));
+                               stored->side_buffers[side]};
+    const CzAccount sliding = {cz_work(batch, CZ_LEDGER(side_sliding), lane), stored->side_sliding};
+    const CzAccount tubes = elastic(stored->side_tubes);
     const double share = half_of(batch, lane, side, CZ_ELEMENT_SIDE_BUFFERS);
     return sum_of(members, share_of(share, sum_of(sliding, tubes)));
 }
 
 /* What both faces of an interface have in common: compliance, damping, ribs and friction. */
 static CzAccount faces_account(const CzBatch *batch, size_t lane) {
-    const CzDynamics *dynamics = batch->dynamics;
-    const CzAccount strain = {cz_memory(batch, CZ_MEMORY(face.strain), lane),
-                              cz_face_stored(dynamics, lane)};
-    const CzAccount sliding = {cz_work(batch, CZ_LEDGER(face_sliding), lane),
-                               cz_face_sliding_stored(dynamics, lane)};
+    const CzStored *stored = &batch->stored[lane];
+    const CzAccount strain = {cz_memory(batch, CZ_MEMORY(face.strain), lane), stored->face};
+    const CzAccount sliding = {cz_work(batch, CZ_LEDGER(face_sliding), lane), stored->face_sliding};
     return sum_of(sum_of(strain, sliding), lost(cz_work(batch, CZ_LEDGER(face_damping), lane)));
 }
 
@@ -100,26 +115,26 @@ CzAccount cz_bare_faces_account(const CzBatch *batch, size_t lane) {
 
 CzAccount cz_superstructure_account(const CzBatch *batch, size_t lane) {
     return share_of(0.5, (CzAccount){cz_work(batch, CZ_LEDGER(superstructure), lane),
-                                     cz_superstructure_stored(batch->dynamics, lane)});
+                                     batch->stored[lane].superstructure});
 }
 
 CzAccount cz_draw_gear_account(const CzBatch *batch, size_t lane) {
-    return share_of(0.5, elastic(cz_draw_gear_stored(batch->dynamics, lane)));
+    return share_of(0.5, elastic(batch->stored[lane].draw_gear));
 }
 
 CzAccount cz_crush_account(const CzBatch *batch, size_t lane, int end) {
-    return (CzAccount){cz_end_received(batch->dynamics, lane, end),
-                       cz_end_stored(batch->dynamics, lane, end)};
+    const CzCrushEnergy *crush = &batch->stored[lane].end[end];
+    return (CzAccount){crush->received, crush->stored};
 }
 
 CzAccount cz_guide_account(const CzBatch *batch, size_t lane, int end) {
-    return elastic(cz_guide_stored(batch->dynamics, lane, end));
+    return elastic(batch->stored[lane].guide[end]);
 }
 
 /* The end mass in its guidance and its hinge, and the damping of the crush zone. */
 CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end) {
     const CzAccount fold = {cz_work(batch, CZ_LEDGER(fold[end]), lane),
-                            cz_fold_stored(batch->dynamics, lane, end)};
+                            batch->stored[lane].fold[end]};
     const CzAccount springs = sum_of(cz_guide_account(batch, lane, end), fold);
     return sum_of(springs, lost(cz_work(batch, CZ_LEDGER(end_damping[end]), lane) +
                                 cz_work(batch, CZ_LEDGER(guide_damping[end]), lane) +
@@ -127,22 +142,19 @@ CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end) {
 }
 
 CzAccount cz_massless_account(const CzBatch *batch, size_t lane, int side) {
-    return (CzAccount){cz_massless_received(batch->dynamics, lane, side),
-                       cz_massless_stored(batch->dynamics, lane, side)};
+    const CzCrushEnergy *crush = &batch->stored[lane].massless[side];
+    return (CzAccount){crush->received, crush->stored};
 }
 
 CzAccount cz_chains_account(const CzBatch *batch, size_t lane) {
-    const CzDynamics *dynamics = batch->dynamics;
-    CzAccount sum = sum_of(elastic(cz_coupler_tubes_stored(dynamics, lane)),
-                           elastic(cz_side_tubes_stored(dynamics, lane)));
-    sum = sum_of(sum, elastic(cz_draw_gear_stored(dynamics, lane)));
-    sum = sum_of(sum, (CzAccount){cz_memory(batch, CZ_MEMORY(face.strain), lane),
-                                  cz_face_stored(dynamics, lane)});
+    const CzStored *stored = &batch->stored[lane];
+    CzAccount sum = sum_of(elastic(stored->coupler_tubes), elastic(stored->side_tubes));
+    sum = sum_of(sum, elastic(stored->draw_gear));
+    sum = sum_of(sum, (CzAccount){cz_memory(batch, CZ_MEMORY(face.strain), lane), stored->face});
     for (int side = 0; side < 2; ++side) {
         const double members = cz_memory(batch, CZ_MEMORY(coupler.side[side].energy), lane) +
                                cz_memory(batch, CZ_MEMORY(side_buffers.side[side].energy), lane);
-        const double buffers =
-            cz_coupler_stored(dynamics, lane, side) + cz_side_stored(dynamics, lane, side);
+        const double buffers = stored->coupler[side] + stored->side_buffers[side];
         sum = sum_of(sum, (CzAccount){members, buffers});
         sum = sum_of(sum, lost(cz_memory(batch, CZ_MEMORY(face.side[side].energy), lane) +
                                cz_memory(batch, CZ_MEMORY(face.side[side].massless.damped), lane)));
@@ -153,22 +165,21 @@ CzAccount cz_chains_account(const CzBatch *batch, size_t lane) {
 
 CzAccount cz_gear_account(const CzBatch *batch, size_t lane) {
     const CzDynamics *dynamics = batch->dynamics;
+    const CzStored *stored = &batch->stored[lane];
     const bool is_rigid =
         dynamics->track == NULL && dynamics->elements == NULL && dynamics->receptance == NULL;
     const double contact =
-        is_rigid ? cz_wheels_stored(dynamics, lane) : cz_work(batch, CZ_LEDGER(wheel_normal), lane);
-    return elastic(cz_secondary_stored(dynamics, lane) + cz_primary_stored(dynamics, lane) +
-                   cz_link_stored(dynamics, lane) + cz_axle_guidance_stored(dynamics, lane) +
+        is_rigid ? stored->wheels : cz_work(batch, CZ_LEDGER(wheel_normal), lane);
+    return elastic(stored->secondary + stored->primary + stored->link + stored->axle_guidance +
                    contact);
 }
 
 CzAccount cz_springs_account(const CzBatch *batch, size_t lane) {
-    const CzDynamics *dynamics = batch->dynamics;
-    double stored = cz_face_sliding_stored(dynamics, lane) +
-                    cz_side_sliding_stored(dynamics, lane) + cz_slide_stored(dynamics, lane);
+    const CzStored *of = &batch->stored[lane];
+    double stored = of->face_sliding + of->side_sliding + of->slide;
     if (cz_has_element(batch, lane, 0, CZ_ELEMENT_SUPERSTRUCTURE))
         stored += 2.0 * cz_superstructure_account(batch, lane).stored;
     for (int side = 0; side < 2; ++side)
-        stored += cz_hinge_stored(dynamics, lane, side) + cz_fold_stored(dynamics, lane, side);
+        stored += of->hinge[side] + of->fold[side];
     return (CzAccount){0.0, stored};
 }

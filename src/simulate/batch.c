@@ -93,9 +93,15 @@ static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
     const CzVehicle *own = cz_problem_vehicles(model->problem, &n_vehicle);
     const CzVehicle **used = cz_arena_allocate(&batch->arena, (size_t)n_design, sizeof *used);
     batch->design = cz_arena_allocate(&batch->arena, (size_t)n_design, sizeof *batch->design);
+    batch->stored = cz_arena_allocate(&batch->arena, (size_t)model->n_car * (size_t)n_design,
+                                      sizeof *batch->stored);
     batch->load = cz_interface_loads_begin(batch, &batch->arena);
     batch->lanes = cz_model_lanes(model, n_design, &batch->arena);
-    if (used == NULL || batch->design == NULL || batch->load == NULL || batch->lanes == NULL)
+    if (batch->lanes != NULL)
+        batch->in_track = cz_arena_allocate(&batch->arena, batch->lanes->n_lane / CZ_LANE_BLOCK,
+                                            sizeof *batch->in_track);
+    if (used == NULL || batch->design == NULL || batch->stored == NULL || batch->load == NULL ||
+        batch->in_track == NULL)
         return cz_no_memory(error, "the designs");
     for (int design = 0; design < n_design; ++design) {
         used[design] = vehicles != NULL && vehicles[design] != NULL ? vehicles[design] : own;
@@ -139,14 +145,15 @@ typedef struct {
 } Recording;
 
 /* Largest residual of the vehicles at rest; NaN when none is a full one. */
-static CzStatus find_rest_residual(const CzBatch *batch, double *residual, CzError *error) {
+static CzStatus find_rest_residual(CzBatch *batch, double *residual, CzError *error) {
+    const int n_car = batch->model->n_car;
+    CzRest *rest = cz_arena_allocate(&batch->arena, (size_t)n_car, sizeof *rest);
     *residual = NAN;
-    for (int car = 0; car < batch->model->n_car; ++car) {
-        CzRest rest;
-        CZ_TRY(
-            cz_rest_of_lane(batch->model, batch->lanes, car, cz_lane(batch, car, 0), &rest, error));
-        *residual = fmax(*residual, rest.residual);
-    }
+    if (rest == NULL)
+        return cz_no_memory(error, "the vehicles at rest");
+    CZ_TRY(cz_rest_of_cars(batch->model, batch->lanes, rest, error));
+    for (int car = 0; car < n_car; ++car)
+        *residual = fmax(*residual, rest[car].residual);
     return CZ_OK;
 }
 

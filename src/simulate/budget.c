@@ -13,9 +13,10 @@
 
 struct CzBudget {
     int n_car;
-    CzVehicleBudget *running; /* (n_car) */
-    CzVehicleBudget *kept;    /* as it was at the largest lift or pitch (n_car) */
-    double *lift, *pitch;     /* largest so far [m], [rad] (n_car) */
+    CzBudgetRows *sum;     /* impulses of what the kernel notes (n_block) */
+    CzFacePush (*face)[2]; /* impulses of the faces on the rear and the front of a car (n_car) */
+    CzVehicleBudget *kept; /* as it was at the largest lift or pitch (n_car) */
+    double *lift, *pitch;  /* largest so far [m], [rad] (n_car) */
 };
 
 static const struct {
@@ -49,42 +50,68 @@ int cz_budget_order(const CzVehicleBudget *budget, int order[CZ_N_BUDGET]) {
 }
 
 CzBudget *cz_budget_begin(CzBatch *batch, CzArena *arena) {
-    const size_t n = (size_t)batch->model->n_car;
+    const size_t n = (size_t)batch->model->n_car, n_block = (size_t)batch->dynamics->n_block;
     CzBudget *budget = cz_arena_allocate(arena, 1, sizeof *budget);
     if (budget == NULL)
         return NULL;
     budget->n_car = batch->model->n_car;
-    budget->running = cz_arena_allocate(arena, n, sizeof *budget->running);
     budget->kept = cz_arena_allocate(arena, n, sizeof *budget->kept);
+    budget->sum = cz_arena_allocate(&batch->arena, n_block, sizeof *budget->sum);
+    budget->face = cz_arena_allocate(&batch->arena, n, sizeof *budget->face);
     budget->lift = cz_arena_allocate(&batch->arena, n, sizeof *budget->lift);
     budget->pitch = cz_arena_allocate(&batch->arena, n, sizeof *budget->pitch);
-    CzBudgetRows *rows =
-        cz_arena_allocate(&batch->arena, (size_t)batch->dynamics->n_block, sizeof *rows);
-    if (budget->running == NULL || budget->kept == NULL || budget->lift == NULL ||
-        budget->pitch == NULL || rows == NULL)
+    CzBudgetRows *rows = cz_arena_allocate(&batch->arena, n_block, sizeof *rows);
+    if (budget->kept == NULL || budget->sum == NULL || budget->face == NULL ||
+        budget->lift == NULL || budget->pitch == NULL || rows == NULL)
         return NULL;
-    for (int i = 0; i < batch->dynamics->n_block; ++i)
+    for (size_t i = 0; i < n_block; ++i)
         batch->dynamics->block[i].budget = &rows[i];
     return budget;
 }
 
-/* Values of a lane. */
-static const CzBudgetRows *rows_of(const CzBatch *batch, size_t lane, size_t *place) {
-    *place = lane % CZ_LANE_BLOCK;
-    return cz_block_of(batch->dynamics, lane)->budget;
+/* Adds what the kernel noted in a step. */
+static void add_rows(CzBudget *budget, const CzBatch *batch) {
+    for (int block = 0; block < batch->dynamics->n_block; ++block) {
+        const double *restrict noted = (const double *)batch->dynamics->block[block].budget;
+        double *restrict sum = (double *)&budget->sum[block];
+        for (size_t i = 0; i < sizeof(CzBudgetRows) / sizeof(double); ++i)
+            sum[i] += batch->step * noted[i];
+    }
 }
 
-/* Forces and moments of all sources on the body of a car, now. */
-static void look(const CzBatch *batch, int car, double lift[CZ_N_BUDGET],
-                 double moment[CZ_N_BUDGET]) {
-    const CzModel *model = batch->model;
-    size_t i;
-    const CzBudgetRows *own = rows_of(batch, cz_lane(batch, car, 0), &i);
+/* Adds what the faces of an interface push, side A on the front of the car behind them. */
+static void add_faces(CzBudget *budget, const CzBatch *batch, int interface) {
+    for (int side = 0; side < 2; ++side) {
+        CzFacePush *sum = &budget->face[interface + side][1 - side];
+        const CzFacePush push = cz_face_push(batch->dynamics, cz_lane(batch, interface, 0),
+                                             cz_lane(batch, interface + side, 0), side);
+        sum->lift += batch->step * push.lift;
+        sum->moment += batch->step * push.moment;
+    }
+}
+
+/* Adds what the faces push that do: few of them do at a time. */
+static void add_pushing_faces(CzBudget *budget, const CzBatch *batch) {
+    for (int block = 0; block < batch->dynamics->n_block; ++block) {
+        const CzBudgetRows *rows = batch->dynamics->block[block].budget;
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+            if (rows->face_x[i] != 0.0 || rows->face_z[i] != 0.0)
+                add_faces(budget, batch, block * CZ_LANE_BLOCK + i);
+    }
+}
+
+/* The impulses of all sources on the body of a car so far. */
+static void fill_sums(const CzBudget *budget, int car, double lift[CZ_N_BUDGET],
+                      double moment[CZ_N_BUDGET]) {
+    const CzBudgetRows *own = &budget->sum[car / CZ_LANE_BLOCK];
+    const int i = car % CZ_LANE_BLOCK;
     for (int end = 0; end < 2; ++end) {
         lift[CZ_BUDGET_END_REAR + end] = own->end_lift[end][i];
         moment[CZ_BUDGET_END_REAR + end] = own->end_moment[end][i];
         lift[CZ_BUDGET_GUIDE_REAR + end] = own->guide_lift[end][i];
         moment[CZ_BUDGET_GUIDE_REAR + end] = own->guide_moment[end][i];
+        lift[CZ_BUDGET_FACE_REAR + end] = budget->face[car][end].lift;
+        moment[CZ_BUDGET_FACE_REAR + end] = budget->face[car][end].moment;
     }
     moment[CZ_BUDGET_LINKS] = own->link_moment[i];
     lift[CZ_BUDGET_SUSPENSION] = own->suspension_lift[i];
@@ -92,19 +119,15 @@ static void look(const CzBatch *batch, int car, double lift[CZ_N_BUDGET],
     lift[CZ_BUDGET_STOPS] = own->stop_lift[i];
     moment[CZ_BUDGET_STOPS] = own->stop_moment[i];
     for (int side = 0; side < 2; ++side) {
-        const int interface = side == 0 ? car : car - 1, end = side == 0 ? 1 : 0;
-        if (interface < 0 || interface >= model->n_car - 1)
+        const int interface = side == 0 ? car : car - 1, end = 1 - side;
+        if (interface < 0 || interface >= budget->n_car - 1)
             continue;
-        size_t k;
-        const CzBudgetRows *rows = rows_of(batch, cz_lane(batch, interface, 0), &k);
+        const CzBudgetRows *rows = &budget->sum[interface / CZ_LANE_BLOCK];
+        const int k = interface % CZ_LANE_BLOCK;
         lift[CZ_BUDGET_COUPLER_REAR + end] = rows->coupler_lift[side][k];
         moment[CZ_BUDGET_COUPLER_REAR + end] = rows->coupler_moment[side][k];
         lift[CZ_BUDGET_HINGE_REAR + end] = rows->hinge_lift[side][k];
         moment[CZ_BUDGET_HINGE_REAR + end] = rows->hinge_moment[side][k];
-        const CzFacePush face = cz_face_push(batch->dynamics, cz_lane(batch, interface, 0),
-                                             cz_lane(batch, car, 0), side);
-        lift[CZ_BUDGET_FACE_REAR + end] = face.lift;
-        moment[CZ_BUDGET_FACE_REAR + end] = face.moment;
     }
 }
 
@@ -130,7 +153,7 @@ static void keep(CzBudget *budget, const CzBatch *batch, int car) {
         return;
     budget->lift[car] = lifts ? lift : 0.0;
     budget->pitch[car] = pitch;
-    budget->kept[car] = budget->running[car];
+    fill_sums(budget, car, budget->kept[car].lift, budget->kept[car].moment);
     budget->kept[car].of_lift = lifts;
     budget->kept[car].time = batch->time;
     budget->kept[car].spin = momentum(batch, CZ_DOF(body.pitch), lane);
@@ -140,17 +163,11 @@ static void keep(CzBudget *budget, const CzBatch *batch, int car) {
 void cz_budget_add(CzBudget *budget, const CzBatch *batch) {
     if (!isnan(batch->design[0].override_time))
         return; /* later motion is beyond the model */
-    for (int car = 0; car < budget->n_car; ++car) {
-        if (batch->model->car[car].model != CZ_MODEL_FULL)
-            continue;
-        double lift[CZ_N_BUDGET] = {0.0}, moment[CZ_N_BUDGET] = {0.0};
-        look(batch, car, lift, moment);
-        for (int source = 0; source < CZ_N_BUDGET; ++source) {
-            budget->running[car].lift[source] += batch->step * lift[source];
-            budget->running[car].moment[source] += batch->step * moment[source];
-        }
-        keep(budget, batch, car);
-    }
+    add_rows(budget, batch);
+    add_pushing_faces(budget, batch);
+    for (int car = 0; car < budget->n_car; ++car)
+        if (batch->model->car[car].model == CZ_MODEL_FULL)
+            keep(budget, batch, car);
 }
 
 const CzVehicleBudget *cz_budget_result(const CzBudget *budget) {

@@ -200,7 +200,7 @@ static bool fill_slide(const CzBatch *batch, int side, int car, int design,
         return false;
     result->kind = CZ_ELEMENT_SLIDE;
     result->vehicle = car;
-    result->stored = cz_slide_stored(batch->dynamics, lane);
+    result->stored = batch->stored[lane].slide;
     result->energy = cz_work(batch, CZ_LEDGER(slide), lane) - result->stored;
     result->tube_energy = result->energy;
     result->stroke = cz_extreme(batch, CZ_EXTREME(slide_travel), lane);

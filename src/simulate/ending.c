@@ -298,6 +298,7 @@ static void look_for_climbing(CzBatch *batch, int design) {
 
 static void look_at(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
+    cz_accounts_take(batch, design);
     if (fails_to_be_finite(batch, design) || fails_to_balance(batch, design) ||
         fails_to_solve(batch, design) || fails_to_fit(batch, design) ||
         fails_to_keep_apart(batch, design))

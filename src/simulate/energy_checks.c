@@ -116,18 +116,19 @@ static bool running_gear_gives(const CzBatch *batch, int design, double allowed,
     static const struct {
         const char *what;
         int row;
-        double (*stored)(const CzDynamics *dynamics, size_t lane);
-    } springs[] = {{"secondary suspension", CZ_LEDGER(secondary), cz_secondary_stored},
-                   {"primary suspension", CZ_LEDGER(primary), cz_primary_stored},
-                   {"traction links", CZ_LEDGER(link), cz_link_stored},
-                   {"axle guidance", CZ_LEDGER(axle_guidance), cz_axle_guidance_stored}};
+        size_t stored; /* of CzStored */
+    } springs[] = {{"secondary suspension", CZ_LEDGER(secondary), offsetof(CzStored, secondary)},
+                   {"primary suspension", CZ_LEDGER(primary), offsetof(CzStored, primary)},
+                   {"traction links", CZ_LEDGER(link), offsetof(CzStored, link)},
+                   {"axle guidance", CZ_LEDGER(axle_guidance), offsetof(CzStored, axle_guidance)}};
     for (int car = 0; car < batch->model->n_car; ++car) {
         if (batch->model->car[car].model != CZ_MODEL_FULL)
             continue;
         const size_t lane = cz_lane(batch, car, design);
         for (size_t k = 0; k < sizeof springs / sizeof springs[0]; ++k) {
-            const double given =
-                springs[k].stored(batch->dynamics, lane) - cz_work(batch, springs[k].row, lane);
+            const double stored =
+                *(const double *)((const char *)&batch->stored[lane] + springs[k].stored);
+            const double given = stored - cz_work(batch, springs[k].row, lane);
             if (!(given <= allowed))
                 return note(fault, batch->model->car[car].name, springs[k].what,
                             "returned %.4g kJ more than it received", 1e-3 * given);

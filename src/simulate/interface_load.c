@@ -74,10 +74,10 @@ static double relative_energy(const CzBatch *batch, int interface, int design) {
     return inverse > 0.0 ? 0.5 * rate * rate / inverse : 0.0;
 }
 
-/* Whether energy has been dissipated within CYCLE_TIME, more than the share that counts. */
+/* Whether the trains have dissipated energy within CYCLE_TIME, more than the share that counts. */
 static bool still_dissipates(const CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
-    const double lost = cz_energy_fill(batch, design).dissipated;
+    const double lost = cz_dissipated_above_track(batch, design);
     if (fabs(lost - progress->dissipated) > CZ_STORED_SHARE * progress->initial_energy) {
         progress->dissipated = lost;
         progress->dissipated_at = batch->time;

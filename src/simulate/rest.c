@@ -44,19 +44,25 @@ static void place_at_mass(const CzModel *model, int vehicle, CzError *error) {
     error->status = status;
 }
 
-CzStatus cz_rest_of_lane(const CzModel *model, const CzLanes *lanes, int vehicle, size_t lane,
-                         CzRest *rest, CzError *error) {
-    *rest = no_rest();
-    if (model->car[vehicle].model != CZ_MODEL_FULL)
-        return CZ_OK;
-    CzEquilibrium found;
-    const CzStatus status = cz_equilibrium_find(lanes, lane, model->track, &found, error);
-    if (status == CZ_STATUS_RUN_FAILED && error != NULL)
-        place_at_mass(model, vehicle, error);
-    if (status != CZ_OK)
-        return status;
-    *rest = rest_of(&found);
-    return CZ_OK;
+CzStatus cz_rest_of_cars(const CzModel *model, const CzLanes *lanes, CzRest *rest, CzError *error) {
+    CzArena arena = {0};
+    CzTrackMotion *track =
+        model->track != NULL ? cz_track_motion_create(model->track, 0.0, 4, &arena) : NULL;
+    CzStatus status =
+        model->track != NULL && track == NULL ? cz_no_memory(error, "the track") : CZ_OK;
+    for (int car = 0; car < model->n_car && status == CZ_OK; car++) {
+        CzEquilibrium found;
+        rest[car] = no_rest();
+        if (model->car[car].model != CZ_MODEL_FULL)
+            continue;
+        status = cz_equilibrium_find(lanes, (size_t)car, track, &arena, &found, error);
+        if (status == CZ_OK)
+            rest[car] = rest_of(&found);
+        else if (status == CZ_STATUS_RUN_FAILED && error != NULL)
+            place_at_mass(model, car, error);
+    }
+    cz_arena_free(&arena);
+    return status;
 }
 
 CzStatus cz_rest_find(const CzModel *model, CzRest *rest, CzError *error) {
@@ -66,8 +72,8 @@ CzStatus cz_rest_find(const CzModel *model, CzRest *rest, CzError *error) {
     CzLanes *lanes = cz_model_lanes(model, 1, &arena);
     CzStatus status = lanes != NULL ? cz_model_fill(model, vehicles, 0, lanes, error)
                                     : cz_no_memory(error, "the vehicles");
-    for (int i = 0; i < model->n_car && status == CZ_OK; i++)
-        status = cz_rest_of_lane(model, lanes, i, (size_t)i, &rest[i], error);
+    if (status == CZ_OK)
+        status = cz_rest_of_cars(model, lanes, rest, error);
     cz_arena_free(&arena);
     return status;
 }

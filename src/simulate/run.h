@@ -39,6 +39,7 @@ typedef struct CzProgressOfDesign {
     char failure[256];
     double initial_energy;
     double balance;       /* largest |residual| so far [J] */
+    long accounts_taken;  /* steps after which the accounts were taken, plus 1; 0 at first */
     int n_look;           /* examinations of the end criterion so far */
     const char *awaited;  /* what the end criterion waits for; NULL when it is met */
     double quiet_since;   /* since when the end criterion is met; NaN when it is not */
@@ -51,6 +52,12 @@ typedef struct CzProgressOfDesign {
     double override_time; /* NaN until it happens */
 } CzProgressOfDesign;
 
+/* What the track under the cars of a block stores, found for all of them when one is asked for. */
+typedef struct CzTrackAccount {
+    long taken;   /* as CzProgressOfDesign.accounts_taken */
+    CzRow stored; /* [J] */
+} CzTrackAccount;
+
 /* A batch that is simulated. */
 typedef struct CzBatch {
     CzArena arena;
@@ -59,6 +66,8 @@ typedef struct CzBatch {
     CzLanes *lanes;
     CzDynamics *dynamics;
     CzInterfaceEquipment *equipment;  /* by lane */
+    CzStored *stored;                 /* by lane, when the accounts were taken */
+    CzTrackAccount *in_track;         /* by block */
     const CzVehicle *const *vehicles; /* (n_design) */
     int n_design;
     bool brief; /* end once settled */
@@ -128,8 +137,10 @@ void cz_history_free(CzHistory *history);
 CZ_MUST_CHECK CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design,
                                                 CzVehicleResult *result);
 
-/* accounts.c: energy that an element has received, and the part that it stores [J]. The lane is
- * the interface's, or the car's for what belongs to one car. */
+/* accounts.c: takes the accounts of a design now, for all who read them in this step. */
+void cz_accounts_take(const CzBatch *batch, int design);
+/* Of the accounts taken last: energy that an element has received, and the part that it stores [J].
+ * The lane is the interface's, or the car's for what belongs to one car. */
 typedef struct CzAccount {
     double received, stored;
 } CzAccount;
@@ -149,6 +160,8 @@ CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end);
 CzAccount cz_massless_account(const CzBatch *batch, size_t lane, int side);
 /* All series chains of an interface, without regard to whom they belong. */
 CzAccount cz_chains_account(const CzBatch *batch, size_t lane);
+/* What the track under a car stores now [J]. */
+double cz_track_account(const CzBatch *batch, size_t lane);
 /* Springs of the running gear and the wheels' contact. */
 CzAccount cz_gear_account(const CzBatch *batch, size_t lane);
 /* What the sliders and stops of a lane store; their powers are in the ledger. */
@@ -193,6 +206,11 @@ bool cz_ending_look(CzBatch *batch);
 /* summary.c */
 CZ_MUST_CHECK CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run);
 CzEnergy cz_energy_fill(const CzBatch *batch, int design);
+/* The same where the total work is known. */
+CzEnergy cz_energy_of(const CzBatch *batch, int design, double work);
+/* Energy dissipated in the trains and at their wheels [J]: cheaper, as that in the track is not
+ * summed up. */
+double cz_dissipated_above_track(const CzBatch *batch, int design);
 
 /* elements.c */
 void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result);
@@ -209,9 +227,9 @@ double cz_interface_stored(const CzBatch *batch, int interface, int design);
 CZ_MUST_CHECK CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design,
                                        CzVehicleResult *result);
 
-/* rest.c: of one vehicle in its lane; NaN throughout for one that is not full. */
-CZ_MUST_CHECK CzStatus cz_rest_of_lane(const CzModel *model, const CzLanes *lanes, int vehicle,
-                                       size_t lane, CzRest *rest, CzError *error);
+/* rest.c: of the cars of a single design; NaN throughout for one that is not full (n_car). */
+CZ_MUST_CHECK CzStatus cz_rest_of_cars(const CzModel *model, const CzLanes *lanes, CzRest *rest,
+                                       CzError *error);
 
 /* channels.c: a single design only. */
 CZ_MUST_CHECK CzStatus cz_channels_begin(CzChannels *channels, const CzBatch *batch);
@@ -230,7 +248,7 @@ const CzVehicleBudget *cz_budget_result(const CzBudget *budget); /* (n_car) */
 
 /* watch.c: events of a single design. */
 typedef struct CzWatch CzWatch;
-CzWatch *cz_watch_begin(CzBatch *batch, CzArena *arena);
+CzWatch *cz_watch_begin(const CzBatch *batch, CzArena *arena);
 void cz_watch_look(CzWatch *watch, const CzBatch *batch);
 const CzEvent *cz_watch_events(const CzWatch *watch, int *n_event);
 

@@ -31,16 +31,25 @@ static double stored_in_mixed(const CzBatch *batch, int design) {
     return stored;
 }
 
+double cz_dissipated_above_track(const CzBatch *batch, int design) {
+    return cz_total_work(batch, design) - stored_in_mixed(batch, design) -
+           work_of(batch, design, CZ_LEDGER(moving_load)) -
+           work_of(batch, design, CZ_LEDGER(track));
+}
+
 CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
+    return cz_energy_of(batch, design, cz_total_work(batch, design));
+}
+
+CzEnergy cz_energy_of(const CzBatch *batch, int design, double work) {
     static const int running_gear[] = {CZ_LEDGER(secondary_damping), CZ_LEDGER(primary_damping),
                                        CZ_LEDGER(link_damping), CZ_LEDGER(axle_guidance_damping)};
     CzEnergy energy = {0};
-    const double work = cz_total_work(batch, design);
     double in_track = 0.0;
     energy.initial = batch->design[design].initial_energy;
     energy.final_kinetic = cz_kinetic_energy(batch, design);
     for (int car = 0; car < batch->model->n_car; ++car)
-        in_track += cz_track_stored(batch->dynamics, cz_lane(batch, car, design));
+        in_track += cz_track_account(batch, cz_lane(batch, car, design));
     energy.stored += stored_in_mixed(batch, design) + in_track;
     energy.moving_load = work_of(batch, design, CZ_LEDGER(moving_load));
     energy.dissipated = work - energy.stored - energy.moving_load;
@@ -144,6 +153,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     if (interface == NULL || vehicle == NULL)
         return CZ_STATUS_NO_MEMORY;
     const bool failed = progress->failure[0] != '\0';
+    cz_accounts_take(batch, design);
     CzRunSummary *summary = &run->summary;
     summary->scenario = model->scenario->name;
     summary->status = failed ? CZ_STATUS_RUN_FAILED : CZ_OK;

@@ -6,7 +6,9 @@
  *                                  |
  *                                  +--> cz_optimise --> CzOutcome --> report
  *                                  +--> cz_verify --> CzVerification (by other steps and solvers)
- *
+ *                                  |
+ *                                  +--> cz_benchmark --> CzBenchmark (times)
+ *                                  |
  *                                  +--> cz_explain --> CzExplanation --> report
  *
  *   problem file --> cz_sweep --> CzSweep (the same line for every value of a path) --> report
@@ -18,6 +20,7 @@
 #ifndef CRUSHZONE_CRUSHZONE_H
 #define CRUSHZONE_CRUSHZONE_H
 
+#include "crushzone/benchmark.h"
 #include "crushzone/channel.h"
 #include "crushzone/evaluate.h"
 #include "crushzone/explain.h"

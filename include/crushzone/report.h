@@ -8,6 +8,7 @@
 
 #include <stdio.h>
 
+#include "crushzone/benchmark.h"
 #include "crushzone/explain.h"
 #include "crushzone/fit.h"
 #include "crushzone/optimise.h"
@@ -104,6 +105,16 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_verification(const CzProblem *prob
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_verification_table(const CzProblem *problem,
                                                                  const CzVerification *verification,
                                                                  bool colour, FILE *stream);
+
+/* A benchmark: the document `crushzone.benchmark`, which has times under `run_info` only, and a
+ * table of the times. Statuses as above. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_benchmark(const CzProblem *problem,
+                                                        const CzBenchmark *benchmark,
+                                                        const CzReportOptions *options,
+                                                        FILE *stream, CzError *error);
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_benchmark_table(const CzProblem *problem,
+                                                              const CzBenchmark *benchmark,
+                                                              bool colour, FILE *stream);
 
 /* A sweep: the document `crushzone.sweep`, the table of one path or the map of two, a folder with
  * sweep.json and sweep.csv. Statuses as above. */

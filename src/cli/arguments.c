@@ -201,6 +201,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     CZ_TRY(read_whole(arguments, CZ_OPTION_JOBS, 1, 1024, &n_job, error));
     CZ_TRY(
         read_whole(arguments, CZ_OPTION_EVALUATIONS, 1, 100000000, &arguments->evaluations, error));
+    CZ_TRY(read_whole(arguments, CZ_OPTION_ROUNDS, 1, 10000, &arguments->rounds, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_SEED, 0, 2000000000, &arguments->seed, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_STAGES, 0, 100, &n_stage, error));
     for (size_t i = 0; i < sizeof by_words / sizeof *by_words; i++)

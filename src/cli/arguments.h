@@ -55,6 +55,7 @@ typedef struct CzArguments {
     int n_job;          /* 0: as many as there are processors */
     long evaluations;   /* 0: the file's */
     long seed;          /* -1: the file's */
+    long rounds;        /* 0: as many as by default */
     int n_stage;        /* -1: as many as the curve calls for */
     int basis, flip;    /* words of these options, counted from 0; -1: not given */
     CzIntegrator integrator;

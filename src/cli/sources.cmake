@@ -5,6 +5,7 @@ set(CZ_SOURCES_cli
     ../base/suggest.c
     ../base/text.c
     arguments.c
+    command_bench.c
     command_explain.c
     command_fit.c
     command_figures.c

@@ -1,5 +1,6 @@
 # Sources of src/evaluate, one per line.
 set(CZ_SOURCES_evaluate
+    benchmark.c
     causes.c
     checklist.c
     checks.c

@@ -45,6 +45,15 @@ CzStatus cz_report_write_verification(const CzProblem *problem, const CzVerifica
     return cz_results_write(CZ_RECORD_VERIFICATION, &context, verification, stream, error);
 }
 
+CzStatus cz_report_write_benchmark(const CzProblem *problem, const CzBenchmark *benchmark,
+                                   const CzReportOptions *options, FILE *stream, CzError *error) {
+    CzResultContext context = {.format = "crushzone.benchmark",
+                               .problem = problem,
+                               .options = options,
+                               .wall_s = benchmark->wall_s};
+    return cz_results_write(CZ_RECORD_BENCHMARK, &context, benchmark, stream, error);
+}
+
 CzStatus cz_report_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FILE *stream,
                                CzError *error) {
     CzResultContext context = {.format = "crushzone.sweep",

@@ -10,13 +10,10 @@
 static const struct {
     const char *name;
     CzRecord record;
-} documents[] = {{"summary", CZ_RECORD_SUMMARY},
-                 {"outcome", CZ_RECORD_OUTCOME},
-                 {"sweep", CZ_RECORD_SWEEP},
-                 {"verification", CZ_RECORD_VERIFICATION},
-                 {"explanation", CZ_RECORD_EXPLANATION},
-                 {"comparison", CZ_RECORD_COMPARISON},
-                 {"fit", CZ_RECORD_FIT},
+} documents[] = {{"summary", CZ_RECORD_SUMMARY},       {"outcome", CZ_RECORD_OUTCOME},
+                 {"sweep", CZ_RECORD_SWEEP},           {"verification", CZ_RECORD_VERIFICATION},
+                 {"benchmark", CZ_RECORD_BENCHMARK},   {"explanation", CZ_RECORD_EXPLANATION},
+                 {"comparison", CZ_RECORD_COMPARISON}, {"fit", CZ_RECORD_FIT},
                  {"mistakes", CZ_RECORD_MISTAKES}};
 
 enum { N_DOCUMENT = sizeof documents / sizeof *documents };

@@ -1,6 +1,7 @@
 # Sources of src/report, one per line.
 set(CZ_SOURCES_report
     standalone_figure.c
+    benchmark.c
     chart_curves.c
     charts.c
     charts_force.c

@@ -179,6 +179,16 @@ between() { # the limit on the force halfway between the production run and the 
 }
 hanging() { exits 1 "$C" verify two-trains.yaml --set "checks.limits[0].max=$(between)" && says out.txt CHANGED && says out.txt 'Verification: FAIL'; }
 check "verify of a verdict that depends on the step ends with 1" hanging
+timed() { exits 0 "$C" bench two-trains.yaml --rounds 2 && says out.txt 'recorded run' && says out.txt 'design in a batch of 8' && says err.txt 'on one thread'; }
+check "bench prints the times of a problem" timed
+timed_json() { exits 0 "$C" bench two-trains.yaml --rounds 1 --json && json out.txt format crushzone.benchmark && json out.txt scenarios.0.run_info.batch.n 1 && json out.txt scenarios.0.run_info.recorded.min_ms; }
+check "bench --json prints one document" timed_json
+untimed() { "$C" bench two-trains.yaml --rounds 1 --json | grep -vE '"(min_ms|median_ms|wall_s|setup_s)"'; }
+times_alone() { untimed >first.txt; untimed >second.txt; says first.txt '"steps"' && diff first.txt second.txt; }
+check "bench --json differs from run to run in times under run_info only" times_alone
+check "bench of a run that does not end ends with 3" exits 3 "$C" bench two-trains.yaml --rounds 1 --set simulation.longest_ms=50
+no_rounds() { exits 2 "$C" bench two-trains.yaml --rounds 0 && says err.txt "'--rounds 0' is no whole number from 1 to 10000"; }
+check "bench without rounds is refused" no_rounds
 facts() { exits 0 "$C" show "$SOURCE/problems/two-cars-25kmh.yaml" && ! grep '^# A1 .* nan' out.txt && says out.txt 'bounce Hz' && says out.txt 'F_crit kN'; }
 check "show prints axle loads, deflections, frequencies and F_crit" facts
 finish

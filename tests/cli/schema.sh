@@ -26,6 +26,8 @@ explain() { "$C" explain "$climbs" --json >explain.json 2>/dev/null; follows exp
 check "the document of explain follows its schema" explain
 verify() { "$C" verify "$SOURCE/problems/first-collision.yaml" $short --json >verify.json 2>/dev/null; follows verification verify.json; }
 check "the document of verify follows its schema" verify
+bench() { "$C" bench "$cars" $short --rounds 1 --json >bench.json 2>/dev/null; follows benchmark bench.json; }
+check "the document of bench follows its schema" bench
 compare() { "$C" compare "$climbs" "$cars" --json >compare.json 2>/dev/null; follows comparison compare.json; }
 check "the document of compare follows its schema" compare
 mistakes() { "$C" run nowhere.yaml --json >mistakes.json 2>/dev/null; follows mistakes mistakes.json; }

@@ -1,4 +1,5 @@
 cz_test(test_evaluator unit test_evaluator.c stand_in.c small_problem.c)
+cz_test(test_benchmark unit test_benchmark.c small_problem.c)
 cz_test(test_judges unit test_judges.c stand_in.c small_problem.c)
 cz_test(test_refusals unit test_refusals.c stand_in.c small_problem.c)
 cz_test(test_verify unit test_verify.c small_problem.c)

@@ -403,6 +403,18 @@ const char *cz_verify_method_text(CzVerifyMethod method) {
     return cz_verify_method_key(method);
 }
 
+const char *cz_timed_key(CzTimed timed) {
+    static const char *const keys[] = {
+#define CZ_TIMED(constant, key, text, doc) key,
+#include "crushzone/timed.def"
+#undef CZ_TIMED
+    };
+    return keys[timed];
+}
+const char *cz_timed_text(CzTimed timed) {
+    return cz_timed_key(timed);
+}
+
 const char *cz_ended_key(CzEnded ended) {
     static const char *const keys[] = {
 #define CZ_ENDED(constant, key, text) key,

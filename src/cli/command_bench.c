@@ -1,0 +1,57 @@
+/* `bench`: how long the scenarios of a problem take. */
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/messages.h"
+#include "cli/progress.h"
+#include "cli/session.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+static int answer(const CzSession *session, const CzBenchmark *benchmark) {
+    const CzArguments *arguments = session->arguments;
+    CzReportOptions options = cz_session_report_options(session, benchmark->wall_s);
+    CzError error = {0};
+    CzStatus status;
+    options.n_job = 1; /* whatever number of processors there is */
+    if (arguments->text[CZ_OPTION_JSON] == NULL)
+        status = cz_end_table(
+            cz_report_write_benchmark_table(session->problem, benchmark,
+                                            cz_wants_colour(arguments, STDOUT_FILENO), stdout),
+            &error);
+    else
+        status = cz_report_write_benchmark(session->problem, benchmark, &options, stdout, &error);
+    if (status != CZ_OK) {
+        cz_print_mistake(arguments, "error", NULL, &error);
+        return cz_status_exit_code(status);
+    }
+    cz_tell(arguments, "read in %.2g s, timed in %.2g s, on one thread", session->setup_s,
+            benchmark->wall_s);
+    return benchmark->status == CZ_OK ? 0 : cz_status_exit_code(benchmark->status);
+}
+
+int cz_command_bench(const CzArguments *arguments) {
+    CzError error = {0};
+    CzSession session;
+    CzBenchmark *benchmark = NULL;
+    int code = cz_session_begin(&session, arguments, arguments->operand[0]);
+    if (code == 0) {
+        CzBenchmarkOptions options = cz_benchmark_options_default();
+        options.stop = cz_interrupt_flag();
+        options.progress = cz_progress_count;
+        options.progress_data = (void *)arguments;
+        if (arguments->rounds > 0)
+            options.n_round = (int)arguments->rounds;
+        cz_interrupt_catch();
+        const CzStatus status = cz_benchmark(session.evaluator, &options, &benchmark, &error);
+        if (status == CZ_OK)
+            code = answer(&session, benchmark);
+        else if (status == CZ_STATUS_INTERRUPTED)
+            code = (cz_tell_error(arguments, &error), 128 + cz_interrupt_signal());
+        else
+            code = cz_session_fail(&session, &error);
+    }
+    cz_benchmark_free(benchmark);
+    cz_session_end(&session);
+    return code;
+}

@@ -1,0 +1,39 @@
+/* A benchmark on a terminal: the times of each scenario. */
+#include "crushzone/report.h"
+
+#include "report/figure.h"
+#include "report/table.h"
+#include "report/units.h"
+
+static void put_time(CzReportTable *table, double time) {
+    char text[CZ_FIGURE_ROOM];
+    cz_table_put(table, cz_figure_plain(text, time * CZ_MILLI_PER_UNIT));
+}
+
+static void put_scenario(CzReportTable *table, const CzScenarioTimes *times) {
+    for (int timed = 0; timed < CZ_N_TIMED; timed++) {
+        const CzTiming *timing = &times->time[timed];
+        const bool is_first = timed == 0;
+        cz_table_put(table, is_first ? times->scenario : "");
+        cz_table_put_format(table, is_first ? "%d" : "", times->n_vehicle);
+        cz_table_put_format(table, is_first ? "%ld" : "", times->n_step);
+        cz_table_put(table, cz_timed_text((CzTimed)timed));
+        put_time(table, timing->least);
+        put_time(table, timing->median);
+        cz_table_put_format(table, "%d", timing->n);
+    }
+}
+
+CzStatus cz_report_write_benchmark_table(const CzProblem *problem, const CzBenchmark *benchmark,
+                                         bool colour, FILE *stream) {
+    CzTerminal terminal = {stream, colour, false};
+    CzReportTable table;
+    cz_terminal_say(&terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(problem));
+    cz_table_begin(&table, "scenario;>vehicles;>steps;processor time;>min ms;>median ms;>n");
+    for (int i = 0; i < benchmark->n_scenario; i++)
+        put_scenario(&table, &benchmark->scenario[i]);
+    cz_table_write_text(&table, &terminal);
+    if (benchmark->failure[0] != '\0')
+        cz_terminal_say(&terminal, CZ_STYLE_BAD, "%s\n", benchmark->failure);
+    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
+}

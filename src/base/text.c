@@ -194,3 +194,13 @@ bool cz_text_is_among(const char *text, int n, const char *const *list) {
             return true;
     return false;
 }
+
+bool cz_text_is_word(const char *text, const char *words) {
+    const size_t n_text = strlen(text);
+    for (size_t n = 0; *words != '\0'; words += n + strspn(words + n, " ")) {
+        n = strcspn(words, " ");
+        if (n == n_text && memcmp(words, text, n) == 0)
+            return true;
+    }
+    return false;
+}

@@ -34,6 +34,9 @@ bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_ROO
 /* Whether a text is one of n. */
 bool cz_text_is_among(const char *text, int n, const char *const *list);
 
+/* Whether a text is one of several words with blanks between them. */
+bool cz_text_is_word(const char *text, const char *words);
+
 /* Makes one line of n bytes: tabs and ends of lines become blanks, those at the end go. Returns how
  * many bytes are left. */
 size_t cz_text_one_line(char *text, size_t n_byte);

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
+
 /* ---- what a vehicle end meets ---- */
 
 typedef struct Meeting {
@@ -139,16 +141,8 @@ enum { N_CONDITION = sizeof conditions / sizeof conditions[0], LONGEST_LIST = 32
 
 static bool is_of(const Condition *condition, const CzKey *key) {
     const CzRecord *record = &cz_records[condition->record];
-    if (key < record->key || key >= record->key + record->n_key)
-        return false;
-    const size_t n = strlen(key->stem);
-    for (const char *stem = condition->stems; *stem != '\0'; stem += strspn(stem, " ")) {
-        const size_t n_stem = strcspn(stem, " ");
-        if (n_stem == n && memcmp(stem, key->stem, n) == 0)
-            return true;
-        stem += n_stem;
-    }
-    return false;
+    return key >= record->key && key < record->key + record->n_key &&
+           cz_text_is_word(key->stem, condition->stems);
 }
 
 static bool acts_on(const Condition *condition, CzVehicleModel model) {

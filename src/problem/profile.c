@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "tree/load.h"
 #include "tree/merge.h"
 
@@ -51,13 +52,6 @@ static const char *locate(CzReader *reader, const CzPlace *named) {
 
 /* ---- categories ---- */
 
-static bool has_text(const CzTexts *texts, const char *text) {
-    for (int i = 0; i < texts->n_text; i++)
-        if (strcmp(texts->text[i], text) == 0)
-            return true;
-    return false;
-}
-
 /* The categories of a profile, for did-you-mean. */
 static void suggest_categories(CzSuggestion *suggestion, const CzProfile *profile,
                                const char *category, bool *is_known, bool *has_any) {
@@ -69,7 +63,7 @@ static void suggest_categories(CzSuggestion *suggestion, const CzProfile *profil
     for (int i = 0; i < profile->n_limits; i++) {
         const CzTexts *categories = &profile->limits[i].categories;
         *has_any |= categories->n_text > 0;
-        *is_known |= has_text(categories, category);
+        *is_known |= cz_text_is_among(category, categories->n_text, categories->text);
         for (int k = 0; k < categories->n_text; k++)
             cz_suggest(suggestion, category, categories->text[k]);
     }
@@ -102,7 +96,8 @@ static bool check_category(CzProblem *problem, const CzProfile *profile, const C
 
 static bool holds_for(const CzLimit *limit, const char *category) {
     return limit->categories.n_text == 0 ||
-           (category != NULL && has_text(&limit->categories, category));
+           (category != NULL &&
+            cz_text_is_among(category, limit->categories.n_text, limit->categories.text));
 }
 
 /* The profile's tree without the limits of other categories; NULL without memory. */
@@ -145,7 +140,7 @@ void cz_profile_read(CzProblem *problem) {
     const CzNode *top = path != NULL ? cz_load_file(reader, path, named.value) : NULL;
     if (top == NULL)
         return;
-    const CzNode *profile = cz_node_without(&reader->arena, top, "schema");
+    const CzNode *profile = cz_node_without(&reader->arena, top, "schema", 0);
     if (profile != NULL)
         bind_profile(problem, profile, &named);
 }

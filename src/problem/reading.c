@@ -60,30 +60,22 @@ void cz_problem_free(CzProblem *problem) {
 
 /* Counts the vehicles of all trains and gives each train its part of one array. */
 static bool allocate_vehicles(CzProblem *problem, const CzNode *root) {
-    CzInput *input = &problem->input;
-    const CzEntry *trains = cz_node_find(root, "trains");
-    int n_train =
-        trains != NULL && trains->value->kind == CZ_NODE_LIST ? trains->value->n_entry : 0;
-    problem->n_vehicle = 0;
-    for (int i = 0; i < n_train; i++) {
-        const CzEntry *list = cz_node_find(trains->value->entry[i].value, "vehicles");
-        if (list != NULL && list->value->kind == CZ_NODE_LIST)
-            problem->n_vehicle += list->value->n_entry;
-    }
-    input->trains = cz_arena_allocate(&problem->reader.arena, (size_t)n_train, sizeof(CzTrain));
-    problem->vehicle =
-        cz_arena_allocate(&problem->reader.arena, (size_t)problem->n_vehicle, sizeof(CzVehicle));
-    if (input->trains == NULL || problem->vehicle == NULL)
+    CzArena *arena = &problem->reader.arena;
+    const CzEntry *trains = cz_node_find_list(root, "trains");
+    const int n_train = trains != NULL ? trains->value->n_entry : 0;
+    int *first = cz_arena_allocate(arena, (size_t)n_train + 1, sizeof *first);
+    problem->input.trains = cz_arena_allocate(arena, (size_t)n_train, sizeof(CzTrain));
+    if (first == NULL || problem->input.trains == NULL)
         return false;
-    int n_vehicle = 0;
     for (int i = 0; i < n_train; i++) {
-        const CzEntry *list = cz_node_find(trains->value->entry[i].value, "vehicles");
-        if (list == NULL || list->value->kind != CZ_NODE_LIST)
-            continue;
-        input->trains[i].vehicles = &problem->vehicle[n_vehicle];
-        n_vehicle += list->value->n_entry;
+        const CzEntry *list = cz_node_find_list(trains->value->entry[i].value, "vehicles");
+        first[i + 1] = first[i] + (list != NULL ? list->value->n_entry : 0);
     }
-    return true;
+    problem->n_vehicle = first[n_train];
+    problem->vehicle = cz_arena_allocate(arena, (size_t)problem->n_vehicle, sizeof(CzVehicle));
+    for (int i = 0; problem->vehicle != NULL && i < n_train; i++)
+        problem->input.trains[i].vehicles = &problem->vehicle[first[i]];
+    return problem->vehicle != NULL;
 }
 
 /* A problem without scenarios has one: the trains as written. */

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "base/text.h"
+
 const CzEntry *cz_node_find(const CzNode *mapping, const char *key) {
     if (mapping == NULL || mapping->kind != CZ_NODE_MAPPING)
         return NULL;
@@ -10,6 +12,11 @@ const CzEntry *cz_node_find(const CzNode *mapping, const char *key) {
         if (strcmp(mapping->entry[i].key->text, key) == 0)
             return &mapping->entry[i];
     return NULL;
+}
+
+const CzEntry *cz_node_find_list(const CzNode *mapping, const char *key) {
+    const CzEntry *entry = cz_node_find(mapping, key);
+    return entry != NULL && entry->value->kind == CZ_NODE_LIST ? entry : NULL;
 }
 
 const char *cz_node_find_text(const CzNode *mapping, const char *key) {
@@ -61,23 +68,27 @@ const CzNode *cz_node_with(CzArena *arena, const CzNode *node, const CzEntry *en
     return copy;
 }
 
-CzNode *cz_node_without(CzArena *arena, const CzNode *mapping, const char *key) {
-    CzNode *copy = cz_node_copy(arena, mapping, 0);
+CzNode *cz_node_without(CzArena *arena, const CzNode *mapping, const char *keys, int n_more) {
+    CzNode *copy = cz_node_copy(arena, mapping, n_more);
     if (copy == NULL)
         return NULL;
     copy->n_entry = 0;
     for (int i = 0; i < mapping->n_entry; i++)
-        if (strcmp(mapping->entry[i].key->text, key) != 0)
+        if (!cz_text_is_word(mapping->entry[i].key->text, keys))
             copy->entry[copy->n_entry++] = mapping->entry[i];
     return copy;
 }
 
+bool cz_node_append(CzArena *arena, CzNode *mapping, const char *key, const CzNode *place,
+                    const CzNode *value, const CzTrail *trail) {
+    const CzEntry entry = {cz_node_text(arena, key, place), value, trail};
+    mapping->entry[mapping->n_entry++] = entry;
+    return entry.key != NULL && value != NULL;
+}
+
 bool cz_node_is_null(const CzNode *node) {
-    static const char *const words[] = {"null", "Null", "NULL", "~"};
-    bool is_null = false;
-    for (size_t i = 0; i < sizeof words / sizeof *words && node->kind == CZ_NODE_TEXT; i++)
-        is_null |= !node->quoted && strcmp(node->text, words[i]) == 0;
-    return is_null;
+    return node->kind == CZ_NODE_TEXT && !node->quoted &&
+           cz_text_is_word(node->text, "null Null NULL ~");
 }
 
 const char *cz_node_what(const CzNode *node) {

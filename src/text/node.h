@@ -58,6 +58,9 @@ struct CzNode {
 /* Entry of a mapping by its key; NULL when there is none or the node is no mapping. */
 const CzEntry *cz_node_find(const CzNode *mapping, const char *key);
 
+/* The same when the entry's value is a list; NULL otherwise. */
+const CzEntry *cz_node_find_list(const CzNode *mapping, const char *key);
+
 /* Text of a mapping's entry; NULL when there is none or it is no text. */
 const char *cz_node_find_text(const CzNode *mapping, const char *key);
 
@@ -76,8 +79,14 @@ CzNode *cz_node_copy(CzArena *arena, const CzNode *node, int n_more);
 const CzNode *cz_node_with(CzArena *arena, const CzNode *node, const CzEntry *entry,
                            const CzNode *value);
 
-/* Copy of a mapping without one key. NULL without memory. */
-CzNode *cz_node_without(CzArena *arena, const CzNode *mapping, const char *key);
+/* Copy of a mapping without the keys that are listed, blanks between them, with room for n_more
+ * entries. NULL without memory. */
+CzNode *cz_node_without(CzArena *arena, const CzNode *mapping, const char *keys, int n_more);
+
+/* Appends an entry to a copy that has room for it, its key at a place. False without memory, and
+ * when the value is NULL for lack of it. */
+bool cz_node_append(CzArena *arena, CzNode *mapping, const char *key, const CzNode *place,
+                    const CzNode *value, const CzTrail *trail);
 
 /* Whether a node is one of the words for nothing: null, Null, NULL or ~, not in quotes. */
 bool cz_node_is_null(const CzNode *node);

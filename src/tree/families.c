@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/text.h"
 #include "text/range.h"
 #include "tree/merge.h"
 
@@ -80,7 +81,6 @@ static bool stands_twice(Family *family, const CzEntry *swept) {
 static bool read_sweep(Family *family) {
     CzReader *reader = family->reader;
     const CzNode *sweep = family->sweep->value;
-    static const char *const fixed[] = {"name", "family", "sweep", "trains"};
     if (sweep->kind != CZ_NODE_MAPPING || sweep->n_entry == 0 || sweep->n_entry > MOST_SWEPT) {
         cz_mistake(&reader->mistakes, sweep, family->sweep->trail,
                    "'sweep' needs a mapping of 1 to %d keys of a scenario with a list each",
@@ -91,12 +91,11 @@ static bool read_sweep(Family *family) {
     for (int i = 0; i < sweep->n_entry; i++) {
         Swept *swept = &family->swept[family->n_swept++];
         *swept = (Swept){.entry = &sweep->entry[i]};
-        for (int k = 0; k < 4; k++)
-            if (strcmp(swept->entry->key->text, fixed[k]) == 0) {
-                cz_mistake(&reader->mistakes, swept->entry->key, swept->entry->trail,
-                           "'%s' cannot be swept", fixed[k]);
-                return false;
-            }
+        if (cz_text_is_word(swept->entry->key->text, "name family sweep trains")) {
+            cz_mistake(&reader->mistakes, swept->entry->key, swept->entry->trail,
+                       "'%s' cannot be swept", swept->entry->key->text);
+            return false;
+        }
         if (stands_twice(family, swept->entry) || !list_values(family, swept))
             return false;
         family->n_member *= swept->n_value;
@@ -132,32 +131,20 @@ static void name_member(const Family *family, const char *name, int member,
     }
 }
 
-static bool add_text(CzReader *reader, CzNode *mapping, const char *key, const char *text,
-                     const CzNode *place) {
-    CzEntry *entry = &mapping->entry[mapping->n_entry++];
-    *entry = (CzEntry){cz_node_text(&reader->arena, key, place),
-                       cz_node_name(&reader->arena, text, place), NULL};
-    return entry->key != NULL && entry->value != NULL;
-}
-
 /* The mapping of one member; NULL without memory. */
 static const CzNode *member_node(const Family *family, const CzEntry *name, int member) {
     CzArena *arena = &family->reader->arena;
-    CzNode *node = cz_node_copy(arena, family->node, family->n_swept + 2);
+    CzNode *node = cz_node_without(arena, family->node, "name sweep", family->n_swept + 2);
     if (node == NULL)
         return NULL;
-    node->n_entry = 0;
-    bool has_family = false;
-    for (int i = 0; i < family->node->n_entry; i++) {
-        const CzEntry *entry = &family->node->entry[i];
-        has_family |= strcmp(entry->key->text, "family") == 0;
-        if (entry != family->sweep && entry != name)
-            node->entry[node->n_entry++] = *entry;
-    }
+    const CzNode *named = name->value;
     char text[LONGEST_MEMBER];
-    name_member(family, name->value->text, member, text);
-    if (!add_text(family->reader, node, "name", text, name->value) ||
-        (!has_family && !add_text(family->reader, node, "family", name->value->text, name->value)))
+    name_member(family, named->text, member, text);
+    if (!cz_node_append(arena, node, "name", named, cz_node_name(arena, text, named), NULL))
+        return NULL;
+    if (cz_node_find(family->node, "family") == NULL &&
+        !cz_node_append(arena, node, "family", named, cz_node_name(arena, named->text, named),
+                        NULL))
         return NULL;
     for (int i = 0; i < family->n_swept; i++) {
         node->entry[node->n_entry] = *family->swept[i].entry;
@@ -209,7 +196,7 @@ static bool append_scenario(Scenarios *scenarios, const CzEntry *entry) {
         if (is_family)
             item->value = member_node(&family, name, i);
         else if (family.sweep != NULL) /* its mistake was reported */
-            item->value = cz_node_without(&reader->arena, scenario, "sweep");
+            item->value = cz_node_without(&reader->arena, scenario, "sweep", 0);
         if (item->value == NULL)
             return false;
     }
@@ -217,9 +204,9 @@ static bool append_scenario(Scenarios *scenarios, const CzEntry *entry) {
 }
 
 const CzNode *cz_families_write_out(CzReader *reader, const CzTree *tree) {
-    const CzEntry *entry = cz_node_find(tree->root, "scenarios");
+    const CzEntry *entry = cz_node_find_list(tree->root, "scenarios");
     Scenarios scenarios = {.reader = reader, .tree = tree};
-    if (entry == NULL || entry->value->kind != CZ_NODE_LIST)
+    if (entry == NULL)
         return tree->root;
     CzNode *list = cz_node_copy(&reader->arena, entry->value, 0);
     if (list == NULL)

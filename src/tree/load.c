@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "crushzone/names.h"
 #include "text/yaml.h"
 #include "tree/merge.h"
@@ -112,13 +113,6 @@ static void gather_own_parts(Loader *loader, const CzNode *parts) {
 
 /* ---- catalogues ---- */
 
-static bool is_loaded(const Loader *loader, const char *path) {
-    for (int i = 0; i < loader->n_loaded; i++)
-        if (strcmp(loader->loaded[i], path) == 0)
-            return true;
-    return false;
-}
-
 static void check_catalogue_keys(CzReader *reader, const CzNode *top) {
     static const char *const known[] = {"schema", "title", "catalogue", "parts"};
     for (int i = 0; i < top->n_entry; i++) {
@@ -152,7 +146,7 @@ static void load_catalogue(Loader *loader, const CzNode *named) {
     const char *name = cz_value_text(cz_reader_value(reader, "catalogue", named, NULL));
     const char *path = name != NULL ? cz_load_locate(reader, name, named, "catalogue") : NULL;
     loader->tree.lacks_parts |= path == NULL;
-    if (path == NULL || is_loaded(loader, path))
+    if (path == NULL || cz_text_is_among(path, loader->n_loaded, loader->loaded))
         return;
     if (loader->n_loaded == (int)(sizeof loader->loaded / sizeof loader->loaded[0])) {
         cz_mistake(&reader->mistakes, named, NULL, "more than %d catalogues are named",
@@ -223,10 +217,8 @@ CzTree cz_load_tree(CzReader *reader, const CzNode *top) {
     const CzNode *parts = root != NULL ? expect(reader, root, "parts", CZ_NODE_MAPPING) : NULL;
     if (parts != NULL)
         gather_own_parts(&loader, parts);
-    static const char *const done[] = {"extends", "catalogue", "parts"};
-    for (int i = 0; root != NULL && i < 3; i++)
-        if (cz_node_find(root, done[i]) != NULL)
-            root = cz_node_without(&reader->arena, root, done[i]);
+    if (root != NULL)
+        root = cz_node_without(&reader->arena, root, "extends catalogue parts", 0);
     loader.tree.root = root;
     cz_parts_measure(reader, &loader.tree);
     return loader.tree;

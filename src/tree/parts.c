@@ -111,7 +111,7 @@ const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *n
     if (use == NULL)
         return node;
     const CzTrail *use_trail = cz_entry_trail(use, trail);
-    CzNode *rest = cz_node_without(&reader->arena, node, "use");
+    CzNode *rest = cz_node_without(&reader->arena, node, "use", 0);
     CzTrail *part_trail = cz_arena_allocate(&reader->arena, 1, sizeof *part_trail);
     if (rest == NULL || part_trail == NULL)
         return NULL;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "tree/merge.h"
 #include "tree/trains.h"
 
@@ -185,14 +186,6 @@ static const CzNode *value_to_put(Walk *walk) {
     return marker;
 }
 
-static bool is_fixed_key(const char *key) {
-    static const char *const fixed[] = {"use", "extends", "catalogue", "parts", "set"};
-    for (int i = 0; i < 5; i++)
-        if (strcmp(fixed[i], key) == 0)
-            return true;
-    return false;
-}
-
 /* Whether the path ends in the `use` of a record that has one: the record then takes another part.
  */
 static bool sets_part(const Walk *walk, const CzNode *node, Step step) {
@@ -205,7 +198,8 @@ static bool sets_part(const Walk *walk, const CzNode *node, Step step) {
 static const CzNode *put_value(Walk *walk, const CzNode *mapping, Step step) {
     const char *name = walk->segment[step.level].name;
     const CzNode place = place_of(walk, step.level);
-    if (is_fixed_key(name) && !sets_part(walk, mapping, step)) {
+    if (cz_text_is_word(name, "use extends catalogue parts set") &&
+        !sets_part(walk, mapping, step)) {
         refuse(walk, step.level, "'%s' cannot be set by a path", name);
         return mapping;
     }

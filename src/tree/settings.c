@@ -136,7 +136,7 @@ CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *
     CzTree changed = *tree;
     changed.part = cz_arena_allocate(&reader->arena, (size_t)tree->n_part, sizeof *changed.part);
     if (cz_node_find(tree->root, "set") != NULL)
-        changed.root = cz_node_without(&reader->arena, tree->root, "set");
+        changed.root = cz_node_without(&reader->arena, tree->root, "set", 0);
     if (changed.part == NULL || changed.root == NULL)
         return *tree;
     if (tree->n_part > 0)

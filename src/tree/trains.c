@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "crushzone/names.h"
 #include "tree/merge.h"
 
@@ -80,16 +81,14 @@ static const CzNode *name_vehicle(CzArena *arena, const CzNode *vehicle, const c
     if (named == NULL)
         return NULL;
     cz_vehicle_name(text, sizeof text, vehicle, train, position, 0);
-    const CzEntry name = {cz_node_text(arena, "name", vehicle), cz_node_name(arena, text, vehicle),
-                          NULL};
-    named->entry[named->n_entry++] = name;
-    return name.key != NULL && name.value != NULL ? named : NULL;
+    const CzNode *name = cz_node_name(arena, text, vehicle);
+    return cz_node_append(arena, named, "name", vehicle, name, NULL) ? named : NULL;
 }
 
 static const CzNode *name_vehicles(CzArena *arena, const CzNode *train) {
     const char *name = cz_node_find_text(train, "name");
-    const CzEntry *vehicles = cz_node_find(train, "vehicles");
-    if (name == NULL || vehicles == NULL || vehicles->value->kind != CZ_NODE_LIST)
+    const CzEntry *vehicles = cz_node_find_list(train, "vehicles");
+    if (name == NULL || vehicles == NULL)
         return train;
     CzNode *list = cz_node_copy(arena, vehicles->value, 0);
     if (list == NULL)
@@ -104,8 +103,8 @@ static const CzNode *name_vehicles(CzArena *arena, const CzNode *train) {
 }
 
 const CzNode *cz_trains_name_vehicles(CzArena *arena, const CzNode *root) {
-    const CzEntry *trains = cz_node_find(root, "trains");
-    if (trains == NULL || trains->value->kind != CZ_NODE_LIST)
+    const CzEntry *trains = cz_node_find_list(root, "trains");
+    if (trains == NULL)
         return root;
     CzNode *list = cz_node_copy(arena, trains->value, 0);
     for (int i = 0; list != NULL && i < list->n_entry; i++) {
@@ -281,10 +280,6 @@ static const char *turned_key(const char *key) {
     return strcmp(key, "rear") == 0 ? "front" : key;
 }
 
-static bool is_worked_off(const char *key) {
-    return strcmp(key, "repeat") == 0 || strcmp(key, "reversed") == 0 || strcmp(key, "name") == 0;
-}
-
 /* The mapping of one vehicle: its name, then its keys, front and rear swapped when it is turned. */
 static const CzNode *vehicle_node(CzReader *reader, const Vehicle *vehicle) {
     CzArena *arena = &reader->arena;
@@ -293,15 +288,14 @@ static const CzNode *vehicle_node(CzReader *reader, const Vehicle *vehicle) {
     CzNode *node = cz_node_copy(arena, vehicle->node, 1);
     if (node == NULL)
         return NULL;
-    const CzEntry name = {cz_node_text(arena, "name", vehicle->name_place),
-                          cz_node_name(arena, vehicle->name, vehicle->name_place), vehicle->trail};
-    if (name.key == NULL || name.value == NULL)
-        return NULL;
+    const CzNode *place = vehicle->name_place;
     node->n_entry = 0;
-    node->entry[node->n_entry++] = name;
+    if (!cz_node_append(arena, node, "name", place, cz_node_name(arena, vehicle->name, place),
+                        vehicle->trail))
+        return NULL;
     for (int i = 0; i < vehicle->node->n_entry; i++) {
         CzEntry entry = vehicle->node->entry[i];
-        if (is_worked_off(entry.key->text))
+        if (cz_text_is_word(entry.key->text, "repeat reversed name"))
             continue;
         const char *key = vehicle->is_turned ? turned_key(entry.key->text) : entry.key->text;
         if (key != entry.key->text)
@@ -340,29 +334,20 @@ static const CzNode *train_node(CzReader *reader, const Train *train) {
     const bool is_written_out = train->n_vehicle > 0 || train->is_refused || is_copy;
     if (train->node->kind != CZ_NODE_MAPPING)
         return train->node;
-    CzNode *node = cz_node_copy(&reader->arena, train->node, 1);
-    if (node == NULL)
-        return NULL;
-    node->n_entry = 0;
-    for (int i = 0; i < train->node->n_entry; i++) {
-        const CzEntry *entry = &train->node->entry[i];
-        if (strcmp(entry->key->text, "copy") != 0 && strcmp(entry->key->text, "reversed") != 0 &&
-            !(entry == own && is_written_out))
-            node->entry[node->n_entry++] = *entry;
-    }
-    if (!is_written_out) /* no list, or none that holds vehicles: reported when the records are read
-                          */
-        return node;
+    CzNode *node = cz_node_without(&reader->arena, train->node,
+                                   is_written_out ? "copy reversed vehicles" : "copy reversed", 1);
+    if (node == NULL || !is_written_out)
+        return node; /* a list without vehicles is reported when the records are read */
     const CzNode *place = own != NULL ? own->key : train->copy->key;
-    const CzEntry vehicles = {cz_node_text(&reader->arena, "vehicles", place),
-                              vehicles_node(reader, train, place), train->trail};
-    node->entry[node->n_entry++] = vehicles;
-    return vehicles.key != NULL && vehicles.value != NULL ? node : NULL;
+    return cz_node_append(&reader->arena, node, "vehicles", place,
+                          vehicles_node(reader, train, place), train->trail)
+               ? node
+               : NULL;
 }
 
 const CzNode *cz_trains_write_out(CzReader *reader, const CzTree *tree) {
-    const CzEntry *entry = cz_node_find(tree->root, "trains");
-    if (entry == NULL || entry->value->kind != CZ_NODE_LIST)
+    const CzEntry *entry = cz_node_find_list(tree->root, "trains");
+    if (entry == NULL)
         return tree->root;
     Trains trains = {.reader = reader, .tree = tree, .n_train = entry->value->n_entry};
     trains.train = cz_arena_allocate(&reader->arena, (size_t)trains.n_train, sizeof(Train));

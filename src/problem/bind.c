@@ -298,7 +298,7 @@ static void bind_value(CzBinder binder, const Record *record, const CzKey *key, 
     case CZ_KEY_TABLE: {
         const CzNode *node = cz_take_part(reader, binder.tree, entry->value, trail);
         if (node != NULL)
-            cz_bind_table(reader, binder.curves, key, node, trail, field);
+            cz_bind_curve(reader, binder.curves, key, node, trail, field);
         break;
     }
     case CZ_KEY_STAGES:

@@ -2,7 +2,7 @@
 #ifndef CZ_PROBLEM_BIND_H
 #define CZ_PROBLEM_BIND_H
 
-#include "problem/bind_table.h"
+#include "problem/bind_curve.h"
 #include "problem/keys.h"
 #include "problem/places.h"
 #include "tree/parts.h"

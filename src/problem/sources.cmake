@@ -3,8 +3,7 @@ set(CZ_SOURCES_problem
     acts.c
     reread.c
     bind.c
-    bind_curve_file.c
-    bind_table.c
+    bind_curve.c
     channel.c
     find.c
     keys.c

@@ -125,9 +125,8 @@ static double drawn_stroke(const Builder *builder, const CzTarget *target) {
         if (target->offset < first || inside >= sizeof device->stages ||
             inside % sizeof(CzStage) != offsetof(CzStage, stroke))
             continue;
-        return isnan(device->drawn_stroke)
-                   ? cz_total_stroke(device->stages, device->n_stages, &device->curve)
-                   : device->drawn_stroke;
+        return isnan(device->drawn_stroke) ? cz_device_stroke(CZ_DEVICE(device))
+                                           : device->drawn_stroke;
     }
     return NAN;
 }

@@ -13,92 +13,40 @@
 
 enum { MOST_DEVICES = 4 }; /* of one end: two tubes, an anti-climber, a side buffer's tube */
 
-/* A collapsing device: length, mass and likeness. */
-typedef struct Device {
-    int count;
-    double stroke, installed_length, efficiency, mass_per_stroke;
-    const CzStage *stages;
-    int n_stages;
-    const CzTable *curve;
-} Device;
-
-static double buffer_stroke(const CzBuffer *buffer) {
-    return buffer->given ? cz_total_stroke(buffer->stages, buffer->n_stages, NULL) : 0;
+/* A place for a collapsing device of an end. */
+static CzDevice device_of(const CzEnd *end, int place) {
+    const CzDevice devices[MOST_DEVICES] = {
+        CZ_DEVICE(&end->coupler.tube), CZ_DEVICE(&end->coupler.second_tube),
+        CZ_DEVICE(&end->anti_climber), CZ_DEVICE(&end->side_buffers.tube)};
+    CzDevice device = devices[place];
+    if (place == MOST_DEVICES - 1)
+        device.count *= end->side_buffers.count;
+    return device;
 }
 
-static double tube_stroke(const CzTube *tube) {
-    return tube->given ? cz_total_stroke(tube->stages, tube->n_stages, &tube->curve) : 0;
-}
-
-static double anti_climber_stroke(const CzAntiClimber *device) {
-    return device->given ? cz_total_stroke(device->stages, device->n_stages, &device->curve) : 0;
-}
-
-/* Stroke of an end's crush zone outside the survival space. */
-static double end_stroke(const CzEnd *end) {
-    if (end->n_stages == 0)
-        return cz_total_stroke(NULL, 0, &end->curve);
-    double stroke = 0;
-    for (int i = 0; i < end->n_stages; i++)
-        if (end->stages[i].zone != CZ_ZONE_SURVIVAL)
-            stroke += end->stages[i].stroke;
-    return stroke;
-}
-
-static Device tube_device(const CzTube *tube) {
-    return (Device){tube->count,      tube_stroke(tube),     tube->installed_length,
-                    tube->efficiency, tube->mass_per_stroke, tube->stages,
-                    tube->n_stages,   &tube->curve};
-}
-
-static Device anti_climber_device(const CzAntiClimber *anti_climber) {
-    return (Device){anti_climber->count,
-                    anti_climber_stroke(anti_climber),
-                    anti_climber->installed_length,
-                    anti_climber->efficiency,
-                    anti_climber->mass_per_stroke,
-                    anti_climber->stages,
-                    anti_climber->n_stages,
-                    &anti_climber->curve};
-}
-
-/* Lists the collapsing devices of an end and returns how many there are. */
-static int list_devices(const CzEnd *end, Device device[MOST_DEVICES]) {
-    int n = 0;
-    if (end->coupler.given && end->coupler.tube.given)
-        device[n++] = tube_device(&end->coupler.tube);
-    if (end->coupler.given && end->coupler.second_tube.given)
-        device[n++] = tube_device(&end->coupler.second_tube);
-    if (end->anti_climber.given)
-        device[n++] = anti_climber_device(&end->anti_climber);
-    if (end->side_buffers.given && end->side_buffers.tube.given) {
-        device[n] = tube_device(&end->side_buffers.tube);
-        device[n++].count *= end->side_buffers.count;
-    }
-    return n;
-}
-
-/* Installed length as declared, else by the efficiency. */
-static double installed_length(const Device *device) {
-    return isnan(device->installed_length) ? device->stroke / device->efficiency
-                                           : device->installed_length;
+/* Installed length as declared, else by the efficiency; 0 without a device. */
+static double installed_length(CzDevice device) {
+    return isnan(*device.installed_length) ? cz_device_stroke(device) / device.efficiency
+                                           : *device.installed_length;
 }
 
 double cz_stroke_fit(const CzEnd *end) {
-    Device device[MOST_DEVICES];
-    const int n_device = list_devices(end, device);
     double worst = NAN;
-    for (int i = 0; i < n_device; i++)
-        worst = fmax(worst, device[i].stroke / (device[i].efficiency * device[i].installed_length));
+    for (int i = 0; i < MOST_DEVICES; i++) {
+        const CzDevice device = device_of(end, i);
+        if (device.given)
+            worst = fmax(worst,
+                         cz_device_stroke(device) / (device.efficiency * *device.installed_length));
+    }
     return worst;
 }
 
 double cz_length_used(const CzEnd *end) {
-    double path = end->face_gap + end_stroke(end);
-    if (end->anti_climber.given) {
-        const Device device = anti_climber_device(&end->anti_climber);
-        path = fmax(path, end->anti_climber.gap + installed_length(&device) + end_stroke(end));
-    }
+    const CzAntiClimber *device = &end->anti_climber;
+    const double stroke = cz_free_stroke(end);
+    double path = end->face_gap + stroke;
+    if (device->given)
+        path = fmax(path, device->gap + installed_length(CZ_DEVICE(device)) + stroke);
     return path / end->available_length;
 }
 
@@ -106,13 +54,9 @@ double cz_coupler_length_used(const CzEnd *end) {
     const CzCoupler *coupler = &end->coupler;
     if (!coupler->given)
         return NAN;
-    double length = buffer_stroke(&coupler->buffer);
-    const CzTube *tube[] = {&coupler->tube, &coupler->second_tube};
-    for (int i = 0; i < 2; i++)
-        if (tube[i]->given) {
-            const Device device = tube_device(tube[i]);
-            length += installed_length(&device);
-        }
+    double length = cz_total_stroke(coupler->buffer.stages, coupler->buffer.n_stages, NULL);
+    length += installed_length(CZ_DEVICE(&coupler->tube));
+    length += installed_length(CZ_DEVICE(&coupler->second_tube));
     return length / coupler->length;
 }
 
@@ -120,8 +64,8 @@ double cz_retraction_used(const CzEnd *end) {
     const CzCoupler *coupler = &end->coupler;
     if (!coupler->given || !coupler->shear_off.given)
         return NAN;
-    const double behind = coupler->anchor == CZ_ANCHOR_END ? 0 : end_stroke(end);
-    const double needed = anti_climber_stroke(&end->anti_climber) + behind;
+    const double behind = coupler->anchor == CZ_ANCHOR_END ? 0 : cz_free_stroke(end);
+    const double needed = cz_device_stroke(CZ_DEVICE(&end->anti_climber)) + behind;
     return needed > 0 ? needed / coupler->shear_off.retraction_space : 0;
 }
 
@@ -135,19 +79,22 @@ static double backbone_force(const CzStage *stages, int n_stages, const CzTable 
     return force;
 }
 
-/* Largest plastic force of a tube at a crush rate, all devices together; 0 when absent. */
-static double tube_force(const CzTube *tube, double rate) {
+/* Largest plastic force of a device at a crush rate, all of them together; 0 when absent. */
+static double device_force(CzDevice device, double rate) {
     const double force =
-        fmax(backbone_force(tube->stages, tube->n_stages, &tube->curve), tube->trigger);
-    return tube->given ? tube->count * force * (1 + tube->rate_factor * rate) : 0;
+        fmax(backbone_force(device.stages, device.n_stages, device.curve), *device.trigger);
+    return device.given ? device.count * force * (1 + *device.rate_factor * rate) : 0;
 }
 
-static double anti_climber_force(const CzAntiClimber *climber, double rate) {
-    const double force =
-        fmax(backbone_force(climber->stages, climber->n_stages, &climber->curve), climber->trigger);
-    return climber->given ? climber->count * force * (1 + climber->rate_factor * rate) *
-                                (1 + climber->speed_factor * rate / climber->speed_reference)
-                          : 0;
+static double anti_climber_force(const CzAntiClimber *device, double rate) {
+    return device_force(CZ_DEVICE(device), rate) *
+           (1 + device->speed_factor * rate / device->speed_reference);
+}
+
+/* The larger of the two tubes. */
+static double tubes_force(const CzCoupler *coupler, double rate) {
+    return fmax(device_force(CZ_DEVICE(&coupler->tube), rate),
+                device_force(CZ_DEVICE(&coupler->second_tube), rate));
 }
 
 static double last_stage_force(const CzBuffer *buffer) {
@@ -155,13 +102,12 @@ static double last_stage_force(const CzBuffer *buffer) {
 }
 
 static double coupler_force(const CzCoupler *coupler, double rate) {
-    const double tubes =
-        fmax(tube_force(&coupler->tube, rate), tube_force(&coupler->second_tube, rate));
+    const double tubes = tubes_force(coupler, rate);
     return tubes > 0 ? tubes : last_stage_force(&coupler->buffer);
 }
 
 static double side_buffers_force(const CzSideBuffers *side, double rate) {
-    const double tube = tube_force(&side->tube, rate);
+    const double tube = device_force(CZ_DEVICE(&side->tube), rate);
     const double buffer = last_stage_force(&side->buffer);
     return side->count * (tube > 0 ? tube : buffer);
 }
@@ -191,9 +137,7 @@ double cz_tube_over_shear_off(const CzEnd *end, double rate) {
     const CzCoupler *coupler = &end->coupler;
     if (!coupler->given || !coupler->shear_off.given)
         return NAN;
-    const double force =
-        fmax(tube_force(&coupler->tube, rate), tube_force(&coupler->second_tube, rate));
-    return force / coupler->shear_off.force;
+    return tubes_force(coupler, rate) / coupler->shear_off.force;
 }
 
 double cz_shear_off_over_strength(const CzEnd *end) {
@@ -203,33 +147,29 @@ double cz_shear_off_over_strength(const CzEnd *end) {
     return coupler->shear_off.force / end->proof_strength;
 }
 
-/* The device in one of the places of a train's ends; false where there is none. */
-static bool device_at(const CzVehicle *vehicle, int place, Device *device) {
+/* A place for a device in a train, from the first vehicle on, rear before front. */
+static CzDevice device_at(const CzVehicle *vehicle, int place) {
     const int i = place / MOST_DEVICES;
-    const CzEnd *end = i % 2 == 0 ? &vehicle[i / 2].rear : &vehicle[i / 2].front;
-    Device of_end[MOST_DEVICES];
-    if (!end->given || place % MOST_DEVICES >= list_devices(end, of_end))
-        return false;
-    *device = of_end[place % MOST_DEVICES];
-    return true;
+    return device_of(i % 2 == 0 ? &vehicle[i / 2].rear : &vehicle[i / 2].front,
+                     place % MOST_DEVICES);
 }
 
 static int n_place(int n_vehicle) {
     return 2 * n_vehicle * MOST_DEVICES;
 }
 
-static double device_mass(const Device *device) {
-    return device->mass_per_stroke * device->stroke;
+static double device_mass(CzDevice device) {
+    return device.mass_per_stroke * cz_device_stroke(device);
 }
 
 /* Adds up a quantity of all devices of a train. */
-static double sum_devices(int n_vehicle, const CzVehicle *vehicle,
-                          double (*quantity)(const Device *)) {
+static double sum_devices(int n_vehicle, const CzVehicle *vehicle, double (*quantity)(CzDevice)) {
     double sum = NAN;
-    Device device;
-    for (int i = 0; i < n_place(n_vehicle); i++)
-        if (device_at(vehicle, i, &device))
-            sum = (isnan(sum) ? 0 : sum) + device.count * quantity(&device);
+    for (int i = 0; i < n_place(n_vehicle); i++) {
+        const CzDevice device = device_at(vehicle, i);
+        if (device.given)
+            sum = (isnan(sum) ? 0 : sum) + device.count * quantity(device);
+    }
     return sum;
 }
 
@@ -242,8 +182,8 @@ double cz_train_absorber_mass(int n_vehicle, const CzVehicle *vehicle) {
 }
 
 /* Whether two devices are the same part. */
-static bool is_alike(const Device *a, const Device *b) {
-    if (a->stroke != b->stroke || a->n_stages != b->n_stages ||
+static bool is_alike(const CzDevice *a, const CzDevice *b) {
+    if (cz_device_stroke(*a) != cz_device_stroke(*b) || a->n_stages != b->n_stages ||
         a->curve->n_point != b->curve->n_point)
         return false;
     for (int i = 0; i < a->n_stages; i++)
@@ -258,15 +198,15 @@ static bool is_alike(const Device *a, const Device *b) {
 double cz_train_part_count(int n_vehicle, const CzVehicle *vehicle) {
     int n_part = 0;
     bool any = false;
-    Device device, earlier;
     for (int i = 0; i < n_place(n_vehicle); i++) {
-        if (!device_at(vehicle, i, &device))
-            continue;
-        bool is_new = true;
-        for (int k = 0; k < i && is_new; k++)
-            is_new = !device_at(vehicle, k, &earlier) || !is_alike(&device, &earlier);
+        const CzDevice device = device_at(vehicle, i);
+        bool is_new = device.given;
+        for (int k = 0; k < i && is_new; k++) {
+            const CzDevice earlier = device_at(vehicle, k);
+            is_new = !earlier.given || !is_alike(&device, &earlier);
+        }
         n_part += is_new;
-        any = true;
+        any |= device.given;
     }
     return any ? n_part : NAN;
 }

@@ -13,39 +13,26 @@
 #include "base/gravity.h"
 #include "problem/strokes.h"
 
-static double tube_mass(const CzTube *tube, int count) {
-    if (!tube->given)
-        return 0.0;
-    return tube->mass_per_stroke * tube->count * count *
-           cz_total_stroke(tube->stages, tube->n_stages, &tube->curve);
-}
-
-static double anti_climber_stroke(const CzAntiClimber *anti_climber) {
-    return cz_total_stroke(anti_climber->stages, anti_climber->n_stages, &anti_climber->curve);
+static double device_mass(CzDevice device, int count) {
+    return device.mass_per_stroke * device.count * count * cz_device_stroke(device);
 }
 
 static double absorber_mass(const CzEnd *end) {
-    if (!end->given)
-        return 0.0;
-    double mass = 0.0;
-    if (end->coupler.given)
-        mass += tube_mass(&end->coupler.tube, 1) + tube_mass(&end->coupler.second_tube, 1);
-    if (end->anti_climber.given)
-        mass += end->anti_climber.mass_per_stroke * end->anti_climber.count *
-                anti_climber_stroke(&end->anti_climber);
-    if (end->side_buffers.given)
-        mass += tube_mass(&end->side_buffers.tube, end->side_buffers.count);
-    return mass;
+    return device_mass(CZ_DEVICE(&end->coupler.tube), 1) +
+           device_mass(CZ_DEVICE(&end->coupler.second_tube), 1) +
+           device_mass(CZ_DEVICE(&end->anti_climber), 1) +
+           device_mass(CZ_DEVICE(&end->side_buffers.tube), end->side_buffers.count);
 }
 
 /* What an anti-climber adds to its end's length, by another stroke than the drawn one [m]. */
 static double added_length(const CzEnd *end, const CzEnd *baseline) {
     const CzAntiClimber *device = &end->anti_climber;
-    if (!end->given || !device->given)
+    if (!device->given)
         return 0.0;
-    const double drawn = isnan(device->drawn_stroke) ? anti_climber_stroke(&baseline->anti_climber)
-                                                     : device->drawn_stroke;
-    return (anti_climber_stroke(device) - drawn) / device->efficiency;
+    const double drawn = isnan(device->drawn_stroke)
+                             ? cz_device_stroke(CZ_DEVICE(&baseline->anti_climber))
+                             : device->drawn_stroke;
+    return (cz_device_stroke(CZ_DEVICE(device)) - drawn) / device->efficiency;
 }
 
 static CzStatus check_positive(const CzFill *fill, int car, const double *value, const char *what) {

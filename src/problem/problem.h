@@ -71,8 +71,6 @@ typedef enum CzValueRule {
 #undef CZ_VALUE_RULE
     CZ_N_VALUE_RULE
 } CzValueRule;
-const char *cz_value_rule_name(CzValueRule rule);
-const char *cz_value_rule_doc(CzValueRule rule);
 
 /* How near an end of a candidate's vehicle comes to breaking each rule: the number that is limited
  * over what it may be, above 1 when it is broken, NaN where the rule has no subject. `vehicle` is

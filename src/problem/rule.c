@@ -67,28 +67,11 @@ const char *cz_rule_text(char text[48], double si, const char *unit, double unit
     return text;
 }
 
-const char *cz_value_rule_name(CzValueRule rule) {
-    static const char *const names[] = {
-#define CZ_VALUE_RULE(constant, name, doc) name,
-#include "problem/value_rules.def"
-#undef CZ_VALUE_RULE
-    };
-    return names[rule];
-}
-
-const char *cz_value_rule_doc(CzValueRule rule) {
-    static const char *const docs[] = {
-#define CZ_VALUE_RULE(constant, name, doc) doc,
-#include "problem/value_rules.def"
-#undef CZ_VALUE_RULE
-    };
-    return docs[rule];
-}
-
-void cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most) {
-    if (rules->ratio == NULL || isnan(value) || isnan(most))
-        return;
-    const double far_off = 1e3; /* finite, whatever there is to be at most 0 */
-    const double ratio = most > 0 ? fmin(value / most, far_off) : value > 0 ? far_off : 0;
-    rules->ratio[rule] = fmax(rules->ratio[rule], ratio); /* passes over NaN */
+bool cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most) {
+    if (rules->ratio != NULL && !isnan(value) && !isnan(most)) {
+        const double far_off = 1e3; /* finite, whatever there is to be at most 0 */
+        const double ratio = most > 0 ? fmin(value / most, far_off) : value > 0 ? far_off : 0;
+        rules->ratio[rule] = fmax(rules->ratio[rule], ratio); /* passes over NaN */
+    }
+    return value > most;
 }

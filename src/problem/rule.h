@@ -18,8 +18,8 @@ typedef struct CzRules {
 /* Rules that judge a problem as it is and report its reader. */
 CzRules cz_rules_of(CzProblem *problem);
 
-/* Notes that a rule limits a number, in SI, to at most another. */
-void cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most);
+/* Notes that a rule limits a number, in SI, to at most another; whether it is above that. */
+bool cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most);
 
 /* Reports a mistake at the place where a field was written, or at its record when it was not. */
 void cz_rule_broken(const CzRules *rules, const void *field, const char *format, ...)

@@ -15,39 +15,27 @@ static bool is_there(const CzRules *rules, const void *field) {
     return cz_rule_is_written(rules, field);
 }
 
-/* What has a law of stages or a curve. */
-typedef struct Crushing {
-    const void *record;
-    const char *what;
-    const CzStage *stages;
-    int n_stage;
-    const CzTable *curve;
-} Crushing;
-
-/* It needs stages or a curve, and only one of them. */
-static void check_law(const CzRules *rules, const Crushing *crushing) {
-    const bool has_stages = is_there(rules, crushing->stages);
-    const bool has_curve = is_there(rules, crushing->curve);
+/* What has a law needs stages or a curve, and only one of them. */
+static void check_law(const CzRules *rules, const CzDevice *device, const void *record,
+                      const char *what) {
+    const bool has_stages = is_there(rules, device->stages);
+    const bool has_curve = is_there(rules, device->curve);
     if (!has_stages && !has_curve)
-        cz_rule_absent(rules, crushing->record, "%s needs 'stages' or a 'curve'", crushing->what);
+        cz_rule_absent(rules, record, "%s needs 'stages' or a 'curve'", what);
     if (has_stages && has_curve)
-        cz_rule_broken(rules, crushing->curve,
-                       "%s has 'stages' and a 'curve'; one of them must go (stages: null)",
-                       crushing->what);
+        cz_rule_broken(rules, device->curve,
+                       "%s has 'stages' and a 'curve'; one of them must go (stages: null)", what);
 }
 
 /* A curve begins at stroke 0; every stage carries a force, or ends at one. */
-static void check_forces(const CzRules *rules, const Crushing *crushing, const char *otherwise) {
-    const CzTable *curve = crushing->curve;
+static void check_forces(const CzRules *rules, const CzDevice *device, const char *otherwise) {
+    const CzTable *curve = device->curve;
     if (curve->given && curve->x[0] != 0)
         cz_rule_broken(rules, curve, "a curve must begin at stroke 0, but this one begins at %s",
                        CZ_MM(curve->x[0]));
-    for (int i = 0; i < crushing->n_stage; i++) {
-        const CzStage *stage = &crushing->stages[i];
-        cz_rule_note(rules, CZ_VALUE_RULE_FORCE, stage->force <= 0, 0);
-        if (stage->force <= 0)
-            cz_rule_broken(rules, &stage->force, "%s", otherwise);
-    }
+    for (int i = 0; i < device->n_stages; i++)
+        if (cz_rule_note(rules, CZ_VALUE_RULE_FORCE, device->stages[i].force <= 0, 0))
+            cz_rule_broken(rules, &device->stages[i].force, "%s", otherwise);
 }
 
 /* A curve measured at speed already holds the rise with the rate. */
@@ -60,35 +48,35 @@ static void check_rate(const CzRules *rules, const double *factor, const CzTable
 
 /* A tube or anti-climber: the peak that starts the crush is no lower than what follows, and the
  * device is longer than its usable stroke. */
-static void check_device(const CzRules *rules, const Crushing *crushing, const double *trigger,
-                         const double *rate_factor, const double *installed, double efficiency) {
-    const CzTable *curve = crushing->curve;
-    const double plateau = curve->given            ? curve->y[0]
-                           : crushing->n_stage > 0 ? crushing->stages[0].force
-                                                   : NAN;
-    const double stroke = cz_total_stroke(crushing->stages, crushing->n_stage, curve);
-    check_law(rules, crushing);
-    check_forces(rules, crushing, "a plateau without force absorbs no energy");
-    cz_rule_note(rules, CZ_VALUE_RULE_TRIGGER, plateau, *trigger);
-    if (*trigger < plateau)
-        cz_rule_broken(rules, trigger, "a trigger of %s is below the first plateau of %s",
-                       CZ_KN(*trigger), CZ_KN(plateau));
-    check_rate(rules, rate_factor, curve);
-    cz_rule_note(rules, CZ_VALUE_RULE_INSTALLED, stroke, efficiency * *installed);
-    if (stroke > efficiency * *installed * (1 + 1e-12))
-        cz_rule_broken(rules, installed,
+static void check_device(const CzRules *rules, CzDevice device, const void *record,
+                         const char *what) {
+    const double plateau = device.curve->given   ? device.curve->y[0]
+                           : device.n_stages > 0 ? device.stages[0].force
+                                                 : NAN;
+    const double stroke = cz_device_stroke(device);
+    const double room = device.efficiency * *device.installed_length;
+    if (!device.given)
+        return;
+    check_law(rules, &device, record, what);
+    check_forces(rules, &device, "a plateau without force absorbs no energy");
+    if (cz_rule_note(rules, CZ_VALUE_RULE_TRIGGER, plateau, *device.trigger))
+        cz_rule_broken(rules, device.trigger, "a trigger of %s is below the first plateau of %s",
+                       CZ_KN(*device.trigger), CZ_KN(plateau));
+    check_rate(rules, device.rate_factor, device.curve);
+    cz_rule_note(rules, CZ_VALUE_RULE_INSTALLED, stroke, room);
+    if (stroke > room * (1 + 1e-12))
+        cz_rule_broken(rules, device.installed_length,
                        "a stroke of %s does not fit: %s installed at an efficiency of %g give %s",
-                       CZ_MM(stroke), CZ_MM(*installed), efficiency,
-                       CZ_MM(efficiency * *installed));
+                       CZ_MM(stroke), CZ_MM(*device.installed_length), device.efficiency,
+                       CZ_MM(room));
 }
 
 /* ---- devices ---- */
 
 static void check_buffer(const CzRules *rules, const CzBuffer *buffer) {
     double force = buffer->preload;
-    for (int i = 0; buffer->given && i < buffer->n_stages; i++) {
-        cz_rule_note(rules, CZ_VALUE_RULE_BUFFER, force, buffer->stages[i].force);
-        if (buffer->stages[i].force < force)
+    for (int i = 0; i < buffer->n_stages; i++) {
+        if (cz_rule_note(rules, CZ_VALUE_RULE_BUFFER, force, buffer->stages[i].force))
             cz_rule_broken(rules, &buffer->stages[i].force,
                            "a buffer's force cannot fall while it is pressed: %s after %s",
                            CZ_KN(buffer->stages[i].force), CZ_KN(force));
@@ -97,19 +85,13 @@ static void check_buffer(const CzRules *rules, const CzBuffer *buffer) {
 }
 
 static void check_tube(const CzRules *rules, const CzTube *tube) {
-    const Crushing crushing = {tube, "a tube", tube->stages, tube->n_stages, &tube->curve};
-    if (tube->given)
-        check_device(rules, &crushing, &tube->trigger, &tube->rate_factor, &tube->installed_length,
-                     tube->efficiency);
-}
-
-static double tube_stroke(const CzTube *tube) {
-    return tube->given ? cz_total_stroke(tube->stages, tube->n_stages, &tube->curve) : 0;
+    check_device(rules, CZ_DEVICE(tube), tube, "a tube");
 }
 
 static double coupler_stroke(const CzCoupler *coupler) {
     return cz_total_stroke(coupler->buffer.stages, coupler->buffer.n_stages, NULL) +
-           tube_stroke(&coupler->tube) + tube_stroke(&coupler->second_tube);
+           cz_device_stroke(CZ_DEVICE(&coupler->tube)) +
+           cz_device_stroke(CZ_DEVICE(&coupler->second_tube));
 }
 
 static void check_coupler(const CzRules *rules, const CzVehicle *vehicle,
@@ -131,12 +113,7 @@ static void check_coupler(const CzRules *rules, const CzVehicle *vehicle,
 }
 
 static void check_anti_climber(const CzRules *rules, const CzAntiClimber *device) {
-    const Crushing crushing = {device, "an anti-climber", device->stages, device->n_stages,
-                               &device->curve};
-    if (!device->given)
-        return;
-    check_device(rules, &crushing, &device->trigger, &device->rate_factor,
-                 &device->installed_length, device->efficiency);
+    check_device(rules, CZ_DEVICE(device), device, "an anti-climber");
     check_rate(rules, &device->speed_factor, &device->curve);
 }
 
@@ -181,21 +158,8 @@ static void check_unloading(const CzRules *rules, const CzEnd *end) {
             CZ_IN_UNIT(end->unloading_stiffness, "MN/m", 1e6), CZ_IN_UNIT(steepest, "MN/m", 1e6));
 }
 
-/* Stroke in front of the survival space [m]. */
-static double free_stroke(const CzEnd *end) {
-    double stroke = 0;
-    if (end->curve.given)
-        return end->curve.x[end->curve.n_point - 1];
-    for (int i = 0; i < end->n_stages; i++)
-        stroke += end->stages[i].zone == CZ_ZONE_SURVIVAL ? 0 : end->stages[i].stroke;
-    return stroke;
-}
-
 static void check_available(const CzRules *rules, const CzEnd *end) {
-    const CzAntiClimber *device = &end->anti_climber;
-    double stroke = free_stroke(end);
-    if (device->given)
-        stroke += cz_total_stroke(device->stages, device->n_stages, &device->curve);
+    const double stroke = cz_free_stroke(end) + cz_device_stroke(CZ_DEVICE(&end->anti_climber));
     cz_rule_note(rules, CZ_VALUE_RULE_AVAILABLE, stroke, end->available_length);
     if (stroke > end->available_length * (1 + 1e-12))
         cz_rule_broken(
@@ -206,9 +170,10 @@ static void check_available(const CzRules *rules, const CzEnd *end) {
 
 static void check_structure(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end) {
     const bool is_rigid = !is_there(rules, end->stages) && !is_there(rules, &end->curve);
-    const Crushing crushing = {end, "an end", end->stages, end->n_stages, &end->curve};
+    const CzDevice crushing = {
+        .stages = end->stages, .n_stages = end->n_stages, .curve = &end->curve};
     if (!is_rigid || vehicle->model == CZ_MODEL_FULL) /* others may have a rigid end */
-        check_law(rules, &crushing);
+        check_law(rules, &crushing, end, "an end");
     if (end->n_stages > MOST_END_STAGES)
         cz_rule_broken(rules, end->stages, "an end has %d stages; %d is the most", end->n_stages,
                        (int)MOST_END_STAGES);
@@ -232,17 +197,15 @@ static void check_gaps(const CzRules *rules, const CzEnd *end) {
             CZ_MM(device->gap), CZ_MM(end->face_gap));
     if (!device->given || !coupler->given)
         return;
-    cz_rule_note(rules, CZ_VALUE_RULE_REACHED, device->gap, coupler->gap + coupler->length);
-    if (device->gap > coupler->gap + coupler->length)
+    if (cz_rule_note(rules, CZ_VALUE_RULE_REACHED, device->gap, coupler->gap + coupler->length))
         cz_rule_broken(
             rules, &device->gap,
             "an anti-climber %s behind the foremost plane is never reached: the coupler is only %s "
             "long",
             CZ_MM(device->gap), CZ_MM(coupler->length));
     const double travel = coupler_stroke(coupler) + coupler->shear_off.retraction_space;
-    if (coupler->shear_off.given)
-        cz_rule_note(rules, CZ_VALUE_RULE_RETRACTION, device->gap, coupler->gap + travel);
-    if (coupler->shear_off.given && coupler->gap + travel < device->gap)
+    if (coupler->shear_off.given &&
+        cz_rule_note(rules, CZ_VALUE_RULE_RETRACTION, device->gap, coupler->gap + travel))
         cz_rule_broken(
             rules, &coupler->shear_off.retraction_space,
             "the released coupler comes to its stop after %s, before the anti-climber is met at %s",
@@ -264,10 +227,8 @@ void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const Cz
     check_shear_off(rules, &end->coupler.shear_off);
     check_coupler(rules, vehicle, &end->coupler);
     check_anti_climber(rules, &end->anti_climber);
-    if (end->side_buffers.given) {
-        check_buffer(rules, &end->side_buffers.buffer);
-        check_tube(rules, &end->side_buffers.tube);
-    }
+    check_buffer(rules, &end->side_buffers.buffer);
+    check_tube(rules, &end->side_buffers.tube);
     check_gaps(rules, end);
     if (end->slide.given && vehicle->model != CZ_MODEL_FIXED)
         cz_rule_broken(rules, &end->slide, "only a fixed vehicle is dragged on a slide");

@@ -20,6 +20,19 @@ double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *curve) 
     return stroke;
 }
 
+double cz_device_stroke(CzDevice device) {
+    return device.given ? cz_total_stroke(device.stages, device.n_stages, device.curve) : 0.0;
+}
+
+double cz_free_stroke(const CzEnd *end) {
+    double stroke = 0.0;
+    if (end->curve.given)
+        return cz_total_stroke(NULL, 0, &end->curve);
+    for (int i = 0; i < end->n_stages; i++)
+        stroke += end->stages[i].zone == CZ_ZONE_SURVIVAL ? 0.0 : end->stages[i].stroke;
+    return stroke;
+}
+
 static double mean_force(const CzTable *curve) {
     double area = 0;
     for (int i = 1; i < curve->n_point; i++)

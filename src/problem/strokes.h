@@ -11,6 +11,29 @@
 #include "problem/input.h"
 #include "tree/reader.h"
 
+/* What a tube and an anti-climber, which collapse, have in common. */
+typedef struct CzDevice {
+    bool given;
+    int count;
+    const CzStage *stages;
+    int n_stages;
+    const CzTable *curve;
+    const double *trigger, *rate_factor, *installed_length;
+    double efficiency, mass_per_stroke;
+} CzDevice;
+
+/* The common part of a tube or an anti-climber at an address. */
+#define CZ_DEVICE(device)                                                                          \
+    ((CzDevice){(device)->given, (device)->count, (device)->stages, (device)->n_stages,            \
+                &(device)->curve, &(device)->trigger, &(device)->rate_factor,                      \
+                &(device)->installed_length, (device)->efficiency, (device)->mass_per_stroke})
+
+/* Usable stroke of a device; 0 when there is none [m]. */
+double cz_device_stroke(CzDevice device);
+
+/* Stroke of the crush zone of an end in front of the survival space [m]. */
+double cz_free_stroke(const CzEnd *end);
+
 /* Usable stroke [m]: the last point of a curve that is given, or the sum of the stages. NULL: there
  * is no curve. */
 double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *curve);

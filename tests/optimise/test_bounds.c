@@ -223,7 +223,7 @@ static void named_rules_are_those_of_the_reader(void **state) {
         for (int j = 0; j < evaluation.n_constraint; j++)
             for (int rule = 0; rule < CZ_N_VALUE_RULE; rule++)
                 if (strcmp(evaluation.constraint_check[j].name,
-                           cz_value_rule_name((CzValueRule)rule)) == 0 &&
+                           cz_metric_of_rule((CzValueRule)rule)->name) == 0 &&
                     evaluation.constraint[j] > 0)
                     any = was_broken[rule] = true;
         cz_evaluation_free(&evaluation);
@@ -236,7 +236,7 @@ static void named_rules_are_those_of_the_reader(void **state) {
     assert_true(n_refused > 50 && n_refused < 350);
     for (int rule = 0; rule < CZ_N_VALUE_RULE; rule++)
         if (!was_broken[rule])
-            fail_msg("never broken: %s", cz_value_rule_name((CzValueRule)rule));
+            fail_msg("never broken: %s", cz_metric_of_rule((CzValueRule)rule)->name);
     end(&made);
 }
 

@@ -2,6 +2,7 @@
  * between values, which the best design of any search satisfies. On the stand-in simulator. */
 #include "support/check.h"
 
+#include "evaluate/metric.h"
 #include "evaluate/stand_in.h"
 #include "optimise/cheats.h"
 #include "problem/problem.h"

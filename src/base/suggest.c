@@ -2,7 +2,6 @@
  * of case costs one. */
 #include "base/suggest.h"
 
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -57,6 +56,20 @@ bool cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known) 
     memcpy(suggestion->best, known, n_known + 1);
     suggestion->distance = distance;
     return true;
+}
+
+int cz_find_name(const char *name, const void *items, int n, size_t size, size_t offset,
+                 CzSuggestion *nearest) {
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < n; i++) {
+            const char *known;
+            memcpy(&known, (const char *)items + (size_t)i * size + offset, sizeof known);
+            if (known != NULL && pass == 0 && strcmp(known, name) == 0)
+                return i;
+            if (known != NULL && pass == 1)
+                cz_suggest(nearest, name, known);
+        }
+    return -1;
 }
 
 void cz_suggest_help(const CzSuggestion *suggestion, CzError *error) {

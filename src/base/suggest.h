@@ -3,6 +3,7 @@
 #define CZ_BASE_SUGGEST_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "crushzone/status.h"
 
@@ -18,6 +19,17 @@ typedef struct CzSuggestion {
  * near enough to be a slip of the hand: at most a third of its letters, a change of case counting
  * little. */
 bool cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known);
+
+/* Number of a name among those of n items, each `size` bytes with a `const char *` at an offset
+ * that may be NULL; -1 when no item has it, and then the nearest name. */
+int cz_find_name(const char *name, const void *items, int n, size_t size, size_t offset,
+                 CzSuggestion *nearest);
+
+/* The same of an array of texts, and of structs with a member `name`. */
+#define CZ_FIND_TEXT(text, texts, n, nearest)                                                      \
+    cz_find_name(text, texts, n, sizeof(const char *), 0, nearest)
+#define CZ_FIND_NAMED(text, type, items, n, nearest)                                               \
+    cz_find_name(text, items, n, sizeof(type), offsetof(type, name), nearest)
 
 /* Puts "did you mean 'best'?" into the help of an error (NULL is allowed) when there is one. */
 void cz_suggest_help(const CzSuggestion *suggestion, CzError *error);

@@ -339,12 +339,7 @@ static CzStatus append_rules_of_files(Builder *builder) {
 /* ---- names ----------------------------------------------------------------------------------- */
 
 static bool is_check(const CzChecklist *list, const char *name, CzSuggestion *nearest) {
-    for (int i = 0; i < list->n_check; i++)
-        if (strcmp(list->check[i].name, name) == 0)
-            return true;
-    for (int i = 0; i < list->n_check; i++)
-        cz_suggest(nearest, name, list->check[i].name);
-    return false;
+    return CZ_FIND_NAMED(name, CzCheck, list->check, list->n_check, nearest) >= 0;
 }
 
 static CzStatus fail_name(const Builder *builder, const void *field, const char *name,

@@ -19,13 +19,10 @@ static CzStatus find_event(const char *text, CzEventKind *event, CzError *error)
 #undef CZ_EVENT
     };
     CzSuggestion nearest = {0};
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
-        if (strcmp(words[i], text) == 0) {
-            *event = (CzEventKind)i;
-            return CZ_OK;
-        }
-        cz_suggest(&nearest, text, words[i]);
-    }
+    const int found = CZ_FIND_TEXT(text, words, sizeof words / sizeof words[0], &nearest);
+    *event = (CzEventKind)found;
+    if (found >= 0)
+        return CZ_OK;
     const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no event '%.60s'", text);
     cz_suggest_help(&nearest, error);
     return status;

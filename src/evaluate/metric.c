@@ -33,22 +33,6 @@ static bool read_aggregate(const char *word, CzAggregate *aggregate) {
     return false;
 }
 
-static const CzMetricKind *find_kind(const char *name) {
-    for (int i = 0; i < cz_n_metric_kind(); i++)
-        if (strcmp(cz_metric_kind(i)->name, name) == 0)
-            return cz_metric_kind(i);
-    return NULL;
-}
-
-static CzStatus fail_unknown(const char *text, const char *name, CzError *error) {
-    CzSuggestion nearest = {0};
-    for (int i = 0; i < cz_n_metric_kind(); i++)
-        cz_suggest(&nearest, name, cz_metric_kind(i)->name);
-    const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no metric '%s'", text);
-    cz_suggest_help(&nearest, error);
-    return status;
-}
-
 /* Splits "LEVEL.SELECTOR.NAME" into "LEVEL.NAME" and the selector. */
 static void split_selector(const char *text, char *name, size_t n_name, char *selector,
                            size_t n_selector) {
@@ -75,8 +59,15 @@ CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzError *error) {
     else
         snprintf(copy, sizeof copy, "%s", text);
     split_selector(copy, name, sizeof name, metric->selector, sizeof metric->selector);
-    metric->kind = find_kind(name);
-    return metric->kind != NULL ? CZ_OK : fail_unknown(text, name, error);
+    CzSuggestion nearest = {0};
+    const int kind =
+        CZ_FIND_NAMED(name, CzMetricKind, cz_metric_kind(0), cz_n_metric_kind(), &nearest);
+    metric->kind = kind >= 0 ? cz_metric_kind(kind) : NULL;
+    if (kind >= 0)
+        return CZ_OK;
+    const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no metric '%s'", text);
+    cz_suggest_help(&nearest, error);
+    return status;
 }
 
 bool cz_metric_picks(const CzMetric *metric, const CzScene *scene) {

@@ -25,13 +25,9 @@ static void check_scenario_named(const CzRules *rules, const char *const *name) 
 static void check_confidence(const CzRules *rules, const char *const *confidence) {
     static const char *const words[] = {"S1", "S2", "X", "M1", "M2", "M3", "user"};
     CzSuggestion suggestion = {0};
-    if (*confidence == NULL)
+    if (*confidence == NULL ||
+        CZ_FIND_TEXT(*confidence, words, sizeof words / sizeof *words, &suggestion) >= 0)
         return;
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        if (strcmp(words[i], *confidence) == 0)
-            return;
-        cz_suggest(&suggestion, *confidence, words[i]);
-    }
     cz_rule_warning(rules, confidence,
                     "confidence '%.40s' is none of S1, S2, X, M1, M2, M3 and user: the limit "
                     "passes as PROVISIONAL at most",

@@ -4,8 +4,6 @@
 #include "base/suggest.h"
 #include "problem/rules.h"
 
-#include <string.h>
-
 /* What has the value: a metric, an event or a channel, and only one of them. */
 static void check_kind(const CzRules *rules, const CzMatch *match) {
     const int n_kind = (match->metric != NULL) + (match->event != NULL) + (match->channel != NULL);
@@ -56,13 +54,9 @@ static void check_scenario(const CzRules *rules, const CzMatch *match) {
                            rules->input->n_scenarios);
         return;
     }
-    for (int i = 0; i < rules->input->n_scenarios; i++) {
-        const char *known = rules->input->scenarios[i].name;
-        if (known != NULL && strcmp(known, match->scenario) == 0)
-            return;
-        if (known != NULL)
-            cz_suggest(&nearest, match->scenario, known);
-    }
+    if (CZ_FIND_NAMED(match->scenario, CzScenario, rules->input->scenarios,
+                      rules->input->n_scenarios, &nearest) >= 0)
+        return;
     cz_rule_broken(rules, &match->scenario, "there is no scenario '%.48s'", match->scenario);
     cz_mistake_suggest(rules->mistakes, &nearest);
 }

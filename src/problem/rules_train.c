@@ -66,70 +66,68 @@ static const char *name_of(const char *name) {
     return name != NULL ? name : "";
 }
 
-static bool gives_way(const CzEnd *end) {
-    const bool has_device =
-        end->coupler.given || end->anti_climber.given || end->side_buffers.given;
-    return end->given && (has_device || end->n_stages > 0 || end->curve.given);
+static bool can_deflect(const CzEnd *end) {
+    return end->coupler.given || end->anti_climber.given || end->side_buffers.given ||
+           end->n_stages > 0 || end->curve.given;
 }
 
-/* Two ends that face one another: one of them at least must deflect. */
-static void check_facing(const CzRules *rules, const CzVehicle *behind, const CzVehicle *ahead) {
-    if (behind->given && ahead->given && !gives_way(&behind->front) && !gives_way(&ahead->rear))
-        cz_rule_absent(rules, ahead,
-                       "no device can deflect between '%.48s' and '%.48s': neither end has one",
-                       name_of(behind->name), name_of(ahead->name));
-}
+/* An end of a vehicle and the one that it faces. */
+typedef struct Facing {
+    const CzVehicle *own, *other;
+    const CzEnd *end, *opposite;
+} Facing;
 
-static void warn_of_lone_devices(const CzRules *rules, const CzVehicle *owner, const CzEnd *end,
-                                 const CzVehicle *other, const CzEnd *opposite) {
-    if (!end->given)
+/* Couplers and side buffers act in pairs, or alone against a partner that does not move. */
+static void warn_of_unpaired_devices(const CzRules *rules, const Facing *facing) {
+    const CzEnd *end = facing->end, *opposite = facing->opposite;
+    const char *own = name_of(facing->own->name), *other = name_of(facing->other->name);
+    if (facing->other->model == CZ_MODEL_FIXED)
         return;
-    const char *own = name_of(owner->name);
-    const char *others = name_of(other->name);
-    if (end->coupler.given && !(opposite->given && opposite->coupler.given))
+    if (end->coupler.given && !opposite->coupler.given)
         cz_rule_warning(rules, &end->coupler,
                         "unpaired coupler: '%.48s' has none to meet that of '%.48s', which then "
                         "carries no force; in reality it would strike the headstock",
-                        others, own);
-    if (end->side_buffers.given && !(opposite->given && opposite->side_buffers.given))
+                        other, own);
+    if (end->side_buffers.given && !opposite->side_buffers.given)
         cz_rule_warning(
             rules, &end->side_buffers,
             "unpaired side buffers: '%.48s' has none to meet those of '%.48s', which then "
             "carry no force; in reality they would strike the headstock",
-            others, own);
-}
-
-/* Couplers and side buffers act in pairs, or alone against a partner that does not move. */
-static void check_pairs(const CzRules *rules, const CzVehicle *behind, const CzVehicle *ahead) {
-    if (!behind->given || !ahead->given)
-        return;
-    if (ahead->model != CZ_MODEL_FIXED)
-        warn_of_lone_devices(rules, behind, &behind->front, ahead, &ahead->rear);
-    if (behind->model != CZ_MODEL_FIXED)
-        warn_of_lone_devices(rules, ahead, &ahead->rear, behind, &behind->front);
+            other, own);
 }
 
 /* A coupler that meets that of a full vehicle is part of a strut between two pivots. */
-static void check_strut(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end,
-                        const CzVehicle *other, const CzEnd *opposite) {
-    const bool meets = end->given && end->coupler.given && opposite->given &&
-                       opposite->coupler.given && other->model == CZ_MODEL_FULL;
-    if (!meets || vehicle->model != CZ_MODEL_RIGID || end->coupler.length > 0)
-        return;
-    cz_rule_absent(rules, &end->coupler,
-                   "the coupler of rigid '%.48s' meets that of full '%.48s', and the line between "
-                   "their pivots needs the length of both: length_m or length_mm",
-                   name_of(vehicle->name), name_of(other->name));
+static void check_strut(const CzRules *rules, const Facing *facing) {
+    const CzCoupler *coupler = &facing->end->coupler;
+    if (coupler->given && facing->opposite->coupler.given && !(coupler->length > 0) &&
+        facing->own->model == CZ_MODEL_RIGID && facing->other->model == CZ_MODEL_FULL)
+        cz_rule_absent(
+            rules, coupler,
+            "the coupler of rigid '%.48s' meets that of full '%.48s', and the line between "
+            "their pivots needs the length of both: length_m or length_mm",
+            name_of(facing->own->name), name_of(facing->other->name));
 }
 
 static void check_neighbours(const CzRules *rules, const CzVehicle *behind,
                              const CzVehicle *ahead) {
-    check_facing(rules, behind, ahead);
-    check_pairs(rules, behind, ahead);
+    const Facing ends[2] = {{behind, ahead, &behind->front, &ahead->rear},
+                            {ahead, behind, &ahead->rear, &behind->front}};
     if (!behind->given || !ahead->given)
         return;
-    check_strut(rules, behind, &behind->front, ahead, &ahead->rear);
-    check_strut(rules, ahead, &ahead->rear, behind, &behind->front);
+    if (!can_deflect(&behind->front) && !can_deflect(&ahead->rear))
+        cz_rule_absent(rules, ahead,
+                       "no device can deflect between '%.48s' and '%.48s': neither end has one",
+                       name_of(behind->name), name_of(ahead->name));
+    for (int i = 0; i < 2; i++) {
+        warn_of_unpaired_devices(rules, &ends[i]);
+        check_strut(rules, &ends[i]);
+    }
+}
+
+/* A wall or buffer stop stands still; NaN is no speed. */
+static void check_standing(const CzRules *rules, const CzTrain *train, const double *speed) {
+    if (has(train, CZ_MODEL_FIXED) && *speed != 0 && !isnan(*speed))
+        cz_rule_broken(rules, speed, "a train with a fixed vehicle must have speed 0");
 }
 
 static bool can_brake(const CzRules *rules, const CzTrain *train) {
@@ -154,8 +152,7 @@ static void check_train(const CzRules *rules, const CzTrain *train) {
             rules, &train->brake,
             "a brake acts through the wheel-rail friction: it needs 'simulation: {adhesion: "
             "{friction: ...}}'");
-    if (has(train, CZ_MODEL_FIXED) && train->speed != 0)
-        cz_rule_broken(rules, &train->speed, "a train with a fixed vehicle must have speed 0");
+    check_standing(rules, train, &train->speed);
     for (int i = 1; i < train->n_vehicles; i++)
         check_neighbours(rules, &train->vehicles[i - 1], &train->vehicles[i]);
 }
@@ -173,14 +170,10 @@ void cz_rules_check_trains(const CzRules *rules) {
 /* A train by its name; NULL with a mistake when there is none. */
 static const CzTrain *find_train(const CzRules *rules, const char *const *name) {
     CzSuggestion suggestion = {0};
-    for (int i = 0; i < rules->input->n_trains; i++) {
-        const CzTrain *train = &rules->input->trains[i];
-        if (train->name == NULL)
-            continue;
-        if (strcmp(train->name, *name) == 0)
-            return train;
-        cz_suggest(&suggestion, *name, train->name);
-    }
+    const CzInput *input = rules->input;
+    const int train = CZ_FIND_NAMED(*name, CzTrain, input->trains, input->n_trains, &suggestion);
+    if (train >= 0)
+        return &input->trains[train];
     cz_rule_broken(rules, name, "there is no train '%.48s'", *name);
     cz_mistake_suggest(rules->mistakes, &suggestion);
     return NULL;
@@ -189,10 +182,9 @@ static const CzTrain *find_train(const CzRules *rules, const char *const *name) 
 /* The two trains of a scenario, the one behind first; false when they are not there. */
 static bool find_pair(const CzRules *rules, const CzScenario *scenario, const CzTrain *pair[2]) {
     const CzTexts *names = &scenario->trains;
-    pair[0] = pair[1] = NULL;
     if (!cz_rule_is_written(rules, names)) {
-        for (int i = 0; i < 2 && i < rules->input->n_trains; i++)
-            pair[i] = &rules->input->trains[i];
+        for (int i = 0; i < 2; i++)
+            pair[i] = cz_input_train(rules->input, NULL, i);
         return pair[1] != NULL;
     }
     if (names->n_text != 2) {
@@ -225,12 +217,8 @@ static void check_closing(const CzRules *rules, const CzScenario *scenario,
                        "the trains never meet: '%.40s' runs at %s behind '%.40s' at %s",
                        name_of(pair[0]->name), CZ_IN_UNIT(behind, "km/h", 1 / 3.6),
                        name_of(pair[1]->name), CZ_IN_UNIT(ahead, "km/h", 1 / 3.6));
-    if (has(pair[0], CZ_MODEL_FIXED) && scenario->speed != 0 && !isnan(scenario->speed))
-        cz_rule_broken(rules, &scenario->speed, "a train with a fixed vehicle must have speed 0");
-    if (has(pair[1], CZ_MODEL_FIXED) && scenario->partner_speed != 0 &&
-        !isnan(scenario->partner_speed))
-        cz_rule_broken(rules, &scenario->partner_speed,
-                       "a train with a fixed vehicle must have speed 0");
+    check_standing(rules, pair[0], &scenario->speed);
+    check_standing(rules, pair[1], &scenario->partner_speed);
 }
 
 /* The interface that is perturbed too must be inside one of the two trains. */

@@ -117,12 +117,7 @@ static void check_catalogue_keys(CzReader *reader, const CzNode *top) {
     static const char *const known[] = {"schema", "title", "catalogue", "parts"};
     for (int i = 0; i < top->n_entry; i++) {
         CzSuggestion suggestion = {0};
-        bool is_known = false;
-        for (int k = 0; k < 4; k++) {
-            is_known |= strcmp(top->entry[i].key->text, known[k]) == 0;
-            cz_suggest(&suggestion, top->entry[i].key->text, known[k]);
-        }
-        if (is_known)
+        if (CZ_FIND_TEXT(top->entry[i].key->text, known, 4, &suggestion) >= 0)
             continue;
         cz_mistake(&reader->mistakes, top->entry[i].key, NULL, "unknown key '%s' in a catalogue",
                    top->entry[i].key->text);

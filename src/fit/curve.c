@@ -76,18 +76,17 @@ void cz_curve_free(CzCurve *curve) {
 /* The fields of a line as texts behind their pointers, in one block; NULL without memory. */
 static char **fields_of(const char *line, char separator, int n) {
     size_t n_byte = 0;
-    CzField field;
-    for (CzFieldWalk walk = cz_fields_begin(line, separator); cz_fields_next(&walk, &field);)
-        n_byte += field.n + 1;
+    for (CzFieldWalk walk = cz_fields_begin(line, separator); cz_fields_next(&walk);)
+        n_byte += walk.field.n + 1;
     char **title = malloc((size_t)n * sizeof *title + n_byte);
     if (title == NULL)
         return NULL;
     char *text = (char *)(title + n);
     CzFieldWalk walk = cz_fields_begin(line, separator);
-    for (int i = 0; i < n && cz_fields_next(&walk, &field); i++) {
-        title[i] = memcpy(text, field.text, field.n);
-        text[field.n] = '\0';
-        text += field.n + 1;
+    while (walk.n < n && cz_fields_next(&walk)) {
+        title[walk.n - 1] = memcpy(text, walk.field.text, walk.field.n);
+        text[walk.field.n] = '\0';
+        text += walk.field.n + 1;
     }
     return title;
 }

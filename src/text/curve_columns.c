@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/suggest.h"
-#include "text/curve_number.h"
 
 enum { MOST_BELOW_TITLES = 3 };
 
@@ -37,10 +36,9 @@ static bool is_by_number(const CzCurveReading *reading) {
 
 static int numbers_in(const CzCurveReading *reading, const char *line) {
     CzFieldWalk walk = cz_fields_begin(line, reading->separator);
-    CzField field;
     int n = 0;
-    while (cz_fields_next(&walk, &field))
-        n += cz_curve_number_sign(field.text, field.n) != CZ_SIGN_NO_NUMBER;
+    while (cz_fields_next(&walk))
+        n += cz_field_is_number(&walk.field);
     return n;
 }
 
@@ -57,13 +55,13 @@ static bool is_like_a_unit(const CzField *field) {
  * dash, or where `with_unknown` one short word. */
 static bool is_of_units(const CzCurveReading *reading, const char *line, bool with_unknown) {
     CzFieldWalk walk = cz_fields_begin(line, reading->separator);
-    CzField field;
     int n_unit = 0;
-    while (cz_fields_next(&walk, &field)) {
-        const bool is_unit = cz_curve_unit_alone(&field) != NULL;
-        const bool is_bracketed = field.n > 1 && strchr("[(", field.text[0]) != NULL;
-        if (field.n > 0 && !is_unit && !is_bracketed && field.text[0] != '-' &&
-            field.text[0] != '%' && !(with_unknown && is_like_a_unit(&field)))
+    while (cz_fields_next(&walk)) {
+        const CzField *field = &walk.field;
+        const bool is_unit = cz_curve_unit_alone(field) != NULL;
+        const bool is_bracketed = field->n > 1 && strchr("[(", field->text[0]) != NULL;
+        if (field->n > 0 && !is_unit && !is_bracketed && strchr("-%", field->text[0]) == NULL &&
+            !(with_unknown && is_like_a_unit(field)))
             return false;
         n_unit += is_unit;
     }
@@ -126,12 +124,11 @@ static bool find_titles(CzCurveReading *reading, bool in_comments, int found[2])
 /* Writes "'Time', 'Extension', 'Load'". */
 static void list_titles(const CzCurveReading *reading, char *text, size_t size) {
     CzFieldWalk walk = cz_fields_begin(reading->titles, reading->separator);
-    CzField field;
     size_t n = 0;
     text[0] = '\0';
-    while (cz_fields_next(&walk, &field) && n + 40 < size)
+    while (cz_fields_next(&walk) && n + 40 < size)
         n += (size_t)snprintf(text + n, size - n, "%s'%.*s'", n > 0 ? ", " : "",
-                              (int)(field.n < 30 ? field.n : 30), field.text);
+                              (int)(walk.field.n < 30 ? walk.field.n : 30), walk.field.text);
 }
 
 bool cz_reading_has_whole_quotes(const CzCurveReading *reading, int line) {
@@ -154,9 +151,8 @@ static bool suggest(const CzCurveReading *reading, const char *typed) {
     char title[CZ_MOST_FIELD_TEXT];
     CzSuggestion nearest = {0};
     CzFieldWalk walk = cz_fields_begin(reading->titles, reading->separator);
-    CzField field;
-    while (cz_fields_next(&walk, &field))
-        cz_suggest(&nearest, typed, cz_field_text(&field, title));
+    while (cz_fields_next(&walk))
+        cz_suggest(&nearest, typed, cz_field_text(&walk.field, title));
     cz_mistake_suggest(reading->mistakes, &nearest);
     return nearest.best[0] != '\0';
 }

@@ -49,6 +49,11 @@ bool cz_reading_list_lines(CzArena *arena, CzCurveReading *reading);
 /* The next line from one on that is neither empty nor a comment; n_line without. */
 int cz_reading_next(const CzCurveReading *reading, int line);
 
+/* Which of both columns a field is in, x (0) or y (1); -1 for another one. */
+static inline int cz_reading_column(const CzCurveReading *reading, int field) {
+    return field == reading->index[1] ? 1 : field == reading->index[0] ? 0 : -1;
+}
+
 /* Finds titles, row of units and the first line of points in the lines, else in the comments, and
  * the numbers of both columns, or says what is missing. */
 bool cz_reading_find_columns(CzCurveReading *reading);

@@ -124,7 +124,7 @@ static const char *find_end(const char *start, char separator) {
     return at;
 }
 
-bool cz_fields_next(CzFieldWalk *walk, CzField *field) {
+bool cz_fields_next(CzFieldWalk *walk) {
     if (walk->at == NULL)
         return false;
     const char *start = walk->at, *end = find_end(start, walk->separator);
@@ -137,28 +137,29 @@ bool cz_fields_next(CzFieldWalk *walk, CzField *field) {
         end--;
     for (; walk->counted < start; walk->counted++)
         walk->n_character += ((unsigned char)*walk->counted & 0xc0) != 0x80;
-    *field = (CzField){start, (size_t)(end - start), walk->n_character + 1};
+    walk->field = (CzField){start, (size_t)(end - start), walk->n_character + 1};
+    walk->n++;
     return true;
 }
 
 bool cz_field_take(const char *line, char separator, int index, CzField *field) {
     CzFieldWalk walk = cz_fields_begin(line, separator);
-    for (int i = 0; i <= index; i++)
-        if (!cz_fields_next(&walk, field))
-            return false;
-    return true;
+    while (walk.n <= index && cz_fields_next(&walk))
+        *field = walk.field;
+    return walk.n > index;
 }
 
 CzFieldCount cz_fields_count(const char *line, char separator) {
     CzFieldWalk walk = cz_fields_begin(line, separator);
     CzFieldCount count = {0};
-    CzField field;
-    while (cz_fields_next(&walk, &field)) {
-        count.all++;
-        if (field.n > 0)
-            count.filled = count.all;
-    }
+    while (cz_fields_next(&walk))
+        count.filled = walk.field.n > 0 ? walk.n : count.filled;
+    count.all = walk.n;
     return count;
+}
+
+bool cz_field_is_number(const CzField *field) {
+    return cz_curve_number_sign(field->text, field->n) != CZ_SIGN_NO_NUMBER;
 }
 
 const char *cz_field_text(const CzField *field, char text[CZ_MOST_FIELD_TEXT]) {
@@ -206,15 +207,12 @@ static Score score(const CzSource *source, char separator) {
         if (cz_line_is_empty(source->line[i]) || cz_line_comment(source->line[i]) != NULL)
             continue;
         CzFieldWalk walk = cz_fields_begin(source->line[i], separator);
-        CzField field;
-        int n_field = 0, n_text = 0;
-        while (n_field < MOST_FIELDS && cz_fields_next(&walk, &field)) {
-            n_field++;
-            n_text += field.n > 0 && cz_curve_number_sign(field.text, field.n) == CZ_SIGN_NO_NUMBER;
-        }
-        if (n_field - n_text < 2)
+        int n_text = 0;
+        while (walk.n < MOST_FIELDS && cz_fields_next(&walk))
+            n_text += walk.field.n > 0 && !cz_field_is_number(&walk.field);
+        if (walk.n - n_text < 2)
             continue;
-        with[n_field]++;
+        with[walk.n]++;
         found.texts += n_text;
     }
     for (int n = 2; n <= MOST_FIELDS; n++)

@@ -23,16 +23,18 @@ typedef struct CzField {
     int column; /* character of the line, counted from 1 */
 } CzField;
 
-/* Walks through the fields of a line. Begin with `at` the line and `separator` ' ' for blanks. */
+/* Walks through the fields of a line; the separator is ' ' for blanks. */
 typedef struct CzFieldWalk {
-    const char *at; /* NULL: no field is left */
+    CzField field;  /* at hand */
+    int n;          /* fields so far, that one included */
+    const char *at; /* NULL: no further field */
     char separator;
     const char *counted; /* characters of the line are counted up to here */
     int n_character;
 } CzFieldWalk;
 
 CzFieldWalk cz_fields_begin(const char *line, char separator);
-bool cz_fields_next(CzFieldWalk *walk, CzField *field);
+bool cz_fields_next(CzFieldWalk *walk);
 
 /* The index-th field from 0; false when the line has none. */
 bool cz_field_take(const char *line, char separator, int index, CzField *field);
@@ -42,6 +44,9 @@ typedef struct CzFieldCount {
     int all, filled;
 } CzFieldCount;
 CzFieldCount cz_fields_count(const char *line, char separator);
+
+/* Whether a field is a number, whatever its decimal sign. */
+bool cz_field_is_number(const CzField *field);
 
 /* Copies a field as text, cut where it is too long. */
 const char *cz_field_text(const CzField *field, char text[CZ_MOST_FIELD_TEXT]);

@@ -20,24 +20,20 @@ typedef struct Evidence {
     CzField field[CZ_SIGN_OPEN_COMMA + 1];
 } Evidence;
 
-static void look_at(Evidence *evidence, const CzField *field, int line) {
-    const CzDecimalSign sign = cz_curve_number_sign(field->text, field->n);
-    if (evidence->line[sign] != 0)
-        return;
-    evidence->line[sign] = line + 1;
-    evidence->field[sign] = *field;
-}
-
 /* Evidence of the wanted columns, or of all others. */
 static Evidence collect(const CzCurveReading *reading, bool of_wanted) {
     Evidence evidence = {0};
     for (int line = cz_reading_next(reading, reading->data); line < reading->source.n_line;
          line = cz_reading_next(reading, line + 1)) {
         CzFieldWalk walk = cz_fields_begin(reading->source.line[line], reading->separator);
-        CzField field;
-        for (int i = 0; cz_fields_next(&walk, &field); i++)
-            if ((i == reading->index[0] || i == reading->index[1]) == of_wanted)
-                look_at(&evidence, &field, line);
+        while (cz_fields_next(&walk)) {
+            const CzDecimalSign sign = cz_curve_number_sign(walk.field.text, walk.field.n);
+            if ((cz_reading_column(reading, walk.n - 1) >= 0) != of_wanted ||
+                evidence.line[sign] != 0)
+                continue;
+            evidence.line[sign] = line + 1;
+            evidence.field[sign] = walk.field;
+        }
     }
     return evidence;
 }
@@ -83,14 +79,12 @@ static bool is_possible(const CzCurveReading *reading, char decimal) {
     for (int line = cz_reading_next(reading, reading->data); line < reading->source.n_line;
          line = cz_reading_next(reading, line + 1)) {
         CzFieldWalk walk = cz_fields_begin(reading->source.line[line], reading->separator);
-        CzField field;
-        for (int i = 0; cz_fields_next(&walk, &field); i++) {
+        while (cz_fields_next(&walk)) {
             double value;
-            const int which = i == reading->index[1];
-            const double largest = reading->request->column[which].largest;
-            if (i == reading->index[which] && largest > 0.0 &&
-                cz_curve_number_read(field.text, field.n, decimal, &value) &&
-                fabs(value) * reading->points->unit[which] > largest)
+            const int i = cz_reading_column(reading, walk.n - 1);
+            if (i >= 0 && reading->request->column[i].largest > 0.0 &&
+                cz_curve_number_read(walk.field.text, walk.field.n, decimal, &value) &&
+                fabs(value) * reading->points->unit[i] > reading->request->column[i].largest)
                 return false;
         }
     }
@@ -184,21 +178,20 @@ static void take_point(CzCurveReading *reading, int line) {
     if (!cz_reading_has_whole_quotes(reading, line))
         return;
     CzFieldWalk walk = cz_fields_begin(reading->source.line[line], reading->separator);
-    CzField field, wanted[2] = {{.text = "", .column = 1}, {.text = "", .column = 1}};
-    int all = 0, filled = 0;
-    while (cz_fields_next(&walk, &field)) {
+    CzField wanted[2] = {{.text = "", .column = 1}, {.text = "", .column = 1}};
+    int filled = 0;
+    while (cz_fields_next(&walk)) {
         for (int i = 0; i < 2; i++)
-            if (all == reading->index[i])
-                wanted[i] = field;
-        all++;
-        filled = field.n > 0 ? all : filled;
+            if (walk.n - 1 == reading->index[i])
+                wanted[i] = walk.field;
+        filled = walk.field.n > 0 ? walk.n : filled;
     }
     if (reading->n_field[0] == 0) {
-        reading->n_field[0] = all;
+        reading->n_field[0] = walk.n;
         reading->n_field[1] = filled;
     }
-    if (filled > reading->n_field[0] || all < reading->n_field[1]) {
-        refuse_count(reading, line, all);
+    if (filled > reading->n_field[0] || walk.n < reading->n_field[1]) {
+        refuse_count(reading, line, walk.n);
         return;
     }
     if (wanted[0].n == 0 && wanted[1].n == 0 && filled > 0)

@@ -149,7 +149,6 @@ static Answer answer_of(const CzCurveColumn *column, const CzField *title, const
 int cz_curve_column_find(const CzCurveColumn *column, const char *titles, const char *units_line,
                          char separator) {
     CzFieldWalk walk = cz_fields_begin(titles, separator), below = {0};
-    CzField title, unit;
     Answer best = NOT;
     int found = -1;
     if (cz_curve_column_number(column) >= 0)
@@ -158,14 +157,14 @@ int cz_curve_column_find(const CzCurveColumn *column, const char *titles, const 
                    : -1;
     if (units_line != NULL)
         below = cz_fields_begin(units_line, separator);
-    for (int i = 0; cz_fields_next(&walk, &title); i++) {
-        const bool has_unit = cz_fields_next(&below, &unit);
-        const Answer answer = answer_of(column, &title, has_unit ? &unit : NULL);
+    while (cz_fields_next(&walk)) {
+        const CzField *unit = cz_fields_next(&below) ? &below.field : NULL;
+        const Answer answer = answer_of(column, &walk.field, unit);
         if (answer == best && best != NOT)
             found = -2;
         if (answer < best) {
             best = answer;
-            found = i;
+            found = walk.n - 1;
         }
     }
     return found;

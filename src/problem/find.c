@@ -72,13 +72,16 @@ static int compare_targets(const void *a, const void *b) {
 static CzStatus collect(const CzProblem *problem, const CzProblem *trial, const CzMatches *matches,
                         CzTargets *found, CzError *error) {
     const CzPlaces *places = &trial->places;
-    found->target = malloc(((size_t)places->n_place + 1) * sizeof *found->target);
-    if (found->target == NULL)
+    const size_t room = (size_t)(found->n + places->n_place) + 1;
+    CzTarget *target = realloc(found->target, room * sizeof *target);
+    if (target == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
+    const int first = found->n;
+    found->target = target;
     for (int i = 0; i < places->n_place; i++)
         if (is_target(problem, trial, &places->place[i]))
-            found->target[found->n++] = make_target(problem, trial, &places->place[i], matches);
-    qsort(found->target, (size_t)found->n, sizeof *found->target, compare_targets);
+            target[found->n++] = make_target(problem, trial, &places->place[i], matches);
+    qsort(target + first, (size_t)(found->n - first), sizeof *target, compare_targets);
     return CZ_OK;
 }
 
@@ -101,8 +104,9 @@ static CzStatus find(const CzProblem *problem, CzProblem *trial, CzSetting *stan
             memcpy(error->help, mistake->help, sizeof error->help);
         return CZ_STATUS_INPUT;
     }
+    const int n_before = found->n;
     CZ_TRY(collect(problem, trial, &matches, found, error));
-    if (found->n > 0)
+    if (found->n > n_before)
         return CZ_OK;
     cz_fail(error, CZ_STATUS_INPUT, "path '%s' names no number", path);
     if (error != NULL)
@@ -111,22 +115,13 @@ static CzStatus find(const CzProblem *problem, CzProblem *trial, CzSetting *stan
     return CZ_STATUS_INPUT;
 }
 
-CzStatus cz_problem_find(const CzProblem *problem, const char *path, CzTarget **targets,
-                         int *n_target, CzError *error) {
-    CzTargets found = {0};
+CzStatus cz_problem_find(const CzProblem *problem, const char *path, CzTargets *targets,
+                         CzError *error) {
     CzSetting *stand_ins = NULL;
-    *targets = NULL;
-    *n_target = 0;
     CzProblem *trial = cz_problem_create_again(problem, 1, &stand_ins);
     if (trial == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
-    const CzStatus status = find(problem, trial, stand_ins, path, &found, error);
+    const CzStatus status = find(problem, trial, stand_ins, path, targets, error);
     cz_problem_free(trial);
-    if (status != CZ_OK) {
-        free(found.target);
-        return status;
-    }
-    *targets = found.target;
-    *n_target = found.n;
-    return CZ_OK;
+    return status;
 }

@@ -104,13 +104,14 @@ typedef struct CzTargets {
  * value and unit are 1. None in a problem that was read again. Borrowed. */
 const CzTargets *cz_problem_targets(const CzProblem *problem, int variable);
 
-/* All numbers that setting a path would change, ordered by match. Through `parts.NAME`
- * those of every vehicle that uses the part and does not override the key; through a vehicle of a
- * train those of this vehicle and of all that repeat or copy it (they have no values of their own);
- * beyond a * the items that have the record. `targets` is allocated with malloc and freed by the
- * caller. Statuses: CZ_OK, CZ_STATUS_INPUT with a did-you-mean, CZ_STATUS_NO_MEMORY. */
+/* Adds all numbers that setting a path would change, ordered by match. Through `parts.NAME` those
+ * of every vehicle that uses the part and does not override the key; through a vehicle of a train
+ * those of this vehicle and of all that repeat or copy it (they have no values of their own);
+ * beyond a * the items that have the record. The array of targets is allocated with malloc and
+ * freed by the caller. Statuses: CZ_OK, CZ_STATUS_INPUT with a did-you-mean, CZ_STATUS_NO_MEMORY.
+ */
 CZ_MUST_CHECK CzStatus cz_problem_find(const CzProblem *problem, const char *path,
-                                       CzTarget **targets, int *n_target, CzError *error);
+                                       CzTargets *targets, CzError *error);
 
 /* The problem once more with further settings "path" = "value", judged by every rule but those on
  * limits and variables. Shares the problem's tree, so it must not outlive it; freed by the caller.

@@ -1,7 +1,6 @@
 /* Rules of limits and design variables. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -86,22 +85,13 @@ static void check_target(const CzRules *rules, const CzVariable *variable, const
                        CZ_SHORT(hi), first->suffix);
 }
 
-/* Finds what a path names and adds it to the targets of its variable; how many there are more, 0
- * with the reason in `error`. */
+/* Adds what a path names to the targets of its variable; how many there are more, 0 with the reason
+ * in `error`. */
 static int find(const CzRules *rules, const char *path, CzTargets *targets, CzError *error) {
-    CzTarget *found = NULL;
-    int n_found = 0;
-    const CzStatus status = cz_problem_find(rules->problem, path, &found, &n_found, error);
-    const size_t n = (size_t)(targets->n + n_found);
-    CzTarget *all = n_found > 0 ? realloc(targets->target, n * sizeof *all) : NULL;
-    if (all != NULL) {
-        memcpy(all + targets->n, found, (size_t)n_found * sizeof *all);
-        *targets = (CzTargets){(int)n, all};
-    }
-    if (status == CZ_STATUS_NO_MEMORY || (n_found > 0 && all == NULL))
+    const int n_before = targets->n;
+    if (cz_problem_find(rules->problem, path, targets, error) == CZ_STATUS_NO_MEMORY)
         rules->mistakes->arena->out_of_memory = true;
-    free(found);
-    return all != NULL ? n_found : 0;
+    return targets->n - n_before;
 }
 
 /* Reports why a path names nothing, or a choice cannot be made. */

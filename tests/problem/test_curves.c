@@ -244,10 +244,10 @@ static void a_curve_file_of_a_part_is_read_once_and_not_again(void **state) {
     unlink(path);
 
     const char *const set[] = {"parts.tube.trigger_kN"}, *const value[] = {"700"};
-    CzTarget *target = NULL;
-    int n_target = 0, n_vehicle = 0;
-    assert_int_equal(cz_problem_find(problem, "parts.car.mass_t", &target, &n_target, NULL), CZ_OK);
-    assert_int_equal(n_target, 2);
+    CzTargets found = {0};
+    int n_vehicle = 0;
+    assert_int_equal(cz_problem_find(problem, "parts.car.mass_t", &found, NULL), CZ_OK);
+    assert_int_equal(found.n, 2);
     assert_int_equal(cz_problem_read_again(problem, 1, set, value, &again, NULL), CZ_OK);
     const CzVehicle *vehicle = cz_problem_vehicles(again, &n_vehicle);
     for (int i = 0; i < 2; i++) {
@@ -258,7 +258,7 @@ static void a_curve_file_of_a_part_is_read_once_and_not_again(void **state) {
             assert_near(tubes[k]->curve.y[1], 600e3, 0, 0);
         }
     }
-    free(target);
+    free(found.target);
     cz_problem_free(again);
     cz_problem_free(problem);
 }

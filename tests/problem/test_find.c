@@ -9,22 +9,22 @@ typedef struct {
 
 static void check_found(const char *path, int n_expected, const Expected *expected) {
     CzProblem *problem = read_good("full.yaml", 0, NULL);
-    CzTarget *target = NULL;
+    CzTargets found = {0};
     CzError error = {0};
-    int n_target = 0, n_vehicle = 0;
+    int n_vehicle = 0;
     const CzVehicle *vehicle = cz_problem_vehicles(problem, &n_vehicle);
-    assert_int_equal(cz_problem_find(problem, path, &target, &n_target, &error), CZ_OK);
-    assert_int_equal(n_target, n_expected);
-    for (int i = 0; i < n_target; i++) {
-        assert_string_equal(vehicle[target[i].vehicle].name, expected[i].vehicle);
-        assert_int_equal(target[i].offset, expected[i].offset);
-        assert_int_equal(target[i].match, expected[i].match);
+    assert_int_equal(cz_problem_find(problem, path, &found, &error), CZ_OK);
+    assert_int_equal(found.n, n_expected);
+    for (int i = 0; i < found.n; i++) {
+        assert_string_equal(vehicle[found.target[i].vehicle].name, expected[i].vehicle);
+        assert_int_equal(found.target[i].offset, expected[i].offset);
+        assert_int_equal(found.target[i].match, expected[i].match);
         const double value =
-            *(const double *)(const void *)((const char *)&vehicle[target[i].vehicle] +
-                                            target[i].offset);
-        assert_near(target[i].value, value, 0, 0);
+            *(const double *)(const void *)((const char *)&vehicle[found.target[i].vehicle] +
+                                            found.target[i].offset);
+        assert_near(found.target[i].value, value, 0, 0);
     }
-    free(target);
+    free(found.target);
     cz_problem_free(problem);
 }
 
@@ -73,26 +73,25 @@ static void behind_a_star_items_without_the_record_are_skipped(void **state) {
 static void a_target_knows_its_unit_and_its_concrete_path(void **state) {
     (void)state;
     CzProblem *problem = read_good("full.yaml", 0, NULL);
-    CzTarget *target = NULL;
-    int n_target = 0;
+    CzTargets found = {0};
     assert_int_equal(cz_problem_find(problem,
                                      "trains.*.vehicles[*].front.anti_climber.stages[*].force_kN",
-                                     &target, &n_target, NULL),
+                                     &found, NULL),
                      CZ_OK);
-    assert_int_equal(n_target, 8);
-    assert_near(target[0].unit, 1e3, 0, 0);
-    assert_string_equal(target[0].suffix, "kN");
-    assert_true(target[0].may_vary);
-    assert_string_equal(target[0].place,
+    assert_int_equal(found.n, 8);
+    assert_near(found.target[0].unit, 1e3, 0, 0);
+    assert_string_equal(found.target[0].suffix, "kN");
+    assert_true(found.target[0].may_vary);
+    assert_string_equal(found.target[0].place,
                         "trains.A.vehicles.A1.front.anti_climber.stages[0].force_kN");
-    assert_string_equal(target[7].place,
+    assert_string_equal(found.target[7].place,
                         "trains.A.vehicles.A4.front.anti_climber.stages[1].force_kN");
-    free(target);
-    assert_int_equal(
-        cz_problem_find(problem, "trains.A.vehicles.A4.mass_kg", &target, &n_target, NULL), CZ_OK);
-    assert_false(target[0].may_vary);
-    assert_near(target[0].unit, 1, 0, 0);
-    free(target);
+    free(found.target);
+    found = (CzTargets){0};
+    assert_int_equal(cz_problem_find(problem, "trains.A.vehicles.A4.mass_kg", &found, NULL), CZ_OK);
+    assert_false(found.target[0].may_vary);
+    assert_near(found.target[0].unit, 1, 0, 0);
+    free(found.target);
     cz_problem_free(problem);
 }
 
@@ -106,24 +105,25 @@ static void finding_and_setting_use_the_same_places(void **state) {
         char set[200];
         const char *sets[] = {set};
         CzProblem *problem = read_good("full.yaml", 0, NULL);
-        CzTarget *target = NULL;
-        int n_target = 0, n_vehicle = 0, n_changed = 0;
-        assert_int_equal(cz_problem_find(problem, paths[p], &target, &n_target, NULL), CZ_OK);
-        const double value = target[0].value * 1.001;
-        snprintf(set, sizeof set, "%s=%.17g", paths[p], value / target[0].unit);
+        CzTargets found = {0};
+        int n_vehicle = 0, n_changed = 0;
+        assert_int_equal(cz_problem_find(problem, paths[p], &found, NULL), CZ_OK);
+        const double value = found.target[0].value * 1.001;
+        snprintf(set, sizeof set, "%s=%.17g", paths[p], value / found.target[0].unit);
         CzProblem *changed = read_good("full.yaml", 1, sets);
         const CzVehicle *before = cz_problem_vehicles(problem, &n_vehicle);
         const CzVehicle *after = cz_problem_vehicles(changed, &n_vehicle);
-        for (int i = 0; i < n_target; i++)
-            assert_near(*(const double *)(const void *)((const char *)&after[target[i].vehicle] +
-                                                        target[i].offset),
-                        value, ROUNDING_OF_A_VALUE, 0);
+        for (int i = 0; i < found.n; i++)
+            assert_near(
+                *(const double *)(const void *)((const char *)&after[found.target[i].vehicle] +
+                                                found.target[i].offset),
+                value, ROUNDING_OF_A_VALUE, 0);
         for (int v = 0; v < n_vehicle; v++)
             for (size_t at = offsetof(CzVehicle, mass); at + 8 <= sizeof *before; at += 8)
                 n_changed +=
                     memcmp((const char *)&before[v] + at, (const char *)&after[v] + at, 8) != 0;
-        assert_int_equal(n_changed, n_target);
-        free(target);
+        assert_int_equal(n_changed, found.n);
+        free(found.target);
         cz_problem_free(changed);
         cz_problem_free(problem);
     }
@@ -133,36 +133,32 @@ static void settings_before_are_kept_while_finding(void **state) {
     (void)state;
     static const char *const set[] = {"trains.A.vehicles.A4.front.anti_climber.gap_mm=290"};
     CzProblem *problem = read_good("full.yaml", 1, set);
-    CzTarget *target = NULL;
-    int n_target = 0;
-    assert_int_equal(
-        cz_problem_find(problem, "parts.cab-end.anti_climber.gap_mm", &target, &n_target, NULL),
-        CZ_OK);
-    assert_int_equal(n_target, 2); /* A1 and B4; A4 and its copy B1 have their own */
-    free(target);
+    CzTargets found = {0};
+    assert_int_equal(cz_problem_find(problem, "parts.cab-end.anti_climber.gap_mm", &found, NULL),
+                     CZ_OK);
+    assert_int_equal(found.n, 2); /* A1 and B4; A4 and its copy B1 have their own */
+    free(found.target);
     cz_problem_free(problem);
 }
 
 static void an_unknown_path_is_reported_with_a_suggestion(void **state) {
     (void)state;
     CzProblem *problem = read_good("full.yaml", 0, NULL);
-    CzTarget *target = NULL;
+    CzTargets found = {0};
     CzError error = {0};
-    int n_target = 0;
-    assert_int_equal(
-        cz_problem_find(problem, "trains.A.vehicles.A5.mass_t", &target, &n_target, &error),
-        CZ_STATUS_INPUT);
+    assert_int_equal(cz_problem_find(problem, "trains.A.vehicles.A5.mass_t", &found, &error),
+                     CZ_STATUS_INPUT);
     assert_string_equal(
         error.message, "path 'trains.A.vehicles.A5.mass_t': there is no 'A5' in trains.A.vehicles");
     assert_string_equal(error.help, "did you mean 'A1'?");
-    assert_null(target);
-    assert_int_equal(n_target, 0);
-    assert_int_equal(cz_problem_find(problem, "", &target, &n_target, &error), CZ_STATUS_INPUT);
-    assert_int_equal(cz_problem_find(problem, "trains[99999999999].x", &target, &n_target, &error),
+    assert_null(found.target);
+    assert_int_equal(found.n, 0);
+    assert_int_equal(cz_problem_find(problem, "", &found, &error), CZ_STATUS_INPUT);
+    assert_int_equal(cz_problem_find(problem, "trains[99999999999].x", &found, &error),
                      CZ_STATUS_INPUT);
-    assert_int_equal(
-        cz_problem_find(problem, "trains.A.vehicles.A1.front", &target, &n_target, NULL),
-        CZ_STATUS_INPUT);
+    assert_int_equal(cz_problem_find(problem, "trains.A.vehicles.A1.front", &found, NULL),
+                     CZ_STATUS_INPUT);
+    free(found.target);
     cz_problem_free(problem);
 }
 
@@ -207,9 +203,9 @@ static void settings_of_parts_do_not_depend_on_their_order(void **state) {
     for (int order = 0; order < 2; order++) {
         CzProblemOptions options = cz_problem_options_default();
         CzProblem *problem = NULL;
-        CzTarget *target = NULL;
+        CzTargets found = {0};
         CzError error = {0};
-        int n_vehicle, n_target;
+        int n_vehicle;
         options.set = set[order];
         options.n_set = 2;
         assert_int_equal(cz_problem_read_text(text, sizeof text - 1, "parts.yaml", ".", &options,
@@ -218,11 +214,10 @@ static void settings_of_parts_do_not_depend_on_their_order(void **state) {
         const CzTube *tube = &cz_problem_vehicles(problem, &n_vehicle)->front.coupler.tube;
         assert_near(tube->stages[0].force, 700e3, 0, 0);
         assert_near(tube->trigger, 1000e3, 0, 0);
-        assert_int_equal(
-            cz_problem_find(problem, "parts.tube.stages[0].force_kN", &target, &n_target, &error),
-            CZ_OK);
-        assert_int_equal(n_target, 2);
-        free(target);
+        assert_int_equal(cz_problem_find(problem, "parts.tube.stages[0].force_kN", &found, &error),
+                         CZ_OK);
+        assert_int_equal(found.n, 2);
+        free(found.target);
         cz_problem_free(problem);
     }
 }
@@ -234,17 +229,16 @@ static void numbers_of_trains_and_of_the_simulation_are_found_too(void **state) 
     const CzInput *input = cz_problem_input(problem);
     const double *const fields[] = {&input->simulation.adhesion.friction, &input->trains[0].speed};
     for (int i = 0; i < 2; i++) {
-        CzTarget *target = NULL;
+        CzTargets found = {0};
         CzError error = {0};
-        int n_target;
-        assert_int_equal(cz_problem_find(problem, paths[i], &target, &n_target, &error), CZ_OK);
-        assert_int_equal(n_target, 1);
-        assert_int_equal(target->vehicle, -1);
-        assert_ptr_equal(target->field, fields[i]);
-        assert_near(target->value, *fields[i], 0, 0);
-        assert_false(target->may_vary);
-        assert_int_equal(target->may_fit, i == 0); /* the speed is fixed data */
-        free(target);
+        assert_int_equal(cz_problem_find(problem, paths[i], &found, &error), CZ_OK);
+        assert_int_equal(found.n, 1);
+        assert_int_equal(found.target->vehicle, -1);
+        assert_ptr_equal(found.target->field, fields[i]);
+        assert_near(found.target->value, *fields[i], 0, 0);
+        assert_false(found.target->may_vary);
+        assert_int_equal(found.target->may_fit, i == 0); /* the speed is fixed data */
+        free(found.target);
     }
     cz_problem_free(problem);
 }
@@ -256,18 +250,17 @@ static void variables_keep_the_places_of_their_paths(void **state) {
     int n_checked = 0;
     for (int i = 0; i < optimise->n_variables; i++) {
         const CzTargets *targets = cz_problem_targets(problem, i);
-        CzTarget *target = NULL;
-        int n_target = 0;
+        CzTargets found = {0};
         if (optimise->variables[i].path == NULL)
             continue;
-        assert_int_equal(
-            cz_problem_find(problem, optimise->variables[i].path, &target, &n_target, NULL), CZ_OK);
-        assert_int_equal(targets->n, n_target);
-        for (int k = 0; k < n_target; k++) {
-            assert_ptr_equal(targets->target[k].field, target[k].field);
-            assert_string_equal(targets->target[k].place, target[k].place);
+        assert_int_equal(cz_problem_find(problem, optimise->variables[i].path, &found, NULL),
+                         CZ_OK);
+        assert_int_equal(targets->n, found.n);
+        for (int k = 0; k < found.n; k++) {
+            assert_ptr_equal(targets->target[k].field, found.target[k].field);
+            assert_string_equal(targets->target[k].place, found.target[k].place);
         }
-        free(target);
+        free(found.target);
         n_checked++;
     }
     assert_in_range(n_checked, 1, optimise->n_variables);

@@ -73,15 +73,14 @@ static void finding_places_reports_every_lack_of_memory(void **state) {
     (void)state;
     CzProblem *problem = read_good("full.yaml", 0, NULL);
     for (int i = 0; i < 5000; i++) {
-        CzTarget *target = NULL;
-        int n_target = 0;
+        CzTargets found = {0};
         n_request = 0;
         failing = i;
         const CzStatus status =
-            cz_problem_find(problem, "parts.end.stages[*].force_kN", &target, &n_target, NULL);
+            cz_problem_find(problem, "parts.end.stages[*].force_kN", &found, NULL);
         const bool has_failed = n_request > i;
         failing = -1;
-        free(target);
+        free(found.target);
         assert_int_equal(status, has_failed ? CZ_STATUS_NO_MEMORY : CZ_OK);
         if (!has_failed)
             break;

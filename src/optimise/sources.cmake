@@ -6,7 +6,6 @@ set(CZ_SOURCES_optimise
     nlopt_adapter.c
     optimise.c
     outcome.c
-    recall.c
     sample.c
     search.c
     sensitivity.c

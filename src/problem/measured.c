@@ -1,5 +1,5 @@
 /* Reading measured time histories. */
-#include "problem/measured.h"
+#include "problem/reading.h"
 
 #include <math.h>
 #include <stdio.h>

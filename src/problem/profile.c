@@ -1,5 +1,5 @@
 /* Reading profiles of limits. */
-#include "problem/profile.h"
+#include "problem/reading.h"
 
 #include <dirent.h>
 #include <stdio.h>

@@ -5,8 +5,6 @@
 
 #include "base/error.h"
 #include "problem/acts.h"
-#include "problem/measured.h"
-#include "problem/profile.h"
 #include "problem/rules.h"
 #include "problem/usual.h"
 #include "text/yaml.h"

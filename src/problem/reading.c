@@ -15,8 +15,12 @@ CzProblem *cz_problem_create(const char *share_folder) {
     CzProblem *problem = calloc(1, sizeof *problem);
     if (problem == NULL)
         return NULL;
-    cz_reader_begin(&problem->reader, &cz_records[CZ_RECORD_CzInput], share_folder);
-    problem->places.arena = &problem->reader.arena;
+    CzReader *reader = &problem->reader;
+    reader->top = &cz_records[CZ_RECORD_CzInput];
+    reader->share_folder = share_folder;
+    reader->sources.hash = CZ_HASH_START;
+    reader->mistakes.arena = reader->warnings.arena = reader->sources.arena =
+        problem->places.arena = &reader->arena;
     return problem;
 }
 

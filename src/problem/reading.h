@@ -41,6 +41,14 @@ CzBinder cz_problem_binder(CzProblem *problem, const CzTree *tree);
 /* Puts settings in and reads the input of a tree. */
 void cz_problem_bind(CzProblem *problem, const CzTree *tree);
 
+/* Reads the profile that the problem names, with the limits of its category (profile.c). */
+void cz_profile_read(CzProblem *problem);
+
+/* Reads the time histories that the problem's matches name, as curve files are (measured.c). Times
+ * rise from line to line, so what `run` writes as channels.csv can be read as well. A value without
+ * a unit is in that of its channel. */
+void cz_measured_read(CzProblem *problem);
+
 /* The scenario of a name, or the first of a family of that name; -1 when there is none, and the
  * nearest word. */
 int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest);

@@ -1,5 +1,5 @@
 /* Telling which rule is broken, and where. */
-#include "problem/rule.h"
+#include "problem/rules.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,10 +1,48 @@
-/* Rules between values, by what they look at; the header of all rules_*.c. Values that could not
- * be read are NaN and break no rule, so that the rules hold even for a problem with other mistakes.
- */
+/* Rules between values: what they look at and report with, and the functions of rules_*.c, by what
+ * they look at. Each rule is a small function that looks at one record and shows what does not
+ * hold. Values that could not be read are NaN and break no rule, so that the rules hold even for a
+ * problem with other mistakes. */
 #ifndef CZ_PROBLEM_RULES_H
 #define CZ_PROBLEM_RULES_H
 
-#include "problem/rule.h"
+#include "problem/reading.h"
+
+typedef struct CzRules {
+    const CzProblem *problem;
+    const CzReader *reader;
+    const CzInput *input;
+    const CzVehicle *vehicle;        /* those that are judged: the problem's own or a candidate's */
+    CzMistakes *mistakes, *warnings; /* where to report; both may be NULL */
+    double *ratio; /* how close each rule is to a violation, the largest so far (CZ_N_VALUE_RULE);
+                      NULL when not requested */
+} CzRules;
+
+/* Rules that judge a problem as it is and report its reader. */
+CzRules cz_rules_of(CzProblem *problem);
+
+/* Notes that a rule limits a number, in SI, to at most another; whether it is above that. */
+bool cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most);
+
+/* Reports a mistake at the place where a field was written, or at its record when it was not. */
+void cz_rule_broken(const CzRules *rules, const void *field, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* The same as a warning. */
+void cz_rule_warning(const CzRules *rules, const void *field, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Reports that something is absent; not reported when it may be in a record that could not be read.
+ */
+void cz_rule_absent(const CzRules *rules, const void *field, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Whether a field was written in a file, rightly or not. */
+bool cz_rule_is_written(const CzRules *rules, const void *field);
+
+/* Number as an argument of a sentence in a unit, such as "300 mm". */
+const char *cz_rule_text(char text[48], double si, const char *unit, double unit_si);
+#define CZ_IN_UNIT(si, unit, unit_si) cz_rule_text((char[48]){0}, (si), (unit), (unit_si))
+#define CZ_MM(si) CZ_IN_UNIT(si, "mm", 1e-3)
+#define CZ_KN(si) CZ_IN_UNIT(si, "kN", 1e3)
+
+/* ---- the rules ---- */
 
 void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end);
 void cz_rules_check_vehicle(const CzRules *rules, const CzVehicle *vehicle);

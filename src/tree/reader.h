@@ -28,11 +28,10 @@ typedef struct CzReader {
     bool has_holes; /* records could not be read, so what is absent may have been written */
 } CzReader;
 
-/* Makes a zero-initialised reader ready. The share folder is borrowed. */
-void cz_reader_begin(CzReader *reader, const CzRecord *top, const char *share_folder);
-
 /* A value under a key, for reading it. */
-CzValue cz_reader_value(CzReader *reader, const char *key, const CzNode *node,
-                        const CzTrail *trail);
+static inline CzValue cz_reader_value(CzReader *reader, const char *key, const CzNode *node,
+                                      const CzTrail *trail) {
+    return (CzValue){&reader->mistakes, key, node, trail};
+}
 
 #endif

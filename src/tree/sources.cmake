@@ -5,7 +5,6 @@ set(CZ_SOURCES_tree
     merge.c
     parts.c
     path.c
-    reader.c
     record.c
     settings.c
     trains.c

@@ -122,18 +122,16 @@ static void write_panels(const CzPage *page, int interface, CzMarkup *markup) {
     char title[CZ_SENTENCE_ROOM], text[CZ_SENTENCE_ROOM + 8];
     cz_chart_title(page, CZ_CHART_PANELS, 0, sizeof title, title);
     cz_svg_open_tiles(markup, title, 4, slot);
-    cz_markup_attribute(markup, "class", "panels");
-    cz_markup_line(markup);
+    cz_markup_write(markup, " class='panels'>\n");
     for (int i = 0; i < 4; i++) {
         const int index = cz_chart_info(panels[i])->count == CZ_CHART_PER_INTERFACE ? interface : 0;
         cz_chart_title(page, panels[i], index, sizeof title, title);
         snprintf(text, sizeof text, "(%c) %s", "abcd"[i], title);
         cz_svg_open_tile(markup, i, slot, 8, text);
         cz_chart_write(page, panels[i], index, markup);
-        cz_markup_close(markup);
+        cz_markup_write(markup, "</svg>");
     }
-    cz_markup_close(markup);
-    cz_markup_line(markup);
+    cz_markup_write(markup, "</svg>\n");
 }
 
 /* Collects the curves of a figure, then draws it. */

@@ -1,6 +1,7 @@
 /* Side elevation of the two colliding ends, to scale, with the chain of strokes below. */
 #include "report/elevation.h"
 
+#include "problem/strokes.h"
 #include "report/figure.h"
 #include "report/plot.h"
 #include "report/units.h"
@@ -41,27 +42,17 @@ static double height(double z) {
     return RAIL - SCALE * z;
 }
 
-static double stroke_of(int n_stage, const CzStage *stage, const CzTable *curve) {
-    double sum = 0;
-    for (int i = 0; i < n_stage; i++)
-        sum += stage[i].stroke;
-    return curve != NULL && curve->given ? curve->x[curve->n_point - 1] : sum;
-}
-
 static double end_stroke(const CzEnd *end) {
-    return stroke_of(end->n_stages, end->stages, &end->curve);
+    return cz_total_stroke(end->stages, end->n_stages, &end->curve);
 }
 
 static void write_bar(CzMarkup *markup, double from, double to, double y, double thickness,
                       const char *colour, const char *title) {
-    cz_markup_open(markup, "rect");
-    cz_markup_numbers(
-        markup, 1, "x y width height",
-        (const double[]){fmin(from, to), y - thickness / 2, fabs(to - from), thickness});
-    cz_markup_attributes(markup, "fill", colour, "fill-opacity", ".55", "stroke", "currentColor",
-                         "stroke-width", ".7", NULL);
-    cz_markup_element(markup, "title", title);
-    cz_markup_close(markup);
+    cz_markup_write(markup,
+                    "<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' fill='%s' "
+                    "fill-opacity='.55' stroke='currentColor' stroke-width='.7'>"
+                    "<title>%s</title></rect>",
+                    fmin(from, to), y - thickness / 2, fabs(to - from), thickness, colour, title);
 }
 
 /* ---- parts ---- */
@@ -94,8 +85,9 @@ static void write_parts(CzMarkup *markup, const Side *side) {
         const double tip = side->plane - end->coupler.gap, pivot = tip - end->coupler.length;
         const double y = height(side->rise + end->coupler.height);
         write_bar(markup, place(side, pivot), place(side, tip), y, 9, cz_plot_colour(0), "coupler");
-        cz_markup_shape(markup, "circle", "cx cy", (const double[]){place(side, pivot), y}, "r",
-                        "5", "stroke", "currentColor", "stroke-width", "2", NULL);
+        cz_markup_write(
+            markup, "<circle cx='%.1f' cy='%.1f' r='5' stroke='currentColor' stroke-width='2'/>",
+            place(side, pivot), y);
     }
 }
 
@@ -166,13 +158,12 @@ static void write_heights(CzMarkup *markup, const Side *side) {
                  cz_figure_fixed(number, 3, label[i].z));
         cz_svg_text(markup, side->sign > 0 ? 4 : WIDTH - 4, label[i].y,
                     side->sign > 0 ? "start" : "end", text);
-        cz_markup_open(markup, "path");
-        cz_markup_format(markup, "d", "M%d %dL%d %dH%d", (int)(side->edge - side->sign * 4),
-                         (int)label[i].y - 4, (int)(side->edge + side->sign * 8),
-                         (int)height(label[i].z), (int)place(side, label[i].to));
-        cz_markup_attributes(markup, "stroke", "currentColor", "stroke-width", ".8",
-                             "stroke-dasharray", "3 2", NULL);
-        cz_markup_close(markup);
+        cz_markup_write(markup,
+                        "<path d='M%d %dL%d %dH%d' stroke='currentColor' stroke-width='.8' "
+                        "stroke-dasharray='3 2'/>",
+                        (int)(side->edge - side->sign * 4), (int)label[i].y - 4,
+                        (int)(side->edge + side->sign * 8), (int)height(label[i].z),
+                        (int)place(side, label[i].to));
     }
 }
 
@@ -183,6 +174,10 @@ typedef struct Link {
     double length; /* [m] */
     int colour;    /* CZ_PLOT_QUIET for a gap */
 } Link;
+
+static double tube_stroke(const CzTube *tube) {
+    return cz_total_stroke(tube->stages, tube->n_stages, &tube->curve);
+}
 
 /* Draws lengths in series from the foremost plane inwards, with a text above. */
 static void write_chain(CzMarkup *markup, const Side *side, int row, const char *name, int n,
@@ -218,13 +213,9 @@ static void write_chains(CzMarkup *markup, const Side *side) {
     if (coupler->given) {
         const Link chain[] = {
             {"gap", coupler->gap, CZ_PLOT_QUIET},
-            {"buffer", stroke_of(coupler->buffer.n_stages, coupler->buffer.stages, NULL), 5},
-            {"tube", stroke_of(coupler->tube.n_stages, coupler->tube.stages, &coupler->tube.curve),
-             0},
-            {"second tube",
-             stroke_of(coupler->second_tube.n_stages, coupler->second_tube.stages,
-                       &coupler->second_tube.curve),
-             0},
+            {"buffer", cz_total_stroke(coupler->buffer.stages, coupler->buffer.n_stages, NULL), 5},
+            {"tube", tube_stroke(&coupler->tube), 0},
+            {"second tube", tube_stroke(&coupler->second_tube), 0},
             {"retraction", coupler->shear_off.given ? coupler->shear_off.retraction_space : 0,
              CZ_PLOT_QUIET}};
         write_chain(markup, side, 0, "coupler", 5, chain);
@@ -232,17 +223,17 @@ static void write_chains(CzMarkup *markup, const Side *side) {
         const CzSideBuffers *set = &end->side_buffers;
         const Link chain[] = {
             {"gap", set->gap, CZ_PLOT_QUIET},
-            {"buffer", stroke_of(set->buffer.n_stages, set->buffer.stages, NULL), 5},
-            {"tube", stroke_of(set->tube.n_stages, set->tube.stages, &set->tube.curve), 3}};
+            {"buffer", cz_total_stroke(set->buffer.stages, set->buffer.n_stages, NULL), 5},
+            {"tube", tube_stroke(&set->tube), 3}};
         write_chain(markup, side, 0, "side buffers", 3, chain);
     }
     if (!face->given && end_stroke(end) == 0)
         return;
-    const Link chain[] = {{"gap", face->given ? face->gap : end->face_gap, CZ_PLOT_QUIET},
-                          {"anti-climber",
-                           face->given ? stroke_of(face->n_stages, face->stages, &face->curve) : 0,
-                           1},
-                          {"end", end_stroke(end), 4}};
+    const Link chain[] = {
+        {"gap", face->given ? face->gap : end->face_gap, CZ_PLOT_QUIET},
+        {"anti-climber",
+         face->given ? cz_total_stroke(face->stages, face->n_stages, &face->curve) : 0, 1},
+        {"end", end_stroke(end), 4}};
     write_chain(markup, side, 1, face->given ? "anti-climber and end" : "end", 3, chain);
     const Link room[] = {{"in front of the survival space", end->available_length, 2}};
     write_chain(markup, side, 2, "room", 1, room);
@@ -289,19 +280,16 @@ void cz_elevation_write(const CzModel *model, const CzLayout *stand, CzMarkup *m
     const double origin = (a->x + a->plane[FRONT] + b->x - b->plane[REAR]) / 2;
     cz_svg_open(markup, "The two ends that collide, to scale, with heights and strokes", WIDTH,
                 CHAIN_TOP + 3 * CHAIN_ROW);
-    cz_markup_attribute(markup, "class", "elevation");
-    cz_markup_line(markup);
+    cz_markup_write(markup, " class='elevation'>\n");
     for (int which = 0; which < 2; which++) {
         const Side side = make_side(model, stand, which, origin);
         write_parts(markup, &side);
         write_name(markup, &side);
         write_heights(markup, &side);
         write_chains(markup, &side);
-        cz_markup_line(markup);
+        cz_markup_write(markup, "\n");
     }
-    cz_markup_open(markup, "path");
-    cz_markup_format(markup, "d", "M%d %dH%d", (int)COLUMN, (int)RAIL, (int)(WIDTH - COLUMN));
-    cz_markup_attributes(markup, "stroke", "currentColor", "stroke-width", "2.5", NULL);
-    cz_markup_close(markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup,
+                    "<path d='M%d %dH%d' stroke='currentColor' stroke-width='2.5'/></svg>\n",
+                    (int)COLUMN, (int)RAIL, (int)(WIDTH - COLUMN));
 }

@@ -20,12 +20,11 @@ static double energy_of_kind(const CzInterfaceResult *interface, int kind) {
 }
 
 static void write_bar(CzMarkup *markup, double x, double y, double width, double height, int kind) {
-    cz_markup_open(markup, "rect");
-    cz_markup_numbers(markup, 1, "x y width height", (const double[]){x, y, width, height});
-    cz_markup_attributes(markup, "fill", cz_plot_colour(kind), "stroke", "currentColor",
-                         "stroke-width", ".5", NULL);
-    cz_markup_element(markup, "title", cz_element_text((CzElementKind)kind));
-    cz_markup_close(markup);
+    cz_markup_write(markup,
+                    "<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' fill='%s' "
+                    "stroke='currentColor' stroke-width='.5'><title>%s</title></rect>",
+                    x, y, width, height, cz_plot_colour(kind),
+                    cz_element_text((CzElementKind)kind));
 }
 
 static void write_row(const CzRunSummary *run, const CzInterfaceResult *interface, double y,
@@ -66,6 +65,7 @@ void cz_chart_write_shares(const CzPage *page, CzMarkup *markup) {
     const double scale = most > 0 ? (CZ_PLOT_WIDTH - LEFT - RIGHT) / most : 0;
     const double bottom = TOP + ROW * run->n_interface;
     cz_svg_open(markup, "Dissipated energy by interface and element", CZ_PLOT_WIDTH, bottom + 24);
+    cz_markup_write(markup, ">");
     for (int i = 0; i < run->n_interface; i++)
         write_row(run, &run->interface[i], TOP + ROW * i, scale, markup);
     double x = LEFT;
@@ -77,5 +77,5 @@ void cz_chart_write_shares(const CzPage *page, CzMarkup *markup) {
         cz_svg_text(markup, x + 16, bottom + 17, "start", name);
         x += 16 + 11 * cz_text_width(name) + 14;
     }
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</svg>\n");
 }

@@ -50,7 +50,7 @@ CzStatus cz_report_write_fit_figure(const CzFit *fit, FILE *stream, CzError *err
                              .series = series,
                              .from_zero = true,
                              .height = 260};
-        fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", stream);
+        cz_svg_begin_document(&markup);
         cz_plot_write(&plot, &markup);
     }
     free(values[0]);

@@ -58,8 +58,7 @@ static void write_line(const CzInputsText *inputs, const char *line, CzMarkup *m
             text[used++] = *line++;
     }
     text[used] = '\0';
-    cz_markup_text(markup, text);
-    cz_markup_text(markup, "\n");
+    cz_markup_write(markup, "%s\n", text);
 }
 
 static bool begins_car(const char *line) {
@@ -104,11 +103,10 @@ void cz_inputs_text_write(const CzInputsText *inputs, CzMarkup *markup) {
             write_line(inputs, inputs->line[i++], markup);
             continue;
         }
-        char name[64], first[64], text[192];
+        char name[64], first[64];
         name_of(inputs->line[i], name);
         name_of(inputs->line[same], first);
-        snprintf(text, sizeof text, "      - name: %s   (otherwise as %s)", name, first);
-        write_line(inputs, text, markup);
+        cz_markup_write(markup, "      - name: %s   (otherwise as %s)\n", name, first);
         i = end_of_car(inputs, i);
     }
 }
@@ -195,14 +193,13 @@ void cz_inputs_text_write_defaults(const CzInputsText *inputs, CzMarkup *markup)
         join_path(keys, n_level, path);
         add_default(list, &n, path, value, is_ours);
     }
-    cz_markup_open(markup, "details");
-    cz_markup_element(markup, "summary",
-                      n == 0 ? "none" : "every value that no file states, with its default");
+    cz_markup_write(markup, "<details><summary>%s</summary>",
+                    n == 0 ? "none" : "every value that no file states, with its default");
     CzReportTable table;
     cz_table_begin(&table, "key;>value;>places;");
     for (int i = 0; i < n; i++)
         put_default(&table, &list[i]);
     cz_table_write_page(&table, markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</details>\n");
     free(list);
 }

@@ -77,7 +77,9 @@ void cz_page_free(CzPage *page);
 int cz_page_deciding(const CzEvaluation *evaluation);
 
 /* Values of a curve of the page (n_sample); NULL when there are none. */
-const double *cz_page_values(const CzPage *page, CzDrawn drawn, int place);
+static inline const double *cz_page_values(const CzPage *page, CzDrawn drawn, int place) {
+    return cz_drawn_values(page->run, &page->made, drawn, place);
+}
 
 /* Writes the report of a run: the checks of all scenarios and the figures of one. With is_top it
  * links the reports of the other scenarios in their folders. Statuses: CZ_STATUS_INPUT,
@@ -105,8 +107,7 @@ void cz_page_write_head(CzMarkup *markup, const char *title);
 void cz_page_write_foot(CzMarkup *markup);
 /* Links to the sections of the page of a run; for a search also to its own sections. */
 void cz_page_write_contents(CzPage *page, bool of_search);
-/* Opens a section with its heading. */
-void cz_page_open_section(CzMarkup *markup, const char *id, const char *heading);
+
 /* ---- parts, in the order of the page ---- */
 
 /* page_checks.c, page_trains.c, page_figures.c, page_scene.c, page_inputs.c, page_data.c */

@@ -29,9 +29,9 @@ static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *
     char time[CZ_FIGURE_ROOM];
     const int n = cz_budget_order(budget, order);
     const double most = n > 0 ? fabs(budget->moment[order[0]]) : 0;
-    cz_markup_say(markup, "h3", "%s, until its largest %s at %s ms", car,
-                  budget->of_lift ? "wheel lift" : "pitch",
-                  cz_figure_fixed(time, 0, budget->time * CZ_MILLI_PER_UNIT));
+    cz_markup_write(markup, "<h3>%s, until its largest %s at %s ms</h3>", car,
+                    budget->of_lift ? "wheel lift" : "pitch",
+                    cz_figure_fixed(time, 0, budget->time * CZ_MILLI_PER_UNIT));
     CzReportTable table;
     cz_table_begin(&table, "source;>moment kNms;nose-down | nose-up;>lift kNs;");
     for (int i = 0; i < n; i++) {
@@ -71,17 +71,15 @@ void cz_page_write_budget(CzPage *page) {
     const int worst = run->budget != NULL ? worst_car(run) : -1;
     if (worst < 0)
         return;
-    cz_page_open_section(markup, "budget", "Pitch: moments and impulses");
-    cz_markup_element(markup, "p",
-                      "Impulses about the centre of gravity of a body by source, from the first "
-                      "contact to its largest wheel lift, or to its largest pitch "
-                      "where the lift is below 0.1 mm. Nose-up is positive for a car facing +x.");
+    cz_markup_write(markup,
+                    "<section id='budget'>\n<h2>Pitch: moments and impulses</h2>\n"
+                    "<p>Impulses about the centre of gravity of a body by source, from the first "
+                    "contact to its largest wheel lift, or to its largest pitch "
+                    "where the lift is below 0.1 mm. Nose-up is positive for a car facing +x.</p>");
     write_car(markup, run->vehicle[worst].name, &run->budget[worst]);
-    cz_markup_open(markup, "details");
-    cz_markup_element(markup, "summary", "The other cars");
+    cz_markup_write(markup, "<details><summary>The other cars</summary>");
     for (int i = 0; i < run->n_vehicle; i++)
         if (i != worst && run->budget[i].time > 0)
             write_car(markup, run->vehicle[i].name, &run->budget[i]);
-    cz_markup_close(markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</details></section>\n");
 }

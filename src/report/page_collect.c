@@ -13,13 +13,7 @@
 #include <string.h>
 
 enum { INPUT_POINTS = 600 };
-#define INPUT_ROOM                                                                                 \
-    1.5 /* input curves are cut off at this share of the largest force of the run                  \
-         */
-
-const double *cz_page_values(const CzPage *page, CzDrawn drawn, int place) {
-    return cz_drawn_values(page->run, &page->made, drawn, place);
-}
+#define INPUT_ROOM 1.5 /* input curves end at this share of the largest force of the run */
 
 int cz_page_deciding(const CzEvaluation *evaluation) {
     const CzCheckResult *worst = NULL;
@@ -129,6 +123,14 @@ CzStatus cz_page_collect_parts(CzPage *page, CzError *error) {
     CZ_TRY(cz_chart_curves_of_fit(page->problem, page->summary, &page->n_measured, page->fitted,
                                   error));
     return cz_inputs_text_begin(&page->inputs, page->problem, error);
+}
+
+CzStatus cz_page_finish(CzPage *page, FILE *stream, CzError *error) {
+    if (page->markup.failed || fflush(page->markup.stream) != 0 || page->text.failed ||
+        page->text.text == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
+    fwrite(page->text.text, 1, page->text.n, stream);
+    return CZ_OK;
 }
 
 void cz_page_free(CzPage *page) {

@@ -10,12 +10,12 @@
 static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
     CzReportTable table;
     int n_same;
-    cz_page_open_section(markup, "checks", "Checks that differ");
+    cz_markup_write(markup, "<section id='checks'>\n<h2>Checks that differ</h2>\n");
     cz_compared_begin_checks(&table, n, run, &n_same);
     cz_table_write_page(&table, markup);
     if (n_same > 0)
-        cz_markup_say(markup, "p", "%d checks are the same.", n_same);
-    cz_markup_end(markup);
+        cz_markup_write(markup, "<p>%d checks are the same.</p>", n_same);
+    cz_markup_write(markup, "</section>\n");
 }
 
 static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool of_interface) {
@@ -62,12 +62,11 @@ static void write_overlay(CzMarkup *markup, int n, const CzReportRun *run, const
 
 static void write_loops(CzPage *page) {
     CzMarkup *markup = &page->markup;
-    cz_page_open_section(markup, "loops", "Force over closure");
-    cz_markup_open_class(markup, "div", "figures");
+    cz_markup_write(markup, "<section id='loops'>\n<h2>Force over closure</h2>\n"
+                            "<div class='figures'>");
     for (int i = 0; i < cz_chart_count(page, CZ_CHART_FORCE_CLOSURE); i++)
         cz_page_write_figure(page, CZ_CHART_FORCE_CLOSURE, i);
-    cz_markup_close(markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</div></section>\n");
 }
 
 static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
@@ -79,12 +78,11 @@ static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
                     {"Speed of the car behind it", CZ_CHANNEL_BODY_SPEED},
                     {"Pitch of the car behind it, nose up", CZ_CHANNEL_BODY_PITCH}};
     const int colliding = page->model->colliding;
-    cz_page_open_section(&page->markup, "time", "Over time");
-    cz_markup_open_class(&page->markup, "div", "figures");
+    cz_markup_write(&page->markup,
+                    "<section id='time'>\n<h2>Over time</h2>\n<div class='figures'>");
     for (size_t i = 0; i < sizeof overlays / sizeof *overlays; i++)
         write_overlay(&page->markup, n, run, overlays[i].title, overlays[i].channel, colliding);
-    cz_markup_close(&page->markup);
-    cz_markup_end(&page->markup);
+    cz_markup_write(&page->markup, "</div></section>\n");
 }
 
 static void write_page(CzPage *page, int n, const CzReportRun *run) {
@@ -92,17 +90,16 @@ static void write_page(CzPage *page, int n, const CzReportRun *run) {
     char title[CZ_SENTENCE_ROOM];
     snprintf(title, sizeof title, "%s, compared", cz_problem_title(page->problem));
     cz_page_write_head(markup, title);
-    cz_markup_element(markup, "h1", title);
-    cz_markup_say(markup, "p", "Figures are those of scenario %s.", page->summary->scenario);
+    cz_markup_write(markup, "<h1>%s</h1><p>Figures are those of scenario %s.</p>", title,
+                    page->summary->scenario);
     if (cz_compared_caution(n, run)[0] != '\0')
-        cz_markup_classed(markup, "p", "fail", cz_compared_caution(n, run));
+        cz_markup_write(markup, "<p class='fail'>%s</p>", cz_compared_caution(n, run));
     write_checks(markup, n, run);
-    cz_page_open_section(markup, "numbers", "Interfaces and cars");
-    cz_markup_open_class(markup, "div", "tables");
+    cz_markup_write(markup, "<section id='numbers'>\n<h2>Interfaces and cars</h2>\n"
+                            "<div class='tables'>");
     write_numbers(markup, n, run, true);
     write_numbers(markup, n, run, false);
-    cz_markup_close(markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</div></section>\n");
     write_loops(page);
     write_overlays(page, n, run);
     cz_page_write_foot(markup);

@@ -225,26 +225,20 @@ static bool fill(const CzPage *page, Rows *rows, CzMemoryText *text) {
 /* Says at the end of the page which rows the cursor covers. */
 static void write_rows(CzPage *page, const Rows *rows) {
     CzMarkup *markup = &page->markup;
-    char until[CZ_FIGURE_ROOM], every[CZ_FIGURE_ROOM], text[400];
+    const double spacing = (page->time[rows->n - 1] - page->time[0]) / (EVEN_SAMPLES - 1);
+    char until[CZ_FIGURE_ROOM], every[CZ_FIGURE_ROOM];
+    cz_markup_write(markup, "<p class='script'>Cursor and animation cover ");
     if (rows->n_first == rows->n) {
-        snprintf(text, sizeof text, "Cursor and animation cover all %d rows of channels.csv.",
-                 rows->n);
-    } else {
-        char first[96] = "";
-        if (rows->n_first > 1)
-            snprintf(first, sizeof first, "every row of channels.csv until %s ms, later at ",
-                     cz_figure_plain(until, page->time[rows->n_first - 1]));
-        snprintf(
-            text, sizeof text,
-            "Cursor and animation cover %severy event, every extreme of a force or an "
-            "acceleration, and at least every %s ms: with all %d rows this page would be "
-            "larger than 1 MB.",
-            first,
-            cz_figure_plain(every, (page->time[rows->n - 1] - page->time[0]) / (EVEN_SAMPLES - 1)),
-            rows->n);
+        cz_markup_write(markup, "all %d rows of channels.csv.</p>\n", rows->n);
+        return;
     }
-    cz_markup_classed(markup, "p", "script", text);
-    cz_markup_line(markup);
+    if (rows->n_first > 1)
+        cz_markup_write(markup, "every row of channels.csv until %s ms, later at ",
+                        cz_figure_plain(until, page->time[rows->n_first - 1]));
+    cz_markup_write(markup,
+                    "every event, every extreme of a force or an acceleration, and at least every "
+                    "%s ms: with all %d rows this page would be larger than 1 MB.</p>\n",
+                    cz_figure_plain(every, spacing), rows->n);
 }
 
 static void write_events(const CzPage *page, FILE *stream) {
@@ -269,19 +263,15 @@ void cz_page_write_data(CzPage *page) {
     bool *later = calloc((size_t)page->n_sample, sizeof *later);
     Rows rows = {.n = page->n_sample, .later = later};
     CzMemoryText text = {0};
-    cz_markup_open(markup, "script");
-    cz_markup_attribute(markup, "type", "application/json");
-    cz_markup_attribute(markup, "id", "data");
-    cz_markup_raw(markup, "{");
+    cz_markup_write(markup, "<script type='application/json' id='data'>{");
     write_events(page, markup->stream);
     fflush(markup->stream); /* so that the size of the page is known */
     if (later != NULL)
         choose(page, later);
     if (later == NULL || !fill(page, &rows, &text))
         markup->failed = true;
-    cz_markup_raw(markup, text.text != NULL ? text.text : "");
-    cz_markup_raw(markup, "}");
-    cz_markup_end(markup);
+    fputs(text.text != NULL ? text.text : "", markup->stream);
+    cz_markup_write(markup, "}</script>\n");
     write_rows(page, &rows);
     cz_memory_text_free(&text);
     free(later);

@@ -43,12 +43,11 @@ static double share_of(const Axes *axes, int axis, const double *x, double objec
 }
 
 static void write_design(CzMarkup *markup, const Axes *axes, const double *x, double objective) {
-    fputs("M", markup->stream);
+    cz_markup_write(markup, "M");
     for (int axis = 0; axis < axes->n; axis++) {
         const double share = fmin(fmax(share_of(axes, axis, x, objective), 0), 1);
-        const double y = TOP + HEIGHT * (1 - share);
-        fprintf(markup->stream, "%s%ld ", axis > 0 ? "L" : "", lround(axis_x(axis)));
-        cz_markup_write_number(markup->stream, 1, y);
+        cz_markup_write(markup, "%s%ld %.1f", axis > 0 ? "L" : "", lround(axis_x(axis)),
+                        TOP + HEIGHT * (1 - share));
     }
 }
 
@@ -61,10 +60,8 @@ static void write_designs(CzMarkup *markup, const Axes *axes, bool feasible, con
     if (n == 0)
         return;
     const long most = n < MOST_LINES / 2 ? n : MOST_LINES / 2;
-    cz_markup_open(markup, "path");
-    cz_markup_attributes(markup, "stroke", cz_plot_colour(feasible ? 0 : CZ_PLOT_QUIET),
-                         "stroke-opacity", feasible ? ".55" : ".4", NULL);
-    fputs(" d=\"", markup->stream);
+    cz_markup_write(markup, "<path stroke='%s' stroke-opacity='%s' d='",
+                    cz_plot_colour(feasible ? 0 : CZ_PLOT_QUIET), feasible ? ".55" : ".4");
     for (long i = 0; i < outcome->n_trial; i++) {
         const CzTrial *trial = &outcome->trial[i];
         if (trial->feasible != feasible || !isfinite(trial->objective))
@@ -74,23 +71,7 @@ static void write_designs(CzMarkup *markup, const Axes *axes, bool feasible, con
         shown++;
         write_design(markup, axes, &outcome->trial_x[i * outcome->n_variable], axes->objective[i]);
     }
-    fputc('"', markup->stream);
-    cz_markup_element(markup, "title", name);
-    cz_markup_close(markup);
-}
-
-static void write_one(CzMarkup *markup, const Axes *axes, const double *x, double objective,
-                      bool is_best) {
-    cz_markup_open(markup, "path");
-    cz_markup_attributes(markup, "stroke", cz_plot_colour(is_best ? 2 : 1), "stroke-width",
-                         is_best ? "3" : "2", NULL);
-    if (!is_best)
-        cz_markup_attribute(markup, "stroke-dasharray", cz_plot_dash(1));
-    fputs(" d=\"", markup->stream);
-    write_design(markup, axes, x, objective);
-    fputc('"', markup->stream);
-    cz_markup_element(markup, "title", is_best ? "best" : "start");
-    cz_markup_close(markup);
+    cz_markup_write(markup, "'><title>%s</title></path>", name);
 }
 
 static void write_axis(CzMarkup *markup, const Axes *axes, int axis) {
@@ -99,10 +80,8 @@ static void write_axis(CzMarkup *markup, const Axes *axes, int axis) {
         is_objective ? NULL : cz_evaluator_variable(axes->evaluator, axis);
     const double x = axis_x(axis);
     char text[CZ_FIGURE_ROOM + 8];
-    cz_markup_open(markup, "path");
-    cz_markup_format(markup, "d", "M%ld %ldV%ld", lround(x), lround(TOP), lround(TOP + HEIGHT));
-    cz_markup_attribute(markup, "stroke", "currentColor");
-    cz_markup_close(markup);
+    cz_markup_write(markup, "<path d='M%ld %ldV%ld' stroke='currentColor'/>", lround(x),
+                    lround(TOP), lround(TOP + HEIGHT));
     cz_svg_text(markup, x, TOP - 7, "middle",
                 cz_figure_digits(text, 4, is_objective ? axes->best : variable->max));
     cz_svg_text(markup, x, TOP + HEIGHT + 14, "middle",
@@ -111,27 +90,28 @@ static void write_axis(CzMarkup *markup, const Axes *axes, int axis) {
         snprintf(text, sizeof text, "objective");
     else
         snprintf(text, sizeof text, "%d", axis + 1);
-    cz_markup_open(markup, "text");
-    cz_markup_numbers(markup, 1, "x y", (const double[]){x, TOP + HEIGHT + 32});
-    cz_markup_attributes(markup, "text-anchor", "middle", "font-weight", "bold", "fill",
-                         "currentColor", NULL);
-    cz_markup_text(markup, text);
-    cz_markup_close(markup);
+    cz_markup_write(markup,
+                    "<text x='%.1f' y='%.1f' text-anchor='middle' font-weight='bold' "
+                    "fill='currentColor'>%s</text>",
+                    x, TOP + HEIGHT + 32, text);
 }
 
 static void write_figure(CzMarkup *markup, const Axes *axes, double start, double best) {
     const double width = 2 * SIDE + (axes->n - 1) * APART;
     cz_svg_open(markup, "Every design of the search as a line over the variables and the objective",
                 width, TOP + HEIGHT + 42);
-    cz_markup_attribute(markup, "class", "designs");
-    cz_markup_number(markup, "width", 0, width);
+    cz_markup_write(markup, " class='designs' width='%.0f'>", width);
     write_designs(markup, axes, false, "designs that violate a constraint");
     write_designs(markup, axes, true, "feasible designs");
     for (int axis = 0; axis < axes->n; axis++)
         write_axis(markup, axes, axis);
-    write_one(markup, axes, axes->outcome->start, start, false);
-    write_one(markup, axes, axes->outcome->best, best, true);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "<path stroke='%s' stroke-width='2' stroke-dasharray='%s' d='",
+                    cz_plot_colour(1), cz_plot_dash(1));
+    write_design(markup, axes, axes->outcome->start, start);
+    cz_markup_write(markup, "'><title>start</title></path><path stroke='%s' stroke-width='3' d='",
+                    cz_plot_colour(2));
+    write_design(markup, axes, axes->outcome->best, best);
+    cz_markup_write(markup, "'><title>best</title></path></svg>\n");
 }
 
 /* The upper end of the axis of the objective is the better one; designs that are far worse lie at
@@ -153,14 +133,11 @@ static void find_range(Axes *axes, double start, double best) {
 }
 
 static void write_names(CzMarkup *markup, const CzEvaluator *evaluator, int n) {
-    char text[CZ_SENTENCE_ROOM];
-    cz_markup_open_class(markup, "p", "axes");
-    for (int i = 0; i < n; i++) {
-        const CzVariableInfo *variable = cz_evaluator_variable(evaluator, i);
-        snprintf(text, sizeof text, "%s%d %s", i > 0 ? " · " : "", i + 1, variable->name);
-        cz_markup_text(markup, text);
-    }
-    cz_markup_end(markup);
+    cz_markup_write(markup, "<p class='axes'>");
+    for (int i = 0; i < n; i++)
+        cz_markup_write(markup, "%s%d %s", i > 0 ? " · " : "", i + 1,
+                        cz_evaluator_variable(evaluator, i)->name);
+    cz_markup_write(markup, "</p>\n");
 }
 
 CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
@@ -180,22 +157,36 @@ CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
                  .n = outcome->n_variable + 1,
                  .objective = objective};
     find_range(&axes, start, best);
-    cz_page_open_section(markup, "designs", "All designs");
-    cz_markup_element(markup, "p",
-                      "A line is a design: where it crosses an axis is its value between the "
-                      "bounds. Grey violates a constraint, blue is feasible, orange dashes are the "
-                      "start, green is the best. Objectives far below the start lie at the end of "
-                      "their axis.");
-    cz_markup_open_class(markup, "div", "wide");
+    cz_markup_write(markup,
+                    "<section id='designs'>\n<h2>All designs</h2>\n"
+                    "<p>A line is a design: where it crosses an axis is its value between the "
+                    "bounds. Grey violates a constraint, blue is feasible, orange dashes are the "
+                    "start, green is the best. Objectives far below the start lie at the end of "
+                    "their axis.</p><div class='wide'>");
     write_figure(markup, &axes, start, best);
-    cz_markup_close(markup);
+    cz_markup_write(markup, "</div>");
     write_names(markup, evaluator, outcome->n_variable);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</section>\n");
     free(objective);
     return CZ_OK;
 }
 
 /* ---- sensitivities ---- */
+
+int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const int *told) {
+    int found = -1;
+    for (int i = 0; i < evaluation->n_constraint; i++) {
+        const bool is_flag =
+            evaluation->constraint_check != NULL && evaluation->constraint_check[i].is_flag;
+        bool is_told =
+            !isfinite(evaluation->constraint[i]) || (is_flag && evaluation->constraint[i] <= 0);
+        for (int k = 0; k < n_told; k++)
+            is_told |= told[k] == i;
+        if (!is_told && (found < 0 || evaluation->constraint[i] > evaluation->constraint[found]))
+            found = i;
+    }
+    return found;
+}
 
 static void put_change(CzReportTable *table, double change) {
     char text[CZ_FIGURE_ROOM];
@@ -235,20 +226,20 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
                                  const CzOutcome *outcome) {
     if (outcome->sensitivity_increment == NULL)
         return;
-    int column[MOST_COLUMNS], n_column = 0;
+    int column[MOST_COLUMNS] = {0}, n_column = 0;
     while (n_column < MOST_COLUMNS) {
         column[n_column] = cz_page_next_constraint(&outcome->best_evaluation, n_column, column);
         if (column[n_column] < 0)
             break;
         n_column++;
     }
-    cz_page_open_section(markup, "sensitivities",
-                         "Sensitivities: change per increment of each variable");
-    cz_markup_element(
-        markup, "p",
-        "One variable at a time is changed by its increment, at least 2 % of its range, downwards "
-        "at its upper bound; all others keep the values of the best design. Margins are "
-        "those of the most critical constraints, computed as in the search.");
+    cz_markup_write(
+        markup,
+        "<section id='sensitivities'>\n"
+        "<h2>Sensitivities: change per increment of each variable</h2>\n"
+        "<p>One variable at a time is changed by its increment, at least 2 %% of its range, "
+        "downwards at its upper bound; all others keep the values of the best design. Margins are "
+        "those of the most critical constraints, computed as in the search.</p>");
     CzReportTable table;
     cz_table_begin(&table, "variable;>increment");
     table.class_name = "sensitivities";
@@ -261,5 +252,5 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
         if (outcome->sensitivity_increment[i] != 0)
             put_sensitivity(&table, evaluator, outcome, i, n_column, column);
     cz_table_write_page(&table, markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</section>\n");
 }

@@ -34,7 +34,7 @@ void cz_page_event_words(CzEventKind kind, char words[48]) {
 void cz_page_write_events(CzPage *page) {
     const CzRunSummary *run = page->summary;
     CzReportTable table;
-    cz_page_open_section(&page->markup, "events", "Events");
+    cz_markup_write(&page->markup, "<section id='events'>\n<h2>Events</h2>\n");
     cz_table_begin(&table, ">time ms;what;where;interface");
     for (int i = 0; i < run->n_event; i++) {
         const CzEvent *event = &run->event[i];
@@ -47,7 +47,7 @@ void cz_page_write_events(CzPage *page) {
         cz_table_put(&table, has_interface ? run->interface[event->interface].name : "");
     }
     cz_table_write_page(&table, &page->markup);
-    cz_markup_end(&page->markup);
+    cz_markup_write(&page->markup, "</section>\n");
 }
 
 /* ---- reproduction ---- */
@@ -81,25 +81,23 @@ static void write_command(CzPage *page) {
         snprintf(text + strlen(text), sizeof text - strlen(text), " --set");
         quote(text, sizeof text, options->set[i]);
     }
-    cz_markup_element(&page->markup, "h3", "Reproduction");
-    cz_markup_element(&page->markup, "pre", text);
-    cz_markup_element(&page->markup, "p",
-                      options->command != NULL
-                          ? "or the best design alone, from the result folder: crushzone run "
-                            "resolved.yaml. The same version gives the same bytes on every machine."
-                          : "or, from the result folder alone: crushzone run resolved.yaml. The "
-                            "same version gives the same bytes on every machine.");
+    cz_markup_write(&page->markup,
+                    "<h3>Reproduction</h3><pre>%s</pre><p>or%s: crushzone run resolved.yaml. The "
+                    "same version gives the same bytes on every machine.</p>",
+                    text,
+                    options->command != NULL ? " the best design alone, from the result folder"
+                                             : ", from the result folder alone");
 }
 
 static void write_versions(CzPage *page) {
     char nlopt[32] = "", sundials[32] = "";
     cz_nlopt_version(nlopt, sizeof nlopt);
     cz_sundials_version(sundials, sizeof sundials);
-    cz_markup_say(&page->markup, "p",
-                  "crushzone %s, NLopt %s, SUNDIALS %s; problem file %.200s, content hash %s",
-                  cz_version(), nlopt, sundials,
-                  cz_problem_told_name(page->problem, cz_problem_file(page->problem)),
-                  cz_problem_hash(page->problem));
+    cz_markup_write(&page->markup,
+                    "<p>crushzone %s, NLopt %s, SUNDIALS %s; problem file %s, content hash %s</p>",
+                    cz_version(), nlopt, sundials,
+                    cz_problem_told_name(page->problem, cz_problem_file(page->problem)),
+                    cz_problem_hash(page->problem));
 }
 
 static void write_assumptions(CzPage *page) {
@@ -113,56 +111,48 @@ static void write_assumptions(CzPage *page) {
         "are beyond the validity of the model.",
         "A pass is no certificate; PROVISIONAL marks a limit that is not confirmed."};
     CzMarkup *markup = &page->markup;
-    cz_markup_element(markup, "h3", "Assumptions");
     const CzWord *track =
         &cz_word_sets[CZ_WORDS_TRACK].word[cz_problem_input(page->problem)->simulation.track];
-    cz_markup_open(markup, "ul");
-    cz_markup_say(markup, "li", "Track: %s, %s.", track->word, track->doc);
+    cz_markup_write(markup, "<h3>Assumptions</h3><ul><li>Track: %s, %s.</li>", track->word,
+                    track->doc);
     for (size_t i = 0; i < sizeof assumptions / sizeof *assumptions; i++)
-        cz_markup_element(markup, "li", assumptions[i]);
+        cz_markup_write(markup, "<li>%s</li>", assumptions[i]);
     for (int i = 0; i < cz_problem_n_warning(page->problem); i++)
-        cz_markup_say(markup, "li", "Warning: %s", cz_problem_warning(page->problem, i)->message);
-    cz_markup_end(markup);
+        cz_markup_write(markup, "<li>Warning: %s</li>",
+                        cz_problem_warning(page->problem, i)->message);
+    cz_markup_write(markup, "</ul>\n");
 }
 
 /* ---- inputs ---- */
 
 static void write_sources(CzPage *page) {
     CzMarkup *markup = &page->markup;
-    cz_markup_element(markup, "h3", "Inputs as written");
+    cz_markup_write(markup, "<h3>Inputs as written</h3>");
     for (const CzSource *source = cz_problem_first_source(page->problem); source != NULL;
          source = source->next) {
-        char left_out[96];
-        cz_markup_open(markup, "details");
-        cz_markup_element(markup, "summary", cz_problem_told_name(page->problem, source->name));
-        cz_markup_open(markup, "pre");
-        for (int i = 0; i < source->n_line && i < MOST_SOURCE_LINES; i++) {
-            cz_markup_text(markup, source->line[i]);
-            cz_markup_text(markup, "\n");
-        }
-        snprintf(left_out, sizeof left_out, "... and %d lines more",
-                 source->n_line - MOST_SOURCE_LINES);
-        cz_markup_text(markup, source->n_line > MOST_SOURCE_LINES ? left_out : "");
-        cz_markup_close(markup);
-        cz_markup_end(markup);
+        cz_markup_write(markup, "<details><summary>%s</summary><pre>",
+                        cz_problem_told_name(page->problem, source->name));
+        for (int i = 0; i < source->n_line && i < MOST_SOURCE_LINES; i++)
+            cz_markup_write(markup, "%s\n", source->line[i]);
+        if (source->n_line > MOST_SOURCE_LINES)
+            cz_markup_write(markup, "... and %d lines more", source->n_line - MOST_SOURCE_LINES);
+        cz_markup_write(markup, "</pre></details>\n");
     }
 }
 
 void cz_page_write_inputs(CzPage *page) {
     CzMarkup *markup = &page->markup;
-    cz_page_open_section(markup, "inputs", "Inputs and reproduction");
+    cz_markup_write(markup, "<section id='inputs'>\n<h2>Inputs and reproduction</h2>\n");
     write_command(page);
     write_versions(page);
     write_assumptions(page);
-    cz_markup_element(markup, "h3", "Defaults used");
+    cz_markup_write(markup, "<h3>Defaults used</h3>");
     cz_inputs_text_write_defaults(&page->inputs, markup);
     write_sources(page);
-    cz_markup_element(markup, "h3", "Complete problem in SI units, with the origin of each value");
-    cz_markup_open(markup, "details");
-    cz_markup_element(markup, "summary", "resolved problem; of equal cars only the first");
-    cz_markup_open(markup, "pre");
+    cz_markup_write(markup,
+                    "<h3>Complete problem in SI units, with the origin of each value</h3>"
+                    "<details><summary>resolved problem; of equal cars only the first</summary>"
+                    "<pre>");
     cz_inputs_text_write(&page->inputs, markup);
-    cz_markup_close(markup);
-    cz_markup_close(markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</pre></details></section>\n");
 }

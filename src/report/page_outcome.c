@@ -27,33 +27,31 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
     const char *given = cz_evaluator_objective_unit(evaluator), *unit = given != NULL ? given : "";
     const CzVerdict verdict = outcome->best_evaluation.verdict;
     const bool is_passed = outcome->status == CZ_OUTCOME_FEASIBLE && verdict == CZ_VERDICT_PASS;
-    cz_markup_open(markup, "header");
-    cz_markup_element(markup, "h1", cz_problem_title(problem));
-    cz_markup_classed(markup, "p",
-                      outcome->status == CZ_OUTCOME_INFEASIBLE ? "banner fail"
-                      : is_passed                              ? "banner pass"
-                                                               : "banner careful",
-                      cz_outcome_words(evaluator, outcome));
-    cz_markup_say(markup, "p", "%ld evaluation%s: %s.", outcome->n_evaluation,
-                  outcome->n_evaluation == 1 ? "" : "s", outcome->why_stopped);
+    cz_markup_write(markup, "<header><h1>%s</h1><p class='banner %s'>%s</p>",
+                    cz_problem_title(problem),
+                    outcome->status == CZ_OUTCOME_INFEASIBLE ? "fail"
+                    : is_passed                              ? "pass"
+                                                             : "careful",
+                    cz_outcome_words(evaluator, outcome));
+    cz_markup_write(markup, "<p>%ld evaluation%s: %s.</p>", outcome->n_evaluation,
+                    outcome->n_evaluation == 1 ? "" : "s", outcome->why_stopped);
     if (cz_evaluator_maximises_margin(evaluator)) /* its negative is minimised */
-        cz_markup_say(markup, "p", "Smallest margin of all constraints: before %s, after %s.",
-                      cz_figure_margin(before, -start), cz_figure_margin(after, -best));
+        cz_markup_write(markup, "<p>Smallest margin of all constraints: before %s, after %s.</p>",
+                        cz_figure_margin(before, -start), cz_figure_margin(after, -best));
     else
-        cz_markup_say(markup, "p", "Objective %s: before %s%s%s, after %s%s%s.",
-                      cz_evaluator_objective_name(evaluator), cz_figure_plain(before, start),
-                      unit[0] != '\0' ? " " : "", unit, cz_figure_plain(after, best),
-                      unit[0] != '\0' ? " " : "", unit);
-    cz_markup_say(markup, "p", "Verdict of the checks of the best design: %s.",
-                  cz_verdict_text(verdict));
+        cz_markup_write(markup, "<p>Objective %s: before %s%s%s, after %s%s%s.</p>",
+                        cz_evaluator_objective_name(evaluator), cz_figure_plain(before, start),
+                        unit[0] != '\0' ? " " : "", unit, cz_figure_plain(after, best),
+                        unit[0] != '\0' ? " " : "", unit);
+    cz_markup_write(markup, "<p>Verdict of the checks of the best design: %s.</p>",
+                    cz_verdict_text(verdict));
     if (outcome->start_evaluation.beyond_validity || outcome->best_evaluation.beyond_validity)
-        cz_markup_classed(markup, "p", "fail",
-                          outcome->best_evaluation.beyond_validity
-                              ? "The best design climbs: its numbers are beyond model validity "
-                                "(" CZ_FIGURE_MARK_MEANS ")."
-                              : "The design before the search climbs: its numbers are beyond model "
-                                "validity (" CZ_FIGURE_MARK_MEANS ").");
-    cz_markup_end(markup);
+        cz_markup_write(markup,
+                        "<p class='fail'>The %s climbs: its numbers are beyond model validity "
+                        "(" CZ_FIGURE_MARK_MEANS ").</p>",
+                        outcome->best_evaluation.beyond_validity ? "best design"
+                                                                 : "design before the search");
+    cz_markup_write(markup, "</header>\n");
 }
 
 /* ---- variables ---- */
@@ -61,11 +59,11 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
 static void write_variables(CzMarkup *markup, const CzEvaluator *evaluator,
                             const CzOutcome *outcome) {
     CzReportTable table;
-    cz_page_open_section(markup, "variables", "Variables");
-    cz_markup_element(markup, "p", "Between the bounds: ring: start, dot: best design.");
+    cz_markup_write(markup, "<section id='variables'>\n<h2>Variables</h2>\n"
+                            "<p>Between the bounds: ring: start, dot: best design.</p>");
     cz_outcome_begin_variables(&table, evaluator, outcome, true);
     cz_table_write_page(&table, markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</section>\n");
 }
 
 /* ---- the search ---- */
@@ -146,38 +144,22 @@ static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
          .n_series = 1,
          .series = &violation,
          .from_zero = true}};
-    cz_page_open_section(markup, "search", "The search");
-    cz_markup_open_class(markup, "div", "figures");
+    cz_markup_write(markup, "<section id='search'>\n<h2>The search</h2>\n<div class='figures'>");
     cz_plot_write_figure(&plots[0], markup);
     cz_plot_write_figure(&plots[1], markup);
-    cz_markup_close(markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</div></section>\n");
     free(course.count);
     return CZ_OK;
 }
 
 /* ---- active constraints ---- */
 
-int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const int *told) {
-    int found = -1;
-    for (int i = 0; i < evaluation->n_constraint; i++) {
-        const bool is_flag =
-            evaluation->constraint_check != NULL && evaluation->constraint_check[i].is_flag;
-        bool is_told =
-            !isfinite(evaluation->constraint[i]) || (is_flag && evaluation->constraint[i] <= 0);
-        for (int k = 0; k < n_told; k++)
-            is_told |= told[k] == i;
-        if (!is_told && (found < 0 || evaluation->constraint[i] > evaluation->constraint[found]))
-            found = i;
-    }
-    return found;
-}
-
 static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const CzOutcome *outcome) {
     const CzEvaluation *best = &outcome->best_evaluation;
     CzReportTable table;
-    cz_page_open_section(markup, "active", "Active constraints of the best design");
-    cz_markup_element(markup, "p", "The most critical constraints; a negative margin is violated.");
+    cz_markup_write(markup,
+                    "<section id='active'>\n<h2>Active constraints of the best design</h2>\n"
+                    "<p>The most critical constraints; a negative margin is violated.</p>");
     cz_table_begin(&table, "constraint;" CZ_CONSTRAINT_HEADS);
     int told[MOST_CONSTRAINTS];
     for (int n = 0; n < MOST_CONSTRAINTS; n++) {
@@ -190,7 +172,7 @@ static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const C
                                   is_flag ? NAN : -best->constraint[told[n]]);
     }
     cz_table_write_page(&table, markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</section>\n");
 }
 
 static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
@@ -201,11 +183,11 @@ static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
         stream != NULL && cz_overlay_write_values(evaluator, outcome, NULL, stream, NULL) == CZ_OK;
     if (stream != NULL)
         fits &= fclose(stream) == 0 && !memory.failed && memory.text != NULL;
-    if (fits) {
-        cz_page_open_section(markup, "values", "New values, to paste");
-        cz_markup_element(markup, "pre", memory.text);
-        cz_markup_end(markup);
-    }
+    if (fits)
+        cz_markup_write(markup,
+                        "<section id='values'>\n<h2>New values, to paste</h2>\n"
+                        "<pre>%s</pre></section>\n",
+                        memory.text);
     cz_memory_text_free(&memory);
     return fits ? CZ_OK : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
 }
@@ -213,25 +195,25 @@ static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
 /* ---- verification ---- */
 
 static void write_verification(CzMarkup *markup, const CzVerification *verification) {
-    char text[512], limit[CZ_FIGURE_ROOM];
-    cz_page_open_section(markup, "verification", "Verification of the best design");
+    char limit[CZ_FIGURE_ROOM];
+    cz_markup_write(markup, "<section id='verification'>\n"
+                            "<h2>Verification of the best design</h2>\n");
     if (verification == NULL) {
-        cz_markup_element(markup, "p",
-                          "Not done: the best design violates a constraint, or "
-                          "verification was switched off.");
-        cz_markup_end(markup);
+        cz_markup_write(markup, "<p>Not done: the best design violates a constraint, or "
+                                "verification was switched off.</p></section>\n");
         return;
     }
     const bool passes = verification->verdict == CZ_VERDICT_PASS;
-    snprintf(text, sizeof text,
-             "%s: no result may change by more than %s, and no verdict may change.%s%s",
-             passes ? "Passed" : "NOT passed", cz_figure_percent(limit, verification->limit),
-             verification->failure[0] != '\0' ? " " : "", verification->failure);
-    cz_markup_classed(markup, "p", passes ? "pass" : "fail", text);
+    cz_markup_write(markup,
+                    "<p class='%s'>%s: no result may change by more than %s, and no verdict may "
+                    "change.%s%s</p>",
+                    passes ? "pass" : "fail", passes ? "Passed" : "NOT passed",
+                    cz_figure_percent(limit, verification->limit),
+                    verification->failure[0] != '\0' ? " " : "", verification->failure);
     CzReportTable table;
     cz_verified_begin_methods(&table, verification, true);
     cz_table_write_page(&table, markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</section>\n");
 }
 
 /* ---- the page ---- */
@@ -244,9 +226,9 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     cz_page_write_head(markup, title);
     write_banner(markup, evaluator, page->problem, outcome);
     cz_page_write_contents(page, true);
-    cz_page_open_section(markup, "checks", "Checks before and after");
+    cz_markup_write(markup, "<section id='checks'>\n<h2>Checks before and after</h2>\n");
     cz_page_write_checks(markup, &outcome->best_evaluation, &outcome->start_evaluation);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</section>\n");
     write_variables(markup, evaluator, outcome);
     write_active(markup, evaluator, outcome);
     cz_page_write_sensitivities(markup, evaluator, outcome);
@@ -254,9 +236,9 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     CZ_TRY(write_search(markup, evaluator, outcome, error));
     CZ_TRY(cz_page_write_designs(markup, evaluator, outcome, error));
     CZ_TRY(write_values(markup, evaluator, outcome, error));
-    cz_markup_element(markup, "h2", "The best design");
-    cz_markup_say(
-        markup, "p", "What follows is scenario %s of the best design%s", page->summary->scenario,
+    cz_markup_write(
+        markup, "<h2>The best design</h2><p>What follows is scenario %s of the best design%s</p>",
+        page->summary->scenario,
         page->n_other > 0 ? "; force over closure and energy also show the design before." : ".");
     cz_page_write_parts(page);
     cz_page_write_foot(markup);

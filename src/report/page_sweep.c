@@ -93,9 +93,10 @@ static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *er
 static void write_cell(CzMarkup *markup, const CzSweepPoint *point, double x, double y,
                        double width, double height) {
     const CzPointLook look = cz_point_look(point);
-    cz_markup_shape(markup, "rect", "x y width height", (const double[]){x, y, width, height},
-                    "fill", look.colour, "fill-opacity", ".75", "stroke", "currentColor",
-                    "stroke-width", ".4", NULL);
+    cz_markup_write(markup,
+                    "<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' fill='%s' "
+                    "fill-opacity='.75' stroke='currentColor' stroke-width='.4'/>",
+                    x, y, width, height, look.colour);
     if (width >= 8 && height >= 10)
         cz_svg_text(markup, x + width / 2, y + height / 2 + 4, "middle",
                     look.sign[0] != ' ' ? look.sign : "");
@@ -112,9 +113,9 @@ static void write_map(CzMarkup *markup, const CzSweep *sweep) {
     const double width = (CZ_PLOT_WIDTH - MAP_LEFT - 8) / n_column;
     const double height = fmax(6, fmin(24, 360.0 / n_row));
     const double bottom = MAP_TOP + height * n_row;
-    cz_markup_open(markup, "figure");
-    cz_markup_element(markup, "figcaption", "Verdicts");
+    cz_markup_write(markup, "<figure><figcaption>Verdicts</figcaption>");
     cz_svg_open(markup, "Map of verdicts", CZ_PLOT_WIDTH, bottom + MAP_BELOW);
+    cz_markup_write(markup, ">");
     for (int row = 0; row < n_row; row++) {
         char text[CZ_FIGURE_ROOM];
         const double y = bottom - height * (row + 1); /* upwards, as in any diagram */
@@ -136,8 +137,7 @@ static void write_map(CzMarkup *markup, const CzSweep *sweep) {
     snprintf(up, sizeof up, "upwards: %s", sweep->axis[0].path);
     cz_svg_text(markup, MAP_LEFT, bottom + 47, "start", up);
     cz_svg_text(markup, MAP_LEFT, bottom + 64, "start", CZ_MAP_SIGNS);
-    cz_markup_close(markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</svg></figure>\n");
 }
 
 CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error) {
@@ -146,30 +146,25 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     char title[CZ_SENTENCE_ROOM];
     snprintf(title, sizeof title, "%s, swept", cz_problem_title(sweep->problem));
     cz_page_write_head(&markup, title);
-    cz_markup_element(&markup, "h1", title);
+    cz_markup_write(&markup, "<h1>%s</h1>", title);
     if (sweep->is_interrupted)
-        cz_markup_classed(&markup, "p", "fail", "The sweep was interrupted: points are missing.");
+        cz_markup_write(&markup,
+                        "<p class='fail'>The sweep was interrupted: points are missing.</p>");
     if (cz_sweep_is_beyond(sweep))
-        cz_markup_classed(&markup, "p", "fail", CZ_SWEEP_BEYOND);
-    cz_page_open_section(&markup, "figures", sweep->n_axis == 1 ? "Over the value" : "Map");
-    cz_markup_open_class(&markup, "div", "figures");
+        cz_markup_write(&markup, "<p class='fail'>" CZ_SWEEP_BEYOND "</p>");
+    cz_markup_write(&markup, "<section id='figures'>\n<h2>%s</h2>\n<div class='figures'>",
+                    sweep->n_axis == 1 ? "Over the value" : "Map");
     if (sweep->n_axis == 1)
         CZ_TRY(write_curves(&markup, sweep, error));
     else
         write_map(&markup, sweep);
-    cz_markup_close(&markup);
-    cz_markup_end(&markup);
-    cz_page_open_section(&markup, "points", "Points");
-    if (sweep->n_axis > 1) {
-        cz_markup_open(&markup, "details");
-        cz_markup_element(&markup, "summary", "Every point of the map");
-    }
+    cz_markup_write(&markup, "</div></section>\n<section id='points'>\n<h2>Points</h2>\n");
+    if (sweep->n_axis > 1)
+        cz_markup_write(&markup, "<details><summary>Every point of the map</summary>");
     cz_sweep_begin_points(&table, sweep, true);
     table.class_name = "points";
     cz_table_write_page(&table, &markup);
-    if (sweep->n_axis > 1)
-        cz_markup_close(&markup);
-    cz_markup_end(&markup);
+    cz_markup_write(&markup, sweep->n_axis > 1 ? "</details></section>\n" : "</section>\n");
     cz_page_write_foot(&markup);
     return markup.failed ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report") : CZ_OK;
 }

@@ -22,10 +22,11 @@
 static void write_car(const CzPage *page, int car, double x, double y, CzMarkup *markup) {
     const CzCar *description = &page->model->car[car];
     char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 8];
-    cz_markup_shape(markup, "rect", "x y width height",
-                    (const double[]){x, y + CAR_TOP, CAR_WIDTH, CAR_HEIGHT}, "rx", "4", "fill",
-                    cz_plot_colour(description->train == 0 ? 0 : 1), "fill-opacity", ".15",
-                    "stroke", "currentColor", NULL);
+    cz_markup_write(markup,
+                    "<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' rx='4' fill='%s' "
+                    "fill-opacity='.15' stroke='currentColor'/>",
+                    x, y + CAR_TOP, CAR_WIDTH, CAR_HEIGHT,
+                    cz_plot_colour(description->train == 0 ? 0 : 1));
     cz_svg_text(markup, x + CAR_WIDTH / 2, y + CAR_TOP + 13, "middle", description->name);
     const double mass = page->model->properties[car].mass;
     const double known = isfinite(mass) ? mass : page->vehicles[description->vehicle].mass;
@@ -51,12 +52,9 @@ static void write_interface(const CzPage *page, int index, double x, double y, C
     const CzInterfaceResult *interface = &run->interface[index];
     CzResultContext context = {.run = run};
     const bool collides = index == page->model->colliding;
-    cz_markup_open(markup, "path");
-    cz_markup_format(markup, "d", "M%d %dH%d", (int)(x - BETWEEN / 2), (int)(y + CAR_TOP + 22),
-                     (int)(x + BETWEEN / 2));
-    cz_markup_attributes(markup, "stroke", interface->bottomed_out ? "#d0021b" : "currentColor",
-                         "stroke-width", collides ? "5" : "2", NULL);
-    cz_markup_close(markup);
+    cz_markup_write(markup, "<path d='M%d %dH%d' stroke='%s' stroke-width='%d'/>",
+                    (int)(x - BETWEEN / 2), (int)(y + CAR_TOP + 22), (int)(x + BETWEEN / 2),
+                    interface->bottomed_out ? "#d0021b" : "currentColor", collides ? 5 : 2);
     cz_svg_text(markup, x, y + CAR_TOP + 14, "middle", interface->name);
     for (int i = 0; i < n_line; i++) {
         char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 8];
@@ -68,15 +66,11 @@ static void write_interface(const CzPage *page, int index, double x, double y, C
                  run->beyond_validity && !is_early && !is_total ? "*" : "");
         cz_svg_text(markup, x, y + CAR_TOP + CAR_HEIGHT + 16 + 14 * i, "middle", text);
     }
-    if (interface->bottomed_out) {
-        cz_markup_open(markup, "text");
-        cz_markup_numbers(markup, 1, "x y",
-                          (const double[]){x, y + CAR_TOP + CAR_HEIGHT + 16 + 14 * n_line});
-        cz_markup_attributes(markup, "text-anchor", "middle", "fill", "#d0021b", "font-weight",
-                             "bold", NULL);
-        cz_markup_text(markup, "bottomed");
-        cz_markup_close(markup);
-    }
+    if (interface->bottomed_out)
+        cz_markup_write(markup,
+                        "<text x='%.1f' y='%.1f' text-anchor='middle' fill='#d0021b' "
+                        "font-weight='bold'>bottomed</text>",
+                        x, y + CAR_TOP + CAR_HEIGHT + 16 + 14 * n_line);
 }
 
 /* Draws the cars in rows of about the same length that fit a page; an interface between two rows is
@@ -89,15 +83,14 @@ static void write_diagram(const CzPage *page, CzMarkup *markup) {
     cz_svg_open(markup,
                 "The trains, with peak force, closure, stroke used and energy of each interface",
                 width, n_row * ROW_HEIGHT);
-    cz_markup_attribute(markup, "class", "row");
-    cz_markup_number(markup, "width", 0, width);
+    cz_markup_write(markup, " class='row' width='%.0f'>", width);
     for (int car = 0; car < n; car++) {
         const double x = MARGIN + car % n_in_row * pitch, y = car / n_in_row * ROW_HEIGHT;
         write_car(page, car, x, y, markup);
         if (car < page->summary->n_interface)
             write_interface(page, car, x + CAR_WIDTH + BETWEEN / 2, y, markup);
     }
-    cz_markup_close(markup);
+    cz_markup_write(markup, "</svg>");
 }
 
 /* ---- tables ---- */
@@ -161,22 +154,18 @@ static void write_vehicles(const CzPage *page, CzMarkup *markup) {
 
 void cz_page_write_trains(CzPage *page) {
     CzMarkup *markup = &page->markup;
-    cz_page_open_section(markup, "trains", "Trains");
-    cz_markup_element(markup, "p",
-                      "Below each interface: peak force, largest closure, largest share of a "
-                      "stroke used, energy dissipated, share of all that was dissipated. The first "
-                      "table has the elements that "
-                      "dissipated more than 0.1 kJ.");
-    cz_markup_open_class(markup, "div", "wide");
+    cz_markup_write(markup,
+                    "<section id='trains'>\n<h2>Trains</h2>\n"
+                    "<p>Below each interface: peak force, largest closure, largest share of a "
+                    "stroke used, energy dissipated, share of all that was dissipated. The first "
+                    "table has the elements that dissipated more than 0.1 kJ.</p>"
+                    "<div class='wide'>");
     write_diagram(page, markup);
-    cz_markup_end(markup);
-    cz_markup_element(markup, "h3", "The two ends that collide, at rest, to scale");
-    cz_markup_open_class(markup, "div", "wide");
+    cz_markup_write(markup, "</div>\n<h3>The two ends that collide, at rest, to scale</h3>"
+                            "<div class='wide'>");
     cz_elevation_write(page->model, page->stand, markup);
-    cz_markup_end(markup);
-    cz_markup_open_class(markup, "div", "tables");
+    cz_markup_write(markup, "</div>\n<div class='tables'>");
     write_elements(page, markup);
     write_vehicles(page, markup);
-    cz_markup_close(markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</div></section>\n");
 }

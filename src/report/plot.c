@@ -33,20 +33,34 @@ const char *cz_plot_dash(int dash) {
     return dashes[dash % 4][0];
 }
 
+double cz_text_width(const char *text) {
+    double width = 0;
+    for (; *text != '\0'; text++) {
+        const unsigned char c = (unsigned char)*text;
+        if (c >= 0x80 && c < 0xc0)
+            continue; /* a further byte of a character */
+        if (strchr("il.,:;'|!()[] ft", c) != NULL)
+            width += 0.36;
+        else
+            width += strchr("mwMW%", c) != NULL ? 0.92 : 0.62;
+    }
+    return width;
+}
+
+void cz_svg_begin_document(CzMarkup *markup) {
+    cz_markup_write(markup, "<?xml version='1.0' encoding='UTF-8'?>\n");
+    markup->is_alone = true;
+}
+
 void cz_svg_open(CzMarkup *markup, const char *title, double width, double height) {
-    cz_markup_open(markup, "svg");
-    cz_markup_attribute(markup, "xmlns", "http://www.w3.org/2000/svg");
-    fputs(" viewBox=\"0 0 ", markup->stream);
-    cz_markup_write_number(markup->stream, 1, width);
-    fputc(' ', markup->stream);
-    cz_markup_write_number(markup->stream, 1, height);
-    fputc('"', markup->stream);
-    cz_markup_attributes(markup, "role", "img", "aria-label", title, "font-family",
-                         "system-ui, sans-serif", NULL);
-    cz_markup_number(markup, "font-size", 1, FONT_SIZE);
-    cz_markup_attributes(markup, "fill", "none", "stroke-linejoin", "round", NULL);
-    if (markup->depth == 1) /* a figure in a file of its own has a white background */
-        cz_markup_attribute(markup, "style", "background:#fff");
+    cz_markup_write(markup,
+                    "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %.1f %.1f' role='img' "
+                    "aria-label='%s' font-family='system-ui, sans-serif' font-size='%.1f' "
+                    "fill='none' stroke-linejoin='round'",
+                    width, height, title, FONT_SIZE);
+    if (markup->is_alone)
+        cz_markup_write(markup, " style='background:#fff'");
+    markup->is_alone = false;
 }
 
 /* Between two tiles, and above each for its heading. */
@@ -60,19 +74,15 @@ void cz_svg_open_tiles(CzMarkup *markup, const char *title, int n, double height
 void cz_svg_open_tile(CzMarkup *markup, int i, double height, double inset, const char *heading) {
     const double x = i % 2 * (CZ_PLOT_WIDTH + TILE_GAP), y = i / 2 * (TILE_HEADING + height);
     cz_svg_text(markup, x + inset, y + 15, "start", heading);
-    cz_markup_open(markup, "svg");
-    cz_markup_numbers(markup, 1, "x y width height",
-                      (const double[]){x, y + TILE_HEADING, CZ_PLOT_WIDTH, height});
+    cz_markup_write(markup, "<svg x='%.1f' y='%.1f' width='%d' height='%.1f'>", x, y + TILE_HEADING,
+                    CZ_PLOT_WIDTH, height);
 }
 
 void cz_svg_text(CzMarkup *markup, double x, double y, const char *anchor, const char *text) {
-    cz_markup_open(markup, "text");
-    cz_markup_numbers(markup, 1, "x y", (const double[]){x, y});
+    cz_markup_write(markup, "<text x='%.1f' y='%.1f'", x, y);
     if (strcmp(anchor, "start") != 0)
-        cz_markup_attribute(markup, "text-anchor", anchor);
-    cz_markup_attribute(markup, "fill", "currentColor");
-    cz_markup_text(markup, text);
-    cz_markup_close(markup);
+        cz_markup_write(markup, " text-anchor='%s'", anchor);
+    cz_markup_write(markup, " fill='currentColor'>%s</text>", text);
 }
 
 /* Where numbers lie on the paper. */
@@ -146,9 +156,10 @@ static Frame frame_of(const CzPlot *plot) {
     return frame;
 }
 
-/* Names of the ends of a line and of the sides of a rectangle. */
-#define LINE "x1 y1 x2 y2"
-#define RECT "x y width height"
+/* A line, whose tag the caller ends; the same between the ends of the axes. */
+static void open_line(CzMarkup *markup, double x1, double y1, double x2, double y2) {
+    cz_markup_write(markup, "<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f'", x1, y1, x2, y2);
+}
 
 /* ---- axes ---- */
 
@@ -165,8 +176,8 @@ static void write_x_axis(const CzPlot *plot, const Frame *frame, CzMarkup *marku
     for (double i = ceil(frame->x_min / step - 1e-6); i * step <= frame->x_max + 1e-6 * step; i++) {
         char text[CZ_FIGURE_ROOM];
         const double x = paper_x(frame, i * step);
-        cz_markup_shape(markup, "line", LINE, (const double[]){x, TOP, x, bottom}, "stroke",
-                        "currentColor", "stroke-opacity", ".13", NULL);
+        open_line(markup, x, TOP, x, bottom);
+        cz_markup_write(markup, " stroke='currentColor' stroke-opacity='.13'/>");
         tick_text(text, i * step, step);
         const double last = CZ_PLOT_WIDTH - 0.5 * FONT_SIZE * cz_text_width(text);
         cz_svg_text(markup, fmin(x, last), bottom + 17, "middle", text);
@@ -179,17 +190,16 @@ static void write_y_axis(const CzPlot *plot, const Frame *frame, CzMarkup *marku
     for (double i = ceil(frame->y_min / step - 1e-6); i * step <= frame->y_max + 1e-6 * step; i++) {
         char text[CZ_FIGURE_ROOM];
         const double y = paper_y(frame, i * step);
-        cz_markup_shape(markup, "line", LINE, (const double[]){LEFT, y, LEFT + frame->width, y},
-                        "stroke", "currentColor", "stroke-opacity", i == 0 ? ".5" : ".13", NULL);
+        open_line(markup, LEFT, y, LEFT + frame->width, y);
+        cz_markup_write(markup, " stroke='currentColor' stroke-opacity='%s'/>",
+                        i == 0 ? ".5" : ".13");
         tick_text(text, i * step, step);
         cz_svg_text(markup, LEFT - 5, y + 3.8, "end", text);
     }
-    cz_markup_open(markup, "text");
-    cz_markup_attribute(markup, "transform", "rotate(-90)");
-    cz_markup_numbers(markup, 1, "x y", (const double[]){-(TOP + frame->height / 2), 12});
-    cz_markup_attributes(markup, "text-anchor", "middle", "fill", "currentColor", NULL);
-    cz_markup_text(markup, plot->y_label);
-    cz_markup_close(markup);
+    cz_markup_write(markup,
+                    "<text transform='rotate(-90)' x='%.1f' y='12' text-anchor='middle' "
+                    "fill='currentColor'>%s</text>",
+                    -(TOP + frame->height / 2), plot->y_label);
 }
 
 /* ---- curves ---- */
@@ -237,20 +247,20 @@ static bool is_point(const CzSeries *series, int i) {
 
 static void write_curve(const Frame *frame, const CzSeries *series, CzMarkup *markup) {
     const char *dash = dashes[series->dash % 4][1];
-    cz_markup_open(markup, "path");
+    cz_markup_write(markup, "<path");
     if (series->y_channel != NULL) {
-        cz_markup_attribute(markup, "data-y", series->y_channel);
+        cz_markup_write(markup, " data-y='%s'", series->y_channel);
         if (series->x_channel != NULL)
-            cz_markup_attribute(markup, "data-x", series->x_channel);
+            cz_markup_write(markup, " data-x='%s'", series->x_channel);
         if (series->name != NULL)
-            cz_markup_attribute(markup, "data-name", series->name);
+            cz_markup_write(markup, " data-name='%s'", series->name);
     }
-    cz_markup_attribute(markup, "stroke", cz_plot_colour(series->colour));
+    cz_markup_write(markup, " stroke='%s'", cz_plot_colour(series->colour));
     if (series->colour < 0)
-        cz_markup_attributes(markup, "stroke-width", "30", "stroke-opacity", ".5", NULL);
+        cz_markup_write(markup, " stroke-width='30' stroke-opacity='.5'");
     if (dash != NULL)
-        cz_markup_attribute(markup, "stroke-dasharray", dash);
-    fputs(" d=\"", markup->stream);
+        cz_markup_write(markup, " stroke-dasharray='%s'", dash);
+    cz_markup_write(markup, " d='");
     for (int from = 0; from < series->n;) {
         int to = from;
         while (to < series->n && is_point(series, to))
@@ -259,67 +269,70 @@ static void write_curve(const Frame *frame, const CzSeries *series, CzMarkup *ma
             markup->failed = true;
         from = to + 1;
     }
-    fputc('"', markup->stream);
     if (series->name != NULL)
-        cz_markup_element(markup, "title", series->name);
-    cz_markup_close(markup);
+        cz_markup_write(markup, "'><title>%s</title></path>", series->name);
+    else
+        cz_markup_write(markup, "'/>");
 }
 
 static void write_bands(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
     for (int i = 0; i < plot->n_band; i++) {
         const double from = paper_x(frame, fmax(plot->band[i].from, frame->x_min));
         const double to = paper_x(frame, fmin(plot->band[i].to, frame->x_max));
-        cz_markup_shape(markup, "rect", RECT,
-                        (const double[]){from, TOP, fmax(to - from, 0.5), frame->height}, "fill",
-                        cz_plot_colour(plot->band[i].colour), "fill-opacity", ".16", NULL);
+        cz_markup_write(markup,
+                        "<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' fill='%s' "
+                        "fill-opacity='.16'/>",
+                        from, TOP, fmax(to - from, 0.5), frame->height,
+                        cz_plot_colour(plot->band[i].colour));
     }
 }
 
 static void write_limits(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
     for (int i = 0; i < plot->n_limit; i++) {
         const double y = paper_y(frame, plot->limit[i].at);
-        cz_markup_shape(markup, "line", LINE, (const double[]){LEFT, y, LEFT + frame->width, y},
-                        "class", "limit", "stroke", "#d0021b", "stroke-width", "1.5",
-                        "stroke-dasharray", "10 4", NULL);
+        open_line(markup, LEFT, y, LEFT + frame->width, y);
+        cz_markup_write(markup, " class='limit' stroke='#d0021b' stroke-width='1.5' "
+                                "stroke-dasharray='10 4'/>");
     }
 }
 
 static void write_curves(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
-    cz_markup_open(markup, "g");
-    cz_markup_attributes(markup, "transform", "scale(.1)", "stroke-width", "14", NULL);
+    cz_markup_write(markup, "<g transform='scale(.1)' stroke-width='14'>");
     for (int i = 0; i < plot->n_series; i++)
         write_curve(frame, &plot->series[i], markup);
-    cz_markup_close(markup);
+    cz_markup_write(markup, "</g>");
 }
 
 /* ---- legend ---- */
 
 typedef struct Legend {
     CzMarkup *markup; /* NULL: only the place is counted */
-    double x, y;
+    double x, y;      /* of the sample of the next entry, and of its text */
 } Legend;
 
-/* Moves on to the place of an entry. */
-static void begin_entry(Legend *legend, const char *name) {
+/* Writes the name of an entry and returns where its sample is. */
+static double put_entry(Legend *legend, const char *name) {
     const double width = SAMPLE_WIDTH + FONT_SIZE * cz_text_width(name) + 12;
     if (legend->x > LEFT && legend->x + width > CZ_PLOT_WIDTH) {
         legend->x = LEFT;
         legend->y += LEGEND_ROW;
     }
-    if (legend->markup != NULL)
-        cz_svg_text(legend->markup, legend->x + SAMPLE_WIDTH, legend->y, "start", name);
+    const double x = legend->x;
     legend->x += width;
+    if (legend->markup != NULL)
+        cz_svg_text(legend->markup, x + SAMPLE_WIDTH, legend->y, "start", name);
+    return x;
 }
 
 static void put_line(Legend *legend, const char *name, const char *colour, const char *dash) {
-    begin_entry(legend, name);
+    const double x = put_entry(legend, name);
     if (legend->markup == NULL)
         return;
-    const double x = legend->x - FONT_SIZE * cz_text_width(name) - 12;
-    cz_markup_shape(legend->markup, "line", LINE,
-                    (const double[]){x - SAMPLE_WIDTH, legend->y - 4, x - 5, legend->y - 4},
-                    "stroke", colour, "stroke-width", "2", dash != NULL ? "stroke-dasharray" : NULL,
-                    dash, NULL);
+    open_line(legend->markup, x, legend->y - 4, x + SAMPLE_WIDTH - 5, legend->y - 4);
+    cz_markup_write(legend->markup, " stroke='%s' stroke-width='2'", colour);
+    if (dash != NULL)
+        cz_markup_write(legend->markup, " stroke-dasharray='%s'", dash);
+    cz_markup_write(legend->markup, "/>");
 }
 
 static void put_limit(Legend *legend, const CzPlotLimit *limit) {
@@ -329,13 +342,12 @@ static void put_limit(Legend *legend, const CzPlotLimit *limit) {
 }
 
 static void put_band(Legend *legend, const CzPlotBand *band) {
-    begin_entry(legend, band->name);
-    if (legend->markup == NULL)
-        return;
-    const double x = legend->x - FONT_SIZE * cz_text_width(band->name) - 12;
-    cz_markup_shape(legend->markup, "rect", RECT,
-                    (const double[]){x - SAMPLE_WIDTH, legend->y - 10, 18, 11}, "fill",
-                    cz_plot_colour(band->colour), "fill-opacity", ".3", NULL);
+    const double x = put_entry(legend, band->name);
+    if (legend->markup != NULL)
+        cz_markup_write(legend->markup,
+                        "<rect x='%.1f' y='%.1f' width='18' height='11' fill='%s' "
+                        "fill-opacity='.3'/>",
+                        x, legend->y - 10, cz_plot_colour(band->colour));
 }
 
 static bool is_named_before(const CzPlot *plot, int band) {
@@ -365,29 +377,27 @@ void cz_plot_write(const CzPlot *plot, CzMarkup *markup) {
     const double bottom = TOP + frame.height + BELOW_AXIS;
     char range[4][CZ_FIGURE_ROOM];
     cz_svg_open(markup, plot->title, CZ_PLOT_WIDTH, bottom + write_legend(plot, bottom, NULL));
-    cz_markup_attributes(markup, "preserveAspectRatio", "xMidYMin", "class",
-                         plot->is_time ? "plot time" : "plot", NULL);
-    cz_markup_format(markup, "data-box", "%d %d %d %d", (int)LEFT, (int)TOP, (int)frame.width,
-                     (int)frame.height);
-    cz_markup_format(
-        markup, "data-range", "%s %s %s %s", cz_figure_digits(range[0], 12, frame.x_min),
-        cz_figure_digits(range[1], 12, frame.x_max), cz_figure_digits(range[2], 12, frame.y_min),
-        cz_figure_digits(range[3], 12, frame.y_max));
-    cz_markup_line(markup);
+    cz_markup_write(markup,
+                    " preserveAspectRatio='xMidYMin' class='%s' data-box='%d %d %d %d' "
+                    "data-range='%s %s %s %s'>\n",
+                    plot->is_time ? "plot time" : "plot", (int)LEFT, (int)TOP, (int)frame.width,
+                    (int)frame.height, cz_figure_digits(range[0], 12, frame.x_min),
+                    cz_figure_digits(range[1], 12, frame.x_max),
+                    cz_figure_digits(range[2], 12, frame.y_min),
+                    cz_figure_digits(range[3], 12, frame.y_max));
     write_bands(plot, &frame, markup);
     write_x_axis(plot, &frame, markup);
     write_y_axis(plot, &frame, markup);
     write_limits(plot, &frame, markup);
-    cz_markup_line(markup);
+    cz_markup_write(markup, "\n");
     write_curves(plot, &frame, markup);
-    cz_markup_line(markup);
+    cz_markup_write(markup, "\n");
     write_legend(plot, bottom, markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</svg>\n");
 }
 
 void cz_plot_write_figure(const CzPlot *plot, CzMarkup *markup) {
-    cz_markup_open(markup, "figure");
-    cz_markup_element(markup, "figcaption", plot->title);
+    cz_markup_write(markup, "<figure><figcaption>%s</figcaption>", plot->title);
     cz_plot_write(plot, markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</figure>\n");
 }

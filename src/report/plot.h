@@ -56,14 +56,20 @@ typedef struct CzPlot {
 void cz_plot_write(const CzPlot *plot, CzMarkup *markup);
 void cz_plot_write_figure(const CzPlot *plot, CzMarkup *markup);
 
-/* Opens an `svg` of that size with what every figure has; the caller closes it. */
+/* Begins a file that is one figure, which has a white background. */
+void cz_svg_begin_document(CzMarkup *markup);
+/* Opens an `svg` of that size with what every figure has; the caller may add attributes, ends the
+ * tag, and closes the element. */
 void cz_svg_open(CzMarkup *markup, const char *title, double width, double height);
-/* Opens an `svg` of n tiles in rows of two, each as wide as a diagram, of that height and with a
+/* The same for n tiles in rows of two, each as wide as a diagram, of that height and with a
  * heading; opens tile i with its heading, `inset` from the left. */
 void cz_svg_open_tiles(CzMarkup *markup, const char *title, int n, double height);
 void cz_svg_open_tile(CzMarkup *markup, int i, double height, double inset, const char *heading);
 /* Text in a figure, `anchor` being "start", "middle" or "end". */
 void cz_svg_text(CzMarkup *markup, double x, double y, const char *anchor, const char *text);
+
+/* Width of a text in a sans-serif font [font size]; an estimate on the large side. */
+double cz_text_width(const char *text);
 
 /* Colour of a curve, and its dash pattern; NULL for a solid one. */
 const char *cz_plot_colour(int colour);

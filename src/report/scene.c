@@ -5,6 +5,7 @@
  */
 #include "report/scene.h"
 
+#include "problem/strokes.h"
 #include "report/figure.h"
 #include "report/plot.h"
 
@@ -42,15 +43,6 @@ static const CzEnd *end_of(const CzPage *page, int car, int side) {
     return side == REAR ? &vehicle->rear : &vehicle->front;
 }
 
-static double sum_of_strokes(const CzEnd *end) {
-    double sum = 0;
-    for (int i = 0; i < end->n_stages; i++)
-        sum += end->stages[i].stroke;
-    if (end->curve.given)
-        sum = end->curve.x[end->curve.n_point - 1];
-    return sum > 0.1 ? fmin(sum, 3.0) : BARE;
-}
-
 static Outline outline_of(const CzPage *page, int car, int side) {
     const CzEnd *end = end_of(page, car, side);
     const double plane = page->stand[car].plane[side];
@@ -58,7 +50,8 @@ static Outline outline_of(const CzPage *page, int car, int side) {
     if (!end->given)
         return outline;
     outline.bare = plane - (isnan(end->face_gap) ? 0 : end->face_gap);
-    outline.body = outline.bare - sum_of_strokes(end);
+    const double stroke = cz_total_stroke(end->stages, end->n_stages, &end->curve);
+    outline.body = outline.bare - (stroke > 0.1 ? fmin(stroke, 3.0) : BARE);
     if (end->anti_climber.given)
         outline.face = plane - end->anti_climber.gap;
     if (end->coupler.given && isfinite(end->coupler.length)) {
@@ -91,13 +84,11 @@ static Pose pose_of(const CzPage *page, int car, int sample) {
 static void write_part(CzMarkup *markup, const char *kind, int side, double from, double to,
                        double height, double thickness, const char *colour) {
     const double sign = side == FRONT ? S : -S;
-    cz_markup_open(markup, "line");
-    cz_markup_format(markup, "class", "%s %s", kind, side == FRONT ? "front" : "rear");
-    cz_markup_numbers(markup, 2, "x1 x2", (const double[]){sign * from, sign * to});
-    cz_markup_numbers(markup, 1, "y1 y2", (const double[]){-S * height, -S * height});
-    cz_markup_attribute(markup, "stroke", colour);
-    cz_markup_number(markup, "stroke-width", 1, S * thickness);
-    cz_markup_close(markup);
+    cz_markup_write(markup,
+                    "<line class='%s %s' x1='%.2f' x2='%.2f' y1='%.1f' y2='%.1f' stroke='%s' "
+                    "stroke-width='%.1f'/>",
+                    kind, side == FRONT ? "front" : "rear", sign * from, sign * to, -S * height,
+                    -S * height, colour, S * thickness);
 }
 
 static void write_end(const CzPage *page, int car, int side, const Pose *pose,
@@ -130,37 +121,29 @@ static void write_wheels(const CzPage *page, int car, const Pose *pose, CzMarkup
     for (int i = 0; i < 4; i++) {
         const double side = i < 2 ? -1 : 1, axle = i % 2 == 0 ? -1 : 1;
         const double x = side * vehicle->bogie_spacing / 2 + axle * bogie->axle_spacing / 2;
-        if (i % 2 == 0) {
-            cz_markup_open_class(markup, "line", "frame");
-            cz_markup_numbers(markup, 1, "x1 x2",
-                              (const double[]){S * x - 6, S * (x + bogie->axle_spacing) + 6});
-            cz_markup_numbers(
-                markup, 2, "y1 y2",
-                (const double[]){-S * (bogie->cg_height + CZ_SCENE_MAGNIFY * pose->lift[i]),
-                                 -S * (bogie->cg_height + CZ_SCENE_MAGNIFY * pose->lift[i + 1])});
-            cz_markup_attributes(markup, "stroke", "currentColor", "stroke-opacity", ".6",
-                                 "stroke-width", "4", NULL);
-            cz_markup_close(markup);
-        }
-        cz_markup_open(markup, "circle");
-        cz_markup_number(markup, "cx", 1, S * x);
-        cz_markup_number(markup, "cy", 2,
-                         -S * (bogie->wheel_radius + CZ_SCENE_MAGNIFY * pose->lift[i]));
-        cz_markup_number(markup, "r", 1, S * bogie->wheel_radius);
-        cz_markup_attributes(markup, "stroke", "currentColor", "stroke-width", "2", "class",
-                             "wheel", NULL);
-        cz_markup_close(markup);
+        if (i % 2 == 0)
+            cz_markup_write(markup,
+                            "<line class='frame' x1='%.1f' x2='%.1f' y1='%.2f' y2='%.2f' "
+                            "stroke='currentColor' stroke-opacity='.6' stroke-width='4'/>",
+                            S * x - 6, S * (x + bogie->axle_spacing) + 6,
+                            -S * (bogie->cg_height + CZ_SCENE_MAGNIFY * pose->lift[i]),
+                            -S * (bogie->cg_height + CZ_SCENE_MAGNIFY * pose->lift[i + 1]));
+        cz_markup_write(markup,
+                        "<circle cx='%.1f' cy='%.2f' r='%.1f' stroke='currentColor' "
+                        "stroke-width='2' class='wheel'/>",
+                        S * x, -S * (bogie->wheel_radius + CZ_SCENE_MAGNIFY * pose->lift[i]),
+                        S * bogie->wheel_radius);
     }
 }
 
 static void write_body(const CzPage *page, int car, const Outline outline[2], CzMarkup *markup) {
     const CzCar *description = &page->model->car[car];
-    cz_markup_shape(markup, "rect", "x y width height",
-                    (const double[]){-S * outline[REAR].body, -S * ROOF,
-                                     S * (outline[REAR].body + outline[FRONT].body),
-                                     S * (ROOF - FLOOR)},
-                    "fill", cz_plot_colour(description->train == 0 ? 0 : 2), "fill-opacity", ".25",
-                    "stroke", "currentColor", NULL);
+    cz_markup_write(markup,
+                    "<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' fill='%s' "
+                    "fill-opacity='.25' stroke='currentColor'/>",
+                    -S * outline[REAR].body, -S * ROOF,
+                    S * (outline[REAR].body + outline[FRONT].body), S * (ROOF - FLOOR),
+                    cz_plot_colour(description->train == 0 ? 0 : 2));
     for (int side = -1; side <= 1; side++)
         cz_svg_text(markup, side * 0.62 * S * outline[side > 0 ? FRONT : REAR].body,
                     -S * (FLOOR + ROOF) / 2, "middle", description->name);
@@ -184,6 +167,22 @@ static double tip_of(const CzPage *page, int car, int side, int sample) {
     return own.pivot + fmin(length, fmax(apart, 0) * length / sum);
 }
 
+/* What the script needs to move a car: its place at rest, and the ends of its parts. */
+static void write_places(const CzPage *page, int car, const Outline outline[2], double cg,
+                         CzMarkup *markup) {
+    cz_markup_write(markup, " data-car='%s' data-at='%.4f' data-cg='%.3f'",
+                    page->model->car[car].name, page->stand[car].x, cg);
+    for (int side = REAR; side <= FRONT; side++) {
+        const char *name = side == FRONT ? "front" : "rear";
+        cz_markup_write(markup, " data-%s='%.4f'", name, outline[side].bare);
+        if (isfinite(outline[side].face))
+            cz_markup_write(markup, " data-%s-face='%.4f'", name, outline[side].face);
+        if (isfinite(outline[side].pivot))
+            cz_markup_write(markup, " data-%s-pivot='%.4f' data-%s-tip='%.4f'", name,
+                            outline[side].pivot, name, outline[side].tip);
+    }
+}
+
 static void write_car(const CzPage *page, int car, int sample, double origin, bool moves,
                       CzMarkup *markup) {
     const Pose pose = pose_of(page, car, sample);
@@ -191,38 +190,20 @@ static void write_car(const CzPage *page, int car, int sample, double origin, bo
     const double cg =
         isnan(vehicle_of(page, car)->cg_height) ? 1 : vehicle_of(page, car)->cg_height;
     char x[CZ_FIGURE_ROOM], z[CZ_FIGURE_ROOM], turn[CZ_FIGURE_ROOM], pivot[CZ_FIGURE_ROOM];
-    cz_markup_open_class(markup, "g", "car");
-    cz_markup_format(markup, "transform", "translate(%s 0)",
-                     cz_figure_fixed(x, 2, S * (page->stand[car].x + pose.x - origin)));
-    if (moves) {
-        cz_markup_attribute(markup, "data-car", page->model->car[car].name);
-        cz_markup_number(markup, "data-at", 4, page->stand[car].x);
-        cz_markup_number(markup, "data-cg", 3, cg);
-        for (int side = REAR; side <= FRONT; side++) {
-            const bool front = side == FRONT;
-            cz_markup_number(markup, front ? "data-front" : "data-rear", 4, outline[side].bare);
-            if (isfinite(outline[side].face))
-                cz_markup_number(markup, front ? "data-front-face" : "data-rear-face", 4,
-                                 outline[side].face);
-            if (isfinite(outline[side].pivot)) {
-                cz_markup_numbers(markup, 4,
-                                  front ? "data-front-pivot data-front-tip"
-                                        : "data-rear-pivot data-rear-tip",
-                                  (const double[]){outline[side].pivot, outline[side].tip});
-            }
-        }
-    }
-    cz_markup_open_class(markup, "g", "body");
-    cz_markup_format(markup, "transform", "translate(0 %s) rotate(%s 0 %s)",
-                     cz_figure_fixed(z, 2, -S * CZ_SCENE_MAGNIFY * pose.z),
-                     cz_figure_fixed(turn, 3, -CZ_SCENE_MAGNIFY * pose.pitch * DEGREES_PER_RAD),
-                     cz_figure_fixed(pivot, 1, -S * cg));
+    cz_markup_write(markup, "<g class='car' transform='translate(%s 0)'",
+                    cz_figure_fixed(x, 2, S * (page->stand[car].x + pose.x - origin)));
+    if (moves)
+        write_places(page, car, outline, cg, markup);
+    cz_markup_write(markup, "><g class='body' transform='translate(0 %s) rotate(%s 0 %s)'>",
+                    cz_figure_fixed(z, 2, -S * CZ_SCENE_MAGNIFY * pose.z),
+                    cz_figure_fixed(turn, 3, -CZ_SCENE_MAGNIFY * pose.pitch * DEGREES_PER_RAD),
+                    cz_figure_fixed(pivot, 1, -S * cg));
     for (int side = REAR; side <= FRONT; side++)
         write_end(page, car, side, &pose, &outline[side], tip_of(page, car, side, sample), markup);
     write_body(page, car, outline, markup);
-    cz_markup_close(markup);
+    cz_markup_write(markup, "</g>");
     write_wheels(page, car, &pose, markup);
-    cz_markup_end(markup);
+    cz_markup_write(markup, "</g>\n");
 }
 
 /* Place of an interface, halfway between the bare ends at the sample [m]. */
@@ -240,24 +221,21 @@ static double meeting_place(const CzPage *page, int interface, int sample) {
 void cz_scene_write(const CzPage *page, int interface, int sample, double width, bool moves,
                     CzMarkup *markup) {
     const double origin = meeting_place(page, interface, sample);
-    cz_markup_open_class(markup, "g", "scene");
-    cz_markup_format(markup, "transform", "translate(%d %d)", (int)(width / 2), (int)CZ_SCENE_RAIL);
-    cz_markup_open_class(markup, "path", "rail");
-    cz_markup_format(markup, "d", "M%d 2H%d", (int)(-width / 2), (int)(width / 2));
-    cz_markup_attributes(markup, "stroke", "currentColor", "stroke-width", "3", NULL);
-    cz_markup_close(markup);
-    cz_markup_open(markup, "path"); /* sleepers every 0.6 m, fixed to the ground */
-    cz_markup_attribute(markup, "class", "sleepers");
-    cz_markup_format(markup, "d", "M%d 7H%d", (int)(-width / 2), (int)(width / 2));
-    cz_markup_attributes(markup, "stroke", "currentColor", "stroke-opacity", ".5", "stroke-width",
-                         "5", "stroke-dasharray", "6 8.4", NULL);
-    cz_markup_number(markup, "stroke-dashoffset", 2, S * (origin - width / 2 / S));
-    cz_markup_close(markup);
+    const int half_width = (int)(width / 2);
+    cz_markup_write(markup,
+                    "<g class='scene' transform='translate(%d %d)'>"
+                    "<path class='rail' d='M%d 2H%d' stroke='currentColor' stroke-width='3'/>",
+                    half_width, (int)CZ_SCENE_RAIL, -half_width, half_width);
+    cz_markup_write(markup, /* sleepers every 0.6 m, fixed to the ground */
+                    "<path class='sleepers' d='M%d 7H%d' stroke='currentColor' "
+                    "stroke-opacity='.5' stroke-width='5' stroke-dasharray='6 8.4' "
+                    "stroke-dashoffset='%.2f'/>",
+                    -half_width, half_width, S * (origin - width / 2 / S));
     for (int car = 0; car < page->model->n_car; car++) {
         const double x = page->stand[car].x - origin;
         const double half = fmax(page->stand[car].plane[0], page->stand[car].plane[1]) + BARE;
         if (moves || S * (fabs(x) - half - 20) < width / 2)
             write_car(page, car, sample, origin, moves, markup);
     }
-    cz_markup_close(markup);
+    cz_markup_write(markup, "</g>");
 }

@@ -30,6 +30,7 @@ set(CZ_SOURCES_report
     page_data.c
     page_designs.c
     page_figures.c
+    page_frame.c
     page_inputs.c
     page_outcome.c
     page_scene.c

@@ -6,6 +6,7 @@
 #include "report/charts.h"
 #include "report/elevation.h"
 #include "report/chart_curves.h"
+#include "report/plot.h"
 #include "report/runs.h"
 
 #include <stdlib.h>
@@ -114,7 +115,7 @@ CzStatus cz_report_write_chart(const CzReportRun *run, const CzChartOptions *cho
     if (status == CZ_OK)
         status = find_place(&page, chart, chosen->at, &index, error);
     if (status == CZ_OK) {
-        fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", page.markup.stream);
+        cz_svg_begin_document(&page.markup);
         cz_chart_write(&page, chart, index, &page.markup);
         status = cz_page_finish(&page, stream, error);
     }
@@ -135,7 +136,7 @@ CzStatus cz_report_write_elevation(const CzProblem *problem, int scenario, FILE 
                                : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a figure");
     }
     if (status == CZ_OK) {
-        fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", stream);
+        cz_svg_begin_document(&markup);
         cz_elevation_write(model, stand, &markup);
     }
     free(stand);

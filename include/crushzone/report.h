@@ -42,97 +42,6 @@ CZ_API CzReportOptions cz_report_options_default(void);
 /* Version of the library, such as "0.1.0". */
 CZ_API const char *cz_version(void);
 
-/* JSON documents `crushzone.summary` and `crushzone.outcome`. Statuses: CZ_STATUS_OUTPUT when the
- * stream fails, CZ_STATUS_NO_MEMORY. NULL options are the default ones. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_summary(const CzProblem *problem,
-                                                      const CzEvaluation *evaluation,
-                                                      const CzReportOptions *options, FILE *stream,
-                                                      CzError *error);
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome(const CzProblem *problem,
-                                                      const CzEvaluator *evaluator,
-                                                      const CzOutcome *outcome,
-                                                      const CzReportOptions *options, FILE *stream,
-                                                      CzError *error);
-
-/* JSON document `crushzone.fit`: what was found, the law's values by path, and the same as YAML. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_fit(const CzFit *fit, FILE *stream, CzError *error);
-
-/* Writes an SVG figure of the law over its curve; its title marks a doubtful or refused law.
- * Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_fit_figure(const CzFit *fit, FILE *stream,
-                                                         CzError *error);
-
-/* JSON document {"error": first, "errors": [all]} of n_mistake errors. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_mistakes(int n_mistake, const CzError *const *mistake,
-                                                       FILE *stream, CzError *error);
-
-/* JSON documents by name, such as "summary"; NULL beyond the last. */
-CZ_API const char *cz_report_document_name(int index);
-/* The JSON schema of a document. Status: CZ_STATUS_INPUT when there is none of that name. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_document_schema(const char *document, FILE *stream,
-                                                              CzError *error);
-/* All results with unit, shape and meaning, in Markdown. */
-CZ_API void cz_report_write_results_page(FILE *stream);
-
-/* Tables end with CZ_STATUS_NO_MEMORY when rows are missing, which the text reports too.
- *
- * The table of a run on a terminal, of a family of scenarios the worst member, and the one of a
- * search: before and after, what is still violated, the new values as YAML. `colour` allows escape
- * codes. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_table(const CzProblem *problem,
-                                                    const CzEvaluation *evaluation, bool colour,
-                                                    FILE *stream);
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome_table(const CzProblem *problem,
-                                                            const CzEvaluator *evaluator,
-                                                            const CzOutcome *outcome, bool colour,
-                                                            FILE *stream);
-
-/* Why cars climb: the document `crushzone.explanation`, and the same on a terminal. Statuses as
- * above. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_explanation(const CzProblem *problem,
-                                                          const CzExplanation *explanation,
-                                                          const CzReportOptions *options,
-                                                          FILE *stream, CzError *error);
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_explanation_table(const CzExplanation *explanation,
-                                                                bool colour, FILE *stream);
-
-/* A verification: the document `crushzone.verification`, and a table of the numbers that change
- * most. Statuses as above. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_verification(const CzProblem *problem,
-                                                           const CzVerification *verification,
-                                                           const CzReportOptions *options,
-                                                           FILE *stream, CzError *error);
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_verification_table(const CzProblem *problem,
-                                                                 const CzVerification *verification,
-                                                                 bool colour, FILE *stream);
-
-/* A benchmark: the document `crushzone.benchmark`, which has times under `run_info` only, and a
- * table of the times. Statuses as above. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_benchmark(const CzProblem *problem,
-                                                        const CzBenchmark *benchmark,
-                                                        const CzReportOptions *options,
-                                                        FILE *stream, CzError *error);
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_benchmark_table(const CzProblem *problem,
-                                                              const CzBenchmark *benchmark,
-                                                              bool colour, FILE *stream);
-
-/* A sweep: the document `crushzone.sweep`, the table of one path or the map of two, a folder with
- * sweep.json and sweep.csv. Statuses as above. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_sweep(const CzSweep *sweep,
-                                                    const CzReportOptions *options, FILE *stream,
-                                                    CzError *error);
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_sweep_table(const CzSweep *sweep, bool colour,
-                                                          FILE *stream);
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_sweep_folder(const CzSweep *sweep,
-                                                           const CzReportOptions *options,
-                                                           const char *path, CzError *error);
-
-/* The optimum as a problem file for `folder`: `extends:` the problem's file and `set:` the best
- * values, to the last bit. A problem that came from standard input is written out whole. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_overlay(
-    const CzProblem *problem, const CzEvaluator *evaluator, const CzOutcome *outcome,
-    const CzReportOptions *options, const char *folder, FILE *stream, CzError *error);
-
 /* A run that pages and figures are made of: an evaluation with kept runs, and the problem that it
  * was computed from. */
 typedef struct CzReportRun {
@@ -142,19 +51,77 @@ typedef struct CzReportRun {
     int scenario; /* whose figures are drawn; -1: the one with the smallest margin */
 } CzReportRun;
 
-/* The report of a run as one HTML page that loads nothing. Same run, same bytes. Statuses:
- * CZ_STATUS_INPUT when no run was kept, CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_page(const CzReportRun *run,
-                                                   const CzReportOptions *options, FILE *stream,
+/* What results are of; each has a JSON document. */
+typedef enum CzReportKind {
+    CZ_REPORT_RUN,          /* problem, evaluation */
+    CZ_REPORT_SEARCH,       /* problem, evaluator, outcome */
+    CZ_REPORT_SWEEP,        /* sweep */
+    CZ_REPORT_VERIFICATION, /* problem, verification */
+    CZ_REPORT_BENCHMARK,    /* problem, benchmark */
+    CZ_REPORT_EXPLANATION,  /* problem, explanation */
+    CZ_REPORT_COMPARISON,   /* compared, of which the first is what the others are compared with */
+    CZ_REPORT_FIT,          /* fit */
+    CZ_REPORT_MISTAKES,     /* mistake */
+    CZ_N_REPORT
+} CzReportKind;
+
+/* Results to write, all borrowed. Only what its kind needs is set. */
+typedef struct CzReport {
+    CzReportKind kind;
+    const CzReportOptions *options; /* NULL: the default ones */
+    const CzProblem *problem;
+    const CzEvaluation *evaluation;
+    const CzEvaluator *evaluator;
+    const CzOutcome *outcome;
+    const CzSweep *sweep;
+    const CzVerification *verification;
+    const CzBenchmark *benchmark;
+    const CzExplanation *explanation;
+    const CzReportRun *compared; /* (n_compared) */
+    int n_compared;              /* at most CZ_MOST_COMPARED */
+    const CzFit *fit;
+    const CzError *const *mistake; /* (n_mistake) */
+    int n_mistake;
+} CzReport;
+
+enum { CZ_MOST_COMPARED = 8 };
+
+/* The JSON document. Statuses: CZ_STATUS_OUTPUT when the stream fails, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_json(const CzReport *report, FILE *stream,
                                                    CzError *error);
 
-/* The report of a search. `best` is the problem that the best design was computed from. Statuses as
- * above. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome_page(const CzProblem *best,
-                                                           const CzEvaluator *evaluator,
-                                                           const CzOutcome *outcome,
-                                                           const CzReportOptions *options,
-                                                           FILE *stream, CzError *error);
+/* Tables for a terminal, of all but fits and mistakes: of a family of scenarios the worst member;
+ * of a search before and after, what is still violated, the new values as YAML; of a sweep the
+ * points of one path or the map of two; of a verification the numbers that change most; of a
+ * comparison what differs. `colour` allows escape codes. Status: CZ_STATUS_NO_MEMORY when rows are
+ * missing, which the text reports too. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_table(const CzReport *report, bool colour,
+                                                    FILE *stream, CzError *error);
+
+/* The report of a run, a search or a comparison as one HTML page that loads nothing. Same results,
+ * same bytes. The problem of a search is the one that its best design was computed from. Statuses:
+ * CZ_STATUS_INPUT when no run was kept, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_page(const CzReport *report, FILE *stream,
+                                                   CzError *error);
+
+/* The whole result folder of a run, a search or a sweep: to a temporary name first, renamed at the
+ * end; replaces only a folder of our own. Needs runs that were kept. Statuses: CZ_STATUS_OUTPUT,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_folder(const CzReport *report, const char *folder,
+                                                     CzError *error);
+
+/* Writes an SVG figure of the law over its curve; its title marks a doubtful or refused law.
+ * Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_fit_figure(const CzFit *fit, FILE *stream,
+                                                         CzError *error);
+
+/* JSON documents by name, such as "summary"; NULL beyond the last. */
+CZ_API const char *cz_report_document_name(int index);
+/* The JSON schema of a document. Status: CZ_STATUS_INPUT when there is none of that name. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_document_schema(const char *document, FILE *stream,
+                                                              CzError *error);
+/* All results with unit, shape and meaning, in Markdown. */
+CZ_API void cz_report_write_results_page(FILE *stream);
 
 /* Figures of a run (charts.def), by name; NULL beyond the last. */
 CZ_API const char *cz_report_chart_name(int index);
@@ -179,19 +146,6 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_chart(const CzReportRun *run,
                                                     const CzChartOptions *options, FILE *stream,
                                                     CzError *error);
 
-/* Runs side by side: n of them, the first is what the others are compared with. On a terminal:
- * checks, interfaces, cars that differ; as a page: the same with curves over each other. Statuses
- * of the page: as above. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_comparison(int n, const CzReportRun *run, bool colour,
-                                                         FILE *stream);
-/* The same as the document `crushzone.comparison`. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY.
- */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_comparison_json(int n, const CzReportRun *run,
-                                                              FILE *stream, CzError *error);
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_comparison_page(int n, const CzReportRun *run,
-                                                              const CzReportOptions *options,
-                                                              FILE *stream, CzError *error);
-
 /* The two ends of the colliding interface from the side, to scale, as an SVG document: heights,
  * gaps, and the strokes against the length that is there. Statuses: CZ_STATUS_INPUT,
  * CZ_STATUS_NO_MEMORY. */
@@ -199,12 +153,10 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_elevation(const CzProblem *problem
                                                         FILE *stream, CzError *error);
 
 /* Whether a result folder can be written there, before anything is computed: the place is free, or
- * holds a result folder of our own with nothing else in it, no search unless the options allow
- * that, and no file that the problem was read from (NULL: of no problem). NULL options are the
- * default ones. Status: CZ_STATUS_OUTPUT. */
+ * holds a result folder of our own with nothing else in it, no search unless that may be replaced,
+ * and no file that the problem was read from (NULL: of no problem). Status: CZ_STATUS_OUTPUT. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_check_folder(const CzProblem *problem, const char *folder,
-                                                     const CzReportOptions *options,
-                                                     CzError *error);
+                                                     bool replaces_search, CzError *error);
 
 /* Puts back a result folder that a process which died while replacing it has left under a hidden
  * name beside it, the old one or the new one; whether it did. Nothing is done while there is such a
@@ -215,27 +167,13 @@ CZ_API bool cz_report_restore_folder(const char *folder);
  * is replaced and not followed; a pipe or a device is written to. `write` puts the content into a
  * stream. cz_report_check_file reports beforehand whether that can be, and refuses to replace a
  * file that the problem was read from (NULL: of no problem) or that belongs to a result folder;
- * cz_report_check_page lets the page of the folder that the problem was read from be replaced.
- * Statuses: CZ_STATUS_OUTPUT, those of `write`. */
+ * with is_page the page of the folder that the problem was read from may be replaced. Statuses:
+ * CZ_STATUS_OUTPUT, those of `write`. */
 typedef CzStatus CzReportWriter(const void *data, FILE *stream, CzError *error);
 CZ_MUST_CHECK CZ_API CzStatus cz_report_check_file(const CzProblem *problem, const char *path,
-                                                   CzError *error);
-CZ_MUST_CHECK CZ_API CzStatus cz_report_check_page(const CzProblem *problem, const char *path,
-                                                   CzError *error);
+                                                   bool is_page, CzError *error);
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_file(const char *path, CzReportWriter *write,
                                                    const void *data, CzError *error);
-
-/* Writes a whole result folder: to a temporary name first, renamed at the end; replaces only a
- * folder of our own. Needs runs that were kept. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_folder(const CzProblem *problem,
-                                                     const CzEvaluation *evaluation,
-                                                     const CzReportOptions *options,
-                                                     const char *folder, CzError *error);
-CZ_MUST_CHECK CZ_API CzStatus cz_report_write_outcome_folder(const CzProblem *problem,
-                                                             const CzEvaluator *evaluator,
-                                                             const CzOutcome *outcome,
-                                                             const CzReportOptions *options,
-                                                             const char *folder, CzError *error);
 
 CZ_END_DECLARATIONS
 #endif

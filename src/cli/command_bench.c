@@ -5,26 +5,17 @@
 #include "cli/progress.h"
 #include "cli/session.h"
 
-#include <stdio.h>
-#include <unistd.h>
-
 static int answer(const CzSession *session, const CzBenchmark *benchmark) {
     const CzArguments *arguments = session->arguments;
     CzReportOptions options = cz_session_report_options(session, benchmark->wall_s);
-    CzError error = {0};
-    CzStatus status;
     options.n_job = 1; /* whatever number of processors there is */
-    if (arguments->text[CZ_OPTION_JSON] == NULL)
-        status = cz_end_table(
-            cz_report_write_benchmark_table(session->problem, benchmark,
-                                            cz_wants_colour(arguments, STDOUT_FILENO), stdout),
-            &error);
-    else
-        status = cz_report_write_benchmark(session->problem, benchmark, &options, stdout, &error);
-    if (status != CZ_OK) {
-        cz_print_mistake(arguments, "error", NULL, &error);
-        return cz_status_exit_code(status);
-    }
+    const CzReport report = {.kind = CZ_REPORT_BENCHMARK,
+                             .options = &options,
+                             .problem = session->problem,
+                             .benchmark = benchmark};
+    const int code = cz_print_results(arguments, &report);
+    if (code != 0)
+        return code;
     cz_tell(arguments, "read in %.2g s, timed in %.2g s, on one thread", session->setup_s,
             benchmark->wall_s);
     return benchmark->status == CZ_OK ? 0 : cz_status_exit_code(benchmark->status);

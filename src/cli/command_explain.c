@@ -5,25 +5,16 @@
 #include "cli/progress.h"
 #include "cli/session.h"
 
-#include <stdio.h>
-#include <unistd.h>
-
 static int answer(const CzSession *session, const CzExplanation *explanation) {
     const CzArguments *arguments = session->arguments;
     const CzReportOptions options = cz_session_report_options(session, explanation->wall_s);
-    CzError error = {0};
-    CzStatus status;
-    if (arguments->text[CZ_OPTION_JSON] == NULL)
-        status = cz_end_table(cz_report_write_explanation_table(
-                                  explanation, cz_wants_colour(arguments, STDOUT_FILENO), stdout),
-                              &error);
-    else
-        status =
-            cz_report_write_explanation(session->problem, explanation, &options, stdout, &error);
-    if (status != CZ_OK) {
-        cz_print_mistake(arguments, "error", NULL, &error);
-        return cz_status_exit_code(status);
-    }
+    const CzReport report = {.kind = CZ_REPORT_EXPLANATION,
+                             .options = &options,
+                             .problem = session->problem,
+                             .explanation = explanation};
+    const int code = cz_print_results(arguments, &report);
+    if (code != 0)
+        return code;
     cz_tell(arguments, "%ld collisions in %.3g s", explanation->n_run, explanation->wall_s);
     return 0;
 }

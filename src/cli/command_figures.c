@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 /* A folder that was about to be replaced when its process died is looked at all the same. */
 static void restore(const CzArguments *arguments) {
@@ -20,23 +19,8 @@ static void restore(const CzArguments *arguments) {
 
 /* ---- report ---- */
 
-static CzStatus write_page(const void *data, FILE *stream, CzError *error) {
-    const CzResult *result = data;
-    const CzReportOptions options = cz_session_report_options(&result->session, 0);
-    return cz_report_write_page(&result->run, &options, stream, error);
-}
-
-typedef struct Search {
-    const CzResult *result;
-    const CzOutcome *outcome;
-} Search;
-
-static CzStatus write_search(const void *data, FILE *stream, CzError *error) {
-    const Search *search = data;
-    const CzSession *session = &search->result->session;
-    const CzReportOptions options = cz_session_report_options(session, 0);
-    return cz_report_write_outcome_page(session->problem, session->evaluator, search->outcome,
-                                        &options, stream, error);
+static CzStatus write_page(const void *report, FILE *stream, CzError *error) {
+    return cz_report_write_page(report, stream, error);
 }
 
 /* Where the report of a folder goes. */
@@ -65,10 +49,15 @@ int cz_command_report(const CzArguments *arguments) {
     int code = cz_result_begin(&result, arguments, is_search ? problem : folder, path);
     if (code == 0 && is_search)
         code = cz_recall_outcome(&result, folder, &outcome);
-    const Search search = {&result, outcome};
+    const CzReportOptions options = cz_session_report_options(&result.session, 0);
+    const CzReport report = {.kind = is_search ? CZ_REPORT_SEARCH : CZ_REPORT_RUN,
+                             .options = &options,
+                             .problem = result.session.problem,
+                             .evaluation = &result.evaluation,
+                             .evaluator = result.session.evaluator,
+                             .outcome = outcome};
     if (code == 0)
-        code = cz_result_write(arguments, path, is_search ? write_search : write_page,
-                               is_search ? (const void *)&search : &result);
+        code = cz_result_write(arguments, path, write_page, &report);
     cz_outcome_free(outcome);
     cz_result_end(&result);
     return code;
@@ -105,36 +94,15 @@ int cz_command_plot(const CzArguments *arguments) {
 
 /* ---- compare ---- */
 
-enum { MOST_COMPARED = 8 };
-
-typedef struct Comparison {
-    int n;
-    CzReportRun run[MOST_COMPARED];
-} Comparison;
-
-static CzStatus write_comparison(const void *data, FILE *stream, CzError *error) {
-    const Comparison *comparison = data;
-    return cz_report_write_comparison_page(comparison->n, comparison->run, NULL, stream, error);
-}
-
 static int compare(const CzArguments *arguments, const CzResult *result) {
-    Comparison comparison = {.n = arguments->n_operand};
-    for (int i = 0; i < comparison.n; i++)
-        comparison.run[i] = result[i].run;
-    CzError error = {0};
-    const CzStatus status =
-        arguments->text[CZ_OPTION_JSON] == NULL
-            ? cz_end_table(cz_report_write_comparison(comparison.n, comparison.run,
-                                                      cz_wants_colour(arguments, STDOUT_FILENO),
-                                                      stdout),
-                           &error)
-            : cz_report_write_comparison_json(comparison.n, comparison.run, stdout, &error);
-    if (status != CZ_OK)
-        return cz_tell_error(arguments, &error);
-    if (arguments->text[CZ_OPTION_OUTPUT] == NULL)
-        return 0;
-    return cz_result_write(arguments, arguments->text[CZ_OPTION_OUTPUT], write_comparison,
-                           &comparison);
+    CzReportRun run[CZ_MOST_COMPARED];
+    const CzReport report = {
+        .kind = CZ_REPORT_COMPARISON, .compared = run, .n_compared = arguments->n_operand};
+    for (int i = 0; i < arguments->n_operand; i++)
+        run[i] = result[i].run;
+    const int code = cz_print_results(arguments, &report);
+    const char *page = arguments->text[CZ_OPTION_OUTPUT];
+    return code != 0 || page == NULL ? code : cz_result_write(arguments, page, write_page, &report);
 }
 
 int cz_command_compare(const CzArguments *arguments) {

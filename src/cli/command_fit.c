@@ -110,7 +110,8 @@ static int write_fit(const CzArguments *arguments, const CzFit *fit) {
     CzError error = {0};
     int code = cz_fit_summary(fit)->verdict == CZ_FIT_REFUSED ? 1 : 0;
     if (arguments->text[CZ_OPTION_JSON] != NULL) {
-        if (cz_report_write_fit(fit, stdout, &error) != CZ_OK)
+        const CzReport report = {.kind = CZ_REPORT_FIT, .fit = fit};
+        if (cz_report_write_json(&report, stdout, &error) != CZ_OK)
             return cz_tell_error(arguments, &error);
     } else {
         tell_doubts(fit);

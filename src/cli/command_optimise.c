@@ -5,9 +5,6 @@
 #include "cli/progress.h"
 #include "cli/session.h"
 
-#include <stdio.h>
-#include <unistd.h>
-
 static const char default_folder[] = "out-optimised";
 
 static CzStatus search(CzSession *session, CzOutcome **outcome, CzError *error) {
@@ -48,30 +45,22 @@ static int judge(const CzOutcome *outcome) {
 static int answer(const CzSession *session, const CzOutcome *outcome, const char *folder) {
     const CzArguments *arguments = session->arguments;
     const CzReportOptions options = cz_session_report_options(session, outcome->wall_s);
+    const CzReport report = {.kind = CZ_REPORT_SEARCH,
+                             .options = &options,
+                             .problem = session->problem,
+                             .evaluator = session->evaluator,
+                             .outcome = outcome};
     CzError error = {0};
-    CzStatus status = cz_report_write_outcome_folder(session->problem, session->evaluator, outcome,
-                                                     &options, folder, &error);
-    const bool is_kept = status == CZ_OK;
+    const bool is_kept = cz_report_write_folder(&report, folder, &error) == CZ_OK;
     if (!is_kept)
         cz_print_mistake(arguments, "error", NULL, &error);
-    CzStatus written;
-    if (arguments->text[CZ_OPTION_JSON] != NULL)
-        written = cz_report_write_outcome(session->problem, session->evaluator, outcome, &options,
-                                          stdout, &error);
-    else
-        written = cz_end_table(
-            cz_report_write_outcome_table(session->problem, session->evaluator, outcome,
-                                          cz_wants_colour(arguments, STDOUT_FILENO), stdout),
-            &error);
-    if (written != CZ_OK)
-        cz_print_mistake(arguments, "error", NULL, &error);
-    status = is_kept ? written : status;
+    const int printed = cz_print_results(arguments, &report);
     if (is_kept)
         cz_tell(arguments,
                 "results in %s, computed in %.3g s; run the best design with: crushzone "
                 "check %s/optimised.yaml",
                 folder, outcome->wall_s, folder);
-    return status != CZ_OK ? cz_status_exit_code(status) : judge(outcome);
+    return !is_kept ? cz_status_exit_code(error.status) : printed != 0 ? printed : judge(outcome);
 }
 
 int cz_command_optimise(const CzArguments *arguments) {

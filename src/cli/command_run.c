@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-#include <unistd.h>
 
 static const char default_folder[] = "out";
 
@@ -76,20 +75,17 @@ static int answer(const CzSession *session, const CzEvaluation *evaluation, doub
                   const char *folder) {
     const CzArguments *arguments = session->arguments;
     const CzReportOptions options = cz_session_report_options(session, wall_s);
+    const CzReport report = {.kind = CZ_REPORT_RUN,
+                             .options = &options,
+                             .problem = session->problem,
+                             .evaluation = evaluation};
     CzError error = {0};
-    CzStatus status = CZ_OK;
-    if (arguments->text[CZ_OPTION_JSON] != NULL)
-        status = cz_report_write_summary(session->problem, evaluation, &options, stdout, &error);
-    else
-        status =
-            cz_end_table(cz_report_write_table(session->problem, evaluation,
-                                               cz_wants_colour(arguments, STDOUT_FILENO), stdout),
-                         &error);
-    if (status == CZ_OK && folder != NULL)
-        status = cz_report_write_folder(session->problem, evaluation, &options, folder, &error);
-    if (status != CZ_OK) {
+    const int code = cz_print_results(arguments, &report);
+    if (code != 0)
+        return code;
+    if (folder != NULL && cz_report_write_folder(&report, folder, &error) != CZ_OK) {
         cz_print_mistake(arguments, "error", NULL, &error);
-        return cz_status_exit_code(status);
+        return cz_status_exit_code(error.status);
     }
     if (folder != NULL)
         cz_tell(arguments, "results in %s, computed in %.2g s", folder, wall_s);

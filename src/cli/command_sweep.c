@@ -7,7 +7,6 @@
 #include "cli/session.h"
 
 #include <stdio.h>
-#include <unistd.h>
 
 /* Reads what `--vary` says; returns the exit code. */
 static int read_axes(const CzArguments *arguments, CzSweepAxis axis[CZ_MOST_AXES]) {
@@ -46,20 +45,15 @@ static int answer(const CzSession *session, const CzSweep *sweep) {
     const CzArguments *arguments = session->arguments;
     const CzReportOptions options = cz_session_report_options(session, sweep->wall_s);
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
+    const CzReport report = {.kind = CZ_REPORT_SWEEP, .options = &options, .sweep = sweep};
     CzError error = {0};
-    CzStatus status = CZ_OK;
-    if (folder != NULL)
-        status = cz_report_write_sweep_folder(sweep, &options, folder, &error);
-    if (status == CZ_OK && arguments->text[CZ_OPTION_JSON] != NULL)
-        status = cz_report_write_sweep(sweep, &options, stdout, &error);
-    else if (status == CZ_OK)
-        status = cz_end_table(
-            cz_report_write_sweep_table(sweep, cz_wants_colour(arguments, STDOUT_FILENO), stdout),
-            &error);
-    if (status != CZ_OK) {
+    if (folder != NULL && cz_report_write_folder(&report, folder, &error) != CZ_OK) {
         cz_print_mistake(arguments, "error", NULL, &error);
-        return cz_status_exit_code(status);
+        return cz_status_exit_code(error.status);
     }
+    const int code = cz_print_results(arguments, &report);
+    if (code != 0)
+        return code;
     const int n_run = count_run(sweep);
     char of_all[32] = "";
     if (n_run < sweep->n_point)

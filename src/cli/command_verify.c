@@ -5,9 +5,6 @@
 #include "cli/progress.h"
 #include "cli/session.h"
 
-#include <stdio.h>
-#include <unistd.h>
-
 static int judge(const CzVerification *verification) {
     if (verification->status != CZ_OK)
         return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
@@ -17,20 +14,13 @@ static int judge(const CzVerification *verification) {
 static int answer(const CzSession *session, const CzVerification *verification) {
     const CzArguments *arguments = session->arguments;
     const CzReportOptions options = cz_session_report_options(session, 0.0);
-    CzError error = {0};
-    CzStatus status;
-    if (arguments->text[CZ_OPTION_JSON] == NULL)
-        status = cz_end_table(
-            cz_report_write_verification_table(session->problem, verification,
-                                               cz_wants_colour(arguments, STDOUT_FILENO), stdout),
-            &error);
-    else
-        status =
-            cz_report_write_verification(session->problem, verification, &options, stdout, &error);
-    if (status != CZ_OK) {
-        cz_print_mistake(arguments, "error", NULL, &error);
-        return cz_status_exit_code(status);
-    }
+    const CzReport report = {.kind = CZ_REPORT_VERIFICATION,
+                             .options = &options,
+                             .problem = session->problem,
+                             .verification = verification};
+    const int code = cz_print_results(arguments, &report);
+    if (code != 0)
+        return code;
     for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
         if (verification->is_done[method] && arguments->text[CZ_OPTION_VERBOSE] != NULL)
             cz_tell(arguments, "%s: %.3g s", cz_verify_method_text((CzVerifyMethod)method),

@@ -20,28 +20,6 @@ void cz_help_write_greeting(void) {
          "  crushzone help                                               all commands");
 }
 
-enum { WIDTH = 100 }; /* of help on a terminal [characters] */
-
-void cz_help_write_wrapped(const char *text, int indent) {
-    int column = indent;
-    while (*text != '\0') {
-        const int n = (int)strcspn(text, " ");
-        if (column > indent && column + 1 + n > WIDTH) {
-            printf("\n%*s", indent, "");
-            column = indent;
-        }
-        if (column > indent) {
-            putchar(' ');
-            column++;
-        }
-        printf("%.*s", n, text);
-        column += n;
-        text += n;
-        text += strspn(text, " ");
-    }
-    putchar('\n');
-}
-
 static void write_option(const CzOptionInfo *option) {
     char left[64], letter[8] = "";
     if (option->letter != 0)

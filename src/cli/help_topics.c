@@ -64,6 +64,28 @@ const char cz_verdict_remark[] =
 
 /* ---- lists ---- */
 
+enum { WIDTH = 100 }; /* of help on a terminal [characters] */
+
+void cz_help_write_wrapped(const char *text, int indent) {
+    int column = indent;
+    while (*text != '\0') {
+        const int n = (int)strcspn(text, " ");
+        if (column > indent && column + 1 + n > WIDTH) {
+            printf("\n%*s", indent, "");
+            column = indent;
+        }
+        if (column > indent) {
+            putchar(' ');
+            column++;
+        }
+        printf("%.*s", n, text);
+        column += n;
+        text += n;
+        text += strspn(text, " ");
+    }
+    putchar('\n');
+}
+
 static void write_entries(int n, const CzHelpEntry *entries, int width) {
     for (int i = 0; i < n && entries[i].name != NULL; i++) {
         printf("  %-*s ", width, entries[i].name);

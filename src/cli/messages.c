@@ -71,10 +71,11 @@ static int exit_code_of(const CzError *error) {
 }
 
 int cz_tell_error(const CzArguments *arguments, const CzError *error) {
+    const CzReport report = {.kind = CZ_REPORT_MISTAKES, .mistake = &error, .n_mistake = 1};
     CzError failure = {0};
     if (!speaks_json(arguments) || error->status == CZ_STATUS_OUTPUT)
         cz_print_mistake(arguments, "error", NULL, error);
-    if (speaks_json(arguments) && cz_report_write_mistakes(1, &error, stdout, &failure) != CZ_OK &&
+    if (speaks_json(arguments) && cz_report_write_json(&report, stdout, &failure) != CZ_OK &&
         error->status != CZ_STATUS_OUTPUT)
         cz_print_mistake(arguments, "error", NULL, error);
     return exit_code_of(error);
@@ -91,8 +92,9 @@ int cz_tell_mistakes(const CzArguments *arguments, const CzProblem *problem, con
         else
             cz_print_mistake(arguments, "error", problem, cz_problem_mistake(problem, i));
     }
+    const CzReport report = {.kind = CZ_REPORT_MISTAKES, .mistake = mistake, .n_mistake = n};
     CzError failure = {0};
-    if (mistake != NULL && cz_report_write_mistakes(n, mistake, stdout, &failure) != CZ_OK)
+    if (mistake != NULL && cz_report_write_json(&report, stdout, &failure) != CZ_OK)
         cz_print_mistake(arguments, "error", NULL, &failure);
     if (mistake == NULL && n > 1)
         fprintf(stderr, "%s: %d mistakes\n", cz_problem_file(problem), n);
@@ -118,10 +120,6 @@ void cz_tell(const CzArguments *arguments, const char *format, ...) {
     vfprintf(stderr, format, values);
     va_end(values);
     fputc('\n', stderr);
-}
-
-CzStatus cz_end_table(CzStatus status, CzError *error) {
-    return status == CZ_OK ? CZ_OK : cz_fail(error, status, "no memory for the whole table");
 }
 
 int cz_end_output(const CzArguments *arguments, int code) {

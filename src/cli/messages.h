@@ -29,7 +29,4 @@ void cz_print_mistake(const CzArguments *arguments, const char *kind, const CzPr
 /* Flushes standard output; a failure is reported, and its exit code returned instead of `code`. */
 int cz_end_output(const CzArguments *arguments, int code);
 
-/* What became of a table: its status, with the sentence of a failure in the error. */
-CzStatus cz_end_table(CzStatus status, CzError *error);
-
 #endif

@@ -120,9 +120,8 @@ int cz_result_check(const CzArguments *arguments, const CzProblem *problem, cons
     CzError error = {0};
     if (path == NULL)
         return 0;
-    CzStatus status = arguments->command == CZ_COMMAND_REPORT
-                          ? cz_report_check_page(problem, path, &error)
-                          : cz_report_check_file(problem, path, &error);
+    CzStatus status =
+        cz_report_check_file(problem, path, arguments->command == CZ_COMMAND_REPORT, &error);
     if (status == CZ_OK && is_read(arguments, path)) {
         status = cz_fail(
             &error, CZ_STATUS_OUTPUT,

@@ -118,11 +118,22 @@ CzReportOptions cz_session_report_options(const CzSession *session, double wall_
     return options;
 }
 
+int cz_print_results(const CzArguments *arguments, const CzReport *report) {
+    CzError error = {0};
+    const CzStatus status =
+        arguments->text[CZ_OPTION_JSON] != NULL
+            ? cz_report_write_json(report, stdout, &error)
+            : cz_report_write_table(report, cz_wants_colour(arguments, STDOUT_FILENO), stdout,
+                                    &error);
+    if (status != CZ_OK)
+        cz_print_mistake(arguments, "error", NULL, &error);
+    return cz_status_exit_code(status);
+}
+
 int cz_session_check_folder(const CzSession *session, const char *folder, bool replaces_search) {
-    const CzReportOptions options = {.replaces_search = replaces_search};
     CzError error = {0};
     if (folder == NULL ||
-        cz_report_check_folder(session->problem, folder, &options, &error) == CZ_OK)
+        cz_report_check_folder(session->problem, folder, replaces_search, &error) == CZ_OK)
         return 0;
     return cz_tell_error(session->arguments, &error);
 }

@@ -36,6 +36,10 @@ void cz_session_end(CzSession *session);
 /* How the results of this session are written. */
 CzReportOptions cz_session_report_options(const CzSession *session, double wall_s);
 
+/* Prints results: a JSON document with --json, else tables. Reports a failure and returns its exit
+ * code, 0 when all is well. */
+CZ_MUST_CHECK int cz_print_results(const CzArguments *arguments, const CzReport *report);
+
 /* Whether results can be written to a folder (NULL: to none), before anything runs in vain; returns
  * the exit code. */
 CZ_MUST_CHECK int cz_session_check_folder(const CzSession *session, const char *folder,

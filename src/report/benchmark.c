@@ -2,7 +2,7 @@
 #include "crushzone/report.h"
 
 #include "report/figure.h"
-#include "report/table.h"
+#include "report/tables.h"
 #include "report/units.h"
 
 static void put_time(CzReportTable *table, double time) {
@@ -24,16 +24,14 @@ static void put_scenario(CzReportTable *table, const CzScenarioTimes *times) {
     }
 }
 
-CzStatus cz_report_write_benchmark_table(const CzProblem *problem, const CzBenchmark *benchmark,
-                                         bool colour, FILE *stream) {
-    CzTerminal terminal = {stream, colour, false};
+void cz_benchmark_write_table(const CzReport *report, CzTerminal *terminal) {
+    const CzBenchmark *benchmark = report->benchmark;
     CzReportTable table;
-    cz_terminal_say(&terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(problem));
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
     cz_table_begin(&table, "scenario;>vehicles;>steps;processor time;>min ms;>median ms;>n");
     for (int i = 0; i < benchmark->n_scenario; i++)
         put_scenario(&table, &benchmark->scenario[i]);
-    cz_table_write_text(&table, &terminal);
+    cz_table_write_text(&table, terminal);
     if (benchmark->failure[0] != '\0')
-        cz_terminal_say(&terminal, CZ_STYLE_BAD, "%s\n", benchmark->failure);
-    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "%s\n", benchmark->failure);
 }

@@ -4,16 +4,17 @@
 #include "report/checks_table.h"
 #include "report/compare.h"
 #include "report/figure.h"
-#include "report/table.h"
+#include "report/tables.h"
 
 #include <math.h>
 #include <string.h>
 
-int cz_compared_scenario(const CzReportRun *run, int i) {
+int cz_compared_scenario(const CzReport *report, int i) {
+    const CzReportRun *run = report->compared;
     const int own = run[i].scenario >= 0 ? run[i].scenario : cz_page_deciding(run[i].evaluation);
     if (i == 0)
         return own;
-    const CzRunSummary *first = cz_compared_run(run, 0);
+    const CzRunSummary *first = cz_compared_run(report, 0);
     for (int k = 0; first != NULL && k < run[i].evaluation->n_run; k++) {
         const CzRunSummary *kept = cz_kept_run(run[i].evaluation, k);
         if (kept != NULL && strcmp(kept->scenario, first->scenario) == 0)
@@ -22,11 +23,10 @@ int cz_compared_scenario(const CzReportRun *run, int i) {
     return own;
 }
 
-const CzRunSummary *cz_compared_run(const CzReportRun *run, int i) {
-    const int scenario = cz_compared_scenario(run, i);
-    return scenario >= 0 && scenario < run[i].evaluation->n_run
-               ? cz_kept_run(run[i].evaluation, scenario)
-               : NULL;
+const CzRunSummary *cz_compared_run(const CzReport *report, int i) {
+    const CzEvaluation *evaluation = report->compared[i].evaluation;
+    const int scenario = cz_compared_scenario(report, i);
+    return scenario >= 0 && scenario < evaluation->n_run ? cz_kept_run(evaluation, scenario) : NULL;
 }
 
 const CzCheckResult *cz_compared_check(const CzReportRun *run, const CzCheckResult *check) {
@@ -51,9 +51,9 @@ static bool differs_in_value(const CzCheckResult *check, const CzCheckResult *ot
     return fabs(other->margin - check->margin) > share * fmax(fabs(check->margin), 1);
 }
 
-bool cz_compared_differs(int n, const CzReportRun *run, const CzCheckResult *check) {
-    for (int i = 1; i < n; i++) {
-        const CzCheckResult *other = cz_compared_check(&run[i], check);
+bool cz_compared_differs(const CzReport *report, const CzCheckResult *check) {
+    for (int i = 1; i < report->n_compared; i++) {
+        const CzCheckResult *other = cz_compared_check(&report->compared[i], check);
         if (other == NULL || other->verdict != check->verdict ||
             isnan(other->value) != isnan(check->value) || differs_in_value(check, other))
             return true;
@@ -84,8 +84,8 @@ const char *cz_compared_name(const CzRunSummary *run, bool of_interface, int ind
     return of_interface ? run->interface[index].name : run->vehicle[index].name;
 }
 
-double cz_compared_value(const CzReportRun *run, int i, const CzResult *result, const char *name) {
-    const CzRunSummary *summary = cz_compared_run(run, i);
+double cz_compared_value(const CzReport *report, int i, const CzResult *result, const char *name) {
+    const CzRunSummary *summary = cz_compared_run(report, i);
     const bool of_interface = result->record == CZ_RECORD_INTERFACE;
     CzResultContext context = {.run = summary};
     for (int k = 0; summary != NULL && k < cz_compared_count(summary, of_interface); k++)
@@ -96,37 +96,37 @@ double cz_compared_value(const CzReportRun *run, int i, const CzResult *result, 
     return NAN;
 }
 
-bool cz_compared_is_beyond(const CzReportRun *run, int i) {
-    const CzRunSummary *summary = cz_compared_run(run, i);
+bool cz_compared_is_beyond(const CzReport *report, int i) {
+    const CzRunSummary *summary = cz_compared_run(report, i);
     return summary != NULL && summary->beyond_validity;
 }
 
-const char *cz_compared_caution(int n, const CzReportRun *run) {
-    for (int i = 0; i < n; i++)
-        if (cz_compared_is_beyond(run, i))
+const char *cz_compared_caution(const CzReport *report) {
+    for (int i = 0; i < report->n_compared; i++)
+        if (cz_compared_is_beyond(report, i))
             return CZ_FIGURE_CAUTION;
     return "";
 }
 
 /* ---- tables ---- */
 
-static void begin(CzReportTable *table, int n, const CzReportRun *run, const char *heads) {
+static void begin(CzReportTable *table, const CzReport *report, const char *heads) {
     cz_table_begin(table, heads);
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < report->n_compared; i++) {
         char head[CZ_SENTENCE_ROOM];
-        snprintf(head, sizeof head, ">%s", run[i].label);
+        snprintf(head, sizeof head, ">%s", report->compared[i].label);
         cz_table_head(table, head);
     }
 }
 
-void cz_compared_begin_checks(CzReportTable *table, int n, const CzReportRun *run, int *n_same) {
-    const CzEvaluation *first = run[0].evaluation;
+void cz_compared_begin_checks(CzReportTable *table, const CzReport *report, int *n_same) {
+    const CzEvaluation *first = report->compared[0].evaluation;
     *n_same = 0;
-    begin(table, n, run, "check;>limit");
+    begin(table, report, "check;>limit");
     for (int k = 0; k < first->n_check; k++) {
         const CzCheckResult *check = &first->check[k];
         char text[CZ_LABEL_ROOM + 1 + CZ_NAME_ROOM], value[96];
-        if (!cz_compared_differs(n, run, check)) {
+        if (!cz_compared_differs(report, check)) {
             ++*n_same;
             continue;
         }
@@ -134,8 +134,8 @@ void cz_compared_begin_checks(CzReportTable *table, int n, const CzReportRun *ru
                             check->scenario != NULL ? check->scenario : "");
         cz_checks_format_limit(check, sizeof value, value);
         cz_table_put(table, value);
-        for (int i = 0; i < n; i++) {
-            const CzCheckResult *other = cz_compared_check(&run[i], check);
+        for (int i = 0; i < report->n_compared; i++) {
+            const CzCheckResult *other = cz_compared_check(&report->compared[i], check);
             if (other == NULL) {
                 cz_table_put(table, "-");
                 continue;
@@ -149,58 +149,55 @@ void cz_compared_begin_checks(CzReportTable *table, int n, const CzReportRun *ru
 }
 
 /* Whether a run has the result: single masses have no wheels that lift. */
-static bool is_known(int n, const CzReportRun *run, const CzResult *result, const char *name) {
-    for (int i = 0; i < n; i++)
-        if (isfinite(cz_compared_value(run, i, result, name)))
+static bool is_known(const CzReport *report, const CzResult *result, const char *name) {
+    for (int i = 0; i < report->n_compared; i++)
+        if (isfinite(cz_compared_value(report, i, result, name)))
             return true;
     return false;
 }
 
 /* Shares are printed as plain numbers, whose digits show small differences. */
-static void put_numbers(CzReportTable *table, int n, const CzReportRun *run, const CzResult *result,
+static void put_numbers(CzReportTable *table, const CzReport *report, const CzResult *result,
                         const char *name) {
     const double factor = result->format == CZ_FORMAT_PERCENT ? 100 : 1;
     char text[CZ_FIGURE_ROOM];
     cz_table_put(table, name);
     cz_table_put(table, result->title);
-    for (int i = 0; i < n; i++) {
-        cz_figure_plain(text, factor * cz_compared_value(run, i, result, name));
-        cz_table_put(table, cz_figure_mark(text, cz_compared_is_beyond(run, i)));
+    for (int i = 0; i < report->n_compared; i++) {
+        cz_figure_plain(text, factor * cz_compared_value(report, i, result, name));
+        cz_table_put(table, cz_figure_mark(text, cz_compared_is_beyond(report, i)));
     }
 }
 
-void cz_compared_begin_numbers(CzReportTable *table, int n, const CzReportRun *run,
-                               bool of_interface, bool known) {
-    const CzRunSummary *first = cz_compared_run(run, 0);
+void cz_compared_begin_numbers(CzReportTable *table, const CzReport *report, bool of_interface,
+                               bool known) {
+    const CzRunSummary *first = cz_compared_run(report, 0);
     const CzResult *result;
-    begin(table, n, run, of_interface ? "interface;" : "car;");
+    begin(table, report, of_interface ? "interface;" : "car;");
     for (int k = 0; (result = cz_compared_result(of_interface, k)) != NULL; k++)
         for (int i = 0; i < cz_compared_count(first, of_interface); i++) {
             const char *name = cz_compared_name(first, of_interface, i);
-            if (!known || is_known(n, run, result, name))
-                put_numbers(table, n, run, result, name);
+            if (!known || is_known(report, result, name))
+                put_numbers(table, report, result, name);
         }
 }
 
 /* ---- on the terminal ---- */
 
-CzStatus cz_report_write_comparison(int n, const CzReportRun *run, bool colour, FILE *stream) {
-    CzTerminal terminal = {stream, colour, false};
+void cz_comparison_write_table(const CzReport *report, CzTerminal *terminal) {
     CzReportTable table;
     int n_same;
-    n = n < CZ_MOST_COMPARED ? n : CZ_MOST_COMPARED;
-    if (n < 1 || cz_compared_run(run, 0) == NULL)
-        return CZ_OK;
-    fprintf(stream, "scenario %s\n\n", cz_compared_run(run, 0)->scenario);
-    cz_compared_begin_checks(&table, n, run, &n_same);
-    cz_table_write_text(&table, &terminal);
-    fprintf(stream, "%d check%s the same.\n\n", n_same, n_same == 1 ? " is" : "s are");
-    cz_compared_begin_numbers(&table, n, run, true, false);
-    cz_table_write_text(&table, &terminal);
-    fputc('\n', stream);
-    cz_compared_begin_numbers(&table, n, run, false, false);
-    cz_table_write_text(&table, &terminal);
-    if (cz_compared_caution(n, run)[0] != '\0')
-        cz_terminal_say(&terminal, CZ_STYLE_BAD, "%s\n", cz_compared_caution(n, run));
-    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
+    if (report->n_compared < 1 || cz_compared_run(report, 0) == NULL)
+        return;
+    fprintf(terminal->stream, "scenario %s\n\n", cz_compared_run(report, 0)->scenario);
+    cz_compared_begin_checks(&table, report, &n_same);
+    cz_table_write_text(&table, terminal);
+    fprintf(terminal->stream, "%d check%s the same.\n\n", n_same, n_same == 1 ? " is" : "s are");
+    cz_compared_begin_numbers(&table, report, true, false);
+    cz_table_write_text(&table, terminal);
+    fputc('\n', terminal->stream);
+    cz_compared_begin_numbers(&table, report, false, false);
+    cz_table_write_text(&table, terminal);
+    if (cz_compared_caution(report)[0] != '\0')
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "%s\n", cz_compared_caution(report));
 }

@@ -8,36 +8,34 @@
 #include "report/runs.h"
 #include "report/table.h"
 
-enum { CZ_MOST_COMPARED = 8 };
-
-/* The scenario of run[i] that is compared: of the first run the requested one, or the one with the
- * smallest margin; of the others the one of the same name, or else the one with the smallest
- * margin. -1 when none ran. */
-int cz_compared_scenario(const CzReportRun *run, int i);
+/* The scenario of a compared run that is compared: of the first run the requested one, or the one
+ * with the smallest margin; of the others the one of the same name, or else the one with the
+ * smallest margin. -1 when none ran. */
+int cz_compared_scenario(const CzReport *report, int i);
 /* Its summary; NULL when none was kept. */
-const CzRunSummary *cz_compared_run(const CzReportRun *run, int i);
+const CzRunSummary *cz_compared_run(const CzReport *report, int i);
 
 /* The check of the same name and scenario in another run; NULL when it has none. */
 const CzCheckResult *cz_compared_check(const CzReportRun *run, const CzCheckResult *check);
 /* Whether a check of the first run differs in another run: by its verdict, or by more than a
  * thousandth of the limit or of the violation. */
-bool cz_compared_differs(int n, const CzReportRun *run, const CzCheckResult *check);
+bool cz_compared_differs(const CzReport *report, const CzCheckResult *check);
 
 /* The results of interfaces or of cars that are compared; NULL beyond the last. */
 const CzResult *cz_compared_result(bool of_interface, int index);
 int cz_compared_count(const CzRunSummary *run, bool of_interface);
 const char *cz_compared_name(const CzRunSummary *run, bool of_interface, int index);
-/* A number in run[i], by the name of its interface or car; NaN when that run has none. */
-double cz_compared_value(const CzReportRun *run, int i, const CzResult *result, const char *name);
-/* Whether the compared scenario of run[i] went beyond model validity. */
-bool cz_compared_is_beyond(const CzReportRun *run, int i);
+/* A number in a compared run, by the name of its interface or car; NaN when that run has none. */
+double cz_compared_value(const CzReport *report, int i, const CzResult *result, const char *name);
+/* Whether the compared scenario went beyond model validity. */
+bool cz_compared_is_beyond(const CzReport *report, int i);
 /* The meaning of the mark when a run has it; empty when none has. */
-const char *cz_compared_caution(int n, const CzReportRun *run);
+const char *cz_compared_caution(const CzReport *report);
 
 /* Tables: checks that differ, and the number of equal ones; results of interfaces or cars, with
  * `known` only those that a run has. */
-void cz_compared_begin_checks(CzReportTable *table, int n, const CzReportRun *run, int *n_same);
-void cz_compared_begin_numbers(CzReportTable *table, int n, const CzReportRun *run,
-                               bool of_interface, bool known);
+void cz_compared_begin_checks(CzReportTable *table, const CzReport *report, int *n_same);
+void cz_compared_begin_numbers(CzReportTable *table, const CzReport *report, bool of_interface,
+                               bool known);
 
 #endif

@@ -2,6 +2,7 @@
 #include "report/csv.h"
 
 #include "report/figure.h"
+#include "report/options.h"
 #include "report/results.h"
 #include "report/units.h"
 
@@ -222,18 +223,18 @@ void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FIL
     }
 }
 
-void cz_csv_write_history(const CzEvaluator *evaluator, const CzOutcome *outcome,
-                          const CzReportOptions *options, FILE *stream) {
+void cz_csv_write_history(const CzReport *report, FILE *stream) {
+    const CzOutcome *outcome = report->outcome;
     static const CzResult *const columns[] = {
         CZ_RESULT_AT(TRIAL, evaluation), CZ_RESULT_AT(TRIAL, phase), CZ_RESULT_AT(TRIAL, objective),
         CZ_RESULT_AT(TRIAL, violation), CZ_RESULT_AT(TRIAL, feasible)};
     enum { n_column = sizeof columns / sizeof *columns };
     const int n_variable = outcome->trial_x != NULL ? outcome->n_variable : 0;
-    CzResultContext context = {.outcome = outcome};
-    Table table = table_of(options, stream);
+    CzResultContext context = {.report = report};
+    Table table = table_of(cz_report_options_of(report), stream);
     put_keys(&table, n_column, columns);
     for (int k = 0; k < n_variable; k++)
-        put_text(&table, cz_evaluator_variable(evaluator, k)->name);
+        put_text(&table, cz_evaluator_variable(report->evaluator, k)->name);
     end_row(&table);
     for (long i = 0; i < outcome->n_trial; i++) {
         for (int k = 0; k < n_column; k++)
@@ -244,15 +245,16 @@ void cz_csv_write_history(const CzEvaluator *evaluator, const CzOutcome *outcome
     }
 }
 
-void cz_csv_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FILE *stream) {
+void cz_csv_write_sweep(const CzReport *report, FILE *stream) {
+    const CzSweep *sweep = report->sweep;
     static const CzResult *const columns[] = {
         CZ_RESULT_AT(POINT, state),           CZ_RESULT_AT(POINT, verdict),
         CZ_RESULT_AT(POINT, margin),          CZ_RESULT_AT(POINT, check),
         CZ_RESULT_AT(POINT, where),           CZ_RESULT_AT(POINT, scenario),
         CZ_RESULT_AT(POINT, beyond_validity), CZ_RESULT_AT(POINT, message)};
     enum { n_column = sizeof columns / sizeof *columns };
-    CzResultContext context = {.sweep = sweep};
-    Table table = table_of(options, stream);
+    CzResultContext context = {.report = report};
+    Table table = table_of(cz_report_options_of(report), stream);
     for (int k = 0; k < sweep->n_axis; k++)
         put_text(&table, sweep->axis[k].path);
     for (int k = 0; k < sweep->n_metric; k++)

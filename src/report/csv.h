@@ -13,11 +13,8 @@ void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *
 void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *options, FILE *stream);
 void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FILE *stream);
 
-/* One row per point of a sweep. */
-void cz_csv_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FILE *stream);
-
-/* One row per evaluation of a search. */
-void cz_csv_write_history(const CzEvaluator *evaluator, const CzOutcome *outcome,
-                          const CzReportOptions *options, FILE *stream);
+/* One row per point of a sweep; one per evaluation of a search. */
+void cz_csv_write_sweep(const CzReport *report, FILE *stream);
+void cz_csv_write_history(const CzReport *report, FILE *stream);
 
 #endif

@@ -3,98 +3,23 @@
 
 #include "base/error.h"
 #include "base/memory_text.h"
-#include "report/compare.h"
+#include "report/options.h"
 #include "report/results.h"
 
-#include <math.h>
 #include <stdlib.h>
 
-CzStatus cz_report_write_summary(const CzProblem *problem, const CzEvaluation *evaluation,
-                                 const CzReportOptions *options, FILE *stream, CzError *error) {
-    CzResultContext context = {.format = "crushzone.summary",
-                               .problem = problem,
-                               .options = options,
-                               .evaluation = evaluation,
-                               .wall_s = options != NULL ? options->wall_s : NAN};
-    return cz_results_write(CZ_RECORD_SUMMARY, &context, evaluation, stream, error);
-}
+const CzRecord cz_document_records[CZ_N_REPORT] = {
+    [CZ_REPORT_RUN] = CZ_RECORD_SUMMARY,
+    [CZ_REPORT_SEARCH] = CZ_RECORD_OUTCOME,
+    [CZ_REPORT_SWEEP] = CZ_RECORD_SWEEP,
+    [CZ_REPORT_VERIFICATION] = CZ_RECORD_VERIFICATION,
+    [CZ_REPORT_BENCHMARK] = CZ_RECORD_BENCHMARK,
+    [CZ_REPORT_EXPLANATION] = CZ_RECORD_EXPLANATION,
+    [CZ_REPORT_COMPARISON] = CZ_RECORD_COMPARISON,
+    [CZ_REPORT_FIT] = CZ_RECORD_FIT,
+    [CZ_REPORT_MISTAKES] = CZ_RECORD_MISTAKES};
 
-CzStatus cz_report_write_outcome(const CzProblem *problem, const CzEvaluator *evaluator,
-                                 const CzOutcome *outcome, const CzReportOptions *options,
-                                 FILE *stream, CzError *error) {
-    CzResultContext context = {.format = "crushzone.outcome",
-                               .problem = problem,
-                               .options = options,
-                               .evaluation = &outcome->best_evaluation,
-                               .evaluator = evaluator,
-                               .outcome = outcome,
-                               .verification = outcome->verification,
-                               .wall_s = outcome->wall_s};
-    return cz_results_write(CZ_RECORD_OUTCOME, &context, outcome, stream, error);
-}
-
-CzStatus cz_report_write_verification(const CzProblem *problem, const CzVerification *verification,
-                                      const CzReportOptions *options, FILE *stream,
-                                      CzError *error) {
-    CzResultContext context = {.format = "crushzone.verification",
-                               .problem = problem,
-                               .options = options,
-                               .verification = verification};
-    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
-        context.wall_s += verification->wall_s[method];
-    return cz_results_write(CZ_RECORD_VERIFICATION, &context, verification, stream, error);
-}
-
-CzStatus cz_report_write_benchmark(const CzProblem *problem, const CzBenchmark *benchmark,
-                                   const CzReportOptions *options, FILE *stream, CzError *error) {
-    CzResultContext context = {.format = "crushzone.benchmark",
-                               .problem = problem,
-                               .options = options,
-                               .wall_s = benchmark->wall_s};
-    return cz_results_write(CZ_RECORD_BENCHMARK, &context, benchmark, stream, error);
-}
-
-CzStatus cz_report_write_sweep(const CzSweep *sweep, const CzReportOptions *options, FILE *stream,
-                               CzError *error) {
-    CzResultContext context = {.format = "crushzone.sweep",
-                               .problem = sweep->problem,
-                               .options = options,
-                               .sweep = sweep,
-                               .wall_s = sweep->wall_s};
-    return cz_results_write(CZ_RECORD_SWEEP, &context, sweep, stream, error);
-}
-
-CzStatus cz_report_write_explanation(const CzProblem *problem, const CzExplanation *explanation,
-                                     const CzReportOptions *options, FILE *stream, CzError *error) {
-    const CzRunSummary *run = cz_run_summary(explanation->run);
-    int order[CZ_N_BUDGET];
-    CzResultContext context = {.format = "crushzone.explanation",
-                               .problem = problem,
-                               .options = options,
-                               .explanation = explanation,
-                               .run = run,
-                               .order = order,
-                               .wall_s = explanation->wall_s};
-    if (run->budget != NULL)
-        context.n_order = cz_budget_order(&run->budget[explanation->vehicle], order);
-    return cz_results_write(CZ_RECORD_EXPLANATION, &context, explanation, stream, error);
-}
-
-CzStatus cz_report_write_comparison_json(int n, const CzReportRun *run, FILE *stream,
-                                         CzError *error) {
-    CzResultContext context = {.format = "crushzone.comparison",
-                               .n_compared = n < CZ_MOST_COMPARED ? n : CZ_MOST_COMPARED,
-                               .compared = run};
-    return cz_results_write(CZ_RECORD_COMPARISON, &context, &context, stream, error);
-}
-
-CzStatus cz_report_write_mistakes(int n_mistake, const CzError *const *mistake, FILE *stream,
-                                  CzError *error) {
-    CzResultContext context = {.n_mistake = n_mistake, .mistake = mistake};
-    return cz_results_write(CZ_RECORD_MISTAKES, &context, &context, stream, error);
-}
-
-/* The YAML text, to be freed; NULL without memory. */
+/* The YAML text of a law, to be freed; NULL without memory. */
 static char *yaml_of(const CzFit *fit) {
     CzMemoryText memory = {0};
     FILE *stream = cz_memory_text_open(&memory);
@@ -106,15 +31,71 @@ static char *yaml_of(const CzFit *fit) {
     return NULL;
 }
 
-CzStatus cz_report_write_fit(const CzFit *fit, FILE *stream, CzError *error) {
-    const bool is_written = cz_fit_summary(fit)->verdict != CZ_FIT_REFUSED;
+/* The YAML of a refused law is left out. */
+static CzStatus write_fit(const CzFit *fit, CzResultContext *context, FILE *stream,
+                          CzError *error) {
+    const CzFitSummary *summary = cz_fit_summary(fit);
+    const bool is_written = summary->verdict != CZ_FIT_REFUSED;
     char *yaml = is_written ? yaml_of(fit) : NULL;
-    CzResultContext context = {.format = "crushzone.fit", .fit = fit, .yaml = yaml};
-    const bool has_memory = yaml != NULL || !is_written;
-    const CzStatus status =
-        cz_results_write(CZ_RECORD_FIT, &context, cz_fit_summary(fit), stream, error);
+    context->yaml = yaml;
+    CzStatus status = cz_results_write(CZ_RECORD_FIT, context, summary, stream, error);
+    if (status == CZ_OK && is_written && yaml == NULL)
+        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a JSON document");
     free(yaml);
-    return has_memory || status != CZ_OK
-               ? status
-               : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a JSON document");
+    return status;
+}
+
+CzStatus cz_report_write_json(const CzReport *report, FILE *stream, CzError *error) {
+    const CzReportOptions *options = cz_report_options_of(report);
+    const CzVerification *verification = report->verification;
+    const CzExplanation *explanation = report->explanation;
+    int order[CZ_N_BUDGET];
+    CzResultContext context = {.report = report,
+                               .problem = report->problem,
+                               .options = options,
+                               .evaluation = report->evaluation,
+                               .wall_s = options->wall_s};
+    const void *data = report;
+    snprintf(context.format, sizeof context.format, "crushzone.%s",
+             cz_report_document_name((int)report->kind));
+    switch (report->kind) {
+    case CZ_REPORT_RUN:
+        data = report->evaluation;
+        break;
+    case CZ_REPORT_SEARCH:
+        context.evaluation = &report->outcome->best_evaluation;
+        context.wall_s = report->outcome->wall_s;
+        data = report->outcome;
+        break;
+    case CZ_REPORT_SWEEP:
+        context.problem = report->sweep->problem;
+        context.wall_s = report->sweep->wall_s;
+        data = report->sweep;
+        break;
+    case CZ_REPORT_VERIFICATION:
+        context.wall_s = 0;
+        for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
+            context.wall_s += verification->wall_s[method];
+        data = verification;
+        break;
+    case CZ_REPORT_BENCHMARK:
+        context.wall_s = report->benchmark->wall_s;
+        data = report->benchmark;
+        break;
+    case CZ_REPORT_EXPLANATION:
+        context.run = cz_run_summary(explanation->run);
+        context.wall_s = explanation->wall_s;
+        context.order = order;
+        if (context.run->budget != NULL)
+            context.n_order = cz_budget_order(&context.run->budget[explanation->vehicle], order);
+        data = explanation;
+        break;
+    case CZ_REPORT_FIT:
+        return write_fit(report->fit, &context, stream, error);
+    case CZ_REPORT_COMPARISON:
+    case CZ_REPORT_MISTAKES:
+    case CZ_N_REPORT:
+        break;
+    }
+    return cz_results_write(cz_document_records[report->kind], &context, data, stream, error);
 }

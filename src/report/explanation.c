@@ -3,7 +3,7 @@
 
 #include "report/checks_table.h"
 #include "report/figure.h"
-#include "report/table.h"
+#include "report/tables.h"
 #include "report/units.h"
 
 #include <math.h>
@@ -130,17 +130,15 @@ static void write_candidates(const CzExplanation *explanation, bool turning, CzT
     cz_table_write_text(&table, terminal);
 }
 
-CzStatus cz_report_write_explanation_table(const CzExplanation *explanation, bool colour,
-                                           FILE *stream) {
-    CzTerminal terminal = {stream, colour, false};
-    write_head(explanation, &terminal);
-    write_indicators(explanation, &terminal);
-    write_budget(explanation, &terminal);
-    write_candidates(explanation, true, &terminal);
-    write_candidates(explanation, false, &terminal);
+void cz_explanation_write_table(const CzReport *report, CzTerminal *terminal) {
+    const CzExplanation *explanation = report->explanation;
+    write_head(explanation, terminal);
+    write_indicators(explanation, terminal);
+    write_budget(explanation, terminal);
+    write_candidates(explanation, true, terminal);
+    write_candidates(explanation, false, terminal);
     if (explanation->has_cause)
-        fprintf(stream, "\n%s: %s: %s.\n",
+        fprintf(terminal->stream, "\n%s: %s: %s.\n",
                 explanation->worst.margin < 0 ? "First cause" : "First to fail",
                 cz_cause_text(explanation->cause), cz_cause_doc(explanation->cause));
-    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
 }

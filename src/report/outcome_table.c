@@ -7,6 +7,7 @@
 #include "report/figure.h"
 #include "report/outcome_table.h"
 #include "report/overlay.h"
+#include "report/tables.h"
 
 #include <math.h>
 
@@ -253,25 +254,23 @@ static void write_verification(const CzVerification *verification, CzTerminal *t
         write_worst(verification, (CzVerifyMethod)method, terminal->stream);
 }
 
-CzStatus cz_report_write_outcome_table(const CzProblem *problem, const CzEvaluator *evaluator,
-                                       const CzOutcome *outcome, bool colour, FILE *stream) {
-    CzTerminal terminal = {stream, colour, false};
-    cz_terminal_say(&terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(problem));
-    write_head(evaluator, outcome, &terminal);
-    write_variables(evaluator, outcome, &terminal);
+void cz_outcome_write_table(const CzReport *report, CzTerminal *terminal) {
+    const CzEvaluator *evaluator = report->evaluator;
+    const CzOutcome *outcome = report->outcome;
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
+    write_head(evaluator, outcome, terminal);
+    write_variables(evaluator, outcome, terminal);
     if (cz_evaluator_is_fit(evaluator)) {
-        write_matches(outcome, &terminal);
-        write_alternatives(evaluator, outcome, &terminal);
+        write_matches(outcome, terminal);
+        write_alternatives(evaluator, outcome, terminal);
     }
-    cz_checks_write_table(&outcome->best_evaluation, &outcome->start_evaluation, &terminal);
-    write_violations(evaluator, outcome, &terminal);
-    write_verification(outcome->verification, &terminal);
+    cz_checks_write_table(&outcome->best_evaluation, &outcome->start_evaluation, terminal);
+    write_violations(evaluator, outcome, terminal);
+    write_verification(outcome->verification, terminal);
 
-    fputs("\nNew values:\n", stream);
-    const bool has_values =
-        cz_overlay_write_values(evaluator, outcome, NULL, stream, NULL) == CZ_OK;
-    if (!has_values)
-        fputs("no memory for the new values\n", stream);
-    terminal.failed |= !has_values;
-    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
+    fputs("\nNew values:\n", terminal->stream);
+    if (cz_overlay_write_values(report, false, terminal->stream, NULL) == CZ_OK)
+        return;
+    fputs("no memory for the new values\n", terminal->stream);
+    terminal->failed = true;
 }

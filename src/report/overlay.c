@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "problem/problem.h"
+#include "report/options.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -88,12 +89,14 @@ static const char *drawn_stroke_at(const CzVariablePlace *place, CzArena *arena)
     return text;
 }
 
-/* Settings "path=value" that turn the problem file into the best design: those of the command line,
- * then the best value of every place that a variable sets, exact to the last bit; no path is in it
- * twice. NULL without memory. */
-static const char **settings_of(const CzEvaluator *evaluator, const CzOutcome *outcome,
-                                const CzReportOptions *options, CzArena *arena, int *n_setting) {
-    const int n_given = options != NULL ? options->n_set : 0;
+/* Settings "path=value" that turn the problem file into the best design: with `all` those of the
+ * command line, then the best value of every place that a variable sets, exact to the last bit; no
+ * path is in it twice. NULL without memory. */
+static const char **settings_of(const CzReport *report, bool all, CzArena *arena, int *n_setting) {
+    const CzReportOptions *options = cz_report_options_of(report);
+    const CzEvaluator *evaluator = report->evaluator;
+    const CzOutcome *outcome = report->outcome;
+    const int n_given = all ? options->n_set : 0;
     size_t room = (size_t)n_given + 1;
     for (int variable = 0; variable < outcome->n_variable; variable++)
         room += 2 * (size_t)cz_evaluator_n_place(evaluator, variable);
@@ -130,11 +133,10 @@ static void write_set(int n_setting, const char *const *setting, FILE *stream) {
     }
 }
 
-CzStatus cz_overlay_write_values(const CzEvaluator *evaluator, const CzOutcome *outcome,
-                                 const CzReportOptions *options, FILE *stream, CzError *error) {
+CzStatus cz_overlay_write_values(const CzReport *report, bool all, FILE *stream, CzError *error) {
     CzArena arena = {0};
     int n_setting;
-    const char **setting = settings_of(evaluator, outcome, options, &arena, &n_setting);
+    const char **setting = settings_of(report, all, &arena, &n_setting);
     if (setting != NULL)
         write_set(n_setting, setting, stream);
     cz_arena_free(&arena);
@@ -142,38 +144,29 @@ CzStatus cz_overlay_write_values(const CzEvaluator *evaluator, const CzOutcome *
                            : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
 }
 
-/* The problem read again with the best values. */
-static CzStatus read_best(const CzProblem *problem, const CzReportOptions *options, int n_setting,
-                          const char *const *setting, CzProblem **best, CzError *error) {
-    CzProblemOptions read = cz_problem_options_default();
-    read.set = setting;
-    read.n_set = n_setting;
-    read.share_folder = cz_problem_share_folder(problem);
-    if (options->text == NULL)
-        return cz_problem_read(cz_problem_file(problem), &read, best, error);
-    return cz_problem_read_text(options->text, options->n_text, cz_problem_file(problem), ".",
-                                &read, best, error);
-}
-
-CzStatus cz_overlay_read_best(const CzProblem *problem, const CzEvaluator *evaluator,
-                              const CzOutcome *outcome, const CzReportOptions *options,
-                              CzProblem **best, CzError *error) {
+CzStatus cz_overlay_read_best(const CzReport *report, CzProblem **best, CzError *error) {
+    const CzReportOptions *options = cz_report_options_of(report);
+    const char *file = cz_problem_file(report->problem);
     CzArena arena = {0};
-    int n_setting;
-    const char **setting = settings_of(evaluator, outcome, options, &arena, &n_setting);
-    const CzStatus status =
-        setting != NULL ? read_best(problem, options, n_setting, setting, best, error)
-                        : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the best values");
+    CzProblemOptions read = cz_problem_options_default();
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    read.share_folder = cz_problem_share_folder(report->problem);
+    read.set = settings_of(report, true, &arena, &read.n_set);
+    if (read.set == NULL)
+        status = cz_fail(error, status, "no memory for the best values");
+    else if (options->text == NULL)
+        status = cz_problem_read(file, &read, best, error);
+    else
+        status =
+            cz_problem_read_text(options->text, options->n_text, file, ".", &read, best, error);
     cz_arena_free(&arena);
     return status;
 }
 
-CzStatus cz_overlay_write_resolved(const CzProblem *problem, const CzEvaluator *evaluator,
-                                   const CzOutcome *outcome, const CzReportOptions *options,
-                                   FILE *stream, CzError *error) {
+CzStatus cz_overlay_write_resolved(const CzReport *report, FILE *stream, CzError *error) {
     CzProblem *best = NULL;
     CzError mistake = {0};
-    CzStatus status = cz_overlay_read_best(problem, evaluator, outcome, options, &best, &mistake);
+    CzStatus status = cz_overlay_read_best(report, &best, &mistake);
     if (status == CZ_OK) {
         status = cz_problem_write_resolved_there(best, stream, error);
     } else if (status == CZ_STATUS_NO_MEMORY) {
@@ -181,7 +174,7 @@ CzStatus cz_overlay_write_resolved(const CzProblem *problem, const CzEvaluator *
     } else { /* such as a file that has changed meanwhile: the best values must still be written */
         fprintf(stream, "# The problem cannot be read again (%s), so these are the values alone.\n",
                 mistake.message);
-        status = cz_overlay_write_values(evaluator, outcome, options, stream, error);
+        status = cz_overlay_write_values(report, true, stream, error);
     }
     cz_problem_free(best);
     return status;
@@ -233,27 +226,24 @@ static bool resolve_folder(const char *folder, char resolved[PATH_MAX]) {
     return written > 0 && written < PATH_MAX;
 }
 
-CzStatus cz_report_write_overlay(const CzProblem *problem, const CzEvaluator *evaluator,
-                                 const CzOutcome *outcome, const CzReportOptions *options,
-                                 const char *folder, FILE *stream, CzError *error) {
+CzStatus cz_overlay_write(const CzReport *report, const char *folder, FILE *stream,
+                          CzError *error) {
     char file[PATH_MAX], from[PATH_MAX], path[PATH_MAX];
-    const CzReportOptions absent = cz_report_options_default();
-    if (options == NULL)
-        options = &absent;
+    const CzOutcome *outcome = report->outcome;
     fprintf(stream, "# The best design of %ld evaluation%s: %s. Verdict of its checks: %s.\n",
             outcome->n_evaluation, outcome->n_evaluation == 1 ? "" : "s",
             outcome->best_evaluation.violation <= 0 ? "it satisfies every constraint"
                                                     : "IT VIOLATES A CONSTRAINT",
             cz_verdict_text(outcome->best_evaluation.verdict));
-    if (options->text == NULL && realpath(cz_problem_file(problem), file) != NULL &&
-        resolve_folder(folder, from)) {
+    if (cz_report_options_of(report)->text == NULL &&
+        realpath(cz_problem_file(report->problem), file) != NULL && resolve_folder(folder, from)) {
         relative_path(from, file, sizeof path, path);
         fputs("extends: ", stream);
         write_quoted(path, strlen(path), stream);
         fputc('\n', stream);
-        CZ_TRY(cz_overlay_write_values(evaluator, outcome, options, stream, error));
+        CZ_TRY(cz_overlay_write_values(report, true, stream, error));
     } else {
-        CZ_TRY(cz_overlay_write_resolved(problem, evaluator, outcome, options, stream, error));
+        CZ_TRY(cz_overlay_write_resolved(report, stream, error));
     }
     if (fflush(stream) != 0 || ferror(stream))
         return cz_fail(error, CZ_STATUS_OUTPUT, "the overlay cannot be written: %s",

@@ -1,4 +1,4 @@
-/* The optimum as settings of a problem file. */
+/* The optimum as settings of a problem file. All are about the report of a search. */
 #ifndef CZ_REPORT_OVERLAY_H
 #define CZ_REPORT_OVERLAY_H
 
@@ -6,26 +6,25 @@
 
 #include "crushzone/report.h"
 
-/* Writes the record `set:` of the best design: the settings of the command line in `options` (NULL:
- * none), then the best value of every place that a variable sets, exact to the last bit. Status:
+/* Writes the record `set:` of the best design: with `all` the settings of the command line first,
+ * then the best value of every place that a variable sets, exact to the last bit. Status:
  * CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_overlay_write_values(const CzEvaluator *evaluator,
-                                               const CzOutcome *outcome,
-                                               const CzReportOptions *options, FILE *stream,
+CZ_MUST_CHECK CzStatus cz_overlay_write_values(const CzReport *report, bool all, FILE *stream,
                                                CzError *error);
 
 /* Reads the problem again with the best values; the caller frees *best, also after a failure.
  * Statuses: as cz_problem_read. */
-CZ_MUST_CHECK CzStatus cz_overlay_read_best(const CzProblem *problem, const CzEvaluator *evaluator,
-                                            const CzOutcome *outcome,
-                                            const CzReportOptions *options, CzProblem **best,
+CZ_MUST_CHECK CzStatus cz_overlay_read_best(const CzReport *report, CzProblem **best,
                                             CzError *error);
 
 /* Writes the resolved problem with the best values. Status: CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_overlay_write_resolved(const CzProblem *problem,
-                                                 const CzEvaluator *evaluator,
-                                                 const CzOutcome *outcome,
-                                                 const CzReportOptions *options, FILE *stream,
+CZ_MUST_CHECK CzStatus cz_overlay_write_resolved(const CzReport *report, FILE *stream,
                                                  CzError *error);
+
+/* Writes the optimum as a problem file for `folder`: `extends:` the problem's file and `set:` the
+ * best values. A problem that came from standard input is written out whole. Statuses:
+ * CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_overlay_write(const CzReport *report, const char *folder, FILE *stream,
+                                        CzError *error);
 
 #endif

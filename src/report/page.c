@@ -1,6 +1,8 @@
 /* The report of a run: its sections in their order. */
 #include "report/page.h"
 
+#include "report/options.h"
+
 void cz_page_write_parts(CzPage *page) {
     cz_page_write_trains(page);
     cz_page_write_figures(page);
@@ -21,11 +23,12 @@ static void write_run(CzPage *page, bool is_top) {
     cz_page_write_foot(&page->markup);
 }
 
-CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation, int scenario,
-                           bool is_top, const CzReportOptions *options, FILE *stream,
+CzStatus cz_page_write_run(const CzReport *report, int scenario, bool is_top, FILE *stream,
                            CzError *error) {
-    CzPage page = {
-        .problem = problem, .evaluation = evaluation, .options = options, .scenario = scenario};
+    CzPage page = {.problem = report->problem,
+                   .evaluation = report->evaluation,
+                   .options = cz_report_options_of(report),
+                   .scenario = scenario};
     CzStatus status = cz_page_begin(&page, error);
     if (status == CZ_OK)
         status = cz_page_collect_parts(&page, error);

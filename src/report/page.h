@@ -84,17 +84,17 @@ static inline const double *cz_page_values(const CzPage *page, CzDrawn drawn, in
 /* Writes the report of a run: the checks of all scenarios and the figures of one. With is_top it
  * links the reports of the other scenarios in their folders. Statuses: CZ_STATUS_INPUT,
  * CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation,
-                                         int scenario, bool is_top, const CzReportOptions *options,
+CZ_MUST_CHECK CzStatus cz_page_write_run(const CzReport *report, int scenario, bool is_top,
                                          FILE *stream, CzError *error);
 
 /* Writes the report of a search: variables, checks before and after, then the run of the best
- * design compared with that of the start. `best` is the problem read with the best values.
+ * design compared with that of the start. The problem is the one read with the best values.
  * Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluator,
-                                             const CzOutcome *outcome,
-                                             const CzReportOptions *options, FILE *stream,
-                                             CzError *error);
+CZ_MUST_CHECK CzStatus cz_page_write_outcome(const CzReport *report, FILE *stream, CzError *error);
+
+/* Writes a comparison: what differs, and curves over each other. Statuses: as above. */
+CZ_MUST_CHECK CzStatus cz_page_write_comparison(const CzReport *report, FILE *stream,
+                                                CzError *error);
 
 /* The parts about one run, from the trains to the inputs, and the data for the script. */
 void cz_page_write_parts(CzPage *page);

@@ -4,43 +4,44 @@
 #include "base/error.h"
 #include "report/charts.h"
 #include "report/compare.h"
+#include "report/options.h"
 #include "report/plot.h"
 #include "report/sheet.h"
 
-static void write_checks(CzMarkup *markup, int n, const CzReportRun *run) {
+static void write_checks(CzMarkup *markup, const CzReport *report) {
     CzReportTable table;
     int n_same;
     cz_markup_write(markup, "<section id='checks'>\n<h2>Checks that differ</h2>\n");
-    cz_compared_begin_checks(&table, n, run, &n_same);
+    cz_compared_begin_checks(&table, report, &n_same);
     cz_table_write_page(&table, markup);
     if (n_same > 0)
         cz_markup_write(markup, "<p>%d checks are the same.</p>", n_same);
     cz_markup_write(markup, "</section>\n");
 }
 
-static void write_numbers(CzMarkup *markup, int n, const CzReportRun *run, bool of_interface) {
+static void write_numbers(CzMarkup *markup, const CzReport *report, bool of_interface) {
     CzReportTable table;
-    cz_compared_begin_numbers(&table, n, run, of_interface, true);
+    cz_compared_begin_numbers(&table, report, of_interface, true);
     cz_table_write_page(&table, markup);
 }
 
 /* One channel of all runs over time. */
-static void write_overlay(CzMarkup *markup, int n, const CzReportRun *run, const char *title,
+static void write_overlay(CzMarkup *markup, const CzReport *report, const char *title,
                           CzChannel channel, int place) {
-    const CzRunSummary *first = cz_compared_run(run, 0);
+    const CzRunSummary *first = cz_compared_run(report, 0);
     CzSeries series[CZ_MOST_COMPARED];
     CzPlotBand band[CZ_MOST_COMPARED];
     char label[2][CZ_DRAWN_LABEL];
     int n_series = 0, n_band = 0;
-    for (int i = 0; i < n; i++) {
-        const int scenario = cz_compared_scenario(run, i);
-        const CzRun *own = scenario >= 0 ? run[i].evaluation->run[scenario] : NULL;
+    for (int i = 0; i < report->n_compared; i++) {
+        const int scenario = cz_compared_scenario(report, i);
+        const CzRun *own = scenario >= 0 ? report->compared[i].evaluation->run[scenario] : NULL;
         const double *time = own != NULL ? cz_run_channel(own, CZ_CHANNEL_TIME, 0) : NULL;
         const double *y = own != NULL ? cz_drawn_beside(first, channel, place, own) : NULL;
-        if (time != NULL && y != NULL && cz_compared_is_beyond(run, i))
-            band[n_band++] = cz_band_beyond(cz_compared_run(run, i), time, cz_run_n_sample(own));
+        if (time != NULL && y != NULL && cz_compared_is_beyond(report, i))
+            band[n_band++] = cz_band_beyond(cz_compared_run(report, i), time, cz_run_n_sample(own));
         if (time != NULL && y != NULL)
-            series[n_series++] = (CzSeries){.name = run[i].label,
+            series[n_series++] = (CzSeries){.name = report->compared[i].label,
                                             .n = cz_run_n_sample(own),
                                             .x = time,
                                             .y = y,
@@ -69,7 +70,7 @@ static void write_loops(CzPage *page) {
     cz_markup_write(markup, "</div></section>\n");
 }
 
-static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
+static void write_overlays(CzPage *page, const CzReport *report) {
     static const struct {
         const char *title;
         CzChannel channel;
@@ -81,51 +82,49 @@ static void write_overlays(CzPage *page, int n, const CzReportRun *run) {
     cz_markup_write(&page->markup,
                     "<section id='time'>\n<h2>Over time</h2>\n<div class='figures'>");
     for (size_t i = 0; i < sizeof overlays / sizeof *overlays; i++)
-        write_overlay(&page->markup, n, run, overlays[i].title, overlays[i].channel, colliding);
+        write_overlay(&page->markup, report, overlays[i].title, overlays[i].channel, colliding);
     cz_markup_write(&page->markup, "</div></section>\n");
 }
 
-static void write_page(CzPage *page, int n, const CzReportRun *run) {
+static void write_page(CzPage *page, const CzReport *report) {
     CzMarkup *markup = &page->markup;
     char title[CZ_SENTENCE_ROOM];
     snprintf(title, sizeof title, "%s, compared", cz_problem_title(page->problem));
     cz_page_write_head(markup, title);
     cz_markup_write(markup, "<h1>%s</h1><p>Figures are those of scenario %s.</p>", title,
                     page->summary->scenario);
-    if (cz_compared_caution(n, run)[0] != '\0')
-        cz_markup_write(markup, "<p class='fail'>%s</p>", cz_compared_caution(n, run));
-    write_checks(markup, n, run);
+    if (cz_compared_caution(report)[0] != '\0')
+        cz_markup_write(markup, "<p class='fail'>%s</p>", cz_compared_caution(report));
+    write_checks(markup, report);
     cz_markup_write(markup, "<section id='numbers'>\n<h2>Interfaces and cars</h2>\n"
                             "<div class='tables'>");
-    write_numbers(markup, n, run, true);
-    write_numbers(markup, n, run, false);
+    write_numbers(markup, report, true);
+    write_numbers(markup, report, false);
     cz_markup_write(markup, "</div></section>\n");
     write_loops(page);
-    write_overlays(page, n, run);
+    write_overlays(page, report);
     cz_page_write_foot(markup);
 }
 
-CzStatus cz_report_write_comparison_page(int n, const CzReportRun *run,
-                                         const CzReportOptions *options, FILE *stream,
-                                         CzError *error) {
+CzStatus cz_page_write_comparison(const CzReport *report, FILE *stream, CzError *error) {
+    const CzReportRun *run = report->compared;
     CzPageOther other[CZ_MOST_COMPARED];
-    n = n < CZ_MOST_COMPARED ? n : CZ_MOST_COMPARED;
-    if (n < 1 || cz_compared_run(run, 0) == NULL)
+    if (report->n_compared < 1 || cz_compared_run(report, 0) == NULL)
         return cz_fail(error, CZ_STATUS_INPUT, "no run was kept to compare");
     CzPage page = {.problem = run[0].problem,
                    .evaluation = run[0].evaluation,
-                   .options = options,
-                   .scenario = cz_compared_scenario(run, 0),
+                   .options = cz_report_options_of(report),
+                   .scenario = cz_compared_scenario(report, 0),
                    .label = run[0].label,
                    .other = other};
-    for (int i = 1; i < n; i++) {
-        const int its = cz_compared_scenario(run, i);
-        if (cz_compared_run(run, i) != NULL)
+    for (int i = 1; i < report->n_compared; i++) {
+        const int its = cz_compared_scenario(report, i);
+        if (cz_compared_run(report, i) != NULL)
             other[page.n_other++] = (CzPageOther){run[i].label, run[i].evaluation->run[its]};
     }
     CzStatus status = cz_page_begin(&page, error);
     if (status == CZ_OK) {
-        write_page(&page, n, run);
+        write_page(&page, report);
         status = cz_page_finish(&page, stream, error);
     }
     cz_page_free(&page);

@@ -6,6 +6,7 @@
 #include "report/checks_table.h"
 #include "report/charts.h"
 #include "report/figure.h"
+#include "report/options.h"
 #include "report/outcome_table.h"
 #include "report/overlay.h"
 #include "report/plot.h"
@@ -175,12 +176,10 @@ static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const C
     cz_markup_write(markup, "</section>\n");
 }
 
-static CzStatus write_values(CzMarkup *markup, const CzEvaluator *evaluator,
-                             const CzOutcome *outcome, CzError *error) {
+static CzStatus write_values(CzMarkup *markup, const CzReport *report, CzError *error) {
     CzMemoryText memory = {0};
     FILE *stream = cz_memory_text_open(&memory);
-    bool fits =
-        stream != NULL && cz_overlay_write_values(evaluator, outcome, NULL, stream, NULL) == CZ_OK;
+    bool fits = stream != NULL && cz_overlay_write_values(report, false, stream, NULL) == CZ_OK;
     if (stream != NULL)
         fits &= fclose(stream) == 0 && !memory.failed && memory.text != NULL;
     if (fits)
@@ -218,8 +217,9 @@ static void write_verification(CzMarkup *markup, const CzVerification *verificat
 
 /* ---- the page ---- */
 
-static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzOutcome *outcome,
-                           CzError *error) {
+static CzStatus write_page(CzPage *page, const CzReport *report, CzError *error) {
+    const CzEvaluator *evaluator = report->evaluator;
+    const CzOutcome *outcome = report->outcome;
     CzMarkup *markup = &page->markup;
     char title[CZ_SENTENCE_ROOM];
     snprintf(title, sizeof title, "%s, optimised", cz_problem_title(page->problem));
@@ -235,7 +235,7 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     write_verification(markup, outcome->verification);
     CZ_TRY(write_search(markup, evaluator, outcome, error));
     CZ_TRY(cz_page_write_designs(markup, evaluator, outcome, error));
-    CZ_TRY(write_values(markup, evaluator, outcome, error));
+    CZ_TRY(write_values(markup, report, error));
     cz_markup_write(
         markup, "<h2>The best design</h2><p>What follows is scenario %s of the best design%s</p>",
         page->summary->scenario,
@@ -245,18 +245,17 @@ static CzStatus write_page(CzPage *page, const CzEvaluator *evaluator, const CzO
     return CZ_OK;
 }
 
-CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluator,
-                               const CzOutcome *outcome, const CzReportOptions *options,
-                               FILE *stream, CzError *error) {
+CzStatus cz_page_write_outcome(const CzReport *report, FILE *stream, CzError *error) {
+    const CzOutcome *outcome = report->outcome;
     const CzEvaluation *evaluation = &outcome->best_evaluation;
     const CzEvaluation *start = &outcome->start_evaluation;
     const int scenario = cz_page_deciding(evaluation);
     const bool has_start =
         start->run != NULL && scenario < start->n_run && start->run[scenario] != NULL;
     const CzPageOther before = {"before", has_start ? start->run[scenario] : NULL};
-    CzPage page = {.problem = best,
+    CzPage page = {.problem = report->problem,
                    .evaluation = evaluation,
-                   .options = options,
+                   .options = cz_report_options_of(report),
                    .scenario = scenario,
                    .label = has_start ? "after, with unloading" : NULL,
                    .n_other = has_start,
@@ -265,7 +264,7 @@ CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluat
     if (status == CZ_OK)
         status = cz_page_collect_parts(&page, error);
     if (status == CZ_OK)
-        status = write_page(&page, evaluator, outcome, error);
+        status = write_page(&page, report, error);
     if (status == CZ_OK)
         status = cz_page_finish(&page, stream, error);
     cz_page_free(&page);

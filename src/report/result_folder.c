@@ -7,6 +7,7 @@
 #include "problem/problem.h"
 #include "report/csv.h"
 #include "report/folder.h"
+#include "report/options.h"
 #include "report/overlay.h"
 #include "report/page.h"
 #include "report/page_sweep.h"
@@ -14,19 +15,13 @@
 
 #include <string.h>
 
-/* Everything that the files are made of. `outcome` and `evaluator` are NULL for a run; of a sweep
- * there is nothing else but options and folder. */
+/* Everything that the files are made of. */
 typedef struct Results {
-    const CzProblem *problem;
-    const CzEvaluator *evaluator;
-    const CzOutcome *outcome;
-    const CzEvaluation *evaluation;
-    const CzSweep *sweep;
-    const CzReportOptions *options;
+    const CzReport *report;
+    CzReport run;              /* of a search, the run of its best design */
     const CzProblem *computed; /* what the runs were computed from: of a search, the problem with
                                   the best values; NULL when it cannot be read again */
     int scenario;              /* at hand */
-    bool has_report;           /* the figures' problem could be read */
     bool is_top;               /* its files are at the top of the folder */
     const char *folder;        /* final path */
     const CzSource *input;     /* file to copy, at hand */
@@ -64,20 +59,22 @@ static void write_notice(const CzError *notice, FILE *stream) {
 
 /* The log of the run, without times, so that equal runs have equal logs. */
 static void write_log(const Results *results, FILE *stream) {
+    const CzProblem *problem = results->run.problem;
+    const CzReportOptions *options = cz_report_options_of(results->report);
+    const CzOutcome *outcome = results->report->outcome;
     char nlopt[32] = "";
     cz_nlopt_version(nlopt, sizeof nlopt);
     fprintf(stream, "crushzone %s, NLopt %s\n", cz_version(), nlopt);
-    fprintf(stream, "problem %s (%s), hash %s\n", cz_problem_title(results->problem),
-            cz_problem_file(results->problem), cz_problem_hash(results->problem));
-    for (int i = 0; i < results->options->n_set; i++)
-        fprintf(stream, "set %s\n", results->options->set[i]);
-    for (int i = 0; i < cz_problem_n_warning(results->problem); i++)
-        write_notice(cz_problem_warning(results->problem, i), stream);
-    if (results->outcome != NULL)
+    fprintf(stream, "problem %s (%s), hash %s\n", cz_problem_title(problem),
+            cz_problem_file(problem), cz_problem_hash(problem));
+    for (int i = 0; i < options->n_set; i++)
+        fprintf(stream, "set %s\n", options->set[i]);
+    for (int i = 0; i < cz_problem_n_warning(problem); i++)
+        write_notice(cz_problem_warning(problem, i), stream);
+    if (outcome != NULL)
         fprintf(stream, "optimise: %s after %ld evaluations: %s\n",
-                cz_outcome_text(results->outcome->status), results->outcome->n_evaluation,
-                results->outcome->why_stopped);
-    const CzEvaluation *evaluation = results->evaluation;
+                cz_outcome_text(outcome->status), outcome->n_evaluation, outcome->why_stopped);
+    const CzEvaluation *evaluation = results->run.evaluation;
     for (int i = 0; i < evaluation->n_run; i++) {
         const CzRunSummary *run = cz_kept_run(evaluation, i);
         if (run == NULL)
@@ -95,59 +92,51 @@ static void write_input(const CzSource *input, FILE *stream) {
         fprintf(stream, "%s\n", input->line[i]);
 }
 
-/* The problem that gives these results when it is run alone: of a search, with the best values. */
-static CzStatus write_resolved(const Results *results, FILE *stream, CzError *error) {
-    if (results->outcome == NULL)
-        return cz_problem_write_resolved_there(results->problem, stream, error);
-    return cz_overlay_write_resolved(results->problem, results->evaluator, results->outcome,
-                                     results->options, stream, error);
-}
-
 static CzStatus write_report(const Results *results, FILE *stream, CzError *error) {
-    if (results->outcome != NULL && results->is_top)
-        return cz_page_write_outcome(results->computed, results->evaluator, results->outcome,
-                                     results->options, stream, error);
-    return cz_page_write_run(results->computed, results->evaluation, results->scenario,
-                             results->is_top, results->options, stream, error);
+    const bool is_search = results->report->outcome != NULL && results->is_top;
+    CzReport report = is_search ? *results->report : results->run;
+    report.problem = results->computed;
+    return is_search
+               ? cz_page_write_outcome(&report, stream, error)
+               : cz_page_write_run(&report, results->scenario, results->is_top, stream, error);
 }
 
 /* Writes what a file contains; a full disk shows when the file is closed. */
 static CzStatus write_content(const Results *results, Content content, FILE *stream,
                               CzError *error) {
-    const CzReportOptions *options = results->options;
+    const CzReport *report = results->report;
+    const CzReportOptions *options = cz_report_options_of(report);
+    const CzEvaluation *evaluation = results->run.evaluation;
     switch (content) {
     case SUMMARY:
-        return cz_report_write_summary(results->problem, results->evaluation, options, stream,
-                                       error);
+        return cz_report_write_json(&results->run, stream, error);
     case OUTCOME:
-        return cz_report_write_outcome(results->problem, results->evaluator, results->outcome,
-                                       options, stream, error);
+    case SWEEP:
+        return cz_report_write_json(report, stream, error);
     case OVERLAY:
-        return cz_report_write_overlay(results->problem, results->evaluator, results->outcome,
-                                       options, results->folder, stream, error);
-    case RESOLVED:
-        return write_resolved(results, stream, error);
+        return cz_overlay_write(report, results->folder, stream, error);
+    case RESOLVED: /* the problem that gives these results when it is run alone */
+        return report->outcome != NULL
+                   ? cz_overlay_write_resolved(report, stream, error)
+                   : cz_problem_write_resolved_there(report->problem, stream, error);
     case REPORT:
         return write_report(results, stream, error);
-    case SWEEP:
-        return cz_report_write_sweep(results->sweep, options, stream, error);
     case SWEEP_REPORT:
-        return cz_page_write_sweep(results->sweep, stream, error);
+        return cz_page_write_sweep(report->sweep, stream, error);
     case SWEEP_POINTS:
-        cz_csv_write_sweep(results->sweep, options, stream);
+        cz_csv_write_sweep(report, stream);
         break;
     case CHECKS:
-        cz_csv_write_checks(results->evaluation, options, stream);
+        cz_csv_write_checks(evaluation, options, stream);
         break;
     case HISTORY:
-        cz_csv_write_history(results->evaluator, results->outcome, options, stream);
+        cz_csv_write_history(report, stream);
         break;
     case INTERFACES:
-        cz_csv_write_interfaces(cz_kept_run(results->evaluation, results->scenario), options,
-                                stream);
+        cz_csv_write_interfaces(cz_kept_run(evaluation, results->scenario), options, stream);
         break;
     case CHANNELS:
-        cz_csv_write_channels(results->evaluation->run[results->scenario], options, stream);
+        cz_csv_write_channels(evaluation->run[results->scenario], options, stream);
         break;
     case RUN_LOG:
         write_log(results, stream);
@@ -181,12 +170,12 @@ static CzStatus write_files(CzFolder *folder, int n, const File *file, const Res
 static CzStatus write_run(CzFolder *folder, Results *results, int i, CzError *error) {
     static const File files[] = {
         {"interfaces.csv", INTERFACES}, {"channels.csv", CHANNELS}, {"report.html", REPORT}};
-    const bool several = cz_n_kept_run(results->evaluation) > 1;
+    const bool several = cz_n_kept_run(results->run.evaluation) > 1;
     char scenario[CZ_NAME_ROOM], name[CZ_NAME_ROOM + 32];
     results->scenario = i;
     results->is_top = false;
-    cz_page_folder_name(cz_kept_run(results->evaluation, i)->scenario, scenario);
-    for (int k = 0; k < (several && results->has_report ? 3 : 2); k++) {
+    cz_page_folder_name(cz_kept_run(results->run.evaluation, i)->scenario, scenario);
+    for (int k = 0; k < (several && results->computed != NULL ? 3 : 2); k++) {
         snprintf(name, sizeof name, "%s%s%s", several ? scenario : "", several ? "/" : "",
                  files[k].name);
         CZ_TRY(write_file(folder, name, files[k].content, results, error));
@@ -196,7 +185,7 @@ static CzStatus write_run(CzFolder *folder, Results *results, int i, CzError *er
 
 /* Profiles are in the folder as they are searched for beside a problem file. */
 static CzStatus write_profiles(CzFolder *folder, Results *results, CzError *error) {
-    for (const CzSource *source = cz_problem_first_source(results->problem); source != NULL;
+    for (const CzSource *source = cz_problem_first_source(results->run.problem); source != NULL;
          source = source->next) {
         const char *file = strrchr(source->name, '/');
         char name[160];
@@ -215,7 +204,7 @@ static CzStatus write_profiles(CzFolder *folder, Results *results, CzError *erro
 static CzStatus write_measured(CzFolder *folder, Results *results, CzError *error) {
     char name[256];
     for (int number = 1;; number++) {
-        results->input = cz_problem_measured_file(results->problem, number, sizeof name, name);
+        results->input = cz_problem_measured_file(results->run.problem, number, sizeof name, name);
         if (results->input == NULL)
             return CZ_OK;
         CZ_TRY(write_file(folder, name, INPUT_FILE, results, error));
@@ -229,24 +218,26 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
                                  {"history.csv", HISTORY}};
     static const File of_sweep[] = {
         {"sweep.json", SWEEP}, {"sweep.csv", SWEEP_POINTS}, {"report.html", SWEEP_REPORT}};
-    if (results->sweep != NULL)
+    if (results->report->kind == CZ_REPORT_SWEEP)
         return write_files(folder, 3, of_sweep, results, error);
-    CZ_TRY(write_files(folder, results->outcome != NULL ? 7 : 4, files, results, error));
+    CZ_TRY(write_files(folder, results->report->outcome != NULL ? 7 : 4, files, results, error));
     CZ_TRY(write_profiles(folder, results, error));
     CZ_TRY(write_measured(folder, results, error));
-    for (int i = 0; i < results->evaluation->n_run; i++)
-        if (cz_kept_run(results->evaluation, i) != NULL)
+    for (int i = 0; i < results->run.evaluation->n_run; i++)
+        if (cz_kept_run(results->run.evaluation, i) != NULL)
             CZ_TRY(write_run(folder, results, i, error));
-    results->scenario = cz_page_deciding(results->evaluation);
+    results->scenario = cz_page_deciding(results->run.evaluation);
     results->is_top = true;
-    return results->scenario >= 0 && results->has_report
+    return results->scenario >= 0 && results->computed != NULL
                ? write_file(folder, "report.html", REPORT, results, error)
                : CZ_OK;
 }
 
 static CzStatus write_folder(Results *results, CzError *error) {
+    const bool replaces_search = results->report->kind == CZ_REPORT_SEARCH ||
+                                 cz_report_options_of(results->report)->replaces_search;
     CzFolder folder;
-    CZ_TRY(cz_folder_begin(&folder, results->folder, results->options->replaces_search, error));
+    CZ_TRY(cz_folder_begin(&folder, results->folder, replaces_search, error));
     const CzStatus status = write_all(&folder, results, error);
     if (status == CZ_OK)
         return cz_folder_finish(&folder, error);
@@ -254,9 +245,9 @@ static CzStatus write_folder(Results *results, CzError *error) {
     return status;
 }
 
-CzStatus cz_report_check_folder(const CzProblem *problem, const char *folder,
-                                const CzReportOptions *options, CzError *error) {
-    CZ_TRY(cz_folder_check(folder, options != NULL && options->replaces_search, error));
+CzStatus cz_report_check_folder(const CzProblem *problem, const char *folder, bool replaces_search,
+                                CzError *error) {
+    CZ_TRY(cz_folder_check(folder, replaces_search, error));
     const CzSource *source = problem != NULL ? cz_problem_first_source(problem) : NULL;
     for (; source != NULL; source = source->next)
         if (cz_folder_holds(folder, source->name))
@@ -267,36 +258,17 @@ CzStatus cz_report_check_folder(const CzProblem *problem, const char *folder,
     return CZ_OK;
 }
 
-CzStatus cz_report_write_folder(const CzProblem *problem, const CzEvaluation *evaluation,
-                                const CzReportOptions *options, const char *folder,
-                                CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
-    Results results = {.problem = problem,
-                       .computed = problem,
-                       .has_report = true,
-                       .evaluation = evaluation,
-                       .options = options != NULL ? options : &absent,
-                       .folder = folder};
-    return write_folder(&results, error);
-}
-
-CzStatus cz_report_write_outcome_folder(const CzProblem *problem, const CzEvaluator *evaluator,
-                                        const CzOutcome *outcome, const CzReportOptions *options,
-                                        const char *folder, CzError *error) {
-    CzReportOptions own = options != NULL ? *options : cz_report_options_default();
-    own.replaces_search = true; /* a search replaces a search */
-    Results results = {.problem = problem,
-                       .evaluator = evaluator,
-                       .outcome = outcome,
-                       .evaluation = &outcome->best_evaluation,
-                       .options = &own,
-                       .folder = folder};
+CzStatus cz_report_write_folder(const CzReport *report, const char *folder, CzError *error) {
+    Results results = {
+        .report = report, .run = *report, .computed = report->problem, .folder = folder};
+    if (report->kind != CZ_REPORT_SEARCH)
+        return write_folder(&results, error);
     CzProblem *best = NULL;
     CzError mistake = {0}; /* such as a file that has changed meanwhile: then there is no report */
-    const CzStatus read =
-        cz_overlay_read_best(problem, evaluator, outcome, results.options, &best, &mistake);
-    results.has_report = read == CZ_OK;
-    results.computed = best;
+    const CzStatus read = cz_overlay_read_best(report, &best, &mistake);
+    results.run.kind = CZ_REPORT_RUN;
+    results.run.evaluation = &report->outcome->best_evaluation;
+    results.computed = read == CZ_OK ? best : NULL;
     const CzStatus status = write_folder(&results, error);
     cz_problem_free(best);
     if (status == CZ_OK &&
@@ -306,12 +278,4 @@ CzStatus cz_report_write_outcome_folder(const CzProblem *problem, const CzEvalua
                        "writes it",
                        folder, folder);
     return status;
-}
-
-CzStatus cz_report_write_sweep_folder(const CzSweep *sweep, const CzReportOptions *options,
-                                      const char *path, CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
-    Results results = {
-        .sweep = sweep, .options = options != NULL ? options : &absent, .folder = path};
-    return write_folder(&results, error);
 }

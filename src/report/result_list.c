@@ -175,24 +175,24 @@ static int n_varied(const CzOutcome *outcome) {
 
 /* The variable that an increment belongs to. */
 static int variable_of(const CzResultContext *context, const double *increment) {
-    return (int)(increment - context->outcome->sensitivity_increment);
+    return (int)(increment - context->report->outcome->sensitivity_increment);
 }
 
 static double margin_change(const CzResultContext *context, const double *increment,
                             int constraint) {
-    const int n_constraint = context->outcome->best_evaluation.n_constraint;
-    return -context->outcome
+    const int n_constraint = context->report->outcome->best_evaluation.n_constraint;
+    return -context->report->outcome
                 ->constraint_change[variable_of(context, increment) * n_constraint + constraint];
 }
 
 /* The run of a compared one that is compared; NULL when none was kept. */
 static const CzRunSummary *summary_of(const CzResultContext *context, const CzReportRun *run) {
-    return cz_compared_run(context->compared, (int)(run - context->compared));
+    return cz_compared_run(context->report, (int)(run - context->report->compared));
 }
 
 static const CzCheckResult *check_in_run(const CzResultContext *context, const CzCheckResult *first,
                                          int run) {
-    const CzCheckResult *check = cz_compared_check(&context->compared[run], first);
+    const CzCheckResult *check = cz_compared_check(&context->report->compared[run], first);
     return check != NULL ? check : &no_check;
 }
 

@@ -7,19 +7,15 @@
 #include <string.h>
 
 /* Documents, by the word behind "crushzone." in their format. */
-static const struct {
-    const char *name;
-    CzRecord record;
-} documents[] = {{"summary", CZ_RECORD_SUMMARY},       {"outcome", CZ_RECORD_OUTCOME},
-                 {"sweep", CZ_RECORD_SWEEP},           {"verification", CZ_RECORD_VERIFICATION},
-                 {"benchmark", CZ_RECORD_BENCHMARK},   {"explanation", CZ_RECORD_EXPLANATION},
-                 {"comparison", CZ_RECORD_COMPARISON}, {"fit", CZ_RECORD_FIT},
-                 {"mistakes", CZ_RECORD_MISTAKES}};
-
-enum { N_DOCUMENT = sizeof documents / sizeof *documents };
+static const char *const documents[CZ_N_REPORT] = {
+    [CZ_REPORT_RUN] = "summary",           [CZ_REPORT_SEARCH] = "outcome",
+    [CZ_REPORT_SWEEP] = "sweep",           [CZ_REPORT_VERIFICATION] = "verification",
+    [CZ_REPORT_BENCHMARK] = "benchmark",   [CZ_REPORT_EXPLANATION] = "explanation",
+    [CZ_REPORT_COMPARISON] = "comparison", [CZ_REPORT_FIT] = "fit",
+    [CZ_REPORT_MISTAKES] = "mistakes"};
 
 const char *cz_report_document_name(int index) {
-    return index < N_DOCUMENT ? documents[index].name : NULL;
+    return index < CZ_N_REPORT ? documents[index] : NULL;
 }
 
 static bool is_written(const CzResult *result) {
@@ -135,11 +131,11 @@ static void write_record(CzRecord record, FILE *stream) {
 
 CzStatus cz_report_write_document_schema(const char *document, FILE *stream, CzError *error) {
     int index = 0;
-    while (index < N_DOCUMENT && strcmp(documents[index].name, document) != 0)
+    while (index < CZ_N_REPORT && strcmp(documents[index], document) != 0)
         index++;
-    if (index == N_DOCUMENT)
+    if (index == CZ_N_REPORT)
         return cz_fail(error, CZ_STATUS_INPUT, "there is no document '%.40s'", document);
-    const CzRecord record = documents[index].record;
+    const CzRecord record = cz_document_records[index];
     bool is_in[CZ_N_RECORD] = {false};
     const char *between = "";
     mark(record, is_in);
@@ -215,10 +211,10 @@ void cz_report_write_results_page(FILE *stream) {
           "All results are those of the plane of the track's length and height.\n"
           "`crushzone schema NAME` prints the JSON schema of a document:\n\n",
           stream);
-    for (int i = 0; i < N_DOCUMENT; i++) {
-        fprintf(stream, "- `%s`: ", documents[i].name);
-        write_link(documents[i].record, stream);
-        fprintf(stream, ", %s\n", cz_result_records[documents[i].record].doc);
+    for (int i = 0; i < CZ_N_REPORT; i++) {
+        fprintf(stream, "- `%s`: ", documents[i]);
+        write_link(cz_document_records[i], stream);
+        fprintf(stream, ", %s\n", cz_result_records[cz_document_records[i]].doc);
     }
     for (int record = 0; record < CZ_N_RECORD; record++) {
         if (!has_rows((CzRecord)record))

@@ -166,10 +166,7 @@ static void put_results(CzJson *json, CzRecord record, CzResultContext *context,
 
 CzStatus cz_results_write(CzRecord record, CzResultContext *context, const void *data, FILE *stream,
                           CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
     CzJson *json = cz_json_create();
-    if (context->options == NULL)
-        context->options = &absent;
     put_results(json, record, context, data);
     return cz_json_finish(json, stream, error);
 }

@@ -28,32 +28,22 @@ typedef struct CzRunInfo {
     int n_job;              /* 0 when unknown */
 } CzRunInfo;
 
-/* The results that a document is written from, and the state while it is written. Only what a
- * document needs is set. */
+/* The results that a document or a table is written from, and the state while it is written. Only
+ * what it needs is set. */
 typedef struct CzResultContext {
-    const char *format; /* name of the document */
+    const CzReport *report;
     const CzProblem *problem;
-    const CzReportOptions *options; /* NULL: the default ones */
+    const CzReportOptions *options;
     const CzEvaluation *evaluation;
     double wall_s;           /* computing, of the whole document [s] */
     const CzRunSummary *run; /* at hand */
-    const CzEvaluator *evaluator;
-    const CzOutcome *outcome;
-    const CzSweep *sweep;
-    const CzVerification *verification;
-    const CzExplanation *explanation;
-    int n_compared;
-    const CzReportRun *compared;
-    const CzFit *fit;
-    const char *yaml; /* of the fit */
-    int n_mistake;
-    const CzError *const *mistake;
-    int n_order;      /* sources of a budget that are written, and in which order; */
-    const int *order; /* NULL: all of them, in their own */
-    int index;        /* of the item of a list that is being written */
-    CzRunInfo info;   /* made when requested, until the next is; so are the others */
+    const char *yaml;        /* of the fit */
+    int n_order;             /* sources of a budget that are written, and in which order; */
+    const int *order;        /* NULL: all of them, in their own */
+    int index;               /* of the item of a list that is being written */
+    CzRunInfo info;          /* made when requested, until the next is; so are the others */
     CzError warning;
-    char text[64];
+    char format[32], text[64];
 } CzResultContext;
 
 /* What a result is, or each item of a list. */
@@ -142,6 +132,9 @@ bool cz_result_flag(const CzResult *result, CzResultContext *context, const void
 const char *cz_result_words(const CzResult *result, CzResultContext *context, const void *record);
 /* The word of a document, whose verdicts are closed: a provisional pass is a pass. */
 const char *cz_closed_verdict(CzVerdict verdict);
+
+/* The record of the document of each kind. */
+extern const CzRecord cz_document_records[CZ_N_REPORT];
 
 /* Writes a record as a JSON document. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_results_write(CzRecord record, CzResultContext *context, const void *data,

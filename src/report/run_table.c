@@ -6,6 +6,7 @@
 #include "report/result_table.h"
 #include "report/runs.h"
 #include "report/figure.h"
+#include "report/tables.h"
 #include "report/units.h"
 
 #include <math.h>
@@ -223,24 +224,23 @@ static bool is_printed(const CzProblem *problem, const CzEvaluation *evaluation,
     return family == NULL || worst_member(problem, evaluation, family) == index;
 }
 
-CzStatus cz_report_write_table(const CzProblem *problem, const CzEvaluation *evaluation,
-                               bool colour, FILE *stream) {
-    CzTerminal terminal = {stream, colour, false};
-    cz_terminal_say(&terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(problem));
+void cz_run_write_table(const CzReport *report, CzTerminal *terminal) {
+    const CzProblem *problem = report->problem;
+    const CzEvaluation *evaluation = report->evaluation;
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(problem));
     for (int i = 0; i < evaluation->n_run; i++) {
         const CzRunSummary *run = cz_kept_run(evaluation, i);
         if (run == NULL || !is_printed(problem, evaluation, i))
             continue;
         const char *family = family_of(problem, run->scenario);
         if (family != NULL)
-            write_family(problem, evaluation, family, &terminal);
-        write_run_head(problem, run, &terminal);
+            write_family(problem, evaluation, family, terminal);
+        write_run_head(problem, run, terminal);
         if (run->status == CZ_OK) {
-            write_interfaces(run, cz_n_kept_run(evaluation) > 1, &terminal);
-            write_climbing(run, &terminal);
+            write_interfaces(run, cz_n_kept_run(evaluation) > 1, terminal);
+            write_climbing(run, terminal);
         }
-        fputc('\n', stream);
+        fputc('\n', terminal->stream);
     }
-    cz_checks_write_table(evaluation, NULL, &terminal);
-    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
+    cz_checks_write_table(evaluation, NULL, terminal);
 }

@@ -54,8 +54,8 @@ static bool is_own_page(const CzProblem *problem, const char *path) {
            first.st_ino == second.st_ino;
 }
 
-static CzStatus check_file(const CzProblem *problem, const char *path, bool is_page,
-                           CzError *error) {
+CzStatus cz_report_check_file(const CzProblem *problem, const char *path, bool is_page,
+                              CzError *error) {
     char folder[PATH_MAX], temporary[PATH_MAX];
     FILE *stream = NULL;
     if (strcmp(path, "-") == 0 || is_device(path))
@@ -78,14 +78,6 @@ static CzStatus check_file(const CzProblem *problem, const char *path, bool is_p
     (void)unlink(temporary);
     fclose(stream);
     return CZ_OK;
-}
-
-CzStatus cz_report_check_file(const CzProblem *problem, const char *path, CzError *error) {
-    return check_file(problem, path, false, error);
-}
-
-CzStatus cz_report_check_page(const CzProblem *problem, const char *path, CzError *error) {
-    return check_file(problem, path, true, error);
 }
 
 static CzStatus write_device(const char *path, CzReportWriter *write, const void *data,

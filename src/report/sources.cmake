@@ -51,6 +51,7 @@ set(CZ_SOURCES_report
     sweep_table.c
     table.c
     table_page.c
+    tables.c
     temporary.c
     decimation.c
     verification.c

@@ -17,30 +17,23 @@ const char *cz_report_chart_name(int index) {
 }
 
 /* Finds the scenario to draw; fails when its run was not kept. */
-static CzStatus find_scenario(const CzReportRun *run, int *scenario, CzError *error) {
-    *scenario = run->scenario >= 0 ? run->scenario : cz_page_deciding(run->evaluation);
-    const bool has_run = *scenario >= 0 && *scenario < run->evaluation->n_run &&
-                         cz_kept_run(run->evaluation, *scenario) != NULL;
+static CzStatus find_scenario(const CzEvaluation *evaluation, int asked_for, int *scenario,
+                              CzError *error) {
+    *scenario = asked_for >= 0 ? asked_for : cz_page_deciding(evaluation);
+    const bool has_run = *scenario >= 0 && *scenario < evaluation->n_run &&
+                         cz_kept_run(evaluation, *scenario) != NULL;
     return has_run ? CZ_OK : cz_fail(error, CZ_STATUS_INPUT, "no run was kept to draw");
 }
 
-CzStatus cz_report_write_page(const CzReportRun *run, const CzReportOptions *options, FILE *stream,
-                              CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
+CzStatus cz_report_write_page(const CzReport *report, FILE *stream, CzError *error) {
+    const bool is_search = report->kind == CZ_REPORT_SEARCH;
     int scenario;
-    CZ_TRY(find_scenario(run, &scenario, error));
-    return cz_page_write_run(run->problem, run->evaluation, scenario, true,
-                             options != NULL ? options : &absent, stream, error);
-}
-
-CzStatus cz_report_write_outcome_page(const CzProblem *best, const CzEvaluator *evaluator,
-                                      const CzOutcome *outcome, const CzReportOptions *options,
-                                      FILE *stream, CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
-    if (cz_page_deciding(&outcome->best_evaluation) < 0)
-        return cz_fail(error, CZ_STATUS_INPUT, "no run was kept to draw");
-    return cz_page_write_outcome(best, evaluator, outcome, options != NULL ? options : &absent,
-                                 stream, error);
+    if (report->kind == CZ_REPORT_COMPARISON)
+        return cz_page_write_comparison(report, stream, error);
+    CZ_TRY(find_scenario(is_search ? &report->outcome->best_evaluation : report->evaluation, -1,
+                         &scenario, error));
+    return is_search ? cz_page_write_outcome(report, stream, error)
+                     : cz_page_write_run(report, scenario, true, stream, error);
 }
 
 static CzStatus find_chart(const char *what, CzChart *chart, CzError *error) {
@@ -97,16 +90,14 @@ CzChartOptions cz_chart_options_default(void) {
 
 CzStatus cz_report_write_chart(const CzReportRun *run, const CzChartOptions *chosen, FILE *stream,
                                CzError *error) {
-    const CzReportOptions absent = cz_report_options_default();
     CzChart chart;
     CzChartCurve measured[CZ_MOST_CHART_CURVES];
     int scenario, index = 0, n_measured;
     CZ_TRY(find_chart(chosen->what, &chart, error));
-    CZ_TRY(find_scenario(run, &scenario, error));
+    CZ_TRY(find_scenario(run->evaluation, run->scenario, &scenario, error));
     CzStatus status = cz_chart_curves_read(chosen, chart, &n_measured, measured, error);
     CzPage page = {.problem = run->problem,
                    .evaluation = run->evaluation,
-                   .options = &absent,
                    .scenario = scenario,
                    .n_measured = n_measured,
                    .measured = measured};

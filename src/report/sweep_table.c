@@ -4,6 +4,7 @@
 #include "report/figure.h"
 #include "report/table.h"
 #include "report/page_sweep.h"
+#include "report/tables.h"
 
 #include <math.h>
 #include <string.h>
@@ -124,21 +125,20 @@ static void write_worst(const CzSweep *sweep, CzTerminal *terminal) {
     fputs(".\n", terminal->stream);
 }
 
-CzStatus cz_report_write_sweep_table(const CzSweep *sweep, bool colour, FILE *stream) {
-    CzTerminal terminal = {stream, colour, false};
+void cz_sweep_write_table(const CzReport *report, CzTerminal *terminal) {
+    const CzSweep *sweep = report->sweep;
     CzReportTable table;
-    cz_terminal_say(&terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(sweep->problem));
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(sweep->problem));
     if (sweep->n_axis == 1) {
         cz_sweep_begin_points(&table, sweep, false);
-        cz_table_write_text(&table, &terminal);
+        cz_table_write_text(&table, terminal);
     } else {
-        write_map(sweep, &terminal);
-        write_reasons(sweep, &terminal);
+        write_map(sweep, terminal);
+        write_reasons(sweep, terminal);
     }
     if (cz_sweep_is_beyond(sweep))
-        cz_terminal_say(&terminal, CZ_STYLE_BAD, CZ_SWEEP_BEYOND "\n");
-    write_worst(sweep, &terminal);
+        cz_terminal_say(terminal, CZ_STYLE_BAD, CZ_SWEEP_BEYOND "\n");
+    write_worst(sweep, terminal);
     if (sweep->is_interrupted)
-        cz_terminal_say(&terminal, CZ_STYLE_BAD, "INTERRUPTED: points are missing.\n");
-    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: points are missing.\n");
 }

@@ -3,7 +3,7 @@
 
 #include "report/figure.h"
 #include "report/outcome_table.h"
-#include "report/table.h"
+#include "report/tables.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -121,27 +121,24 @@ static void write_scatter(const CzVerification *verification, FILE *stream) {
                 n, verification->n_value, cz_figure_change(text, verification->limit), n_scatter);
 }
 
-CzStatus cz_report_write_verification_table(const CzProblem *problem,
-                                            const CzVerification *verification, bool colour,
-                                            FILE *stream) {
-    CzTerminal terminal = {stream, colour, false};
+void cz_verification_write_table(const CzReport *report, CzTerminal *terminal) {
+    const CzVerification *verification = report->verification;
     CzReportTable methods;
     char text[CZ_FIGURE_ROOM];
-    cz_terminal_say(&terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(problem));
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
     if (verification->n_value > 0) {
-        write_values(verification, &terminal);
-        fputc('\n', stream);
+        write_values(verification, terminal);
+        fputc('\n', terminal->stream);
         cz_verified_begin_methods(&methods, verification, false);
-        cz_table_write_text(&methods, &terminal);
-        fputc('\n', stream);
+        cz_table_write_text(&methods, terminal);
+        fputc('\n', terminal->stream);
     }
     if (verification->failure[0] != '\0')
-        cz_terminal_say(&terminal, CZ_STYLE_BAD, "%s\n", verification->failure);
-    write_scatter(verification, stream);
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "%s\n", verification->failure);
+    write_scatter(verification, terminal->stream);
     const bool passes = verification->verdict == CZ_VERDICT_PASS;
-    fputs("Verification: ", stream);
-    cz_terminal_say(&terminal, passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, passes ? "pass" : "FAIL");
-    fprintf(stream, " (%d results, limit %s)\n", verification->n_value,
+    fputs("Verification: ", terminal->stream);
+    cz_terminal_say(terminal, passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, passes ? "pass" : "FAIL");
+    fprintf(terminal->stream, " (%d results, limit %s)\n", verification->n_value,
             cz_figure_change(text, verification->limit));
-    return terminal.failed ? CZ_STATUS_NO_MEMORY : CZ_OK;
 }

@@ -84,18 +84,19 @@ static Finished *finish(const char *file) {
     return finished;
 }
 
+static CzReport report_of(const Finished *finished) {
+    return (CzReport){
+        .kind = CZ_REPORT_RUN, .problem = finished->problem, .evaluation = &finished->evaluation};
+}
+
 static double write_page(void *data) {
-    const Finished *finished = data;
-    const CzReportRun run = {.label = "",
-                             .problem = finished->problem,
-                             .evaluation = &finished->evaluation,
-                             .scenario = -1};
+    const CzReport report = report_of(data);
     CzError error = {0};
     FILE *stream = tmpfile();
     if (stream == NULL)
         bench_stop("no temporary file");
     const double start = bench_processor();
-    if (cz_report_write_page(&run, NULL, stream, &error) != CZ_OK)
+    if (cz_report_write_page(&report, stream, &error) != CZ_OK)
         bench_stop(error.message);
     const double time = bench_processor() - start;
     fclose(stream);
@@ -103,11 +104,10 @@ static double write_page(void *data) {
 }
 
 static double write_folder(void *data) {
-    const Finished *finished = data;
+    const CzReport report = report_of(data);
     CzError error = {0};
     const double start = bench_processor();
-    if (cz_report_write_folder(finished->problem, &finished->evaluation, NULL, result_folder,
-                               &error) != CZ_OK)
+    if (cz_report_write_folder(&report, result_folder, &error) != CZ_OK)
         bench_stop(error.message);
     return bench_processor() - start;
 }

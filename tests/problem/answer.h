@@ -34,13 +34,16 @@ static void cut(char *text, const char *from, const char *to) {
 /* The document of a search where there is one. */
 static CzStatus write_answer(const CzProblem *problem, CzEvaluator *evaluator,
                              const CzEvaluation *evaluation, FILE *stream, CzError *error) {
+    CzReport report = {.kind = CZ_REPORT_RUN, .problem = problem, .evaluation = evaluation};
     if (cz_evaluator_n_variable(evaluator) == 0)
-        return cz_report_write_summary(problem, evaluation, NULL, stream, error);
+        return cz_report_write_json(&report, stream, error);
     CzOptimiseOptions options = cz_optimise_options_default();
     CzOutcome *outcome = NULL;
     CZ_TRY(cz_optimise(evaluator, &options, &outcome, error));
-    const CzStatus status =
-        cz_report_write_outcome(problem, evaluator, outcome, NULL, stream, error);
+    report.kind = CZ_REPORT_SEARCH;
+    report.evaluator = evaluator;
+    report.outcome = outcome;
+    const CzStatus status = cz_report_write_json(&report, stream, error);
     cz_outcome_free(outcome);
     return status;
 }

@@ -129,12 +129,9 @@ void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]) {
     for (char *c = name; *c != '\0'; c++)
         *c = *c == '/' ? '_' : *c;
 }
-CzStatus cz_page_write_run(const CzProblem *problem, const CzEvaluation *evaluation, int scenario,
-                           bool is_top, const CzReportOptions *options, FILE *stream,
+CzStatus cz_page_write_run(const CzReport *report, int scenario, bool is_top, FILE *stream,
                            CzError *error) {
-    (void)problem;
-    (void)evaluation;
-    (void)options;
+    (void)report;
     (void)error;
     fprintf(stream, "report of %d%s\n", scenario, is_top ? ", top" : "");
     return CZ_OK;
@@ -145,13 +142,8 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     fputs("report of a sweep\n", stream);
     return CZ_OK;
 }
-CzStatus cz_page_write_outcome(const CzProblem *best, const CzEvaluator *evaluator,
-                               const CzOutcome *outcome, const CzReportOptions *options,
-                               FILE *stream, CzError *error) {
-    (void)best;
-    (void)evaluator;
-    (void)outcome;
-    (void)options;
+CzStatus cz_page_write_outcome(const CzReport *report, FILE *stream, CzError *error) {
+    (void)report;
     (void)error;
     fputs("report of a search\n", stream);
     return CZ_OK;
@@ -451,4 +443,16 @@ const char *cz_element_text(CzElementKind kind) {
 const char *cz_outcome_text(CzOutcomeStatus status) {
     static const char *const texts[] = {"feasible", "infeasible", "interrupted"};
     return texts[status];
+}
+
+CzReport stand_in_run(const StandIn *stand_in) {
+    return (CzReport){
+        .kind = CZ_REPORT_RUN, .problem = stand_in_problem, .evaluation = &stand_in->evaluation};
+}
+
+CzReport stand_in_search(const StandIn *stand_in) {
+    return (CzReport){.kind = CZ_REPORT_SEARCH,
+                      .problem = stand_in_problem,
+                      .evaluator = stand_in_evaluator,
+                      .outcome = &stand_in->outcome};
 }

@@ -37,4 +37,8 @@ extern const char *stand_in_file; /* result of cz_problem_file */
 
 void stand_in_fill(StandIn *stand_in);
 
+/* The run and the search, to be written. */
+CzReport stand_in_run(const StandIn *stand_in);
+CzReport stand_in_search(const StandIn *stand_in);
+
 #endif

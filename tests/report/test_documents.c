@@ -32,9 +32,9 @@ static char *summary_text(const StandIn *s) {
     CzError error = {0};
     CzReportOptions options = cz_report_options_default();
     options.n_job = 2;
-    assert_int_equal(
-        cz_report_write_summary(stand_in_problem, &s->evaluation, &options, text.stream, &error),
-        CZ_OK);
+    CzReport report = stand_in_run(s);
+    report.options = &options;
+    assert_int_equal(cz_report_write_json(&report, text.stream, &error), CZ_OK);
     return text_end(&text);
 }
 
@@ -53,9 +53,8 @@ static json_t *outcome_of(const StandIn *s) {
     Text text;
     text_begin(&text);
     CzError error = {0};
-    assert_int_equal(cz_report_write_outcome(stand_in_problem, stand_in_evaluator, &s->outcome,
-                                             NULL, text.stream, &error),
-                     CZ_OK);
+    const CzReport report = stand_in_search(s);
+    assert_int_equal(cz_report_write_json(&report, text.stream, &error), CZ_OK);
     char *written = text_end(&text);
     json_t *json = json_loads(written, 0, NULL);
     assert_non_null(json);
@@ -264,8 +263,8 @@ static void a_full_disk_is_an_output_error(void **state) {
         skip();
     }
     CzError error = {0};
-    assert_int_equal(cz_report_write_summary(stand_in_problem, &s.evaluation, NULL, full, &error),
-                     CZ_STATUS_OUTPUT);
+    const CzReport report = stand_in_run(&s);
+    assert_int_equal(cz_report_write_json(&report, full, &error), CZ_STATUS_OUTPUT);
     assert_non_null(strstr(error.message, "cannot be written"));
     fclose(full);
 }
@@ -351,7 +350,8 @@ static void mistakes_are_one_document_with_all_of_them(void **state) {
     Text text;
     text_begin(&text);
     CzError error = {0};
-    assert_int_equal(cz_report_write_mistakes(2, mistake, text.stream, &error), CZ_OK);
+    const CzReport report = {.kind = CZ_REPORT_MISTAKES, .mistake = mistake, .n_mistake = 2};
+    assert_int_equal(cz_report_write_json(&report, text.stream, &error), CZ_OK);
     char *written = text_end(&text);
     json_t *json = json_loads(written, 0, NULL);
     assert_text_at(json, "error.file", "a.yaml");
@@ -436,8 +436,8 @@ static void a_decimal_comma_of_the_host_changes_nothing(void **state) {
     Text text;
     text_begin(&text);
     cz_csv_write_channels(&s.run[0], &options, text.stream);
-    assert_int_equal(cz_report_write_table(stand_in_problem, &s.evaluation, false, text.stream),
-                     CZ_OK);
+    const CzReport report = stand_in_run(&s);
+    assert_int_equal(cz_report_write_table(&report, false, text.stream, NULL), CZ_OK);
     char *written = text_end(&text), *summary = summary_text(&s);
     setlocale(LC_NUMERIC, "C");
     char *expected = summary_text(&s);

@@ -59,7 +59,8 @@ static int n_entries(void) { /* of the work folder, temporary names included */
 }
 
 static CzStatus write_run(const StandIn *s, const char *folder, CzError *error) {
-    return cz_report_write_folder(stand_in_problem, &s->evaluation, NULL, folder, error);
+    const CzReport report = stand_in_run(s);
+    return cz_report_write_folder(&report, folder, error);
 }
 
 static void one_scenario_has_no_subfolder(void **state) {
@@ -123,7 +124,7 @@ static void an_empty_folder_is_used(void **state) {
 
 static void refuses(const StandIn *s, const char *folder, const char *sentence) {
     CzError error = {0};
-    assert_int_equal(cz_report_check_folder(NULL, folder, NULL, &error), CZ_STATUS_OUTPUT);
+    assert_int_equal(cz_report_check_folder(NULL, folder, false, &error), CZ_STATUS_OUTPUT);
     assert_int_equal(write_run(s, folder, &error), CZ_STATUS_OUTPUT);
     if (strstr(error.message, sentence) == NULL)
         print_error("%s\n", error.message);
@@ -220,9 +221,9 @@ static void a_search_writes_its_outcome_and_the_optimum(void **state) {
     CzReportOptions options = cz_report_options_default();
     options.set = set;
     options.n_set = 4;
-    assert_int_equal(cz_report_write_outcome_folder(stand_in_problem, stand_in_evaluator,
-                                                    &s.outcome, &options, "results/best", &error),
-                     CZ_OK);
+    CzReport report = stand_in_search(&s);
+    report.options = &options;
+    assert_int_equal(cz_report_write_folder(&report, "results/best", &error), CZ_OK);
     char *text = content("results/best/optimised.yaml");
     assert_string_equal(strchr(text, '\n') + 1,
                         "extends: \"../../problems/two.yaml\"\n"
@@ -254,9 +255,9 @@ static void a_problem_from_standard_input_is_written_out_completely(void **state
     CzReportOptions options = cz_report_options_default();
     options.text = "schema: 1\n";
     options.n_text = strlen(options.text);
-    assert_int_equal(cz_report_write_outcome_folder(stand_in_problem, stand_in_evaluator,
-                                                    &s.outcome, &options, "out", &error),
-                     CZ_OK);
+    CzReport report = stand_in_search(&s);
+    report.options = &options;
+    assert_int_equal(cz_report_write_folder(&report, "out", &error), CZ_OK);
     char *text = content("out/optimised.yaml");
     assert_null(strstr(text, "extends"));
     assert_non_null(strstr(text, "\nschema: 1 # 2 settings\n"));
@@ -270,9 +271,9 @@ static void the_best_values_survive_a_problem_that_cannot_be_read_again(void **s
     stand_in_fill(&s);
     CzReportOptions options = cz_report_options_default();
     options.text = "broken";
-    assert_int_equal(cz_report_write_outcome_folder(stand_in_problem, stand_in_evaluator,
-                                                    &s.outcome, &options, "out", &error),
-                     CZ_OK);
+    CzReport report = stand_in_search(&s);
+    report.options = &options;
+    assert_int_equal(cz_report_write_folder(&report, "out", &error), CZ_OK);
     char *text = content("out/optimised.yaml");
     assert_non_null(strstr(text, "cannot be read again (it is broken)"));
     assert_non_null(strstr(text, "[0].force_kN\": 900\n"));

@@ -64,8 +64,9 @@ static Ran run_problem(const char *name) {
     return run_set(name, NULL, 1, set);
 }
 
-static CzReportRun run_of(const Ran *ran) {
-    return (CzReportRun){"first", ran->problem, &ran->evaluation, -1};
+static CzReport run_of(const Ran *ran) {
+    return (CzReport){
+        .kind = CZ_REPORT_RUN, .problem = ran->problem, .evaluation = &ran->evaluation};
 }
 
 static void free_ran(Ran *ran) {
@@ -75,12 +76,12 @@ static void free_ran(Ran *ran) {
 }
 
 /* The page, or the status of its writer. */
-static CzStatus write_page(const CzReportRun *run, char **text) {
+static CzStatus write_page(const CzReport *run, char **text) {
     size_t n = 0;
     CzError error = {0};
     FILE *stream = open_memstream(text, &n);
     assert_non_null(stream);
-    const CzStatus status = cz_report_write_page(run, NULL, stream, &error);
+    const CzStatus status = cz_report_write_page(run, stream, &error);
     fclose(stream);
     assert_true((status == CZ_OK) == (error.message[0] == '\0'));
     return status;
@@ -93,7 +94,7 @@ static void sections_are_in_order(void **state) {
         "id=\"energy\"", "id=\"motion\"", "id=\"vertical\"", "id=\"animation\"",
         "id=\"events\"", "id=\"inputs\"", "id=\"data\""};
     Ran ran = run_problem("two-cars-25kmh.yaml");
-    const CzReportRun run = run_of(&ran);
+    const CzReport run = run_of(&ran);
     char *text = NULL;
     assert_int_equal(write_page(&run, &text), CZ_OK);
     const char *from = text;
@@ -114,7 +115,7 @@ static void sections_are_in_order(void **state) {
 static void every_lack_of_memory_is_reported(void **state) {
     (void)state;
     Ran ran = run_problem("two-cars-25kmh.yaml");
-    const CzReportRun run = run_of(&ran);
+    const CzReport run = run_of(&ran);
     int n_failed = 0;
     for (bool has_failed = true; has_failed; n_failed++) {
         char *text = NULL;
@@ -135,7 +136,7 @@ static void a_run_that_was_not_kept_has_no_page(void **state) {
     Ran ran = run_problem("two-cars-25kmh.yaml");
     CzEvaluation none = ran.evaluation;
     none.run = NULL;
-    const CzReportRun run = {"none", ran.problem, &none, -1};
+    const CzReport run = {.kind = CZ_REPORT_RUN, .problem = ran.problem, .evaluation = &none};
     char *text = NULL;
     assert_int_equal(write_page(&run, &text), CZ_STATUS_INPUT);
     free(text);
@@ -267,7 +268,7 @@ static void the_cursor_shows_every_recorded_row(void **state) {
     (void)state;
     static const char *const set[] = {"simulation.duration_ms=900"};
     Ran ran = run_set("two-cars-25kmh.yaml", NULL, 1, set);
-    const CzReportRun run = run_of(&ran);
+    const CzReport run = run_of(&ran);
     char *text = NULL;
     assert_int_equal(write_page(&run, &text), CZ_OK);
     assert_int_equal(cz_run_n_sample(ran.evaluation.run[0]), 901);
@@ -284,7 +285,7 @@ static void late_rows_of_a_large_page_are_left_out(void **state) {
     static const char *const set[] = {"simulation.duration_ms=1000",
                                       "simulation.output_step_ms=0.1"};
     Ran ran = run_set("metro-6-car.yaml", "25-km-h", 2, set);
-    const CzReportRun run = run_of(&ran);
+    const CzReport run = run_of(&ran);
     char *text = NULL;
     int decimals;
     assert_int_equal(write_page(&run, &text), CZ_OK);

@@ -27,16 +27,15 @@ static char *text_end(Text *text) {
 
 static char *table_text(const StandIn *s, bool colour) {
     Text *text = text_begin();
-    assert_int_equal(cz_report_write_table(stand_in_problem, &s->evaluation, colour, text->stream),
-                     CZ_OK);
+    const CzReport report = stand_in_run(s);
+    assert_int_equal(cz_report_write_table(&report, colour, text->stream, NULL), CZ_OK);
     return text_end(text);
 }
 
 static char *outcome_text(const StandIn *s) {
     Text *text = text_begin();
-    assert_int_equal(cz_report_write_outcome_table(stand_in_problem, stand_in_evaluator,
-                                                   &s->outcome, false, text->stream),
-                     CZ_OK);
+    const CzReport report = stand_in_search(s);
+    assert_int_equal(cz_report_write_table(&report, false, text->stream, NULL), CZ_OK);
     return text_end(text);
 }
 
@@ -263,7 +262,8 @@ static void a_sweep_shows_the_largest_number_of_metrics(void **state) {
         point.metric[k] = 100 + k;
     }
     Text *text = text_begin();
-    assert_int_equal(cz_report_write_sweep_table(&sweep, false, text->stream), CZ_OK);
+    const CzReport report = {.kind = CZ_REPORT_SWEEP, .sweep = &sweep};
+    assert_int_equal(cz_report_write_table(&report, false, text->stream, NULL), CZ_OK);
     char *written = text_end(text);
     assert_has(written, "metric 8   smallest margin   where   scenario\n");
     assert_has(written, "107 kN                             collision\n");

@@ -35,6 +35,11 @@ static CzVerification filled_verification(CzVerifiedValue *value) {
                             .verdict = CZ_VERDICT_FAIL};
 }
 
+static CzReport report_of(const CzVerification *verification) {
+    return (CzReport){
+        .kind = CZ_REPORT_VERIFICATION, .problem = stand_in_problem, .verification = verification};
+}
+
 static void a_verification_is_one_document(void **state) {
     (void)state;
     CzVerifiedValue value[2];
@@ -45,8 +50,8 @@ static void a_verification_is_one_document(void **state) {
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
     CzError error = {0};
-    assert_int_equal(
-        cz_report_write_verification(stand_in_problem, &verification, NULL, stream, &error), CZ_OK);
+    const CzReport report = report_of(&verification);
+    assert_int_equal(cz_report_write_json(&report, stream, &error), CZ_OK);
     fclose(stream);
     json_t *json = json_loads(text, 0, NULL);
     assert_non_null(json);
@@ -70,8 +75,8 @@ static void a_verification_is_a_table_with_the_largest_change_first(void **state
     char *text = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
-    assert_int_equal(
-        cz_report_write_verification_table(stand_in_problem, &verification, false, stream), CZ_OK);
+    const CzReport report = report_of(&verification);
+    assert_int_equal(cz_report_write_table(&report, false, stream, NULL), CZ_OK);
     fclose(stream);
     assert_true(strstr(text, "interface force") < strstr(text, "stroke used"));
     assert_non_null(strstr(text, "CHANGED"));
@@ -93,8 +98,8 @@ static void scattering_values_are_counted(void **state) {
     char *text = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
-    assert_int_equal(
-        cz_report_write_verification_table(stand_in_problem, &verification, false, stream), CZ_OK);
+    const CzReport report = report_of(&verification);
+    assert_int_equal(cz_report_write_table(&report, false, stream, NULL), CZ_OK);
     fclose(stream);
     assert_non_null(
         strstr(text, "2 of 2 results change by more than 1 %; the scatter of 1 of them"));

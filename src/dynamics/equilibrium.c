@@ -182,8 +182,8 @@ static CzStatus tell_unrest(const Car *car, const double *q, double weight, CzEr
     else
         snprintf(what, sizeof what, "the contact of wheelset %d with the rail", worst - LOAD + 1);
     CzStatus status = cz_fail(error, CZ_STATUS_RUN_FAILED,
-                              "no static equilibrium: %s is %.0f kN away from it, of %.0f kN that "
-                              "the vehicle weighs",
+                              "no static equilibrium: the force on %s is unbalanced by %.0f kN, of "
+                              "a vehicle weight of %.0f kN",
                               what, 1e-3 * fabs(residual[worst]), 1e-3 * weight);
     if (error != NULL)
         snprintf(error->help, sizeof error->help,

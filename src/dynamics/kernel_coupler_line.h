@@ -140,12 +140,11 @@ static int pivots_are_near(const CzBlock *d) {
     CZ_LANES_SUM(i, n_near) {
         const double on_a = rows->side[0].on_end[i], on_b = rows->side[1].on_end[i];
         const double x_a = rows->pivot.x[0][i], x_b = rows->pivot.x[1][i];
+        const double z_a = rows->pivot.z[0][i], z_b = rows->pivot.z[1][i];
         const double ax =
-            x_a * chosen(on_a, ea.turned->cosine[i], ba.turned->cosine[i]) -
-            rows->pivot.z[0][i] * chosen(on_a, ea.turned->sine[i], ba.turned->sine[i]);
+            chosen(on_a, cz_point_of(ea, i, x_a, z_a).arm_x, cz_point_of(ba, i, x_a, z_a).arm_x);
         const double bx =
-            x_b * chosen(on_b, eb.turned->cosine[i], bb.turned->cosine[i]) -
-            rows->pivot.z[1][i] * chosen(on_b, eb.turned->sine[i], bb.turned->sine[i]);
+            chosen(on_b, cz_point_of(eb, i, x_b, z_b).arm_x, cz_point_of(bb, i, x_b, z_b).arm_x);
         const double way = chosen(on_b, eb.displacement->x[i], bb.displacement->x[i]) -
                            chosen(on_a, ea.displacement->x[i], ba.displacement->x[i]);
         const double along = rows->pivot.distance[i] + way + (bx - x_b) - (ax - x_a);

@@ -8,6 +8,7 @@
 
 #include "dynamics/kernel_end_line.h"
 #include "dynamics/kernel_massless.h"
+#include "laws/link.h"
 #include "laws/slider.h"
 
 /* Force of the crush zone along the axis. */
@@ -57,8 +58,8 @@ static void guide_end(CzBlock *d, int end, const EndLine *restrict line,
                                                        d->power->guide_damping[end];
     double *restrict fold = d->power->fold[end], *restrict fold_lost = d->power->fold_damping[end];
     CZ_LANES (i) {
-        const double spring = rows->guide_vertical.stiffness[i] * slip[i];
-        const double damper = rows->guide_vertical.damping[i] * line->slip_rate[i];
+        const double spring = cz_link_spring(rows->guide_vertical.stiffness[i], slip[i]);
+        const double damper = cz_link_damper(rows->guide_vertical.damping[i], line->slip_rate[i]);
         const CzSliderResponse hinge =
             cz_slider_of(rows->fold_pitch.stiffness[i], compliance[i], rows->fold_pitch.moment[i],
                          line->folded[i], yielded[i]);

@@ -10,6 +10,7 @@
 
 #include "dynamics/kernel_gear_line.h"
 #include "dynamics/law_rows.h"
+#include "laws/link.h"
 
 /* Forces of springs and dampers. */
 typedef struct {
@@ -20,8 +21,9 @@ typedef struct {
 static inline GearForces gear_forces(const CzSuspensionLaw *law, const CzStrutRows *strut,
                                      StrutStrokes at, size_t i) {
     return (GearForces){cz_suspension_spring(law, at.compression),
-                        cz_suspension_damper(law, at.rate), strut->stiffness[i] * at.stretch,
-                        strut->damping[i] * at.stretching};
+                        cz_suspension_damper(law, at.rate),
+                        cz_link_spring(strut->stiffness[i], at.stretch),
+                        cz_link_damper(strut->damping[i], at.stretching)};
 }
 
 static void bogie_to_body(CzBlock *d, int bogie) {

@@ -196,11 +196,19 @@ static Carriers carriers_of(const Car *car, bool a_on_end, bool b_on_end) {
     return carriers;
 }
 
-/* Mobility of both points of a pair, with their arms across the direction of the force. */
+/* Mobility of both carriers of a pair whose displacements act by `share` and pitches by `arm`. */
+static double pair_mobility(const Carriers *carriers, double share, const double arm[2]) {
+    double sum = 0.0;
+    for (int side = CZ_SIDE_A; side <= CZ_SIDE_B; side++)
+        sum += share * share * carriers->side[side].inverse_mass +
+               arm[side] * arm[side] * carriers->side[side].inverse_inertia;
+    return sum;
+}
+
+/* The same for two points, with their arms across the direction of the force. */
 static double mobility(const Carriers *carriers, const CzRow arm[2], size_t i) {
-    const double a = arm[CZ_SIDE_A][i], b = arm[CZ_SIDE_B][i];
-    return carriers->side[0].inverse_mass + a * a * carriers->side[0].inverse_inertia +
-           carriers->side[1].inverse_mass + b * b * carriers->side[1].inverse_inertia;
+    const double arms[2] = {arm[CZ_SIDE_A][i], arm[CZ_SIDE_B][i]};
+    return pair_mobility(carriers, 1.0, arms);
 }
 
 /* Both sides of a chain in series with the compliance of its plastic members. */
@@ -287,16 +295,12 @@ static void note_swing(const Car *car, const Carriers *carriers) {
     const CzHingeRows *hinge_a = &rows->side[0].hinge_vertical,
                       *hinge_b = &rows->side[1].hinge_vertical;
     const double per_length = car->rows->tilts[i] > 0.0 ? 1.0 / shortest_strut(car) : 0.0;
-    const double a = rows->pivot.x[0][i] * per_length + 1.0;
-    const double b = rows->pivot.x[1][i] * per_length - 1.0;
-    const double across = (carriers->side[0].inverse_mass + carriers->side[1].inverse_mass) *
-                              per_length * per_length +
-                          a * a * carriers->side[0].inverse_inertia +
-                          b * b * carriers->side[1].inverse_inertia;
+    const double arm[2] = {rows->pivot.x[0][i] * per_length + 1.0,
+                           rows->pivot.x[1][i] * per_length - 1.0};
     note(car, "swing stop",
          fmax(hinge_a->stop_stiffness[i], hinge_b->stop_stiffness[i]) +
              fmax(hinge_a->stiffness[i], hinge_b->stiffness[i]),
-         0.0, 2.0 * across);
+         0.0, 2.0 * pair_mobility(carriers, per_length, arm));
 }
 
 /* Force that the coupler's tubes and shear-offs let through. */

@@ -15,6 +15,7 @@
 #include "laws/drag.h"
 #include "laws/draw_gear.h"
 #include "laws/face.h"
+#include "laws/link.h"
 #include "laws/plastic_member.h"
 #include "laws/ribs.h"
 #include "laws/shear_off.h"
@@ -120,6 +121,16 @@ static void cz_stop_at(const double *input, double *output) {
     output[0] = cz_stop(1e7, input[1], input[0]);
 }
 
+/* Stiffness, stretch. */
+static void cz_link_spring_at(const double *input, double *output) {
+    output[0] = cz_link_spring(input[0], input[1]);
+}
+
+/* Damping, rate. */
+static void cz_link_damper_at(const double *input, double *output) {
+    output[0] = cz_link_damper(input[0], input[1]);
+}
+
 static const CzSuspensionLaw suspension = {8.6e5, 1.4e5, 0.04, 2e7, 0.03, 2e7, 4e4, 0.5, 4e3};
 
 static void cz_suspension_spring_at(const double *input, double *output) {
@@ -213,6 +224,10 @@ static const Law range_cz_brake_capacity = {.n_input = 4,
                                             .scale = {1e5}};
 static const Law range_cz_stop = {
     .n_input = 2, .low = {-0.2, 0}, .high = {0.2, 0.1}, .n_output = 1, .scale = {1e6}};
+static const Law range_cz_link_spring = {
+    .n_input = 2, .low = {1e6, -0.1}, .high = {4e7, 0.1}, .n_output = 1, .scale = {1e6}};
+static const Law range_cz_link_damper = {
+    .n_input = 2, .low = {1e4, -3}, .high = {1e5, 3}, .n_output = 1, .scale = {1e5}};
 static const Law range_cz_suspension_spring = {
     .n_input = 1, .low = {-0.3}, .high = {0.1}, .n_output = 1, .scale = {1e6}};
 static const Law range_cz_suspension_damper = {
@@ -371,6 +386,7 @@ static const struct {
 } signed_laws[] = {
     {LAW_cz_slider, {-1, -1, 1}, -1},     {LAW_cz_stop, {-1, 1}, -1},
     {LAW_cz_suspension_damper, {-1}, -1}, {LAW_cz_creep_deflection, {-1, -1, -1, 1, 1}, -1},
+    {LAW_cz_link_spring, {1, -1}, -1},    {LAW_cz_link_damper, {1, -1}, -1},
     {LAW_cz_drag, {1, 1, -1, -1}, -1},    {LAW_cz_ribs, {-1, 1, 1, 1}, 1},
 };
 

@@ -84,7 +84,7 @@ static const char *what_is_wrong(const char *text, const char *end) {
     if (bare[0] == '0' && (bare[1] == 'x' || bare[1] == 'X' || bare[1] == 'o'))
         return "is not a decimal number";
     if (strncmp(text, "\xe2\x88\x92", 3) == 0 || strncmp(text, "\xe2\x80\x93", 3) == 0)
-        return "is not a number: its minus is another character than '-'";
+        return "is not a number: its minus sign is not the character '-'";
     if (end == NULL)
         return "is not a number";
     if (*end == '_')
@@ -100,17 +100,17 @@ static const char *what_is_wrong(const char *text, const char *end) {
     if (*end == ',')
         return "is not a number: the decimal sign is a point";
     if (*end == ':')
-        return "is not a number: ':' has no meaning in one";
+        return "is not a number: it contains ':'";
     end += strspn(end, " ");
     if (*end == '\0')
-        return "is not a number: a blank follows it";
+        return "is not a number: a space follows it";
     if (*end == '#' || strncmp(end, "//", 2) == 0)
-        return "is not a number: a comment begins with a blank and '#'";
+        return "is not a number: a comment begins with a space and '#'";
     const char *operand = end + 1 + strspn(end + 1, " ");
     if (strchr("+*/^", *end) != NULL && is_digit(*operand))
-        return "is not a number: it has to be computed beforehand";
+        return "is not a number: formulas are not computed; write the result";
     if (ispunct((unsigned char)*end) && *end != '/')
-        return "is not a number: a sign follows it that has no meaning there";
+        return "is not a number: another character follows it";
     return "is not a number: the unit belongs to the key, not to the value";
 }
 
@@ -120,7 +120,7 @@ const char *cz_number_parse(const char *text, double *value) {
         return what_is_wrong(text, end);
     const char *bare = text + (*text == '+' || *text == '-');
     if (bare[0] == '0' && is_digit(bare[1]))
-        return "begins with a needless zero; write it without";
+        return "begins with a zero; remove it";
     const LocaleGuard guard = locale_enter();
     *value = strtod(text, NULL);
     locale_leave(guard);

@@ -37,13 +37,13 @@ typedef struct Range {
 static const Range refused[] = {
     {0x0000, 0x001f, "the control character"},     {0x007f, 0x009f, "the control character"},
     {0x00ad, 0x00ad, "the invisible character"},   {0x034f, 0x034f, "the invisible character"},
-    {0x061c, 0x061c, "the mark of direction"},     {0x115f, 0x1160, "the invisible character"},
+    {0x061c, 0x061c, "the direction mark"},        {0x115f, 0x1160, "the invisible character"},
     {0x17b4, 0x17b5, "the invisible character"},   {0x180b, 0x180f, "the invisible character"},
-    {0x200b, 0x200b, "the invisible character"},   {0x200e, 0x200f, "the mark of direction"},
-    {0x2028, 0x2029, "the separator of lines"},    {0x202a, 0x202e, "the mark of direction"},
-    {0x2060, 0x2065, "the invisible character"},   {0x2066, 0x2069, "the mark of direction"},
+    {0x200b, 0x200b, "the invisible character"},   {0x200e, 0x200f, "the direction mark"},
+    {0x2028, 0x2029, "the line separator"},        {0x202a, 0x202e, "the direction mark"},
+    {0x2060, 0x2065, "the invisible character"},   {0x2066, 0x2069, "the direction mark"},
     {0x206a, 0x206f, "the invisible character"},   {0x3164, 0x3164, "the invisible character"},
-    {0xfdd0, 0xfdef, "the non-character"},         {0xfeff, 0xfeff, "the byte order mark"},
+    {0xfdd0, 0xfdef, "the noncharacter"},          {0xfeff, 0xfeff, "the byte order mark"},
     {0xffa0, 0xffa0, "the invisible character"},   {0xfff0, 0xfffb, "the invisible character"},
     {0x1bca0, 0x1bca3, "the invisible character"}, {0x1d173, 0x1d17a, "the invisible character"},
     {0xe0000, 0xe00ff, "the invisible character"}, {0xe01f0, 0xe0fff, "the invisible character"},
@@ -64,12 +64,12 @@ static const Range no_letter[] = {
     {0x20d0, 0x20ff, "the combining mark"},
     {0x2e00, 0x2e7f, "the sign"},
     {0x3000, 0x3004, "the sign"},
-    {0xe000, 0xf8ff, "the private character"},
+    {0xe000, 0xf8ff, "the private-use character"},
     {0xfe00, 0xfe0f, "the variation selector"},
     {0xfe10, 0xfe6f, "the sign"},
     {0xff00, 0xff20, "the sign"},
     {0xe0100, 0xe01ef, "the variation selector"},
-    {0xf0000, 0x10ffff, "the private character"},
+    {0xf0000, 0x10ffff, "the private-use character"},
 };
 
 static const char *find(int n_range, const Range *range, unsigned code) {
@@ -81,7 +81,7 @@ static const char *find(int n_range, const Range *range, unsigned code) {
 
 static const char *refused_as(unsigned code) {
     if ((code & 0xfffe) == 0xfffe)
-        return "the non-character";
+        return "the noncharacter";
     return find((int)(sizeof refused / sizeof *refused), refused, code);
 }
 
@@ -95,7 +95,7 @@ bool cz_text_fault(const char *text, size_t n_byte, bool is_file, size_t *at,
     for (*at = 0; *at < n_byte;) {
         const size_t n = cz_text_character(text + *at, n_byte - *at);
         if (n == 0) {
-            snprintf(what, CZ_FAULT_ROOM, "byte 0x%02x, which begins no character of UTF-8",
+            snprintf(what, CZ_FAULT_ROOM, "byte 0x%02x, which is not valid UTF-8",
                      (unsigned)(unsigned char)text[*at]);
             return true;
         }
@@ -120,8 +120,7 @@ bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_ROO
     size_t at;
     char word[CZ_FAULT_ROOM - 8];
     if (n_byte > CZ_MOST_NAME) {
-        snprintf(what, CZ_FAULT_ROOM,
-                 "is longer than %d letters, those beyond ASCII counted as 2 to 4",
+        snprintf(what, CZ_FAULT_ROOM, "is longer than %d bytes; a letter beyond ASCII has 2 to 4",
                  (int)CZ_MOST_NAME);
         return true;
     }
@@ -136,15 +135,16 @@ bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_ROO
         const char *kind = find((int)(sizeof no_letter / sizeof *no_letter), no_letter, code);
         if (is_combining(code))
             snprintf(what, CZ_FAULT_ROOM,
-                     "holds %s U+%04X: write the letter with its mark as one character", kind,
+                     "contains %s U+%04X: write the letter with its mark as one character", kind,
                      code);
         else if (code < 0x80 && strchr(allowed, (int)code) == NULL &&
                  strchr(further, (int)code) == NULL)
-            snprintf(what, CZ_FAULT_ROOM, "holds '%c'; a name has letters, digits and _-+%s",
+            snprintf(what, CZ_FAULT_ROOM, "contains '%c'; a name has letters, digits and _-+%s",
                      (int)code, further);
         else if (kind != NULL)
-            snprintf(what, CZ_FAULT_ROOM, "holds %s U+%04X; a name has letters, digits and _-+%s",
-                     kind, code, further);
+            snprintf(what, CZ_FAULT_ROOM,
+                     "contains %s U+%04X; a name has letters, digits and _-+%s", kind, code,
+                     further);
         else
             continue;
         return true;

@@ -167,7 +167,7 @@ static CzStatus read_whole(const CzArguments *arguments, CzOption option, long l
     errno = 0;
     *value = strtol(text, &end, 10);
     if (end == text || *end != '\0' || errno != 0 || *value < lo || *value > hi)
-        return cz_fail(error, CZ_STATUS_INPUT, "'--%s %.40s' is no whole number from %ld to %ld",
+        return cz_fail(error, CZ_STATUS_INPUT, "'--%s %.40s' is not a whole number from %ld to %ld",
                        cz_options[option].name, text, lo, hi);
     return CZ_OK;
 }

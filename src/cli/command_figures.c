@@ -13,7 +13,8 @@
 static void restore(const CzArguments *arguments) {
     for (int i = 0; i < arguments->n_operand; i++)
         if (cz_report_restore_folder(arguments->operand[i]))
-            cz_tell(arguments, "restored %s, which a process that died had left under another name",
+            cz_tell(arguments,
+                    "restored %s, which an interrupted process had left under another name",
                     arguments->operand[i]);
 }
 

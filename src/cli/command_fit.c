@@ -99,8 +99,8 @@ static void tell_doubts(const CzFit *fit) {
                 summary->verdict == CZ_FIT_REFUSED ? "error" : "warning", summary->doubt[i]);
     if (summary->verdict == CZ_FIT_REFUSED)
         fprintf(stderr,
-                "  help: no law as %s fits this curve, so none is written; try another --as, "
-                "--from or --to; --svg FILE draws both\n",
+                "  help: no law of kind %s fits this curve, so none is written; try another --as, "
+                "--from or --to; --svg FILE draws curve and law\n",
                 cz_fit_kind_word(summary->kind));
 }
 
@@ -130,7 +130,7 @@ int cz_command_fit(const CzArguments *arguments) {
     CzFit *fit = NULL;
     if (svg != NULL && strcmp(svg, "-") == 0) {
         cz_fail(&error, CZ_STATUS_INPUT,
-                "'--svg -' and the law cannot both go to standard output" CZ_HELP
+                "'--svg -' and the law cannot both be written to standard output" CZ_HELP
                 "name a file, such as --svg fit.svg");
         return cz_tell_error(arguments, &error);
     }

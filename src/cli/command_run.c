@@ -59,7 +59,7 @@ static void tell_incomplete(const CzArguments *arguments, const CzEvaluation *ev
 static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
     if (evaluation->status != CZ_OK) {
         tell_incomplete(arguments, evaluation);
-        cz_tell(arguments, "a run failed or is incomplete: its results are no basis for a design");
+        cz_tell(arguments, "a run failed or is incomplete: do not use its results for a design");
         return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
     }
     const bool judges =
@@ -67,7 +67,7 @@ static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
     if (!judges || cz_verdict_passes(evaluation->verdict))
         return 0;
     if (evaluation->verdict == CZ_VERDICT_NOT_CHECKED)
-        cz_tell(arguments, "some checks could not be made, so this is no pass");
+        cz_tell(arguments, "some checks could not be made, so the verdict is not a pass");
     return cz_status_exit_code(CZ_STATUS_VIOLATED);
 }
 
@@ -131,7 +131,7 @@ static int check_folders(const CzArguments *arguments) {
             CzError error;
             cz_fail(&error, CZ_STATUS_OUTPUT,
                     "%.150s and %.150s would be written to the same folder, %.100s" CZ_HELP
-                    "run them one by one, each with its own -o",
+                    "run them one at a time, each with its own -o",
                     arguments->operand[k], arguments->operand[i], folder);
             return cz_tell_error(arguments, &error);
         }

@@ -24,7 +24,7 @@ static int judge(const CzArguments *arguments, const CzSweep *sweep) {
     for (int i = 0; i < sweep->n_point; i++) {
         const CzSweepPoint *point = &sweep->point[i];
         if (point->state == CZ_SWEEP_RUN_FAILED) {
-            cz_tell(arguments, "a run failed or is incomplete: its point is no basis for a design");
+            cz_tell(arguments, "a run failed or is incomplete: do not use its point for a design");
             return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
         }
         passes &= point->state == CZ_SWEEP_DONE && cz_verdict_passes(point->verdict);

@@ -132,8 +132,8 @@ void cz_help_write_man(void) {
     for (const CzHelpEntry *code = cz_exit_codes; code->name != NULL; code++)
         write_entry(code->name, NULL, code->doc);
     puts(".SH ENVIRONMENT");
-    write_entry("NO_COLOR", NULL, "when it is set and not empty, no colours unless asked for");
-    write_entry("TERM", NULL, "dumb: no colours and no line that rewrites itself");
+    write_entry("NO_COLOR", NULL, "when set and not empty: no colours unless requested");
+    write_entry("TERM", NULL, "dumb: no colours and no progress line");
     puts(".SH EXAMPLE\n.nf\n"
          "crushzone new two\\-trains\n"
          "crushzone run two\\-trains.yaml\n"

@@ -29,8 +29,8 @@ CzTopic cz_topic_named(const char *name) {
 
 const CzHelpEntry cz_exit_codes[] = {
     {"0", "done"},
-    {"1",
-     "a check fails or could not be made, no feasible design (optimise), a law is refused (fit)"},
+    {"1", "a check fails or could not be made, no feasible design was found (optimise), a law is "
+          "refused (fit)"},
     {"2", "error in the command line or a problem file"},
     {"3", "a run failed or is incomplete"},
     {"4", "results cannot be written"},
@@ -46,7 +46,7 @@ const CzHelpEntry cz_verdict_rules[] = {
     {"NOT CHECKED",
      "else: a run failed or is incomplete, a check could not be made, or there is no "
      "check at all"},
-    {"PROVISIONAL", "else: a check satisfies a limit that is not confirmed: its "
+    {"PROVISIONAL", "else: a check satisfies a limit that is not confirmed, that is, of a "
                     "confidence other than S1 (read in the primary text) and user (set by you)"},
     {"pass", "else: every check is satisfied"},
     {NULL, NULL}};
@@ -191,27 +191,26 @@ static void write_paths(void) {
         {"trains.A.speed_km_h", "a key of a train, by the train's name"},
         {"trains.A.vehicles.A1.mass_t", "of a vehicle, by its name"},
         {"parts.cab-end.coupler.tube.stages[0].force_kN", "of a part, wherever it is used"},
-        {"parts.cab-end.stages[*].force_kN", "of every entry of a list: one variable each"},
+        {"parts.cab-end.stages[*].force_kN", "of every entry of a list, one variable each"},
         {"simulation.time_step_ms", "of the run itself"}};
     puts("A path names the place of a value in the file. It ends in a key with its unit,\nand the "
          "value is in that unit:\n");
     write_entries((int)(sizeof paths / sizeof *paths), paths, 46);
-    puts("\nA vehicle that repeats or copies another has no values of its own; its original is "
-         "named instead.\n'crushzone show FILE' prints the whole problem with its names.");
+    puts("\nA vehicle that repeats or copies another has no values of its own; use the name of the "
+         "original.\n'crushzone show FILE' prints the whole problem with its names.");
 }
 
 static void write_profiles(void) {
     static const CzHelpEntry profiles[] = {
         {"en15227-2008", "EN 15227:2008+A1:2010; categories C-I, C-II, C-III, C-IV"},
-        {"en15227-2020a1", "EN 15227:2020+A1:2024, where a change is announced with less "
-                           "confidence; the same categories"},
+        {"en15227-2020a1",
+         "EN 15227:2020+A1:2024, with lower confidence for announced changes; the same categories"},
         {"us-49cfr238", "49 CFR 238, Tier III and the Tier I alternative"}};
-    puts(
-        "A profile is a file of limits with clause, source and confidence; a problem takes it by\n"
-        "checks: {profile: NAME, category: C-II}. It is looked for as profiles/NAME.yaml beside "
-        "the\n"
-        "problem file, then where crushzone is installed. No text of a standard is in them, and a\n"
-        "pass is no certificate. Those that come with crushzone:\n");
+    puts("A profile is a file of limits with clause, source and confidence; a problem takes it by\n"
+         "checks: {profile: NAME, category: C-II}. It is looked for as profiles/NAME.yaml beside "
+         "the\n"
+         "problem file, then where crushzone is installed. They contain no text of a standard, and "
+         "a\npass is not a certificate. Those that come with crushzone:\n");
     write_entries((int)(sizeof profiles / sizeof *profiles), profiles, 16);
     puts("\nA limit is confirmed by `confidence: S1`, read in the primary text, or `user`, set by "
          "you; what\nsatisfies any other is PROVISIONAL ('crushzone help verdicts').");
@@ -225,9 +224,9 @@ static const char *channel_example(const CzChannelInfo *info, char text[CZ_CHANN
 }
 
 static const char channels_remark[] =
-    "One row every simulation.output_step_ms. Which columns there are depends on the vehicles: A1 "
-    "stands for any of them, A4-B1 for any interface, front for either end, w1 to w4 are wheelsets "
-    "from the rear. A value is blank where there is none.";
+    "One row every simulation.output_step_ms. The columns depend on the vehicles; here A1 "
+    "represents any vehicle, A4-B1 any interface, front either end, and w1 to w4 are the wheelsets "
+    "from the rear. A missing value is blank.";
 static const char beyond_doc[] =
     "1 after an override, beyond the validity of the model; energies are blank there";
 

@@ -9,7 +9,8 @@ static volatile sig_atomic_t stop_signal;
 
 /* A run at hand takes its time to its end, so that it is said that the signal has come. */
 static void on_signal(int signal_number) {
-    static const char text[] = "\ncrushzone: stopping after the run at hand; once more: at once\n";
+    static const char text[] =
+        "\ncrushzone: stopping after the current run; press Ctrl-C again to stop at once\n";
     if (stop_signal != 0)
         _exit(128 + signal_number);
     stop_signal = signal_number;

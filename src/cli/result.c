@@ -44,10 +44,10 @@ static void tell_version(const CzArguments *arguments, const char *folder) {
     if (stream != NULL)
         fclose(stream);
     if (!is_ours)
-        cz_tell(
-            arguments,
-            "warning: the results in %s are of another version; shown are the results of this one",
-            folder);
+        cz_tell(arguments,
+                "warning: the results in %s are from another version of crushzone; this version "
+                "computed them again",
+                folder);
 }
 
 /* What to run for an operand: the file itself, or what its folder holds. */
@@ -60,9 +60,9 @@ static int find_file(CzResult *result, const char *operand) {
     }
     if (!is_there(operand, "resolved.yaml")) {
         cz_fail(&error, CZ_STATUS_INPUT,
-                "%.200s is no result folder: it has no resolved.yaml" CZ_HELP "%s", operand,
+                "%.200s is not a result folder: it has no resolved.yaml" CZ_HELP "%s", operand,
                 is_there(operand, "sweep.json")
-                    ? "it is the folder of a sweep, whose report was written with it"
+                    ? "it is the folder of a sweep, whose report was written by the sweep"
                     : "");
         return cz_tell_error(&result->arguments, &error);
     }

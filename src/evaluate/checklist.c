@@ -328,7 +328,7 @@ static CzStatus append_rules_of_files(Builder *builder) {
     CzCheck check = {.name = "rules between values",
                      .metric_text = "design.rules_broken",
                      .scenario = CZ_NO_SCENARIO,
-                     .source = "a design is written down and read back",
+                     .source = "a design must be valid when it is read from a file",
                      .is_target = true,
                      .is_rule = true};
     CZ_TRY(cz_metric_parse(check.metric_text, &check.metric, builder->error));

@@ -61,9 +61,9 @@ CzStatus cz_choice_settle(const CzProblem *problem, const CzDesignVariable *vari
                                  variable->info.choice[k]);
     }
     if (status == CZ_OK && *own < 0)
-        status =
-            cz_fail(error, CZ_STATUS_INPUT, "the buffer of the file at '%s' is none of the choices",
-                    variable->info.name);
+        status = cz_fail(error, CZ_STATUS_INPUT,
+                         "the buffer of the file at '%s' is not one of the choices",
+                         variable->info.name);
     for (int k = 0; k < variable->info.n_choice; k++)
         cz_problem_free(chosen[k]);
     return status;

@@ -135,10 +135,11 @@ static void sort_results(const CzEvaluator *evaluator, const CzCheckResult *all,
 /* Why a match has no value; NULL when it has one. */
 static const char *why_no_match(const CzMatchResult *match) {
     if (isnan(match->residual))
-        return "this scenario gave no answer";
+        return "this scenario gave no result";
     if (!isnan(match->value))
         return NULL;
-    return match->is_history ? "the run ends before the times of the file" : "the run lacks it";
+    return match->is_history ? "the run ends before the times of the file"
+                             : "the run does not record it";
 }
 
 /* A match as a constraint that is kept within the tolerance. */

@@ -165,9 +165,8 @@ static CzStatus check_twins(const Builder *builder, const void *field,
                 continue;
             return cz_problem_fail(
                 builder->problem, field, builder->error,
-                "'%s' changes '%s' but not its twin in '%s': the two trains are "
-                "identical and share every variable; vary a part, or tie both with "
-                "'paths'",
+                "'%s' changes '%s' but not its counterpart in '%s': the two trains are identical "
+                "and must share every variable; vary a part, or tie both with 'paths'",
                 variable->info.name, name_of(&builder->vehicles[variable->place[i].vehicle]),
                 name_of(&builder->vehicles[twin.vehicle]));
         }
@@ -215,7 +214,7 @@ static CzStatus check_variable(const Builder *builder, const CzVariable *written
     if (!any_own)
         return cz_problem_fail(
             builder->problem, field_of(written), builder->error,
-            "'%s' changes only the partner; a softer partner is no improvement of the design",
+            "'%s' changes only the partner; a softer partner does not improve the design",
             info->name);
     for (const CzDesignVariable *other = builder->design->variable; other != variable; other++) {
         bool shares = false;

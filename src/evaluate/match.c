@@ -104,8 +104,8 @@ static CzStatus take_channel(const CzMatchItem *item, const CzSubject *subject, 
             subject->scene->name, item->written->channel);
     if (error != NULL)
         snprintf(error->help, sizeof error->help,
-                 "vehicles or interface lack what it is about; channels.csv has the columns that "
-                 "are recorded");
+                 "its vehicles or interface do not have this quantity; channels.csv has the "
+                 "recorded columns");
     return cz_problem_place_failure(subject->problem, &item->written->channel, CZ_STATUS_INPUT,
                                     error);
 }

@@ -70,15 +70,14 @@ static const char *why_not_judged(const CzInput *input, int train, int n_scene,
     case CZ_ROLE_TRAIN:
         return NULL;
     case CZ_ROLE_OBSTACLE:
-        return "its role is that of an obstacle";
+        return "its role is obstacle";
     case CZ_ROLE_AUTO:
         break;
     }
     return is_taken_for_obstacle(input, train, n_scene, scene)
-               ? "taken for an obstacle: one rigid vehicle of at most 20 t without coupler, "
-                 "buffers, "
-                 "anti-climber and survival space; 'role: train' has it judged, 'role: obstacle' "
-                 "confirms it"
+               ? "regarded as an obstacle: one rigid vehicle of at most 20 t without coupler, "
+                 "buffers, anti-climber and survival space; set 'role: train' to judge it, or "
+                 "'role: obstacle' to confirm"
                : NULL;
 }
 

@@ -138,8 +138,8 @@ static void fit_shear_off(CzFit *fit, const CzBranch *branch, const Parts *parts
     fit->retraction = cz_fit_round(fmax(cz_branch_last(branch) - parts->drop, 0.0), 1e-3);
     if (!(parts->stop < parts->peak))
         cz_fit_doubt_that(fit,
-                          "the force falls from %s to %s kN at %s mm without a stop before it: a "
-                          "ruptured tube looks the same and is no shear-off",
+                          "the force falls from %s to %s kN at %s mm without a stop before it: "
+                          "this may be a ruptured tube instead of a shear-off",
                           cz_number_print_short(kN, 1e-3 * parts->force),
                           cz_number_print_short(kept, 1e-3 * parts->residual),
                           cz_number_print_short(at, 1e3 * parts->peak));
@@ -318,10 +318,11 @@ CzStatus cz_fit_coupler(CzFit *fit, int n_stage, CzError *error) {
     if (!isnan(parts.force))
         fit_shear_off(fit, &branch, &parts);
     if (parts.too_much > 0.0)
-        cz_fit_note_down(fit,
-                         "the force drops to %.0f %% of its peak and stays there: more than the "
-                         "%.0f %% of a shear-off's friction, so both are stages of the tube",
-                         100.0 * parts.too_much, 100.0 * LARGEST_RESIDUAL);
+        cz_fit_note_down(
+            fit,
+            "the force drops to %.0f %% of its peak and stays there: more than the %.0f %% that "
+            "friction after a shear-off can give, so both are stages of the tube",
+            100.0 * parts.too_much, 100.0 * LARGEST_RESIDUAL);
     fit->summary.energy = cz_fit_work(fit, parts.end);
     return is_alone ? fit_buffer_alone(fit, &branch, &parts, error)
                     : fit_members(fit, &branch, n_stage, &parts, error);

@@ -48,7 +48,7 @@ CzStatus cz_curve_read(const char *path, const CzCurveColumns *columns, CzCurve 
         .unit_help = "the first column is the abscissa, the second or --column the ordinate; a "
                      "title ends in its unit, as t_ms or \"force [kN]\", or a row of units is "
                      "below the titles",
-        .decimal_help = "--csv-decimal . or --csv-decimal , says which",
+        .decimal_help = "specify --csv-decimal . or --csv-decimal ,",
     };
     CzArena arena = {0};
     CzCurvePoints points;

@@ -109,8 +109,8 @@ static void stiffen(CzFit *fit, const CzKey *key) {
     if (factor <= 1.0)
         return;
     cz_fit_note_down(fit,
-                     "unloading is %.3g times as stiff as found: a softer one would give back "
-                     "more than the steepest stage took",
+                     "unloading is %.3g times as stiff as measured: a softer one would return more "
+                     "energy than the steepest stage received",
                      factor);
     fit->unloading = within(key, fit->unloading * factor * more);
     fit->second_unloading = within(key, fit->second_unloading * factor * more);

@@ -185,10 +185,11 @@ static CzStatus fit_law(CzFit *fit, int n_stage, CzError *error) {
         CZ_TRY(cz_fit_end(fit, n_stage, error));
     else
         CZ_TRY(cz_fit_plastic(fit, n_stage, error));
-    cz_fit_note_down(fit, summary->is_dynamic
-                              ? "dynamic: the curve contains the rate effect, so nothing may "
-                                "add it again"
-                              : "static: the curve contains no rate effect");
+    cz_fit_note_down(
+        fit,
+        summary->is_dynamic
+            ? "dynamic: the curve contains the rate effect, so rate factor and damping are zero"
+            : "static: the curve contains no rate effect");
     summary->law_energy = cz_fit_law_energy(fit);
     cz_fit_compare(fit);
     cz_fit_judge(fit);

@@ -55,7 +55,7 @@ void cz_fit_judge(CzFit *fit) {
     judge(fit, summary->stretch_difference / summary->mean_force, &stretch,
           "over a tenth of the stroke the force differs by %.0f %% of the mean force",
           100.0 * summary->stretch_difference / summary->mean_force);
-    judge(fit, fabs(taken), &energy, "over the whole curve the law takes %.0f %% %s energy",
+    judge(fit, fabs(taken), &energy, "over the whole curve the law absorbs %.0f %% %s energy",
           100.0 * fabs(taken), taken > 0.0 ? "more" : "less");
     judge(fit, peak - 1.0, &too_high, "the law's peak of %s kN is %.0f %% above the curve's",
           cz_number_print_short(b, 1e-3 * summary->law_peak), 100.0 * (peak - 1.0));

@@ -52,14 +52,14 @@ CzStatus cz_fit_read_trace(CzFit *fit, const char *path, const CzFitOptions *opt
         .separator = options->separator,
         .decimal = options->decimal,
         .column_help = "--stroke and --force take the title of a column or its number from 1",
-        .unit_help = "--stroke-unit and --force-unit say the unit",
-        .decimal_help = "--csv-decimal . or --csv-decimal , says which",
+        .unit_help = "give the unit with --stroke-unit or --force-unit",
+        .decimal_help = "specify --csv-decimal . or --csv-decimal ,",
     };
     CzCurvePoints points;
     CZ_TRY(cz_curve_points_read_file(&fit->arena, path, &request, &points, error));
     for (int i = 0; i < 2; i++)
         if (points.other_unit[i] != NULL)
-            cz_fit_note_down(fit, "the %s is in %s as requested; the file says %s",
+            cz_fit_note_down(fit, "the %s is read in %s as requested; the unit in the file is %s",
                              request.column[i].name, request.column[i].unit, points.other_unit[i]);
     fit->trace = (CzTrace){.n = points.n, .x = points.x, .f = points.y, .line = points.line};
     return make_trace(fit, points.source, options, points.unit[0], error);
@@ -70,8 +70,8 @@ CzStatus cz_fit_take_points(CzFit *fit, int n_point, const double *stroke, const
     static const CzSource nowhere = {.name = ""};
     CzTrace *trace = &fit->trace;
     if (n_point < 2)
-        return cz_fail(error, CZ_STATUS_INPUT, "a curve has two points or more, but this has %d",
-                       n_point);
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "a curve needs at least two points, but this one has %d", n_point);
     const size_t n = (size_t)n_point;
     trace->x = cz_arena_numbers(&fit->arena, n);
     trace->f = cz_arena_numbers(&fit->arena, n);

@@ -145,8 +145,9 @@ void cz_fit_let_rise(CzStaged *staged) {
 }
 
 CzStatus cz_fit_no_law(const CzFit *fit, CzError *error, const char *why) {
-    const CzStatus status = cz_fail(error, CZ_STATUS_VIOLATED, "no law as %s fits this curve: %s",
-                                    cz_fit_kind_word(fit->summary.kind), why);
+    const CzStatus status =
+        cz_fail(error, CZ_STATUS_VIOLATED, "no law of kind %s fits this curve: %s",
+                cz_fit_kind_word(fit->summary.kind), why);
     if (error == NULL)
         return status;
     snprintf(error->file, sizeof error->file, "%s",
@@ -175,5 +176,6 @@ CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzE
     }
     if (fabs(factor - 1.0) <= FAR_OFF)
         return CZ_OK;
-    return cz_fit_no_law(fit, error, "stages of equal energy differ too much from its force");
+    return cz_fit_no_law(fit, error,
+                         "the forces of stages with equal energy differ too much from it");
 }

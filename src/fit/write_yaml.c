@@ -35,7 +35,7 @@ static void write_head(const CzFitSummary *summary, FILE *stream) {
             text_of(a, 1e-3 * summary->energy), text_of(b, 1e-3 * summary->law_energy),
             fabs(error) <= 1e-11 * summary->energy ? "0" : text_of(c, error));
     if (!isnan(summary->returned) && !isnan(summary->law_returned))
-        fprintf(stream, "#   given back  %s kJ, law %s kJ\n", text_of(a, 1e-3 * summary->returned),
+        fprintf(stream, "#   returned    %s kJ, law %s kJ\n", text_of(a, 1e-3 * summary->returned),
                 text_of(b, 1e-3 * summary->law_returned));
     fprintf(stream, "#   force       differs by at most %s kN, at %s mm; root mean square %s kN\n",
             force_of(a, summary->largest_difference, summary->mean_force),
@@ -94,7 +94,7 @@ void cz_fit_write_yaml(const CzFit *fit, FILE *stream) {
     for (int i = 0; i < fit->summary.n_note; i++)
         fprintf(stream, "# note: %s\n", fit->summary.note[i]);
     fprintf(stream,
-            "# Taken with %s: {use: %s, ...} by a problem file that names this one under "
+            "# Use it as %s: {use: %s, ...} in a problem file that lists this file under "
             "`catalogue`.\n",
             records[fit->summary.kind], fit->summary.name);
     fprintf(stream, "parts:\n  %s:\n", fit->summary.name);

@@ -195,7 +195,7 @@ static int rates_of(sunrealtype time, N_Vector state, N_Vector rate, void *data)
         return 0;
     solver->is_refused = true;
     snprintf(solver->message.text, sizeof solver->message.text,
-             "the laws give no finite rates at %.3f ms", 1e3 * time);
+             "the laws give rates that are not finite at %.3f ms", 1e3 * time);
     return -1;
 }
 

@@ -69,7 +69,8 @@ static CzStatus choose_trains(CzModel *model, const CzInput *input, CzError *err
     for (int i = 0; i < 2 && names->n_text == 2; i++) {
         model->train[i] = find_train(input, names->text[i]);
         if (model->train[i] < 0) {
-            cz_fail(error, CZ_STATUS_INPUT, "scenario '%s' names train '%s', which the file lacks",
+            cz_fail(error, CZ_STATUS_INPUT,
+                    "scenario '%s' names train '%s', which is not in the file",
                     model->scenario->name, names->text[i]);
             cz_problem_place(model->problem, names, error);
             return CZ_STATUS_INPUT;
@@ -167,8 +168,8 @@ static CzStatus find_perturbed(CzModel *model, CzError *error) {
     if (model->perturbed >= 0)
         return CZ_OK;
     cz_fail(error, CZ_STATUS_INPUT,
-            "scenario '%s' perturbs '%s', which is no inner interface of it", model->scenario->name,
-            name);
+            "scenario '%s' perturbs '%s', which is not an inner interface of its trains",
+            model->scenario->name, name);
     cz_problem_place(model->problem, &model->scenario->perturbed_interface, error);
     return CZ_STATUS_INPUT;
 }

@@ -33,7 +33,7 @@ static CzStatus fill_curve(const CzFill *fill, CzPartName part, const void *fiel
     CzCurveLanes *curve = &fill->lanes->curve[id];
     const size_t lane = cz_fill_lane(fill, part.lane);
     if (breakpoints->n > curve->n_breakpoint)
-        return cz_fill_refuse(fill, part, field, "has more stages than the problem file gives it");
+        return cz_fill_refuse(fill, part, field, "has more stages than in the problem file");
     curve->start[lane] = breakpoints->start;
     curve->usable[lane] = breakpoints->usable;
 
@@ -95,9 +95,9 @@ static CzStatus check_strength(const CzFill *fill, CzPartName part, const void *
         return cz_fill_refuse(fill, part, field, "give either stages or a curve, not %s",
                               table->given ? "both" : "none");
     if (table->given && table->basis == CZ_BASIS_DYNAMIC && rise != 0.0)
-        return cz_fill_refuse(fill, part, field,
-                              "a dynamic curve already contains the rate effect; leave out the "
-                              "rate and speed factors");
+        return cz_fill_refuse(
+            fill, part, field,
+            "a dynamic curve already contains the rate effect; remove the rate and speed factors");
     return table->given ? check_table(fill, part, table) : check_stages(fill, part, stage, n_stage);
 }
 
@@ -145,8 +145,8 @@ static CzStatus check_unloading(const CzFill *fill, CzPartName part, const CzEnd
         if (slope > steepest)
             return cz_fill_refuse(
                 fill, part, table->given ? (const void *)table : &end->stages[i].force,
-                "%s %d rises by %g MN/m; with these unloading stiffnesses more "
-                "than %g MN/m would give back more energy than it took",
+                "%s %d rises by %g MN/m; with these unloading stiffnesses more than %g MN/m would "
+                "return more energy than it received",
                 table->given ? "segment" : "stage", i + 1, slope * 1e-6, steepest * 1e-6);
     }
     return CZ_OK;

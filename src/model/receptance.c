@@ -388,10 +388,10 @@ static CzStatus fit(const CzTrackModes *modes, CzArena *arena, CzArena *scratch,
             return scratch->out_of_memory || arena->out_of_memory
                        ? cz_no_memory(error, "the track's receptance")
                        : cz_fail(error, CZ_STATUS_INPUT,
-                                 "no few modes are the receptance of this track under a bogie with "
-                                 "an axle spacing of %g m to 0.3 %%: its masses, stiffnesses and "
-                                 "damping lie too far apart" CZ_HELP
-                                 "simulation: {track: modal} runs on all of its modes",
+                                 "the receptance of this track under a bogie with an axle spacing "
+                                 "of %g m cannot be fitted by few modes to 0.3 %%: its masses, "
+                                 "stiffnesses and damping differ too much" CZ_HELP
+                                 "use simulation: {track: modal}, which has all of its modes",
                                  receptance->axle_spacing);
     }
     return CZ_OK;

@@ -100,8 +100,8 @@ static CzStatus find_copies(const CzTrackModes *modes, BlockModes *copy[2], CzEr
         const CzTrackBlock block = cz_track_block(&modes->seats, modes->n_seat, j);
         if (!find_modes(&block, modes->cut, &copy[0][j]))
             return cz_fail(error, CZ_STATUS_INPUT,
-                           "the track's modes could not be found to the digits of a number: its "
-                           "masses, stiffnesses and damping lie too far apart");
+                           "the modes of the track could not be computed with sufficient accuracy: "
+                           "its masses, stiffnesses and damping differ too much");
         if (2 * j == modes->n_seat)
             copy[1][j] = free_wave(&block, modes->cut);
         else if (j > 0)

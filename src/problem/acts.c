@@ -303,7 +303,7 @@ static void warn(CzProblem *problem, const Condition **lack, int first) {
         snprintf(list + n, sizeof list - n, "%s%s", n > 0 ? ", " : "", next->key->stem);
         lack[i] = NULL;
     }
-    static const char help[] = "take out what has no effect, or add what it should act with";
+    static const char help[] = "remove the key, or add what it acts with";
     CzMistakes *warnings = &problem->reader.warnings;
     const char *word = word_of(condition);
     if (condition->models != EVERY)

@@ -104,7 +104,7 @@ static void report_unit(CzBinder binder, const Record *record, const CzNode *typ
     if (key->dimension != CZ_DIMENSION_NONE && *suffix == '\0')
         snprintf(wrong, sizeof wrong, " needs a unit");
     else if (key->dimension != CZ_DIMENSION_NONE)
-        snprintf(wrong, sizeof wrong, ": '%s' is no unit of %s", suffix + 1,
+        snprintf(wrong, sizeof wrong, ": '%s' is not a unit of %s", suffix + 1,
                  cz_dimension_text[key->dimension]);
     cz_mistake(&binder.reader->mistakes, typed, trail, "key '%s' in %s%s" CZ_HELP "write %s",
                typed->text, record->record->name, wrong, spellings);
@@ -225,8 +225,9 @@ static void bind_list(CzBinder binder, const Record *record, const CzKey *key, c
         return;
     const bool is_too_long = is_stages && list->n_entry > CZ_MAX_STAGES;
     if (is_too_long)
-        cz_mistake(&binder.reader->mistakes, list, trail, "'%s' has %d stages; %d is the most",
-                   key->stem, list->n_entry, (int)CZ_MAX_STAGES);
+        cz_mistake(&binder.reader->mistakes, list, trail,
+                   "'%s' has %d stages; at most %d are allowed", key->stem, list->n_entry,
+                   (int)CZ_MAX_STAGES);
     else if (list->n_entry == 0 && (is_stages || key->presence == CZ_PRESENCE_REQUIRED))
         cz_mistake(&binder.reader->mistakes, list, trail,
                    is_stages ? "'%s' has no stage" : "'%s' is empty", key->stem);
@@ -342,7 +343,7 @@ static void bind_entry(CzBinder binder, Record *record, const CzEntry *entry) {
     const CzNode **seen = &record->seen[key - record->record->key];
     if (*seen != NULL) {
         cz_mistake(&binder.reader->mistakes, entry->key, trail,
-                   "'%s' is there twice, as '%s' and as '%s'", key->stem, (*seen)->text,
+                   "'%s' is given twice, as '%s' and as '%s'", key->stem, (*seen)->text,
                    entry->key->text);
         return;
     }

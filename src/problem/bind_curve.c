@@ -115,7 +115,7 @@ static bool take_point(Curve *curve, const Column column[2], const CzNode *point
     if (at > 0 && points->x[at] <= points->x[at - 1])
         return refuse(
             curve, x,
-            "'%s' must rise from point to point, but %.40s does not lie beyond the point before",
+            "'%s' must increase from point to point, but %.40s is not above the point before",
             column[0].stem, x->text);
     points->n++;
     return true;
@@ -221,7 +221,7 @@ static bool take_request(const Curve *curve, CzCurveRequest *request) {
         .column_help = "columns: [STROKE, FORCE] beside the file names both by title or number",
         .unit_help = "a title ends in its unit, as stroke_mm or \"Load (N)\", or a row of units is "
                      "below the titles",
-        .decimal_help = "decimal: '.' or decimal: ',' beside the file says which"};
+        .decimal_help = "give decimal: '.' or decimal: ',' beside the file"};
     if (cz_node_find(curve->node, "columns") == NULL)
         return has_decimal;
     const CzNode *titles = find_columns(curve);

@@ -29,7 +29,7 @@ static bool keep_window(CzReader *reader, const CzMatch *match, CzCurvePoints *p
     for (int i = 0; i < points->n; i++) {
         if (!(points->x[i] > last)) {
             cz_mistake_at(&reader->mistakes, points->source, points->line[i], 1,
-                          "time must rise from line to line, but does not here");
+                          "the time must increase from line to line, but does not here");
             return false;
         }
         last = points->x[i];
@@ -44,7 +44,7 @@ static bool keep_window(CzReader *reader, const CzMatch *match, CzCurvePoints *p
         cz_mistake_at(&reader->mistakes, points->source, points->line[0], 1,
                       "the times begin before the first contact, which is at 0: no run has a value "
                       "there");
-        cz_mistake_help(&reader->mistakes, "from_ms: 0 in the match leaves out what is before");
+        cz_mistake_help(&reader->mistakes, "from_ms: 0 in the match omits earlier times");
         return false;
     }
     if (n >= 2)
@@ -64,7 +64,8 @@ static void read_measured(CzProblem *problem, const CzMatch *match, CzMeasured *
         return;
     const CzCurveRequest request = {
         .column = {{.name = "time", .dimension = CZ_DIMENSION_TIME}, column_of(match)},
-        .column_help = "`column` of the match names the values; times are in a column t_ms, t_s or "
+        .column_help = "`column` of the match names the column of the values; times are in a "
+                       "column t_ms, t_s or "
                        "\"Time (s)\"",
         .unit_help = "a title ends in its unit, as t_ms, or a row of units is below the titles"};
     CzCurvePoints points;

@@ -84,7 +84,7 @@ static bool check_category(CzProblem *problem, const CzProfile *profile, const C
                    named->value->text);
     } else if (checks->category != NULL && !has_any) {
         cz_mistake(&reader->warnings, place->value, place->trail,
-                   "profile '%.96s' knows no categories: all its limits hold for '%.96s'",
+                   "profile '%.96s' has no categories: remove '%.96s', all its limits apply",
                    named->value->text, category);
     } else if (checks->category != NULL && !is_known) {
         cz_mistake(&reader->mistakes, place->value, place->trail,

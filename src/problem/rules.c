@@ -17,7 +17,7 @@ static void check_what_acts(const CzRules *rules) {
     const bool is_elastic = input->simulation.track != CZ_TRACK_RIGID;
     if (input->track.given && !(rolls && is_elastic))
         cz_rule_warning(rules, &input->track, "no effect: %s",
-                        rolls ? "simulation: {track: rigid} has no use for a roadbed"
+                        rolls ? "simulation: {track: rigid} does not use `track`"
                               : "no vehicle of model: full is on the track");
     else if (input->track.given && input->simulation.track != CZ_TRACK_FE &&
              cz_rule_is_written(rules, &input->track.nodes_per_bay))
@@ -44,7 +44,7 @@ static void check_payload(const CzRules *rules) {
             share = &input->scenarios[i].payload_share;
     if (payload != NULL && share == NULL)
         cz_rule_warning(rules, payload,
-                        "no effect: no scenario has a 'payload_share', so nothing is on board");
+                        "no effect: no scenario has a 'payload_share', so no payload is on board");
     if (payload == NULL && share != NULL && *share > 0)
         cz_rule_warning(rules, share, "no effect: no vehicle has a 'payload'");
 }
@@ -60,7 +60,7 @@ static void check_times(const CzRules *rules) {
                         "no effect: every scenario has a duration of its own");
     if ((all_have || simulation->duration > 0) && cz_rule_is_written(rules, &simulation->longest))
         cz_rule_warning(rules, &simulation->longest,
-                        "no effect: every run has a duration, and ends when it is over");
+                        "no effect: every run has a duration at which it ends");
 }
 
 /* A step of the simulation cannot be longer than what is written out. */

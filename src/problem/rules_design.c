@@ -59,29 +59,30 @@ static bool is_fit(const CzRules *rules) {
 static void check_target(const CzRules *rules, const CzVariable *variable, const char *const *path,
                          const CzTarget *target, const CzTarget *first) {
     if (!target->may_vary && !(target->may_fit && is_fit(rules))) {
-        cz_rule_broken(rules, path, "'%.120s' is data, not a %s" CZ_HELP "%s%s", *path,
-                       is_fit(rules) ? "parameter of a fit" : "design variable",
-                       is_fit(rules) ? "`crushzone help keys` lists what may be fitted"
-                                     : "stage forces and strokes, trigger and shear-off forces and "
-                                       "gaps may vary",
-                       !is_fit(rules) && target->may_fit ? "; this may, too, in a fit to `match`"
-                                                         : "");
+        cz_rule_broken(
+            rules, path, "'%.120s' is fixed data and cannot be a %s" CZ_HELP "%s%s", *path,
+            is_fit(rules) ? "parameter of a fit" : "design variable",
+            is_fit(rules)
+                ? "`crushzone help keys` lists what may be fitted"
+                : "stage forces and strokes, trigger and shear-off forces, and gaps may vary",
+            !is_fit(rules) && target->may_fit ? "; in a fit with `match` this value may vary, too"
+                                              : "");
         return;
     }
     if (cz_strokes_depend_on(rules->input, target->field))
         cz_rule_broken(rules, path,
-                       "'%.120s' cannot vary: the strokes of the curve depend on it; "
-                       "give the curve in the strokes that its law is over",
+                       "'%.120s' cannot vary: the strokes of the curve depend on it; give the "
+                       "curve over plastic strokes for a device, over total strokes for an end",
                        *path);
     const CzPlace *place = cz_places_find(&rules->problem->places, target->field);
     if (place == NULL || place->address != target->field || place->key == NULL)
         return;
     const double lo = place->key->lo / first->unit, hi = place->key->hi / first->unit;
     if (variable->min < lo)
-        cz_rule_broken(rules, &variable->min, "%s can be no smaller than %s %s", place->key->stem,
+        cz_rule_broken(rules, &variable->min, "%s must not be smaller than %s %s", place->key->stem,
                        CZ_SHORT(lo), first->suffix);
     if (variable->max > hi)
-        cz_rule_broken(rules, &variable->max, "%s can be no larger than %s %s", place->key->stem,
+        cz_rule_broken(rules, &variable->max, "%s must not be larger than %s %s", place->key->stem,
                        CZ_SHORT(hi), first->suffix);
 }
 
@@ -151,7 +152,7 @@ static bool find_buffers(const CzRules *rules, const char *const *path, CzTarget
         found->may_vary = true;
     }
     if (error.status == CZ_STATUS_INPUT)
-        cz_rule_broken(rules, path, "'%.120s' names no buffer: only buffers may be chosen", *path);
+        cz_rule_broken(rules, path, "'%.120s' is not a buffer: only buffers may be chosen", *path);
     return n_found > 0;
 }
 

@@ -23,8 +23,9 @@ static void check_law(const CzRules *rules, const CzDevice *device, const void *
     if (!has_stages && !has_curve)
         cz_rule_absent(rules, record, "%s needs 'stages' or a 'curve'", what);
     if (has_stages && has_curve)
-        cz_rule_broken(rules, device->curve,
-                       "%s has 'stages' and a 'curve'; one of them must go (stages: null)", what);
+        cz_rule_broken(
+            rules, device->curve,
+            "%s has 'stages' and a 'curve'; remove one of them, for example by stages: null", what);
 }
 
 /* A curve begins at stroke 0; every stage carries a force, or ends at one. */
@@ -78,7 +79,7 @@ static void check_buffer(const CzRules *rules, const CzBuffer *buffer) {
     for (int i = 0; i < buffer->n_stages; i++) {
         if (cz_rule_note(rules, CZ_VALUE_RULE_BUFFER, force, buffer->stages[i].force))
             cz_rule_broken(rules, &buffer->stages[i].force,
-                           "a buffer's force cannot fall while it is pressed: %s after %s",
+                           "the force of a buffer must not fall during loading: %s after %s",
                            CZ_KN(buffer->stages[i].force), CZ_KN(force));
         force = buffer->stages[i].force;
     }
@@ -124,7 +125,7 @@ static void check_zones(const CzRules *rules, const CzEnd *end) {
         if (end->stages[i].zone < end->stages[i - 1].zone)
             cz_rule_broken(
                 rules, &end->stages[i].zone,
-                "%s space cannot lie behind %s space: the stages go from the front inwards",
+                "%s space cannot be behind %s space: stages are listed from the front inwards",
                 cz_word_sets[CZ_WORDS_ZONE].word[end->stages[i].zone].word,
                 cz_word_sets[CZ_WORDS_ZONE].word[end->stages[i - 1].zone].word);
 }
@@ -151,21 +152,21 @@ static void check_unloading(const CzRules *rules, const CzEnd *end) {
                        "or unloading_stiffness_MN_m");
     cz_rule_note(rules, CZ_VALUE_RULE_UNLOADING, steepest, end->unloading_stiffness);
     if (end->unloading_stiffness < steepest * (1 - 1e-12))
-        cz_rule_broken(
-            rules, &end->unloading_stiffness,
-            "an end cannot unload more softly than it was loaded: %s against %s in its steepest "
-            "stage",
-            CZ_IN_UNIT(end->unloading_stiffness, "MN/m", 1e6), CZ_IN_UNIT(steepest, "MN/m", 1e6));
+        cz_rule_broken(rules, &end->unloading_stiffness,
+                       "the unloading of an end must be at least as stiff as its loading: %s, but "
+                       "%s in its steepest stage",
+                       CZ_IN_UNIT(end->unloading_stiffness, "MN/m", 1e6),
+                       CZ_IN_UNIT(steepest, "MN/m", 1e6));
 }
 
 static void check_available(const CzRules *rules, const CzEnd *end) {
     const double stroke = cz_free_stroke(end) + cz_device_stroke(CZ_DEVICE(&end->anti_climber));
     cz_rule_note(rules, CZ_VALUE_RULE_AVAILABLE, stroke, end->available_length);
     if (stroke > end->available_length * (1 + 1e-12))
-        cz_rule_broken(
-            rules, &end->available_length,
-            "anti-climber and end crush %s in front of the survival space, but only %s are there",
-            CZ_MM(stroke), CZ_MM(end->available_length));
+        cz_rule_broken(rules, &end->available_length,
+                       "anti-climber and end crush %s in front of the survival space, but only %s "
+                       "are available",
+                       CZ_MM(stroke), CZ_MM(end->available_length));
 }
 
 static void check_structure(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end) {
@@ -175,9 +176,9 @@ static void check_structure(const CzRules *rules, const CzVehicle *vehicle, cons
     if (!is_rigid || vehicle->model == CZ_MODEL_FULL) /* others may have a rigid end */
         check_law(rules, &crushing, end, "an end");
     if (end->n_stages > MOST_END_STAGES)
-        cz_rule_broken(rules, end->stages, "an end has %d stages; %d is the most", end->n_stages,
-                       (int)MOST_END_STAGES);
-    check_forces(rules, &crushing, "a stage of an end must end at a force");
+        cz_rule_broken(rules, end->stages, "an end has %d stages; at most %d are allowed",
+                       end->n_stages, (int)MOST_END_STAGES);
+    check_forces(rules, &crushing, "a stage of an end needs a force at its end");
     check_zones(rules, end);
     check_unloading(rules, end);
     check_available(rules, end);
@@ -206,17 +207,17 @@ static void check_gaps(const CzRules *rules, const CzEnd *end) {
     const double travel = coupler_stroke(coupler) + coupler->shear_off.retraction_space;
     if (coupler->shear_off.given &&
         cz_rule_note(rules, CZ_VALUE_RULE_RETRACTION, device->gap, coupler->gap + travel))
-        cz_rule_broken(
-            rules, &coupler->shear_off.retraction_space,
-            "the released coupler comes to its stop after %s, before the anti-climber is met at %s",
-            CZ_MM(coupler->gap + travel), CZ_MM(device->gap));
+        cz_rule_broken(rules, &coupler->shear_off.retraction_space,
+                       "the released coupler reaches its stop after %s, before contact of the "
+                       "anti-climber at %s",
+                       CZ_MM(coupler->gap + travel), CZ_MM(device->gap));
 }
 
 /* What a sheared coupler keeps is less than what sheared it. */
 static void check_shear_off(const CzRules *rules, const CzShearOff *device) {
     if (device->given && device->residual_force >= device->force)
         cz_rule_broken(rules, &device->residual_force,
-                       "a residual force of %s is no less than the shear-off force of %s",
+                       "a residual force of %s is not below the shear-off force of %s",
                        CZ_KN(device->residual_force), CZ_KN(device->force));
 }
 
@@ -231,7 +232,7 @@ void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const Cz
     check_tube(rules, &end->side_buffers.tube);
     check_gaps(rules, end);
     if (end->slide.given && vehicle->model != CZ_MODEL_FIXED)
-        cz_rule_broken(rules, &end->slide, "only a fixed vehicle is dragged on a slide");
+        cz_rule_broken(rules, &end->slide, "only a fixed vehicle can have a slide");
     if (end->slide.given && end == &vehicle->front && vehicle->rear.given &&
         vehicle->rear.slide.given)
         cz_rule_broken(rules, &end->slide,

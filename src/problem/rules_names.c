@@ -110,9 +110,10 @@ static void add_columns(Names *names, bool of_interface, const char *name,
             const int number = names->index.n_entry;
             if (kept == NULL || add(names, kept, number) == number)
                 continue;
-            cz_rule_broken(names->rules, field,
-                           "the name '%.48s' gives two columns of results one name: %.127s", *field,
-                           text);
+            cz_rule_broken(
+                names->rules, field,
+                "the name '%.48s' makes two columns of the results have the same name: %.127s",
+                *field, text);
             return;
         }
     }
@@ -174,10 +175,10 @@ static void check_scenario_name(const CzRules *rules, Names *names, int scenario
     else if ((*name)[strlen(*name) - 1] == '.')
         cz_rule_broken(rules, name, "the name of a scenario does not end with a point");
     else if (lower != NULL && is_result_file(lower))
-        cz_rule_broken(rules, name,
-                       "a scenario cannot be called '%.48s': a result folder holds a file of that "
-                       "name, and each scenario has a folder in it",
-                       *name);
+        cz_rule_broken(
+            rules, name,
+            "a scenario cannot be called '%.48s': a result folder contains a file of that name",
+            *name);
     const int first = lower != NULL ? add(names, lower, scenario) : scenario;
     if (first != scenario)
         refuse_second(rules, "scenarios", &all[first].name, &all[first], name, &all[scenario]);

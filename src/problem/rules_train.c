@@ -85,15 +85,14 @@ static void warn_of_unpaired_devices(const CzRules *rules, const Facing *facing)
         return;
     if (end->coupler.given && !opposite->coupler.given)
         cz_rule_warning(rules, &end->coupler,
-                        "unpaired coupler: '%.48s' has none to meet that of '%.48s', which then "
+                        "unpaired coupler: '%.48s' has none opposite that of '%.48s', which then "
                         "carries no force; in reality it would strike the headstock",
                         other, own);
     if (end->side_buffers.given && !opposite->side_buffers.given)
-        cz_rule_warning(
-            rules, &end->side_buffers,
-            "unpaired side buffers: '%.48s' has none to meet those of '%.48s', which then "
-            "carry no force; in reality they would strike the headstock",
-            other, own);
+        cz_rule_warning(rules, &end->side_buffers,
+                        "unpaired side buffers: '%.48s' has none opposite those of '%.48s', which "
+                        "then carry no force; in reality they would strike the headstock",
+                        other, own);
 }
 
 /* A coupler that meets that of a full vehicle is part of a strut between two pivots. */
@@ -101,11 +100,10 @@ static void check_strut(const CzRules *rules, const Facing *facing) {
     const CzCoupler *coupler = &facing->end->coupler;
     if (coupler->given && facing->opposite->coupler.given && !(coupler->length > 0) &&
         facing->own->model == CZ_MODEL_RIGID && facing->other->model == CZ_MODEL_FULL)
-        cz_rule_absent(
-            rules, coupler,
-            "the coupler of rigid '%.48s' meets that of full '%.48s', and the line between "
-            "their pivots needs the length of both: length_m or length_mm",
-            name_of(facing->own->name), name_of(facing->other->name));
+        cz_rule_absent(rules, coupler,
+                       "the coupler of rigid '%.48s' meets that of full '%.48s', and the line "
+                       "between their pivots requires the length of both: length_m or length_mm",
+                       name_of(facing->own->name), name_of(facing->other->name));
 }
 
 static void check_neighbours(const CzRules *rules, const CzVehicle *behind,
@@ -254,8 +252,8 @@ static void check_offset(const CzRules *rules, const double *offset, const CzVeh
     const bool is_fixed = behind->model == CZ_MODEL_FIXED || ahead->model == CZ_MODEL_FIXED;
     if (!isnan(*offset) && *offset != 0 && (!is_full || is_fixed))
         cz_rule_warning(rules, offset, "no effect: %s",
-                        is_fixed ? "a fixed vehicle is an upright plane"
-                                 : "neither vehicle there is of model: full");
+                        is_fixed ? "a fixed vehicle is a vertical plane"
+                                 : "neither of its vehicles is of model: full");
 }
 
 /* Offsets of the trains count where the scenario has none. */
@@ -273,8 +271,7 @@ static void check_offsets(const CzRules *rules, const CzScenario *scenario,
 
 static void check_brake(const CzRules *rules, const double *ratio, const CzTrain *train) {
     if (!isnan(*ratio) && !cz_rule_is_written(rules, &train->brake))
-        cz_rule_broken(rules, ratio, "train '%.48s' has no 'brake' whose ratio could be another",
-                       name_of(train->name));
+        cz_rule_broken(rules, ratio, "train '%.48s' has no 'brake'", name_of(train->name));
 }
 
 /* One of two trains at least must be there to be judged. */
@@ -302,10 +299,11 @@ static void check_taken(const CzRules *rules, const CzTrain *train) {
             is_taken |= strcmp(names->text[k], train->name) == 0;
     }
     if (!is_taken)
-        cz_rule_warning(rules, &train->name,
-                        "no effect: train '%.48s' is in no scenario; a scenario names its two by "
-                        "'trains: [BEHIND, AHEAD]', without names the first two collide",
-                        name_of(train->name));
+        cz_rule_warning(
+            rules, &train->name,
+            "no effect: train '%.48s' is in no scenario; a scenario names its two trains by "
+            "'trains: [BEHIND, AHEAD]', otherwise the first two of the file collide",
+            name_of(train->name));
 }
 
 void cz_rules_check_scenarios(const CzRules *rules) {

@@ -78,8 +78,8 @@ static void convert(CzReader *reader, const CzNode *node, const CzTrail *trail, 
                    "for it");
     else if (behind > BEHIND * stroke)
         cz_mistake(&reader->warnings, node, trail,
-                   "'curve' %s more steeply than the stiffness of %s MN/m lets its law follow: the "
-                   "law is up to %s mm behind it",
+                   "'curve' %s more steeply than its law can follow with a stiffness of %s MN/m: "
+                   "the law is up to %s mm behind it",
                    compliance < 0 ? "rises" : "falls",
                    cz_number_print_short(stiffness, 1e-6 / fabs(compliance)),
                    cz_number_print_short(length, 1e3 * behind));
@@ -93,8 +93,8 @@ static void bind_plastic(CzReader *reader, const CzNode *node, const CzTrail *tr
     else if (curve->strokes == CZ_STROKES_UNSAID && curve->y[0] < WITHOUT_FORCE * mean_force(curve))
         cz_mistake(&reader->warnings, node, trail,
                    "'curve' begins without force, as a total shortening does, but its strokes are "
-                   "taken as plastic; 'strokes: total' takes off the elastic part, 'strokes: "
-                   "plastic' keeps it");
+                   "taken as plastic; 'strokes: total' subtracts the elastic part, 'strokes: "
+                   "plastic' confirms plastic strokes");
     curve->strokes = CZ_STROKES_PLASTIC;
 }
 

@@ -109,8 +109,8 @@ static bool set_indicators(Making *making) {
             MM(trace->x[0]), MM(x.least), help,
             help[0] != '\0' ? "; lines in the reverse order have to be sorted by the stroke" : "");
     return refuse(making, 0,
-                  "the forces are negative, to %s kN, while the stroke grows: either they count "
-                  "tension positive, or this is a test in tension" CZ_HELP "%s",
+                  "the forces are negative, down to %s kN, while the stroke grows: either tension "
+                  "is positive, or this is a test in tension" CZ_HELP "%s",
                   KN(f.least), help);
 }
 
@@ -194,8 +194,8 @@ static bool check_turns(const Making *making) {
         return true;
     return refuse(making, first,
                   "the strokes turn %d times, first from %s to %s mm" CZ_HELP
-                  "a curve loads once, in the order of the strokes, and unloads at most once; sort "
-                  "the lines, or leave out cycles",
+                  "a curve has one loading in the order of the strokes, and at most one unloading; "
+                  "sort the lines, or remove cycles",
                   n_turn, MM(turned_at), MM(trace->x[first]));
 }
 
@@ -221,8 +221,8 @@ static bool find_zero(Making *making, double peak, double *zero) {
         return true;
     }
     refuse(making, 0,
-           "the curve begins at a stroke of %s mm with a force of %s kN: either stroke 0 is there, "
-           "or the points before are missing",
+           "the curve begins at a stroke of %s mm with a force of %s kN: either this is stroke 0, "
+           "or earlier points are missing",
            MM(first), KN(trace->f[0]));
     cz_mistake_help(making->mistakes, making->shape->zero_help);
     return false;
@@ -265,20 +265,20 @@ static bool check_sizes(Making *making) {
     for (int i = 0; i < trace->n; i++) {
         const double x = trace->x[i], f = trace->f[i];
         if (x < -STROKE_NOISE * fmax(far, 0.0) || (far <= 0.0 && x < 0.0))
-            return refuse(making, i,
-                          "a stroke of %s mm is below zero; a curve begins at 0 and compression "
-                          "counts positive",
-                          MM(x));
+            return refuse(
+                making, i,
+                "a stroke of %s mm is negative; a curve begins at 0, and compression is positive",
+                MM(x));
         if (x > CZ_LARGEST_STROKE)
             return refuse(making, i,
-                          "a stroke of %s mm is more than any stage may have; is the unit right?",
+                          "a stroke of %s mm is larger than allowed for a stage; check the unit",
                           MM(x));
         if (f > CZ_LARGEST_FORCE)
             return refuse(making, i,
-                          "a force of %s kN is more than any stage may have; is the unit right?",
+                          "a force of %s kN is larger than allowed for a stage; check the unit",
                           KN(f));
         if (f < -FORCE_NOISE * fmax(peak, 0.0) || (peak <= 0.0 && f < 0.0))
-            return refuse(making, i, "a force of %s kN is below zero; compression counts positive",
+            return refuse(making, i, "a force of %s kN is negative; compression is positive",
                           KN(f));
         trace->x[i] = fmax(x, 0.0);
         trace->f[i] = fmax(f, 0.0);
@@ -297,8 +297,8 @@ static bool check_order(const Making *making) {
         if (back > noise)
             return refuse(making, i,
                           "the stroke goes %s from %s to %s mm %s the largest" CZ_HELP
-                          "a curve loads once, in the order of the strokes, and unloads at most "
-                          "once; leave out cycles between",
+                          "a curve has one loading in the order of the strokes, and at most one "
+                          "unloading; remove cycles between",
                           is_loading ? "back" : "on", MM(furthest), MM(trace->x[i]),
                           is_loading ? "before" : "again behind");
         furthest = is_loading ? fmax(furthest, trace->x[i]) : fmin(furthest, trace->x[i]);
@@ -317,17 +317,18 @@ static bool check_energy(Making *making) {
     CzTrace *trace = making->trace;
     const int top = trace->n_loading - 1, last = trace->n - 1;
     if (top == 0 || !(cz_trace_work(trace, 0, top) > 0.0))
-        return refuse(making, top, "the curve takes no energy while its stroke grows");
+        return refuse(making, top, "the curve absorbs no energy while its stroke grows");
     trace->unloads = trace->x[top] - trace->x[last] > UNLOADING * trace->x[top] &&
                      trace->f[last] < UNLOADED * trace->f[top];
     return !trace->unloads || -cz_trace_work(trace, top, last) <= cz_trace_work(trace, 0, top) ||
-           refuse(making, top, "the unloading gives back more energy than the loading took");
+           refuse(making, top, "the unloading returns more energy than the loading absorbed");
 }
 
 static void note_free_travel(CzTrace *trace) {
     const int first = find_contact(trace, range_of(trace->f, trace->n).largest);
     if (first < trace->n_loading && trace->x[first] > FREE_TRAVEL * trace->x[trace->n_loading - 1])
-        note(trace, "there is no force up to a stroke of %s mm; a gap is no part of the law",
+        note(trace,
+             "there is no force up to a stroke of %s mm; a gap should not be part of the law",
              MM(trace->x[first]));
 }
 

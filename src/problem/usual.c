@@ -37,8 +37,7 @@ static void warn(CzMistakes *warnings, const CzPlace *place, const Usual *range,
     if (!(size > 0.0) || (size >= range->lo && size <= range->hi))
         return;
     cz_mistake(warnings, place->value, place->trail,
-               "%s of this %s is unusual: %s, where %s to %s is usual; is it in the right "
-               "unit?" CZ_HELP
+               "%s of this %s is unusual: %s, where %s to %s is usual; check the unit" CZ_HELP
                "the value is used as written; 'crushzone help keys' lists the usual ranges",
                place->key->stem, cz_records[range->record].name,
                WITH_UNIT(si / place->unit->si, place->unit), CZ_SHORT(range->lo * scale),

@@ -108,9 +108,9 @@ const char *cz_key_doc(const char *record, int index) {
 void cz_keys_write_help(FILE *stream) {
     char spelled[200];
     fputs("Keys of a problem file. Every number with a dimension carries its unit in the key.\n"
-          "Any record may also `use: PART`, with keys of its own that override the part's.\n"
-          "A number outside its usual range is used as written; a warning asks for its\n"
-          "unit, which -q leaves out.\n",
+          "Any record may also have `use: PART`; its own keys override those of the part.\n"
+          "A number outside its usual range is used as written; a warning asks to\ncheck its unit; "
+          "-q suppresses warnings.\n",
           stream);
     for (int r = 0; r < CZ_N_RECORD; r++) {
         const CzRecord *record = &cz_records[r];
@@ -155,11 +155,11 @@ static void write_reuse(FILE *stream) {
     }
     fputs(
         "\n"
-        "A record that has `use` takes all keys of the part; keys beside `use` override, inner "
-        "records key by key, lists as a whole.\n"
-        "An inner record with a `use` of its own replaces the part's, and so does a curve.\n"
+        "A record that has `use` takes all keys of the part; keys beside `use` override them, "
+        "inner records key by key, lists as a whole.\n"
+        "An inner record with its own `use` replaces that of the part, and so does a curve.\n"
         "`key: null` removes the key of the part or the base file.\n"
-        "A value in another unit overrides the same stem.\n"
+        "A value overrides the value of the part also when it is in another unit.\n"
         "A part is checked where it is used: the contents of an unused part are not read, "
         "mistakes included.\n"
         "\n"
@@ -180,8 +180,8 @@ void cz_keys_write_reference(FILE *stream) {
         "A problem file is YAML, or JSON, which is nearly a subset of it.\n"
         "Every number with a dimension carries its unit in its key, such as `force_kN`; ranges and "
         "defaults below are in SI units.\n"
-        "A number outside its usual range is used as written, with a warning that asks for the "
-        "unit; `-q` leaves warnings out. The usual ranges are ours, from a "
+        "A number outside its usual range is used as written, with a warning to check the unit; "
+        "`-q` suppresses warnings. The usual ranges are ours, from a "
         "light "
         "rail car to a loaded heavy wagon, and change no result.\n"
         "Anchors, aliases, tags and merge keys are refused; parts are reused by "

@@ -339,10 +339,11 @@ static void write_record(const Writer *writer, const CzRecord *record, const cha
 
 static void write_resolved(const CzProblem *problem, bool is_there, FILE *stream) {
     const Writer writer = {problem, stream, "", is_there};
-    fprintf(stream,
-            "# %s" CZ_RESOLVED_MARK ", values in SI.\n"
-            "# Behind each value: where it was written, or that it is a default.\n",
-            cz_problem_told_name(problem, problem->file));
+    fprintf(
+        stream,
+        "# %s" CZ_RESOLVED_MARK ", values in SI.\n"
+        "# The comment behind each value gives its place in the input, or marks it as a default.\n",
+        cz_problem_told_name(problem, problem->file));
     for (const CzSource *source = problem->reader.sources.first; source != NULL;
          source = source->next)
         fprintf(stream, "# read: %s\n", cz_problem_told_name(problem, source->name));

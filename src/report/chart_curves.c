@@ -178,7 +178,7 @@ CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int 
         return CZ_OK;
     CzChartAxes axes;
     if (chart != CZ_CHART_PANELS && !cz_chart_axes(chart, &axes))
-        return cz_fail(error, CZ_STATUS_INPUT, "no measured curve fits over '%s'",
+        return cz_fail(error, CZ_STATUS_INPUT, "no measured curve can be drawn over '%s'",
                        cz_chart_info(chart)->name);
     Reading reading = {.options = options, .chart = chart, .measured = measured, .error = error};
     const bool has_list = options->column != NULL && strchr(options->column, ',') != NULL;

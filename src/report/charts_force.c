@@ -102,5 +102,5 @@ void cz_draw_balance(CzSheet *sheet, int index) {
     (void)index;
     CzSeries *series = cz_sheet_add(sheet, CZ_DRAWN_BALANCE_ERROR, 0);
     if (series != NULL)
-        series->name = "energy too much";
+        series->name = "energy surplus";
 }

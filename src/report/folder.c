@@ -121,8 +121,7 @@ static CzStatus clean_path(const char *path, char clean[PATH_MAX], CzError *erro
     if (name[0] == '\0' || strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
         return cz_fail(
             error, CZ_STATUS_OUTPUT,
-            "the result folder cannot be '%.100s': it is replaced as a whole, so give it "
-            "a name of its own",
+            "the result folder cannot be '%.100s': it is replaced as a whole; choose another name",
             clean);
     return CZ_OK;
 }
@@ -152,14 +151,13 @@ static CzStatus check_content(const char *path, bool replaces_search, CzError *e
     if (has_foreign)
         return cz_fail(error, CZ_STATUS_OUTPUT,
                        "the folder %.150s contains %.150s, which crushzone did not write; move it "
-                       "away or choose another folder with -o",
+                       "or choose another folder with -o",
                        path, foreign);
     if (is_search && !replaces_search)
-        return cz_fail(
-            error, CZ_STATUS_OUTPUT,
-            "the folder %.150s contains the result of a search, which took long to compute; "
-            "choose another folder with -o, or replace it with --force",
-            path);
+        return cz_fail(error, CZ_STATUS_OUTPUT,
+                       "the folder %.150s contains the result of a search; choose another folder "
+                       "with -o, or replace it with --force",
+                       path);
     return CZ_OK;
 }
 
@@ -191,13 +189,13 @@ static CzStatus check_target(const char *path, bool replaces_search, CzError *er
     if (lstat(path, &info) != 0)
         return errno == ENOENT || errno == ENOTDIR ? CZ_OK : cz_cannot_write(path, errno, error);
     if (S_ISLNK(info.st_mode))
-        return cz_fail(error, CZ_STATUS_OUTPUT,
-                       "%.200s is a link; crushzone replaces folders and follows no links, so "
-                       "choose another one with -o",
-                       path);
+        return cz_fail(
+            error, CZ_STATUS_OUTPUT,
+            "%.200s is a link, which crushzone does not follow; choose another folder with -o",
+            path);
     if (!S_ISDIR(info.st_mode))
         return cz_fail(error, CZ_STATUS_OUTPUT,
-                       "%.200s exists and is no folder; choose another one with -o", path);
+                       "%.200s exists and is not a folder; choose another one with -o", path);
     if (!is_empty_folder(path))
         CZ_TRY(check_content(path, replaces_search, error));
     return check_movable(path, &info, error);
@@ -225,7 +223,7 @@ static CzStatus check_parents(const char *path, CzError *error) {
     if (stat(parent, &info) != 0 && errno != ENOTDIR)
         return cz_cannot_write(path, errno, error);
     if (stat(parent, &info) != 0 || !S_ISDIR(info.st_mode))
-        return cz_fail(error, CZ_STATUS_OUTPUT, "%.200s cannot be written: %.200s is no folder",
+        return cz_fail(error, CZ_STATUS_OUTPUT, "%.200s cannot be written: %.200s is not a folder",
                        path, parent);
     int why = cz_temporary_name(parent, trial);
     if (why == 0 && mkdir(trial, 0777) == 0) {

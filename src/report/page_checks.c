@@ -34,7 +34,7 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
     if (before != NULL && before->n_check != evaluation->n_check)
         before = NULL;
     if (evaluation->n_check == 0) {
-        cz_markup_write(markup, "<p>No checks: no check was made.</p>");
+        cz_markup_write(markup, "<p>No check was made.</p>");
         write_not_covered(markup, evaluation);
         return;
     }

@@ -55,8 +55,8 @@ static void write_motion(CzPage *page) {
     cz_markup_write(markup,
                     "<section id='motion'>\n<h2>Speed and acceleration</h2>\n"
                     "<p>Accelerations are those of the car bodies along the track, positive "
-                    "forwards. Raw curves are the recorded samples; peaks between samples stand "
-                    "in the tables only. The filter is the phaseless one of SAE J211, CFC 60.</p>"
+                    "forwards. Raw curves are the recorded samples; peaks between samples are only "
+                    "in the tables. The filter is the phaseless one of SAE J211, CFC 60.</p>"
                     "<div class='figures'>\n");
     write_all(page, CZ_CHART_VELOCITY);
     write_all(page, CZ_CHART_ACCELERATION);
@@ -84,8 +84,8 @@ void cz_page_write_figures(CzPage *page) {
         return;
     write_section(
         page, "loops", "Force over closure",
-        "Closure is the shortening between the two car bodies. The grey curve is what "
-        "the input says when the interface is closed slowly: without rate, inertia and friction.",
+        "Closure is the shortening between the two car bodies. The grey curve is the input for "
+        "slow closing of the interface: without rate effects, inertia and friction.",
         loops);
     write_section(page, "energy", "Energy", NULL, energy);
     write_motion(page);

@@ -237,7 +237,9 @@ static CzStatus write_page(CzPage *page, const CzReport *report, CzError *error)
     CZ_TRY(cz_page_write_designs(markup, evaluator, outcome, error));
     CZ_TRY(write_values(markup, report, error));
     cz_markup_write(
-        markup, "<h2>The best design</h2><p>What follows is scenario %s of the best design%s</p>",
+        markup,
+        "<h2>The best design</h2><p>The figures below are those of scenario %s of the best "
+        "design%s</p>",
         page->summary->scenario,
         page->n_other > 0 ? "; force over closure and energy also show the design before." : ".");
     cz_page_write_parts(page);

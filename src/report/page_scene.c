@@ -96,11 +96,10 @@ void cz_page_write_animation(CzPage *page) {
     if (page->n_sample < 2)
         return;
     cz_markup_write(
-        markup,
-        "<section id='animation'>\n<h2>The collision from the side</h2>\n"
-        "<p>Lengths are to scale; vertical movement, wheel lift and pitch are drawn ten times as "
-        "large. Orange: crush zones of the car ends, red: anti-climbers, bars below: "
-        "couplers.</p><div id='stage' class='script wide'>");
+        markup, "<section id='animation'>\n<h2>The collision from the side</h2>\n"
+                "<p>Lengths are to scale; vertical displacement, wheel lift and pitch are enlarged "
+                "ten times. Orange: crush zones of the car ends, red: anti-climbers, bars below: "
+                "couplers.</p><div id='stage' class='script wide'>");
     write_controls(page);
     cz_svg_open(markup, "animation of the collision", WIDTH, CZ_SCENE_HEIGHT);
     cz_markup_write(markup, " class='animation' data-scale='%.1f' data-magnify='%.1f'>",

@@ -252,8 +252,8 @@ CzStatus cz_report_check_folder(const CzProblem *problem, const char *folder, bo
     for (; source != NULL; source = source->next)
         if (cz_folder_holds(folder, source->name))
             return cz_fail(error, CZ_STATUS_OUTPUT,
-                           "the result folder %.150s holds %.150s, which this problem is read from "
-                           "and which would be replaced with it; choose another folder with -o",
+                           "the result folder %.150s contains %.150s, which this problem is read "
+                           "from and which would be replaced; choose another folder with -o",
                            folder, source->name);
     return CZ_OK;
 }

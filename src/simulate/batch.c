@@ -48,7 +48,8 @@ static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *erro
         if (cz_model_fill(batch->model, batch->vehicles[design], design, batch->lanes, &problem) ==
             CZ_OK)
             continue;
-        snprintf(progress->failure, sizeof progress->failure, "no model: %.230s", problem.message);
+        snprintf(progress->failure, sizeof progress->failure, "no model was built: %.220s",
+                 problem.message);
         progress->over = true;
         progress->ended = CZ_ENDED_INCOMPLETE;
         CZ_TRY(cz_model_fill(batch->model, own, design, batch->lanes, error));
@@ -220,7 +221,7 @@ static void step_reference(CzBatch *batch, const Recording *recording, double un
         return;
     if (progress->failure[0] == '\0')
         snprintf(progress->failure, sizeof progress->failure,
-                 "more than %d steps of the second solver within %g s at %.3f ms", MOST_STEPS,
+                 "the second solver needs more than %d steps within %g s at %.3f ms", MOST_STEPS,
                  batch->step, 1e3 * batch->time);
     progress->ended = CZ_ENDED_INCOMPLETE;
     progress->over = true;

@@ -241,7 +241,7 @@ static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *colu
         column->unit == NULL && units->in_title == NULL && (unit != NULL || units->has_unknown);
     cz_curve_unit_list(column->dimension, list, sizeof list);
     if (column->unit != NULL)
-        snprintf(sentence, sizeof sentence, "'%.60s' is no unit of the %s, which takes %s",
+        snprintf(sentence, sizeof sentence, "'%.60s' is not a unit of the %s, which takes %s",
                  column->unit, column->name, list);
     else if (units->in_title != NULL && units->in_row != NULL &&
              unit->dimension == column->dimension)
@@ -250,11 +250,11 @@ static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *colu
                  column->name, unit->suffix, units->title, units->in_row->suffix);
     else if (unit != NULL)
         snprintf(sentence, sizeof sentence,
-                 "the unit of column '%.60s', %s, is no unit of the %s, which takes %s",
+                 "the unit of column '%.60s', %s, is not a unit of the %s, which takes %s",
                  units->title, unit->suffix, column->name, list);
     else if (units->has_unknown)
         snprintf(sentence, sizeof sentence,
-                 "'%.60s' in the row of units is no unit of the %s, which takes %s",
+                 "'%.60s' in the row of units is not a unit of the %s, which takes %s",
                  cz_field_text(&units->below, below), column->name, list);
     else if (units->title[0] != '\0')
         snprintf(sentence, sizeof sentence, "the unit of column '%.60s', the %s, is not known",

@@ -149,8 +149,8 @@ static void refuse_number(const CzCurveReading *reading, int line, int i, const 
         cz_mistake_at(reading->mistakes, &reading->source, line + 1, field->column,
                       "%.60s: '%.60s' %s", name, text,
                       is_not_finite(text)                   ? "is not a finite number"
-                      : is_other && reading->decimal == '.' ? "is no number with a decimal point"
-                      : is_other                            ? "is no number with a decimal comma"
+                      : is_other && reading->decimal == '.' ? "is not a number with a decimal point"
+                      : is_other                            ? "is not a number with a decimal comma"
                       : is_one                              ? "is too large for a number"
                                                             : "is not a number");
     if (is_other)
@@ -167,9 +167,9 @@ static void refuse_count(const CzCurveReading *reading, int line, int n) {
                   "this line has %d %s, %s %d" CZ_HELP "%s", n, n == 1 ? "column" : "columns",
                   other, reading->n_field[0],
                   reading->separator == ',' && n > reading->n_field[0]
-                      ? "commas part columns here: numbers with decimal commas or grouped "
+                      ? "commas separate columns here: numbers with decimal commas or grouped "
                         "thousands need quotes around them, or ';' between the columns"
-                      : "a line that is no point, or no line of titles, is left out when it "
+                      : "a line that is neither a point nor a line of titles is skipped when it "
                         "begins with '#'");
 }
 

@@ -259,7 +259,7 @@ static bool is_copied(Walk *walk, const CzNode *mapping, Step step) {
 static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) {
     const Segment *segment = &walk->segment[step.level];
     if (segment->kind != SEGMENT_NAME) {
-        refuse(walk, step.level, "%s is no list: a key must follow", here(walk));
+        refuse(walk, step.level, "%s is not a list: a key must follow", here(walk));
         return mapping;
     }
     if (step.level == walk->n_segment - 1)

@@ -187,7 +187,7 @@ untimed() { "$C" bench two-trains.yaml --rounds 1 --json | grep -vE '"(min_ms|me
 times_alone() { untimed >first.txt; untimed >second.txt; says first.txt '"steps"' && diff first.txt second.txt; }
 check "bench --json differs from run to run in times under run_info only" times_alone
 check "bench of a run that does not end ends with 3" exits 3 "$C" bench two-trains.yaml --rounds 1 --set simulation.longest_ms=50
-no_rounds() { exits 2 "$C" bench two-trains.yaml --rounds 0 && says err.txt "'--rounds 0' is no whole number from 1 to 10000"; }
+no_rounds() { exits 2 "$C" bench two-trains.yaml --rounds 0 && says err.txt "'--rounds 0' is not a whole number from 1 to 10000"; }
 check "bench without rounds is refused" no_rounds
 facts() { exits 0 "$C" show "$SOURCE/problems/two-cars-25kmh.yaml" && ! grep '^# A1 .* nan' out.txt && says out.txt 'bounce Hz' && says out.txt 'F_crit kN'; }
 check "show prints axle loads, deflections, frequencies and F_crit" facts

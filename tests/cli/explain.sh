@@ -19,7 +19,7 @@ interrupted() {
     kill -INT $process
     code=0
     wait $process || code=$?
-    [ $code = 130 ] && says err.txt "stopping after the run at hand"
+    [ $code = 130 ] && says err.txt "stopping after the current run"
 }
 check "Ctrl-C ends with 130" interrupted
 finish

@@ -124,17 +124,17 @@ same_measured() { # recorded channels drawn as measured curves give the same pat
         [ "$(grep -o ' d="M[^"]*"' own.svg | sort | uniq -d | wc -l)" = 1 ]
 }
 check "a recorded channel over its own figure gives its own path" same_measured
-other_unit() { exits 2 "$C" plot first --measured test.csv && says err.txt "test.csv:1:1: error: the unit of column 't_ms', ms, is no unit of the length"; }
+other_unit() { exits 2 "$C" plot first --measured test.csv && says err.txt "test.csv:1:1: error: the unit of column 't_ms', ms, is not a unit of the length"; }
 check "a measured curve of another quantity is refused" other_unit
 time_first() { # the columns whose units are the figure's, or those that are wanted by their places
     printf 'Time,Extension,Load\ns,mm,N\n0,0,0\n1,100,500000\n2,200,700000\n' >machine.csv && printf 's_mm,F_kN\n0,0\n100,500\n200,700\n' >plain.csv &&
         exits 0 "$C" plot first --measured machine.csv --svg machine.svg && exits 0 "$C" plot first --measured plain.csv --svg plain.svg && cmp machine.svg plain.svg &&
-        printf 'Time,A,B,Load\ns,mm,mm,N\n0,0,0,0\n1,100,90,500000\n' >both.csv && exits 2 "$C" plot first --measured both.csv && says err.txt "the unit of column 'Time', s, is no unit of the length" && says err.txt 'the first column is the abscissa'
+        printf 'Time,A,B,Load\ns,mm,mm,N\n0,0,0,0\n1,100,90,500000\n' >both.csv && exits 2 "$C" plot first --measured both.csv && says err.txt "the unit of column 'Time', s, is not a unit of the length" && says err.txt 'the first column is the abscissa'
 }
 check "a time in front of the curve of a figure is passed over" time_first
 unknown() { exits 2 "$C" plot first --what xyz && says err.txt "there is no figure 'xyz'" && says err.txt "'crushzone help figures' lists them" && exits 2 "$C" plot first --at A9-B9 && says err.txt "they are 'A1-A2' to"; }
 check "an unknown figure or place names what there is" unknown
-no_overlay() { exits 2 "$C" plot first --what shares --measured test.csv && says err.txt "no measured curve fits over 'shares'"; }
+no_overlay() { exits 2 "$C" plot first --what shares --measured test.csv && says err.txt "no measured curve can be drawn over 'shares'"; }
 check "bars take no measured curve" no_overlay
 printf '# of a test\nt_ms,F_test_kN,v_A4_test [km/h],v_B1_test_km/h,x_A4_m,d_test_mm\n0,0,25,0,0,0\n100,650,20,4,0.6,500\n200,500,16,8,1.1,900\n' >four.csv
 curves_of() { grep -o '<path' "$1" | wc -l; }
@@ -157,7 +157,7 @@ wrong_columns() {
         exits 2 "$C" plot first --what panels --measured four.csv --column F_test_kN,9 && says err.txt "there is no column '9' among the 6" &&
         exits 2 "$C" plot first --what panels --measured four.csv --column F_best_kN && says err.txt "there is no column 'F_best_kN'" &&
         printf 't_ms,F_test,v_m_s\n0,0,1\n1,2,3\n' >unit.csv && exits 2 "$C" plot first --what panels --measured unit.csv && says err.txt "unit.csv:1:6: error: the unit of column 'F_test', the force" &&
-        printf 's_mm,F_kN\n0,0\n1,2\n' >no-time.csv && exits 2 "$C" plot first --what panels --measured no-time.csv && says err.txt "no-time.csv:1:1: error: the unit of column 's_mm', mm, is no unit of the time" &&
+        printf 's_mm,F_kN\n0,0\n1,2\n' >no-time.csv && exits 2 "$C" plot first --what panels --measured no-time.csv && says err.txt "no-time.csv:1:1: error: the unit of column 's_mm', mm, is not a unit of the time" &&
         printf 't_ms\n0\n1\n' >times.csv && exits 2 "$C" plot first --what panels --measured times.csv && says err.txt 'no line of titles with two columns of numbers' &&
         printf '# nothing\n' >nothing.csv && exits 2 "$C" plot first --what panels --measured nothing.csv && says err.txt 'no line of titles' &&
         exits 2 "$C" plot first --what panels --measured nowhere.csv && says err.txt 'there is no such file' &&

@@ -107,7 +107,7 @@ check "byte order mark and line ends of other systems are accepted" exits 0 "$C"
 
 # A valid curve without a law ends like a refused law, and the message names the file.
 printf 'stroke_mm,force_kN\n0,0\n1,9000\n2,100\n300,100\n' >spike.csv
-spike() { exits 1 "$C" fit spike.csv --as coupler --basis static && says err.txt 'spike.csv: error: no law as coupler fits this curve' && [ ! -s out.txt ] &&
+spike() { exits 1 "$C" fit spike.csv --as coupler --basis static && says err.txt 'spike.csv: error: no law of kind coupler fits this curve' && [ ! -s out.txt ] &&
     exits 1 "$C" fit spike.csv --as anti-climber --basis static --json && json out.txt error.file spike.csv; }
 check "a curve that no law follows ends with 1 and names its file" spike
 printf 'stroke_mm,force_kN\n37.5,0\n39.5,400\n41.5,600\n87.5,605\n137.5,610\n237.5,620\n337.5,630\n' >exact.csv
@@ -125,8 +125,8 @@ matched() { # matched LINES COLUMN: a problem whose match reads a file of these 
 }
 unknown_unit() {
     matched 't_ms,v [foo]\n0,5\n100,4\n' 'v [foo]' && exits 2 "$C" validate matched.yaml && says err.txt "matched.csv:1:6: error: the unit of column 'v [foo]', the speed, is not known" &&
-        matched 'time,v\n(ms),(foo)\n0,5\n100,4\n' v && exits 2 "$C" validate matched.yaml && says err.txt "'(foo)' in the row of units is no unit of the speed, which takes m/s" &&
-        matched 'time,v\nms,mph2\n0,5\n100,4\n' v && exits 2 "$C" validate matched.yaml && says err.txt "'mph2' in the row of units is no unit of the speed" &&
+        matched 'time,v\n(ms),(foo)\n0,5\n100,4\n' v && exits 2 "$C" validate matched.yaml && says err.txt "'(foo)' in the row of units is not a unit of the speed, which takes m/s" &&
+        matched 'time,v\nms,mph2\n0,5\n100,4\n' v && exits 2 "$C" validate matched.yaml && says err.txt "'mph2' in the row of units is not a unit of the speed" &&
         matched 'time,v\nms,-\n0,5\n100,4\n' v && exits 0 "$C" validate matched.yaml &&
         matched 't_ms,v (A1)\n0,5\n100,4\n' 'v (A1)' && exits 0 "$C" validate matched.yaml
 }
@@ -212,9 +212,9 @@ check "NaN is refused" refused bad.csv "bad.csv:3:3: error: force: 'nan' is not 
 put 'stroke_mm,force_kN\n0,0\n1,1e999\n'
 check "an infinite number is refused" refused bad.csv 'bad.csv:3:3'
 put 'stroke_mm,force_kN\n0,0\n-1,5\n3,6\n'
-check "a negative stroke is refused" refused bad.csv 'bad.csv:3:1: error: a stroke of -1 mm is below zero'
+check "a negative stroke is refused" refused bad.csv 'bad.csv:3:1: error: a stroke of -1 mm is negative'
 put 'stroke_mm,force_kN\n0,0\n1,-50\n3,60\n'
-check "a negative force is refused" refused bad.csv 'bad.csv:3:1: error: a force of -50 kN is below zero'
+check "a negative force is refused" refused bad.csv 'bad.csv:3:1: error: a force of -50 kN is negative'
 put 'stroke_mm,force_kN\n0,0\nten,50\n'
 check "text is refused" refused bad.csv "bad.csv:3:1: error: stroke: 'ten' is not a number"
 put 'stroke_mm,force_kN\n0,0\n30,5\n10,6\n50,7\n'
@@ -224,12 +224,12 @@ check "a curve without force is refused" refused bad.csv 'no point of the curve 
 put 'stroke_mm,force_kN\n0,0\n10.5,50,5\n'
 check "a line with more columns is refused" refused bad.csv 'bad.csv:3:1: error: this line has 3 columns, the titles in line 1 have 2'
 { echo stroke_mm,force_kN; awk 'NR > 1' tube.csv | sort -t , -k 2; } >shuffled.csv
-unsorted() { exits 2 "$C" fit shuffled.csv --as end --basis static && says err.txt 'error: the strokes turn ' && says err.txt 'sort the lines, or leave out cycles'; }
+unsorted() { exits 2 "$C" fit shuffled.csv --as end --basis static && says err.txt 'error: the strokes turn ' && says err.txt 'sort the lines, or remove cycles'; }
 check "strokes in no order are called so before anything else is said of them" unsorted
 { echo stroke_mm,force_kN; awk 'NR > 1' tube.csv | tac; } >reversed.csv
 in_reverse() { exits 2 "$C" fit reversed.csv --as end --basis static && says err.txt 'or the points are in the reverse order' && says err.txt 'lines in the reverse order have to be sorted'; }
 check "the reverse order has an advice of its own" in_reverse
-overruled() { exits 0 "$C" fit tube.csv --as anti-climber --basis static --force-unit MN --scale 0.001 && says out.txt '# note: the force is in MN as requested; the file says kN'; }
+overruled() { exits 0 "$C" fit tube.csv --as anti-climber --basis static --force-unit MN --scale 0.001 && says out.txt '# note: the force is read in MN as requested; the unit in the file is kN'; }
 check "a unit that differs from the file's is noted" overruled
 put 'stroke_mm;force_kN\n0;0\n0.5;20,5\n1;30\n'
 check "two decimal signs in one file are refused" refused bad.csv "numbers have two decimal signs: '0.5' in line 3 and '20,5' in line 3"
@@ -249,17 +249,17 @@ check "a title and a row of units that differ are refused" refused bad.csv "the 
 put 'stroke_mm,force_kN\n0,0\n10,-60\n300,-65\n'
 check "forces that alone are negative are refused with the option" refused bad.csv '--flip force'
 put 'stroke_mm,force_kN\n120,500\n300,650\n'
-check "a curve that begins elsewhere with force is refused with both readings" refused bad.csv 'either stroke 0 is there, or the points before are missing'
+check "a curve that begins elsewhere with force is refused with both readings" refused bad.csv 'either this is stroke 0, or earlier points are missing'
 put 'stroke_mm,force_kN\n0,0\n10,60\nEnd of test\n'
 check "a line of text behind the points is refused" refused bad.csv 'bad.csv:4:1: error: this line has 1 column'
 put 'stroke,force_kN\n0,0\n1,2\n'
 check "a column without unit is refused" refused bad.csv "the unit of column 'stroke', the stroke, is not known"
-check "an unknown unit is refused" refused tube.csv "'furlong' is no unit of the stroke" --stroke-unit furlong
+check "an unknown unit is refused" refused tube.csv "'furlong' is not a unit of the stroke" --stroke-unit furlong
 check "a missing column is refused" refused tube.csv "no column is '7'; the titles are" --force 7
 put '0,0\n1,2\n'
 check "a file without titles needs its columns" refused bad.csv 'no line of titles above says which column is the stroke'
 put 'stroke_mm,force_kN\n0,0\n1000000,2\n'
-check "a stroke of a kilometre is refused" refused bad.csv 'is the unit right?'
+check "a stroke of a kilometre is refused" refused bad.csv 'check the unit'
 check "too many stages are refused" refused tube.csv '9 stages; a law as anti-climber has 1 to 8' --stages 9
 
 no_kind() { exits 2 "$C" fit tube.csv --basis static && says err.txt "needs '--as KIND'" && exits 2 "$C" fit tube.csv --as ends --basis static && says err.txt "did you mean 'end'?"; }

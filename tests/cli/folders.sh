@@ -47,7 +47,7 @@ check "--force of fit names a column" column
 # ---- inputs ----
 own() {
     exits 0 "$C" run small.yaml -o out -q || return 1
-    exits 4 "$C" run out/resolved.yaml -q && says err.txt 'holds out/resolved.yaml, which this problem is read from' || return 1
+    exits 4 "$C" run out/resolved.yaml -q && says err.txt 'contains out/resolved.yaml, which this problem is read from' || return 1
     mkdir -p deep && exits 0 "$C" optimise small.yaml -q -o search && echo 'extends: search/optimised.yaml' >over.yaml &&
         exits 4 "$C" optimise over.yaml -o search -q && says err.txt 'search/optimised.yaml, which this problem is read from' && [ -f search/optimised.yaml ]
 }
@@ -80,8 +80,8 @@ early() { # early OUTPUT TEXT: refused at once, though the run would take minute
 }
 long=$(printf 'x%.0s' $(seq 300))
 early_ones() {
-    : >file && early . 'give it a name of its own' && early .. 'give it a name of its own' && early a/. 'give it a name of its own' && early / 'give it a name of its own' &&
-        early "$long" 'File name too long' && early "deep/$long/out" 'File name too long' && early file/out 'is no folder' && early file/a/out 'is no folder' && early file 'is no folder' &&
+    : >file && early . 'choose another name' && early .. 'choose another name' && early a/. 'choose another name' && early / 'choose another name' &&
+        early "$long" 'File name too long' && early "deep/$long/out" 'File name too long' && early file/out 'is not a folder' && early file/a/out 'is not a folder' && early file 'is not a folder' &&
         early "../$(basename "$PWD")" 'was not written by crushzone' && early '' empty
 }
 check "invalid folder names are reported before the run" early_ones
@@ -101,7 +101,7 @@ files() {
 }
 check "impossible files are reported before the run" files
 if [ "$(id -u)" = 0 ] && mkdir -p disk && mount -t tmpfs -o size=64k tmpfs disk 2>/dev/null; then
-    mounted() { early disk 'a file system is mounted' && early disk/. 'give it a name'; }
+    mounted() { early disk 'a file system is mounted' && early disk/. 'choose another name'; }
     check "a mounted folder is reported before the run" mounted
     full() { exits 4 "$C" run small.yaml -o disk/out -q && says err.txt 'disk/out/' && says err.txt 'No space left on device' && [ -z "$(ls -A disk)" ]; }
     check "a full disk leaves nothing, and is reported" full

@@ -61,7 +61,7 @@ bad_first() { echo 'schema: 1' >bad.yaml && exits 2 "$C" run bad.yaml -o mine &&
 check "an invalid file is reported before a refused folder" bad_first
 notes() { exits 0 "$C" run two-trains.yaml && echo x >out/notes.txt && exits 4 "$C" run two-trains.yaml && says err.txt 'notes.txt' && rm out/notes.txt && exits 0 "$C" run two-trains.yaml; }
 check "a result folder with a file of the user's own is refused" notes
-no_parent() { exits 4 "$C" run two-trains.yaml -o two-trains.yaml/out && says err.txt 'is no folder'; }
+no_parent() { exits 4 "$C" run two-trains.yaml -o two-trains.yaml/out && says err.txt 'is not a folder'; }
 check "a result folder inside a file is refused" no_parent
 as_json() { exits 4 "$C" run two-trains.yaml -o mine --json && json out.txt error.message; }
 check "a refused folder is a JSON document with --json" as_json

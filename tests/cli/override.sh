@@ -46,7 +46,7 @@ check "a climb fails whatever checks are selected" whatever
 stops() {
     for key in secondary.lift_gap_mm secondary.bump_gap_mm secondary.lift_stiffness_MN_m primary.lift_gap_mm; do
         printf 'extends: %s\noptimise: {minimise: vehicles.bogie_lift_mm, variables: [{path: parts.bogie.%s, min: 1, max: 90}]}\n' "$cars" $key >soft.yaml
-        exits 2 "$C" optimise soft.yaml -o soft && says err.txt "$key" && says err.txt 'not a design variable' || return 1
+        exits 2 "$C" optimise soft.yaml -o soft && says err.txt "$key" && says err.txt 'cannot be a design variable' || return 1
     done
 }
 check "softer stops as a variable are refused by name" stops

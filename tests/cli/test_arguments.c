@@ -118,10 +118,10 @@ static void invalid_values_are_refused(void **state) {
     (void)state;
     refuses("run a.yaml --json=yes", "'--json' takes no value", "");
     refuses("run a.yaml --output", "'--output' needs a value: --output DIR", "");
-    refuses("run a.yaml --jobs 0", "'--jobs 0' is no whole number from 1 to 1024", "");
-    refuses("run a.yaml --jobs 2x", "'--jobs 2x' is no whole number", "");
-    refuses("optimise a.yaml --seed -1", "'--seed -1' is no whole number", "");
-    refuses("optimise a.yaml --evaluations 99999999999999999999", "is no whole number", "");
+    refuses("run a.yaml --jobs 0", "'--jobs 0' is not a whole number from 1 to 1024", "");
+    refuses("run a.yaml --jobs 2x", "'--jobs 2x' is not a whole number", "");
+    refuses("optimise a.yaml --seed -1", "'--seed -1' is not a whole number", "");
+    refuses("optimise a.yaml --evaluations 99999999999999999999", "is not a whole number", "");
     refuses("run a.yaml --color blue", "'--color blue' is not known",
             "it takes auto or always or never");
     refuses("run a.yaml --csv-decimal , --csv-sep ,", "a comma both between fields and in numbers",

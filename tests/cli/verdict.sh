@@ -119,7 +119,7 @@ judged() {
     return 1
 }
 obstacle() {
-    judged A1 pass && says out.txt 'Not judged: lorry, taken for an obstacle' && json out/summary.json not_judged.0.train lorry &&
+    judged A1 pass && says out.txt 'Not judged: lorry, regarded as an obstacle' && json out/summary.json not_judged.0.train lorry &&
         json out/summary.json not_judged.0.inferred true && says out/report.html 'Not judged: lorry' &&
         grep -qE '^bottoming out .* pass' out.txt && grep -qE '^anything used up .* pass' out.txt && grep -qE '^section force / proof strength .* A1 .* pass' out.txt &&
         grep -qE '^energy in survival space .* pass' out.txt &&

@@ -63,7 +63,7 @@ static void the_share_of_braked_axles_is_one_of_the_weight(void **state) {
     collision_free(&half);
 }
 
-/* A share that is no whole number of axles brakes the last one in part. */
+/* A share that is not a whole number of axles brakes the last one in part. */
 static void a_share_of_braked_axles_is_not_rounded(void **state) {
     (void)state;
     static const char *const braked[][2] = {

@@ -25,10 +25,10 @@ static void a_variable_of_fixed_data_is_refused_by_name(void **state) {
     (void)state;
     expect_refusal(
         "optimise: {variables: [{path: parts.head.proof_strength_kN, min: 1, max: 9}]}\n",
-        "not a design variable");
+        "cannot be a design variable");
     expect_refusal(
         "optimise: {variables: [{path: trains.A.vehicles.A1.mass_t, min: 1, max: 90}]}\n",
-        "not a design variable");
+        "cannot be a design variable");
     expect_refusal("optimise: {variables: [{path: parts.tube.stagse, min: 1, max: 9}]}\n", "path");
 }
 
@@ -37,11 +37,11 @@ static void softening_the_opponent_is_refused(void **state) {
     expect_refusal(
         "optimise: {variables: [{path: \"trains.B.vehicles.B1.rear.coupler.tube.stages[0]"
         ".force_kN\", min: 400, max: 900}]}\n",
-        "a softer partner is no improvement");
+        "a softer partner does not improve");
     expect_refusal(
         "optimise: {variables: [{path: \"trains.A.vehicles.A1.front.coupler.tube.stages[0]"
         ".force_kN\", min: 400, max: 900}]}\n",
-        "twin");
+        "counterpart");
 }
 
 static void bounds_and_starts_that_do_not_fit_are_refused(void **state) {

@@ -130,14 +130,14 @@ static void trains_and_scenarios_must_be_there(void **state) {
     make_problem();
     problem.input.n_scenarios = 1;
     problem.scenario[0].trains = (CzTexts){2, strangers};
-    expect_refusal("names train 'C', which the file lacks", 0);
+    expect_refusal("names train 'C', which is not in the file", 0);
     problem.scenario[0].trains = (CzTexts){2, twice};
     expect_refusal("must name two different trains", 0);
     problem.scenario[0].trains = (CzTexts){1, twice};
     expect_refusal("must name two different trains", 0);
     problem.scenario[0].trains = (CzTexts){0, NULL};
     problem.scenario[0].perturbed_interface = "A2-B1";
-    expect_refusal("perturbs 'A2-B1', which is no inner interface", 0);
+    expect_refusal("perturbs 'A2-B1', which is not an inner interface", 0);
     make_problem();
     problem.train[1].n_vehicles = 0;
     expect_refusal("train 'B' has no vehicles", 0);
@@ -193,7 +193,7 @@ static void a_candidate_with_more_stages_is_refused(void **state) {
     anti_climber->stages[1] = anti_climber->stages[0];
     CzError error = {0};
     assert_int_equal(cz_model_fill(built.model, other, 0, built.lanes, &error), CZ_STATUS_INPUT);
-    assert_non_null(strstr(error.message, "has more stages than the problem file gives it"));
+    assert_non_null(strstr(error.message, "has more stages than in the problem file"));
     /* The place is that of the same field in the problem's own vehicles. */
     assert_int_equal(error.line, 2);
     free_model(&built);

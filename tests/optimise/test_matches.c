@@ -178,7 +178,7 @@ static void a_missing_value_counts_as_many_tolerances(void **state) {
     assert_near(run.match[0].residual, 10, 0, 0);
     assert_near(run.match[1].residual, 30, 1e-9, 0); /* (200 - 50) / 5 */
     assert_true(isnan(run.match[0].value));
-    assert_string_equal(run.constraint_check[0].why, "the run lacks it");
+    assert_string_equal(run.constraint_check[0].why, "the run does not record it");
     cz_evaluation_free(&run);
     end(&made);
 }

@@ -30,7 +30,7 @@ static void a_key_that_lacks_its_sibling_is_warned_of_at_its_place(void **state)
     assert_int_equal(speed->line, 7);
     assert_int_equal(speed->column, 7);
     assert_non_null(strstr(speed->message, "no effect without speed_factor: speed_reference"));
-    assert_non_null(strstr(speed->help, "take out"));
+    assert_non_null(strstr(speed->help, "remove the key"));
     assert_non_null(warning_of(problem, "without trigger: trigger_length"));
     cz_problem_free(problem);
 }

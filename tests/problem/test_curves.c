@@ -157,8 +157,8 @@ static void a_law_that_cannot_follow_its_curve_is_warned_of(void **state) {
     assert_int_equal(read_text(text, &problem), CZ_OK);
     assert_int_equal(cz_problem_n_warning(problem), OWN_WARNINGS + 1);
     assert_non_null(strstr(cz_problem_warning(problem, 0)->message,
-                           "'curve' rises more steeply than the stiffness of 100 MN/m lets its law "
-                           "follow: the law is up to 20 mm behind it"));
+                           "'curve' rises more steeply than its law can follow with a stiffness of "
+                           "100 MN/m: the law is up to 20 mm behind it"));
     cz_problem_free(problem);
 }
 

@@ -87,15 +87,15 @@ static void a_file_without_permission_is_reported(void **state) {
 static void bytes_that_are_no_text_are_reported_with_their_place(void **state) {
     (void)state;
     check_text_refused("title: a\nb: \xff\xfe\n", 15, 2, 4,
-                       "the file contains byte 0xff, which begins no character of UTF-8");
+                       "the file contains byte 0xff, which is not valid UTF-8");
     check_text_refused("a: \xc3\xa4\xe4\n", 7, 1, 5,
-                       "the file contains byte 0xe4, which begins no character of UTF-8");
+                       "the file contains byte 0xe4, which is not valid UTF-8");
     check_text_refused("a: b\0c", 6, 1, 5, "the file contains the control character U+0000");
     check_text_refused("\x7f"
                        "ELF\x02\x01",
                        6, 1, 1, "the file contains the control character U+007F");
     check_text_refused("a: \xed\xa0\x80\n", 7, 1, 4,
-                       "the file contains byte 0xed, which begins no character of UTF-8");
+                       "the file contains byte 0xed, which is not valid UTF-8");
 }
 
 static void a_byte_order_mark_is_ignored(void **state) {
@@ -142,8 +142,8 @@ static void lines_are_counted_as_in_yaml(void **state) {
 static void other_separators_of_lines_are_refused(void **state) {
     static const char *const ends[] = {"\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"};
     static const char *const told[] = {"the file contains the control character U+0085",
-                                       "the file contains the separator of lines U+2028",
-                                       "the file contains the separator of lines U+2029"};
+                                       "the file contains the line separator U+2028",
+                                       "the file contains the line separator U+2029"};
     (void)state;
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
         char text[80];

@@ -295,7 +295,7 @@ static void coupler_without_one_to_meet_is_warned_of(void **state) {
     assert_int_equal(cz_problem_n_warning(problem),
                      OWN_WARNINGS + 2); /* height and hinge have no effect */
     assert_non_null(strstr(cz_problem_warning(problem, 1)->message,
-                           "unpaired coupler: 'B1' has none to meet that of 'A1'"));
+                           "unpaired coupler: 'B1' has none opposite that of 'A1'"));
     cz_problem_free(problem);
 }
 
@@ -357,7 +357,7 @@ static void a_buffer_of_a_fixed_partner_without_one_to_meet_is_warned_of(void **
         assert_int_equal(cz_problem_n_warning(problem), is_of_car ? 0 : 1);
         if (!is_of_car)
             assert_non_null(strstr(cz_problem_warning(problem, 0)->message,
-                                   "unpaired side buffers: 'A1' has none to meet those of 'S1'"));
+                                   "unpaired side buffers: 'A1' has none opposite those of 'S1'"));
         cz_problem_free(problem);
     }
 }

@@ -147,8 +147,8 @@ static void a_folder_with_other_files_is_left_unchanged(void **state) {
     assert_true(is_there("out/notes.txt"));
 
     put("file", "x");
-    refuses(&s, "file", "is no folder");
-    refuses(&s, "file/out", "is no folder");
+    refuses(&s, "file", "is not a folder");
+    refuses(&s, "file/out", "is not a folder");
     assert_int_equal(symlink("thesis", "link"), 0);
     refuses(&s, "link", "is a link");
     refuses(&s, "", "empty");

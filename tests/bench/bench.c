@@ -40,6 +40,7 @@ int main(int argc, char **argv) {
     bench_add_references(&bench, is_short);
     bench_add_example(&bench);
     bench_add_program(&bench, argv[1]);
+    bench_add_machine(&bench);
     bench_measure(&bench, is_short || n_round < 1 ? 1 : n_round, only);
     bench_write_table(&bench, stdout);
     if (json == NULL)

@@ -34,6 +34,7 @@ void bench_add_batches(Bench *bench, bool is_short);
 void bench_add_gradient(Bench *bench);
 void bench_add_references(Bench *bench, bool is_short);
 void bench_add_example(Bench *bench);
+void bench_add_machine(Bench *bench);
 void bench_add_program(Bench *bench, const char *program);
 
 #endif

@@ -106,7 +106,14 @@ void bench_add_trains(Bench *bench, bool is_short) {
          BENCH_EXPONENT, "train.receptance.16", "train.receptance.1", 16.0, 1.0,
          .is_minimum = false},
         {"growth-modal", "exponent of the growth from 2 to 32 cars, modal", BENCH_EXPONENT,
-         "train.modal.16", "train.modal.1", 16.0, 1.0, .is_minimum = false}};
+         "train.modal.16", "train.modal.1", 16.0, 1.0, .is_minimum = false},
+        {"long-growth-rigid", "exponent of the growth from 8 to 32 cars, rigid", BENCH_EXPONENT,
+         "train.rigid.16", "train.rigid.4", 4.0, NAN, .is_minimum = false},
+        {"long-growth-receptance", "exponent of the growth from 8 to 32 cars, receptance",
+         BENCH_EXPONENT, "train.receptance.16", "train.receptance.4", 4.0, NAN,
+         .is_minimum = false},
+        {"long-growth-modal", "exponent of the growth from 8 to 32 cars, modal", BENCH_EXPONENT,
+         "train.modal.16", "train.modal.4", 4.0, NAN, .is_minimum = false}};
     for (size_t i = 0; i < sizeof growth / sizeof *growth; i++)
         bench_add_figure(bench, growth[i]);
 }

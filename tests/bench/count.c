@@ -1,18 +1,18 @@
-/* One fixed run, of which count.sh counts the instructions.
+/* Fixed runs, of which count.sh counts the instructions and profile.sh finds where time goes.
  *
- *   bench_count two-cars|metro|modal     from the project's root
- *   bench_count compiler                 prints the compiler, on which the counts depend
+ *   bench_count two-cars|metro|modal           the runs of instructions.txt, from the project's
+ * root bench_count train TRACK MS REPEATS ISA     8+8 cars of train.yaml for a simulated time
+ *   bench_count compiler                       prints the compiler, on which counts depend
  *
- * The copy of the kernel is that for x86-64-v3, which valgrind runs. Exit code 3 where this
+ * The copy of the kernel is that for x86-64-v3, which valgrind runs, or ISA. Exit code 3 where this
  * processor cannot run it.
  */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "bench/cases.h"
 #include "dynamics/dynamics.h"
-
-static const char isa[] = "v3";
 
 /* Two full cars, recorded; the metro to the end of a search's run; trains of 8 cars on the modal
  * track for a short time. */
@@ -34,17 +34,28 @@ static BenchRun *run_named(const char *name) {
     bench_stop("no such run");
 }
 
+static BenchRun *run_train(const char *track, const char *duration) {
+    char on[48], during[48];
+    snprintf(on, sizeof on, "simulation.track=%.20s", track);
+    snprintf(during, sizeof during, "simulation.duration_ms=%.16s", duration);
+    return bench_problem("tests/bench/train.yaml", (const char *const[]){on, during, NULL});
+}
+
 int main(int argc, char **argv) {
-    if (argc != 2)
-        bench_stop("usage: bench_count two-cars|metro|modal|compiler");
+    const bool is_train = argc == 6 && strcmp(argv[1], "train") == 0;
+    if (argc != 2 && !is_train)
+        bench_stop(
+            "usage: bench_count two-cars|metro|modal|compiler, or train TRACK MS REPEATS ISA");
     if (strcmp(argv[1], "compiler") == 0) {
         puts(__VERSION__);
         return 0;
     }
+    const char *isa = is_train ? argv[5] : "v3";
     if (cz_kernel(isa) == NULL)
         return 3;
-    BenchRun *run = run_named(argv[1]);
+    BenchRun *run = is_train ? run_train(argv[2], argv[3]) : run_named(argv[1]);
     run->options.isa = isa;
-    bench_run(run);
+    for (int i = is_train ? atoi(argv[4]) : 1; i > 0; i--)
+        bench_run(run);
     return 0;
 }

@@ -85,6 +85,12 @@ void bench_measure(Bench *bench, int n_round, const char *only) {
 
 /* ---- writing ---- */
 
+#ifdef __clang__
+static const char compiler[] = __VERSION__; /* begins with its name */
+#else
+static const char compiler[] = "gcc " __VERSION__;
+#endif
+
 static void write_number(FILE *stream, const char *key, double value) {
     if (isfinite(value))
         fprintf(stream, ", \"%s\": %.5g", key, value);
@@ -114,7 +120,7 @@ static void write_machine(const Bench *bench, FILE *stream) {
     fprintf(stream,
             "{\"version\": \"%s\", \"isa\": \"%s\", \"processor\": \"%s\", \"processors\": %ld, "
             "\"compiler\": \"%s\",\n \"sundials\": \"%s\", \"rounds\": %d",
-            cz_version(), cz_isa_name(), name, sysconf(_SC_NPROCESSORS_ONLN), __VERSION__, sundials,
+            cz_version(), cz_isa_name(), name, sysconf(_SC_NPROCESSORS_ONLN), compiler, sundials,
             bench->n_round);
     for (int i = 0; i < chain_n_peer; i++)
         fprintf(stream, ", \"%s\": \"%s\"", chain_peers[i]->name, chain_peers[i]->version());

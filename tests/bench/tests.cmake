@@ -2,7 +2,7 @@
 # The tests only run its smallest cases once, because times differ between machines, and count the instructions of fixed runs.
 option(CZ_BENCH_PEERS "Compare with MuJoCo and Simbody in the benchmark" OFF)
 if(CZ_IS_WHOLE)
-    set(bench_sources cases_chain.c cases_program.c cases_train.c chain.c measure.c)
+    set(bench_sources cases_chain.c cases_machine.c cases_program.c cases_train.c chain.c measure.c)
     list(TRANSFORM bench_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
     add_library(bench_cases STATIC EXCLUDE_FROM_ALL ${bench_sources})
     target_include_directories(bench_cases PUBLIC ${PROJECT_SOURCE_DIR}/tests)
@@ -13,6 +13,10 @@ if(CZ_IS_WHOLE)
         target_link_libraries(${program} PRIVATE bench_cases)
         cz_build_for(bench ${program})
     endforeach()
+    # Prints docs/performance.md from what was measured.
+    add_executable(bench_page ${CMAKE_CURRENT_LIST_DIR}/page.c)
+    target_link_libraries(bench_page PRIVATE cz_flags PkgConfig::JANSSON m)
+    cz_build_for(bench bench_page)
     if(CZ_BENCH_PEERS) # found by file: the CMake package of Debian's MuJoCo asks for folders that are not there
         find_path(CZ_MUJOCO_INCLUDE mujoco/mujoco.h)
         find_library(CZ_MUJOCO mujoco)
@@ -37,5 +41,6 @@ if(CZ_IS_WHOLE)
         endif()
     endif()
     cz_script(bench_runs bench bench.sh)
+    cz_script(performance_page bench page.sh)
     cz_script(bench_instructions bench instructions.sh) # count.sh counts
 endif()

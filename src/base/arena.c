@@ -1,4 +1,5 @@
-/* Arena: a list of blocks, each at least as large as what did not fit into the last. */
+/* Arena: a list of blocks; a block is large enough for the request that did not fit into the last
+ * one. */
 #include "base/arena.h"
 
 #include <stdint.h>

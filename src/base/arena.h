@@ -19,8 +19,8 @@ static inline double *cz_arena_numbers(CzArena *arena, size_t n) {
     return cz_arena_allocate(arena, n, sizeof(double));
 }
 
-/* An array with room for one more than its n items, which may have moved: it doubles at powers of
- * two, so all n must have come here one by one. NULL when there is no memory. */
+/* An array with space for one more than its n items, which may have moved. It doubles at powers of
+ * two, so all n items must have been added by this function. NULL when there is no memory. */
 void *cz_arena_grow(CzArena *arena, void *items, int n, size_t size);
 
 /* Copy of a text of n bytes, ended by a zero; NULL when there is no memory. */

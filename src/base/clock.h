@@ -1,10 +1,10 @@
-/* Time for what is reported of the computer, never for a result. */
+/* Clocks for reported computing times, never for a result. */
 #ifndef CZ_BASE_CLOCK_H
 #define CZ_BASE_CLOCK_H
 
 #include <time.h>
 
-/* A clock that only goes forwards [s]. */
+/* Time of a clock that is never set back [s]. */
 static inline double cz_clock(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);

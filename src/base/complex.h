@@ -1,5 +1,5 @@
-/* Complex numbers, exponentials and turns whose bits are the same on every machine: products and
- * sums, no call of the C mathematics library but sqrt, fabs and ldexp, which are exact.
+/* Complex numbers, exponentials and rotations with the same bits on every machine: products and
+ * sums, and of the C mathematics library only sqrt, fabs and ldexp, which are exact.
  */
 #ifndef CZ_BASE_COMPLEX_H
 #define CZ_BASE_COMPLEX_H
@@ -59,7 +59,7 @@ static inline CzComplex cz_complex_root(CzComplex a) {
 
 /* Cosine and sine of a number of turns, 2 pi each, of less than 2^50 in size: the fraction of a
  * turn, a quarter of it by Taylor's series up to pi / 4, and doubled twice. No branch: it may be in
- * a loop over lanes. Good to 1e-15. */
+ * a loop over lanes. Accurate to 1e-15. */
 static inline CzComplex cz_turned(double turns) {
     const double whole = (turns + 6755399441055744.0) - 6755399441055744.0; /* 1.5 * 2^52 */
     const double x = (turns - whole) * (0.5 * CZ_PI), y = x * x;

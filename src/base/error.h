@@ -6,7 +6,7 @@
 
 #include "crushzone/status.h"
 
-/* In a sentence: what is behind it is the hint. */
+/* In a sentence: the text after it is the hint. */
 #define CZ_HELP "\v"
 
 /* Writes status, sentence and hint into *error (NULL is allowed) and returns the status. The place
@@ -14,7 +14,7 @@
 CzStatus cz_fail(CzError *error, CzStatus status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Fails for lack of memory; `what` is what it was for, such as "the models". */
+/* Fails for lack of memory; `what` names its purpose, such as "the models". */
 CzStatus cz_no_memory(CzError *error, const char *what);
 
 /* Writes sentence and hint alone. */

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* What a quotient may miss a whole number by. */
+/* Allowed difference of a quotient from a whole number. */
 static double slack_of(double quotient) {
     return 1e-12 * fmax(fabs(quotient), 1);
 }

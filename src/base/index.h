@@ -1,4 +1,4 @@
-/* Index of names: finds the number of a text in a time that does not depend on how many there are.
+/* Index of names: finds the number of a text in a time that does not depend on their number.
  */
 #ifndef CZ_BASE_INDEX_H
 #define CZ_BASE_INDEX_H

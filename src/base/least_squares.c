@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-#define DEPENDENT 1e-14 /* of a column's length: what is left of it is rounding (ours) */
+#define DEPENDENT 1e-14 /* of a column's length: a smaller remainder is rounding (ours) */
 
-/* In four sums, which fill a register. */
+/* Four partial sums, which fill a register. */
 static double product(int n, const double *restrict a, const double *restrict b) {
     double sum[4] = {0.0};
     int i = 0;

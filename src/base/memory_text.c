@@ -1,5 +1,5 @@
-/* Text that grows in memory. The only file that makes a stream of its own (fopencookie, which glibc
- * and musl have). */
+/* Text that grows in memory. The only file that defines a stream (fopencookie, which glibc and musl
+ * have). */
 #define _GNU_SOURCE
 #include "base/memory_text.h"
 

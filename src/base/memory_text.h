@@ -12,17 +12,17 @@
 
 /* Zero-initialise it. */
 typedef struct CzMemoryText {
-    char *text;  /* ended by a zero; NULL before something was added or a stream was opened */
+    char *text;  /* ended by a zero; NULL until text is added or a stream is opened */
     size_t n;    /* [byte] */
     size_t room; /* [byte] */
-    bool failed; /* something is missing */
+    bool failed; /* part of the text is missing */
 } CzMemoryText;
 
 /* Appends n bytes; false without memory. */
 bool cz_memory_text_add(CzMemoryText *memory, const char *bytes, size_t n);
 
-/* A stream into the text, which must outlive it; NULL without memory. What was written is there
- * after fflush or fclose. */
+/* A stream into the text, which must outlive it; NULL without memory. The text is complete after
+ * fflush or fclose. */
 FILE *cz_memory_text_open(CzMemoryText *memory);
 
 void cz_memory_text_free(CzMemoryText *memory);

@@ -66,7 +66,8 @@ static bool is_word(const char *text, const char *const *words) {
     return false;
 }
 
-/* Whether a text is groups of three digits to its end, each behind the sign of the first: ,000,000.
+/* Whether a text consists of groups of three digits, each after the character of the first:
+ * ,000,000.
  */
 static bool groups_digits(const char *text) {
     const char *at = text;
@@ -75,7 +76,7 @@ static bool groups_digits(const char *text) {
     return *at == '\0' && at > text;
 }
 
-/* Why a text that is no decimal number is none. */
+/* Reason why a text is not a decimal number. */
 static const char *what_is_wrong(const char *text, const char *end) {
     static const char *const not_finite[] = {".nan", "nan", ".inf", "inf", "infinity", NULL};
     const char *bare = text + (*text == '+' || *text == '-');
@@ -137,7 +138,7 @@ bool cz_number_scan(const char *text, double *value) {
     return isfinite(*value);
 }
 
-/* Writes `digits` significant digits, without an exponent where people would not write one. */
+/* Writes `digits` significant digits, without an exponent for numbers of usual size. */
 static void print_digits(char text[CZ_NUMBER_TEXT], int digits, double value) {
     snprintf(text, CZ_NUMBER_TEXT, "%.*e", digits - 1, value);
     const char *exponent = strchr(text, 'e');
@@ -145,7 +146,7 @@ static void print_digits(char text[CZ_NUMBER_TEXT], int digits, double value) {
     if (exponent == NULL)
         return;
     if (power < -5 || power > 15) {
-        if (digits == 1) /* YAML 1.1 takes 1e+20 for text, 1.0e+20 for a number */
+        if (digits == 1) /* YAML 1.1 reads 1e+20 as text, 1.0e+20 as a number */
             snprintf(text, CZ_NUMBER_TEXT, "%.1e", value);
         return;
     }

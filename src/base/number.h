@@ -4,15 +4,15 @@
 
 #include <stdbool.h>
 
-enum { CZ_NUMBER_TEXT = 32 }; /* room for any number that cz_number_print writes [byte] */
+enum { CZ_NUMBER_TEXT = 32 }; /* size of the longest number that cz_number_print writes [byte] */
 
 /* Reads a whole text as a decimal number: sign, digits with a point, exponent. On success *value is
  * finite and NULL is returned; otherwise the end of a sentence that begins with the text, such as
  * "is not finite". */
 const char *cz_number_parse(const char *text, double *value);
 
-/* Reads a decimal number as machines write it: needless zeros are allowed. False when the text is
- * none, or too large for a number. */
+/* Reads a decimal number as machines write it: leading zeros are allowed. False when the text is
+ * not a number, or too large for one. */
 bool cz_number_scan(const char *text, double *value);
 
 /* Writes the shortest text that reads back to the same bits; NaN and infinities are written as
@@ -22,7 +22,7 @@ const char *cz_number_print(char text[CZ_NUMBER_TEXT], double value);
 /* Writes a number for a sentence: at most six significant digits. Returns `text`. */
 const char *cz_number_print_short(char text[CZ_NUMBER_TEXT], double value);
 
-/* The same as an argument of a sentence: the text lasts to the end of the block. */
+/* The same for an argument of a sentence; the text is valid until the end of the block. */
 #define CZ_SHORT(value) cz_number_print_short((char[CZ_NUMBER_TEXT]){0}, (value))
 
 #endif

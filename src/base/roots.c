@@ -2,7 +2,7 @@
 #include "base/roots.h"
 
 enum { MOST_SWEEPS = 200 };
-#define LAST_MOVE 1e-15 /* of a root's size: what a sweep may still move */
+#define LAST_MOVE 1e-15 /* of a root's size: largest move of the last sweep */
 
 void cz_find_roots(CzLogarithmicSlope *slope, const void *polynomial, int n, CzComplex *root) {
     for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
@@ -14,7 +14,7 @@ void cz_find_roots(CzLogarithmicSlope *slope, const void *polynomial, int n, CzC
                     pull = cz_complex_difference(
                         pull, cz_complex_inverse(cz_complex_difference(root[i], root[m])));
             const CzComplex way = cz_complex_inverse(pull);
-            if (!(cz_complex_square_size(way) < 1e300)) /* at a root P'/P is beyond all numbers */
+            if (!(cz_complex_square_size(way) < 1e300)) /* at a root P'/P is infinite */
                 continue;
             root[i] = cz_complex_difference(root[i], way);
             move = fmax(move, cz_complex_size(way) / cz_complex_size(root[i]));

@@ -1,4 +1,4 @@
-/* Roots of a polynomial that is not expanded, all at once. */
+/* All roots of a polynomial, without expanding it. */
 #ifndef CZ_BASE_ROOTS_H
 #define CZ_BASE_ROOTS_H
 

@@ -47,7 +47,8 @@ bool cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known) 
     allowed = smaller(allowed, EDIT * (int)n_known - 1);
     if (suggestion->best[0] != '\0')
         allowed = smaller(allowed, suggestion->distance - 1);
-    const int n_more = (int)n_typed - (int)n_known; /* letters that must at least come or go */
+    const int n_more =
+        (int)n_typed - (int)n_known; /* smallest number of letters to insert or delete */
     if (EDIT * (n_more < 0 ? -n_more : n_more) > allowed)
         return false;
     const int distance = edit_distance(typed, (int)n_typed, known, (int)n_known);

@@ -15,9 +15,9 @@ typedef struct CzSuggestion {
     int distance;                        /* edits from the typed word to the best one */
 } CzSuggestion;
 
-/* Offers a known word. It is taken, and true returned, when it is nearer than the best so far and
- * near enough to be a slip of the hand: at most a third of its letters, a change of case counting
- * little. */
+/* Offers a known word. It is kept, and true returned, when it is nearer than the best so far and
+ * near enough to be a typing error: at most a third of its letters differ, a change of case
+ * counting less. */
 bool cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known);
 
 /* Number of a name among those of n items, each `size` bytes with a `const char *` at an offset

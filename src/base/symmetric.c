@@ -9,9 +9,10 @@
 
 enum { MOST_SWEEPS = 30 };
 
-#define NEGLIGIBLE 1e-18 /* of two diagonal elements: what no rotation would change them by */
+#define NEGLIGIBLE                                                                                 \
+    1e-18 /* of two diagonal elements: a rotation would not change them by a smaller element */
 
-/* Rotates rows and columns p and q so that a[p][q] vanishes; the vectors turn along. */
+/* Rotates rows and columns p and q so that a[p][q] vanishes, and the vectors with them. */
 static void rotate(int n, double *a, double *vectors, int p, int q) {
     const double theta = (a[q * n + q] - a[p * n + p]) / (2.0 * a[p * n + q]);
     const double t = (theta >= 0.0 ? 1.0 : -1.0) / (fabs(theta) + sqrt(theta * theta + 1.0));

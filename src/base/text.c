@@ -1,4 +1,4 @@
-/* What may be in texts and names. */
+/* Allowed characters of texts and names. */
 #include "base/text.h"
 
 #include "crushzone/names.h"
@@ -33,7 +33,7 @@ typedef struct Range {
     const char *what;
 } Range;
 
-/* What no text may hold, by code point. */
+/* Characters that no text may contain, by code point. */
 static const Range refused[] = {
     {0x0000, 0x001f, "the control character"},     {0x007f, 0x009f, "the control character"},
     {0x00ad, 0x00ad, "the invisible character"},   {0x034f, 0x034f, "the invisible character"},
@@ -49,7 +49,7 @@ static const Range refused[] = {
     {0xe0000, 0xe00ff, "the invisible character"}, {0xe01f0, 0xe0fff, "the invisible character"},
 };
 
-/* What a name may not hold beyond that: what is no letter, and marks that go with the letter
+/* Further characters that a name must not contain: symbols, and marks that combine with the letter
  * before. */
 static const Range no_letter[] = {
     {0x0080, 0x00bf, "the sign"},

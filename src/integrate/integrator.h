@@ -25,7 +25,7 @@ struct CzOde {
     size_t n_unknown;
     const double *allowed; /* local error allowed in each unknown, in its unit (n_unknown) */
 
-    /* Fills the rates (n_unknown) at a trial state; false when it has none: the solver gives up. */
+    /* Fills the rates (n_unknown) at a trial state; false when there are none: the solver stops. */
     bool (*rates)(CzOde *ode, double time, const double *state, double *rate);
 
     /* Functions that cross zero where a force drops, scaled to the order of 1 (n_drop). */
@@ -54,7 +54,7 @@ typedef struct CzSolverStep {
 CZ_MUST_CHECK CzStatus cz_solver_advance(CzSolver *solver, double until, CzSolverStep *step,
                                          CzError *error);
 
-/* Starts anew, with short steps and no past, from where the last step ended. */
+/* Restarts with short steps and without history from the end of the last step. */
 CZ_MUST_CHECK CzStatus cz_solver_restart(CzSolver *solver, CzError *error);
 
 /* A system of equations, embedded as CzOde is. */
@@ -66,8 +66,8 @@ struct CzEquations {
     void (*residuals)(CzEquations *equations, const double *unknown, double *residual);
 };
 
-/* Solves F(q) = 0 by Newton's method with a line search; `unknown` holds the first guess and gets
- * the answer, in which no residual exceeds `tolerance` of its scale. Statuses: CZ_OK,
+/* Solves F(q) = 0 by Newton's method with a line search; `unknown` holds the first guess and
+ * receives the solution, in which no residual exceeds `tolerance` of its scale. Statuses: CZ_OK,
  * CZ_STATUS_NO_MEMORY, CZ_STATUS_RUN_FAILED. */
 CZ_MUST_CHECK CzStatus cz_equations_solve(CzEquations *equations, double tolerance, double *unknown,
                                           CzError *error);

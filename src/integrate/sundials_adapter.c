@@ -1,4 +1,4 @@
-/* SUNDIALS behind our interface: the only file that knows it.
+/* Adapter of SUNDIALS: the only file that includes it.
  *
  * Written against what versions 6.4 and 7 have in common. Table and step controller of the
  * Runge-Kutta method are set by hand, because their defaults changed between versions. Vectors are
@@ -24,13 +24,13 @@
 
 #include "base/error.h"
 
-#define FIRST_STEP 1e-3 /* of the longest step: what came before does not count (ours) */
+#define FIRST_STEP 1e-3 /* of the longest step: the first step (ours) */
 enum {
     FIXED_POINT_ITERATIONS = 4, /* per step, then it is halved (ours) */
     NEWTON_ITERATIONS = 200     /* (ours) */
 };
 
-/* What SUNDIALS said last, instead of printing it. */
+/* The last message of SUNDIALS, which is not printed. */
 typedef struct Message {
     char text[256];
 } Message;
@@ -136,7 +136,7 @@ static sunrealtype weighted_norm(N_Vector x, N_Vector w) {
     return sqrt(((sum[0] + sum[1]) + (sum[2] + sum[3])) / (double)n);
 }
 
-/* Of four vectors at a time, so that the sum goes through the memory once per four. */
+/* Four vectors at a time, so that the sum passes through memory once per four. */
 static int linear_combination(int n_vector, sunrealtype *c, N_Vector *x, N_Vector z) {
     double *sum = N_VGetArrayPointer(z); /* may be x[0] */
     const double *next[4];
@@ -187,7 +187,7 @@ struct CzSolver {
     Message message;
 };
 
-/* Adams' iteration takes a refusal for slow convergence, so it is kept. */
+/* Adams' iteration treats a refusal as slow convergence, so the refusal is remembered. */
 static int rates_of(sunrealtype time, N_Vector state, N_Vector rate, void *data) {
     CzSolver *solver = data;
     const double *y = N_VGetArrayPointer(state);
@@ -286,8 +286,8 @@ static bool allocate(CzSolver *solver, const double *state) {
     return solver->memory != NULL && (solver->method == CZ_METHOD_ERK || solver->iteration != NULL);
 }
 
-/* Whether there is memory for all that SUNDIALS requires in pieces: where one is refused it may end
- * the program instead of saying so. */
+/* Whether there is enough memory for SUNDIALS: where a request fails it may end the program without
+ * a report. */
 static bool has_room(size_t n_unknown) {
     enum { MOST_VECTORS = 40, MOST_ELSE = 1 << 18 /* [byte] */ };
     void *room = malloc(MOST_VECTORS * n_unknown * sizeof(double) + MOST_ELSE);
@@ -305,7 +305,7 @@ CzStatus cz_solver_create(CzMethod method, CzOde *ode, double time, const double
     solver->ode = ode;
     solver->time = time;
     solver->first_step = FIRST_STEP * longest;
-    CzStatus status = CZ_OK; /* the settings are right, so nothing but memory can be missing */
+    CzStatus status = CZ_OK; /* the settings are valid, so only memory can be missing */
     if (!has_room(ode->n_unknown) || !allocate(solver, state) ||
         (method == CZ_METHOD_ERK ? settle_erk : settle_adams)(solver, longest) != 0)
         status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the second solver");

@@ -13,7 +13,7 @@
 #include <stddef.h>
 
 /* Advances n positions and velocities by one step of length h. `acceleration` is a at the start of
- * the step; `last` is a one step earlier, and takes over the present one. `first` marks the first
+ * the step; `last` is a one step earlier, and receives the present one. `first` marks the first
  * step. */
 static inline void cz_two_step_advance(size_t n, double h, int first, double *restrict position,
                                        double *restrict velocity,

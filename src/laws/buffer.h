@@ -8,18 +8,18 @@
  *   F = static + (c1 + c2 |x'|) * fade(x) * x'        c2 while loading only; at most 0 where x < 0
  *
  * fade(x) is taken at the larger of the strokes at both ends of a step, so that the force of the
- * step never falls while its stroke moves on. A gear that is drawn out pushes nothing before it is
- * back: its damping takes from the pull, and what returns from the draw fades in from 0.
+ * step never falls while its stroke moves on. A gear in tension does not push before it has
+ * returned: its damping reduces the pull, and the returning force fades in from 0.
  *
  * loading(x) rises nowhere faster than k_t, or a cycle between the curves would create energy.
- * Beyond the usable stroke s it stays what it is there: what bottoms out is an elastic stop k_b in
- * parallel, stiff and without hysteresis.
+ * Beyond the usable stroke s it is constant, and an elastic stop k_b acts in parallel, stiff and
+ * without hysteresis.
  *
- * Inside a series chain the stroke x answers the force, so the law is given linearised about a
- * stroke that is `moved` beyond the committed one: over one step of length h,
- * x_next = x + (F - force) * compliance,  with one compliance for loading and one for unloading.
- * |x'| in the hydraulic damping is the committed rate. Each compliance is the exact tangent of the
- * law, so a step that passes a breakpoint is solved by linearising again about where it led.
+ * Inside a series chain the stroke x follows from the force, so the law is linearised about a
+ * stroke that is `moved` beyond the committed one: over one step of length h, x_next = x + (F -
+ * force) * compliance,  with one compliance for loading and one for unloading. |x'| in the
+ * hydraulic damping is the committed rate. Each compliance is the exact tangent of the law, so a
+ * step that passes a breakpoint is solved by linearising again about the new stroke.
  */
 #ifndef CZ_LAWS_BUFFER_H
 #define CZ_LAWS_BUFFER_H
@@ -27,7 +27,7 @@
 #include "laws/law.h"
 
 #define CZ_SMALLEST_STIFFNESS                                                                      \
-    1e4 /* stiffness inside the slack, so that the chain has one answer [N/m] (ours) */
+    1e4 /* stiffness inside the slack, so that the chain has a unique solution [N/m] (ours) */
 
 typedef struct {
     double transition;     /* k_t, stiffness between the curves [N/m] */
@@ -40,7 +40,7 @@ typedef struct {
 } CzBufferLaw;
 
 typedef struct {
-    double force;     /* at the stroke, damping of the way moved included [N] */
+    double force;     /* at the stroke, with the damping of the movement [N] */
     double loading;   /* compliance of the step while the stroke grows [m/N] */
     double unloading; /* compliance of the step while it shrinks [m/N] */
     double offset;    /* next p [m] */
@@ -67,8 +67,8 @@ static inline CzBufferResponse cz_buffer_of(const CzBufferLaw *law, double compl
     const double drawn = cz_positive_part(-stroke - law->draw_slack);
     const double draw_slope = -stroke >= law->draw_slack ? law->draw_stiffness : 0.0;
 
-    /* Tangents: up and down from here. Within the step the offset is what it was, so what has
-     * moved along a curve goes back along it: only where nothing moved do the two differ. */
+    /* Tangents for loading and unloading from here. Within the step the offset is constant, so a
+     * stroke along a curve also returns along it: the two differ only where nothing moved. */
     const double line_here = law->transition * (stroke - offset);
     const double up_lower = moved < 0.0 && line_here < lower ? lower_slope : law->transition;
     const double down_upper = moved > 0.0 && line_here > upper ? upper_slope : law->transition;
@@ -78,7 +78,7 @@ static inline CzBufferResponse cz_buffer_of(const CzBufferLaw *law, double compl
     const double down = stroke > 0.0 ? push_down : draw_slope;
 
     /* Damping by the larger of the strokes at both ends of the step, so that its force never falls
-     * while the stroke moves on; what it grows by as it fades in. */
+     * while the stroke moves on, and its growth as it fades in. */
     const double after = fabs(stroke);
     const double returned = stroke > 0.0 && moved > stroke ? 0.0 : fabs(stroke - moved);
     const double fade = cz_fade_in(cz_larger(returned, after), CZ_FADE_LENGTH);
@@ -92,7 +92,7 @@ static inline CzBufferResponse cz_buffer_of(const CzBufferLaw *law, double compl
     const double damping_down = (moved > 0.0 ? fast : slow) * fading;
     const double pull = damped * moved * per_step - law->draw_stiffness * drawn;
     const double outside = stroke < 0.0 && pull > 0.0 ? 0.0 : pull;
-    const double follows = stroke < 0.0 && pull >= 0.0 ? 0.0 : 1.0; /* what has nothing to push */
+    const double follows = stroke < 0.0 && pull >= 0.0 ? 0.0 : 1.0; /* returning without contact */
 
     CzBufferResponse response;
     response.force = inside + stop + outside;

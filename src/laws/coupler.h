@@ -1,12 +1,12 @@
-/* Coupler faces against swinging: held fully where they are coupled and undamaged, not at all where
- * they are apart or sheared off; faces that are not coupled come to lie flat over a small closure.
+/* Resistance of coupler faces to swinging: full where they are coupled and undamaged, none where
+ * they are apart or sheared off; faces that are not coupled engage over a small closure.
  *
  *   engaged = (coupled ? 1 : s^2 (3 - 2 s)) (1 - damage),   s = clamp(closure / 5 mm, 0, 1)
  *   U       = engaged u(swing)
  *
- * u is what their hinges and stops store when the faces lie flat. Moment and push follow from U:
- * faces that meet at an angle are flattened by a push of dU / dclosure, so that no closed path
- * gives any energy. What they held when the coupler is damaged is lost.
+ * u is the energy of their hinges and stops with fully engaged faces. Moment and push follow from
+ * U: faces that meet at an angle are flattened by a push of dU / dclosure, so that no closed path
+ * creates energy. The energy stored at the moment of damage is lost.
  */
 #ifndef CZ_LAWS_COUPLER_H
 #define CZ_LAWS_COUPLER_H

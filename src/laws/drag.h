@@ -1,11 +1,10 @@
 /* Drag on a mass: brakes, rolling resistance, friction jaws. It acts against the motion with its
- * whole capacity, and holds what has come to rest.
+ * whole capacity, and holds a mass that has come to rest.
  *
  *   F = -clamp(P + m v / tau, -capacity, capacity)
  *
- * P is the sum of all other forces on the mass, so that a mass that is held creeps no further: v
- * dies out with tau, whatever pushes with less than the capacity. Nothing is remembered and nothing
- * stored.
+ * P is the sum of all other forces on the mass, so that a held mass does not creep: v decays with
+ * tau as long as P is below the capacity. The law has no memory and stores no energy.
  */
 #ifndef CZ_LAWS_DRAG_H
 #define CZ_LAWS_DRAG_H
@@ -18,8 +17,8 @@ static inline double cz_drag(double mass, double capacity, double speed, double 
     return -cz_clamp(pushed + mass * (1.0 / CZ_DRAG_TIME) * speed, -capacity, capacity);
 }
 
-/* Brake force of a mass whose wheels may lock: what the brakes give while they roll and what
- * friction leaves of it at a large slip speed; equal where they never lock. */
+/* Brake force of a mass whose wheels may lock: that of the brakes while the wheels roll, that of
+ * the friction at a large slip speed; equal where they never lock. */
 static inline double cz_brake_capacity(double rolling, double sliding, double fall_speed,
                                        double speed) {
     return sliding + (rolling - sliding) * fall_speed / (fall_speed + fabs(speed));

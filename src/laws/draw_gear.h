@@ -2,7 +2,7 @@
  *
  *   F = -k [-d - s]+
  *
- * d is the closure, -d the elongation of the link and s the slack before it is taut. The force is
+ * d is the closure, -d the elongation of the link and s the slack. The force is
  * negative in tension.
  */
 #ifndef CZ_LAWS_DRAW_GEAR_H

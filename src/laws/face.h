@@ -1,12 +1,12 @@
-/* Normal force of two faces that a series chain presses together: damping while they close, and
- * what is left of both while the overlap runs out.
+/* Normal force of two faces that a series chain presses together, with damping while they close;
+ * both fall with a small remaining overlap.
  *
  *   o    = overlap - |slip|                            remaining overlap
  *   lost = max(lost before, 1 - clamp(o / p, 0, 1))    over one rib pitch p; 0 once they part
  *   N    = (1 - lost) (F + min(c max(x', 0) fade(x), F))
  *
- * F is the chain's force, x the closure. What was released does not take hold again before the
- * faces have parted.
+ * F is the chain's force, x the closure. Faces that have lost contact do not engage again before
+ * they have parted.
  */
 #ifndef CZ_LAWS_FACE_H
 #define CZ_LAWS_FACE_H

@@ -3,7 +3,7 @@
  * SI units. x forward, z up, pitch positive nose-up. Compression and shortening are positive, and
  * so is the force that resists them. A law is a pure function: parameters, shortening, rate and
  * memory in; force and next memory out. It is continuous in every input, writes nothing, and is the
- * only place where its formula stands.
+ * only place of its formula.
  */
 #ifndef CZ_LAWS_LAW_H
 #define CZ_LAWS_LAW_H

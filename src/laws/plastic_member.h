@@ -16,7 +16,7 @@
 
 #define CZ_SMALLEST_RESISTANCE 1e5 /* [N/m] (ours) */
 
-/* Flow per excess force over one step [m/N]. */
+/* Plastic stroke per excess force over one step [m/N]. */
 static inline double cz_plastic_compliance(double strength, double slope, double rate_factor,
                                            double step) {
     const double per_step = 1.0 / step; /* one division for all lanes */
@@ -24,7 +24,7 @@ static inline double cz_plastic_compliance(double strength, double slope, double
            (cz_positive_part(slope) + strength * rate_factor * per_step + CZ_SMALLEST_RESISTANCE);
 }
 
-/* Flow of the step under the chain's force [m], never negative. */
+/* Plastic stroke of the step under the chain's force [m], never negative. */
 static inline double cz_plastic_crush(double force, double strength, double compliance) {
     return cz_positive_part(force - strength) * compliance;
 }

@@ -1,18 +1,18 @@
-/* Ribs of two anti-climber faces: how many hold, how well they mesh, how they shear off.
+/* Ribs of two anti-climber faces: number in contact, meshing, shearing off.
  *
  *   r        = d - p round(d / p)                     offset of the faces modulo the rib pitch p
  *   mesh     = clamp(2 - 4 |r| / p, 0, 1)             1 flank to flank, 0 tip to tip
- *   left     = clamp(1 - w / (p / 2), 0, 1)           w: what the ribs were sheared by
+ *   left     = clamp(1 - w / (p / 2), 0, 1)           w: slip against meshed ribs
  *   capacity = meshed ribs x strength x mesh x left x engaged + mu N
  *   ready    = meshed ribs x strength x mesh x left + mu max(N, 100 kN)
  *
  * Ribs that meet within a quarter of a pitch of their valleys lock where they are; ribs that meet
- * tip to tip slide over each other, held by friction, until the next valley takes them. A rib is
- * gone once the faces have slipped by half a pitch against it (ours).
+ * tip to tip slide over each other, held by friction, until they reach the next valley. A rib is
+ * sheared off once the faces have slipped by half a pitch against it (ours).
  *
- * Faces that just touch, or just part, carry next to nothing, and that little depends on the moment
- * at which one looks. What they have left is therefore counted from `ready`: what the same ribs
- * hold once they are wholly in each other and pressed by a force that can lift a car at all (ours).
+ * Faces that just touch, or just part, carry almost no force, which depends on the time step. The
+ * residual capacity is therefore taken from `ready`: the capacity of the same ribs at full depth
+ * under a normal force that is large enough to lift a car (ours).
  */
 #ifndef CZ_LAWS_RIBS_H
 #define CZ_LAWS_RIBS_H
@@ -36,17 +36,17 @@ typedef struct {
 
 /* Normal force at which ribs are fully engaged [N] (ours). */
 #define CZ_GRIP_FORCE 1e4
-/* Smallest normal force that the friction of faces in full engagement counts with [N] (ours). */
+/* Smallest normal force for the friction of fully engaged faces [N] (ours). */
 #define CZ_READY_FORCE 1e5
 
-/* Nearest whole number, halves to the even one: the sum leaves no room for a fraction. */
+/* Nearest whole number, halves to the even one: the sum has no bits for a fraction. */
 static inline double cz_nearest_whole(double value) {
     const double no_fraction = 6755399441055744.0; /* 1.5 x 2^52 */
     return (value + no_fraction) - no_fraction;
 }
 
-/* `slip` is the offset of the faces, `closure` how far they are in each other, `normal` the force
- * between them, `sheared` how far they have slipped against meshed ribs. */
+/* `slip` is the offset of the faces, `closure` their penetration, `normal` the force between them,
+ * `sheared` their slip against meshed ribs. */
 static inline CzRibsResponse cz_ribs(const CzRibsLaw *law, double slip, double closure,
                                      double normal, double sheared) {
     const double pitches = slip / law->pitch;

@@ -3,7 +3,7 @@
  *   damage(s)   = clamp(s / softening, 0, 1)
  *   strength(s) = F_r + (F_s - F_r) (1 - damage) + k_bottom max(s - space, 0)
  *
- * F_r is what friction keeps of the force F_s once the device has sheared. Irreversible because s
+ * F_r is the friction force after the device has sheared at F_s. Irreversible because s
  * never shrinks. `space` is softening length plus retraction space: beyond it the released coupler
  * meets its stop and is a second load path at coupler height.
  */
@@ -15,13 +15,13 @@
 typedef struct {
     double strength; /* [N] */
     double slope;    /* of the rising part [N/m] */
-    double damage;   /* 0 whole, 1 sheared off [-] */
+    double damage;   /* 0 undamaged, 1 sheared off [-] */
 } CzShearOffResponse;
 
 typedef struct {
     double force;     /* F_s [N] */
     double residual;  /* F_r, below F_s [N] */
-    double softening; /* travel over which one falls to the other [m] */
+    double softening; /* travel over which the force falls from F_s to F_r [m] */
     double space;     /* [m] */
     double bottom;    /* k_bottom [N/m] */
 } CzShearOffLaw;

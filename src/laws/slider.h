@@ -1,9 +1,9 @@
-/* Slider: a spring that yields at a capacity, for hinges, folding ends, held brakes and faces that
- * stick.
+/* Slider: a spring that yields at a capacity, for hinges, folding ends, braked wheelsets and
+ * sticking faces.
  *
  *   F = clamp(k (d - p), -capacity, capacity),   p' = d - F / k
  *
- * p is the offset that has slipped. The capacity may change from step to step; a shrinking one only
+ * p is the slipped offset. The capacity may change from step to step; a shrinking one only
  * dissipates.
  */
 #ifndef CZ_LAWS_SLIDER_H
@@ -16,7 +16,7 @@ typedef struct {
     double offset; /* next p [m] or [rad] */
 } CzSliderResponse;
 
-/* `compliance` is 1/k, 0 for a slider without stiffness: a division less where k never changes. */
+/* `compliance` is 1/k, 0 for a slider without stiffness: saves a division where k is constant. */
 static inline CzSliderResponse cz_slider_of(double stiffness, double compliance, double capacity,
                                             double displacement, double offset) {
     CzSliderResponse response;
@@ -31,8 +31,8 @@ static inline CzSliderResponse cz_slider(double stiffness, double capacity, doub
     return cz_slider_of(stiffness, compliance, capacity, displacement, offset);
 }
 
-/* Work of leading it from its offset to a displacement while the offset stays where it is [J]:
- * |F| (|d - p| - |F| / 2 k). Where the offset follows, what is more than F^2 / 2 k is lost. */
+/* Work to move it from its offset to a displacement with a constant offset [J]: |F| (|d - p| - |F|
+ * / 2 k). Where the offset follows, the part above F^2 / 2 k is dissipated. */
 static inline double cz_slider_energy(double compliance, double force, double displacement,
                                       double offset) {
     const double elastic = fabs(force) * compliance;
@@ -40,12 +40,12 @@ static inline double cz_slider_energy(double compliance, double force, double di
     return fabs(force) * (0.5 * elastic + beyond);
 }
 
-/* Stop at both sides of a free range: k max(|d| - range, 0) with the sign of d. */
+/* Stop at both ends of a free travel: k max(|d| - range, 0) with the sign of d. */
 static inline double cz_stop(double stiffness, double range, double displacement) {
     return stiffness * (displacement - cz_clamp(displacement, -range, range));
 }
 
-/* What it stores [J]. */
+/* Stored energy [J]. */
 static inline double cz_stop_energy(double stiffness, double range, double displacement) {
     const double beyond = displacement - cz_clamp(displacement, -range, range);
     return 0.5 * stiffness * beyond * beyond;

@@ -1,8 +1,8 @@
-/* Superstructures that meet: elastic up to their strength, then crushed at that force.
+/* Superstructures in contact: elastic up to their strength, then crushed at that force.
  *
  *   F = clamp(k (d - p), 0, F_s),   p' = max(p, d - F / k)
  *
- * d is the closure and p the permanent set, which never grows back.
+ * d is the closure and p the permanent set, which never decreases.
  */
 #ifndef CZ_LAWS_SUPERSTRUCTURE_H
 #define CZ_LAWS_SUPERSTRUCTURE_H

@@ -1,5 +1,5 @@
-/* Crush zone of a vehicle end: loading backbone, two unloading stages, tension along the structure
- * that is left.
+/* Crush zone of a vehicle end: loading backbone, two unloading stages, tension of the deformed
+ * structure.
  *
  *   x >= x_m:  F = backbone(x)                 loading
  *   x <  x_m:  F = F_m - Ku1 (x_m - x)         unloading, down to r F_m at x_1
@@ -7,12 +7,12 @@
  *              F = -K_t (x_res - x)            below, where the end is still attached
  *
  * Reloading follows the unloading path. F_m = backbone(x_m); x_m is the largest shortening so far,
- * but not beyond the end of the last stage: from there on the end is on a stop that gives back
- * what it took. The unloading path is never above backbone(x), and x_res never below zero, so that
- * the elastic part of the backbone gives back no more than it took. For the same reason no stage
- * may rise faster than cz_vehicle_end_steepest says.
+ * but at most the end of the last stage, beyond which an elastic stop acts. The unloading path is
+ * never above backbone(x), and x_res never below zero, so that the elastic part of the backbone
+ * returns no more energy than it received. For the same reason no stage may rise faster than
+ * cz_vehicle_end_steepest.
  *
- * A damper lies beside it, scaled in over the shortening: c fade(x) x'.
+ * A damper acts in parallel, scaled in over the shortening: c fade(x) x'.
  */
 #ifndef CZ_LAWS_VEHICLE_END_H
 #define CZ_LAWS_VEHICLE_END_H
@@ -32,8 +32,8 @@ typedef struct {
     double residual; /* x_res [m] */
 } CzVehicleEndResponse;
 
-/* `backbone` is at the shortening x, `peak` at x_m; the compliances are 1/Ku1 and 1/Ku2: divisions
- * less where they never change. */
+/* `backbone` is at the shortening x, `peak` at x_m; the compliances are 1/Ku1 and 1/Ku2, which
+ * saves divisions where they are constant. */
 static inline CzVehicleEndResponse cz_vehicle_end_of(const CzVehicleEndLaw *law, double compliance,
                                                      double second_compliance, double backbone,
                                                      double peak, double shortening,
@@ -62,18 +62,18 @@ static inline CzVehicleEndResponse cz_vehicle_end(const CzVehicleEndLaw *law, do
                              shortening, largest);
 }
 
-/* Force of the damper beside it [N]. */
+/* Force of the parallel damper [N]. */
 static inline double cz_vehicle_end_damping(double damping, double shortening, double rate) {
     return damping * rate * cz_fade_in(shortening, CZ_FADE_LENGTH);
 }
 
-/* The same inside a series chain: force per travel of a step, scaled in over the shortening that
- * was there before it [N/m]. */
+/* The same inside a series chain: force per travel of a step, scaled in over the shortening before
+ * the step [N/m]. */
 static inline double cz_vehicle_end_damper(double damping, double committed, double step) {
     return damping * cz_fade_in(committed, CZ_FADE_LENGTH) / step;
 }
 
-/* Energy that unloading to zero gives back [J]: (1 - r^2) F^2 / (2 Ku1) + (r F)^2 / (2 Ku2), for a
+/* Energy returned by unloading to zero [J]: (1 - r^2) F^2 / (2 Ku1) + (r F)^2 / (2 Ku2), for a
  * force F on the path. */
 static inline double cz_vehicle_end_stored(const CzVehicleEndLaw *law, double peak, double force) {
     const double turn_force = law->share * peak;

@@ -3,8 +3,8 @@
  *
  *   N = H d^(3/2) for an indentation d > 0, else 0
  *
- * is Zhai's vertical law, for the two wheels of a wheelset: H = 2 G^-1.5. A rail that deflects by
- * r N at once lies in series with it: with an approach A of wheel and rail, s = sqrt(d) solves
+ * is Zhai's vertical law, for the two wheels of a wheelset: H = 2 G^-1.5. A rail with a static
+ * deflection of r N is in series with it: with an approach A of wheel and rail, s = sqrt(d) solves
  *
  *   s^2 + r H s^3 = A
  *
@@ -16,9 +16,9 @@
  *
  * with a deflection e that is advanced implicitly over the step h.
  * w is the slip speed of the wheel's contact point, V the speed along the rail, a the contact
- * length. A rolling wheel carries its deflection away, e = w a / |V|: force proportional to
- * creepage. A standing wheel keeps it: a spring that slips at mu N. One law for both, without a
- * smallest speed and without a step bound from friction.
+ * length. For a rolling wheel e = w a / |V|: the force is proportional to creepage. A standing
+ * wheel keeps its deflection: a spring that slips at mu N. One law covers both, without a smallest
+ * speed and without a step bound from friction.
  */
 #ifndef CZ_LAWS_WHEEL_RAIL_H
 #define CZ_LAWS_WHEEL_RAIL_H

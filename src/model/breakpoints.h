@@ -42,7 +42,8 @@ void cz_breakpoints_strength(CzBreakpoints *breakpoints, const CzStage *stage, i
 void cz_breakpoints_loading(CzBreakpoints *breakpoints, double first, const CzStage *stage,
                             int n_stage, const CzTable *table, double bottom_stiffness);
 
-/* A plastic member that never crushes, and a spring of one stiffness (CZ_NEVER: it never deflects).
+/* A plastic member that never crushes, and a spring of constant stiffness (CZ_NEVER: it never
+ * deflects).
  */
 void cz_breakpoints_rigid_member(CzBreakpoints *breakpoints);
 void cz_breakpoints_spring(CzBreakpoints *breakpoints, double stiffness);

@@ -212,8 +212,8 @@ static CzStatus fit_receptances(CzModel *model, const CzVehicle *vehicles, CzTra
     return CZ_OK;
 }
 
-/* Where a track cannot be fitted, runs on the fit are refused; searches on other tracks stay on
- * them. */
+/* A problem on `receptance` is refused when the track cannot be fitted; searches of other tracks
+ * then use the track of the file. */
 static CzStatus fit_if_possible(CzModel *model, const CzVehicle *vehicles, CzTrackModes *modes,
                                 CzError *error) {
     CzError failure = {0};
@@ -264,7 +264,7 @@ static void choose_hold(CzModel *model) {
             model->hold = fmax(model->hold, 1.0 / model->properties[car].pitch_frequency);
 }
 
-/* Properties and bounds are read off the lanes of the problem's own design. */
+/* Properties and bounds follow from the lanes of the problem's own design. */
 static CzStatus look_at_own_design(CzModel *model, const CzVehicle *vehicles, CzArena *scratch,
                                    CzError *error) {
     CzLanes *lanes = cz_model_lanes(model, 1, scratch);

@@ -129,7 +129,8 @@ static CzStatus check_rise(const CzFill *fill, CzPartName part, const CzBuffer *
     return CZ_OK;
 }
 
-/* A stage after the first must not rise so fast that unloading gives back more than it took. */
+/* A stage after the first must not rise so fast that unloading returns more energy than it
+ * received. */
 static CzStatus check_unloading(const CzFill *fill, CzPartName part, const CzEnd *end) {
     const CzVehicleEndLaw law = {.unloading = end->unloading_stiffness,
                                  .share = end->unloading_share,

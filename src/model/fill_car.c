@@ -11,7 +11,7 @@
 
 #define LOCKED_FREQUENCY 600.0    /* of a locked end guidance [rad/s] (ours) */
 #define GUIDE_DAMPING 0.1         /* damping ratio of the end guidance (ours) */
-#define HELD_AXLE_FREQUENCY 300.0 /* of a held wheelset in torsion [rad/s] (ours) */
+#define HELD_AXLE_FREQUENCY 300.0 /* of a braked wheelset in torsion [rad/s] (ours) */
 #define CONTACT_LENGTH 0.006      /* that carries tangential deflection away [m] (ours) */
 
 /* base^exponent for 0 <= exponent < 1 from square roots alone: the same bits on every machine. */
@@ -161,7 +161,7 @@ typedef struct {
     double peak, sliding;
 } Friction;
 
-/* A scenario's own peak keeps the share that is left in sliding. */
+/* With a peak friction of the scenario the ratio of sliding friction to peak is unchanged. */
 static Friction friction_of(const CzModel *model) {
     const CzAdhesion *adhesion = &model->simulation->adhesion;
     const bool falls = !isnan(adhesion->sliding_friction) && adhesion->friction > 0.0;
@@ -169,7 +169,7 @@ static Friction friction_of(const CzModel *model) {
     return (Friction){model->friction, model->friction * left};
 }
 
-/* Axles are braked from the front of the car on, the last one by what is left of the share. */
+/* Axles are braked from the front of the car; the last one gets the rest of the share. */
 static double braked_part(const CzBrake *brake, int axle) {
     const double n_braked = brake == NULL ? 0.0 : 4.0 * brake->axle_share;
     return fmin(fmax(n_braked - (3 - axle), 0.0), 1.0);

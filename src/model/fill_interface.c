@@ -35,7 +35,7 @@ typedef struct Side {
     Part part[N_KIND]; /* the face is an anti-climber's where there is one, else the bare end's */
     double plane;      /* foremost plane from the body's centre of gravity, outwards [m] */
     double sign;       /* of outwards along x */
-    double offset;     /* how much higher it is than built [m] */
+    double offset;     /* height offset of the car [m] */
 } Side;
 
 typedef struct Pair {
@@ -109,7 +109,7 @@ static double distance_of(const Pair *pair, Kind kind) {
            pair->side[CZ_SIDE_B].part[kind].gap;
 }
 
-/* Heights of both sides as built, and how much higher B's part is than A's with the offsets. */
+/* Heights of both sides as built, and the height of B's part over A's with the offsets. */
 typedef struct Heights {
     double side[2]; /* above rail [m] */
     double rise;    /* [m] */
@@ -205,7 +205,8 @@ static double tube_compliance(const CzTube *tube, int count) {
 
 /* ---- couplers ---- */
 
-/* Pivot to face, of a coupler that takes part in a strut; 0 of one that pushes along the track. */
+/* Length from pivot to face of a coupler that is part of a strut; 0 where it acts along the track.
+ */
 static double strut_length(const Pair *pair, int which) {
     const Side *side = &pair->side[which];
     const bool has_pivot = side->is_full || (pair->tilts && !side->is_fixed);
@@ -332,7 +333,7 @@ static CzStatus fill_face_side(const Pair *pair, int which, double *compliance) 
     return CZ_OK;
 }
 
-/* What keeps two anti-climbers from sliding over each other. */
+/* Ribs and friction of two anti-climbers. */
 static void fill_ribs(const Pair *pair) {
     CzFaceRows *rows = &pair->rows->face;
     const size_t i = pair->i;
@@ -347,7 +348,7 @@ static void fill_ribs(const Pair *pair) {
         rows->rib_depth[i] = fmax(a->rib_depth, b->rib_depth);
     if (!pair->side[CZ_SIDE_A].is_full || !pair->side[CZ_SIDE_B].is_full)
         return;
-    /* The faces release over one pitch as their overlap is exhausted, whatever the ribs carry. */
+    /* The faces lose contact over one rib pitch of remaining overlap, whatever the ribs carry. */
     rows->rib_pitch[i] = fmax(a->face_height / a->rib_count, b->face_height / b->rib_count);
     rows->overlap[i] = (a->face_height + b->face_height) / 2.0;
 }

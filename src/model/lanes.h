@@ -63,7 +63,7 @@ typedef struct CzLanes {
     int has_couplers;        /* any interface has them */
     int has_full_cars;       /* any car is a full one */
     int has_rolling;         /* any wheelset has rolling resistance */
-    int has_drag;            /* the track holds back some car without running gear */
+    int has_drag;            /* the track brakes some car without running gear */
 } CzLanes;
 
 /* Memory for the lanes of n_design designs of n_car cars, neutral everywhere, with n_breakpoint

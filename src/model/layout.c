@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "model/fill.h"
 
-/* Drawn half length of a vehicle that states no length [m] (ours). */
+/* Half length in figures of a vehicle without a length [m] (ours). */
 static double drawn_half(const CzModel *model, int car) {
     return model->car[car].model == CZ_MODEL_FIXED ? 1.0 : 10.0;
 }

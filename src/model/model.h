@@ -1,4 +1,4 @@
-/* What a run needs of a model. */
+/* The parts of a model that a run reads. */
 #ifndef CZ_MODEL_MODEL_H
 #define CZ_MODEL_MODEL_H
 
@@ -38,8 +38,8 @@ struct CzModel {
     double time_step;          /* [s] */
     double duration;           /* [s]; NaN: until the end criterion is met */
     double longest;            /* [s] */
-    double hold; /* time for which the end-of-run conditions must hold: the longest body pitch
-                    period; 0.02 s without full cars (ours) [s] */
+    double hold; /* time for which the end criterion must be met: the longest body pitch period;
+                    0.02 s without full cars (ours) [s] */
     int n_bound;
     CzStepBound *bound;           /* smallest first */
     int n_breakpoint[CZ_N_CURVE]; /* breakpoints that hold every design: counted from the number of
@@ -54,7 +54,7 @@ static inline CzLanes *cz_model_lanes(const CzModel *model, int n_design, CzAren
 }
 
 /* Fills the lanes of one design from a vehicle array (the problem's own or a candidate's). Fails
- * with CZ_STATUS_INPUT and a sentence when the values make no vehicle (strokes not positive, masses
+ * with CZ_STATUS_INPUT and a sentence when the values are impossible (strokes not positive, masses
  * not positive, ...). */
 CZ_MUST_CHECK CzStatus cz_model_fill(const CzModel *model, const CzVehicle *vehicles, int design,
                                      CzLanes *lanes, CzError *error);

@@ -1,5 +1,5 @@
-/* What is found out from filled lanes: of the problem's own design properties and step bounds, of
- * any design F_crit. */
+/* Quantities that follow from filled lanes: properties and step bounds of the problem's own design,
+ * F_crit of any design. */
 #ifndef CZ_MODEL_OWN_DESIGN_H
 #define CZ_MODEL_OWN_DESIGN_H
 

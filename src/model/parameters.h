@@ -11,7 +11,7 @@
 
 #include "model/state.h"
 
-/* What is divided by: 0 for what cannot move so. */
+/* Inverse masses and inertias: 0 where a body cannot move in that direction. */
 typedef struct CzInverse {
     CzRow mass;          /* [1/kg] */
     CzRow inertia_pitch; /* [1/(kg m2)] */
@@ -28,7 +28,7 @@ typedef struct CzCrushRows {
     CzRow unloading;        /* first unloading stage [N/m]; never without */
     CzRow share;            /* of the peak force at which the second one begins [-] */
     CzRow second_unloading; /* second unloading stage [N/m]; never without */
-    CzRow tension;          /* stiffness that keeps an end mass from leaving its body [N/m] */
+    CzRow tension;          /* stiffness that holds an end mass on its body in tension [N/m] */
     CzRow damping;          /* [N s/m] */
 } CzCrushRows;
 
@@ -76,14 +76,14 @@ typedef struct CzWheelRows {
     CzRow rolling_resistance;  /* of a wheelset, over its normal force [-] */
 } CzWheelRows;
 
-/* What the track holds a car without running gear back with. */
+/* Drag of the track on a car without running gear. */
 typedef struct CzDragRows {
-    CzRow brake;           /* brake force at rest: the lesser of brakes and peak friction [N] */
-    CzRow brake_sliding;   /* the same at large speed: less where the wheels lock [N] */
-    CzRow rolling;         /* rolling resistance [N] */
-    CzRow slide;           /* friction jaws of a buffer stop [N] */
-    CzRow slide_length;    /* travel on which they drag before the stop meets its end [m]; never
-                              without */
+    CzRow brake;         /* brake force at rest: the lesser of brakes and peak friction [N] */
+    CzRow brake_sliding; /* the same at large speed: less where the wheels lock [N] */
+    CzRow rolling;       /* rolling resistance [N] */
+    CzRow slide;         /* friction jaws of a buffer stop [N] */
+    CzRow slide_length;  /* travel of the jaws until the buffer stop reaches its end stop [m]; never
+                            without */
     CzRow slide_stiffness; /* beyond it [N/m] */
 } CzDragRows;
 
@@ -130,8 +130,8 @@ typedef struct CzCouplerRows {
     CzRow compliance; /* sum of 1/stiffness of all tubes of both sides [m/N] */
     struct {
         CzRow on_end;       /* 1 when the pivot is fixed to the end mass */
-        CzRow strut_length; /* pivot to face, uncompressed, of a coupler whose line can turn: it
-                               cannot shorten by more [m]; never without */
+        CzRow strut_length; /* pivot to face, uncompressed, of a coupler whose line can rotate: its
+                               largest shortening [m]; never without */
         CzBufferRows buffer;
         CzRow tube_rate, second_tube_rate; /* rate factors [s/m] */
         CzShearOffRows shear;
@@ -206,9 +206,10 @@ typedef struct CzParameters {
     CzRow primary_preload[4];   /* static load [N]; never when the spring carries tension */
     CzWheelRows wheel;
     CzDragRows drag;
-    CzRow tilts; /* of the interface: 1 where one of its cars can move up and down and pitch and the
-                    other is no wall: lines and faces tilt, couplers are struts; 0 elsewhere: every
-                    force acts along the track, and a wall is a smooth upright plane, a mirror */
+    CzRow
+        tilts; /* of the interface: 1 where one of its cars can move vertically and pitch and the
+                  other is not a wall: lines and faces tilt, couplers are struts; 0 elsewhere: every
+                  force acts along the track, and a wall is a smooth vertical plane, a mirror */
     CzCouplerRows coupler;
     CzFaceRows face;
     CzSuperstructureRows superstructure;

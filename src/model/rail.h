@@ -6,7 +6,7 @@
  *
  *   w_b^2 w_s^2 = kGA EI K^4 / (m rho I)     w_b^2 + w_s^2 = kGA K^2 / m + (EI K^2 + kGA) / (rho I)
  *
- * and share the answer of the deflection to a load: z = load / m [p / (s^2 + w_b^2) + (1 - p) /
+ * and share the response of the deflection to a load: z = load / m [p / (s^2 + w_b^2) + (1 - p) /
  * (s^2 + w_s^2)]. At rest z = load [1 / (EI K^4) + 1 / (kGA K^2)].
  */
 #ifndef CZ_MODEL_RAIL_H
@@ -15,8 +15,9 @@
 #include "base/complex.h"
 #include "problem/input.h"
 
-/* Rail and what carries it at each seat. The numbers of a file are those of one rail; a wheelset
- * is on two, so the model's are twice these throughout, from the rail to the subgrade. */
+/* The rail and its support at each seat. The numbers of a file are those of one rail; a wheelset is
+ * on two rails, so those of the model are twice as large throughout, from the rail to the subgrade.
+ */
 typedef struct CzSeats {
     double bending;            /* E I [N m2] */
     double shear;              /* kappa G A [N] */
@@ -38,11 +39,11 @@ CzSeats cz_seats(const CzRoadbed *roadbed, int n_rail);
 typedef struct CzRailWave {
     double wavenumber;     /* K [1/m] */
     double bending, shear; /* w_b^2, w_s^2 [1/s2] */
-    double share;          /* p: what the bending branch has of a load's deflection */
+    double share;          /* p: share of the bending branch in the deflection under a load */
 } CzRailWave;
 CzRailWave cz_rail_wave(const CzSeats *seats, double wavenumber);
 
-/* What a seat is to a static wave of the seats that turns by `turns` from one to the next: pad,
+/* Flexibility of a seat for a static wave with a phase of `turns` from one seat to the next: pad,
  * ballast and subgrade in series [m/N]. */
 double cz_seat_flexibility(const CzSeats *seats, double turns);
 
@@ -55,7 +56,7 @@ CzComplex cz_rail_flexibility(const CzSeats *seats, double turns, double place);
 /* Static deflection per force under a force on a ring of n_seat seats [m/N]. */
 double cz_ring_flexibility(const CzSeats *seats, int n_seat, double place);
 
-/* Force that a seat n seats on from it takes of that force [-]. */
+/* Share of that force carried by the seat n seats away [-]. */
 double cz_ring_seat_share(const CzSeats *seats, int n_seat, double place, int seat);
 
 #endif

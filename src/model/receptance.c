@@ -8,9 +8,9 @@
 #include "base/roots.h"
 #include "model/storage.h"
 
-/* Samples and first poles stand evenly in the logarithm of frequency: samples from 1/300 of the cut
- * of the modes to the cut and on to 13 times the cut, where the fit must fall off as the modes do;
- * poles from 1/100 of the cut to the cut (ours). */
+/* Samples and first poles are evenly spaced in the logarithm of frequency: samples from 1/300 of
+ * the cut-off frequency of the modes up to it, and on to 13 times the cut-off, where the fit must
+ * fall off as the modes do; poles from 1/100 of the cut-off to the cut-off (ours). */
 enum { N_BELOW = 200, N_BEYOND = 20, N_SAMPLE = N_BELOW + N_BEYOND };
 #define LOG_300 5.703782474656201
 #define LOG_100 4.605170185988092
@@ -22,21 +22,21 @@ _Static_assert(CZ_MOST_PAIR_MODES >= 2 * MOST_PAIRS + MOST_REPAIRS, "every pole 
 
 #define LARGEST_ERROR 3e-3  /* of the largest receptance, at the samples (ours) */
 #define NEARLY_REAL 1e-9    /* imaginary part of a root that has none, of its size */
-#define LEAST_DAMPING 1e-12 /* damping ratio of a mode that is damped at all */
+#define LEAST_DAMPING 1e-12 /* smallest damping ratio of a mode that counts as damped */
 
 /* Where the fit is tested for passivity: frequencies of the imaginary axis [rad/s] (ours). */
 #define AXIS_FROM 1.0
 #define AXIS_TO 1e7
 #define AXIS_GROWTH 1.01
-#define REPAIRED 1.05 /* how much more than what is missing a repair gives (ours) */
+#define REPAIRED 1.05 /* factor on the smallest correction that makes the fit passive (ours) */
 
 #define STORAGE_STEP 1e-6 /* in which the energy of the modes is counted [s] (ours) */
 
 /* ---- the modal track ------------------------------------------------------------------------- */
 
 /* Mean over a bay of the squared shape of a mode under two wheels: half the square of each wave,
- * but all of the one wave that is the same everywhere. From one wheel to the other a wave turns by
- * its wavenumber times the axle spacing. */
+ * but all of the one wave that is the same everywhere. From one wheel to the other the phase of a
+ * wave grows by its wavenumber times the axle spacing. */
 static CzComplex square_of(const CzTrackModes *modes, const CzTrackGroup *group, int i,
                            double axle_spacing, CzPairMotion motion) {
     const int j = group->vector * CZ_TRACK_WIDTH + i;
@@ -153,7 +153,7 @@ static Poles first_poles(int n_pair, double cut) {
     return poles;
 }
 
-/* What each number of a residue gives at s. */
+/* Contribution of each number of a residue at s. */
 static int basis_at(CzComplex pole, CzComplex s, CzComplex basis[2]) {
     const CzComplex one = cz_complex_inverse((CzComplex){s.re - pole.re, s.im - pole.im});
     if (is_real(pole)) {
@@ -231,8 +231,8 @@ static CzComplex slope_of_sigma(const void *function, CzComplex s) {
     return cz_complex_sum(sigma.sum, cz_complex_ratio(sigma.slope, sigma.value));
 }
 
-/* The zeros of sigma, mirrored to the stable side. Guesses stand beside the poles, and no pair of
- * them is conjugate: two real roots could not part. */
+/* The zeros of sigma, mirrored to the stable side. The starting values are beside the poles and no
+ * pair of them is conjugate, because two real roots could not separate. */
 static void move_poles(Poles *poles) {
     CzComplex root[2 * MOST_PAIRS];
     int n = 0;
@@ -251,7 +251,8 @@ static void move_poles(Poles *poles) {
     }
 }
 
-/* Better poles: of G sigma = the rational function and sigma = 1 + the same with other residues. */
+/* Better poles, from G sigma = the rational function and sigma = 1 + the same function with other
+ * residues. */
 static bool iterate(const Samples *samples, Poles *poles, double *a) {
     double b[N_ROW];
     const int n = poles->n_number;
@@ -288,8 +289,8 @@ static bool fit_residues(const Samples *samples, const Poles *poles, double *a,
 
 /* ---- passivity ------------------------------------------------------------------------------- */
 
-/* The frequency at which the fit gives most energy, and the imaginary part there; a passive track
- * lags behind the force at all of them [rad/s, m/N]. */
+/* The frequency at which the fit supplies most energy, and the imaginary part there; a passive
+ * track lags behind the force at all frequencies [rad/s, m/N]. */
 typedef struct Lead {
     double frequency, size;
 } Lead;
@@ -304,8 +305,8 @@ static Lead largest_lead(const struct CzPairModes *modes) {
     return largest;
 }
 
-/* Adds real modes, each passive by itself, until nothing leads: a / (s + w) has the imaginary part
- * -a / (2 w) at w. */
+/* Adds real modes, each passive by itself, until the fit is passive: a / (s + w) has the imaginary
+ * part -a / (2 w) at w. */
 static bool make_passive(struct CzPairModes *modes) {
     for (int i = 0; i < MOST_REPAIRS; i++) {
         const Lead lead = largest_lead(modes);
@@ -329,7 +330,7 @@ static double largest_error(const Samples *samples, const struct CzPairModes *mo
 
 /* ---- energy ---------------------------------------------------------------------------------- */
 
-/* Available storage under forces that hold for a short step. */
+/* Available storage under forces that are constant over a short step. */
 static bool find_storage(struct CzPairModes *modes, CzArena *arena, CzArena *scratch) {
     const int n = 2 * modes->n;
     double *a = cz_arena_allocate(scratch, (size_t)(n * n), sizeof *a);

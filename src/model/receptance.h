@@ -1,5 +1,5 @@
-/* The receptance of the track under a bogie: what its two wheels deflect it by, per force, as a sum
- * of few damped modes that roll along with the bogie.
+/* The receptance of the track under a bogie: deflection under its two wheels per force, as a sum of
+ * few damped modes that move with the bogie.
  *
  * Averaged over the place in a bay, the track does not couple the mean deflection of two wheels
  * (bounce) with half their difference (pitch). The receptance of each, a sum over the modes of the
@@ -9,9 +9,9 @@
  *
  * by vector fitting: with given poles, the residues of G sigma and of sigma follow from linear
  * least squares over frequencies, and the zeros of sigma are better poles. Poles are mirrored to
- * the stable side, and a real mode is added where the fit would give energy. Waves with their nodes
- * at the seats, which nothing damps, are left out. Statics are those of the track at every place in
- * a bay, by the flexibility beside the modes.
+ * the stable side, and a real mode is added where the fit would supply energy. Undamped waves with
+ * their nodes at the seats are left out. The static deflection is that of the track at every place
+ * in a bay, by the flexibility added to the modes.
  */
 #ifndef CZ_MODEL_RECEPTANCE_H
 #define CZ_MODEL_RECEPTANCE_H
@@ -21,8 +21,8 @@
 /* How the two wheels of a bogie move. */
 typedef enum CzPairMotion { CZ_PAIR_BOUNCE, CZ_PAIR_PITCH, CZ_N_PAIR_MOTION } CzPairMotion;
 
-/* The damped modes of a track as two wheels feel them: receptance = sum of square / (s - lambda)
- * and of its conjugate, halved. */
+/* The damped modes of a track in bounce or pitch of two wheels: receptance = sum of square / (s -
+ * lambda) and of its conjugate, halved. */
 typedef struct CzTrackSpectrum {
     int n;
     CzComplex *lambda;                   /* [1/s] (n) */
@@ -53,7 +53,7 @@ typedef struct CzReceptance {
         CzPairMode mode[CZ_MOST_PAIR_MODES];
         double error;    /* largest over the samples, of the largest receptance */
         double *storage; /* H: x' H x of the real and imaginary parts of the modes' y in turn is the
-                            energy that they can still give back per wheel (2 n x 2 n) */
+                            energy per wheel that they can still return (2 n x 2 n) */
     } motion[CZ_N_PAIR_MOTION];
 } CzReceptance;
 
@@ -63,8 +63,8 @@ CZ_MUST_CHECK CzStatus cz_receptance_fit(const CzTrackModes *modes, double axle_
                                          CzArena *arena, CzReceptance *receptance, CzError *error);
 CzComplex cz_fitted_receptance(const CzReceptance *receptance, CzPairMotion motion, CzComplex s);
 
-/* What must lie under each wheel beside the fitted modes so that a wheel at rest deflects the track
- * as its statics say; `step` as in track.h. */
+/* Flexibility under each wheel in addition to the fitted modes, so that a wheel at rest has the
+ * static deflection of the track; `step` as in track.h. */
 CzTrackFlexibility cz_receptance_flexibility(const CzTrackModes *modes,
                                              const CzReceptance *receptance, double step);
 

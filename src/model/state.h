@@ -9,7 +9,7 @@ enum { CZ_LANE_BLOCK = 8 };
 /* One quantity of all lanes of a block. */
 typedef double CzRow[CZ_LANE_BLOCK];
 
-/* What represents a thing that is not there. */
+/* Numbers of a part that does not exist. */
 #define CZ_NEVER 1e30   /* a force, gap or stiffness that nothing reaches */
 #define CZ_MISSING 1e29 /* strengths, strokes and gaps from here on are never reached */
 

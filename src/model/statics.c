@@ -4,8 +4,8 @@
  *   F_front + F_rear = (body + ends) g         (F_front - F_rear) l_c = (m_ef d_f - m_er d_r) g
  *
  * The body's centre of gravity lies in the middle between the foremost planes of the car as its
- * file gives it. Absorbers longer than the drawn ones, which are the file's own unless it says
- * otherwise, push their foremost plane outwards by the stroke over the efficiency.
+ * file gives it. Absorbers longer than `drawn_stroke` (by default the stroke in the file) move
+ * their foremost plane outwards by the additional stroke over the efficiency.
  */
 #include "model/fill.h"
 
@@ -24,7 +24,7 @@ static double absorber_mass(const CzEnd *end) {
            device_mass(CZ_DEVICE(&end->side_buffers.tube), end->side_buffers.count);
 }
 
-/* What an anti-climber adds to its end's length, by another stroke than the drawn one [m]. */
+/* Additional length of an end by an anti-climber with another stroke than the drawn one [m]. */
 static double added_length(const CzEnd *end, const CzEnd *baseline) {
     const CzAntiClimber *device = &end->anti_climber;
     if (!device->given)

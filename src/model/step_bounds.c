@@ -88,7 +88,7 @@ static double point_mobility(const CzInverse *inverse, size_t i, double arm) {
 
 /* ---- one car ---- */
 
-/* Cars that are alike share a bound that is searched for. */
+/* Equal cars share a bound, which takes a search to find. */
 static void note_elastic_track(const Car *car, double contact, double primary) {
     const double wheelset = car->rows->inverse.wheelset.mass[car->i];
     OnRails *last = car->on_rails;
@@ -260,8 +260,8 @@ static double closing_speed(const Car *car) {
 }
 
 /* Both members of a chain damp; the stiffer side may be held, so the stronger damper counts. The
- * rate at which hydraulic damping acts is no larger than the closing speed, nor than what the
- * weakest plastic member of the chain lets it be: c2 rate^2 <= weakest. */
+ * rate at which hydraulic damping acts is no larger than the closing speed, nor than the rate that
+ * the weakest plastic member of the chain allows: c2 rate^2 <= weakest. */
 static double buffer_damping(const Car *car, const CzBufferRows *const buffer[2], double weakest) {
     double strongest = 0.0;
     for (int side = CZ_SIDE_A; side <= CZ_SIDE_B; side++) {
@@ -303,7 +303,7 @@ static void note_swing(const Car *car, const Carriers *carriers) {
          0.0, 2.0 * pair_mobility(carriers, per_length, arm));
 }
 
-/* Force that the coupler's tubes and shear-offs let through. */
+/* Largest force that the coupler's tubes and shear-offs transmit. */
 static double weakest_member(const Car *car) {
     const CzCouplerRows *rows = &car->rows->coupler;
     const double tubes = car->model->interface_properties[car->car].tube_force;

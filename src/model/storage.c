@@ -1,7 +1,7 @@
 /* Available storage by structured doubling.
  *
- * Bellman's equation of the most that can be got out, with the work row n = c' (A - 1) and d = c'
- * b,
+ * Bellman's equation of the largest energy that can be extracted, with the work row n = c' (A - 1)
+ * and d = c' b,
  *
  *   x' H x = max over f of   - f n x - f d f + (A x + b f)' H (A x + b f)
  *
@@ -10,7 +10,7 @@
  *
  *   W = 1 + G H     A <- A W^-1 A     G <- G + A W^-1 G A'     H <- H + A' H W^-1 A
  *
- * doubles the number of steps that H looks ahead each time (Chu, Fan, Lin and Wang 2004).
+ * doubles the number of steps ahead that H covers each time (Chu, Fan, Lin and Wang 2004).
  */
 #include "model/storage.h"
 

@@ -17,9 +17,9 @@
  * strut is pushed as far from its middle at its other end. Eigenvalues F are found from L^-1 G L^-T
  * y = (1 / F) y, K = L L^T, u = L^-T y.
  *
- * A shape goes through a strut when the shortening there is at least a hundredth (the swing a
- * tenth) of that where it is largest; below that its force counts more, in inverse proportion to
- * the swing, so that F_crit is continuous in every number (ours).
+ * A shape belongs to a strut when the shortening there is at least a hundredth (the swing a tenth)
+ * of the largest one in the shape; for a smaller swing the force is increased in inverse proportion
+ * to the swing, so that F_crit is continuous in every number (ours).
  */
 #include "model/strut_chain.h"
 
@@ -28,7 +28,7 @@
 #include <math.h>
 
 #define SWING_THROUGH                                                                              \
-    0.1 /* share of the largest swing of a shape that goes through a strut (ours) */
+    0.1 /* smallest share of the largest swing in a shape that belongs to a strut (ours) */
 
 /* The unknowns of one end of a strut: of the body, and of an end mass that carries the pivot. */
 typedef enum Unknown { BODY_Z, BODY_PITCH, END_Z, END_PITCH, N_OF_PIVOT } Unknown;
@@ -71,7 +71,7 @@ static void add_product(double matrix[N_OF_STRUT][N_OF_STRUT], int i, int j, dou
     matrix[j][i] += factor;
 }
 
-/* What an end mass adds to its pivot: it is guided, and it turns by itself. */
+/* Contribution of an end mass to its pivot: its guidance, and its own rotation. */
 static void add_end_mass(Strut *strut, const CzChainPivot *pivot, int first, double outwards) {
     double across[N_OF_STRUT] = {0}, turned[N_OF_STRUT] = {0};
     across[first + END_Z] = 1.0;
@@ -190,7 +190,7 @@ static bool find_shapes(Chain *chain) {
         cz_lower_solve(n, chain->stiffness, &chain->shortening[column], n);
     for (int row = 0; row < n; row++)
         cz_lower_solve(n, chain->stiffness, &chain->shortening[row * n], 1);
-    for (int row = 0; row < n; row++) /* to the last bit, which rounding may have spoilt */
+    for (int row = 0; row < n; row++) /* to the last bit, in spite of rounding */
         for (int column = 0; column < row; column++)
             chain->shortening[row * n + column] = chain->shortening[column * n + row];
     cz_symmetric_diagonalise(n, chain->shortening, chain->shape);
@@ -212,7 +212,7 @@ static double shortening_at(const Chain *chain, const Strut *strut, int shape) {
     return fmax(sum, 0.0);
 }
 
-/* Lowers the force of each strut to that of a shape that goes through it. */
+/* Lowers the force of each strut to that of a shape that belongs to it. */
 static void count_shape(const Chain *chain, int shape, double *force) {
     const double inverse = chain->shortening[shape * chain->n + shape];
     double largest = 0.0;

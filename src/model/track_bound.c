@@ -1,15 +1,15 @@
-/* The step at which a wheel and the rail under it begin to swing from step to step.
+/* The step at which wheel and rail begin to oscillate from step to step.
  *
  * A motion that changes its sign with every step is the first to grow. Then a force P of
  * alternating sign moves the wheel by -h^2 / (4 m - h^2 k) P, k the spring above it, and the modes
  * by the sum of -g^2 (2 / lambda) sinh(lambda h / 2) e / (1 + e) P with e = exp(lambda h), while
- * contact and the flexibility beside the modes deflect by (1 / k_c + r(h)) P. The step is stable
+ * contact and the flexibility added to the modes deflect by (1 / k_c + r(h)) P. The step is stable
  * while
  *
  *   1 / k_c + r(h) > h^2 / (4 m - h^2 k) + sum of g^2 (2 / lambda) sinh(lambda h / 2) e / (1 + e)
  *
  * at every place between two seats. The modes are stable by themselves at any step, but a step must
- * still see them: w h < 2 for the largest, a third of its period.
+ * resolve them: w h < 2 for the fastest, a third of its period.
  */
 #include "model/track_bound.h"
 

@@ -15,8 +15,8 @@ typedef struct Shipped {
 static const Shipped shipped[] = {
     {"problems/two-cars-25kmh.yaml", "two cars at 25 km/h each"},
     {"problems/paper-25kmh.yaml", "the published example, 300 ms"},
-    {"problems/override-bottoming-holds.yaml", "two cars of which one stands, near bottoming out"},
-    {"problems/metro-6-car.yaml", "six cars onto six, first scenario"},
+    {"problems/override-bottoming-holds.yaml", "a car onto a standing car, near bottoming out"},
+    {"problems/metro-6-car.yaml", "two trains of six cars, first scenario"},
 };
 enum { N_SHIPPED = sizeof shipped / sizeof shipped[0] };
 
@@ -76,8 +76,8 @@ static void measure(const Shipped *problem, double time[N_TRACK]) {
 
 static void put_costs(bool measures) {
     puts("\n## Cost\n\n"
-         "Processor time of the steps over that on rigid rails, per simulated second; smallest of "
-         "ten runs in turn.\n\n"
+         "Processor time of the steps relative to rigid rails, per simulated second; the smallest "
+         "of ten alternating runs.\n\n"
          "| problem | `rigid` | `receptance` | `modal` | `fe` |\n|---|---|---|---|---|");
     for (int i = 0; i < N_SHIPPED; i++) {
         double time[N_TRACK] = {1.0, 1.0, 1.0, 1.0};
@@ -93,7 +93,7 @@ static void put_costs(bool measures) {
 enum { N_VALUE = 8, FIRST_LIFT = 6 };
 static const char *const value_names[N_VALUE] = {
     "peak force of the colliding interface, kN",
-    "its closure, mm",
+    "closure of the colliding interface, mm",
     "dissipated energy, kJ",
     "largest mean deceleration over 120 ms, g",
     "largest pitch, mrad",
@@ -153,7 +153,7 @@ static void put_differences(const Shipped *problem) {
 int main(int n_argument, char **argument) {
     puts("# Track models: cost and differences\n"
          "\n"
-         "`scripts/write-track` writes this page from runs of shipped problems; a test repeats the "
+         "`scripts/write-track` writes this page from runs of shipped problems; a test checks the "
          "differences.\n"
          "\n"
          "| `simulation.track` | model | use |\n"
@@ -163,19 +163,17 @@ int main(int n_argument, char **argument) {
          "| `receptance` | few modes under each bogie, fitted to the receptance of `modal` in "
          "bounce "
          "and pitch of its wheels | production runs and searches; the default |\n"
-         "| `rigid` | rails that do not move | closed forms; absorbers only |\n"
-         "| `fe` | Timoshenko elements with lumped masses | a check of `modal` by an independent "
-         "assembly |\n"
+         "| `rigid` | rigid rails | closed forms; absorbers only |\n"
+         "| `fe` | Timoshenko elements with lumped masses | independent check of `modal` |\n"
          "\n"
          "Section 10 of [theory.md](theory.md) has the equations, C4 of "
          "[verification.md](verification.md) the convergence of `fe` and the modes.");
     put_costs(n_argument > 1 && strcmp(argument[1], "costs") == 0);
     puts("\n## Differences of results\n\n"
-         "The value on the modal track, and the differences of the others.\n"
+         "The table gives the value on the modal track and the differences on the other tracks.\n"
          "`crushzone verify FILE` compares every check of a problem on `modal` with `receptance`, "
          "and on `fe` with `modal`, in its column \"other track\"; `--set simulation.track=rigid` "
-         "runs any problem on rails that do not "
-         "move.");
+         "runs any problem on rigid rails.");
     for (int i = 0; i < N_SHIPPED; i++)
         put_differences(&shipped[i]);
     puts("\nThe track has little influence on forces, closures and energies, and changes pitch by "
@@ -184,10 +182,11 @@ int main(int n_argument, char **argument) {
          "bogie, it includes the deflection of the track of about a millimetre, and wheels bounce "
          "more on rigid rails.\n"
          "After a hard landing of a wheel, waves of up to 400 Hz travel from one wheel of a bogie "
-         "to the other: the receptance of both together is fitted, in the mean over a bay.\n"
-         "In the 126 scenarios of `problems/metro-6-car-override.yaml` and of the sized train, up "
-         "to 40 km/h, it differs from `modal` by at most 0.02 % in a force and 0.28 mm in a lift, "
-         "which half the time step moves by 0.5 mm; no verdict differs.\n"
+         "to the other: therefore the receptance of both wheels together is fitted, averaged over "
+         "a bay.\n"
+         "In the 126 scenarios of `problems/metro-6-car-override.yaml` and of the optimised train, "
+         "up to 40 km/h, it differs from `modal` by at most 0.02 % in a force and 0.28 mm in a "
+         "wheel lift; halving the time step changes that lift by 0.5 mm. No verdict differs.\n"
          "Searches run on `receptance`, production runs on the track of the file.");
     return 0;
 }

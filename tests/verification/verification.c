@@ -82,46 +82,46 @@ static void put_with_both_steps(void (*rows_of)(Rows *, const Step *)) {
 static void put_intro(void) {
     puts("# Verification\n"
          "\n"
-         "This page is written by `scripts/write-verification`, which runs every case now; a test "
-         "writes it again and compares.\n"
-         "A row that does not hold makes both fail.\n"
+         "`scripts/write-verification` runs every case and writes this page; a test writes it "
+         "again and compares.\n"
+         "Both fail when a row is outside its tolerance.\n"
          "\n"
-         "Differences are relative where the tolerance has no unit, else in the unit of the "
+         "Differences are relative where the tolerance has no unit, otherwise in the unit of the "
          "quantity.\n"
          "Where \"at most\" stands, the computed value is itself an error or a bound.\n"
-         "The cases are the problem files in `tests/physics/cases`, the expected values stand in "
+         "The cases are the problem files in `tests/physics/cases`; the expected values are in "
          "`tests/physics/closed_forms.c`, `tests/physics/scheme.c`, `tests/physics/published.c`, "
-         "`tests/physics/rails.c` and `tests/physics/steps.c`, where the tests use them too.\n"
+         "`tests/physics/rails.c` and `tests/physics/steps.c`, which the tests use too.\n"
          "\n"
-         "## What this page shows and what it does not\n"
+         "## Scope of this page\n"
          "\n"
-         "**Numerical uncertainty** is how far the program is from the exact solution of its own "
-         "equations.\n"
-         "It is what sections A and C bound: closed forms, other solvers, smaller steps, "
+         "**Numerical uncertainty** is the difference between the computed and the exact solution "
+         "of the equations.\n"
+         "Sections A and C give bounds for it: closed forms, other solvers, smaller steps, "
          "conservation.\n"
-         "On short trains it is about one in a thousand at the default step; in long trains, "
-         "which rattle, single values scatter by up to two in a hundred, with every solver, "
-         "because the train itself depends that sensitively on its start.\n"
+         "For short trains it is about 0.1 % at the default step. The response of long trains is "
+         "chaotic: single values scatter by up to 2 % with every solver, because they depend "
+         "sensitively on the initial state.\n"
          "\n"
-         "**Model uncertainty** is how far those equations are from a train.\n"
-         "Nothing on this page bounds it.\n"
-         "Section B compares with what is published of full-scale tests; without the masses, "
-         "curves and dimensions of those vehicles, which are not public, that is bookkeeping of "
-         "momentum and energy and no validation.\n"
-         "What the model leaves out stands in [theory.md](theory.md), section 15; absorber "
-         "curves, friction, stops and heights are the user's, and a change of them within what is "
-         "known of them is the way to find out what they are worth.");
+         "**Model uncertainty** is the difference between the equations and a real train.\n"
+         "This page gives no bound for it.\n"
+         "Section B compares with published numbers of full-scale tests; because masses, curves "
+         "and dimensions of those vehicles are not public, this checks momentum and energy only "
+         "and is not a validation.\n"
+         "Section 15 of [theory.md](theory.md) lists the limits of the model. Absorber curves, "
+         "friction, stops and heights are input; vary them within their known range to find their "
+         "influence.");
 }
 
 static void put_closed_forms(void) {
-    puts("\n## A. Cases with a known outcome");
+    puts("\n## A. Cases with a known solution");
     begin("A1. Two masses and one plateau",
           "Crush $\\mu\\,\\Delta v^2/(2F)$, duration $\\mu\\,\\Delta v/F$, common speed from the "
           "momentum, energy $\\mu\\,\\Delta v^2/2$ with $\\mu = m_1 m_2/(m_1 + m_2)$.\n"
-          "A plateau that starts at contact loses up to half a step of its impulse, which is what "
-          "the tolerances allow.");
+          "A plateau that starts at contact loses up to half a step of its impulse; the tolerances "
+          "allow for this.");
     put_with_both_steps(rows_of_plateaus);
-    begin("A1b. The same with crush zones in series",
+    begin("A1b. Two masses and crush zones in series",
           "Two car ends of the same force, each yielding after a micrometre.");
     put_with_both_steps(rows_of_crush_zones_in_series);
     begin("A2. One mass, elastic and perfectly plastic, elastic unloading",
@@ -140,17 +140,17 @@ static void put_closed_forms(void) {
     put_with_both_steps(rows_of_sequence);
     begin("A4b. Two cars into a wall",
           "40 t each at 12 m/s; 3.0 MN at the wall, 1.2 MN between the cars.\n"
-          "The closed form knows no elasticity, which delays the force of what closes from rest "
-          "by a time that falls with the square root of the stiffness; so the stiffness is far "
-          "beyond that of any device, and the step below its bound.");
+          "The closed form has no elasticity. Elasticity delays the force of an interface that "
+          "closes from rest by a time that falls with the square root of the stiffness, so the "
+          "stiffness is far above that of any device, and the step is below its bound.");
     put_with_steps(rows_of_two_into_wall, &stiff_step, &stiffer_step);
-    begin("A4c. Eight cars onto eight",
-          "57.75 t each, 10 m/s onto rest; 2.9 MN between the trains, 1.5 MN between cars; as "
-          "stiff.");
+    begin("A4c. Two trains of eight cars",
+          "57.75 t each, 10 m/s onto a standing train; 2.9 MN between the trains, 1.5 MN between "
+          "cars; the same stiffness as in A4b.");
     put_with_steps(rows_of_eight_and_eight, &stiff_step, &stiffer_step);
     begin("A5a. The elastic track: statics and free waves",
           "Zhai's set, one rail: CHN60 with shear coefficient 0.40 on seats 0.6 m apart.\n"
-          "The numbers of discrete seats are those of an independent solution with 80 spans, and "
+          "The numbers for discrete seats are from an independent solution with 80 spans; the "
           "tolerances are their last digit.");
     rows_of_winkler(&rows);
     rows_of_discrete_seats(&rows);
@@ -161,20 +161,19 @@ static void put_closed_forms(void) {
     begin("A5b. Vehicles on their springs",
           "Frequencies with the wheels held, from an independent eigenvalue routine (the "
           "published benchmark has about 1.07 and 1.3 Hz for the Manchester coach), static axle "
-          "loads, and the load that a longitudinal force off the centre of gravity shifts from "
-          "bogie to bogie, read from the forces of the kernel.");
+          "loads, and the load that a longitudinal force above or below the centre of gravity "
+          "shifts from bogie to bogie, from the forces of the kernel.");
     rows_of_coaches(&rows);
     rows_of_pitch_by_force(&rows);
     rows_of_step_force(&rows);
     put_table();
-    begin(
-        "A5c. Static equilibrium",
-        "Rest as solved from the laws by KINSOL (computed) against the closed forms that the model "
-        "is built with (expected), on the rigid and on the elastic track; the residual is the "
-        "largest force out of balance over the weight.");
+    begin("A5c. Static equilibrium",
+          "Static equilibrium solved from the laws by KINSOL (computed) against the closed forms "
+          "of the model (expected), on the rigid and on the elastic track; the residual is the "
+          "largest unbalanced force over the weight.");
     rows_of_rest(&rows);
     put_table();
-    begin("A6. The integrator on Bathe's example",
+    begin("A6. Bathe's example of time integration",
           "Two degrees of freedom, M = diag(2, 1), K = [6 -2; -2 4], a constant force of 10 on "
           "the second, from rest.");
     rows_of_published_answer(&rows);
@@ -182,7 +181,7 @@ static void put_closed_forms(void) {
     rows_of_order(&rows);
     rows_of_stability(&rows);
     put_table();
-    begin("A7. A car onto its like is a car at half the speed into a wall",
+    begin("A7. Collision of equal cars and wall impact at half the speed",
           "A rigid car with coupler, anti-climber and end at 10 m/s onto an identical standing "
           "one (expected), and at 5 m/s into a wall (computed), with the speed factor's reference "
           "halved.\n"
@@ -190,25 +189,25 @@ static void put_closed_forms(void) {
           "0.16 m/s (Yao et al. 2018, doi 10.1177/0954409718779940).");
     rows_of_equivalence(&rows);
     put_table();
-    begin("A8. Impacts and a rail that swings",
-          "Hertz's impact of two bodies (1882) by the law of wheel and rail; the rail under a "
-          "harmonic force, its mean over a bay against a Timoshenko beam on the same layers "
-          "smeared out (Grassie and others 1982), which holds while no half wave is as short as a "
-          "bay.\n"
-          "The elastic impact of two cars stands in C1.");
+    begin("A8. Impacts, and vibration of the rail",
+          "Hertz's impact of two bodies (1882) with the law of wheel and rail; the rail under a "
+          "harmonic force, its mean over a bay against a Timoshenko beam on the same layers as a "
+          "continuous foundation (Grassie and others 1982), which is valid as long as half a wave "
+          "is longer than a bay.\n"
+          "The elastic impact of two cars is in C1.");
     rows_of_hertz_impact(&rows);
     rows_of_receptance(&rows);
     put_table();
 }
 
 static void put_published(void) {
-    puts("\n## B. What is published of full-scale tests");
+    puts("\n## B. Published full-scale tests");
     begin("B1. FRA train to train, 31 January 2002",
-          "Two trains of about 635 kip (288 t), 30 mph onto rest; the cab car was crushed by "
-          "about 20 ft.\n"
+          "Two trains of about 635 kip (288 t), one at 30 mph, the other standing; the cab car was "
+          "crushed by about 20 ft.\n"
           "Published: masses, speed, crush. Not published: the masses of single cars, any curve.\n"
-          "The mean force follows from the other numbers and is put in; that the crush comes out "
-          "again shows that the books agree, not that the force was known.");
+          "The mean force follows from the other numbers and is input; equal crush therefore "
+          "checks the energy balance only, not the force.");
     rows_of_train_to_train(&rows);
     put_table();
     begin("B2. FRA crash energy management, 2003 and 2004",
@@ -216,24 +215,24 @@ static void put_published(void) {
           "and 2 ft between them.\n"
           "Neither mass nor curve is published, so forces are per mass, and equal cars with the "
           "same lead crush are assumed.\n"
-          "With constant forces of these means the two cars would stop together with no crush "
-          "between them: the published 2 ft say that the forces were not constant.\n"
-          "That is a statement about the tests, and no check of the program beyond the first "
-          "three rows.");
+          "With constant forces of these means the two cars would stop together without crush "
+          "between them: the published 2 ft show that the forces were not constant.\n"
+          "This is a statement about the tests; only the first three rows check the program.");
     rows_of_crush_of_single_cars(&rows);
     put_table();
     begin("B3. FRA coupling tests, October 2017",
-          "Six speeds from 1.8 to 8.85 mph; the push-back coupler gave way at the last one only.\n"
+          "Six speeds from 1.8 to 8.85 mph; the push-back coupler was released at the last one "
+          "only.\n"
           "Trigger force, draft gear and the mass of the second vehicle are not published; an "
-          "elastic gear is assumed and the trigger put between the peak forces of the last two "
-          "speeds, which is where it must lie for any gear whose peak grows with the speed.");
+          "elastic draft gear is assumed, with the trigger between the peak forces of the last two "
+          "speeds, where it must be for any gear whose peak force grows with the speed.");
     rows_of_coupling_speeds(&rows);
     put_table();
     begin("B4. CRRC Changchun, March 2021",
-          "Eight-car sets of 462 t, 36 km/h onto rest.\n"
-          "The curves are not published; those of A4c are used, on which the three values do not "
-          "depend.\n"
-          "That nothing climbed cannot be checked without them.");
+          "Eight-car sets of 462 t, one at 36 km/h, the other standing.\n"
+          "The curves are not published; those of A4c are used, because the three values do not "
+          "depend on them.\n"
+          "Without them it cannot be checked that no car climbed.");
     rows_of_eight_car_trains(&rows);
     put_table();
 }
@@ -242,42 +241,40 @@ static void put_numerics(void) {
     puts("\n## C. Steps, solvers, conservation");
     begin("C1. Time step",
           "The elastic collision converges with the square of the step.\n"
-          "Shipped problems converge with the step itself, because what yields at first contact "
-          "costs half a step of its force; where the change is already below 3e-4, the order says "
-          "nothing and is left out.");
+          "Shipped problems converge in proportion to the step, because a device that yields at "
+          "first contact loses half a step of its force; where the change is already below 3e-4, "
+          "the order has no meaning and is left out.");
     rows_of_elastic_order(&rows);
     rows_of_elastic_exchange(&rows);
     rows_of_step_convergence(&rows);
     put_table();
     begin("C2. Solver against solver",
-          "The explicit two-step scheme of the record against two adaptive solvers of SUNDIALS "
-          "that drive the same laws: ERKStep (`erk`) and the Adams method of CVODE (`adams`).\n"
-          "Values are largest relative differences over all interfaces, elements or vehicles; "
-          "short trains within one in a thousand.\n"
-          "Four of them are compared at half or a quarter of the default step, because the default "
-          "one "
-          "leaves up to 1.4 in a thousand.\n"
-          "Where cars roll on with their brakes for many seconds, solvers are compared up to 2 s, "
-          "when "
-          "forces, closures and strokes have long had their largest values.");
+          "The explicit two-step scheme of production runs against two adaptive solvers of "
+          "SUNDIALS with the same laws: ERKStep (`erk`) and the Adams method of CVODE (`adams`).\n"
+          "Values are the largest relative differences of all interfaces, elements or vehicles; "
+          "for short trains they are within 0.1 %.\n"
+          "Four of them are compared at half or a quarter of the default step, because the "
+          "difference at the default step is up to 0.14 %.\n"
+          "Where cars continue to roll with applied brakes for many seconds, solvers are compared "
+          "up to 2 s, long after the largest forces, closures and strokes.");
     rows_of_solvers_for_short_trains(&rows);
     put_table();
-    begin("C3. Solver against solver, six cars onto six",
-          "A long train rattles, and whether two cars that have parted flow once more when they "
-          "meet again hangs on the last digit: the scheme itself, at steps from 0.05 to 0.1 ms, "
-          "scatters by 2 % in the energy of one interface.\n"
-          "Energies count against all that is dissipated.");
+    begin("C3. Solver against solver, two trains of six cars",
+          "The response of a long train is chaotic: whether the devices between two cars crush "
+          "again when the cars meet a second time depends on the last digit. The scheme itself, at "
+          "steps from 0.05 to 0.1 ms, scatters by 2 % in the energy of one interface.\n"
+          "Differences of energies are relative to the total dissipated energy.");
     rows_of_solvers_for_the_metro(&rows);
     put_table();
     begin("C4. Modes of the track",
-          "Modes up to a cut, and the static flexibility under the force that stands for all "
-          "others, against the exact statics at twelve places between two sleepers; the record "
-          "cuts at 1500 Hz.\n"
+          "Modes up to a cut-off frequency, with the static flexibility of all others under the "
+          "force, against the exact static deflection at twelve places between two sleepers; "
+          "production runs cut off at 1500 Hz.\n"
           "Finite elements with lumped masses, an independent assembly, converge to it with the "
-          "square of their length.\n"
-          "An impact of 1 ms on the rail, half a sine between two sleepers, shows what the cut "
-          "costs: waves beyond it answer at once instead of by their mass, and that, not the "
-          "elements, is nearly all by which the two tracks differ.\n"
+          "square of the element length.\n"
+          "An impact of 1 ms on the rail, half a sine between two sleepers, shows the error of the "
+          "cut-off: waves above it respond statically, without their inertia, which causes nearly "
+          "all of the difference between the two tracks.\n"
           "Then shipped problems: peak force, closure, energy, pitch and link force on the modal "
           "track, by finite elements, and on the fitted receptance, on which runs are made.");
     rows_of_mode_convergence(&rows);
@@ -287,8 +284,8 @@ static void put_numerics(void) {
     rows_of_runs_on_rails(&rows);
     put_table();
     begin("C5. Energy and momentum of every shipped problem",
-          "On the elastic track of the record, then on rigid rails where the file asks for them. "
-          "Errors as shares of the energy before, and of the sum of mass times speed.");
+          "On the elastic track of production runs, then on rigid rails where the file has them. "
+          "Errors are relative to the initial energy, and to the sum of mass times speed.");
     rows_of_balances(&rows);
     rows_of_balances_on_rigid_rails(&rows);
     put_table();

@@ -38,6 +38,7 @@ typedef struct Timing {
     int scene;
     CzScenarioTimes *times;
     CzBenchmark *benchmark;
+    int n_done, n_all;          /* rounds of all scenarios */
     double *sample[CZ_N_TIMED]; /* [s] (n_round) */
 } Timing;
 
@@ -104,8 +105,7 @@ static CzStatus time_scenario(Timing *timing, const CzBenchmarkOptions *options,
             return cz_fail(error, CZ_STATUS_INTERRUPTED, "the benchmark was interrupted");
         CZ_TRY(time_round(timing, round, error));
         if (options->progress != NULL)
-            options->progress(timing->scene * n + round + 1, timing->evaluator->n_scene * n,
-                              options->progress_data);
+            options->progress(++timing->n_done, timing->n_all, options->progress_data);
     }
     for (int timed = 0; timed < CZ_N_TIMED; timed++) {
         double *sample = timing->sample[timed];
@@ -120,6 +120,8 @@ static CzStatus time_all(const CzEvaluator *evaluator, const CzBenchmarkOptions 
     Timing timing = {.evaluator = evaluator, .benchmark = benchmark};
     for (int timed = 0; timed < CZ_N_TIMED; timed++)
         timing.sample[timed] = room + timed * options->n_round;
+    for (int scene = 0; scene < evaluator->n_scene; scene++)
+        timing.n_all += evaluator->model[scene] != NULL ? options->n_round : 0;
     for (int scene = 0; scene < evaluator->n_scene; scene++) {
         if (evaluator->model[scene] == NULL)
             continue; /* left out */

@@ -1,9 +1,10 @@
 /* Times this program beside plain C and other simulation programs in one run.
  *
- *   bench PROGRAM [--rounds N] [--only PREFIX] [--json FILE] [--short]
+ *   bench PROGRAM [--rounds N] [--only PREFIX] [--json FILE] [--short | --long]
  *
  * from the project's root; PROGRAM is the built crushzone. Prints a table. --only takes the cases
- * whose key begins with PREFIX, --short the smallest cases once.
+ * whose key begins with PREFIX, --short the smallest cases once; --long adds a whole search of the
+ * metro, once, which takes a minute or two.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -16,12 +17,14 @@ int main(int argc, char **argv) {
     static Bench bench;
     int n_round = ROUNDS;
     const char *only = NULL, *json = NULL;
-    bool is_short = false;
+    bool is_short = false, is_long = false;
     if (argc < 2)
         bench_stop("usage: bench PROGRAM [--rounds N] [--only PREFIX] [--json FILE] [--short]");
     for (int i = 2; i < argc; i++) {
         if (strcmp(argv[i], "--short") == 0)
             is_short = true;
+        else if (strcmp(argv[i], "--long") == 0)
+            is_long = true;
         else if (i + 1 == argc)
             bench_stop("an option without its value");
         else if (strcmp(argv[i], "--rounds") == 0)
@@ -41,6 +44,8 @@ int main(int argc, char **argv) {
     bench_add_example(&bench);
     bench_add_program(&bench, argv[1]);
     bench_add_machine(&bench);
+    if (is_long)
+        bench_add_search(&bench, argv[1]);
     bench_measure(&bench, is_short || n_round < 1 ? 1 : n_round, only);
     bench_write_table(&bench, stdout);
     if (json == NULL)

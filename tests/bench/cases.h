@@ -36,5 +36,6 @@ void bench_add_references(Bench *bench, bool is_short);
 void bench_add_example(Bench *bench);
 void bench_add_machine(Bench *bench);
 void bench_add_program(Bench *bench, const char *program);
+void bench_add_search(Bench *bench, const char *program);
 
 #endif

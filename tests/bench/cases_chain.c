@@ -118,31 +118,4 @@ void bench_add_chains(Bench *bench, bool is_short) {
         for (int i = 0; i < chain_n_peer; i++)
             add_other(bench, cars, chain_peers[i], &reference);
     }
-    static const BenchFigure figures[] = {
-        {.key = "chain-over-c",
-         .what = "simple chain 8+8, crushzone over plain C",
-         .a = "chain.crushzone.8",
-         .b = "chain.C.8",
-         .limit = 3.0},
-        {.key = "chain-batch-over-c",
-         .what = "the same, a design in a batch of 8",
-         .a = "chain.crushzone-batch.8",
-         .b = "chain.C.8",
-         .limit = 1.0},
-        {.key = "chain-mujoco-over-crushzone",
-         .what = "simple chain 8+8, MuJoCo over crushzone",
-         .a = "chain.MuJoCo.8",
-         .b = "chain.crushzone.8",
-         .limit = NAN},
-        {.key = "chain-simbody-over-crushzone",
-         .what = "simple chain 8+8, Simbody over crushzone",
-         .a = "chain.Simbody.8",
-         .b = "chain.crushzone.8",
-         .limit = NAN},
-    };
-    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++) {
-        BenchFigure figure = figures[i];
-        figure.factor = 1.0;
-        bench_add_figure(bench, figure);
-    }
 }

@@ -1,6 +1,7 @@
 /* What surrounds a run: start of the program, reading, building, recording, writing. */
 #include "bench/cases.h"
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -9,26 +10,34 @@
 static const char problem_file[] = "problems/metro-6-car.yaml";
 static const char recorded_file[] = "problems/two-cars-25kmh.yaml";
 static const char result_folder[] = "build/bench-results";
+static const char search_folder[] = "build/bench-search";
 
 /* ---- the program ---- */
 
-/* `crushzone version` to its end, on the wall. */
-static double start_program(void *data) {
-    const char *program = data;
-    char *const arguments[] = {(char *)program, "version", "--json", NULL};
+/* Runs the program to its end without output; the time on the wall [s]. */
+static double run_program(char *const arguments[]) {
     char *const environment[] = {NULL};
     posix_spawn_file_actions_t quiet;
     pid_t child;
     int status = 1;
     posix_spawn_file_actions_init(&quiet);
-    posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", 1, 0);
+    posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     const double start = bench_wall();
-    if (posix_spawn(&child, program, &quiet, NULL, arguments, environment) != 0 ||
+    if (posix_spawn(&child, arguments[0], &quiet, NULL, arguments, environment) != 0 ||
         waitpid(child, &status, 0) != child || status != 0)
-        bench_stop("the program cannot be started");
+        bench_stop("the program cannot be run, or fails");
     const double time = bench_wall() - start;
     posix_spawn_file_actions_destroy(&quiet);
     return time;
+}
+
+static double start_program(void *program) {
+    return run_program((char *const[]){program, "version", NULL});
+}
+
+static double search_metro(void *program) {
+    return run_program((char *const[]){program, "optimise", (char *)problem_file, "--output",
+                                       (char *)search_folder, "--quiet", NULL});
 }
 
 /* ---- reading and building ---- */
@@ -127,7 +136,11 @@ void bench_add_program(Bench *bench, const char *program) {
     Finished *finished = finish(recorded_file);
     bench_add(bench, "program.page", "report of the same as one page", write_page, finished);
     bench_add(bench, "program.folder", "whole result folder of the same", write_folder, finished);
-    bench_add_figure(bench, (BenchFigure){"recording", "recorded run over the same not recorded",
-                                          BENCH_RATIO, "program.record", "program.run", 1.0, 1.15,
-                                          .is_minimum = false});
+}
+
+void bench_add_search(Bench *bench, const char *program) {
+    BenchCase *added = bench_add(bench, "long.search", "metro-6-car.yaml optimised by default",
+                                 search_metro, (void *)program);
+    added->is_wall = true;
+    added->most = 1;
 }

@@ -90,32 +90,6 @@ void bench_add_trains(Bench *bench, bool is_short) {
             snprintf(what, sizeof what, "full vehicles %d+%d, track %s", n, n, tracks[track]);
             bench_add(bench, key, what, bench_run, bench_train(n, tracks[track]));
         }
-    bench_add_figure(bench, (BenchFigure){"modal-over-mujoco",
-                                          "full vehicles 8+8 on the modal track over MuJoCo's "
-                                          "simple chain 8+8 (aim: 0.5)",
-                                          BENCH_RATIO, "train.modal.8", "chain.MuJoCo.8", 1.0, 1.0,
-                                          .is_minimum = false});
-    bench_add_figure(bench, (BenchFigure){"receptance-over-mujoco",
-                                          "the same on the receptance track, the default",
-                                          BENCH_RATIO, "train.receptance.8", "chain.MuJoCo.8", 1.0,
-                                          NAN, .is_minimum = false});
-    static const BenchFigure growth[] = {
-        {"growth-rigid", "exponent of the growth from 2 to 32 cars, rigid", BENCH_EXPONENT,
-         "train.rigid.16", "train.rigid.1", 16.0, 1.0, .is_minimum = false},
-        {"growth-receptance", "exponent of the growth from 2 to 32 cars, receptance",
-         BENCH_EXPONENT, "train.receptance.16", "train.receptance.1", 16.0, 1.0,
-         .is_minimum = false},
-        {"growth-modal", "exponent of the growth from 2 to 32 cars, modal", BENCH_EXPONENT,
-         "train.modal.16", "train.modal.1", 16.0, 1.0, .is_minimum = false},
-        {"long-growth-rigid", "exponent of the growth from 8 to 32 cars, rigid", BENCH_EXPONENT,
-         "train.rigid.16", "train.rigid.4", 4.0, NAN, .is_minimum = false},
-        {"long-growth-receptance", "exponent of the growth from 8 to 32 cars, receptance",
-         BENCH_EXPONENT, "train.receptance.16", "train.receptance.4", 4.0, NAN,
-         .is_minimum = false},
-        {"long-growth-modal", "exponent of the growth from 8 to 32 cars, modal", BENCH_EXPONENT,
-         "train.modal.16", "train.modal.4", 4.0, NAN, .is_minimum = false}};
-    for (size_t i = 0; i < sizeof growth / sizeof *growth; i++)
-        bench_add_figure(bench, growth[i]);
 }
 
 /* ---- batches and threads ---- */
@@ -187,17 +161,6 @@ void bench_add_batches(Bench *bench, bool is_short) {
         }
     if (!is_short)
         add_threads(bench, 24);
-    static const BenchFigure figures[] = {
-        {"batch-2", "a design in a batch of 8 over one alone, 1+1", BENCH_RATIO, "batch.1.8",
-         "batch.1.1", 1.0, 1.0 / 3.0, .is_minimum = false},
-        {"batch-16", "a design in a batch of 8 over one alone, 8+8", BENCH_RATIO, "batch.8.8",
-         "batch.8.1", 1.0, 1.0 / 3.0, .is_minimum = false},
-        {"threads", "one thread over two threads, 8+8 in a search, on the wall", BENCH_RATIO,
-         "threads.1", "threads.2", 1.0, 1.85, .is_minimum = true},
-        {"designs", "10,000 designs in 3 scenarios of 8+8 cars on two threads, projected [s]",
-         BENCH_TIME, "threads.2", NULL, 30000.0, 60.0, .is_minimum = false}};
-    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
-        bench_add_figure(bench, figures[i]);
 }
 
 /* ---- gradient ---- */
@@ -216,10 +179,6 @@ void bench_add_gradient(Bench *bench) {
         }
     bench_add(bench, "gradient.13", "two cars, value and 12 differences together", search, all);
     bench_add(bench, "gradient.1", "two cars, one evaluation in a search", search, one);
-    bench_add_figure(bench, (BenchFigure){"gradient",
-                                          "gradient of 12 variables over 13 single evaluations",
-                                          BENCH_RATIO, "gradient.13", "gradient.1",
-                                          1.0 / (GRADIENT + 1), 0.4, .is_minimum = false});
 }
 
 /* ---- second solvers ---- */
@@ -236,13 +195,6 @@ void bench_add_references(Bench *bench, bool is_short) {
                      cz_integrator_text((CzIntegrator)i));
             bench_add(bench, key, what, bench_run, run);
         }
-    static const BenchFigure figures[] = {
-        {"erk", "Runge-Kutta of SUNDIALS over the production run, 8+8", BENCH_RATIO, "solver.erk.8",
-         "solver.zhai.8", 1.0, NAN, .is_minimum = false},
-        {"adams", "Adams of SUNDIALS over the production run, 8+8", BENCH_RATIO, "solver.adams.8",
-         "solver.zhai.8", 1.0, NAN, .is_minimum = false}};
-    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
-        bench_add_figure(bench, figures[i]);
 }
 
 /* ---- the published example ---- */
@@ -279,10 +231,4 @@ void bench_add_example(Bench *bench) {
         ->is_wall = true;
     bench_add(bench, "example.setup", "published example: reading and set-up", set_up_example, NULL)
         ->is_wall = true;
-    bench_add_figure(bench,
-                     (BenchFigure){"example-run", "published example, steps of 0.2 s [ms]",
-                                   BENCH_TIME, "example.run", NULL, 1e3, 2.7, .is_minimum = false});
-    bench_add_figure(bench, (BenchFigure){"example-setup",
-                                          "published example, reading and set-up [ms]", BENCH_TIME,
-                                          "example.setup", NULL, 1e3, 10.0, .is_minimum = false});
 }

@@ -19,16 +19,58 @@ BenchCase *bench_add(Bench *bench, const char *key, const char *what, double (*r
     if (bench->n_case == BENCH_MOST_CASES)
         bench_stop("too many cases");
     BenchCase *added = &bench->cases[bench->n_case++];
-    *added = (BenchCase){.run = run, .data = data, .per = 1.0, .error = NAN};
+    *added =
+        (BenchCase){.run = run, .data = data, .per = 1.0, .most = BENCH_MOST_ROUNDS, .error = NAN};
     snprintf(added->key, sizeof added->key, "%s", key);
     snprintf(added->what, sizeof added->what, "%s", what);
     return added;
 }
 
-void bench_add_figure(Bench *bench, BenchFigure figure) {
-    if (bench->n_figure == BENCH_MOST_FIGURES)
-        bench_stop("too many figures");
-    bench->figure[bench->n_figure++] = figure;
+static const BenchCase *find(const Bench *bench, const char *key) {
+    for (int i = 0; i < bench->n_case; i++)
+        if (strcmp(bench->cases[i].key, key) == 0 && bench->cases[i].n > 0)
+            return &bench->cases[i];
+    return NULL;
+}
+
+/* ---- figures ---- */
+
+typedef enum BenchForm { RATIO, EXPONENT, TIME } BenchForm;
+typedef enum BenchSense { AT_MOST, AT_LEAST, MERELY } BenchSense;
+
+static const struct {
+    const char *key, *what;
+    BenchForm form;
+    const char *a, *b;
+    double factor, limit;
+    BenchSense sense;
+} figures[BENCH_N_FIGURE] = {
+#define BENCH_FIGURE(key, form, a, b, factor, sense, limit, what)                                  \
+    {key, what, form, a, b, factor, limit, sense},
+#include "bench/figures.def"
+#undef BENCH_FIGURE
+};
+static const char *const senses[] = {"at most", "at least", "-"};
+
+static double figure_of(int index, double a, double b) {
+    switch (figures[index].form) {
+    case RATIO:
+        return figures[index].factor * a / b;
+    case EXPONENT:
+        return log(a / b) / log(figures[index].factor);
+    default:
+        return figures[index].factor * a;
+    }
+}
+
+static void fill_figure(Bench *bench, int index) {
+    const BenchCase *a = find(bench, figures[index].a), *b = find(bench, figures[index].b);
+    BenchFigure *figure = &bench->figure[index];
+    figure->value = figure->median = NAN;
+    if (a == NULL || (b == NULL && figures[index].form != TIME))
+        return;
+    figure->value = figure_of(index, a->least, b != NULL ? b->least : 1.0);
+    figure->median = figure_of(index, a->median, b != NULL ? b->median : 1.0);
 }
 
 /* ---- measuring ---- */
@@ -38,39 +80,13 @@ static int by_size(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static const BenchCase *find(const Bench *bench, const char *key) {
-    for (int i = 0; key != NULL && i < bench->n_case; i++)
-        if (strcmp(bench->cases[i].key, key) == 0 && bench->cases[i].n > 0)
-            return &bench->cases[i];
-    return NULL;
-}
-
-static double figure_of(const BenchFigure *figure, double a, double b) {
-    switch (figure->form) {
-    case BENCH_RATIO:
-        return figure->factor * a / b;
-    case BENCH_EXPONENT:
-        return log(a / b) / log(figure->factor);
-    default:
-        return figure->factor * a;
-    }
-}
-
-static void fill_figure(const Bench *bench, BenchFigure *figure) {
-    const BenchCase *a = find(bench, figure->a), *b = find(bench, figure->b);
-    figure->value = figure->median = NAN;
-    if (a == NULL || (b == NULL && figure->form != BENCH_TIME))
-        return;
-    figure->value = figure_of(figure, a->least, b != NULL ? b->least : 1.0);
-    figure->median = figure_of(figure, a->median, b != NULL ? b->median : 1.0);
-}
-
 void bench_measure(Bench *bench, int n_round, const char *only) {
     bench->n_round = n_round < BENCH_MOST_ROUNDS ? n_round : BENCH_MOST_ROUNDS;
     for (int round = 0; round < bench->n_round; round++)
         for (int i = 0; i < bench->n_case; i++) {
             BenchCase *timed = &bench->cases[i];
-            if (only == NULL || strncmp(timed->key, only, strlen(only)) == 0)
+            if (round < timed->most &&
+                (only == NULL || strncmp(timed->key, only, strlen(only)) == 0))
                 timed->time[timed->n++] = timed->run(timed->data) / timed->per;
         }
     for (int i = 0; i < bench->n_case; i++) {
@@ -79,8 +95,8 @@ void bench_measure(Bench *bench, int n_round, const char *only) {
         timed->least = timed->time[0];
         timed->median = timed->time[timed->n / 2];
     }
-    for (int i = 0; i < bench->n_figure; i++)
-        fill_figure(bench, &bench->figure[i]);
+    for (int i = 0; i < BENCH_N_FIGURE; i++)
+        fill_figure(bench, i);
 }
 
 /* ---- writing ---- */
@@ -145,13 +161,13 @@ void bench_write_json(const Bench *bench, FILE *stream) {
     }
     fputs("\n ],\n \"figures\": [", stream);
     separator = "";
-    for (int i = 0; i < bench->n_figure; i++) {
+    for (int i = 0; i < BENCH_N_FIGURE; i++) {
         const BenchFigure *figure = &bench->figure[i];
         if (isnan(figure->value))
             continue;
         fprintf(stream, "%s\n  {\"key\": \"%s\", \"what\": \"%s\", \"asked\": \"%s\"", separator,
-                figure->key, figure->what, figure->is_minimum ? "at least" : "at most");
-        write_number(stream, "limit", figure->limit);
+                figures[i].key, figures[i].what, senses[figures[i].sense]);
+        write_number(stream, "limit", figures[i].sense != MERELY ? figures[i].limit : NAN);
         write_number(stream, "value", figure->value);
         write_number(stream, "median", figure->median);
         fputc('}', stream);
@@ -173,14 +189,13 @@ void bench_write_table(const Bench *bench, FILE *stream) {
                     1e3 * timed->median, timed->n, error, timed->what);
     }
     fprintf(stream, "\n%-13s %9s %9s  %s\n", "asked", "measured", "medians", "figure");
-    for (int i = 0; i < bench->n_figure; i++) {
+    for (int i = 0; i < BENCH_N_FIGURE; i++) {
         const BenchFigure *figure = &bench->figure[i];
         char asked[24] = "-";
-        if (isfinite(figure->limit))
-            snprintf(asked, sizeof asked, "%s %.3g", figure->is_minimum ? "at least" : "at most",
-                     figure->limit);
+        if (figures[i].sense != MERELY)
+            snprintf(asked, sizeof asked, "%s %.3g", senses[figures[i].sense], figures[i].limit);
         if (isfinite(figure->value))
             fprintf(stream, "%-13s %9.3g %9.3g  %s\n", asked, figure->value, figure->median,
-                    figure->what);
+                    figures[i].what);
     }
 }

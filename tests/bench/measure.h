@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <time.h>
 
-enum { BENCH_MOST_CASES = 96, BENCH_MOST_FIGURES = 48, BENCH_MOST_ROUNDS = 100 };
+enum { BENCH_MOST_CASES = 96, BENCH_MOST_ROUNDS = 100 };
 
 /* One thing that is timed. `run` does it once and returns the time that it took [s]. */
 typedef struct BenchCase {
@@ -16,33 +16,29 @@ typedef struct BenchCase {
     void *data;
     bool is_wall; /* `run` measures time on the wall; else processor time of one core */
     double per;   /* times are divided by this number of designs or runs */
+    int most;     /* rounds that it takes part in; all by default */
     double error; /* difference from a reference; NaN where there is none */
     int n;
     double time[BENCH_MOST_ROUNDS]; /* [s] */
     double least, median;           /* [s] */
 } BenchCase;
 
-typedef enum BenchForm {
-    BENCH_RATIO,    /* time of a over time of b, times factor */
-    BENCH_EXPONENT, /* of the growth from b to a: log(a / b) / log(factor) */
-    BENCH_TIME      /* time of a, times factor */
-} BenchForm;
-
-/* A number made of times, and what is asked of it. */
+/* A number made of times (figures.def). */
 typedef struct BenchFigure {
-    const char *key, *what;
-    BenchForm form;
-    const char *a, *b; /* keys of cases; b is NULL for a time */
-    double factor;
-    double limit; /* NaN where nothing is asked */
-    bool is_minimum;
     double value, median; /* by the least times and by their medians; NaN without the cases */
 } BenchFigure;
 
+enum {
+    BENCH_N_FIGURE = 0
+#define BENCH_FIGURE(...) +1
+#include "bench/figures.def"
+#undef BENCH_FIGURE
+};
+
 typedef struct Bench {
-    int n_case, n_figure, n_round;
+    int n_case, n_round;
     BenchCase cases[BENCH_MOST_CASES];
-    BenchFigure figure[BENCH_MOST_FIGURES];
+    BenchFigure figure[BENCH_N_FIGURE];
 } Bench;
 
 /* Clocks [s]. */
@@ -64,7 +60,6 @@ _Noreturn void bench_stop(const char *message);
 /* Adds a case; the caller may change what it has by default. */
 BenchCase *bench_add(Bench *bench, const char *key, const char *what, double (*run)(void *data),
                      void *data);
-void bench_add_figure(Bench *bench, BenchFigure figure);
 
 /* Times every case once in each round, then fills medians and figures. */
 void bench_measure(Bench *bench, int n_round, const char *only);

@@ -220,7 +220,8 @@ static void put_program(void) {
                 {"program.run", "`two-cars-25kmh.yaml`, not recorded"},
                 {"program.record", "the same, recorded"},
                 {"program.page", "its report as one page"},
-                {"program.folder", "its whole result folder"}};
+                {"program.folder", "its whole result folder"},
+                {"long.search", "`crushzone optimise problems/metro-6-car.yaml`, on the wall"}};
     puts("\n## Around a run\n\n| | milliseconds |\n|---|---|");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         printf("| %s |", rows[i].what);

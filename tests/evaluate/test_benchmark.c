@@ -41,13 +41,26 @@ static void every_scenario_is_timed_as_often_as_requested(void **state) {
     cz_problem_free(problem);
 }
 
+/* Keeps how many rounds are done, of all. */
+static void count(int n_done, int n_all, void *data) {
+    int *seen = data;
+    seen[0] = n_done;
+    seen[1] = n_all;
+}
+
 static void only_the_scenario_of_the_evaluator_is_timed(void **state) {
     (void)state;
     CzProblem *problem = small_problem("");
     CzEvaluator *evaluator = begin(problem, cz_problem_scenario_name(problem, 1));
     CzBenchmark *benchmark = NULL;
     CzError error = {0};
-    assert_int_equal(cz_benchmark(evaluator, NULL, &benchmark, &error), CZ_OK);
+    int seen[2] = {0, 0};
+    CzBenchmarkOptions options = cz_benchmark_options_default();
+    options.progress = count;
+    options.progress_data = seen;
+    assert_int_equal(cz_benchmark(evaluator, &options, &benchmark, &error), CZ_OK);
+    assert_int_equal(seen[0], options.n_round);
+    assert_int_equal(seen[1], options.n_round);
     assert_int_equal(benchmark->n_scenario, 1);
     assert_string_equal(benchmark->scenario->scenario, cz_problem_scenario_name(problem, 1));
     cz_benchmark_free(benchmark);

@@ -80,6 +80,7 @@ int cz_result_begin(CzResult *result, const CzArguments *arguments, const char *
                     const char *output) {
     memset(result, 0, sizeof *result);
     result->arguments = *arguments;
+    result->session.arguments = &result->arguments; /* also when the session does not begin */
     int code = find_file(result, operand);
     if (code == 0)
         code = cz_session_begin(&result->session, &result->arguments, result->file);

@@ -10,13 +10,15 @@ static void put_time(CzReportTable *table, double time) {
     cz_table_put(table, cz_figure_plain(text, time * CZ_MILLI_PER_UNIT));
 }
 
+/* Name and size of the scenario are in its first row only. */
 static void put_scenario(CzReportTable *table, const CzScenarioTimes *times) {
+    cz_table_put(table, times->scenario);
+    cz_table_put_format(table, "%d", times->n_vehicle);
+    cz_table_put_format(table, "%ld", times->n_step);
     for (int timed = 0; timed < CZ_N_TIMED; timed++) {
         const CzTiming *timing = &times->time[timed];
-        const bool is_first = timed == 0;
-        cz_table_put(table, is_first ? times->scenario : "");
-        cz_table_put_format(table, is_first ? "%d" : "", times->n_vehicle);
-        cz_table_put_format(table, is_first ? "%ld" : "", times->n_step);
+        for (int column = 0; timed > 0 && column < 3; column++)
+            cz_table_put(table, NULL);
         cz_table_put(table, cz_timed_text((CzTimed)timed));
         put_time(table, timing->least);
         put_time(table, timing->median);

@@ -1,4 +1,4 @@
-/* How long the scenarios of a problem take to compute. */
+/* Computing times of the scenarios of a problem. */
 #ifndef CRUSHZONE_BENCHMARK_H
 #define CRUSHZONE_BENCHMARK_H
 
@@ -8,7 +8,7 @@
 
 CZ_BEGIN_DECLARATIONS
 
-/* What is timed of each scenario. */
+/* Timed parts of a scenario. */
 typedef enum CzTimed {
 #define CZ_TIMED(constant, key, text, doc) constant,
 #include "crushzone/timed.def"
@@ -21,8 +21,9 @@ CZ_API const char *cz_timed_text(CzTimed timed); /* such as "run of a design in 
 enum { CZ_BENCHMARK_WIDTH = 8 }; /* designs of a batch */
 
 typedef struct CzBenchmarkOptions {
-    int n_round;                       /* how often everything is timed, in turn; 5 by default */
-    const volatile sig_atomic_t *stop; /* a flag that ends it when not 0; NULL when none */
+    int n_round; /* number of alternating rounds; 5 by default */
+    const volatile sig_atomic_t
+        *stop; /* a flag that ends the computation when not 0; NULL when none */
     void (*progress)(int n_done, int n_all, void *data); /* rounds; NULL when none */
     void *progress_data;
 } CzBenchmarkOptions;

@@ -15,10 +15,10 @@ typedef struct CzVariableInfo {
     double min, max;  /* in that unit */
     double start;     /* in that unit */
     double increment; /* catalogue increment in that unit; 0 when none */
-    bool is_fixed;    /* its bounds hold one value only, as a single increment or min = max */
+    bool is_fixed;    /* its bounds contain one value only, as a single increment or min = max */
     double fixed_at;  /* that value, in that unit; 0 when it can vary */
-    int n_choice;     /* parts that it chooses from; the variable is then the number of one, counted
-                         from 0. 0 for a number */
+    int n_choice; /* number of parts to choose from; the variable is then the index of a part, from
+                     0. 0 for a numerical variable */
     const char *const *choice; /* their names (n_choice) */
 } CzVariableInfo;
 
@@ -37,8 +37,8 @@ typedef struct CzCheckResult {
     const char *scenario;      /* "design" for a check of the design itself */
     const char *family;        /* family of scenarios that it belongs to; NULL for none */
     char where[CZ_WHERE_ROOM]; /* place of the worst value */
-    double when[2]; /* begin and end of the time that it was reached in [s]; NaN when that is
-                       not known, or it was nothing */
+    double when[2]; /* start and end of the time of the value [s]; NaN when that is not known, or
+                       there is no value */
     double limit;   /* in `unit` */
     double value;   /* in `unit`; NaN when not checked or when it does not apply */
     const char *unit;
@@ -48,8 +48,8 @@ typedef struct CzCheckResult {
     bool is_flag;    /* a yes or no */
     bool is_omitted; /* its scenario was left out by CzEvaluatorOptions.scenario, so it is not
                         checked */
-    bool beyond_validity; /* its run went beyond the model's validity: the value may be of later,
-                             and a total is NaN */
+    bool beyond_validity; /* its run went beyond the model's validity: the value may be of the time
+                             after that, and a total is NaN */
     CzVerdict verdict;
     const char *why; /* why it was not checked, or does not apply, or that its run went beyond the
                         model's validity; NULL otherwise */
@@ -67,7 +67,7 @@ typedef struct CzMatchResult {
     double target;             /* measured value; 0 for a time history */
     double value; /* of the run, or its root mean square difference from a time history; NaN when
                      the run does not show it */
-    double tolerance; /* difference that is just acceptable */
+    double tolerance; /* largest acceptable difference */
     double weight;    /* of the square of its residual in the objective */
     double residual;  /* (value - target) / tolerance; at least 10 when the run does not show it */
     bool is_history;
@@ -76,7 +76,7 @@ typedef struct CzMatchResult {
 /* A train that limits do not judge. Texts are borrowed from the evaluator. */
 typedef struct CzNotJudged {
     const char *train, *why;
-    bool is_inferred; /* it has no role and is taken for an obstacle by its properties */
+    bool is_inferred; /* it has no role and is regarded as an obstacle by its properties */
 } CzNotJudged;
 
 /* Results of one design. Arrays are borrowed from the evaluation and freed with it. */
@@ -87,16 +87,16 @@ typedef struct CzEvaluation {
     int n_constraint;
     double *constraint; /* -(margin - required margin): at most 0 when kept; NaN when failed
                            (n_constraint) */
-    CzCheckResult *constraint_check; /* what each constraint was judged by: a check, a target of the
-                                        optimiser or a match, of which the limit is the measured
-                                        value and the margin 1 - |residual| (n_constraint) */
+    CzCheckResult *constraint_check; /* the check behind each constraint: a check, a target of the
+                                        optimiser, or a match, whose limit is the measured value and
+                                        whose margin is 1 - |residual| (n_constraint) */
     double violation; /* largest positive constraint, 0 when feasible, infinite when failed */
     int n_check;
     CzCheckResult *check; /* the matches of a fit last (n_check) */
     CzVerdict verdict;    /* over all checks: cz_verdict_over */
     bool beyond_validity; /* a vehicle climbed in a run */
-    int n_not_covered; /* requirements of the profile that this program cannot compute; they are no
-                          checks and count in no verdict */
+    int n_not_covered; /* requirements of the profile that this program cannot compute; they are not
+                          checks and do not count in a verdict */
     const char *const *not_covered; /* borrowed from the evaluator (n_not_covered) */
     int n_not_judged;
     const CzNotJudged *not_judged; /* obstacles, borrowed from the evaluator (n_not_judged) */
@@ -109,8 +109,8 @@ CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
 
 /* The verdict over the checks with these names, over all of them when n_name is 0: FAIL when one
  * fails or an override occurred; else NOT CHECKED when a run failed or is incomplete, a check could
- * not be made, or there is none; else PROVISIONAL when one satisfies a limit that is not confirmed;
- * else a pass. */
+ * not be made, or there is no check; else PROVISIONAL when one satisfies a limit that is not
+ * confirmed; else a pass. */
 CZ_API CzVerdict cz_verdict_over(const CzEvaluation *evaluation, int n_name,
                                  const char *const *name);
 
@@ -119,11 +119,11 @@ CZ_API CzVerdict cz_verdict_over(const CzEvaluation *evaluation, int n_name,
 CZ_API bool cz_check_is_worse(const CzCheckResult *check, const CzCheckResult *other);
 
 typedef struct CzEvaluatorOptions {
-    int n_job;               /* threads; 0 takes the number of processors */
+    int n_job;               /* threads; 0: one per processor */
     double step_factor;      /* factor on every time step; 1 for production runs */
     CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI for production runs */
-    const char *scenario; /* run this one, or this family, only; NULL for all. Checks of the others
-                             are then NOT CHECKED */
+    const char *scenario;    /* only this scenario or family; NULL for all. Checks of the others are
+                                then NOT CHECKED */
 } CzEvaluatorOptions;
 CZ_API CzEvaluatorOptions cz_evaluator_options_default(void);
 
@@ -155,14 +155,14 @@ CZ_API CzVariablePlace cz_evaluator_place(const CzEvaluator *evaluator, int vari
 CZ_API int cz_evaluator_n_constraint(const CzEvaluator *evaluator);
 CZ_API const char *cz_evaluator_constraint_name(const CzEvaluator *evaluator, int constraint);
 CZ_API const char *cz_evaluator_objective_name(const CzEvaluator *evaluator);
-/* Whether it is the smallest margin, its sign turned so that it is minimised: then the largest
- * constraint up to a constant. */
+/* Whether the objective is the smallest margin with its sign reversed, so that it is minimised: the
+ * largest constraint up to a constant. */
 CZ_API bool cz_evaluator_maximises_margin(const CzEvaluator *evaluator);
 CZ_API const char *cz_evaluator_objective_unit(const CzEvaluator *evaluator);
 
 /* Evaluates n_point designs side by side; x is (n_point x n_variable) in the variables' units, NULL
  * for the file's own values. `evaluation` is (n_point), filled by the call, each to be freed by the
- * caller. The answer of a design does not depend on its neighbours, nor on the number of threads.
+ * caller. The result of a design depends neither on its neighbours nor on the number of threads.
  * `keep_runs` records channels and keeps the runs. */
 CZ_MUST_CHECK CZ_API CzStatus cz_evaluate(CzEvaluator *evaluator, int n_point, const double *x,
                                           bool keep_runs, CzEvaluation *evaluation, CzError *error);

@@ -14,7 +14,7 @@
 
 CZ_BEGIN_DECLARATIONS
 
-/* What a curve is turned into. */
+/* Kind of law for a curve. */
 typedef enum CzFitKind {
 #define CZ_FIT(constant, word, record, doc) constant,
 #include "crushzone/fits.def"
@@ -28,7 +28,7 @@ CZ_API const char *cz_fit_kind_doc(CzFitKind kind);
 
 /* Where stroke 0 of a curve is. */
 typedef enum CzFitZero {
-    CZ_FIT_ZERO_AUTO,    /* where the file has it, or at the first point when that has no force */
+    CZ_FIT_ZERO_AUTO,    /* as in the file, or at the first point when that has no force */
     CZ_FIT_ZERO_START,   /* at the first point */
     CZ_FIT_ZERO_CONTACT, /* where the force begins */
     CZ_FIT_ZERO_STROKE   /* at a stroke of the file */
@@ -37,17 +37,17 @@ typedef enum CzFitZero {
 /* How a curve is read and fitted; texts are borrowed. */
 typedef struct CzFitOptions {
     CzFitKind kind;
-    int is_dynamic;     /* 1: measured at speed, the rise with the rate is in it; 0: static */
+    int is_dynamic;     /* 1: measured at speed, with the rate effect; 0: static */
     int n_stage;        /* stages of the end, or plateaus of the tube or anti-climber; 0 for none
-                           (a coupler without a tube); -1: as many as the curve calls for */
+                           (a coupler without a tube); -1: as many as the curve requires */
     const char *name;   /* of the part; NULL: from the file's name */
     const char *stroke; /* column of the stroke by its title or its number from 1; NULL: the one
                            named stroke_mm or in another unit of length */
-    const char *force;  /* column of the force; NULL: the one named force_kN or the like */
+    const char *force;  /* column of the force; NULL: the one named force_kN or similar */
     const char *stroke_unit; /* such as "mm"; NULL: from the column's title or a row of units */
     const char *force_unit;  /* such as "kN"; NULL: the same */
-    char separator;          /* between fields, ' ' for blanks; 0: what the lines show */
-    char decimal;            /* decimal sign, '.' or ','; 0: what the numbers show */
+    char separator;          /* between fields, ' ' for blanks; 0: found from the lines */
+    char decimal;            /* decimal sign, '.' or ','; 0: found from the numbers */
     int flips_stroke, flips_force; /* 1: the sign of the column is changed */
     double scale;                  /* of the forces, such as 0.5 for one of two devices */
     CzFitZero zero;
@@ -56,7 +56,7 @@ typedef struct CzFitOptions {
 } CzFitOptions;
 CZ_API CzFitOptions cz_fit_options_default(void);
 
-/* Whether a law is like its curve. The levels are ours: see docs/fitting-curves.md. */
+/* Quality of a law. The levels are ours: see docs/fitting-curves.md. */
 typedef enum CzFitVerdict { CZ_FIT_GOOD, CZ_FIT_DOUBTFUL, CZ_FIT_REFUSED } CzFitVerdict;
 
 /* "good", "doubtful" or "refused". */
@@ -87,7 +87,7 @@ typedef struct CzFitSummary {
     int n_point;               /* of the curve */
     double stroke;             /* largest stroke of the curve [m] */
     double peak_force;         /* largest force of the curve [N] */
-    double energy;             /* under the curve up to where the law ends [J] */
+    double energy;             /* under the curve up to the end of the law [J] */
     double law_energy;         /* of the law over its whole stroke [J] */
     double returned;           /* by the unloading of the curve [J]; NaN without */
     double law_returned;       /* by the unloading of the law [J]; NaN when it has none */
@@ -103,7 +103,7 @@ typedef struct CzFitSummary {
     CzFitVerdict verdict;
     int n_doubt, n_note, n_value;
     const char *doubt[CZ_FIT_MOST_DOUBTS]; /* why it is doubtful or refused (n_doubt) */
-    const char *note[CZ_FIT_MOST_NOTES];   /* what a user should know of it (n_note) */
+    const char *note[CZ_FIT_MOST_NOTES];   /* notes for the user (n_note) */
     const CzFitValue *value;               /* of the law, in the order of the file (n_value) */
     CzFitLoading curve, law;               /* of the curve, and of the law over the same stroke */
 } CzFitSummary;
@@ -114,7 +114,7 @@ typedef struct CzFit CzFit;
 /* Fits the curve of a file ("-" is standard input): two columns or more under a line of titles,
  * perhaps with a line of units below it and other lines above, as testing machines write them.
  * Titles may be missing when the options give columns and units; '#' begins a comment. Strokes grow
- * to their largest and may then go back once, while the force falls: that is the unloading.
+ * to their largest value and may then decrease once, while the force falls, for the unloading.
  * Statuses: CZ_OK, CZ_STATUS_INPUT with file, line and column of the first mistake,
  * CZ_STATUS_VIOLATED where no law follows the curve, CZ_STATUS_NO_MEMORY. *fit is NULL unless CZ_OK
  * is returned; NULL options are the default ones. */
@@ -129,15 +129,14 @@ CZ_MUST_CHECK CZ_API CzStatus cz_fit_points(int n_point, const double *stroke, c
 CZ_API void cz_fit_free(CzFit *fit);
 CZ_API const CzFitSummary *cz_fit_summary(const CzFit *fit);
 
-/* Which columns of a file make a curve. Texts are borrowed. */
+/* Columns of a file for a curve. Texts are borrowed. */
 typedef struct CzCurveColumns {
-    const char *x_quantity, *y_quantity; /* such as "time", "length", "force", "speed",
-                                            "acceleration", "energy", "angle": what their units are
-                                            of */
+    const char *x_quantity, *y_quantity; /* quantities of the columns, such as "time", "length",
+                                            "force", "speed", "acceleration", "energy", "angle" */
     const char *x, *y;                   /* a column's title, or its number from 1; NULL: the only
                                             one in a unit of the quantity */
-    char separator;                      /* between fields; 0: what the lines show */
-    char decimal;                        /* decimal sign, '.' or ','; 0: what the numbers show */
+    char separator;                      /* between fields; 0: found from the lines */
+    char decimal;                        /* decimal sign, '.' or ','; 0: found from the numbers */
 } CzCurveColumns;
 
 /* A measured curve as it is in a file. Open, owns its memory. */

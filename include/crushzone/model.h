@@ -23,7 +23,7 @@ CZ_API int cz_model_n_interface(const CzModel *model);
 CZ_API const char *cz_model_interface_name(const CzModel *model, int interface);
 CZ_API int cz_model_colliding_interface(const CzModel *model);
 
-/* What is known of a full vehicle before it runs. */
+/* Properties of a full vehicle before a run. */
 typedef struct CzVehicleProperties {
     double mass;                    /* total with payload and absorbers [kg] */
     double axle_load[4];            /* static wheelset loads on the rail, rear to front [N] */
@@ -32,22 +32,22 @@ typedef struct CzVehicleProperties {
     double bounce_frequency;        /* lowest body bounce, wheels fixed [Hz] */
     double pitch_frequency;         /* lowest body pitch, wheels fixed [Hz] */
 } CzVehicleProperties;
-/* Facts of a vehicle; NaN throughout for rigid and fixed ones. */
+/* Properties of a vehicle; all NaN for rigid and fixed ones. */
 CZ_API CzVehicleProperties cz_model_vehicle_properties(const CzModel *model, int vehicle);
 
-/* What is known of an interface before it runs. */
+/* Properties of an interface before a run. */
 typedef struct CzInterfaceProperties {
     double strut_length;   /* pivot to pivot at rest [m]; NaN without couplers */
     double critical_force; /* F_crit, the axial force at which both trains, a chain of coupler
-                              struts, fold in the lowest shape that goes through this interface
-                              [N]; NaN without couplers or full vehicles */
+                              struts, fold in the lowest shape that belongs to this interface [N];
+                              NaN without couplers or full vehicles */
     double tube_force;     /* largest plastic force of the weaker coupler before shear-off [N]; NaN
                               without tubes */
     double anti_climber_gap; /* closure at which the anti-climbers touch [m]; NaN without */
 } CzInterfaceProperties;
 CZ_API CzInterfaceProperties cz_model_interface_properties(const CzModel *model, int interface);
 
-/* Time step: the one in force and the bounds it was chosen from, smallest first. */
+/* Time step and the bounds that it was chosen from, smallest first. */
 typedef struct CzStepBound {
     char element[CZ_WHERE_ROOM]; /* such as "wheel-rail contact B1" */
     double bound;                /* largest stable step [s] */

@@ -1,8 +1,8 @@
-/* Rooms for names, in bytes.
+/* Sizes of names, in bytes.
  *
  * A name of a vehicle, a train or a scenario has at most CZ_MOST_NAME bytes, a label (of a check, a
- * variable, a match, a part) at most CZ_MOST_LABEL; readers refuse longer ones. What is made of
- * names has room for the longest, so no name is ever cut.
+ * variable, a match, a part) at most CZ_MOST_LABEL; readers refuse longer ones. Buffers for
+ * combined names have room for the longest, so no name is cut.
  */
 #ifndef CRUSHZONE_NAMES_H
 #define CRUSHZONE_NAMES_H

@@ -16,19 +16,19 @@ typedef enum CzOutcomeStatus {
 } CzOutcomeStatus;
 CZ_API const char *cz_outcome_text(CzOutcomeStatus status);
 
-/* What a progress callback gets after each evaluation. */
+/* Argument of a progress callback after each evaluation. */
 typedef struct CzProgress {
     long n_evaluation, most_evaluations;
     bool feasible;          /* whether the incumbent is */
     double best_objective;  /* of the incumbent */
     double best_violation;  /* of the incumbent */
-    bool best_fails_a_flag; /* it fails a yes or no only, and so violates no margin */
+    bool best_fails_a_flag; /* it fails only a yes-or-no check, which has no margin */
     const char *phase;      /* such as "screen", "descend", "polish" */
 } CzProgress;
 
 typedef struct CzOptimiseOptions {
-    const char *algorithm; /* "auto" or an NLopt name such as "LN_COBYLA"; NULL takes the file's */
-    long evaluations;      /* most evaluations; 0 takes the file's */
+    const char *algorithm; /* "auto" or an NLopt name such as "LN_COBYLA"; NULL: that of the file */
+    long evaluations;      /* largest number of evaluations; 0: that of the file */
     long seed;             /* -1 takes the file's */
     unsigned verify_methods;           /* methods of verification of a design that passes, as in
                                           CzVerifyOptions; by default all but Adams, 0 for none */
@@ -52,19 +52,19 @@ typedef struct CzOutcome {
     char why_stopped[160];
     long n_evaluation;
     int n_variable;
-    double *start, *best; /* in the variables' units; best is on the catalogue increments unless the
-                             search ended earlier or only designs between them pass, which
-                             why_stopped then reports (n_variable) */
-    bool *at_bound;       /* (n_variable) */
+    double *start,
+        *best; /* in the variables' units; best is on the catalogue increments unless the search
+                  ended earlier or only designs between them pass (see why_stopped) (n_variable) */
+    bool *at_bound;                                 /* (n_variable) */
     CzEvaluation start_evaluation, best_evaluation; /* with runs kept */
     int n_alternative;   /* of a fit: further parameter sets that fit about as well */
     double *alternative; /* in the variables' units, best first (n_alternative x n_variable) */
     double *alternative_objective; /* (n_alternative) */
     CzVerification *verification;  /* of the best design; NULL when it does not pass or the search
                                       was interrupted */
-    double *sensitivity_increment; /* change of one variable that was tried at the best design, in
-                                 its unit: below 0 where there is no room upwards, 0 when none was
-                                 tried; NULL after an interruption (n_variable) */
+    double *sensitivity_increment; /* tried change of one variable at the best design, in its unit:
+                                      negative at the upper bound, 0 when none was tried; NULL after
+                                      an interruption (n_variable) */
     double *objective_change;      /* of the objective by each; NaN when not known (n_variable) */
     double *constraint_change;     /* likewise of each constraint (n_variable x n_constraint) */
     long n_trial;
@@ -89,12 +89,12 @@ typedef struct CzRecall {
     const double *trial_x; /* (n_trial x n_variable) */
 } CzRecall;
 
-/* The outcome of a search that was done before: the evaluator's start is its best design. Both are
+/* The outcome of an earlier search: the evaluator's start is its best design. Both are
  * evaluated and verified again, with new sensitivities. Statuses as above. */
 CZ_MUST_CHECK CZ_API CzStatus cz_outcome_recall(CzEvaluator *evaluator, const CzRecall *recall,
                                                 CzOutcome **outcome, CzError *error);
 
-/* What cz_optimise would refuse, without a search. Statuses: CZ_OK, CZ_STATUS_INPUT. */
+/* Refuses what cz_optimise would refuse, without a search. Statuses: CZ_OK, CZ_STATUS_INPUT. */
 CZ_MUST_CHECK CZ_API CzStatus cz_optimise_check(const CzEvaluator *evaluator,
                                                 const CzOptimiseOptions *options, CzError *error);
 

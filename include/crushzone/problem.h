@@ -22,10 +22,9 @@ typedef struct CzProblemOptions {
 /* Options with nothing set. */
 CZ_API CzProblemOptions cz_problem_options_default(void);
 
-/* Reads a file ("-" is standard input). *problem is made whenever memory allows, even when the
- * status is not CZ_OK: it then holds every mistake of the file and nothing else can be done with
- * it. The caller frees it. `error` gets the first mistake. Statuses: CZ_OK, CZ_STATUS_INPUT,
- * CZ_STATUS_NO_MEMORY. */
+/* Reads a file ("-" is standard input). *problem is created whenever memory allows, even when the
+ * status is not CZ_OK: it then has the mistakes of the file and no other use. The caller frees it.
+ * `error` gets the first mistake. Statuses: CZ_OK, CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_problem_read(const char *path, const CzProblemOptions *options,
                                               CzProblem **problem, CzError *error);
 

@@ -24,34 +24,33 @@ typedef struct CzReportOptions {
     int n_job;              /* threads, for run_info; 0 when unknown */
     double setup_s;         /* reading and building, for run_info; NaN when unknown */
     double wall_s;          /* simulating, for run_info; NaN when unknown */
-    const char *const *set; /* "path=value" texts that the problem was read with, so that an
-                               optimum holds them too; (n_set) */
+    const char *const *set; /* "path=value" texts that the problem was read with, so that an optimum
+                               contains them too; (n_set) */
     int n_set;
-    const char *command;     /* of the program, that a report names to get it all again: such as
-                                "optimise"; NULL: "run" */
-    const char *const *word; /* further words of it that results depend on, such as "--scenario"
-                                and its name (n_word) */
+    const char *command; /* command of the program that reproduces the report, such as "optimise";
+                            NULL: "run" */
+    const char *const *word; /* further arguments that results depend on, such as "--scenario" and
+                                its name (n_word) */
     int n_word;
-    const char *text;     /* what the problem was read from when that was no file; NULL otherwise */
+    const char *text;     /* text of a problem that was not read from a file; NULL otherwise */
     size_t n_text;        /* [byte] */
-    bool replaces_search; /* a result folder that holds the result of a search may be replaced by
-                             something else */
+    bool replaces_search; /* a result folder with the result of a search may be replaced by another
+                             result */
 } CzReportOptions;
 CZ_API CzReportOptions cz_report_options_default(void);
 
 /* Version of the library, such as "0.1.0". */
 CZ_API const char *cz_version(void);
 
-/* A run that pages and figures are made of: an evaluation with kept runs, and the problem that it
- * was computed from. */
+/* A run for pages and figures: an evaluation with kept runs, and its problem. */
 typedef struct CzReportRun {
     const char *label; /* such as the name of its folder */
     const CzProblem *problem;
     const CzEvaluation *evaluation;
-    int scenario; /* whose figures are drawn; -1: the one with the smallest margin */
+    int scenario; /* scenario of the figures; -1: the one with the smallest margin */
 } CzReportRun;
 
-/* What results are of; each has a JSON document. */
+/* Kinds of results; each has a JSON document. */
 typedef enum CzReportKind {
     CZ_REPORT_RUN,          /* problem, evaluation */
     CZ_REPORT_SEARCH,       /* problem, evaluator, outcome */
@@ -59,7 +58,7 @@ typedef enum CzReportKind {
     CZ_REPORT_VERIFICATION, /* problem, verification */
     CZ_REPORT_BENCHMARK,    /* problem, benchmark */
     CZ_REPORT_EXPLANATION,  /* problem, explanation */
-    CZ_REPORT_COMPARISON,   /* compared, of which the first is what the others are compared with */
+    CZ_REPORT_COMPARISON,   /* runs that are compared with the first one */
     CZ_REPORT_FIT,          /* fit */
     CZ_REPORT_MISTAKES,     /* mistake */
     CZ_N_REPORT
@@ -90,16 +89,16 @@ enum { CZ_MOST_COMPARED = 8 };
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_json(const CzReport *report, FILE *stream,
                                                    CzError *error);
 
-/* Tables for a terminal, of all but fits and mistakes: of a family of scenarios the worst member;
- * of a search before and after, what is still violated, the new values as YAML; of a sweep the
- * points of one path or the map of two; of a verification the numbers that change most; of a
- * comparison what differs. `colour` allows escape codes. Status: CZ_STATUS_NO_MEMORY when rows are
- * missing, which the text reports too. */
+/* Tables for a terminal, of all but fits and mistakes: the worst member of a family of scenarios;
+ * before and after a search, violated constraints, and the new values as YAML; the points of a
+ * sweep over one path or the map over two; the values with the largest changes of a verification;
+ * the differences of a comparison. `colour` allows escape codes. Status: CZ_STATUS_NO_MEMORY when
+ * rows are missing, which the text also reports. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_table(const CzReport *report, bool colour,
                                                     FILE *stream, CzError *error);
 
-/* The report of a run, a search or a comparison as one HTML page that loads nothing. Same results,
- * same bytes. The problem of a search is the one that its best design was computed from. Statuses:
+/* The report of a run, a search or a comparison as one HTML page without external content. The same
+ * results give the same bytes. The problem of a search is that of its best design. Statuses:
  * CZ_STATUS_INPUT when no run was kept, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_page(const CzReport *report, FILE *stream,
                                                    CzError *error);
@@ -120,24 +119,24 @@ CZ_API const char *cz_report_document_name(int index);
 /* The JSON schema of a document. Status: CZ_STATUS_INPUT when there is none of that name. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_document_schema(const char *document, FILE *stream,
                                                               CzError *error);
-/* All results with unit, shape and meaning, in Markdown. */
+/* All results with unit, type and meaning, in Markdown. */
 CZ_API void cz_report_write_results_page(FILE *stream);
 
 /* Figures of a run (charts.def), by name; NULL beyond the last. */
 CZ_API const char *cz_report_chart_name(int index);
 /* What is drawn. Texts are borrowed. */
 typedef struct CzChartOptions {
-    const char *what; /* name of the figure */
-    const char *at;   /* interface or car that it is about; NULL: the colliding interface, the car
-                         with the largest mean deceleration; no meaning for figures of the whole
-                         run */
-    const char *measured; /* CSV file with curves that are laid over it, in any of the units of its
-                             axes; NULL for none. What they are over is in its first column */
+    const char *what;     /* name of the figure */
+    const char *at;       /* interface or car of the figure; NULL: the colliding interface, the car
+                             with the largest mean deceleration; no meaning for figures of the whole
+                             run */
+    const char *measured; /* CSV file with curves to overlay, in any of the units of the axes; NULL
+                             for none. The first column is the abscissa */
     const char *column;   /* of the values: titles or numbers from 1, with commas between them;
                              NULL: the second, of panels all. Over panels a title begins as a
                              channel does: F_, v_, x_, d_ */
-    char csv_separator;   /* 0: what the lines show */
-    char csv_decimal;     /* 0: what the numbers show */
+    char csv_separator;   /* 0: found from the lines */
+    char csv_decimal;     /* 0: found from the numbers */
 } CzChartOptions;
 CZ_API CzChartOptions cz_chart_options_default(void);
 
@@ -147,26 +146,26 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_chart(const CzReportRun *run,
                                                     CzError *error);
 
 /* The two ends of the colliding interface from the side, to scale, as an SVG document: heights,
- * gaps, and the strokes against the length that is there. Statuses: CZ_STATUS_INPUT,
+ * gaps, and the strokes beside the available length. Statuses: CZ_STATUS_INPUT,
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_elevation(const CzProblem *problem, int scenario,
                                                         FILE *stream, CzError *error);
 
-/* Whether a result folder can be written there, before anything is computed: the place is free, or
- * holds a result folder of our own with nothing else in it, no search unless that may be replaced,
- * and no file that the problem was read from (NULL: of no problem). Status: CZ_STATUS_OUTPUT. */
+/* Whether a result folder can be written, before anything is computed: there is none, or one
+ * written by crushzone without other files, without the result of a search unless that may be
+ * replaced, and without a file that the problem was read from (NULL: of no problem). Status:
+ * CZ_STATUS_OUTPUT. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_check_folder(const CzProblem *problem, const char *folder,
                                                      bool replaces_search, CzError *error);
 
-/* Puts back a result folder that a process which died while replacing it has left under a hidden
- * name beside it, the old one or the new one; whether it did. Nothing is done while there is such a
- * folder. */
+/* Restores a result folder, the old one or the new one, that a process left under a hidden name
+ * when it died while replacing it; whether it did. Nothing is done if the folder exists. */
 CZ_API bool cz_report_restore_folder(const char *folder);
 
-/* Writes a single file whole or not at all: to a temporary name first, renamed at the end. A link
- * is replaced and not followed; a pipe or a device is written to. `write` puts the content into a
- * stream. cz_report_check_file reports beforehand whether that can be, and refuses to replace a
- * file that the problem was read from (NULL: of no problem) or that belongs to a result folder;
+/* Writes a single file completely or not at all: to a temporary name first, renamed at the end. A
+ * link is replaced and not followed; a pipe or a device is written to. `write` writes the content
+ * to a stream. cz_report_check_file reports beforehand whether that can be, and refuses to replace
+ * a file that the problem was read from (NULL: of no problem) or that belongs to a result folder;
  * with is_page the page of the folder that the problem was read from may be replaced. Statuses:
  * CZ_STATUS_OUTPUT, those of `write`. */
 typedef CzStatus CzReportWriter(const void *data, FILE *stream, CzError *error);

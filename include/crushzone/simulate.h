@@ -15,11 +15,12 @@ typedef enum CzEnded {
 #include "crushzone/ended.def"
 #undef CZ_ENDED
 } CzEnded;
-CZ_API const char *cz_ended_key(CzEnded ended);  /* such as "by rule", for documents */
-CZ_API const char *cz_ended_text(CzEnded ended); /* such as "end criterion met", for people */
+CZ_API const char *cz_ended_key(CzEnded ended); /* such as "by rule", for documents */
+CZ_API const char *
+cz_ended_text(CzEnded ended); /* such as "end criterion met", for tables and messages */
 
-/* What advances a run in time. The references obey the same laws and end by the same rules; they
- * take about ten times as long and are there to be compared with. */
+/* Time integrators. The references have the same laws and the same end criterion, take about ten
+ * times as long, and are for comparison. */
 typedef enum CzIntegrator {
 #define CZ_INTEGRATOR(constant, text, doc) constant,
 #include "crushzone/integrators.def"
@@ -35,13 +36,13 @@ typedef enum CzEventKind {
 } CzEventKind;
 CZ_API const char *cz_event_text(CzEventKind kind);
 
-/* First occurrence of something at a place. */
+/* First occurrence of an event at a place. */
 typedef struct CzEvent {
     double time; /* [s] */
     CzEventKind what;
     char where[CZ_WHERE_ROOM]; /* such as "coupler A4" or "A4 wheelset 2" */
-    int interface; /* interface that it belongs to: a vehicle has two couplers of one name; -1 when
-                      it happened to a vehicle */
+    int interface; /* interface of the event, because a vehicle has two couplers of one name; -1 for
+                      an event of a vehicle */
 } CzEvent;
 
 /* One energy absorber or connection of an interface. */
@@ -63,13 +64,14 @@ typedef struct CzElementResult {
                       without a tube its largest stroke [m] */
     double stroke_used; /* largest share of any one device's usable stroke over the run [-]; 0 when
                            it has none; of a coupler that has sheared off, the share of its
-                           retraction space. A buffer counts only where no tube or shear-off takes
-                           over at the end of its stroke */
+                           retraction space. A buffer counts only without a tube or shear-off behind
+                           it */
     double peak_force;  /* unfiltered largest force over all steps [N] */
-    double tube_energy; /* part of a coupler's energy that its tubes and shear-off took [J]; all of
-                           it for the others */
-    bool sheared;       /* coupler: shear-off has been released */
-    bool bottomed_out;  /* a device used its whole stroke, and no other of the element took over */
+    double tube_energy; /* energy dissipated by the tubes and the shear-off of a coupler [J]; for
+                           other elements all of it */
+    bool sheared;       /* the coupler has sheared off */
+    bool bottomed_out; /* a device used its whole stroke, and no other device of the element follows
+                          it */
     double zone_energy[3]; /* plastic energy by zone: crush, temporary, survival [J] */
 } CzElementResult;
 
@@ -81,7 +83,7 @@ typedef struct CzInterfaceResult {
     double peak_time;             /* [s] */
     double shortening;            /* largest closure between the bodies at this interface [m] */
     double energy;                /* dissipated [J] */
-    double energy_share;          /* of all that is dissipated [-] */
+    double energy_share;          /* of the dissipated energy [-] */
     bool bottomed_out;
     double section_force[2]; /* largest force through the section behind the end, rear vehicle's and
                                 front vehicle's [N] */
@@ -91,8 +93,8 @@ typedef struct CzInterfaceResult {
     double vertical_margin; /* smallest (capacity - demand) while they push [N], below 0 once they
                                slip by the force that would have held the slip; NaN when they never
                                did */
-    double overlap_time;    /* when the overlap was smallest [s]; NaN likewise */
-    double margin_time;     /* when the vertical margin was smallest [s]; NaN likewise */
+    double overlap_time;    /* time of the smallest overlap [s]; NaN likewise */
+    double margin_time;     /* time of the smallest vertical margin [s]; NaN likewise */
     double ramp;            /* largest slope of the faces while they push [-]; NaN likewise */
     double friction;        /* of the faces, for comparison [-]; NaN without anti-climbers */
     double underframe_rise; /* largest change of the height of one underframe over the other at the
@@ -112,11 +114,11 @@ typedef struct CzVehicleResult {
     double peak_deceleration;         /* largest |acceleration| of the body, unfiltered [m/s2] */
     double mean_deceleration_contact; /* largest mean over a window of net contact force [m/s2] */
     double mean_deceleration_120ms;   /* largest mean over any window of 120 ms or more [m/s2] */
-    double contact_window[2];         /* begin and end of the first of these windows, and */
+    double contact_window[2];         /* start and end of the first of these windows, and */
     double window_120ms[2];           /* of the second [s]; equal where there is none */
     double wheel_lift[4];             /* largest lift of each wheelset, rear to front [m] */
     double wheel_lift_time[4];        /* [s] */
-    double bogie_lift_time;           /* when the next was reached [s] */
+    double bogie_lift_time;           /* time of the next [s] */
     int lifted_bogie;                 /* where: 0 rear, 1 front */
     double bogie_lift; /* largest over bogies and time of the lower wheelset's lift [m] */
     double max_pitch;  /* largest |pitch| of the body [rad] */
@@ -125,10 +127,10 @@ typedef struct CzVehicleResult {
         link_travel; /* largest travel of a bogie relative to the body at its traction link [m] */
     double survival_shortening; /* stroke of survival zones, both ends [m]; NaN when no end declares
                                    a survival zone */
-    bool checks_override;       /* bump and lift stops are declared, so override can be judged */
+    bool checks_override;       /* bump and lift stops are given, so that override can be judged */
 } CzVehicleResult;
 
-/* Where the turning and lifting of a body came from. */
+/* Sources of the pitch and lift of a body. */
 typedef enum CzBudgetSource {
 #define CZ_BUDGET(constant, text, counts, doc) constant,
 #include "crushzone/budget.def"
@@ -137,7 +139,7 @@ typedef enum CzBudgetSource {
 } CzBudgetSource;
 CZ_API const char *cz_budget_text(CzBudgetSource source);
 
-/* Whether a source acts on the body itself: those that do add up to its momenta. */
+/* Whether a source acts on the body itself; the impulses of these sources add up to its momenta. */
 CZ_API bool cz_budget_counts(CzBudgetSource source);
 
 /* Impulses on the body of one vehicle from the start to the time of its largest wheel lift, of its
@@ -148,22 +150,23 @@ typedef struct CzVehicleBudget {
     bool of_lift;               /* to the largest wheel lift */
     double time;                /* where it ends [s] */
     double moment[CZ_N_BUDGET]; /* about the body's centre of gravity, nose-up [N m s] */
-    double lift[CZ_N_BUDGET];   /* upwards, beyond the weight [N s] */
+    double lift[CZ_N_BUDGET];   /* upwards, in excess of the weight [N s] */
     double spin;                /* angular momentum of the body then, nose-up [N m s] */
     double rise;                /* its vertical momentum [N s] */
 } CzVehicleBudget;
 
-/* The sources that did something, by the size of their moment, largest first; returns how many. */
+/* The sources with an impulse, largest moment first; returns their number. */
 CZ_API int cz_budget_order(const CzVehicleBudget *budget, int order[CZ_N_BUDGET]);
 
 /* Energy at the end of the run [J]. */
 typedef struct CzEnergy {
     double initial;
     double final_kinetic;
-    double dissipated;   /* plastic, friction, damping: net over the run */
-    double stored;       /* elastic energy above rest, height, and kinetic energy of the track */
-    double moving_load;  /* neither: work of the slope of an elastic rail on wheels, whose motion
-                            along the track the model prescribes */
+    double dissipated; /* plastic, friction, damping: net over the run */
+    double stored; /* elastic energy above that at rest, gravitational energy, and kinetic energy of
+                      the track */
+    double moving_load;  /* neither: work of the longitudinal force of a sloping elastic rail, which
+                            the model does not apply to the wheels */
     double wheel_rail;   /* part of `dissipated` at wheels and brakes */
     double running_gear; /* part of `dissipated` in links, stops, suspensions and dampers */
     double track;        /* part of `dissipated` in pads, ballast and subgrade */
@@ -178,28 +181,29 @@ typedef struct CzRunSummary {
     CzStatus status;   /* CZ_OK or CZ_STATUS_RUN_FAILED */
     char failure[256]; /* car, element and time when failed; empty otherwise */
     CzEnded ended;
-    const char *awaited; /* what the end criterion of an incomplete run still waits for */
+    const char *awaited; /* unmet part of the end criterion of an incomplete run */
     double simulated;    /* [s] */
     CzIntegrator integrator;
-    double time_step; /* [s]; of a reference: its own are half of it at most */
+    double time_step; /* [s]; steps of a reference are at most half of it */
     long n_step;
     CzEnergy energy;
     double momentum_error;
-    double law_error;      /* largest distance of a member of a series chain from its law, over the
-                              largest force of the interface [-] */
-    long n_searched;       /* solutions of series chains that needed a search */
-    double rest_residual;  /* largest force left unbalanced at rest over the weight of its vehicle
-                              [-]; NaN without full vehicles, and of runs that are not recorded */
-    double closing_speed;  /* largest closing speed of neighbours at the end [m/s] */
-    double plastic_energy; /* what a perfectly plastic collision would dissipate, less the work at
-                              wheels and brakes until the trains first have one speed [J] */
-    bool beyond_validity;  /* override happened: later metrics are beyond the model */
+    double law_error;     /* largest distance of a member of a series chain from its law, over the
+                             largest force of the interface [-] */
+    long n_searched;      /* solutions of series chains that needed a search */
+    double rest_residual; /* largest force left unbalanced at rest over the weight of its vehicle
+                             [-]; NaN without full vehicles, and of runs that are not recorded */
+    double closing_speed; /* largest closing speed of neighbours at the end [m/s] */
+    double
+        plastic_energy; /* energy that a perfectly plastic collision would dissipate, less the work
+                           at wheels and brakes until the trains first have the same speed [J] */
+    bool beyond_validity;        /* an override occurred: later values are beyond the model */
     double beyond_validity_time; /* [s]; NaN when not */
     int n_interface;
     const CzInterfaceResult *interface; /* (n_interface) */
     int n_outer_end;
-    CzElementResult outer_end[2]; /* ends that face no other vehicle, rear and front of the row:
-                                     their masses move too */
+    CzElementResult outer_end[2]; /* the two ends that face no other vehicle, rear and front of the
+                                     row, whose masses move too */
     int n_vehicle;
     const CzVehicleResult *vehicle; /* (n_vehicle) */
     const CzVehicleBudget *budget;  /* of a recorded run of the usual integrator, else NULL; all 0
@@ -209,7 +213,7 @@ typedef struct CzRunSummary {
     double setup_s, wall_s; /* for run_info only */
 } CzRunSummary;
 
-/* Which track an elastic one is run on; a rigid one stays rigid. */
+/* Track of a run in place of an elastic one; a rigid one stays rigid. */
 typedef enum CzTrackUse {
     CZ_TRACK_USE_OWN,   /* the problem's; of a brief run: `receptance` */
     CZ_TRACK_USE_MODAL, /* `modal` */
@@ -220,37 +224,37 @@ typedef struct CzSimulateOptions {
     double time_step; /* [s]; 0 takes the model's */
     bool record;      /* keep channels at the output step */
     const char *isa;  /* "auto", or one of cz_isa_name: for tests and benchmarks */
-    bool brief;       /* for a search: also end once nothing crushes any more and no cars can meet
-                         again at more than 0.4 of the first closing speed; the run has then
-                         CZ_ENDED_SETTLED and is no record */
+    bool brief; /* for a search: end also when no device crushes any more and no later contact can
+                   exceed 0.4 of the first closing speed; such a run ends with CZ_ENDED_SETTLED and
+                   is not a production run */
     CzTrackUse track;
     CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI for production runs; the others support all
                                 tracks but `fe` */
-    double tolerance;        /* of a reference: local error of a step, 1 m/s or 1 rad/s times it in
-                                velocities, 10 mm or 10 mrad in displacements. The default of 1e-6 adds up
-                                to far less than what the largest step leaves (ours) */
+    double tolerance; /* of a reference: local error of a step, relative to 1 m/s or 1 rad/s in
+                         velocities and to 10 mm or 10 mrad in displacements. With the default of
+                         1e-6 the total is far below the error of the largest step (ours) */
 } CzSimulateOptions;
 CZ_API CzSimulateOptions cz_simulate_options_default(void);
 
 /* One collision with everything recorded. Opaque, owns its memory. */
 typedef struct CzRun CzRun;
 
-/* Runs the model. A run that goes non-finite, loses its energy balance or does not end is a result,
- * not an error: the function returns CZ_OK and the summary reports it. Statuses: CZ_OK,
+/* Runs the model. A run that becomes non-finite, violates its energy balance or does not end is a
+ * result, not an error: the function returns CZ_OK and the summary reports it. Statuses: CZ_OK,
  * CZ_STATUS_INPUT for a track that the integrator does not support, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_simulate(const CzModel *model, const CzSimulateOptions *options,
                                           CzRun **run, CzError *error);
 CZ_API void cz_run_free(CzRun *run);
 CZ_API const CzRunSummary *cz_run_summary(const CzRun *run);
 
-/* A total of a run, such as an energy, as outputs give it: NaN of a run that went beyond the
- * model's validity, because it adds up what came after. Other numbers of such a run are given and
+/* A total of a run, such as an energy, for output: NaN when the run went beyond the model's
+ * validity, because it includes the time after that. Other values of such a run are given and
  * marked. */
 CZ_API double cz_run_total(const CzRunSummary *run, double total);
 
 /* A full vehicle at rest on its springs, wheels and track, found by Newton's method (KINSOL) from
- * the laws alone; the model is built from closed forms, which this tests. Measured from springs
- * without load and wheels that just touch. NaN throughout for rigid and fixed vehicles. */
+ * the laws alone; the model uses closed forms, which this tests. Displacements count from unloaded
+ * springs and wheels that just touch. All NaN for rigid and fixed vehicles. */
 typedef struct CzRest {
     double axle_load[4];            /* of each wheelset on the rails, rear to front [N] */
     double secondary_deflection[2]; /* rear and front [m] */
@@ -267,9 +271,9 @@ CZ_MUST_CHECK CZ_API CzStatus cz_rest_find(const CzModel *model, CzRest *rest, C
 
 /* Recorded channels (channels.def). Values of a channel at a place, one for each sample, in the
  * unit of the channel's entry; borrowed from the run. NULL when the run did not record it: there is
- * no such place, the vehicles lack what it is about, or nothing was recorded. Samples are the
- * output step apart from t = 0 on; CZ_CHANNEL_TIME has their times. A value is NaN where there is
- * none, such as the overlap of anti-climbers that do not push. */
+ * no such place, the vehicles do not have the quantity, or nothing was recorded. Samples are the
+ * output step apart from t = 0 on; CZ_CHANNEL_TIME has their times. A missing value is NaN, such as
+ * the overlap of anti-climbers that do not push. */
 CZ_API int cz_run_n_sample(const CzRun *run);
 CZ_API const double *cz_run_channel(const CzRun *run, CzChannel channel, int place);
 
@@ -285,7 +289,7 @@ CZ_API const char *cz_run_place_name(const CzRunSummary *run, CzChannelAt at, in
 /* Version of the SUNDIALS libraries in use, such as "6.4.1". Writes at most n bytes. */
 CZ_API void cz_sundials_version(char *text, size_t n);
 
-/* Instruction set the kernel of this process takes with "auto". */
+/* Instruction set of the kernel with "auto" on this machine. */
 CZ_API const char *cz_isa_name(void);
 
 CZ_END_DECLARATIONS

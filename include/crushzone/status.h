@@ -1,7 +1,7 @@
 /* Statuses and errors.
  *
  * Every function that can fail returns a CzStatus and takes a caller-owned CzError last (it may be
- * NULL). The function that finds the fault writes one sentence; callers pass it on. The library
+ * NULL). The function that finds the error writes one sentence; callers pass it on. The library
  * never prints and never exits.
  */
 #ifndef CRUSHZONE_STATUS_H
@@ -32,10 +32,10 @@ typedef enum CzStatus {
 #undef CZ_STATUS
 } CzStatus;
 
-/* What went wrong, and where. Zero-initialise it before use. */
+/* An error and its place. Zero-initialise it before use. */
 typedef struct CzError {
     CzStatus status;
-    char file[256];    /* file it is about; empty when none */
+    char file[256];    /* file of the error; empty when none */
     int line;          /* counted from 1; 0 when none */
     int column;        /* counted from 1; 0 when none */
     char message[512]; /* one sentence with the value and the limit */

@@ -36,14 +36,13 @@ typedef struct CzSweepOptions {
     const CzSweepAxis *axis; /* one or two (n_axis) */
     int n_metric;
     const char *const
-        *metric; /* to be reported each point, such as "vehicles.bogie_lift_mm"; without
-                    a word at the end the largest of all places and scenarios, with
-                    ".min" the smallest (n_metric) */
+        *metric; /* to be reported each point, such as "vehicles.bogie_lift_mm"; the largest of all
+                    places and scenarios, with ".min" at the end the smallest (n_metric) */
     int n_check;
     const char *const *check; /* names of checks that points are judged by; all when 0 (n_check) */
     const char *scenario;     /* this scenario or family only; NULL for all */
-    int n_job;                /* threads; 0 takes the number of processors */
-    const char *text;         /* what is read instead of the file; NULL for the file */
+    int n_job;                /* threads; 0: one per processor */
+    const char *text;         /* text that is read in place of the file; NULL for the file */
     size_t n_text;            /* [byte] */
     const volatile sig_atomic_t *stop; /* a flag that ends the sweep when not 0; NULL when none */
     void (*progress)(int n_done, int n_point, void *data); /* NULL when none */
@@ -64,12 +63,14 @@ typedef struct CzSweepPoint {
     double value[CZ_MOST_AXES]; /* in the units of the paths */
     CzSweepState state;
     CzVerdict verdict; /* over the checks requested; CZ_VERDICT_NOT_CHECKED unless done */
-    double margin;     /* smallest of them; NaN when none has one, or a yes or no alone fails */
-    char check[CZ_LABEL_ROOM]; /* the check with that margin, or the yes or no that fails, its
+    double margin;     /* smallest margin of them; NaN when none has one, or only a yes-or-no check
+                          fails */
+    char check[CZ_LABEL_ROOM]; /* the check with that margin, or the failing yes-or-no check, its
                                   scenario and place; empty when none */
     char scenario[CZ_NAME_ROOM];
     char where[CZ_WHERE_ROOM];
-    bool beyond_validity; /* something climbed: the metrics may be of later, and totals are NaN */
+    bool beyond_validity; /* an override occurred: metrics may be of the time after it, and totals
+                             are NaN */
     double metric[CZ_MOST_SWEPT_METRICS]; /* in the metrics' units; NaN when unknown (n_metric) */
     char metric_where[CZ_MOST_SWEPT_METRICS][CZ_PLACE_ROOM]; /* place and scenario (n_metric) */
     char message[512];                                       /* why it is invalid or failed */
@@ -92,9 +93,9 @@ typedef struct CzSweep {
     double wall_s;
 } CzSweep;
 
-/* Sweeps a problem file. *sweep is made whenever CZ_OK is returned, an interrupted sweep included.
- * Statuses: CZ_OK, CZ_STATUS_INPUT for a file, path, metric or check that is wrong at every point,
- * CZ_STATUS_NO_MEMORY. */
+/* Sweeps a problem file. *sweep is created whenever CZ_OK is returned, also for an interrupted
+ * sweep. Statuses: CZ_OK, CZ_STATUS_INPUT for a file, path, metric or check that is wrong at every
+ * point, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_sweep(const char *file, const CzProblemOptions *problem_options,
                                        const CzSweepOptions *options, CzSweep **sweep,
                                        CzError *error);

@@ -1,7 +1,7 @@
 /* Verification: the judged results of a design, computed again by independent methods.
  *
- * It shows how far results depend on steps and solvers, not on parameters and physics, because the
- * laws are the same.
+ * It shows the influence of steps and solvers on the results, not that of parameters and physics,
+ * because the laws are the same.
  */
 #ifndef CRUSHZONE_VERIFY_H
 #define CRUSHZONE_VERIFY_H
@@ -24,14 +24,15 @@ CZ_API const char *cz_verify_method_text(CzVerifyMethod method); /* such as "hal
 typedef struct CzVerifyOptions {
     unsigned methods; /* which ones, bit 1 << CzVerifyMethod each; all by default */
     double limit;     /* largest change that passes [-]; 0.01 by default */
-    const volatile sig_atomic_t *stop; /* a flag that ends it when not 0; NULL when none */
+    const volatile sig_atomic_t
+        *stop;          /* a flag that ends the computation when not 0; NULL when none */
     double solver_step; /* longest step of the solvers, in half steps of the production run; 1 by
-                           default, 2, as a search takes, halves their time; from 3 on their own
-                           error passes the limit [-] */
+                           default; 2, the value in a search, halves their time; from 3 their own
+                           error exceeds the limit [-] */
 } CzVerifyOptions;
 CZ_API CzVerifyOptions cz_verify_options_default(void);
 
-/* One number: the objective, a check or target, or the bulk of a scenario (largest interface force,
+/* One number: the objective, a check or target, or a total of a scenario (largest interface force,
  * largest closure, dissipated energy). Texts are borrowed from the evaluator. */
 typedef struct CzVerifiedValue {
     const char *name;
@@ -39,14 +40,14 @@ typedef struct CzVerifiedValue {
     char where[CZ_WHERE_ROOM];   /* of the production run; empty when it has no place */
     const char *unit;
     double production;    /* value of the production run */
-    bool beyond_validity; /* of the production run: it may be of the time after an override */
+    bool beyond_validity; /* the production run's value may be of the time after an override */
     double value[CZ_N_VERIFY_METHOD];  /* NaN when not computed */
     double change[CZ_N_VERIFY_METHOD]; /* of a check or target: by how much its margin changes, a
                                        margin above 1 counting as 1, over the size of one below
                                        -1; of the others: |value - production| over production, or
                                        over the scale of its quantity where the production run is
-                                       next to zero, over 1 for a smallest margin; NaN for a mere
-                                       yes or no and when not computed */
+                                       next to zero, over 1 for a smallest margin; NaN for a
+                                       yes-or-no check and when not computed */
     bool flips[CZ_N_VERIFY_METHOD];    /* another verdict than that of the production run */
 } CzVerifiedValue;
 
@@ -65,8 +66,8 @@ typedef struct CzVerification {
     int worst[CZ_N_VERIFY_METHOD];             /* value with that change; -1 when none */
     int n_flip[CZ_N_VERIFY_METHOD];            /* changed verdicts */
     double wall_s[CZ_N_VERIFY_METHOD];         /* for run_info only */
-    CzVerdict verdict; /* pass: every method requested is done, changes at most the limit and flips
-                          no verdict */
+    CzVerdict verdict; /* pass: every requested method is done, changes results by at most the limit
+                          and reverses no verdict */
 } CzVerification;
 
 /* Computes a design again. x as in cz_evaluate; `record` is its evaluation with runs kept, NULL

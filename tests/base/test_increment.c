@@ -11,7 +11,7 @@ static void multiples_next_to_a_value_are_found(void **state) {
     assert_near(cz_increment_not_below(10, -11), -10, 0, 0);
 }
 
-/* 0.1 is no binary fraction, but ten times 0.1 counts as 1. */
+/* 0.1 is not a binary fraction, but ten times 0.1 counts as 1. */
 static void a_value_within_rounding_of_a_multiple_counts_as_a_multiple(void **state) {
     (void)state;
     for (int i = 1; i < 1000; i++) {

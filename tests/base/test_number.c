@@ -28,7 +28,7 @@ static void good_numbers_are_read_to_the_nearest_double(void **state) {
     }
 }
 
-static void text_that_is_no_number_is_refused_with_a_reason(void **state) {
+static void text_that_is_not_a_number_is_refused_with_a_reason(void **state) {
     (void)state;
     static const char *const bad[] = {"",      "-",     "abc", "1_000", "012",   "-01",
                                       "1:30",  ".nan",  "NaN", "inf",   "-.Inf", "0x10",
@@ -109,7 +109,7 @@ static void a_word_that_resembles_none_gets_no_suggestion(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(good_numbers_are_read_to_the_nearest_double),
-        cmocka_unit_test(text_that_is_no_number_is_refused_with_a_reason),
+        cmocka_unit_test(text_that_is_not_a_number_is_refused_with_a_reason),
         cmocka_unit_test(written_numbers_read_back_to_the_same_bits),
         cmocka_unit_test(written_numbers_have_a_readable_form),
         cmocka_unit_test(the_nearest_word_is_suggested),

@@ -48,7 +48,7 @@ static void vectors_are_of_length_one_and_belong_to_their_eigenvalues(void **sta
     }
 }
 
-/* Equal blocks would mix in any method that looks at eigenvalues alone. */
+/* Equal blocks would mix in a method that uses eigenvalues only. */
 static void unconnected_blocks_do_not_mix(void **state) {
     (void)state;
     double a[4][4] = {{2, 1, 0, 0}, {1, 3, 0, 0}, {0, 0, 2, 1}, {0, 0, 1, 3}}, vectors[4][4];

@@ -71,7 +71,7 @@ sized() { exits 0 "$C" optimise wagon.yaml -o wagon && says out.txt 'FEASIBLE af
 check "the wagon's crash buffers can be sized" sized
 
 run() { exits 0 "$C" run two-trains.yaml && says out.txt 'A4-B1' && says out.txt 'Verdict: FAIL' && says err.txt 'results in out'; }
-check "run of a failing design ends with 0: it is a valid answer" run
+check "run of a failing design ends with 0, because it is a valid result" run
 check "run --strict of a failing design ends with 1" exits 1 "$C" run two-trains.yaml --strict
 check "check of a failing design ends with 1" exits 1 "$C" check two-trains.yaml
 passing="--set parts.inner-end.coupler.tube.stages[0].force_kN=580 --set parts.inner-end.coupler.tube.stages[0].stroke_mm=380
@@ -80,7 +80,7 @@ passing="--set parts.inner-end.coupler.tube.stages[0].force_kN=580 --set parts.i
 # shellcheck disable=SC2086 # options are words
 check "check of a passing design ends with 0" exits 0 "$C" check two-trains.yaml $passing
 unjudged() { sed '/^  limits:/,/^$/d' two-trains.yaml >unjudged.yaml && exits 1 "$C" check unjudged.yaml && says out.txt 'NO CHECKS'; }
-check "check of a problem without checks is no pass" unjudged
+check "check of a problem without checks is not a pass" unjudged
 incomplete() { exits 3 "$C" run two-trains.yaml --set simulation.longest_ms=50 && says out.txt 'INCOMPLETE: end criterion not met within simulation.longest_s = 0.05' && says err.txt "scenario 'collision' has not met its end criterion after 0.05" && says err.txt 'such as --set simulation.longest_s=0.1'; }
 check "a run that did not meet its end criterion ends with 3" incomplete
 check "an incomplete check ends with 3" exits 3 "$C" check two-trains.yaml --set simulation.longest_ms=50
@@ -132,7 +132,7 @@ sed 's/^checks:/scenarios: [{name: fast}, {name: slow, speed_km_h: 10}]\nchecks:
 one_scenario() { exits 0 "$C" run two.yaml --scenario slow --json && json out.txt scenarios.0.name slow && ! json out.txt scenarios.1; }
 check "--scenario runs one scenario only" one_scenario
 omitted() { exits 0 "$C" run two.yaml --scenario slow --json && json out.txt verdict 'not checked' || json out.txt verdict fail; }
-check "an omitted scenario is no pass" omitted
+check "an omitted scenario is not a pass" omitted
 one_line() { exits 0 "$C" run two.yaml --scenario slow && says out.txt 'of scenarios that were not run: NOT CHECKED.' && ! says out.txt 'this scenario was not run'; }
 check "omitted scenarios are one line of the table" one_line
 no_number() { exits 0 "$C" verify two.yaml --scenario slow && says out.txt slow && ! says out.txt fast; }

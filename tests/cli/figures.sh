@@ -25,7 +25,7 @@ hash_of() { sha256sum "$SOURCE/src/report/report.$1" | cut -c1-64 | tr a-f A-F |
 hashes() { grep -qF "script-src 'sha256-$(hash_of js)'; style-src 'sha256-$(hash_of css)'" first/report.html; }
 policy() { grep -q "default-src 'none'; script-src 'sha256-" first/report.html && ! grep -qE '(src|href)="?https?:' first/report.html && ! grep -q ' style="' first/report.html; }
 check "the report has a policy that allows no request" policy
-check "the policy knows script and style by the SHA-256 of their files" hashes
+check "the policy has the SHA-256 of script and style sheet" hashes
 
 anew() {
     cp first/report.html kept.html && rm first/report.html && exits 0 "$C" report first &&
@@ -131,9 +131,9 @@ time_first() { # the columns whose units are the figure's, or those that are wan
         exits 0 "$C" plot first --measured machine.csv --svg machine.svg && exits 0 "$C" plot first --measured plain.csv --svg plain.svg && cmp machine.svg plain.svg &&
         printf 'Time,A,B,Load\ns,mm,mm,N\n0,0,0,0\n1,100,90,500000\n' >both.csv && exits 2 "$C" plot first --measured both.csv && says err.txt "the unit of column 'Time', s, is not a unit of the length" && says err.txt 'the first column is the abscissa'
 }
-check "a time in front of the curve of a figure is passed over" time_first
+check "a time column in front of the curve of a figure is skipped" time_first
 unknown() { exits 2 "$C" plot first --what xyz && says err.txt "there is no figure 'xyz'" && says err.txt "'crushzone help figures' lists them" && exits 2 "$C" plot first --at A9-B9 && says err.txt "they are 'A1-A2' to"; }
-check "an unknown figure or place names what there is" unknown
+check "an unknown figure or place is refused with the known ones" unknown
 no_overlay() { exits 2 "$C" plot first --what shares --measured test.csv && says err.txt "no measured curve can be drawn over 'shares'"; }
 check "bars take no measured curve" no_overlay
 printf '# of a test\nt_ms,F_test_kN,v_A4_test [km/h],v_B1_test_km/h,x_A4_m,d_test_mm\n0,0,25,0,0,0\n100,650,20,4,0.6,500\n200,500,16,8,1.1,900\n' >four.csv
@@ -213,7 +213,7 @@ check "compare --json has the numbers of both summaries" compared_json
 compared_page() { exits 0 "$C" compare first second -o cmp.html && grep -q 'Force over closure, A4-B1' cmp.html && grep -q '>second<' cmp.html; }
 check "compare writes a page" compared_page
 compared_one() { exits 2 "$C" compare first; }
-check "compare wants two" compared_one
+check "compare needs two operands" compared_one
 
 elevation() { exits 0 "$C" show "$SOURCE/problems/metro-6-car.yaml" --svg side.svg && grep -q 'centre of gravity 1.600 m' side.svg && grep -q 'buffer 73, tube 200' side.svg; }
 check "show draws the two ends with heights and strokes" elevation

@@ -101,7 +101,7 @@ sed 's/;/X/; s/\./,/g; s/X/;/' zone.csv >german.csv
 german() { exits 0 "$C" fit german.csv --as end --basis static --csv-sep ';' --csv-decimal , && says out.txt '{stroke_mm: 20, force_kN: 1200}'; }
 check "decimal commas are read with --csv-decimal" german
 german_alone() { exits 0 "$C" fit german.csv --as end --basis static --csv-decimal , && says out.txt '{stroke_mm: 20, force_kN: 1200}'; }
-check "--csv-decimal , alone takes ; between the columns" german_alone
+check "--csv-decimal , alone uses ; between the columns" german_alone
 printf '\357\273\277' | cat - tube.csv | sed 's/$/\r/' >excel.csv
 check "byte order mark and line ends of other systems are accepted" exits 0 "$C" fit excel.csv --as anti-climber --basis static
 
@@ -169,11 +169,11 @@ check "strokes that begin a little below zero begin at zero" like_plain early.cs
 check "strokes that begin far from zero without force begin at zero" like_plain late.csv
 { printf 'stroke_mm,force_kN\n0,0\n30,0\n'; points | awk -F, '{ printf "%.3f,%.3f\n", $1 + 35, $2 }'; } >free.csv
 check "--zero contact leaves out a travel without force" like_plain free.csv --zero contact
-check "--from leaves out what is before a stroke" like_plain free.csv --from 35
+check "--from leaves out the curve before a stroke" like_plain free.csv --from 35
 { printf 'stroke_mm,force_kN\n'; points | awk -F, '{ printf "%s,%.3f\n", $1, -2 * $2 }'; } >two.csv
 check "--flip and --scale change forces" like_plain two.csv --flip force --scale 0.5
 { cat tube.csv; printf '465,3000\n470,9000\n'; } >beyond.csv
-check "--to leaves out what is behind a stroke" like_plain beyond.csv --to 463.5
+check "--to leaves out the curve beyond a stroke" like_plain beyond.csv --to 463.5
 { printf '# stroke_mm force_kN\n'; points | tr , ' '; } >table.txt
 check "titles in a comment are read" like_plain table.txt
 iconv -f utf-8 -t utf-16 tube.csv >wide.csv
@@ -225,10 +225,10 @@ put 'stroke_mm,force_kN\n0,0\n10.5,50,5\n'
 check "a line with more columns is refused" refused bad.csv 'bad.csv:3:1: error: this line has 3 columns, the titles in line 1 have 2'
 { echo stroke_mm,force_kN; awk 'NR > 1' tube.csv | sort -t , -k 2; } >shuffled.csv
 unsorted() { exits 2 "$C" fit shuffled.csv --as end --basis static && says err.txt 'error: the strokes turn ' && says err.txt 'sort the lines, or remove cycles'; }
-check "strokes in no order are called so before anything else is said of them" unsorted
+check "unordered strokes are reported before any other mistake" unsorted
 { echo stroke_mm,force_kN; awk 'NR > 1' tube.csv | tac; } >reversed.csv
 in_reverse() { exits 2 "$C" fit reversed.csv --as end --basis static && says err.txt 'or the points are in the reverse order' && says err.txt 'lines in the reverse order have to be sorted'; }
-check "the reverse order has an advice of its own" in_reverse
+check "the reverse order has its own advice" in_reverse
 overruled() { exits 0 "$C" fit tube.csv --as anti-climber --basis static --force-unit MN --scale 0.001 && says out.txt '# note: the force is read in MN as requested; the unit in the file is kN'; }
 check "a unit that differs from the file's is noted" overruled
 put 'stroke_mm;force_kN\n0;0\n0.5;20,5\n1;30\n'

@@ -32,7 +32,7 @@ printf '\377\376s\0c\0' >utf16.yaml
 check "a file in UTF-16 is refused" refused utf16.yaml utf16.yaml
 
 change 's/mass_t: 38/mass_t: .nan/'
-check "a mass that is no number is refused" refused changed.yaml changed.yaml:
+check "a mass that is not a number is refused" refused changed.yaml changed.yaml:
 change 's/mass_t: 38/mass_t: -38/'
 check "a negative mass is refused" refused changed.yaml 'mass_t: -38'
 change 's/mass_t: 38/mass_t: 1e308/'
@@ -60,7 +60,7 @@ check "all mistakes are one JSON document" as_json
 set_path() { exits 2 "$C" run good.yaml --set trains.A.sped_km_h=3 && says err.txt 'sped_km_h' && says err.txt "did you mean 'speed_km_h'?"; }
 check "a mistyped path of --set gets a suggestion" set_path
 set_value() { exits 2 "$C" run good.yaml --set trains.A.speed_km_h=fast && says err.txt 'fast'; }
-check "a --set value that is no number is refused" set_value
+check "a --set value that is not a number is refused" set_value
 usage_json() { exits 2 "$C" run good.yaml --jso --json && json out.txt error.help "did you mean '--json'?" && [ ! -s err.txt ]; }
 check "a mistake in the command line is a JSON document with --json" usage_json
 no_command() { exits 2 "$C" rnu && says err.txt "did you mean 'crushzone run'?"; }

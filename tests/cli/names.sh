@@ -82,7 +82,7 @@ figures() { # the same elements of the page, and each name as often
 }
 check "the report has every figure and every name" figures
 again() { run_both report DIR -q && figures; }
-check "a report that is written again has them too" again
+check "a report that is written again has the measured curves, too" again
 explained() { run_both explain FILE -q && same long.txt short.txt; }
 check "explain gives the same as with short names" explained
 shown() { run_both show FILE -q && same long.txt short.txt; }
@@ -124,5 +124,5 @@ no_text() {
     cp short.yaml "$(printf 'a\001b.yaml')" && exits 2 "$C" validate "$(printf 'a\001b.yaml')" && says err.txt 'U+0001' || return 1
     exits 2 "$C" validate "$(printf 'a\377.yaml')" --json && json out.txt error.message && exits 2 "$C" run short.yaml -o "$(printf 'a\342\200\256b')" && says err.txt 'U+202E'
 }
-check "file names that are no text are refused" no_text
+check "file names that are not valid text are refused" no_text
 finish

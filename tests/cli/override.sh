@@ -26,12 +26,12 @@ never_passes() {
     printf 'extends: no-lift_gap_mm.yaml\ntrains: [{name: A, speed_km_h: 5}]\nchecks: {design_rules: false, limits: [{name: climbs, metric: override, max: 0}]}\n' >gentle.yaml
     exits 1 "$C" check gentle.yaml && says out.txt 'Verdict: NOT CHECKED'
 }
-check "a slow collision without stops is no pass either" never_passes
+check "a slow collision without stops is not a pass either" never_passes
 incomplete() {
     exits 3 "$C" check "$climbs" --set simulation.longest_s=0.06 && says out.txt INCOMPLETE && line out.txt 'override ' 'NOT CHECKED' 'did not meet its end criterion' &&
         ! says out.txt 'Verdict: PASS' >nothing.txt && exits 3 "$C" run "$climbs" --set simulation.longest_s=0.06 --json && json out.txt scenarios.0.ended incomplete
 }
-check "a run with a short duration is incomplete and no pass" incomplete
+check "a run with a short duration is incomplete and does not pass" incomplete
 beyond() {
     exits 1 "$C" check "$climbs" && says out.txt OVERRIDE && says out.txt 'beyond model validity' && line out.txt 'override ' FAIL &&
         line out.txt 'section force / proof strength' 'beyond model validity' && says out.txt 'Verdict: FAIL' &&
@@ -42,7 +42,7 @@ whatever() {
     printf 'extends: %s\nchecks: {design_rules: false, limits: [{name: force, metric: interfaces.peak_force_kN, max: 9000}]}\n' "$climbs" >asked.yaml
     exits 1 "$C" check asked.yaml && says out.txt ' pass. Verdict: FAIL' && ! grep -q ' FAIL,' out.txt
 }
-check "a climb fails whatever checks are selected" whatever
+check "an override fails whatever checks are selected" whatever
 stops() {
     for key in secondary.lift_gap_mm secondary.bump_gap_mm secondary.lift_stiffness_MN_m primary.lift_gap_mm; do
         printf 'extends: %s\noptimise: {minimise: vehicles.bogie_lift_mm, variables: [{path: parts.bogie.%s, min: 1, max: 90}]}\n' "$cars" $key >soft.yaml

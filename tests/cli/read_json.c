@@ -1,6 +1,6 @@
 /* read_json FILE PATH: prints the value at a path of keys and indices such as checks.0.name of the
- * one JSON document that a file holds. Exit code 1 when the file is no JSON document or the path is
- * missing.
+ * one JSON document that a file holds. Exit code 1 when the file is not a JSON document or the path
+ * is missing.
  */
 #include <stdio.h>
 #include <stdlib.h>

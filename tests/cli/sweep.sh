@@ -46,5 +46,5 @@ interrupted() {
     wait $process || code=$?
     [ $code = 130 ] && says err.txt "stopping after the current run" && says out.txt INTERRUPTED && grep -qE "^[0-9]+ of [0-9]+ points in" err.txt && json kept/sweep.json status interrupted
 }
-check "Ctrl-C keeps what was run and ends with 130" interrupted
+check "Ctrl-C keeps the finished points and ends with 130" interrupted
 finish

@@ -40,7 +40,7 @@ static bool is_failing(const void *caller) {
            !is_of_sundials(caller);
 }
 
-/* The system's own functions, looked up without asking for memory. */
+/* The system's own functions, found without allocating memory. */
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *memory, size_t size);
@@ -78,15 +78,15 @@ enum { MOST_WORDS = 16, NO_MEMORY = 5, LAST = 10 /* requests that fail always */
 
 typedef struct Try {
     int code;        /* exit code; 256 + signal when it was killed */
-    bool says;       /* it says that there is no memory */
-    bool is_left;    /* something half written is there */
-    bool is_search;  /* it holds the result of a search, which is kept */
-    uint64_t answer; /* of all that it wrote */
+    bool says;       /* the program reports that there is no memory */
+    bool is_left;    /* a partly written file remains */
+    bool is_search;  /* the folder has the result of a search, which is kept */
+    uint64_t answer; /* of all output */
 } Try;
 
 static char work_folder[64], problem[128], made[128];
 
-/* FNV-1a over a text but for what differs from run to run. */
+/* FNV-1a over a text, without the parts that differ from run to run. */
 static uint64_t hash_text(uint64_t hash, const char *text, size_t n) {
     static const char timed[] = "\"run_info\"";
     for (size_t i = 0; i < n; i++) {
@@ -142,7 +142,7 @@ static void work(int n_word, char **word, long failing) {
     first_failing = failing;
     const int code = program_main(n_word, word);
     first_failing = -1;
-    /* The parent learns how many requests there were. */
+    /* The parent process gets the number of requests. */
     FILE *count = fopen("../count", "w");
     fprintf(count, "%ld\n", n_request);
     fclose(count);
@@ -201,8 +201,8 @@ static long step_from(long i, long n, long stride) {
     return i + stride < n - LAST ? stride : n - LAST - i;
 }
 
-/* Lets every request fail in turn, or every `stride`-th and the last ones, which are of what the
- * terminal shows in the end, when time is short. */
+/* Every request fails in turn; when time is short, every `stride`-th and the last ones, which
+ * belong to the final output on the terminal. */
 static void fail_every_request(const char *line, int stride) {
     char words[256], *word[MOST_WORDS] = {"crushzone"};
     int n_word = 1, n_bad = 0;

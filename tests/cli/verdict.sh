@@ -141,7 +141,7 @@ twins() {
     sed 's/- {name: A, speed_km_h: 40, vehicles: .*/- {name: A, speed_km_h: 40, vehicles: [{name: A1, model: rigid, mass_t: 14, length_m: 5, front: {face_gap_mm: 0, stages: [{stroke_mm: 200, force_kN: 900}], unloading_stiffness_MN_m: 100}}]}/' crossing.yaml >twins.yaml &&
         exits 0 "$C" run twins.yaml -o out && ! grep -q 'Not judged' out.txt
 }
-check "two trains that look alike are both judged" twins
+check "two equal trains are both judged" twins
 named() {
     sed 's/    - {name: deceleration.*/    - {name: deceleration, metric: vehicles.L.mean_deceleration_120ms_g, max: 5}/' crossing.yaml >named.yaml &&
         exits 0 "$C" run named.yaml -o out && grep -qE '^deceleration .* L .* FAIL' out.txt && says out.txt 'Not judged: lorry'

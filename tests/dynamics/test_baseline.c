@@ -1,5 +1,5 @@
-/* The copy of the kernel for every processor, which sanitizers check whole (CMakeLists.txt), does
- * the same on every shipped problem as the copy for this one. */
+/* The copy of the kernel for every processor, which sanitizers check completely (CMakeLists.txt),
+ * gives the same results on every shipped problem as the copy for this processor. */
 #include "physics/collision.h"
 #include "support/shipped.h"
 

@@ -128,7 +128,7 @@ static void a_standing_car_is_held(void **state) {
     }
 }
 
-/* A drag sets no bound that the default step would have to keep. */
+/* A drag does not bound the default step. */
 static void a_standing_train_sets_no_step(void **state) {
     (void)state;
     Collision free = collision_model(two_cars, AS_WRITTEN, 0);
@@ -166,7 +166,7 @@ static double largest_stroke(double mass, double stiffness, double damping, doub
     return x;
 }
 
-/* The stroke may err by what closes in half a step. */
+/* The stroke may be wrong by the closure in half a step. */
 static void the_damping_of_a_crush_zone_without_end_mass_acts(void **state) {
     (void)state;
     double energy = 0.0;
@@ -197,7 +197,7 @@ static const CzElementResult *element_of(const Collision *collision, CzElementKi
     return NULL;
 }
 
-/* The drag dissipates F s whatever pushes; the frame that slides with the buffer is never touched.
+/* The drag dissipates F s for any push; the frame that slides with the buffer is never touched.
  */
 static void a_buffer_stop_is_dragged_with_its_frame(void **state) {
     (void)state;

@@ -16,7 +16,7 @@ static const CzElementResult *draw_gear_of(const Collision *collision, const cha
     return NULL;
 }
 
-/* Largest speed at which the cars of train B part: within the slack nothing changes it. */
+/* Largest speed at which the cars of train B part; it is constant within the slack. */
 static double parting_speed(const Collision *collision) {
     const double *behind = channel(collision, CZ_CHANNEL_BODY_SPEED, "B1");
     const double *ahead = channel(collision, CZ_CHANNEL_BODY_SPEED, "B2");
@@ -42,7 +42,8 @@ static void the_tension_follows_from_the_speed_of_parting(void **state) {
     collision_free(&collision);
 }
 
-/* What an end stores at the end of the run is half of F^2 / 2 k, and nothing is dissipated. */
+/* The stored energy of an end at the end of the run is half of F^2 / 2 k, and nothing is
+ * dissipated. */
 static void a_draw_gear_returns_all_of_its_energy(void **state) {
     (void)state;
     for (int ms = 300; ms <= 1200; ms += 300) {
@@ -80,8 +81,8 @@ static double moment_of(const char *height) {
     return moment;
 }
 
-/* Two of 10 MN/m in series pull with 1.5 MN midway between the hooks: one hook 1 m higher takes the
- * force up by 0.5 m. */
+/* Two of 10 MN/m in series pull with 1.5 MN midway between the hooks: one hook 1 m higher raises
+ * the line of force by 0.5 m. */
 static void the_tension_acts_midway_between_the_hooks(void **state) {
     (void)state;
     const double low = moment_of("parts.cab.rear.draw_gear.height_m=0.6");

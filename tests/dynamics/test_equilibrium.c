@@ -1,4 +1,4 @@
-/* Vehicles at rest, solved from the laws, against the closed forms that the model is built with. */
+/* Vehicles at rest, solved from the laws, against the closed forms of the model. */
 #include "physics/motion.h"
 
 #include "dynamics/equilibrium.h"
@@ -39,7 +39,7 @@ static void check_closed_form(const char *const *set) {
     collision_free(&collision);
 }
 
-static void a_car_at_rest_is_where_the_closed_form_says(void **state) {
+static void a_car_at_rest_has_the_closed_form_deflections(void **state) {
     (void)state;
     check_closed_form(WITH("simulation.track=rigid"));
 }
@@ -55,11 +55,11 @@ static void unequal_ends_share_the_load_by_their_levers(void **state) {
     collision_free(&collision);
 }
 
-/* On the elastic track a wheelset goes down by the indentation of the contact and the deflection of
- * the rail: the approach at rest of the kernel, which comes from another sum over the modes. The
- * loads stay the same.
+/* On the elastic track a wheelset is lowered by the indentation of the contact and the deflection
+ * of the rail: the approach at rest of the kernel, which follows from another sum over the modes.
+ * The loads stay the same.
  */
-static void an_elastic_track_takes_the_wheels_down(void **state) {
+static void an_elastic_track_lowers_the_wheels(void **state) {
     (void)state;
     Motion motion = motion_open(file, WITH("simulation.track=modal"));
     const CzModel *model = motion.collision.model;
@@ -105,7 +105,7 @@ static void rigid_cars_and_walls_have_no_rest(void **state) {
 
 /* A mass with three zeros too many: the message names the vehicle, the part without equilibrium,
  * the springs, and the place of the mass. */
-static void a_car_that_finds_no_rest_is_named_with_its_springs(void **state) {
+static void a_car_without_an_equilibrium_is_named_with_its_springs(void **state) {
     (void)state;
     Collision collision =
         collision_model(file, WITH("simulation.track=modal", "parts.paper-car.mass_t=4900"), 0);
@@ -132,12 +132,12 @@ static void a_recorded_run_reports_its_residual(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_car_at_rest_is_where_the_closed_form_says),
+        cmocka_unit_test(a_car_at_rest_has_the_closed_form_deflections),
         cmocka_unit_test(unequal_ends_share_the_load_by_their_levers),
-        cmocka_unit_test(an_elastic_track_takes_the_wheels_down),
+        cmocka_unit_test(an_elastic_track_lowers_the_wheels),
         cmocka_unit_test(the_kernel_moves_nothing_at_rest),
         cmocka_unit_test(rigid_cars_and_walls_have_no_rest),
-        cmocka_unit_test(a_car_that_finds_no_rest_is_named_with_its_springs),
+        cmocka_unit_test(a_car_without_an_equilibrium_is_named_with_its_springs),
         cmocka_unit_test(a_recorded_run_reports_its_residual),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* Without gravity and rail there are internal forces only: at every step of an offset collision
  * with every element active the forces and their moments about a fixed point add up to zero.
  *
- * A lever arm that differs between the two bodies of an element is found here.
+ * This test finds a lever arm that differs between the two bodies of an element.
  */
 #include "physics/motion.h"
 
@@ -163,14 +163,14 @@ static void forces_and_moments_add_up_to_zero_at_every_step(void **state) {
 }
 
 /* Pivots on end masses have other lever arms of couplers and hinges. */
-static void they_add_up_to_zero_with_couplers_on_the_end_masses(void **state) {
+static void the_sums_are_zero_with_couplers_on_the_end_masses(void **state) {
     (void)state;
     assert_nothing_is_left(WITH("simulation.time_step_ms=0.05", "parts.front-coupler.anchor=end",
                                 "parts.inner-coupler.anchor=end"));
 }
 
 /* Otherwise the sums above would prove nothing. */
-static void every_element_took_part(void **state) {
+static void every_element_absorbed_energy(void **state) {
     (void)state;
     static const char *const names[] = {
 #define CZ_LEDGER_ENTRY(row, class, dimension, doc) [CZ_LEDGER(row)] = #row,
@@ -240,7 +240,7 @@ static double missing_energy(const char *step, int n_step) {
     return missing;
 }
 
-/* A hundredth of what a shipped problem may miss, which is 1e-4 (docs/verification.md, C5). */
+/* A hundredth of the tolerance for shipped problems, 1e-4 (docs/verification.md, C5). */
 static void the_energy_balance_closes_with_the_step(void **state) {
     (void)state;
     const double coarse = missing_energy("simulation.time_step_ms=0.04", 5000);
@@ -254,8 +254,8 @@ static void the_energy_balance_closes_with_the_step(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(forces_and_moments_add_up_to_zero_at_every_step),
-        cmocka_unit_test(they_add_up_to_zero_with_couplers_on_the_end_masses),
-        cmocka_unit_test(every_element_took_part),
+        cmocka_unit_test(the_sums_are_zero_with_couplers_on_the_end_masses),
+        cmocka_unit_test(every_element_absorbed_energy),
         cmocka_unit_test(angular_momentum_is_conserved_to_the_order_of_the_step),
         cmocka_unit_test(the_energy_balance_closes_with_the_step),
     };

@@ -1,4 +1,4 @@
-/* No element creates energy: springs are led around closed loops and return the work done on them.
+/* No element creates energy: springs pass closed loops and return the work done on them.
  */
 #include "physics/motion.h"
 
@@ -12,7 +12,7 @@ static double work_of(const Motion *motion, int row) {
     return work_at(motion, row, 0);
 }
 
-/* A degree of freedom of the first car that goes along size * sin(phase + shift). */
+/* A degree of freedom of the first car with the motion size * sin(phase + shift). */
 typedef struct Leads {
     int dof;
     double size, shift;
@@ -32,9 +32,9 @@ static void lead_car(const Motion *motion, const Leads leads[MOST_LEADS], int i)
     }
 }
 
-/* Leads a standing car around a loop: the work on two rows of the ledger goes up and comes back.
- * The trapezoidal rule over 20,000 steps of a loop is off by some 1e-7 of what goes in and out, the
- * springs' breakpoints by a little more. */
+/* Moves a standing car around a loop: the work on two rows of the ledger rises and returns. The
+ * error of the trapezoidal rule over 20,000 steps of a loop is some 1e-7 of this work, a little
+ * more at the breakpoints of the springs. */
 static void check_loop(const Leads leads[MOST_LEADS], const int rows[2]) {
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
     motion_start(&motion);
@@ -80,8 +80,8 @@ static void springs_of_a_pitching_body_return_their_work(void **state) {
     check_loop(leads, rows);
 }
 
-/* An end mass that is pushed up and comes back stores k z^2 / 2 in its guidance at every step, to
- * rounding; a sum of powers would end below zero. */
+/* An end mass that is pushed up and returns stores k z^2 / 2 in its guidance at every step, to
+ * rounding; a sum of power over time would end below zero. */
 static void guidance_of_an_end_mass_stores_the_energy_of_its_displacement(void **state) {
     (void)state;
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);

@@ -56,8 +56,8 @@ static double ramp_of(double a, double b) {
     return ramp;
 }
 
-/* Faces that fold as mirror images stay upright on the whole; one alone makes half its turn. The
- * slope of a face is the tangent of its turn. */
+/* Faces that rotate as mirror images have an upright mean; a single one gives half its rotation.
+ * The slope of a face is the tangent of its rotation. */
 static void the_ramp_is_the_mean_rotation_of_the_faces(void **state) {
     (void)state;
     assert_near(ramp_of(0.0, 0.0), 0.0, 0.0, 1e-15);
@@ -67,8 +67,8 @@ static void the_ramp_is_the_mean_rotation_of_the_faces(void **state) {
     assert_near(ramp_of(TURN, -TURN), 0.0, 0.0, 1e-15);
 }
 
-/* A body on an incline: its push leans by the slope of the incline less or more the angle of
- * friction, as it slides one way or the other. The difference of two forces loses some digits. */
+/* A body on an incline: its force is inclined by the slope minus or plus the angle of friction,
+ * depending on the direction of sliding. The difference of two forces loses some digits. */
 static void the_force_on_a_sliding_face_is_inclined_by_the_angle_of_friction(void **state) {
     (void)state;
     const double incline = TURN, friction = atan(0.2);

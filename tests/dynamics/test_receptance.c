@@ -1,4 +1,4 @@
-/* The receptance track: its fit, its statics, and the energy that it can give back. */
+/* The receptance track: its fit, its static deflection, and the energy that it can return. */
 #include "physics/collision.h"
 #include "physics/roadbed.h"
 
@@ -19,7 +19,8 @@ static CzReceptance fitted(const CzTrackModes *modes, double axle_spacing, CzAre
 }
 
 /* Between the samples, too, up to where waves of the rail with their nodes near the seats are
- * hardly damped: within what the fit promises at the samples, of the largest receptance. */
+ * hardly damped: within the tolerance of the fit at the samples, relative to the largest
+ * receptance. */
 static void the_fit_is_within_its_error_of_the_modes(void **state) {
     (void)state;
     CzArena arena = {0};
@@ -65,9 +66,9 @@ static void tracks_of_other_lines_are_fitted(void **state) {
     }
 }
 
-/* A track that hardly anything damps: the default model is refused with the way out, which runs,
- * and a search on it stays on it. */
-static void a_track_that_cannot_be_fitted_is_refused_with_a_way_out(void **state) {
+/* A track with hardly any damping: the default model is refused with the advice to use `modal`,
+ * which runs, and a search on `modal` stays on it. */
+static void a_track_that_cannot_be_fitted_is_refused_with_an_alternative(void **state) {
     (void)state;
 #define UNDAMPED                                                                                   \
     "track.pad_damping_N_s_m=1000", "track.ballast_damping_N_s_m=0",                               \
@@ -118,8 +119,9 @@ static void one_wheel_at_rest_deflects_the_track_as_its_statics(void **state) {
 
 /* ---- energy ---- */
 
-/* A mass on a spring and a damper: all that its damper has not had can be got back, if forces act
- * fast against its decay, which takes 1 / 500 of a second here and a millionth in a step. */
+/* A mass on a spring and a damper: all energy that is not yet dissipated can be extracted, if
+ * forces act fast compared with its decay, which takes 1 / 500 of a second here and a millionth in
+ * a step. */
 static void a_swinging_mass_stores_its_energy(void **state) {
     (void)state;
     const double k = 4e7, m = 50.0, decay = 500.0, step = 1e-6, w = sqrt(k / m - decay * decay);
@@ -144,8 +146,8 @@ static void a_swinging_mass_stores_its_energy(void **state) {
     }
 }
 
-/* The fitted modes of one motion under forces that nobody chose: what they take up is never less
- * than what they store, and they never store less than nothing. */
+/* The fitted modes of one motion under random forces: the energy received is never less than the
+ * stored energy, which is never negative. */
 static void fitted_modes_give_back_no_more_than_they_took(void **state) {
     (void)state;
     CzArena arena = {0};
@@ -179,7 +181,7 @@ static void fitted_modes_give_back_no_more_than_they_took(void **state) {
             for (int j = 0; j < 2 * own->n; j++)
                 for (int k = 0; k < 2 * own->n; k++)
                     stored += x[j] * own->storage[2 * own->n * j + k] * x[k];
-            /* Rounding, of the energy that has gone through. */
+            /* Rounding, relative to the energy received and returned. */
             assert_true(stored > -1e-9 * taken);
             assert_true(stored < (1.0 + 1e-6) * taken);
         }
@@ -213,7 +215,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_fit_is_within_its_error_of_the_modes),
         cmocka_unit_test(tracks_of_other_lines_are_fitted),
-        cmocka_unit_test(a_track_that_cannot_be_fitted_is_refused_with_a_way_out),
+        cmocka_unit_test(a_track_that_cannot_be_fitted_is_refused_with_an_alternative),
         cmocka_unit_test(one_wheel_at_rest_deflects_the_track_as_its_statics),
         cmocka_unit_test(a_swinging_mass_stores_its_energy),
         cmocka_unit_test(fitted_modes_give_back_no_more_than_they_took),

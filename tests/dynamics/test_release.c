@@ -5,7 +5,7 @@
 #define STIFFNESS 20e6 /* of the buffer [N/m] */
 #define FORCE 0.6e6    /* of the shear-off [N] */
 
-/* One mass onto a wall: the coupler takes a F^2 + b F until it has been released at the force F. */
+/* One mass onto a wall: the coupler absorbs a F^2 + b F until it is released at the force F. */
 typedef struct {
     const char *speed, *softening; /* settings */
     double before;                 /* [m/s] */
@@ -55,8 +55,8 @@ static void the_peak_is_the_force_of_the_shear_off(void **state) {
     }
 }
 
-/* Ten steps take the strength from its trigger peak down to the plateau: the peak lies in the first
- * one, at its begin. */
+/* The strength falls from its trigger peak to the plateau over ten steps: the peak is at the start
+ * of the first one. */
 static void the_peak_of_a_trigger_is_the_given_force(void **state) {
     (void)state;
     static const char *const steps[] = {"simulation.time_step_ms=0.1",

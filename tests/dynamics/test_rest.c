@@ -5,7 +5,7 @@
 
 enum { N_CAR = 3 };
 
-/* Three cars that touch, all at one speed, rolling without slip. */
+/* Three cars in contact, at equal speed, rolling without slip. */
 static Motion all_on(const char *track, double speed, const char *brake_a, const char *brake_b) {
     Motion motion = motion_open("tests/physics/cases/standing.yaml", WITH(track, brake_a, brake_b));
     for (int car = 0; car < N_CAR; car++)
@@ -172,7 +172,7 @@ static void a_run_that_is_cut_is_incomplete(void **state) {
         collide("tests/physics/cases/plateau.yaml", WITH("simulation.longest_s=0.05"), 0);
     assert_int_equal(cut.summary->status, CZ_OK);
     assert_int_equal(cut.summary->ended, CZ_ENDED_INCOMPLETE);
-    /* The end is looked for every 32 steps; the plateau begins within a step. */
+    /* The end criterion is checked every 32 steps; the plateau begins within a step. */
     const double step = cut.summary->time_step, deceleration = 75.0;
     assert_near(cut.summary->simulated, 0.05, 0.0, 32.0 * step);
     assert_near(cut.summary->closing_speed, 10.0 - deceleration * cut.summary->simulated, 0.0,

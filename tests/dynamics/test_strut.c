@@ -18,7 +18,7 @@ static const CzElementResult *coupler_of(const CzRunSummary *summary, const char
 
 /* The plateau carries until the energy is absorbed after 3 m, more than the length of any coupler.
  * In the scenario with a partner the stiff buffer ahead absorbs some joules. */
-static void a_plateau_between_single_masses_carries_whatever_the_closure(void **state) {
+static void a_plateau_between_single_masses_acts_at_any_closure(void **state) {
     (void)state;
     const double stroke = (ENERGY - BUFFER - ELASTIC) / FORCE;
     for (int scenario = 0; scenario < 3; scenario++) {
@@ -94,7 +94,7 @@ static void a_coupler_that_a_wall_closes_by_its_whole_length_fails_the_run(void 
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_plateau_between_single_masses_carries_whatever_the_closure),
+        cmocka_unit_test(a_plateau_between_single_masses_acts_at_any_closure),
         cmocka_unit_test(the_length_of_a_coupler_does_not_move_single_masses),
         cmocka_unit_test(a_height_does_not_move_single_masses),
         cmocka_unit_test(a_coupler_that_closes_by_its_whole_length_fails_the_run),

@@ -312,7 +312,7 @@ static void elements_deflect_as_the_closed_form(void **state) {
 
 /* Rolling wheels with pulses of 6 ms of three times the static force: elements and modes agree to
  * 0.4 % of the deflection. Two permille are the modes' cut at 1.5 kHz. */
-static void modes_and_elements_deflect_alike(void **state) {
+static void modes_and_elements_have_equal_deflections(void **state) {
     (void)state;
     CzArena arena = {0};
     const double step = 5e-5, load[4] = {70e3, 70e3, 70e3, 70e3};
@@ -361,7 +361,7 @@ int main(void) {
         cmocka_unit_test(a_wheel_on_the_rail_is_stable_up_to_its_bound),
         cmocka_unit_test(elements_converge_to_the_pinned_pinned_frequency),
         cmocka_unit_test(elements_deflect_as_the_closed_form),
-        cmocka_unit_test(modes_and_elements_deflect_alike),
+        cmocka_unit_test(modes_and_elements_have_equal_deflections),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

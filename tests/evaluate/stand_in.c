@@ -82,7 +82,7 @@ const double *cz_run_channel(const CzRun *run, CzChannel channel, int place) {
     return NULL;
 }
 
-/* Takes energy out of `rest` along a plateau and writes the element. */
+/* Takes energy from `rest` along a plateau and fills in the element. */
 static void absorb(CzElementResult *element, double force, double stroke, double *rest) {
     element->energy = fmin(*rest, force * stroke);
     element->tube_energy = element->energy;

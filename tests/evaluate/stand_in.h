@@ -12,7 +12,7 @@
 /* What a test may change. Reset it before use. */
 typedef struct StandIn {
     double failing_above;    /* tube force from which a run fails [N]; infinite for never */
-    double incomplete_above; /* likewise for a run that does not end [N] */
+    double incomplete_above; /* the same for a run that does not end [N] */
     double late_below; /* anti-climber force below which only a full run shows a closing speed of
                           1 m/s at the end [N]; 0 for never */
     int batch_width;

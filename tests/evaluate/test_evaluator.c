@@ -143,7 +143,7 @@ static void design_rules_judge_the_design_and_every_scenario(void **state) {
                 ROUNDING_OF_A_SUM, 0);
     assert_non_null(find(evaluation, "bottoming out under overload", "overload"));
     assert_null(find(evaluation, "bottoming out", "overload"));
-    /* no wheels, so override is not checked, which is no pass */
+    /* no wheels, so override is not checked, which is not a pass */
     assert_int_equal(find(evaluation, "override", "crash")->verdict, CZ_VERDICT_NOT_CHECKED);
     end(&made);
 }
@@ -208,7 +208,8 @@ static void failed_run_is_infeasible_and_not_checked(void **state) {
     end(&made);
 }
 
-/* The remaining oscillation after a pitch period without collision is no closing speed. */
+/* The remaining oscillation after a pitch period without collision does not count as closing speed.
+ */
 static void a_run_that_met_its_end_criterion_has_no_closing_speed(void **state) {
     (void)state;
     Case made = begin(variables);

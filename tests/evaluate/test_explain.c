@@ -89,7 +89,7 @@ static void the_change_that_restores_the_margin_does_so_in_the_file(void **state
     assert_true(candidate->turns);
     assert_true(candidate->margin >= 0);
     assert_true(holds_with_link_height(candidate->needed));
-    /* One step of the search nearer to the file's value it still climbs. */
+    /* One step of the search closer to the value of the file the vehicle still climbs. */
     assert_true(fabs(candidate->not_yet) < fabs(candidate->change));
     assert_false(holds_with_link_height(candidate->value * (1 + candidate->not_yet)));
 }

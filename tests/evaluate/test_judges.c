@@ -60,7 +60,7 @@ static void only_the_named_checks_and_limits_that_name_it_judge_a_scenario(void 
 
 /* 25 km/h is the largest speed that every check judges: its overload covers it, and 40 km/h
  * requires none. */
-static void it_is_no_design_speed(void **state) {
+static void a_scenario_with_selected_checks_is_not_a_design_speed(void **state) {
     (void)state;
     Case made = judge(fast);
     assert_null(find(&made, "bottoming out under overload", "design"));
@@ -73,7 +73,7 @@ static void it_is_no_design_speed(void **state) {
 }
 
 /* The objective belongs to the design case: a scenario beyond the design speed does not count. */
-static void the_objective_leaves_it_out(void **state) {
+static void the_objective_leaves_out_a_scenario_with_selected_checks(void **state) {
     (void)state;
     static const char objective[] = "%s"
                                     "optimise:\n"
@@ -90,7 +90,7 @@ static void the_objective_leaves_it_out(void **state) {
     end(&with);
 }
 
-/* A rule that is left out everywhere is not passed. */
+/* A rule that is left out in every scenario does not pass. */
 static void a_rule_that_judges_nowhere_is_not_checked(void **state) {
     (void)state;
     static const char text[] =
@@ -119,7 +119,7 @@ static void a_rule_that_judges_nowhere_is_not_checked(void **state) {
     end(&made);
 }
 
-static void a_misspelt_judge_is_refused_with_its_place(void **state) {
+static void an_unknown_check_in_judged_by_is_refused_with_its_place(void **state) {
     (void)state;
     CzError error = {0};
     CzEvaluator *evaluator = NULL;
@@ -173,10 +173,10 @@ static void the_distance_from_the_laws_can_be_judged(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_the_named_checks_and_limits_that_name_it_judge_a_scenario),
-        cmocka_unit_test(it_is_no_design_speed),
-        cmocka_unit_test(the_objective_leaves_it_out),
+        cmocka_unit_test(a_scenario_with_selected_checks_is_not_a_design_speed),
+        cmocka_unit_test(the_objective_leaves_out_a_scenario_with_selected_checks),
         cmocka_unit_test(a_rule_that_judges_nowhere_is_not_checked),
-        cmocka_unit_test(a_misspelt_judge_is_refused_with_its_place),
+        cmocka_unit_test(an_unknown_check_in_judged_by_is_refused_with_its_place),
         cmocka_unit_test(a_family_alone_can_be_run),
         cmocka_unit_test(the_distance_from_the_laws_can_be_judged),
     };

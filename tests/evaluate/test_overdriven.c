@@ -12,7 +12,7 @@ enum { MOST_TEXT = 8000 };
 
 typedef struct {
     const char
-        *devices;      /* in devices.def: of a rigid car, and of a full one where that is another */
+        *devices;      /* in devices.def: of a rigid car, and of a full one where it is different */
     const char *where; /* of the event */
     CzElementKind element;
     const char *weak, *strong; /* devices of the end that is overdriven, and of the one it meets */
@@ -208,7 +208,7 @@ static void every_device_of_a_full_car_reports_that_it_bottomed_out(void **state
     overdrive_all(true);
 }
 
-/* A superstructure has no stroke to use: crushing it takes survival space at once. */
+/* A superstructure has no usable stroke: crushing it reduces survival space at once. */
 static void superstructures_that_meet_report_it_and_fail(void **state) {
     (void)state;
     const char *const devices =

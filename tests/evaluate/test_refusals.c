@@ -4,7 +4,7 @@
 #include "evaluate/small_problem.h"
 #include "evaluate/evaluator.h"
 
-/* Reading or building must fail with a place and a sentence that holds these words. */
+/* Reading or building must fail with a place and a sentence that contains these words. */
 static void expect_refusal(const char *more, const char *words) {
     CzError error = {0};
     CzEvaluator *evaluator = NULL;

@@ -59,7 +59,7 @@ static void a_point_is_the_problem_with_that_value(void **state) {
         assert_near(sweep->point[i].value[0], 10 + 10 * i, 0, 0);
         assert_near(sweep->point[i].metric[0], peak_force_with(setting) / 1e3, 0, 0);
     }
-    /* Faster is harder for this problem, so the last point is the worst. */
+    /* In this problem a higher speed has a smaller margin, so the last point is the worst. */
     assert_int_equal(sweep->worst, 3);
     assert_true(sweep->point[3].margin < sweep->point[0].margin);
     assert_int_equal(sweep->point[3].verdict, CZ_VERDICT_FAIL);
@@ -136,7 +136,7 @@ static void values_that_the_reader_refuses_are_invalid_points(void **state) {
     cz_sweep_free(sweep);
 }
 
-static void a_run_that_is_cut_short_is_no_point(void **state) {
+static void a_run_that_is_cut_short_gives_no_point(void **state) {
     (void)state;
     const CzSweepAxis axis = {"simulation.longest_s", 0.05, 6, 2};
     const CzSweepOptions options = options_of(&axis, 1);
@@ -199,7 +199,7 @@ int main(void) {
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(only_the_checks_asked_for_judge),
         cmocka_unit_test(values_that_the_reader_refuses_are_invalid_points),
-        cmocka_unit_test(a_run_that_is_cut_short_is_no_point),
+        cmocka_unit_test(a_run_that_is_cut_short_gives_no_point),
         cmocka_unit_test(a_problem_that_is_invalid_at_every_point_is_refused),
         cmocka_unit_test(an_interrupted_sweep_has_points_that_were_not_run),
         cmocka_unit_test(axes_are_read_from_text),

@@ -68,7 +68,7 @@ static void numbers_that_do_not_depend_on_step_and_solver_pass(void **state) {
 }
 
 /* A check changes by its margin, so by the share of its limit; the bulk of a scenario by its own
- * size; the largest is the largest. */
+ * size; the largest change is that of all values. */
 static void changes_are_relative_to_the_limit(void **state) {
     (void)state;
     Case made = begin(limits);
@@ -215,7 +215,7 @@ static void a_production_run_that_did_not_end_is_a_failure(void **state) {
     end(&made);
 }
 
-static void a_flag_ends_it(void **state) {
+static void a_raised_flag_ends_the_verification(void **state) {
     (void)state;
     Case made = begin(limits);
     const volatile sig_atomic_t stop = 1;
@@ -255,7 +255,7 @@ int main(void) {
         cmocka_unit_test(a_fit_is_verified_by_what_it_matches),
         cmocka_unit_test(methods_can_be_chosen),
         cmocka_unit_test(a_production_run_that_did_not_end_is_a_failure),
-        cmocka_unit_test(a_flag_ends_it),
+        cmocka_unit_test(a_raised_flag_ends_the_verification),
         cmocka_unit_test(an_objective_of_the_callers_own_is_verified_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

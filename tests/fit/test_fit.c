@@ -1,4 +1,4 @@
-/* Curves of known laws give these laws again; other curves keep their energy exactly. */
+/* Curves of known laws return these laws; other curves keep their energy exactly. */
 #include "fit/curves.h"
 
 /* The law absorbs the energy of the curve, to the rounding of sums of some thousand terms. */
@@ -20,14 +20,14 @@ static double of_line_end(double share, int n) {
     return 2.0 * of_mean(share, n);
 }
 
-static Curve curve; /* large; each test begins it anew */
+static Curve curve; /* large; each test starts it afresh */
 
 static const CzStage two_plateaus[] = {{.stroke = 0.2, .force = 5e5, .end_force = NAN},
                                        {.stroke = 0.25, .force = 7e5, .end_force = NAN}};
 
 /* A break is found at a point of the curve, so to half of the distance between two points; the same
  * share of the step of 200 kN changes the mean of a plateau. */
-static void plateaus_and_their_trigger_are_found_again(void **state) {
+static void plateaus_and_their_trigger_are_recovered(void **state) {
     (void)state;
     curve.n = 0;
     load_plastic(&curve, two_plateaus, 2, 8e5, 0.015, 2.5e8);
@@ -69,7 +69,7 @@ static void noise_moves_plateaus_a_little_and_costs_no_energy(void **state) {
     cz_fit_free(fit);
 }
 
-static void as_many_plateaus_are_made_as_are_asked_for(void **state) {
+static void the_requested_number_of_plateaus_is_fitted(void **state) {
     (void)state;
     for (int n = 1; n <= 8; n++) {
         char path[40];
@@ -143,7 +143,7 @@ static void load_end(Curve *made) {
 }
 
 /* All breaks are points of the curve: the tolerance is rounding. */
-static void four_stages_and_two_unloading_stages_are_found_again(void **state) {
+static void four_stages_and_two_unloading_stages_are_recovered(void **state) {
     (void)state;
     char path[40];
     load_end(&curve);
@@ -178,7 +178,7 @@ static void a_noisy_end_keeps_its_energies(void **state) {
     cz_fit_free(fit);
 }
 
-/* A peak that noise has cut off is no first stage of unloading: it would be hundreds of times as
+/* A peak that noise has cut off is not a first unloading stage, which would be hundreds of times as
  * stiff as the line and require a much shorter time step. The 0.1 mm by which the curve falls from
  * its peak add 150 J to the 5625 J of the line. */
 static void a_straight_unloading_stays_one_line(void **state) {
@@ -391,7 +391,7 @@ static void an_invalid_curve_is_refused_with_its_point(void **state) {
 }
 
 /* Curves of any size and few points are fitted with equal energy. */
-static void small_and_large_curves_are_fitted_alike(void **state) {
+static void small_and_large_curves_are_fitted_equally_well(void **state) {
     (void)state;
     for (int power = -2; power <= 0; power++) {
         const double scale = pow(10.0, power);
@@ -410,12 +410,12 @@ static void small_and_large_curves_are_fitted_alike(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plateaus_and_their_trigger_are_found_again),
+        cmocka_unit_test(plateaus_and_their_trigger_are_recovered),
         cmocka_unit_test(noise_moves_plateaus_a_little_and_costs_no_energy),
-        cmocka_unit_test(as_many_plateaus_are_made_as_are_asked_for),
+        cmocka_unit_test(the_requested_number_of_plateaus_is_fitted),
         cmocka_unit_test(more_stages_give_a_smaller_residual),
         cmocka_unit_test(one_plateau_is_the_mean_force),
-        cmocka_unit_test(four_stages_and_two_unloading_stages_are_found_again),
+        cmocka_unit_test(four_stages_and_two_unloading_stages_are_recovered),
         cmocka_unit_test(a_noisy_end_keeps_its_energies),
         cmocka_unit_test(a_straight_unloading_stays_one_line),
         cmocka_unit_test(an_end_that_does_not_unload_gets_a_stiffness_that_the_law_allows),
@@ -426,7 +426,7 @@ int main(void) {
         cmocka_unit_test(a_law_beyond_the_ranges_of_a_problem_file_is_refused),
         cmocka_unit_test(a_buffer_never_falls),
         cmocka_unit_test(an_invalid_curve_is_refused_with_its_point),
-        cmocka_unit_test(small_and_large_curves_are_fitted_alike),
+        cmocka_unit_test(small_and_large_curves_are_fitted_equally_well),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Memory that runs out at every request in turn: the status says so and nothing leaks. The linker
- * sends the allocations of the library here (--wrap). */
+/* Every request for memory fails in turn: the status reports it and nothing leaks. The linker
+ * redirects the allocations of the library (--wrap). */
 #include "fit/curves.h"
 
 #include "crushzone/report.h"
@@ -65,8 +65,8 @@ static void every_lack_of_memory_is_reported(void **state) {
     }
 }
 
-/* Titles are in the first line that is no comment, with or without quotes. Only requests that the
- * linker sends here are counted. */
+/* Titles are in the first line that is not a comment, with or without quotes. Only requests that
+ * the linker redirects are counted. */
 static void titles_are_read_or_the_lack_of_memory_is_reported(void **state) {
     (void)state;
     static const char path[] = "titles.csv";

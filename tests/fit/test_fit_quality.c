@@ -4,7 +4,7 @@
 #include "fit/staged.h"
 #include "model/breakpoints.h"
 
-static Curve curve; /* large; each test begins it anew */
+static Curve curve; /* large; each test starts it afresh */
 
 /* A tube of 510 kN over 300 mm behind 200 MN/m, then its stop of 1000 MN/m up to 3 MN. */
 static void load_with_stop(void) {
@@ -79,7 +79,7 @@ static void load_rising(double from, double fold) {
 }
 
 /* Its last force is 16 % above the mean of the second half. */
-static void a_rising_plateau_is_no_part_of_its_stop(void **state) {
+static void a_rising_plateau_is_not_part_of_its_stop(void **state) {
     (void)state;
     load_rising(0.24, 0.0);
     CzFit *fit = fit_of(&curve, CZ_FIT_ANTI_CLIMBER, -1);
@@ -95,9 +95,9 @@ static void a_rising_plateau_is_no_part_of_its_stop(void **state) {
     cz_fit_free(fit);
 }
 
-/* A buffer's line follows such a plateau well and leaves the tube a short end of it. What the line
- * has above the tube's force once raised that end to 1.5 times the curve. */
-static void no_short_tube_takes_what_its_buffer_lacks(void **state) {
+/* A buffer's line follows such a plateau well and leaves the tube a short end of it. An earlier
+ * version raised that end to 1.5 times the curve by the area between line and tube force. */
+static void no_short_tube_is_fitted_for_missing_energy_of_a_buffer(void **state) {
     (void)state;
     load_rising(0.0, 0.1);
     CzFit *fit = fit_of(&curve, CZ_FIT_COUPLER, -1);
@@ -112,7 +112,7 @@ static void no_short_tube_takes_what_its_buffer_lacks(void **state) {
 }
 
 /* A second plateau and a slow rise are stages, whatever their force. */
-static void a_higher_stage_is_no_stop(void **state) {
+static void a_higher_stage_is_not_a_stop(void **state) {
     (void)state;
     const CzStage stage[] = {{.stroke = 0.2, .force = 5e5, .end_force = NAN},
                              {.stroke = 0.2, .force = 9e5, .end_force = NAN}};
@@ -165,7 +165,7 @@ static void a_shear_off_keeps_its_residual_force(void **state) {
 }
 
 /* Friction does not keep 40 % of 911 kN: a lower stage, and the notes say why. */
-static void a_drop_that_leaves_too_much_for_a_shear_off_is_told(void **state) {
+static void a_drop_to_too_high_a_force_for_a_shear_off_is_reported(void **state) {
     (void)state;
     load_shear_off(0.4 * 9.11e5);
     CzFit *fit = fit_of(&curve, CZ_FIT_COUPLER, -1);
@@ -231,7 +231,7 @@ static void two_numbers_near_zero_give_no_stiffness(void **state) {
 }
 
 /* The unloading of a thousandth of the stroke is noise, and gives no stiffness. */
-static void a_load_that_drops_at_the_end_is_no_unloading(void **state) {
+static void a_load_that_drops_at_the_end_is_not_an_unloading(void **state) {
     (void)state;
     const CzStage stage[] = {{.stroke = 0.3, .force = 5e5, .end_force = NAN}};
     curve.n = 0;
@@ -316,15 +316,15 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_stage_ends_where_the_stop_begins),
         cmocka_unit_test(a_noisy_stop_is_found_too),
-        cmocka_unit_test(a_rising_plateau_is_no_part_of_its_stop),
-        cmocka_unit_test(no_short_tube_takes_what_its_buffer_lacks),
-        cmocka_unit_test(a_higher_stage_is_no_stop),
+        cmocka_unit_test(a_rising_plateau_is_not_part_of_its_stop),
+        cmocka_unit_test(no_short_tube_is_fitted_for_missing_energy_of_a_buffer),
+        cmocka_unit_test(a_higher_stage_is_not_a_stop),
         cmocka_unit_test(a_shear_off_keeps_its_residual_force),
-        cmocka_unit_test(a_drop_that_leaves_too_much_for_a_shear_off_is_told),
+        cmocka_unit_test(a_drop_to_too_high_a_force_for_a_shear_off_is_reported),
         cmocka_unit_test(a_rupture_is_doubtful_as_a_coupler),
         cmocka_unit_test(a_law_far_from_its_curve_is_refused),
         cmocka_unit_test(two_numbers_near_zero_give_no_stiffness),
-        cmocka_unit_test(a_load_that_drops_at_the_end_is_no_unloading),
+        cmocka_unit_test(a_load_that_drops_at_the_end_is_not_an_unloading),
         cmocka_unit_test(an_end_whose_force_falls_to_zero_is_fitted),
         cmocka_unit_test(bounded_forces_are_the_least_squares),
     };

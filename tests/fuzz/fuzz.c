@@ -1,4 +1,4 @@
-/* What the fuzz targets share. */
+/* Functions that all fuzz targets use. */
 #include "fuzz/fuzz.h"
 
 #include <string.h>

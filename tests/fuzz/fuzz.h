@@ -1,6 +1,6 @@
-/* What the fuzz targets share. A target is one source with LLVMFuzzerTestOneInput: it gives one
- * input to one reader and checks what must be true for every input. Linked with libFuzzer it
- * searches for inputs, linked with replay.c it tries given files. */
+/* Functions that all fuzz targets use. A target is one source with LLVMFuzzerTestOneInput: it
+ * passes one input to one reader and checks the conditions that every input must satisfy. Linked
+ * with libFuzzer it searches for inputs, linked with replay.c it tries given files. */
 #ifndef CZ_TESTS_FUZZ_H
 #define CZ_TESTS_FUZZ_H
 

@@ -25,5 +25,5 @@ searched() { # findings are in the log, and the input in crash-..., timeout-...,
 check "$target: no input of $seconds s of fuzzing violates a condition" searched
 n_input=$(sed -n 's/^stat::number_of_executed_units: *//p' log)
 echo "$target: ${n_input:-no} inputs in $seconds s"
-check "$target: fuzzing tried inputs by the hundred" test "${n_input:-0}" -ge 100
+check "$target: fuzzing tried hundreds of inputs" test "${n_input:-0}" -ge 100
 finish

@@ -25,7 +25,7 @@ static void capacity_is_engaged_ribs_and_friction(void **state) {
 }
 
 /* The offset modulo the pitch decides: flank to flank within a quarter, tip to tip at a half. */
-static void ribs_seat_at_the_offset_modulo_the_pitch(void **state) {
+static void ribs_mesh_by_the_offset_modulo_the_pitch(void **state) {
     (void)state;
     for (int pitches = -3; pitches <= 3; pitches++) {
         const double valley = 0.05 * pitches;
@@ -59,7 +59,7 @@ static void residual_capacity_does_not_depend_on_the_first_touch(void **state) {
     assert_near(cz_ribs(&ribs, 0.025, 1e-9, 1.0, 0.0).ready, 0.2 * CZ_READY_FORCE, 1e-9, 0.0);
 }
 
-/* Half a pitch of slip against meshed ribs leaves friction alone. */
+/* After half a pitch of slip against meshed ribs only friction remains. */
 static void ribs_shear_off_over_half_a_pitch(void **state) {
     (void)state;
     assert_near(cz_ribs(&ribs, 0.0, 0.1, 1e5, 0.0125).capacity, 0.5 * 256e3 + 0.2e5, 1e-13, 0.0);
@@ -100,7 +100,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(capacity_is_engaged_ribs_and_friction),
         cmocka_unit_test(residual_capacity_does_not_depend_on_the_first_touch),
-        cmocka_unit_test(ribs_seat_at_the_offset_modulo_the_pitch),
+        cmocka_unit_test(ribs_mesh_by_the_offset_modulo_the_pitch),
         cmocka_unit_test(ribs_engage_over_their_depth),
         cmocka_unit_test(ribs_shear_off_over_half_a_pitch),
         cmocka_unit_test(nearest_whole_numbers),

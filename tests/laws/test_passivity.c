@@ -143,7 +143,7 @@ static bool only_takes(const Walk *walk, uint64_t seed) {
     return true;
 }
 
-static void no_walk_creates_energy(void **state) {
+static void no_random_walk_creates_energy(void **state) {
     (void)state;
     for (int i = 0; i < N_WALK; i++) {
         for (uint64_t seed = 1; seed <= N_SEED; seed++) {
@@ -157,7 +157,7 @@ static void no_walk_creates_energy(void **state) {
 
 /* Errors that the walks find: a stop that is part of a curve with hysteresis instead of parallel to
  * it, and a stage that rises faster than its unloading. */
-static void a_walk_finds_an_element_that_creates_energy(void **state) {
+static void a_random_walk_finds_an_element_that_creates_energy(void **state) {
     (void)state;
     CzBufferLaw stop_in_curve = coupled;
     stop_in_curve.usable = 1e30;
@@ -205,8 +205,8 @@ static void a_creeping_wheel_only_dissipates(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_walk_creates_energy),
-        cmocka_unit_test(a_walk_finds_an_element_that_creates_energy),
+        cmocka_unit_test(no_random_walk_creates_energy),
+        cmocka_unit_test(a_random_walk_finds_an_element_that_creates_energy),
         cmocka_unit_test(a_damper_only_dissipates),
         cmocka_unit_test(a_creeping_wheel_only_dissipates),
     };

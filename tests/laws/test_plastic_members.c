@@ -10,8 +10,8 @@
 
 enum { TUBE, SHEAR_OFF };
 
-/* What a member is short of its strength while it is driven in steps of 1 um: it follows within a
- * step, and a step of the spring before it is 200 N of some 600 kN. */
+/* Difference between force and strength of a member that is driven in steps of 1 um: it follows
+ * within a step, and a step of the spring before it is 200 N of some 600 kN. */
 #define SETTLED 4e-4
 
 /* A member behind a spring of 200 MN/m. */

@@ -54,7 +54,7 @@ static void an_end_without_tension_opens_without_force(void **state) {
 }
 
 /* Strained by 10 mm of its elastic part, 60 MN/m, the path of the unloading stages lies below zero
- * at zero shortening: the backbone takes its place near zero, and no slack is left behind. */
+ * at zero shortening: the backbone replaces it near zero, so that no slack remains. */
 static void the_elastic_part_leaves_no_slack(void **state) {
     (void)state;
     assert_near(end_at(0.001, 0.01).force, 6e4, 1e-12, 0.0);

@@ -57,7 +57,7 @@ static void long_plateaus_have_ramps_of_five_millimetres(void **state) {
     assert_near(cz_breakpoints_value(&breakpoints, 1.0 + 1.25e-3), 1.75e6, ROUNDING_OF_A_SUM, 0.0);
 }
 
-static void sloping_plateaus_start_and_end_where_they_say(void **state) {
+static void sloping_plateaus_start_and_end_at_their_forces(void **state) {
     (void)state;
     CzStage stage[] = {level(0.5, 4e5), level(0.5, 8e5)};
     stage[0].end_force = 6e5;
@@ -164,7 +164,7 @@ int main(void) {
         cmocka_unit_test(one_level_plateau_holds_its_force_and_then_bottoms_out),
         cmocka_unit_test(plateaus_keep_their_energy_over_the_ramps),
         cmocka_unit_test(long_plateaus_have_ramps_of_five_millimetres),
-        cmocka_unit_test(sloping_plateaus_start_and_end_where_they_say),
+        cmocka_unit_test(sloping_plateaus_start_and_end_at_their_forces),
         cmocka_unit_test(the_trigger_adds_a_triangle),
         cmocka_unit_test(breakpoints_are_in_order_of_stroke),
         cmocka_unit_test(loading_stages_pass_through_their_end_forces),

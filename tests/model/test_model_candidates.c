@@ -68,7 +68,7 @@ static void a_design_does_not_depend_on_its_neighbours(void **state) {
     free_model(&built);
 }
 
-static void filling_again_forgets_the_last_candidate(void **state) {
+static void filling_again_overwrites_the_last_candidate(void **state) {
     (void)state;
     make_problem();
     Built built = build_model(&problem);
@@ -168,7 +168,7 @@ static void breakpoints_of_a_lane_are_in_order_of_stroke(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_design_does_not_depend_on_its_neighbours),
-        cmocka_unit_test(filling_again_forgets_the_last_candidate),
+        cmocka_unit_test(filling_again_overwrites_the_last_candidate),
         cmocka_unit_test(a_longer_anti_climber_lengthens_its_end_of_the_car),
         cmocka_unit_test(a_trigger_given_later_still_fits),
         cmocka_unit_test(the_last_breakpoint_is_the_end_of_the_stroke),

@@ -152,7 +152,7 @@ static void the_wheels_stand_on_the_rails_with_their_load(void **state) {
     free_model(&built);
 }
 
-static void brakes_act_on_the_axles_from_the_front_on(void **state) {
+static void brakes_act_on_the_axles_from_the_front(void **state) {
     (void)state;
     const CzVehicle car = typed_full();
     struct CzProblem problem;
@@ -261,7 +261,7 @@ int main(void) {
         cmocka_unit_test(load_absorbers_and_mass_factor_go_into_the_body),
         cmocka_unit_test(loads_at_rest_carry_the_weight_and_its_moment),
         cmocka_unit_test(the_wheels_stand_on_the_rails_with_their_load),
-        cmocka_unit_test(brakes_act_on_the_axles_from_the_front_on),
+        cmocka_unit_test(brakes_act_on_the_axles_from_the_front),
         cmocka_unit_test(a_scenarios_friction_keeps_the_ratio_of_sliding_friction),
         cmocka_unit_test(springs_that_carry_tension_never_go_slack),
         cmocka_unit_test(locked_ends_are_stiff_and_free_ones_as_given),

@@ -160,7 +160,7 @@ static void a_wall_meets_coupler_and_anti_climber_at_their_heights(void **state)
     free_model(&built);
 }
 
-static void couplers_of_one_moving_side_alone_do_nothing(void **state) {
+static void couplers_of_one_moving_side_only_have_no_effect(void **state) {
     (void)state;
     const CzVehicle car = typed_full(), wagon = typed_rigid(80e3);
     struct CzProblem problem;
@@ -307,7 +307,7 @@ int main(void) {
         cmocka_unit_test(inner_couplers_are_coupled_face_to_face),
         cmocka_unit_test(height_offsets_raise_the_parts_ahead),
         cmocka_unit_test(a_wall_meets_coupler_and_anti_climber_at_their_heights),
-        cmocka_unit_test(couplers_of_one_moving_side_alone_do_nothing),
+        cmocka_unit_test(couplers_of_one_moving_side_only_have_no_effect),
         cmocka_unit_test(crush_zones_without_end_mass_lie_in_series_with_the_face),
         cmocka_unit_test(devices_side_by_side_multiply_forces_and_stiffness),
         cmocka_unit_test(side_buffers_push_in_pairs),

@@ -148,7 +148,7 @@ static void trains_and_scenarios_must_be_there(void **state) {
     assert_non_null(strstr(error.message, "no scenario number 7"));
 }
 
-static void walls_stand_still_and_alone(void **state) {
+static void walls_do_not_move_and_do_not_meet(void **state) {
     (void)state;
     const CzVehicle wall = typed_wall();
     make_problem();
@@ -208,7 +208,7 @@ int main(void) {
         cmocka_unit_test(ends_must_not_return_more_energy_than_they_absorb),
         cmocka_unit_test(curves_must_be_possible),
         cmocka_unit_test(trains_and_scenarios_must_be_there),
-        cmocka_unit_test(walls_stand_still_and_alone),
+        cmocka_unit_test(walls_do_not_move_and_do_not_meet),
         cmocka_unit_test(parts_must_not_overlap_where_couplers_touch),
         cmocka_unit_test(a_time_step_above_a_bound_names_the_element),
         cmocka_unit_test(a_candidate_with_more_stages_is_refused),

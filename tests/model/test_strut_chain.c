@@ -43,7 +43,7 @@ static double lowest(const Train *train) {
 
 /* ---- closed forms ---- */
 
-/* Two equal cars turn alike by b and move apart by 2 z: two unknowns, det(K - F G) = 0. */
+/* Two equal cars rotate equally by b and move apart by 2 z: two unknowns, det(K - F G) = 0. */
 static void two_cars_fold_at_their_closed_form(void **state) {
     (void)state;
     Train train = equal_train(2);
@@ -64,9 +64,9 @@ static double endless_chain(void) {
     return (2.0 * k * lc * lc + 2.0 * h * g * g) / (2.0 * a * g);
 }
 
-/* F_saw: all cars turned alike. A train of n cars folds in half a wave of this shape, at a force
+/* F_saw: all cars rotate equally. A train of n cars folds in half a wave of this shape, at a force
  * that is higher by a part that falls with the square of n. */
-static void longer_trains_approach_the_sawtooth_of_an_endless_chain(void **state) {
+static void longer_trains_approach_the_sawtooth_of_an_infinite_chain(void **state) {
     (void)state;
     double above[3];
     for (int i = 0; i < 3; i++) {
@@ -80,9 +80,9 @@ static void longer_trains_approach_the_sawtooth_of_an_endless_chain(void **state
     assert_near(above[2], 0.0, 0.0, 2e-4 * endless_chain());
 }
 
-/* Against a smooth wall a car turns alone: springs and one hinge against the shortening between its
- * two pivots. */
-static void a_car_against_a_wall_turns_alone(void **state) {
+/* Against a smooth wall a car rotates by itself: springs and one hinge against the shortening
+ * between its two pivots. */
+static void a_car_against_a_wall_rotates_between_its_pivots(void **state) {
     (void)state;
     Train train = equal_train(2);
     train.car[1].spring = 0.0;
@@ -241,7 +241,7 @@ static void cars_with_pivots_on_their_ends_fold_there_too(void **state) {
     assert_true(lowest(&train) < 0.97 * lowest(&body));
 }
 
-static void trains_against_a_wall_and_against_a_held_body_do_so(void **state) {
+static void trains_against_a_wall_or_a_held_body_fold_at_their_energy_minimum(void **state) {
     (void)state;
     Train train = equal_train(4);
     train.car[3].spring = 0.0;
@@ -250,7 +250,7 @@ static void trains_against_a_wall_and_against_a_held_body_do_so(void **state) {
     assert_folds_where_its_energy_says(&train);
 }
 
-/* ---- each strut has the lowest shape that goes through it ---- */
+/* ---- each strut has the lowest shape that belongs to it ---- */
 
 /* Eight struts away; a shape falls by more than half from strut to strut. */
 static void a_soft_strut_does_not_change_a_distant_one(void **state) {
@@ -314,13 +314,13 @@ static void the_force_has_no_jump_where_another_shape_takes_over(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_cars_fold_at_their_closed_form),
-        cmocka_unit_test(longer_trains_approach_the_sawtooth_of_an_endless_chain),
-        cmocka_unit_test(a_car_against_a_wall_turns_alone),
+        cmocka_unit_test(longer_trains_approach_the_sawtooth_of_an_infinite_chain),
+        cmocka_unit_test(a_car_against_a_wall_rotates_between_its_pivots),
         cmocka_unit_test(fixed_cars_do_not_fold),
         cmocka_unit_test(a_pivot_on_a_stiff_end_is_one_on_the_body),
         cmocka_unit_test(unlike_cars_fold_where_their_energy_loses_its_minimum),
         cmocka_unit_test(cars_with_pivots_on_their_ends_fold_there_too),
-        cmocka_unit_test(trains_against_a_wall_and_against_a_held_body_do_so),
+        cmocka_unit_test(trains_against_a_wall_or_a_held_body_fold_at_their_energy_minimum),
         cmocka_unit_test(a_soft_strut_does_not_change_a_distant_one),
         cmocka_unit_test(all_struts_of_a_train_of_equal_cars_fold_together),
         cmocka_unit_test(unconnected_parts_of_a_chain_are_independent),

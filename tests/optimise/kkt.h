@@ -25,8 +25,8 @@ static inline double slope(const Analytic *analytic, const double *x, int constr
     return (value[1] - value[0]) / (2 * h);
 }
 
-/* Residual of the stationarity, relative to the gradient of the objective; constraints within
- * `tolerance` of 0 are taken as active. */
+/* Residual of the stationarity condition, relative to the gradient of the objective; constraints
+ * within `tolerance` of 0 are taken as active. */
 static inline double kkt_residual(const Analytic *analytic, const double *x, double tolerance) {
     const int n = analytic->n_variable;
     double c[MOST_CONSTRAINTS] = {0}, row[MOST_CONSTRAINTS + 2 * MOST_VARIABLES][MOST_VARIABLES];

@@ -71,7 +71,7 @@ static void tied_places_of_other_units_share_the_bounds(void **state) {
     end(&made);
 }
 
-/* ---- what does not vary ---------------------------------------------------------------------- */
+/* ---- fixed variables ---------------------------------------------------------------------- */
 
 #define VARIED                                                                                     \
     "checks: {design_rules: false,\n"                                                              \

@@ -83,7 +83,7 @@ static void optimiser_cannot_win_with_anti_climbers_that_slip(void **state) {
 }
 
 /* With a late anti-climber heavy bogies oscillate at their links, which then absorb its share. */
-static void optimiser_cannot_win_by_working_the_running_gear(void **state) {
+static void optimiser_cannot_win_by_absorbing_energy_in_the_running_gear(void **state) {
     (void)state;
     check_cheat(&(Cheat){
         .problem = TWO_AND_TWO("speed_km_h: 18, duration_ms: 600",
@@ -157,7 +157,7 @@ static void optimiser_cannot_dilute_the_mean_deceleration(void **state) {
     end(&honest);
 }
 
-/* ---- runs that give no answer ---------------------------------------------------------------- */
+/* ---- runs without a result ---------------------------------------------------------------- */
 
 #define TWO_RIGID(simulation)                                                                      \
     "schema: 1\n"                                                                                  \
@@ -284,7 +284,7 @@ int main(void) {
         cmocka_unit_test(optimiser_cannot_win_by_climbing),
         cmocka_unit_test(optimiser_cannot_win_by_losing_the_overlap_of_the_anti_climbers),
         cmocka_unit_test(optimiser_cannot_win_with_anti_climbers_that_slip),
-        cmocka_unit_test(optimiser_cannot_win_by_working_the_running_gear),
+        cmocka_unit_test(optimiser_cannot_win_by_absorbing_energy_in_the_running_gear),
         cmocka_unit_test(optimiser_cannot_win_by_crushing_the_survival_space),
         cmocka_unit_test(optimiser_cannot_dilute_the_mean_deceleration),
         cmocka_unit_test(optimiser_cannot_win_with_a_tube_longer_than_its_coupler),

@@ -1,4 +1,4 @@
-/* Fits of parameters to measurements: the parameters of a run are found again, and parameters that
+/* Fits of parameters to measurements: the parameters of a run are recovered, and parameters that
  * cannot be identified are reported. */
 #include "optimise/cheats.h"
 
@@ -160,7 +160,7 @@ static void scalars_and_times_of_events_are_matched(void **state) {
     assert_near(run.match[1].residual, -0.5, 1e-9, 0);
     assert_near(run.match[2].residual, 0, 0, 1e-9);
     assert_near(run.objective, 0.25, 1e-9, 0);
-    assert_int_equal(run.n_constraint, 3); /* checks are no constraints of a fit */
+    assert_int_equal(run.n_constraint, 3); /* checks are not constraints of a fit */
     assert_near(run.constraint[1], -0.5, 1e-9, 0);
     assert_near(run.violation, 0, 0, 0);
     cz_evaluation_free(&run);

@@ -41,8 +41,9 @@ static void design_that_passes_is_found_on_the_catalogue_steps(void **state) {
     }
     assert_true(outcome->best_evaluation.violation <= 0);
     assert_int_equal(outcome->best_evaluation.n_run, 5);
-    /* 0.9 x tube + 0.9 x climbers must take 241 kJ a side at 25 km/h, the whole 321 kJ at overload;
-     * the strongest devices allowed are the shortest: the anti-climbers carry 1400 kN */
+    /* 0.9 x tube + 0.9 x climbers must absorb 241 kJ on each side at 25 km/h, without the reserve
+     * 321 kJ at overload; the strongest devices allowed are the shortest: the anti-climbers carry
+     * 1400 kN */
     assert_true(outcome->best_evaluation.objective < outcome->start_evaluation.objective);
     end(&made);
 }
@@ -263,7 +264,7 @@ static void search_in_which_most_designs_fail_ends_as_failed(void **state) {
     end(&made);
 }
 
-/* ---- cheats that need a simulator that can be given what to answer --------------------------- */
+/* ---- loopholes that need a simulator with given results --------------------------- */
 
 static void optimiser_cannot_win_by_crushing_the_survival_space(void **state) {
     (void)state;

@@ -12,10 +12,10 @@ const Step fine_step = {1e-5, "step 0.01 ms", 1e-4, NAN};
 
 /* An interface that begins to close from rest builds its force up over a quarter of an oscillation
  * on its elastic stiffness k, so its response is delayed by a time that falls with the square root
- * of k only: at 8e11 N/m, the most that the reader accepts, crushes are wrong by 0.4 %. The closed
- * forms know no elasticity, so k is 1e14 N/m for a thousandth and 4e15 N/m for a ten-thousandth,
- * with steps below the bound 2 sqrt(m / 2k): shorter than 1e-5 s, at which no stiffness is both
- * stable and high enough. */
+ * of k only: at 8e11 N/m, the largest value that the reader accepts, crushes are wrong by 0.4 %.
+ * The closed forms have no elasticity, so k is 1e14 N/m for a thousandth and 4e15 N/m for a
+ * ten-thousandth, with steps below the bound 2 sqrt(m / 2k): shorter than 1e-5 s, at which no
+ * stiffness is both stable and high enough. */
 const Step stiff_step = {1e-5, "1e14 N/m, step 0.01 ms", 1e-3, 1e14};
 const Step stiffer_step = {2e-6, "4e15 N/m, step 0.002 ms", 1e-4, 4e15};
 
@@ -237,8 +237,8 @@ static int outcomes_of_rigid_plastic(const char *file, const Step *step, Measure
     return n_outcome;
 }
 
-/* When the leading and when the rear car stop; crush and energy of both interfaces, energy of the
- * whole, energy before. */
+/* When the leading and when the rear car stop; crush and energy of both interfaces, total energy,
+ * energy before. */
 static int measure_two(const Collision *collision, double *outcome) {
     const CzRunSummary *summary = collision->summary;
     outcome[0] =

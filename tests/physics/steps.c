@@ -212,7 +212,7 @@ Difference difference_of(const CzRunSummary *a, const CzRunSummary *b, double sh
 
 /* A file with the step of the production run and the time up to which solvers are compared [s]: 0
  * are the file's own. Where trains keep rolling with their brakes on, the compared values are final
- * long before they stand. */
+ * long before the trains stand. */
 typedef struct Compared {
     const char *file;
     double step, until;

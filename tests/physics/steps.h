@@ -15,7 +15,7 @@ void rows_of_step_convergence(Rows *rows);
 void rows_of_balances(Rows *rows);
 void rows_of_balances_on_rigid_rails(Rows *rows); /* those that require them */
 
-/* Largest relative differences of the judged results of two runs. Small values count against a
+/* Largest relative differences of the judged results of two runs. Small values are relative to a
  * floor (10 kN, 1 mm, 10 mm of an element's stroke, a `share` of all dissipated energy, 1 mm/s2,
  * 0.1 mrad). */
 typedef struct Difference {

@@ -90,7 +90,7 @@ static void stiffer_springs_lower_the_lift_and_a_higher_centre_of_gravity_raises
     assert_true(softer > lift);
     /* The ends push 0.65 m below a centre of gravity of 1.6 m: 20 % of its height are 49 % of that
      * lever, up or down, and so about of the pitch. The gaps of the stops absorb 55 mm of the
-     * seat's rise, so that 3 % more pitch double a lift of 2 mm, and half of it lifts nothing. At
+     * seat's rise, so that 3 % more pitch double a lift of 2 mm, and half of it lifts no wheel. At
      * 38 km/h the wheel would rise above its flange of 28 mm, at 31 km/h not yet. */
     speed = "trains.A.speed_km_h=31";
     const double as_written = rear_lift(speed, NULL);
@@ -122,9 +122,9 @@ static double bogie_lift(const CzRunSummary *summary, int car, int bogie) {
     return fmax(lift[2 * bogie], lift[2 * bogie + 1]);
 }
 
-/* EN 15227's 40 mm, either way. The faces meet between the heights of the two: the higher car is
- * pushed further below its centre of gravity, its nose goes down and its far bogie up, by at least
- * a countable lift more than when both are level. */
+/* The 40 mm of EN 15227, in both directions. The faces meet between the heights of the two: the
+ * higher car is pushed further below its centre of gravity, its nose goes down and its far bogie
+ * up, by at least a countable lift more than when both are level. */
 static void an_offset_of_40_mm_lifts_the_far_bogie_of_the_higher_car(void **state) {
     (void)state;
     static const char *const offsets[] = {"trains.B.height_offset_mm=-40",
@@ -190,7 +190,7 @@ static double bend_of(int n, const double *value, int every) {
     return largest;
 }
 
-/* Difference quotients of neighbours have one sign, so a search is led one way. Their change is
+/* Difference quotients of neighbours have one sign, so a search has one direction. Their change is
  * that of a smooth curve: half the distance makes it a quarter, at a breakpoint a half; over a
  * jump, and in a chaotic response, it does not fall. */
 #define MOST_OF_A_JUMP 1.5 /* between the factors of a jump, 1, and of a breakpoint, 2 */

@@ -1,7 +1,7 @@
 /* Collisions of rigid cars whose outcome is known in closed form. */
 #include "physics/closed_forms.h"
 
-static Rows rows; /* large; each test begins it anew */
+static Rows rows; /* large; each test starts it afresh */
 
 static void with_steps(void (*rows_of)(Rows *, const Step *), const Step *a, const Step *b) {
     rows.n = 0;

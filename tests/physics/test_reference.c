@@ -80,7 +80,7 @@ static void every_integrator_exchanges_the_speeds_of_equal_masses(void **state) 
 
 /* The coupler of sequence.yaml releases when its tube of 299.5 mm is exhausted and 0.1 mm of its
  * softening length is used, so at the speed that follows from its energy: v^2 = v0^2 - 2 * 0.6 MN *
- * 0.2996 m / 40 t, after (v0 - v) m / F. The buffer's 0.06 mm are neglected; they take 9 us.
+ * 0.2996 m / 40 t, after (v0 - v) m / F. The buffer's 0.06 mm are neglected; their effect is 9 us.
  */
 static void every_integrator_finds_the_time_at_which_a_coupler_shears_off(void **state) {
     (void)state;
@@ -120,13 +120,13 @@ static void a_located_drop_does_not_depend_on_the_step(void **state) {
 
 /* ---- solver against solver ----
  *
- * Short trains on their own tracks, and six cars onto six, are held by the verification page alone
- * (tests/verification), which takes its time.
+ * Short trains on their own tracks, and two trains of six cars, are compared by the verification
+ * page only (tests/verification), which takes longer.
  */
 
 /* The track's modes are advanced exactly by the production run, and as differential equations by
- * the references. What the track absorbs is some joules, most of it in the first milliseconds of
- * each contact: two per cent. */
+ * the references. The track absorbs some joules, most of them in the first milliseconds of each
+ * contact: two per cent. */
 static void two_cars_on_an_elastic_track_agree(void **state) {
     (void)state;
     const char *file = "problems/two-cars-25kmh.yaml";

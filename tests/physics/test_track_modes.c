@@ -154,7 +154,7 @@ static void a_harmonic_force_finds_the_track_of_continuous_layers(void **state) 
     assert_rows_of(rows_of_receptance);
 }
 
-static void an_impact_deflects_modes_and_elements_alike(void **state) {
+static void an_impact_deflects_modes_and_elements_equally(void **state) {
     (void)state;
     assert_rows_of(rows_of_impact);
 }
@@ -196,7 +196,7 @@ int main(void) {
         cmocka_unit_test(modes_converge_to_the_statics),
         cmocka_unit_test(the_models_of_a_run_deflect_as_published),
         cmocka_unit_test(a_harmonic_force_finds_the_track_of_continuous_layers),
-        cmocka_unit_test(an_impact_deflects_modes_and_elements_alike),
+        cmocka_unit_test(an_impact_deflects_modes_and_elements_equally),
         cmocka_unit_test(shipped_problems_keep_their_energy_balance_on_rails),
         cmocka_unit_test(a_track_with_overdamped_modes_is_built),
     };

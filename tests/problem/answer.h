@@ -1,5 +1,5 @@
-/* What a problem answers, as text: the summary of its scenarios, or of its search, without what is
- * no result; or that the reader refuses it. */
+/* The results of a problem as text: the summary of its scenarios, or of its search, without times
+ * and paths; or the refusal of the reader. */
 #ifndef CZ_TESTS_PROBLEM_ANSWER_H
 #define CZ_TESTS_PROBLEM_ANSWER_H
 
@@ -22,7 +22,7 @@ static inline void answer_free(Answer *answer) {
     answer->text = NULL;
 }
 
-/* Takes out what is no result: everything from a text up to another. */
+/* Removes everything from one text up to another. */
 static void cut(char *text, const char *from, const char *to) {
     for (char *at = strstr(text, from); at != NULL; at = strstr(at, from)) {
         const char *end = strstr(at + strlen(from), to);

@@ -56,8 +56,8 @@ static void friction_falls_only_to_a_sliding_friction(void **state) {
     cz_problem_free(problem);
 }
 
-/* A number of one record that needs one of another record is warned of where it stands alone. */
-static void what_needs_another_record_is_warned_of_without_it(void **state) {
+/* A number of one record that needs a number of another record is warned of without it. */
+static void keys_that_need_another_record_are_warned_of_without_it(void **state) {
     (void)state;
     static const struct {
         const char *text, *warning; /* NULL: none */
@@ -224,7 +224,7 @@ int main(void) {
         cmocka_unit_test(a_key_that_lacks_its_sibling_is_warned_of_at_its_place),
         cmocka_unit_test(a_key_beside_its_sibling_is_not_warned_of),
         cmocka_unit_test(friction_falls_only_to_a_sliding_friction),
-        cmocka_unit_test(what_needs_another_record_is_warned_of_without_it),
+        cmocka_unit_test(keys_that_need_another_record_are_warned_of_without_it),
         cmocka_unit_test(a_part_that_acts_in_one_place_is_not_warned_of_in_others),
         cmocka_unit_test(a_rigid_end_needs_no_unloading_and_is_warned_of_one),
         cmocka_unit_test(devices_of_an_end_that_meets_nothing_are_warned_of),

@@ -80,7 +80,7 @@ static int compare_names(const void *a, const void *b) {
     return strcmp(((const struct CMUnitTest *)a)->name, ((const struct CMUnitTest *)b)->name);
 }
 
-/* Catalogues that bad files name are no problem files themselves. */
+/* Catalogues named in bad files are not problem files themselves. */
 static bool is_problem_file(const char *name) {
     const char *end = strstr(name, ".yaml");
     return end != NULL && end[5] == '\0' && strstr(name, "-catalogue.yaml") == NULL;

@@ -14,7 +14,7 @@ static int n_index(CzChannelAt at, int n_vehicle) {
     return at == CZ_AT_RUN ? 1 : at == CZ_AT_INTERFACE ? n_vehicle - 1 : n_vehicle;
 }
 
-/* Names every place of every channel and finds it again; returns how many there are. */
+/* Writes the name of every place of every channel and reads it back; returns their number. */
 static int find_all(int n_vehicle, const char *const *vehicle) {
     int n = 0;
     for (CzChannel channel = 0; channel < CZ_N_CHANNEL; channel++) {

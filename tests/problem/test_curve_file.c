@@ -78,7 +78,7 @@ static CzStatus read(CzArena *arena, const char *text, size_t n_byte, CzCurvePoi
     return cz_curve_points_read_memory(arena, "test", text, n_byte, &wanted, points, error);
 }
 
-static void one_curve_is_read_however_it_is_written(void **state) {
+static void a_curve_is_read_in_every_notation(void **state) {
     static const char *const texts[] = {
         "stroke_mm,force_kN\n0,0\n1.5,300\n300,1050.5\n",
         "sep=;\nstroke_mm;force_kN\n0;0\n1,5;300\n300;1050,5\n",
@@ -206,7 +206,7 @@ static void any_text_is_accepted_or_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_number_limits_the_meaning_of_its_signs),
-        cmocka_unit_test(one_curve_is_read_however_it_is_written),
+        cmocka_unit_test(a_curve_is_read_in_every_notation),
         cmocka_unit_test(an_ambiguous_file_is_refused),
         cmocka_unit_test(an_impossible_size_decides_the_decimal_sign),
         cmocka_unit_test(any_text_is_accepted_or_refused),

@@ -145,7 +145,8 @@ static void an_elastic_rise_is_taken_off_wherever_it_begins(void **state) {
     cz_problem_free(problem);
 }
 
-/* A densification of 500 MN/m behind an elasticity of 100 MN/m: 2500 kN come after 25 mm, not 5. */
+/* A densification of 500 MN/m behind an elasticity of 100 MN/m: 2500 kN are reached after 25 mm,
+ * not 5. */
 static void a_law_that_cannot_follow_its_curve_is_warned_of(void **state) {
     static const char text[] =
         "extends: rigid.yaml\n"

@@ -1,4 +1,4 @@
-/* Files that are no problem files: each gives a message, none a crash. */
+/* Files that are not problem files: each gives a message and no crash. */
 #include "problem/read_problem.h"
 
 #include <locale.h>
@@ -79,12 +79,12 @@ static void a_file_without_permission_is_reported(void **state) {
     close(file);
     chmod(path, 0);
     snprintf(sentence, sizeof sentence, "cannot read '%s': permission is denied", path);
-    if (geteuid() != 0) /* nothing is locked to root */
+    if (geteuid() != 0) /* root can read every file */
         check_refused(path, sentence);
     unlink(path);
 }
 
-static void bytes_that_are_no_text_are_reported_with_their_place(void **state) {
+static void invalid_utf_8_is_reported_with_its_place(void **state) {
     (void)state;
     check_text_refused("title: a\nb: \xff\xfe\n", 15, 2, 4,
                        "the file contains byte 0xff, which is not valid UTF-8");
@@ -294,7 +294,7 @@ int main(void) {
         cmocka_unit_test(an_empty_file_is_reported),
         cmocka_unit_test(a_file_of_20_megabytes_is_reported),
         cmocka_unit_test(a_file_without_permission_is_reported),
-        cmocka_unit_test(bytes_that_are_no_text_are_reported_with_their_place),
+        cmocka_unit_test(invalid_utf_8_is_reported_with_its_place),
         cmocka_unit_test(a_byte_order_mark_is_ignored),
         cmocka_unit_test(lines_may_end_as_on_windows),
         cmocka_unit_test(lines_are_counted_as_in_yaml),

@@ -129,7 +129,7 @@ static void finding_and_setting_use_the_same_places(void **state) {
     }
 }
 
-static void settings_before_are_kept_while_finding(void **state) {
+static void earlier_settings_are_kept_while_finding(void **state) {
     (void)state;
     static const char *const set[] = {"trains.A.vehicles.A4.front.anti_climber.gap_mm=290"};
     CzProblem *problem = read_good("full.yaml", 1, set);
@@ -278,7 +278,7 @@ int main(void) {
         cmocka_unit_test(behind_a_star_items_without_the_record_are_skipped),
         cmocka_unit_test(a_target_knows_its_unit_and_its_concrete_path),
         cmocka_unit_test(finding_and_setting_use_the_same_places),
-        cmocka_unit_test(settings_before_are_kept_while_finding),
+        cmocka_unit_test(earlier_settings_are_kept_while_finding),
         cmocka_unit_test(a_candidate_must_satisfy_the_rules_of_a_file),
         cmocka_unit_test(an_unknown_path_is_reported_with_a_suggestion),
     };

@@ -151,7 +151,7 @@ static void too_many_scenarios_are_refused(void **state) {
     free(text.text);
 }
 
-/* Every setting makes a mapping anew on the way to each place. */
+/* Every setting creates a new mapping on the path to each place. */
 static void too_many_settings_are_refused(void **state) {
     (void)state;
     char told[8192];

@@ -1,5 +1,5 @@
-/* Memory that runs out at every request in turn: the status says so and nothing leaks. The linker
- * sends the allocations of the library here (--wrap). */
+/* Every request for memory fails in turn: the status reports it and nothing leaks. The linker
+ * redirects the allocations of the library (--wrap). */
 #include "problem/read_problem.h"
 
 static int n_request;    /* so far */

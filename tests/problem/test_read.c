@@ -28,7 +28,7 @@ static void values_are_in_si_units_and_absent_ones_have_their_defaults(void **st
     cz_problem_free(problem);
 }
 
-static void copied_and_turned_trains_are_written_out_along_x(void **state) {
+static void copied_and_reversed_trains_are_written_out_along_x(void **state) {
     (void)state;
     CzProblem *problem = read_good("full.yaml", 0, NULL);
     static const char *const names[] = {"A1", "A2", "A3", "A4", "B1", "B2", "B3", "B4"};
@@ -276,7 +276,7 @@ static void every_spelling_of_null_removes_a_key(void **state) {
     }
 }
 
-static void coupler_without_one_to_meet_is_warned_of(void **state) {
+static void a_coupler_without_a_counterpart_is_warned_of(void **state) {
     (void)state;
     static const char text[] = "extends: rigid.yaml\n"
                                "parts:\n"
@@ -339,8 +339,9 @@ static void a_sweep_is_one_scenario_per_combination(void **state) {
     cz_problem_free(problem);
 }
 
-/* The buffer of a stop pushes nothing that has none; that of a car pushes a wall without one. */
-static void a_buffer_of_a_fixed_partner_without_one_to_meet_is_warned_of(void **state) {
+/* The buffer of a buffer stop does not act on a car without one; that of a car acts on a wall
+ * without one. */
+static void a_buffer_of_a_fixed_partner_without_a_counterpart_is_warned_of(void **state) {
     (void)state;
     for (int is_of_car = 0; is_of_car < 2; is_of_car++) {
         static const char *const buffers =
@@ -362,8 +363,8 @@ static void a_buffer_of_a_fixed_partner_without_one_to_meet_is_warned_of(void **
     }
 }
 
-/* A third train without a scenario of its own, and a word that is no confidence. */
-static void what_nothing_takes_is_warned_of(void **state) {
+/* A third train without a scenario, and an unknown confidence. */
+static void unused_trains_and_unknown_confidences_are_warned_of(void **state) {
     static const char text[] =
         "extends: rigid.yaml\ntrains:\n  - {name: C, copy: A, speed_km_h: 0}\n"
         "checks: {limits: [{name: peak, metric: interfaces.peak_force_kN, max: 1500, "
@@ -383,7 +384,7 @@ static void what_nothing_takes_is_warned_of(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_are_in_si_units_and_absent_ones_have_their_defaults),
-        cmocka_unit_test(copied_and_turned_trains_are_written_out_along_x),
+        cmocka_unit_test(copied_and_reversed_trains_are_written_out_along_x),
         cmocka_unit_test(names_of_a_copy_that_do_not_begin_with_the_trains_name_get_it_in_front),
         cmocka_unit_test(a_rigid_car_may_be_shorter_than_the_car_of_its_end),
         cmocka_unit_test(an_overlay_merges_records_and_named_items_and_replaces_the_rest),
@@ -398,10 +399,10 @@ int main(void) {
         cmocka_unit_test(limits_of_a_profile_are_those_of_the_category),
         cmocka_unit_test(a_byte_order_mark_before_the_text_is_ignored),
         cmocka_unit_test(every_spelling_of_null_removes_a_key),
-        cmocka_unit_test(coupler_without_one_to_meet_is_warned_of),
+        cmocka_unit_test(a_coupler_without_a_counterpart_is_warned_of),
         cmocka_unit_test(a_sweep_is_one_scenario_per_combination),
-        cmocka_unit_test(a_buffer_of_a_fixed_partner_without_one_to_meet_is_warned_of),
-        cmocka_unit_test(what_nothing_takes_is_warned_of),
+        cmocka_unit_test(a_buffer_of_a_fixed_partner_without_a_counterpart_is_warned_of),
+        cmocka_unit_test(unused_trains_and_unknown_confidences_are_warned_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -223,7 +223,7 @@ static void try_program(Trial *trial) {
 #define STOP 1e-3
 
 /* Energy error of a step that touches a preloaded buffer, as a share of the initial energy. The
- * program itself knows the preload and allows less. */
+ * program uses the preload and allows less. */
 #define TOUCH 1e-5
 
 #define END_STIFFNESS 110e6 /* no end of the designs is softer where it unloads [N/m] */
@@ -261,7 +261,8 @@ static void try_interface(Trial *trial, const CzRunSummary *summary,
     if (summary->beyond_validity) /* cars that have climbed can be anywhere */
         return;
     /* The closure is that of the bodies; pitch moves what lies above or below by up to 3 m. The
-     * stroke of an end is its largest shortening, whose elastic part the others may take later. */
+     * stroke of an end is its largest shortening, whose elastic part other elements may absorb
+     * later. */
     double turned = 0.0;
     for (int i = 0; i < summary->n_vehicle; i++)
         turned = fmax(turned, 6.0 * summary->vehicle[i].max_pitch);
@@ -271,7 +272,7 @@ static void try_interface(Trial *trial, const CzRunSummary *summary,
 }
 
 /* Whether the closure of an interface stayed within 0.1 mm of a value for the last 0.2 s: brakes
- * hold what force is left. */
+ * hold the remaining force. */
 static bool is_held(const CzRun *run, const double *closure) {
     const double *t = cz_run_channel(run, CZ_CHANNEL_TIME, 0); /* [ms] */
     const int last = cz_run_n_sample(run) - 1;

@@ -146,7 +146,7 @@ static void put_side_buffers(Draw *draw) {
     fprintf(draw->file, "}, ");
 }
 
-/* An end; `wall`: of what cannot move. */
+/* An end; `wall`: of a fixed vehicle. */
 static void put_end(Draw *draw, const char *key, bool wall) {
     fprintf(draw->file, "    %s: {", key);
     if (draw->full && !wall)

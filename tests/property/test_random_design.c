@@ -2,7 +2,7 @@
 #include "property/random_design.h"
 #include "support/check.h"
 
-/* FNV-1a of the text of designs 1 to 200. Built with gcc, clang and sanitizers alike; a change of
+/* FNV-1a of the text of designs 1 to 200. The same for gcc, clang and sanitizers; a change of
  * how designs are drawn changes it. */
 static void every_compiler_draws_the_same_designs(void **state) {
     (void)state;

@@ -1,4 +1,4 @@
-/* The JSON documents and CSV files: keys, units, numbers, NaN, and bytes that are no text. */
+/* The JSON documents and CSV files: keys, units, numbers, NaN, and invalid UTF-8. */
 #include "support/check.h"
 
 #include "report/csv.h"
@@ -202,7 +202,7 @@ static void a_failed_run_is_never_called_completed(void **state) {
     json_decref(json);
 }
 
-static void runs_that_were_left_out_are_left_out(void **state) {
+static void runs_that_were_not_made_are_left_out(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -232,7 +232,7 @@ static void reals_read_back_to_the_same_bits_with_the_fewest_digits(void **state
     free(text);
 }
 
-static void bytes_that_are_no_text_do_not_break_the_document(void **state) {
+static void invalid_utf_8_does_not_break_the_document(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -456,9 +456,9 @@ int main(void) {
         cmocka_unit_test(nan_and_infinity_are_null),
         cmocka_unit_test(a_pass_against_an_unconfirmed_limit_is_provisional),
         cmocka_unit_test(a_failed_run_is_never_called_completed),
-        cmocka_unit_test(runs_that_were_left_out_are_left_out),
+        cmocka_unit_test(runs_that_were_not_made_are_left_out),
         cmocka_unit_test(reals_read_back_to_the_same_bits_with_the_fewest_digits),
-        cmocka_unit_test(bytes_that_are_no_text_do_not_break_the_document),
+        cmocka_unit_test(invalid_utf_8_does_not_break_the_document),
         cmocka_unit_test(same_results_give_the_same_bytes),
         cmocka_unit_test(a_full_disk_is_an_output_error),
         cmocka_unit_test(outcome_has_every_key_that_scripts_rely_on),

@@ -143,8 +143,8 @@ static void a_run_that_was_not_kept_has_no_page(void **state) {
     free_ran(&ran);
 }
 
-/* The hand check of the problem file: each coupler takes 20 kN rising to 0.4 MN over 50 mm of its
- * buffer and 0.6 MN over 250 mm of its tube, two of them 321 kJ, then releases at 911 kN; two
+/* The hand check of the problem file: each coupler has 20 kN rising to 0.4 MN over 50 mm of its
+ * buffer and 0.6 MN over 250 mm of its tube, two of them 321 kJ, and then releases at 911 kN; two
  * anti-climbers push with 1 MN. Members advance by the spacing of the points, so the tolerance of
  * the areas is one spacing times the force for each of six members. */
 static void the_input_curve_is_that_of_the_weakest_member(void **state) {

@@ -5,7 +5,7 @@
 #include "report/stand_in.h"
 
 /* Whether a spreadsheet that separates cells by this sign, and knows quotes only around a whole
- * cell, would run a cell as a formula; a number is no formula. */
+ * cell, would run a cell as a formula; a number is not a formula. */
 static bool runs_a_cell(const char *line, char separator) {
     bool begins = true;
     for (const char *c = line; *c != '\0'; c++) {

@@ -28,7 +28,7 @@ holds() { # holds PAIR [OPTION...]
 
 if [ "${1:-}" = all ]; then
     whole() { exits 0 "$C" check "$sized" && says out.txt 'Verdict: P'; }
-    check "the metro with sized absorbers passes at every speed, offset and set-off coupling" whole
+    check "the metro with sized absorbers passes at every speed, offset and offset coupling" whole
     for scenario in head_40km_h_-40mm inner_40km_h_A5-A6_50mm inner_40km_h_B1-B2_-50mm; do
         verified() {
             code=0
@@ -56,7 +56,7 @@ done
 told() {
     exits 0 "$C" explain "$cars" --set trains.A.speed_km_h=45 && says out.txt 'OVERRIDE' && says out.txt 'satisfies the limit' && says out.txt 'First cause'
 }
-check "a climb gets its causes" told
+check "an override gets its causes" told
 document() {
     exits 0 "$C" explain "$cars" --set trains.A.speed_km_h=45 --json && json out.txt format crushzone.explanation && json out.txt climbed true &&
         json out.txt changes.0.turns true && json out.txt indicators.0.cause bottoming

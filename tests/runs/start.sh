@@ -171,6 +171,6 @@ bare_root_needs_root() { # and reports it before it makes anything
     PATH=$PWD/stand-ins:$PATH "$SOURCE/scripts/try-bare" >said 2>&1 || code=$?
     [ $code = 2 ] && grep -q 'only root can do that' said
 }
-check "a bare root is not tried without rights" bare_root_needs_root
+check "scripts/try-bare needs the rights of root" bare_root_needs_root
 check "an unknown build is refused" sh -c '"$SOURCE/test" nonsense; [ $? = 2 ]'
 finish

@@ -37,7 +37,7 @@ static void sources_add_up_to_the_momenta_of_every_body(void **state) {
               WITH("simulation.duration_s=0.4", "simulation.time_step_ms=0.1"), 5e-3);
 }
 
-static void the_remainder_falls_with_the_step(void **state) {
+static void the_error_of_the_budget_falls_with_the_step(void **state) {
     (void)state;
     check_all("tests/physics/cases/offset-collision.yaml",
               WITH("simulation.duration_s=0.4", "simulation.time_step_ms=0.01"), 5e-4);
@@ -65,7 +65,7 @@ static void recording_a_budget_changes_no_result(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sources_add_up_to_the_momenta_of_every_body),
-        cmocka_unit_test(the_remainder_falls_with_the_step),
+        cmocka_unit_test(the_error_of_the_budget_falls_with_the_step),
         cmocka_unit_test(recording_a_budget_changes_no_result),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -16,7 +16,7 @@ static const struct {
     [CZ_ELEMENT_SLIDE] = {"problems/buffer-stop.yaml", false},
 };
 
-/* Whether an element of a kind does what it is there for. */
+/* Whether an element of a kind acts. */
 static bool acts_in_its_collision(CzElementKind kind) {
     Collision collision = collide(acts[kind].file, WITH("simulation.duration_s=0.6"), 0);
     bool does = false;

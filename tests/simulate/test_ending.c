@@ -86,8 +86,8 @@ static void a_train_held_by_its_brakes_is_at_its_end(void **state) {
 }
 
 /* 750 kJ against jaws of 100 kN: the mass and the stop move as one for seconds, their closure
- * constant, until the stop stands and the buffers push the mass back. All but 0.2 t of stop and
- * what the buffers take goes into the jaws. */
+ * constant, until the stop stands and the buffers push the mass back. The jaws absorb all but the
+ * energy of 0.2 t of stop and that of the buffers. */
 static void a_run_waits_until_a_buffer_stop_has_come_to_rest(void **state) {
     (void)state;
     for (int scenario = 2; scenario < 4; scenario++) {
@@ -107,7 +107,7 @@ static void a_run_waits_until_a_buffer_stop_has_come_to_rest(void **state) {
     }
 }
 
-/* What is coupled rolls and stands as one: only the second car ahead has rolling resistance, and
+/* Coupled cars roll and stop as one: only the second car ahead has rolling resistance, and
  * the two still come to rest in front of the one that follows. */
 static void a_coupled_car_that_rolls_freely_is_slowed_with_its_train(void **state) {
     (void)state;
@@ -122,9 +122,9 @@ static void a_coupled_car_that_rolls_freely_is_slowed_with_its_train(void **stat
     collision_free(&collision);
 }
 
-/* 60 t at 1 m/s throw 30 t off at 4/3 m/s and follow at 1/3. Slowed at 0.05 g the light car is met
+/* 60 t at 1 m/s push 30 t to 4/3 m/s and follow at 1/3. Slowed at 0.05 g the light car is met
  * again after 2 / 0.49 = 4.1 s, and pushed until the closing speed stays below 0.1 m/s; where both
- * are slowed alike, the one behind never reaches it. */
+ * decelerate equally, the car behind never reaches it. */
 static void cars_meet_again_where_rolling_resistance_slows_the_one_ahead(void **state) {
     (void)state;
     static const char *const slowed[][2] = {{"trains.A.vehicles.A1.rolling_resistance_N_kN=0",

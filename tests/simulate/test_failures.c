@@ -13,7 +13,7 @@ static Collision collide_with(const char *file, double step) {
     return collision;
 }
 
-/* A failed run is incomplete, and has no number that could be taken for a result. */
+/* A failed run is incomplete, and has no number that could be mistaken for a result. */
 static void assert_failed(const Collision *collision, const char *where, const char *what) {
     const CzRunSummary *summary = collision->summary;
     assert_int_equal(summary->status, CZ_STATUS_RUN_FAILED);

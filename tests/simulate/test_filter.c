@@ -61,7 +61,8 @@ static void a_constant_and_a_ramp_are_unchanged(void **state) {
     for (int i = 0; i < N; i++)
         x[i] = 0.01 * i;
     assert_int_equal(cz_filter_cfc(60, STEP, N, x, y), CZ_OK);
-    for (int i = 100; i < N - 100; i++) /* two passes delay a ramp forwards and backwards alike */
+    for (int i = 100; i < N - 100;
+         i++) /* the two passes delay a ramp forwards and backwards equally */
         assert_near(y[i], x[i], 0, 1e-6);
 }
 

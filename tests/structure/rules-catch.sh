@@ -51,7 +51,7 @@ for name in ring chain link; do
 done
 check "a header that only leads to a circle is accepted" sh -c '! grep -q lock found.txt'
 for name in oak elm; do
-    check "a source that calls what calls it is found: $name.c" finds "^src/tree/$name.c calls" call_circles
+    check "a circle of calls between sources is found: $name.c" finds "^src/tree/$name.c calls" call_circles
 done
 check "a source that is only called is accepted" sh -c '! grep -q ash found.txt'
 put src/dynamics/kernel_end.h '/* n */\n#define ROW(name) block->name\n#define EACH(i) for (size_t i = 0; i < N; ++i)\n#define TEXT(a) "block" #a /* block */\n#define LONG(a) \\\n    (a + hidden)\nstatic void f(void) {\n    force[i] *= turned->sine[i];\n}'
@@ -78,9 +78,9 @@ check "a file of 501 lines is found" finds '^src/base/long.c has 501' long_files
 for place in src/evaluate/curves.c:2 src/evaluate/curves.c:3 'src/report/loops.c makes' src/report/loops.c:2; do
     check "a channel that is looked up by a text is found: $place" finds "^$place" channels_by_text
 done
-check "a text that is no channel is accepted" sh -c '! grep -q curves.c:4 found.txt'
+check "a text that is not a channel is accepted" sh -c '! grep -q curves.c:4 found.txt'
 for line in 2 3; do
-    check "a part of the report that computes is found: line $line" finds "^src/report/bars.c:$line:" report_that_computes
+    check "a computation in the report is found: line $line" finds "^src/report/bars.c:$line:" report_that_computes
 done
 put src/report/by_hand.c '/* n */\n#include "report/json.h"\nput(table, "peak_force_kN");\nput(table, "peak force kN");'
 for line in 2 3; do
@@ -107,7 +107,7 @@ bare_tolerances >bare.txt
 for line in 4 15; do
     check "a tolerance without a reason is found: line $line" grep -q "^tests/model/test_near.c:$line:" bare.txt
 done
-check "a tolerance with a name or a comment is let through" sh -c '! grep -qE "test_near.c:(6|7|12):" bare.txt'
+check "a tolerance with a name or a comment is accepted" sh -c '! grep -qE "test_near.c:(6|7|12):" bare.txt'
 check "a file without a purpose is found" finds '^src/report/other.c:1:' missing_purposes
 check "a version without a changelog entry is found" finds '2.3.4' changelog_gaps
 check "a header that needs another is found" finds 'model.h: ' headers_that_need_others

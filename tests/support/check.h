@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-/* What rounding alone leaves, as a share of the value, or of the largest term of a sum that is 0.
+/* Rounding error, as a share of the value, or of the largest term of a sum that is 0.
  * A double has 1.1e-16. */
 #define ROUNDING_OF_A_VALUE 1e-15   /* read, converted or copied: a few operations */
 #define ROUNDING_OF_A_FORMULA 1e-14 /* some ten operations */

@@ -29,7 +29,7 @@
 #define CZ_TEXTS(type, stem, presence, doc)
 #include "problem/keys.def"
 
-/* ---- what the reader does ---- */
+/* ---- stand-ins for the reader ---- */
 
 const CzInput *cz_problem_input(const CzProblem *problem) {
     return &problem->input;

@@ -39,8 +39,8 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Smallest over some rounds in turn, so that other work of the machine affects all alike: time in
- * the steps per simulated second. */
+/* Smallest over some alternating rounds, so that other work of the machine affects all equally:
+ * time in the steps per simulated second. */
 typedef struct Cost {
     double run, setup; /* of a run, and its part before the steps [s] */
     double simulated;  /* [s] */

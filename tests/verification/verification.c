@@ -88,7 +88,7 @@ static void put_intro(void) {
          "\n"
          "Differences are relative where the tolerance has no unit, otherwise in the unit of the "
          "quantity.\n"
-         "Where \"at most\" stands, the computed value is itself an error or a bound.\n"
+         "In rows with \"at most\" the computed value is itself an error or a bound.\n"
          "The cases are the problem files in `tests/physics/cases`; the expected values are in "
          "`tests/physics/closed_forms.c`, `tests/physics/scheme.c`, `tests/physics/published.c`, "
          "`tests/physics/rails.c` and `tests/physics/steps.c`, which the tests use too.\n"

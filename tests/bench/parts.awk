@@ -8,7 +8,7 @@ function part_of(file) {
     sub(/.*\//, "", file)
     if (file ~ /track|rail_point|receptance/) return "track"
     if (file ~ /wheel|drag/) return "wheels on rails"
-    if (file ~ /kernel_gear|suspension|slider/) return "bogies and suspensions"
+    if (file ~ /kernel_gear|suspension|slider|link/) return "bogies and suspensions"
     if (file ~ /chain|coupler|buffer|plastic_member|shear_off|release|massless|draw_gear|slow_closing/) return "couplers and other series chains"
     if (file ~ /end|face|contact|ribs|superstructure|snap/) return "car ends and anti-climbers"
     if (file ~ /extremes|stored|ledger/) return "energies and largest values"

@@ -302,25 +302,21 @@ indicate(CzExplanation *explanation, CzCause cause, double time, const char *for
     va_end(values);
 }
 
+/* Events that show a cause, with the sentence on their place. */
+static const struct {
+    CzEventKind what;
+    CzCause cause;
+    const char *before, *behind;
+} telling[] = {{CZ_EVENT_BOTTOMED_OUT, CZ_CAUSE_BOTTOMING, "", " bottomed out"},
+               {CZ_EVENT_SWING_STOP, CZ_CAUSE_STRUT, "", " met its swing stop"},
+               {CZ_EVENT_LIFT_STOP, CZ_CAUSE_SUSPENSION, "lift stop of the ", " met"},
+               {CZ_EVENT_BUMP_STOP, CZ_CAUSE_SUSPENSION, "bump stop of the ", " met"}};
+
 static void add_event(CzExplanation *explanation, const CzEvent *event) {
-    switch (event->what) {
-    case CZ_EVENT_BOTTOMED_OUT:
-        indicate(explanation, CZ_CAUSE_BOTTOMING, event->time, "%s bottomed out", event->where);
-        return;
-    case CZ_EVENT_SWING_STOP:
-        indicate(explanation, CZ_CAUSE_STRUT, event->time, "%s met its swing stop", event->where);
-        return;
-    case CZ_EVENT_LIFT_STOP:
-        indicate(explanation, CZ_CAUSE_SUSPENSION, event->time, "lift stop of the %s met",
-                 event->where);
-        return;
-    case CZ_EVENT_BUMP_STOP:
-        indicate(explanation, CZ_CAUSE_SUSPENSION, event->time, "bump stop of the %s met",
-                 event->where);
-        return;
-    default:
-        return;
-    }
+    for (size_t i = 0; i < sizeof telling / sizeof *telling; i++)
+        if (telling[i].what == event->what)
+            indicate(explanation, telling[i].cause, event->time, "%s%s%s", telling[i].before,
+                     event->where, telling[i].behind);
 }
 
 /* Whole kN for a sentence. */

@@ -76,7 +76,6 @@ static bool check_category(CzProblem *problem, const CzProfile *profile, const C
     bool is_known = false, has_any = false;
     const char *category = checks->category != NULL ? checks->category : "";
     suggest_categories(&suggestion, profile, category, &is_known, &has_any);
-    const bool is_good = checks->category != NULL ? is_known || !has_any : !has_any;
     const CzPlace *place = cz_places_find(&problem->places, &checks->category);
     if (checks->category == NULL && has_any) {
         cz_mistake(&reader->mistakes, named->value, named->trail,
@@ -91,7 +90,7 @@ static bool check_category(CzProblem *problem, const CzProfile *profile, const C
                    "profile '%.96s' has no category '%.96s'", named->value->text, category);
         cz_mistake_suggest(&reader->mistakes, &suggestion);
     }
-    return is_good;
+    return !has_any || is_known;
 }
 
 static bool holds_for(const CzLimit *limit, const char *category) {

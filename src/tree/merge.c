@@ -18,7 +18,7 @@ static bool replaces(const CzNode *node) {
            cz_node_find(node, "file") != NULL;
 }
 
-static CzEntry *find_same_stem(CzNode *mapping, const char *key) {
+CzEntry *cz_find_same_stem(CzNode *mapping, const char *key) {
     for (int i = 0; i < mapping->n_entry; i++)
         if (cz_key_same_stem(mapping->entry[i].key->text, key))
             return &mapping->entry[i];
@@ -76,7 +76,7 @@ static const CzNode *merge_mappings(CzArena *arena, const CzNode *base, const Cz
                                     const CzNode *over, const CzTrail *over_trail, bool by_name) {
     CzNode *merged = copy_base(arena, base, base_trail, over);
     for (int i = 0; merged != NULL && i < over->n_entry; i++) {
-        CzEntry *like = find_same_stem(merged, over->entry[i].key->text);
+        CzEntry *like = cz_find_same_stem(merged, over->entry[i].key->text);
         if (like != NULL && cz_node_is_null(over->entry[i].value))
             *like = merged->entry[--merged->n_entry];
         else if (!merge_entry(arena, merged, like, &over->entry[i], over_trail, by_name))

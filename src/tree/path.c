@@ -84,23 +84,15 @@ static CzNode place_of(const Walk *walk, int level) {
 }
 
 static bool read_path(Walk *walk, const char *path) {
-    const char *at = path;
-    bool is_path = *path != '\0';
-    while (is_path && *at != '\0') {
-        if (walk->n_segment > 0 && *at == '.')
-            at++;
-        else if (walk->n_segment > 0 && *at != '[')
-            is_path = false;
-        if (walk->n_segment == MOST_SEGMENTS)
-            is_path = false;
-        const char *rest = is_path ? read_segment(&walk->segment[walk->n_segment], at, path) : NULL;
-        is_path = rest != NULL;
-        if (is_path) {
-            walk->n_segment++;
-            at = rest;
-        }
+    const char *at = *path != '\0' ? path : NULL;
+    while (at != NULL && *at != '\0') {
+        const bool is_first = walk->n_segment == 0, is_point = *at == '.' && !is_first;
+        const bool is_segment =
+            (is_first || is_point || *at == '[') && walk->n_segment < MOST_SEGMENTS;
+        at = is_segment ? read_segment(&walk->segment[walk->n_segment++], at + is_point, path)
+                        : NULL;
     }
-    if (is_path)
+    if (at != NULL)
         return true;
     cz_mistake(&walk->reader->mistakes, walk->place, NULL,
                "'%s' is not a path" CZ_HELP
@@ -134,21 +126,14 @@ static bool is_record(const CzRecord *record, const char *name) {
 
 static const CzNode *walk_on(Walk *walk, const CzNode *node, Step step);
 
-/* Appends to the concrete path; the length before, to cut it again. */
-static size_t enter(Walk *walk, const char *format, const char *name, int index) {
-    const size_t before = strlen(walk->at);
-    const char *point = before > 0 && format[0] != '[' ? "." : "";
-    const size_t n =
-        before + (size_t)snprintf(walk->at + before, sizeof walk->at - before, "%s", point);
-    if (n < sizeof walk->at && format[0] == '[')
-        snprintf(walk->at + n, sizeof walk->at - n, "[%d]", index);
-    else if (n < sizeof walk->at)
-        snprintf(walk->at + n, sizeof walk->at - n, "%s", name);
+/* Appends a name, or without one an index, to the concrete path; the length before, to cut it. */
+static size_t enter(Walk *walk, const char *name, int index) {
+    const size_t before = strlen(walk->at), room = sizeof walk->at - before;
+    if (name == NULL)
+        snprintf(walk->at + before, room, "[%d]", index);
+    else
+        snprintf(walk->at + before, room, "%s%s", before > 0 ? "." : "", name);
     return before;
-}
-
-static void leave(Walk *walk, size_t before) {
-    walk->at[before] = '\0';
 }
 
 /* The value to put in: the setting's own, or a node that represents any number. */
@@ -203,18 +188,15 @@ static const CzNode *put_value(Walk *walk, const CzNode *mapping, Step step) {
         refuse(walk, step.level, "'%s' cannot be set by a path", name);
         return mapping;
     }
-    const size_t before = enter(walk, "", name, 0);
+    const size_t before = enter(walk, name, 0);
     CzNode *changed = cz_node_copy(&walk->reader->arena, mapping, 1);
     const CzEntry entry = {cz_node_text(&walk->reader->arena, name, &place), value_to_put(walk),
                            &cz_no_trail};
-    leave(walk, before);
+    walk->at[before] = '\0';
     if (changed == NULL || entry.key == NULL || entry.value == NULL)
         return NULL;
-    int at = 0;
-    while (at < changed->n_entry && !cz_key_same_stem(changed->entry[at].key->text, name))
-        at++;
-    changed->n_entry += at == changed->n_entry;
-    changed->entry[at] = entry;
+    CzEntry *like = cz_find_same_stem(changed, name);
+    *(like != NULL ? like : &changed->entry[changed->n_entry++]) = entry;
     return changed;
 }
 
@@ -277,27 +259,26 @@ static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) 
         report_unknown(walk, mapping, step);
         return mapping;
     }
-    CzNode *changed = cz_node_copy(&walk->reader->arena, mapping, 1);
-    if (changed == NULL)
-        return NULL;
+    CzArena *arena = &walk->reader->arena;
+    CzNode *changed = cz_node_copy(arena, mapping, 1);
     const CzNode place = place_of(walk, step.level);
     CzNode empty = place;
     empty.kind = CZ_NODE_MAPPING;
     empty.n_entry = 0;
-    const int at = is_new ? changed->n_entry++ : (int)(entry - mapping->entry);
-    if (is_new)
-        changed->entry[at] = (CzEntry){cz_node_text(&walk->reader->arena, segment->name, &place),
-                                       &empty, &cz_no_trail};
+    if (changed == NULL ||
+        (is_new && !cz_node_append(arena, changed, segment->name, &place, &empty, &cz_no_trail)))
+        return NULL;
+    const int at = is_new ? changed->n_entry - 1 : (int)(entry - mapping->entry);
     if (is_record(step.record, "train"))
         walk->train = cz_node_find_text(mapping, "name");
-    const size_t before = enter(walk, "", segment->name, 0);
+    const size_t before = enter(walk, segment->name, 0);
     const Step next = {inside, cz_entry_trail(&changed->entry[at], step.trail), step.level + 1,
                        step.is_open};
     changed->entry[at].value = walk_on(walk, changed->entry[at].value, next);
-    leave(walk, before);
+    walk->at[before] = '\0';
     if (changed->entry[at].value == &empty) /* nothing was put in */
         changed->n_entry--;
-    return changed->entry[at].key != NULL && changed->entry[at].value != NULL ? changed : NULL;
+    return changed->entry[at].value != NULL ? changed : NULL;
 }
 
 /* ---- items of lists ---- */
@@ -373,11 +354,11 @@ static const CzNode *walk_list(Walk *walk, const CzNode *list, Step step) {
         if (segment->kind == SEGMENT_INDEX && segment->index != i)
             continue;
         is_found = true;
-        const size_t before = enter(walk, name != NULL ? "" : "[", name, i);
+        const size_t before = enter(walk, name, i);
         const Step next = {step.record, trail, step.level,
                            step.is_open || segment->kind == SEGMENT_ALL};
         changed->entry[i].value = walk_item(walk, item, next);
-        leave(walk, before);
+        walk->at[before] = '\0';
         if (changed->entry[i].value == NULL)
             return NULL;
     }

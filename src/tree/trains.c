@@ -23,12 +23,13 @@ typedef struct {
     bool is_turned;
 } Vehicle;
 
-typedef struct {
+typedef struct Train {
     const CzNode *node;
     const CzTrail *trail;
     const char *name; /* NULL when it has none */
     const CzEntry *copy;
-    bool is_refused; /* a mistake was reported about its vehicles */
+    const struct Train *original; /* whose vehicles are copied; NULL while there are none */
+    bool is_refused;              /* a mistake was reported about its vehicles */
     int n_vehicle;
     Vehicle *vehicle;
 } Train;
@@ -246,6 +247,7 @@ static void copy_vehicles(Trains *trains, Train *train, int depth) {
     if (original->n_vehicle == 0 ||
         !make_room(trains, train, original->n_vehicle, train->copy->key))
         return;
+    train->original = original;
     train->n_vehicle = original->n_vehicle;
     memcpy(train->vehicle, original->vehicle, (size_t)train->n_vehicle * sizeof(Vehicle));
 }
@@ -267,9 +269,8 @@ static void write_out_train(Trains *trains, Train *train, int depth) {
         list_vehicles(trains, train, list);
     if (read_reversed(reader, train->node, train->trail))
         turn_round(train);
-    const Train *original = train->copy != NULL ? find_original(trains, train) : NULL;
-    if (original != NULL && train->n_vehicle > 0 && original->n_vehicle == train->n_vehicle)
-        letter_anew(train, original);
+    if (train->original != NULL)
+        letter_anew(train, train->original);
 }
 
 /* ---- nodes ---- */

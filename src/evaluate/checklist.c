@@ -77,19 +77,6 @@ static bool is_unconfirmed(const char *confidence) {
     return confidence == NULL || (strcmp(confidence, "S1") != 0 && strcmp(confidence, "user") != 0);
 }
 
-static CzStatus check_scenarios_exist(const Builder *builder, const CzLimit *limit) {
-    for (int i = 0; i < limit->scenarios.n_text; i++) {
-        bool found = false;
-        for (int s = 0; s < builder->n_scene; s++)
-            found |= cz_scene_is(&builder->scene[s], limit->scenarios.text[i]);
-        if (!found)
-            return cz_problem_fail(builder->problem, &limit->scenarios, builder->error,
-                                   "limit '%s': there is no scenario '%s'", limit->name,
-                                   limit->scenarios.text[i]);
-    }
-    return CZ_OK;
-}
-
 /* Adds a limit as one or two checks. `profile` is NULL for the user's own. */
 static CzStatus append_limit(Builder *builder, const CzLimit *limit, const char *profile,
                              bool is_target) {
@@ -106,11 +93,6 @@ static CzStatus append_limit(Builder *builder, const CzLimit *limit, const char 
     CZ_TRY(cz_problem_place_failure(builder->problem, &limit->metric,
                                     cz_metric_parse(limit->metric, &check.metric, builder->error),
                                     builder->error));
-    if (profile == NULL)
-        CZ_TRY(check_scenarios_exist(builder, limit));
-    if (isnan(limit->max) && isnan(limit->min))
-        return cz_problem_fail(builder->problem, &limit->name, builder->error,
-                               "limit '%s' needs 'max' or 'min'", limit->name);
     check.scale = isnan(limit->scale) || check.metric.kind->scale == CZ_FLAG_SCALE
                       ? check.metric.kind->scale
                       : limit->scale;
@@ -195,10 +177,8 @@ static bool rule_holds_in(Speeds speeds, const CzScene *scene) {
 }
 
 static void note_end(const CzVehicle *vehicle, const CzEnd *end, bool has[N_NEEDS]) {
-    if (!end->given)
-        return;
-    has[TUBE] |= end->coupler.given && end->coupler.tube.given;
-    has[SHEAR_OFF] |= end->coupler.given && end->coupler.shear_off.given;
+    has[TUBE] |= end->coupler.tube.given;
+    has[SHEAR_OFF] |= end->coupler.shear_off.given;
     has[FACE] |= end->anti_climber.given && vehicle->model == CZ_MODEL_FULL;
 }
 

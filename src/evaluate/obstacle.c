@@ -12,26 +12,19 @@
 
 static const double heaviest = 20e3; /* [kg] */
 
-static bool couples(const CzEnd *end) {
-    return end->given && (end->coupler.given || end->side_buffers.given || end->anti_climber.given);
-}
-
-static bool has_survival_space(const CzEnd *end) {
-    for (int i = 0; end->given && i < end->n_stages; i++)
-        if (end->stages[i].zone == CZ_ZONE_SURVIVAL)
-            return true;
-    return false;
+/* Whether an end couples, or has survival space behind it, as that of a train. */
+static bool is_of_train(const CzEnd *end) {
+    bool is_train = end->coupler.given || end->side_buffers.given || end->anti_climber.given;
+    for (int i = 0; i < end->n_stages; i++)
+        is_train |= end->stages[i].zone == CZ_ZONE_SURVIVAL;
+    return is_train;
 }
 
 static bool looks_like_obstacle(const CzTrain *train) {
-    if (train->n_vehicles != 1)
-        return false;
     const CzVehicle *vehicle = &train->vehicles[0];
-    const CzEnd *ends[2] = {&vehicle->rear, &vehicle->front};
-    for (int i = 0; i < 2; i++)
-        if (couples(ends[i]) || has_survival_space(ends[i]))
-            return false;
-    return vehicle->model == CZ_MODEL_RIGID && vehicle->mass <= heaviest;
+    return train->n_vehicles == 1 && vehicle->model == CZ_MODEL_RIGID &&
+           vehicle->mass <= heaviest && !is_of_train(&vehicle->rear) &&
+           !is_of_train(&vehicle->front);
 }
 
 static bool is_fixed(const CzTrain *train) {

@@ -69,6 +69,13 @@ static void call(Walk *walk, const char *name) {
     walk->visit(&walk->place, walk->data);
 }
 
+/* The same at a place of a vehicle, which has the design's values. */
+static void call_of(Walk *walk, const CzVehicle *record, const char *name) {
+    walk->place.record = record;
+    walk->place.must_declare = record->model == CZ_MODEL_FULL;
+    call(walk, name);
+}
+
 /* The record of a vehicle of the scene with the design's values. */
 static const CzVehicle *record_of(const CzSubject *subject, int vehicle) {
     return &subject->vehicles[subject->scene->record[vehicle]];
@@ -91,9 +98,7 @@ static void visit_vehicles(Walk *walk) {
             !cz_matches(walk->selector, run->vehicle[i].name))
             continue;
         walk->place.vehicle = &run->vehicle[i];
-        walk->place.record = record;
-        walk->place.must_declare = record->model == CZ_MODEL_FULL;
-        call(walk, run->vehicle[i].name);
+        call_of(walk, record, run->vehicle[i].name);
     }
 }
 
@@ -106,11 +111,9 @@ static void visit_elements(Walk *walk, bool is_colliding) {
             continue;
         const CzVehicle *record = record_of(walk->subject, element->vehicle);
         walk->place.element = element;
-        walk->place.record = record;
         walk->place.end =
             element->vehicle == walk->place.interface_index ? &record->front : &record->rear;
-        walk->place.must_declare = record->model == CZ_MODEL_FULL;
-        call(walk, element->name);
+        call_of(walk, record, element->name);
     }
 }
 
@@ -125,14 +128,12 @@ static void visit_sections(Walk *walk, bool is_colliding) {
         if (record->model == CZ_MODEL_FIXED ||
             cz_scene_has_obstacle_at(walk->subject->scene, vehicle))
             continue;
-        walk->place.record = record;
         walk->place.end = side == 0 ? &record->front : &record->rear;
         walk->place.section_force = interface->section_force[side];
-        walk->place.must_declare = record->model == CZ_MODEL_FULL;
         char name[CZ_WHERE_ROOM];
         snprintf(name, sizeof name, "%s %s", walk->subject->run->vehicle[vehicle].name,
                  side == 0 ? "front" : "rear");
-        call(walk, name);
+        call_of(walk, record, name);
     }
 }
 
@@ -166,10 +167,8 @@ static void visit_ends(Walk *walk) {
         if (!end->given || record->model == CZ_MODEL_FIXED || is_passed_over ||
             !cz_matches(walk->selector, name))
             continue;
-        walk->place.record = record;
         walk->place.end = end;
-        walk->place.must_declare = record->model == CZ_MODEL_FULL;
-        call(walk, name);
+        call_of(walk, record, name);
     }
 }
 
@@ -210,14 +209,13 @@ int cz_places_visit(const CzSubject *subject, CzLevel level, const char *selecto
 /* How many elements of one end as written a selector picks. */
 static int count_elements(const CzEnd *end, const char *vehicle, const char *interface,
                           const char *selector, bool is_colliding) {
-    const bool has[CZ_N_ELEMENT_KIND] = {
-        [CZ_ELEMENT_COUPLER] = end->given && end->coupler.given,
-        [CZ_ELEMENT_ANTI_CLIMBER] = end->given && end->anti_climber.given,
-        [CZ_ELEMENT_END] = end->given,
-        [CZ_ELEMENT_SIDE_BUFFERS] = end->given && end->side_buffers.given,
-        [CZ_ELEMENT_SUPERSTRUCTURE] = end->given && end->superstructure.given,
-        [CZ_ELEMENT_DRAW_GEAR] = end->given && end->draw_gear.given,
-        [CZ_ELEMENT_SLIDE] = end->given && end->slide.given};
+    const bool has[CZ_N_ELEMENT_KIND] = {[CZ_ELEMENT_COUPLER] = end->coupler.given,
+                                         [CZ_ELEMENT_ANTI_CLIMBER] = end->anti_climber.given,
+                                         [CZ_ELEMENT_END] = end->given,
+                                         [CZ_ELEMENT_SIDE_BUFFERS] = end->side_buffers.given,
+                                         [CZ_ELEMENT_SUPERSTRUCTURE] = end->superstructure.given,
+                                         [CZ_ELEMENT_DRAW_GEAR] = end->draw_gear.given,
+                                         [CZ_ELEMENT_SLIDE] = end->slide.given};
     int n = 0;
     for (int kind = 0; kind < CZ_N_ELEMENT_KIND; kind++) {
         char name[CZ_WHERE_ROOM];

@@ -5,11 +5,6 @@
 
 #include <string.h>
 
-/* The train at a side of a scenario, which the reader has found to exist. */
-static int train_at(const CzInput *input, const CzScenario *scenario, int side) {
-    return (int)(cz_input_train(input, scenario, side) - input->trains);
-}
-
 /* The value of the scenario, or the train's where it has none. */
 static double value_or(double value, double fallback) {
     return isnan(value) ? fallback : value;
@@ -42,21 +37,16 @@ static CzStatus list_vehicles(const CzProblem *problem, CzArena *arena, CzScene 
 static CzStatus build_scene(const CzProblem *problem, int index, CzArena *arena, CzScene *scene,
                             CzError *error) {
     const CzInput *input = cz_problem_input(problem);
-    const CzScenario *scenario = input->n_scenarios > 0 ? &input->scenarios[index] : NULL;
-    scene->name = cz_problem_scenario_name(problem, index);
+    const CzScenario *scenario = &input->scenarios[index];
+    scene->name = scenario->name;
+    scene->family = scenario->family;
     for (int side = 0; side < 2; side++)
-        scene->train[side] = train_at(input, scenario, side);
+        scene->train[side] = (int)(cz_input_train(input, scenario, side) - input->trains);
     CZ_TRY(list_vehicles(problem, arena, scene, error));
-    double speed = input->trains[scene->train[0]].speed;
-    double partner_speed = input->trains[scene->train[1]].speed;
-    if (scenario != NULL) {
-        scene->family = scenario->family;
-        speed = value_or(scenario->speed, speed);
-        partner_speed = value_or(scenario->partner_speed, partner_speed);
-        scene->judged_by = scenario->judged_by.n_text > 0 ? &scenario->judged_by : NULL;
-        scene->is_overload = scenario->mass_factor >= CZ_OVERLOAD_FACTOR * (1 - 1e-9);
-    }
-    scene->closing_speed = speed - partner_speed;
+    scene->judged_by = scenario->judged_by.n_text > 0 ? &scenario->judged_by : NULL;
+    scene->is_overload = scenario->mass_factor >= CZ_OVERLOAD_FACTOR * (1 - 1e-9);
+    scene->closing_speed = value_or(scenario->speed, input->trains[scene->train[0]].speed) -
+                           value_or(scenario->partner_speed, input->trains[scene->train[1]].speed);
     return CZ_OK;
 }
 

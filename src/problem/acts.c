@@ -26,11 +26,11 @@ static bool is_inner(const Meeting *meeting) {
 
 static bool is_coupled(const Meeting *meeting) {
     return is_inner(meeting) && meeting->record == &meeting->end->coupler.buffer &&
-           meeting->opposite->given && meeting->opposite->coupler.given;
+           meeting->opposite->coupler.given;
 }
 
 static bool is_drawn(const Meeting *meeting) {
-    return is_inner(meeting) && meeting->opposite->given && meeting->opposite->draw_gear.given;
+    return is_inner(meeting) && meeting->opposite->draw_gear.given;
 }
 
 static bool has_levels(const Meeting *meeting) {
@@ -43,17 +43,16 @@ static bool has_bare_levels(const Meeting *meeting) {
 }
 
 static bool slides_on_faces(const Meeting *meeting) {
-    return has_levels(meeting) && meeting->opposite->given && meeting->opposite->anti_climber.given;
+    return has_levels(meeting) && meeting->opposite->anti_climber.given;
 }
 
 static bool slides_on_plates(const Meeting *meeting) {
-    return has_levels(meeting) && meeting->opposite->given && meeting->opposite->side_buffers.given;
+    return has_levels(meeting) && meeting->opposite->side_buffers.given;
 }
 
 static bool has_superstructures(const Meeting *meeting) {
     return meeting->other != NULL && meeting->own->model == CZ_MODEL_FULL &&
-           meeting->other->model == CZ_MODEL_FULL && meeting->opposite->given &&
-           meeting->opposite->superstructure.given;
+           meeting->other->model == CZ_MODEL_FULL && meeting->opposite->superstructure.given;
 }
 
 /* The mass of tubes and anti-climbers acts without a partner, too. */

@@ -77,10 +77,6 @@ static void write_presence(FILE *stream, const CzKey *key) {
                 key->dimension != CZ_DIMENSION_NONE ? " " : "", cz_unit_si(key->dimension)->symbol);
 }
 
-static bool belongs_to(const CzReuseKey *reuse, const CzRecord *record) {
-    return strcmp(reuse->record, record->name) == 0;
-}
-
 static const char *variation_text(CzVariation variation) {
     static const char *const texts[] = {[CZ_VARIATION_DATA] = "",
                                         [CZ_VARIATION_FITS] = "; may be fitted",
@@ -125,7 +121,7 @@ void cz_keys_write_help(FILE *stream) {
             fprintf(stream, "%s\n", variation_text(key->variation));
         }
         for (int i = 0; i < cz_n_reuse_key; i++)
-            if (belongs_to(&cz_reuse_keys[i], record))
+            if (strcmp(cz_reuse_keys[i].record, record->name) == 0)
                 fprintf(stream, "  %s\n      %s\n", cz_reuse_keys[i].key, cz_reuse_keys[i].doc);
     }
 }

@@ -8,19 +8,17 @@
 
 enum { MOST_BELOW_TITLES = 3 };
 
-static bool is_passed_over(const char *line) {
-    return cz_line_is_empty(line) || cz_line_comment(line) != NULL;
-}
-
 bool cz_reading_list_lines(CzArena *arena, CzCurveReading *reading) {
     const int n_line = reading->source.n_line;
     reading->next = cz_arena_allocate(arena, (size_t)n_line + 1, sizeof *reading->next);
     if (reading->next == NULL)
         return false;
     reading->next[n_line] = n_line;
-    for (int line = n_line - 1; line >= 0; line--)
-        reading->next[line] =
-            is_passed_over(reading->source.line[line]) ? reading->next[line + 1] : line;
+    for (int line = n_line - 1; line >= 0; line--) {
+        const char *text = reading->source.line[line];
+        const bool is_passed_over = cz_line_is_empty(text) || cz_line_comment(text) != NULL;
+        reading->next[line] = is_passed_over ? reading->next[line + 1] : line;
+    }
     return true;
 }
 

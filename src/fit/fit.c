@@ -1,7 +1,6 @@
 /* From a curve to the values of a law: reading, fitting by kind, rounding, values of the file. */
 #include "fit/fit.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,119 +41,105 @@ static CzStatus make_curve(CzFit *fit, CzError *error) {
 
 /* ---- values ---- */
 
-static bool is_close(double a, double b) {
-    return fabs(a - b) <= CZ_FIT_ROUNDING * fabs(b);
-}
-
-__attribute__((format(printf, 3, 4))) static void put(CzFit *fit, double value, const char *format,
-                                                      ...) {
-    va_list arguments;
-    if (!isfinite(value) || fit->summary.n_value == CZ_FIT_MOST_VALUES)
+/* Adds a value of a record [SI], in the unit that its key is typed with; `prefix` is the path
+ * before the key, such as "tube.". */
+static void put(CzFit *fit, CzRecordId record, const char *prefix, const char *typed, double si) {
+    const CzUnit *unit = NULL;
+    const CzKey *key = cz_record_match(&cz_records[record], typed, &unit);
+    if (!isfinite(si) || fit->summary.n_value == CZ_FIT_MOST_VALUES)
         return;
     CzFitValue *next = &fit->value[fit->summary.n_value++];
-    va_start(arguments, format);
-    vsnprintf(next->path, sizeof next->path, format, arguments);
-    va_end(arguments);
-    const double rounded = cz_fit_round(value, 1.0); /* the change of units alters the last bits */
-    next->value = is_close(rounded, value) ? rounded : value;
+    snprintf(next->path, sizeof next->path, "%s%s", prefix, typed);
+    next->value = si * (1.0 / unit->si);
+    const double rounded =
+        cz_fit_round(next->value, 1.0); /* the change of units alters last bits */
+    if (fabs(rounded - next->value) <= CZ_FIT_ROUNDING * fabs(next->value))
+        next->value = rounded;
+    const bool is_idle = strcmp(key->stem, "force") == 0 && si <= 0.0; /* absorbs nothing */
+    if (fit->beyond == NULL &&
+        (is_idle || si < key->lo * (1 - 1e-12) || si > key->hi * (1 + 1e-12)))
+        fit->beyond = next;
 }
 
-static void put_stages(CzFit *fit, const char *record, const CzStaged *staged) {
+static void put_stages(CzFit *fit, const char *prefix, const CzStaged *staged) {
     for (int i = 0; i < staged->n_stage; i++) {
-        put(fit, 1e3 * staged->stage[i].stroke, "%sstages[%d].stroke_mm", record, i);
-        put(fit, 1e-3 * staged->stage[i].force, "%sstages[%d].force_kN", record, i);
+        char stage[32];
+        snprintf(stage, sizeof stage, "%sstages[%d].", prefix, i);
+        put(fit, CZ_RECORD_CzStage, stage, "stroke_mm", staged->stage[i].stroke);
+        put(fit, CZ_RECORD_CzStage, stage, "force_kN", staged->stage[i].force);
     }
 }
 
 /* A stiffness that differs from the problem file's default. */
-static void put_unusual(CzFit *fit, const char *record, CzRecordId id, const char *stem,
+static void put_unusual(CzFit *fit, CzRecordId record, const char *prefix, const char *typed,
                         double stiffness) {
-    if (stiffness != cz_fit_key(id, stem)->absent)
-        put(fit, stiffness / 1e6, "%s%s_MN_m", record, stem);
+    const CzUnit *unit = NULL;
+    if (stiffness != cz_record_match(&cz_records[record], typed, &unit)->absent)
+        put(fit, record, prefix, typed, stiffness);
 }
 
-static void put_member(CzFit *fit, const char *record, CzRecordId id) {
+static void put_member(CzFit *fit, CzRecordId record, const char *prefix) {
     const CzStaged *member = &fit->member;
-    put_stages(fit, record, member);
-    put(fit, 1e-3 * member->trigger, "%strigger_kN", record);
+    put_stages(fit, prefix, member);
+    put(fit, record, prefix, "trigger_kN", member->trigger);
     if (!isnan(member->trigger))
-        put(fit, 1e3 * member->trigger_length, "%strigger_length_mm", record);
+        put(fit, record, prefix, "trigger_length_mm", member->trigger_length);
     if (fit->summary.is_dynamic)
-        put(fit, 0.0, "%srate_factor_s_m", record);
-    put_unusual(fit, record, id, "stiffness", fit->stiffness);
-    put_unusual(fit, record, id, "bottom_stiffness", member->bottom_stiffness);
+        put(fit, record, prefix, "rate_factor_s_m", 0.0);
+    put_unusual(fit, record, prefix, "stiffness_MN_m", fit->stiffness);
+    put_unusual(fit, record, prefix, "bottom_stiffness_MN_m", member->bottom_stiffness);
 }
 
-static void put_coupler(CzFit *fit) {
+static void put_buffer(CzFit *fit, CzRecordId record, const char *prefix) {
     const CzStaged *buffer = &fit->buffer;
     double steepest = 0.0, force = buffer->preload;
     if (buffer->preload > 0.0)
-        put(fit, 1e-3 * buffer->preload, "buffer.preload_kN");
-    put_stages(fit, "buffer.", buffer);
-    put(fit, fit->share, "buffer.unloading_share");
+        put(fit, record, prefix, "preload_kN", buffer->preload);
+    put_stages(fit, prefix, buffer);
+    put(fit, record, prefix, "unloading_share", fit->share);
     for (int i = 0; i < buffer->n_stage; force = buffer->stage[i++].force)
         steepest = fmax(steepest, (buffer->stage[i].force - force) / buffer->stage[i].stroke);
-    if (steepest > cz_fit_key(CZ_RECORD_CzBuffer, "transition_stiffness")->absent)
-        put(fit, cz_fit_round(1.001 * steepest, 1e6) * 1e-6, "buffer.transition_stiffness_MN_m");
-    put_unusual(fit, "buffer.", CZ_RECORD_CzBuffer, "bottom_stiffness", buffer->bottom_stiffness);
+    if (steepest > cz_fit_key(record, "transition_stiffness")->absent)
+        put(fit, record, prefix, "transition_stiffness_MN_m", cz_fit_round(1.001 * steepest, 1e6));
+    put_unusual(fit, record, prefix, "bottom_stiffness_MN_m", buffer->bottom_stiffness);
     if (fit->summary.is_dynamic)
-        put(fit, 0.0, "buffer.damping_kN_s_m");
-    if (fit->member.n_stage > 0)
-        put_member(fit, "tube.", CZ_RECORD_CzTube);
-    put(fit, 1e-3 * fit->shear_force, "shear_off.force_kN");
+        put(fit, record, prefix, "damping_kN_s_m", 0.0);
+}
+
+static void put_shear_off(CzFit *fit, CzRecordId record, const char *prefix) {
+    put(fit, record, prefix, "force_kN", fit->shear_force);
     if (fit->residual > 0.0)
-        put(fit, 1e-3 * fit->residual, "shear_off.residual_force_kN");
-    put(fit, 1e3 * fit->softening, "shear_off.softening_length_mm");
-    put(fit, 1e3 * fit->retraction, "shear_off.retraction_space_mm");
+        put(fit, record, prefix, "residual_force_kN", fit->residual);
+    put(fit, record, prefix, "softening_length_mm", fit->softening);
+    put(fit, record, prefix, "retraction_space_mm", fit->retraction);
 }
 
-static void put_values(CzFit *fit) {
-    switch (fit->summary.kind) {
-    case CZ_FIT_COUPLER:
-        put_coupler(fit);
-        break;
-    case CZ_FIT_END:
-        put_stages(fit, "", &fit->member);
-        put(fit, 1e-6 * fit->unloading, "unloading_stiffness_MN_m");
-        put(fit, fit->share, "unloading_share");
-        put(fit, 1e-6 * fit->second_unloading, "second_unloading_stiffness_MN_m");
-        put_unusual(fit, "", CZ_RECORD_CzEnd, "bottom_stiffness", fit->member.bottom_stiffness);
-        break;
-    default:
-        put_member(fit, "", CZ_RECORD_CzAntiClimber);
+static void put_end(CzFit *fit, CzRecordId record) {
+    put_stages(fit, "", &fit->member);
+    put(fit, record, "", "unloading_stiffness_MN_m", fit->unloading);
+    put(fit, record, "", "unloading_share", fit->share);
+    put(fit, record, "", "second_unloading_stiffness_MN_m", fit->second_unloading);
+    put_unusual(fit, record, "", "bottom_stiffness_MN_m", fit->member.bottom_stiffness);
+}
+
+/* Lists the values of the law; fails for one outside the range of its key. */
+static CzStatus put_values(CzFit *fit, CzError *error) {
+    char why[160];
+    if (fit->summary.kind == CZ_FIT_END) {
+        put_end(fit, CZ_RECORD_CzEnd);
+    } else if (fit->summary.kind == CZ_FIT_ANTI_CLIMBER) {
+        put_member(fit, CZ_RECORD_CzAntiClimber, "");
+    } else {
+        put_buffer(fit, CZ_RECORD_CzBuffer, "buffer.");
+        if (fit->member.n_stage > 0)
+            put_member(fit, CZ_RECORD_CzTube, "tube.");
+        put_shear_off(fit, CZ_RECORD_CzShearOff, "shear_off.");
     }
-}
-
-/* The record of the problem file that a value's path leads into. */
-static CzRecordId record_of(const CzFit *fit, const char *path) {
-    if (strstr(path, "stages[") != NULL)
-        return CZ_RECORD_CzStage;
-    if (fit->summary.kind == CZ_FIT_END)
-        return CZ_RECORD_CzEnd;
-    return strncmp(path, "buffer.", 7) == 0       ? CZ_RECORD_CzBuffer
-           : strncmp(path, "shear_off.", 10) == 0 ? CZ_RECORD_CzShearOff
-           : strncmp(path, "tube.", 5) == 0       ? CZ_RECORD_CzTube
-                                                  : CZ_RECORD_CzAntiClimber;
-}
-
-/* Fails for a value outside the range of its key. */
-static CzStatus check_values(const CzFit *fit, CzError *error) {
-    char number[CZ_NUMBER_TEXT], why[160];
-    for (int i = 0; i < fit->summary.n_value; i++) {
-        const char *path = fit->value[i].path, *point = strrchr(path, '.');
-        const CzUnit *unit = NULL;
-        const CzKey *key = cz_record_match(&cz_records[record_of(fit, path)],
-                                           point != NULL ? point + 1 : path, &unit);
-        const double value = key != NULL ? fit->value[i].value * unit->si : NAN;
-        const bool is_force = key != NULL && strcmp(key->stem, "force") == 0;
-        if (key != NULL && value >= key->lo * (1 - 1e-12) && value <= key->hi * (1 + 1e-12) &&
-            !(is_force && value <= 0.0)) /* a stage without force absorbs nothing */
-            continue;
-        snprintf(why, sizeof why, "%.80s would be %s, which is outside the range of a problem file",
-                 path, cz_number_print_short(number, fit->value[i].value));
-        return cz_fit_no_law(fit, error, why);
-    }
-    return CZ_OK;
+    if (fit->beyond == NULL)
+        return CZ_OK;
+    snprintf(why, sizeof why, "%.80s would be %s, which is outside the range of a problem file",
+             fit->beyond->path, CZ_SHORT(fit->beyond->value));
+    return cz_fit_no_law(fit, error, why);
 }
 
 /* ---- the steps of a fit ---- */
@@ -194,11 +179,10 @@ static CzStatus fit_law(CzFit *fit, int n_stage, CzError *error) {
     cz_fit_compare(fit);
     cz_fit_judge(fit);
     cz_fit_load_whole(fit, &fit->whole);
-    put_values(fit);
     summary->value = fit->value;
     summary->curve = (CzFitLoading){fit->curve.n, fit->curve.x, fit->curve.f};
     summary->law = (CzFitLoading){fit->whole.n, fit->whole.x, fit->whole.f};
-    return check_values(fit, error);
+    return put_values(fit, error);
 }
 
 /* Name of the part: the one requested, or the file's without folder and ending; in letters, digits,

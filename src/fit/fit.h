@@ -40,6 +40,7 @@ struct CzFit {
     CzLoading whole; /* over the stroke of the curve */
 
     CzFitValue value[CZ_FIT_MOST_VALUES]; /* (summary.n_value) */
+    const CzFitValue *beyond; /* the first one outside the range of its key; NULL without */
 };
 
 /* From a file, or from points, to a trace (read.c). */

@@ -1,14 +1,12 @@
 /* One branch of a measured curve and its integrals. */
 #include "fit/branch.h"
 
-#include <string.h>
-
 #include "problem/trace.h"
 
-static bool make_room(CzArena *arena, int n, CzBranch *branch) {
+bool cz_branch_begin(CzArena *arena, int n, CzBranch *branch) {
     double **const rows[] = {&branch->x, &branch->f, &branch->area, &branch->moment,
                              &branch->squares};
-    branch->n = n;
+    branch->n = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         *rows[i] = cz_arena_numbers(arena, (size_t)n);
         if (*rows[i] == NULL)
@@ -26,7 +24,9 @@ static CzBranchSums over_piece(double x, double f, double h, double f_end) {
     };
 }
 
-static void sum_up(CzBranch *branch) {
+bool cz_branch_end(CzArena *arena, CzBranch *branch) {
+    if (!cz_trace_raise(arena, branch->x, branch->n, branch->x))
+        return false;
     branch->area[0] = branch->moment[0] = branch->squares[0] = 0.0;
     for (int i = 1; i < branch->n; i++) {
         const CzBranchSums piece = over_piece(branch->x[i - 1], branch->f[i - 1],
@@ -35,13 +35,6 @@ static void sum_up(CzBranch *branch) {
         branch->moment[i] = branch->moment[i - 1] + piece.moment;
         branch->squares[i] = branch->squares[i - 1] + piece.squares;
     }
-}
-
-bool cz_branch_build(CzArena *arena, int n, const double *x, const double *f, CzBranch *branch) {
-    if (!make_room(arena, n, branch) || !cz_trace_raise(arena, x, n, branch->x))
-        return false;
-    memcpy(branch->f, f, (size_t)n * sizeof *f);
-    sum_up(branch);
     return true;
 }
 
@@ -87,25 +80,15 @@ double cz_branch_mean(const CzBranch *branch, double from, double to) {
 }
 
 bool cz_branch_cut(CzArena *arena, const CzBranch *branch, double from, double to, CzBranch *part) {
-    int n = 0;
-    double *x = cz_arena_numbers(arena, (size_t)branch->n + 2);
-    double *f = cz_arena_numbers(arena, (size_t)branch->n + 2);
-    if (x == NULL || f == NULL)
+    double last = cz_branch_force(branch, to);
+    if (!cz_branch_begin(arena, branch->n + 2, part))
         return false;
-    x[n] = 0.0;
-    f[n++] = cz_branch_force(branch, from);
+    cz_branch_add(part, 0.0, cz_branch_force(branch, from));
     for (int i = 0; i < branch->n; i++)
-        if (branch->x[i] > from && branch->x[i] < to) {
-            x[n] = branch->x[i] - from;
-            f[n++] = branch->f[i];
-        }
-    x[n] = to - from;
-    f[n] = cz_branch_force(branch, to);
-    /* At a jump that ends the part, the force before it. */
-    for (int i = 0; i < branch->n; i++)
-        if (branch->x[i] == to) {
-            f[n] = branch->f[i];
-            break;
-        }
-    return cz_branch_build(arena, n + 1, x, f, part);
+        if (branch->x[i] > from && branch->x[i] < to)
+            cz_branch_add(part, branch->x[i] - from, branch->f[i]);
+    for (int i = branch->n - 1; i >= 0; i--) /* at a jump that ends the part, the force before it */
+        last = branch->x[i] == to ? branch->f[i] : last;
+    cz_branch_add(part, to - from, last);
+    return cz_branch_end(arena, part);
 }

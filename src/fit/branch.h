@@ -20,9 +20,17 @@ typedef struct CzBranchSums {
     double area, moment, squares;
 } CzBranchSums;
 
-/* Copies the points; false without memory. Strokes that fall, by noise, are moved as little as
- * possible in the sense of least squares until they do not. */
-bool cz_branch_build(CzArena *arena, int n, const double *x, const double *f, CzBranch *branch);
+/* Begins a branch with room for n points; false without memory. */
+bool cz_branch_begin(CzArena *arena, int n, CzBranch *branch);
+
+static inline void cz_branch_add(CzBranch *branch, double x, double f) {
+    branch->x[branch->n] = x;
+    branch->f[branch->n++] = f;
+}
+
+/* Ends it; false without memory. Strokes that fall, by noise, are moved as little as possible in
+ * the sense of least squares until they do not. */
+bool cz_branch_end(CzArena *arena, CzBranch *branch);
 
 /* The part from `from` to `to` with strokes counted from `from`. */
 bool cz_branch_cut(CzArena *arena, const CzBranch *branch, double from, double to, CzBranch *part);

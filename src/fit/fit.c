@@ -17,24 +17,24 @@ CzFitOptions cz_fit_options_default(void) {
  * begins with force, else with none. */
 static CzStatus make_curve(CzFit *fit, CzError *error) {
     const CzTrace *trace = &fit->trace;
-    const size_t room = (size_t)trace->n_loading + 1;
-    int n = 0;
-    fit->path_x = cz_arena_numbers(&fit->arena, room);
-    fit->path_f = cz_arena_numbers(&fit->arena, room);
-    if (fit->path_x == NULL || fit->path_f == NULL)
+    const int top = trace->n_loading - 1;
+    CzBranch path;
+    if (!cz_branch_begin(&fit->arena, top + 2, &path) ||
+        !cz_branch_begin(&fit->arena, top + 2, &fit->curve))
         return cz_no_memory(error, "a fit");
     if (trace->x[0] > 0.0) {
-        const double mean =
-            cz_trace_work(trace, 0, trace->n_loading - 1) / trace->x[trace->n_loading - 1];
-        fit->path_f[n++] = trace->f[0] > 0.2 * mean ? trace->f[0] : 0.0;
+        const double mean = cz_trace_work(trace, 0, top) / trace->x[top];
+        cz_branch_add(&path, 0.0, trace->f[0] > 0.2 * mean ? trace->f[0] : 0.0);
     }
-    for (int i = 0; i < trace->n_loading; i++) {
-        fit->path_x[n] = trace->x[i];
-        fit->path_f[n++] = trace->f[i];
-    }
-    if (!cz_branch_build(&fit->arena, n, fit->path_x, fit->path_f, &fit->curve))
+    for (int i = 0; i <= top; i++)
+        cz_branch_add(&path, trace->x[i], trace->f[i]);
+    for (int i = 0; i < path.n; i++)
+        cz_branch_add(&fit->curve, path.x[i], path.f[i]);
+    if (!cz_branch_end(&fit->arena, &fit->curve))
         return cz_no_memory(error, "a fit");
-    fit->summary.energy = fit->summary.whole_energy = cz_fit_work(fit, n - 1);
+    fit->path_x = path.x;
+    fit->path_f = path.f;
+    fit->summary.energy = fit->summary.whole_energy = cz_fit_work(fit, path.n - 1);
     fit->summary.mean_force = fit->summary.energy / cz_branch_last(&fit->curve);
     return CZ_OK;
 }

@@ -164,15 +164,11 @@ bool cz_fit_plateaus(CzArena *arena, const CzBranch *branch, int n_stage, double
 
 /* The curve read from its end. */
 static bool mirror(CzArena *arena, const CzBranch *branch, CzBranch *mirrored) {
-    const int n = branch->n;
-    double *x = cz_arena_numbers(arena, (size_t)n), *f = cz_arena_numbers(arena, (size_t)n);
-    if (x == NULL || f == NULL)
+    if (!cz_branch_begin(arena, branch->n, mirrored))
         return false;
-    for (int i = 0; i < n; i++) {
-        x[i] = cz_branch_last(branch) - branch->x[n - 1 - i];
-        f[i] = branch->f[n - 1 - i];
-    }
-    return cz_branch_build(arena, n, x, f, mirrored);
+    for (int i = branch->n - 1; i >= 0; i--)
+        cz_branch_add(mirrored, cz_branch_last(branch) - branch->x[i], branch->f[i]);
+    return cz_branch_end(arena, mirrored);
 }
 
 double cz_fit_left_by_line(const CzBranch *branch, double to) {

@@ -62,15 +62,12 @@ double cz_fit_work(const CzFit *fit, int point) {
 }
 
 CzStatus cz_fit_branch(CzFit *fit, double stiffness, CzBranch *branch, CzError *error) {
-    const int n = fit->curve.n;
-    double *x = cz_arena_numbers(&fit->arena, (size_t)n);
-    if (x == NULL)
+    if (!cz_branch_begin(&fit->arena, fit->curve.n, branch))
         return cz_no_memory(error, "a fit");
-    for (int i = 0; i < n; i++)
-        x[i] = fmax(fit->path_x[i] - fit->path_f[i] / stiffness, 0.0);
-    x[0] = 0.0;
-    return cz_branch_build(&fit->arena, n, x, fit->path_f, branch) ? CZ_OK
-                                                                   : cz_no_memory(error, "a fit");
+    for (int i = 0; i < fit->curve.n; i++)
+        cz_branch_add(branch, i > 0 ? fmax(fit->path_x[i] - fit->path_f[i] / stiffness, 0.0) : 0.0,
+                      fit->path_f[i]);
+    return cz_branch_end(&fit->arena, branch) ? CZ_OK : cz_no_memory(error, "a fit");
 }
 
 /* ---- rounding ---- */

@@ -66,18 +66,13 @@ double cz_fit_stiffness_for(CzFit *fit, const CzStop *stop, double stiffness) {
 
 /* Extends a part to the end of a longer member with the force of its last stage. */
 static bool extend(CzArena *arena, double stroke, double force, CzBranch *part) {
-    const int n = part->n;
-    double *x = cz_arena_numbers(arena, (size_t)n + 1);
-    double *f = cz_arena_numbers(arena, (size_t)n + 1);
-    if (x == NULL || f == NULL)
+    const CzBranch shorter = *part;
+    if (!cz_branch_begin(arena, shorter.n + 1, part))
         return false;
-    for (int i = 0; i < n; i++) {
-        x[i] = part->x[i];
-        f[i] = part->f[i];
-    }
-    x[n] = fmax(stroke, x[n - 1]);
-    f[n] = force;
-    return cz_branch_build(arena, n + 1, x, f, part);
+    for (int i = 0; i < shorter.n; i++)
+        cz_branch_add(part, shorter.x[i], shorter.f[i]);
+    cz_branch_add(part, fmax(stroke, cz_branch_last(&shorter)), force);
+    return cz_branch_end(arena, part);
 }
 
 CzStatus cz_fit_place_stop(CzFit *fit, const CzStop *stop, CzStaged *staged, CzBranch *part,

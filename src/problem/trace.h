@@ -53,7 +53,7 @@ bool cz_trace_make(CzMistakes *mistakes, const CzSource *source, const CzTraceSh
                    double unit, CzTrace *trace);
 
 /* Moves strokes that fall, by noise, as little as possible in the sense of least squares until they
- * do not. False without memory. */
+ * do not; `raised` may be `x`. False without memory. */
 bool cz_trace_raise(CzArena *arena, const double *x, int n, double *raised);
 
 /* Work on the device from one point to another, in the order of the points [J]. */

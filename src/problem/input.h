@@ -48,7 +48,7 @@ typedef struct CzTexts {
         bool given;                                                                                \
         keys                                                                                       \
     } type;
-#define CZ_NUMBER(type, stem, dimension, lo, hi, presence, absent, kind, doc) double stem;
+#define CZ_NUMBER(type, stem, dimension, lo, hi, usual, presence, absent, kind, doc) double stem;
 #define CZ_COUNT(type, stem, lo, hi, presence, absent, doc) int stem;
 #define CZ_CHOICE(type, stem, set, presence, absent, doc) int stem;
 #define CZ_FLAG(type, stem, absent, doc) bool stem;

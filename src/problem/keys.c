@@ -27,13 +27,17 @@ const char *cz_track_word(CzTrack track) {
 #define FIELD(key_kind, type, field, required, text)                                               \
     .kind = key_kind, .stem = #field, .presence = CZ_PRESENCE_##required, .doc = text,             \
     .offset = offsetof(type, field)
-#define CZ_NUMBER(type, stem, of, from, to, presence, without, kind, doc)                          \
+#define ANY
+#define USUAL(suffix, from, to) .usual[0] = {#suffix, from, to, false},
+#define OR(suffix, from, to) .usual[1] = {#suffix, from, to, true},
+#define CZ_NUMBER(type, stem, of, from, to, most_often, presence, without, kind, doc)              \
     {FIELD(CZ_KEY_NUMBER, type, stem, presence, doc),                                              \
      .dimension = CZ_DIMENSION_##of,                                                               \
      .lo = from,                                                                                   \
      .hi = to,                                                                                     \
      .absent = CZ_PRESENCE_##presence == CZ_PRESENCE_DEFAULT ? (without) : NAN,                    \
-     .variation = CZ_VARIATION_##kind},
+     .variation = CZ_VARIATION_##kind,                                                             \
+     most_often},
 #define CZ_COUNT(type, stem, from, to, presence, without, doc)                                     \
     {FIELD(CZ_KEY_COUNT, type, stem, presence, doc), .lo = from, .hi = to, .absent = without},
 #define CZ_CHOICE(type, stem, set, presence, without, doc)                                         \
@@ -56,6 +60,9 @@ const char *cz_track_word(CzTrack track) {
 #define CZ_TEXTS(type, stem, presence, doc) {FIELD(CZ_KEY_TEXTS, type, stem, presence, doc)},
 #include "problem/keys.def"
 #undef FIELD
+#undef ANY
+#undef USUAL
+#undef OR
 
 #define CZ_RECORD(type, record, text, keys)                                                        \
     {.name = #record,                                                                              \

@@ -42,6 +42,13 @@ typedef enum CzPresence {
  * it designs, too. */
 typedef enum CzVariation { CZ_VARIATION_DATA, CZ_VARIATION_FITS, CZ_VARIATION_VARIES } CzVariation;
 
+/* Where a number usually lies. */
+typedef struct CzUsual {
+    const char *unit; /* suffix; NULL for no range */
+    double lo, hi;    /* in that unit */
+    bool is_typed;    /* of numbers that are typed in that unit only */
+} CzUsual;
+
 /* One key of a record. */
 typedef struct CzKey {
     CzKeyKind kind;
@@ -51,6 +58,7 @@ typedef struct CzKey {
     size_t offset;                /* of the field in its record [byte] */
     CzDimension dimension;        /* number: its own; table: of x */
     double lo, hi;                /* number and count: range [SI] */
+    CzUsual usual[2];             /* number: the second only beside the first */
     double absent;                /* number, count, choice, flag: value when absent */
     CzVariation variation;        /* number: whether a search may change it */
     const CzWordSet *words;       /* choice: what it may be */

@@ -7,30 +7,22 @@
 /* Each range belongs to a number with that unit, and lies within the allowed range. */
 static void every_usual_range_is_one_of_a_key(void **state) {
     (void)state;
-    static const struct {
-        CzRecordId record;
-        const char *stem, *unit;
-        double lo, hi;
-    } usual[] = {
-#define CZ_USUAL(type, stem, unit, lo, hi) {CZ_RECORD_##type, #stem, #unit, lo, hi},
-#define CZ_USUAL_IN CZ_USUAL
-#include "problem/usual.def"
-#undef CZ_USUAL
-#undef CZ_USUAL_IN
-    };
-    for (size_t i = 0; i < sizeof usual / sizeof usual[0]; i++) {
-        const CzKey *key = cz_record_key(&cz_records[usual[i].record], usual[i].stem);
-        assert_non_null(key);
-        assert_int_equal(key->kind, CZ_KEY_NUMBER);
-        const CzUnit *unit = cz_unit_find(key->dimension, usual[i].unit);
-        assert_non_null(unit);
-        assert_true(usual[i].lo < usual[i].hi);
-        assert_true(usual[i].lo * unit->si >= key->lo || key->lo <= 0);
-        assert_true(usual[i].hi * unit->si <= key->hi * (1 + 1e-12));
-        if (!isnan(key->absent) && key->absent != 0) /* a default is usual */
-            assert_true(fabs(key->absent) >= usual[i].lo * unit->si &&
-                        fabs(key->absent) <= usual[i].hi * unit->si);
-    }
+    for (int r = 0; r < CZ_N_RECORD; r++)
+        for (int i = 0; i < 2 * cz_records[r].n_key; i++) {
+            const CzKey *key = &cz_records[r].key[i / 2];
+            const CzUsual *usual = &key->usual[i % 2];
+            if (usual->unit == NULL)
+                continue;
+            assert_int_equal(key->kind, CZ_KEY_NUMBER);
+            const CzUnit *unit = cz_unit_find(key->dimension, usual->unit);
+            assert_non_null(unit);
+            assert_true(usual->lo < usual->hi);
+            assert_true(usual->lo * unit->si >= key->lo || key->lo <= 0);
+            assert_true(usual->hi * unit->si <= key->hi * (1 + 1e-12));
+            if (!isnan(key->absent) && key->absent != 0) /* a default is usual */
+                assert_true(fabs(key->absent) >= usual->lo * unit->si &&
+                            fabs(key->absent) <= usual->hi * unit->si);
+        }
 }
 
 /* Number of a problem's warnings of unusual numbers; only those with `word`. */

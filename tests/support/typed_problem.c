@@ -16,7 +16,7 @@
         memset(&record, 0, sizeof record);                                                         \
         keys return record;                                                                        \
     }
-#define CZ_NUMBER(type, stem, dimension, lo, hi, presence, absent, kind, doc)                      \
+#define CZ_NUMBER(type, stem, dimension, lo, hi, usual, presence, absent, kind, doc)               \
     record.stem = ABSENT_##presence(absent);
 #define CZ_COUNT(type, stem, lo, hi, presence, absent, doc) record.stem = absent;
 #define CZ_CHOICE(type, stem, set, presence, absent, doc) record.stem = absent;

@@ -75,7 +75,7 @@ static CzStatus collect(const CzProblem *problem, const CzProblem *trial, const 
     const size_t room = (size_t)(found->n + places->n_place) + 1;
     CzTarget *target = realloc(found->target, room * sizeof *target);
     if (target == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
+        return cz_no_memory(error, "the places of a path");
     const int first = found->n;
     found->target = target;
     for (int i = 0; i < places->n_place; i++)
@@ -96,7 +96,7 @@ static CzStatus find(const CzProblem *problem, CzProblem *trial, CzSetting *stan
     if (source != NULL)
         cz_problem_bind(trial, &trial->tree);
     if (reader->arena.out_of_memory)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
+        return cz_no_memory(error, "the places of a path");
     const CzError *mistake = first_mistake(reader, &place);
     if (mistake != NULL) {
         cz_fail(error, CZ_STATUS_INPUT, "path '%s': %s", path, mistake->message);
@@ -120,7 +120,7 @@ CzStatus cz_problem_find(const CzProblem *problem, const char *path, CzTargets *
     CzSetting *stand_ins = NULL;
     CzProblem *trial = cz_problem_create_again(problem, 1, &stand_ins);
     if (trial == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to look for a path");
+        return cz_no_memory(error, "the places of a path");
     const CzStatus status = find(problem, trial, stand_ins, path, targets, error);
     cz_problem_free(trial);
     return status;

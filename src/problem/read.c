@@ -26,7 +26,7 @@ static CzStatus begin(const CzProblemOptions *options, const char *file, CzProbl
     CzProblem *begun = cz_problem_create(CZ_SHARE_FOLDER);
     *problem = begun;
     if (begun == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to read '%s'", file);
+        return cz_no_memory(error, file);
     CzArena *arena = &begun->reader.arena;
     begun->file = cz_arena_copy_text(arena, file, strlen(file));
     if (options->share_folder != NULL)
@@ -69,14 +69,8 @@ static CzStatus finish(CzProblem *problem, CzError *error) {
     snprintf(problem->hash, sizeof problem->hash, "%016" PRIx64, reader->sources.hash);
     cz_mistakes_finish(&reader->mistakes);
     cz_mistakes_finish(&reader->warnings);
-    if (reader->arena.out_of_memory)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to read '%s'",
-                       problem->file != NULL ? problem->file : "the problem");
-    if (reader->mistakes.n_mistake == 0)
-        return CZ_OK;
-    if (error != NULL)
-        *error = reader->mistakes.mistake[0]->error;
-    return CZ_STATUS_INPUT;
+    return cz_mistakes_status(&reader->mistakes,
+                              problem->file != NULL ? problem->file : "the problem", error);
 }
 
 CzStatus cz_problem_read(const char *path, const CzProblemOptions *options, CzProblem **problem,

@@ -26,22 +26,16 @@ CzStatus cz_problem_read_again(const CzProblem *problem, int n_more, const char 
     CzSetting *more = NULL;
     CzProblem *made = cz_problem_create_again(problem, n_more, &more);
     if (made == NULL)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory to read the problem again");
+        return cz_no_memory(error, "the problem with other settings");
     CzReader *reader = &made->reader;
     if (make_settings(reader, n_more, path, value, more))
         cz_problem_bind(made, &made->tree);
     const CzRules rules = cz_rules_of(made);
     if (!reader->arena.out_of_memory)
         cz_rules_check_collision(&rules);
-    CzStatus status = CZ_OK;
-    if (reader->arena.out_of_memory) {
-        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory to read the problem again");
-    } else if (reader->mistakes.n_mistake > 0) {
-        cz_mistakes_finish(&reader->mistakes);
-        status = CZ_STATUS_INPUT;
-        if (error != NULL)
-            *error = reader->mistakes.mistake[0]->error;
-    }
+    cz_mistakes_finish(&reader->mistakes);
+    const CzStatus status =
+        cz_mistakes_status(&reader->mistakes, "the problem with other settings", error);
     if (status != CZ_OK) {
         cz_problem_free(made);
         return status;

@@ -109,15 +109,8 @@ CzStatus cz_problem_check_vehicles(const CzProblem *problem, const CzVehicle *ve
                            .input = &problem->input,
                            .vehicle = vehicles,
                            .mistakes = &mistakes};
-    CzStatus status = CZ_OK;
     check_vehicles(&rules);
-    if (arena.out_of_memory) {
-        status = cz_fail(error, CZ_STATUS_NO_MEMORY, "there is no memory to judge a design");
-    } else if (mistakes.n_mistake > 0) {
-        status = CZ_STATUS_INPUT;
-        if (error != NULL)
-            *error = mistakes.mistake[0]->error;
-    }
+    const CzStatus status = cz_mistakes_status(&mistakes, "the rules of a design", error);
     cz_arena_free(&arena);
     return status;
 }

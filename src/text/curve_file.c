@@ -7,7 +7,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/error.h"
 #include "text/curve_number.h"
 
 enum { MOST_LINES = 1000000 };
@@ -293,14 +292,8 @@ bool cz_curve_points_read(CzSources *sources, CzMistakes *mistakes, const char *
 }
 
 static CzStatus finish(CzMistakes *mistakes, const char *name, CzError *error) {
-    if (mistakes->arena->out_of_memory)
-        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the curve of '%s'", name);
     cz_mistakes_finish(mistakes);
-    if (mistakes->n_mistake == 0)
-        return CZ_OK;
-    if (error != NULL)
-        *error = mistakes->mistake[0]->error;
-    return CZ_STATUS_INPUT;
+    return cz_mistakes_status(mistakes, name, error);
 }
 
 CzStatus cz_curve_points_read_memory(CzArena *arena, const char *name, const char *text,

@@ -128,3 +128,11 @@ void cz_mistakes_finish(CzMistakes *mistakes) {
     mistakes->mistake[mistakes->n_mistake++] = rest;
     mistakes->n_left_out = 0;
 }
+
+CzStatus cz_mistakes_status(const CzMistakes *mistakes, const char *what, CzError *error) {
+    if (mistakes->arena->out_of_memory)
+        return cz_no_memory(error, what);
+    if (mistakes->n_mistake > 0 && error != NULL)
+        *error = mistakes->mistake[0]->error;
+    return mistakes->n_mistake > 0 ? CZ_STATUS_INPUT : CZ_OK;
+}

@@ -48,6 +48,10 @@ void cz_mistake_suggest(CzMistakes *mistakes, const CzSuggestion *suggestion);
  * out. */
 void cz_mistakes_finish(CzMistakes *mistakes);
 
+/* What reading `what` came to: CZ_OK without mistakes, CZ_STATUS_INPUT with the first one,
+ * CZ_STATUS_NO_MEMORY. */
+CzStatus cz_mistakes_status(const CzMistakes *mistakes, const char *what, CzError *error);
+
 /* Puts file, line and column of a node into an error. */
 void cz_error_place(CzError *error, const CzNode *place);
 

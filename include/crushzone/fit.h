@@ -22,9 +22,8 @@ typedef enum CzFitKind {
     CZ_N_FIT
 } CzFitKind;
 
-/* Word of a kind, such as "anti-climber", and what it is. */
+/* Word of a kind, such as "anti-climber". */
 CZ_API const char *cz_fit_kind_word(CzFitKind kind);
-CZ_API const char *cz_fit_kind_doc(CzFitKind kind);
 
 /* Where stroke 0 of a curve is. */
 typedef enum CzFitZero {

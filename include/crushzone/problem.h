@@ -63,8 +63,7 @@ CZ_MUST_CHECK CZ_API CzStatus cz_problem_find_scenario(const CzProblem *problem,
 
 /* Writes the resolved file as YAML: all parts, copies and defaults filled in, SI values and origin
  * in comments. The output is itself a problem file with the same meaning to the last bit. */
-CZ_MUST_CHECK CZ_API CzStatus cz_problem_write_resolved(const CzProblem *problem, FILE *stream,
-                                                        CzError *error);
+CZ_API void cz_problem_write_resolved(const CzProblem *problem, FILE *stream);
 
 /* Name and meaning of a key of a record, such as "limit", by its number; NULL beyond the last. */
 CZ_API const char *cz_key_name(const char *record, int index);

@@ -232,10 +232,7 @@ static int show_properties(const CzSession *session) {
                                &(Elevation){session->problem, scenario});
     if (cz_model_build(session->problem, scenario, &model, &error) != CZ_OK)
         return cz_session_fail(session, &error);
-    if (cz_problem_write_resolved(session->problem, stdout, &error) != CZ_OK) {
-        cz_model_free(model);
-        return cz_session_fail(session, &error);
-    }
+    cz_problem_write_resolved(session->problem, stdout);
     printf("\n# Known before the run, scenario %s; axles and ends are counted from the rear.\n",
            cz_problem_scenario_name(session->problem, scenario));
     show_vehicles(model);

@@ -9,20 +9,13 @@
 
 #define FAR_OFF 0.5 /* largest change of a force for equal energy, as a share of it (ours) */
 
-static const struct {
-    const char *word, *doc;
-} kinds[CZ_N_FIT] = {
-#define CZ_FIT(constant, word, record, doc) [constant] = {word, doc},
+const char *cz_fit_kind_word(CzFitKind kind) {
+    static const char *const words[CZ_N_FIT] = {
+#define CZ_FIT(constant, word, record, doc) [constant] = word,
 #include "crushzone/fits.def"
 #undef CZ_FIT
-};
-
-const char *cz_fit_kind_word(CzFitKind kind) {
-    return kinds[kind].word;
-}
-
-const char *cz_fit_kind_doc(CzFitKind kind) {
-    return kinds[kind].doc;
+    };
+    return words[kind];
 }
 
 const CzKey *cz_fit_key(CzRecordId record, const char *stem) {

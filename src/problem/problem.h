@@ -141,8 +141,7 @@ const struct CzSource *cz_problem_measured_file(const CzProblem *problem, int nu
 
 /* cz_problem_write_resolved for a result folder: it names the copies of the time histories there.
  */
-CZ_MUST_CHECK CzStatus cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream,
-                                                       CzError *error);
+void cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream);
 
 /* Reads a profile of limits: NAME.yaml in profiles/ beside the problem file, then in the share
  * folder. Borrowed from the problem, read with it when the problem names one; NULL when it names

@@ -350,14 +350,10 @@ static void write_resolved(const CzProblem *problem, bool is_there, FILE *stream
     write_record(&writer, &cz_records[CZ_RECORD_CzInput], (const char *)&problem->input, 0, "");
 }
 
-CzStatus cz_problem_write_resolved(const CzProblem *problem, FILE *stream, CzError *error) {
-    (void)error;
+void cz_problem_write_resolved(const CzProblem *problem, FILE *stream) {
     write_resolved(problem, false, stream);
-    return CZ_OK;
 }
 
-CzStatus cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream, CzError *error) {
-    (void)error;
+void cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream) {
     write_resolved(problem, true, stream);
-    return CZ_OK;
 }

@@ -20,8 +20,8 @@ CzStatus cz_inputs_text_begin(CzInputsText *inputs, const CzProblem *problem, Cz
     inputs->folder = source != NULL ? source->folder : "";
     FILE *stream = cz_memory_text_open(&memory);
     if (stream != NULL) {
-        const CzStatus status = cz_problem_write_resolved(problem, stream, NULL);
-        if (fclose(stream) == 0 && status == CZ_OK && !memory.failed && memory.text != NULL)
+        cz_problem_write_resolved(problem, stream);
+        if (fclose(stream) == 0 && !memory.failed && memory.text != NULL)
             inputs->line = malloc((memory.n + 1) * sizeof *inputs->line);
     }
     inputs->text = memory.text;

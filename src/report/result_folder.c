@@ -116,9 +116,10 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
     case OVERLAY:
         return cz_overlay_write(report, results->folder, stream, error);
     case RESOLVED: /* the problem that gives these results when it is run alone */
-        return report->outcome != NULL
-                   ? cz_overlay_write_resolved(report, stream, error)
-                   : cz_problem_write_resolved_there(report->problem, stream, error);
+        if (report->outcome != NULL)
+            return cz_overlay_write_resolved(report, stream, error);
+        cz_problem_write_resolved_there(report->problem, stream);
+        return CZ_OK;
     case REPORT:
         return write_report(results, stream, error);
     case SWEEP_REPORT:

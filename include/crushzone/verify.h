@@ -29,6 +29,8 @@ typedef struct CzVerifyOptions {
     double solver_step; /* longest step of the solvers, in half steps of the production run; 1 by
                            default; 2, the value in a search, halves their time; from 3 their own
                            error exceeds the limit [-] */
+    bool until_settled; /* compares runs that end once they have settled, as those of a search do,
+                           where the production run has the same checks then; false by default */
 } CzVerifyOptions;
 CZ_API CzVerifyOptions cz_verify_options_default(void);
 
@@ -39,7 +41,7 @@ typedef struct CzVerifiedValue {
     char scenario[CZ_NAME_ROOM]; /* empty for the objective and for the design itself */
     char where[CZ_WHERE_ROOM];   /* of the production run; empty when it has no place */
     const char *unit;
-    double production;    /* value of the production run */
+    double production;    /* value of the production run, or of that up to where it settled */
     bool beyond_validity; /* the production run's value may be of the time after an override */
     double value[CZ_N_VERIFY_METHOD];  /* NaN when not computed */
     double change[CZ_N_VERIFY_METHOD]; /* of a check or target: by how much its margin changes, a
@@ -57,6 +59,7 @@ typedef struct CzVerification {
                            incomplete */
     char failure[320];  /* which method, scenario and why; empty otherwise */
     double solver_step; /* as it was requested */
+    bool until_settled; /* as it was requested, and the production run has the same checks */
     double limit;
     unsigned methods; /* that were requested and apply here: bit 1 << CzVerifyMethod each */
     int n_value;

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "laws/wheel_rail.h"
+
 CzInterfaceEquipment cz_interface_equipment(const CzLanes *lanes, size_t lane) {
     const CzLane at = cz_lane_at(lanes, lane);
     const CzCouplerRows *coupler = &at.rows->coupler;
@@ -37,6 +39,23 @@ CzInterfaceEquipment cz_interface_equipment(const CzLanes *lanes, size_t lane) {
     return of;
 }
 
+/* Brakes and rolling resistance at the static loads of the wheels, over the mass. */
+static double slowing_of(const CzLanes *lanes, size_t lane) {
+    const CzLane at = cz_lane_at(lanes, lane);
+    const CzWheelRows *wheel = &at.rows->wheel;
+    const size_t i = at.i;
+    double force = at.rows->drag.brake[i] + at.rows->drag.rolling[i], mass = 0.0;
+    if (at.rows->drag.slide[i] > 0.0)
+        return INFINITY;
+    for (int axle = 0; axle < 4; ++axle)
+        force += wheel->brake_moment[axle][i] / wheel->radius[i] +
+                 wheel->rolling_resistance[i] *
+                     cz_wheel_normal_force(wheel->hertz[i], wheel->indentation[axle][i]);
+    for (int dof = 0; dof < CZ_N_DOF; ++dof)
+        mass += cz_axis_of(dof) == CZ_AXIS_ALONG ? *cz_lane_mass(lanes, dof, lane) : 0.0;
+    return mass > 0.0 ? force / mass : 0.0;
+}
+
 CzCarEquipment cz_car_equipment(const CzLanes *lanes, size_t lane) {
     const CzLane at = cz_lane_at(lanes, lane);
     const CzWheelRows *wheel = &at.rows->wheel;
@@ -46,6 +65,7 @@ CzCarEquipment cz_car_equipment(const CzLanes *lanes, size_t lane) {
         .has_slaved_ends = at.rows->slaved_ends[i] > 0.5,
         .is_held = wheel->brake_moment[0][i] > 0.0 || wheel->brake_moment[3][i] > 0.0 ||
                    drag->brake[i] > 0.0 || drag->slide[i] > 0.0,
+        .slowing = slowing_of(lanes, lane),
         .lift_stop = at.rows->secondary.lift_gap[i],
         .bump_stop = at.rows->secondary.bump_gap[i],
         .slide_length = drag->slide_length[i],

@@ -33,6 +33,8 @@ CzInterfaceEquipment cz_interface_equipment(const CzLanes *lanes, size_t lane);
 typedef struct CzCarEquipment {
     bool has_slaved_ends;        /* they move with the body */
     bool is_held;                /* by brakes or friction jaws */
+    double slowing;              /* largest deceleration by brakes and rolling resistance; infinite
+                                    with friction jaws [m/s2] */
     double lift_stop, bump_stop; /* extension and compression of the secondary suspension [m] */
     double slide_length;         /* CZ_NEVER without [m] */
     double inverse_mass;         /* of the body; 0 where it cannot move [1/kg] */

@@ -14,6 +14,7 @@ typedef struct CzManner {
     double step_factor; /* factor on every time step */
     CzIntegrator integrator;
     CzTrackUse track;
+    bool brief; /* runs may end once they have settled; not those of a fit */
 } CzManner;
 
 /* Evaluates one design in another manner, with its runs kept but no channels; x as in cz_evaluate.

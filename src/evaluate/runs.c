@@ -32,7 +32,7 @@ typedef struct Block {
     CzVariant own[BLOCK];            /* variants of designs that are read again (n_point) */
     bool is_refused[BLOCK];          /* designs that break a rule of files (n_point) */
     CzRun **run;                     /* (n_point x n_scene) */
-    bool record, keep, brief;        /* channels are recorded, runs are kept, runs may end early */
+    bool record, keep;               /* channels are recorded, runs are kept */
     CzManner manner;
     int n_task;
     Task *task; /* (n_task) */
@@ -46,7 +46,7 @@ static CzStatus run_designs(const Block *block, const CzModel *model, const Task
         return cz_fail(error, CZ_STATUS_INTERRUPTED, "the evaluation was interrupted");
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = block->record;
-    options.brief = block->brief;
+    options.brief = block->manner.brief;
     options.integrator = block->manner.integrator;
     options.track = block->manner.track;
     if (block->manner.step_factor != 1)
@@ -193,7 +193,7 @@ static CzStatus evaluate_block(const Block *wish, int n_point, const double *x,
     block.n_point = n_point;
     block.x = x;
     block.record |= evaluator->matches.needs_record;
-    block.brief &= evaluator->matches.n_item == 0;
+    block.manner.brief &= evaluator->matches.n_item == 0;
     const size_t n_vehicle = (size_t)evaluator->n_vehicle;
     CzVehicle *copies = malloc((size_t)n_point * n_vehicle * sizeof *copies);
     block.run = calloc((size_t)n_point * (size_t)evaluator->n_scene, sizeof(CzRun *));
@@ -251,10 +251,10 @@ CzStatus cz_evaluate(CzEvaluator *evaluator, int n_point, const double *x, bool 
 
 CzStatus cz_evaluator_search(const CzEvaluator *evaluator, int n_point, const double *x,
                              CzEvaluation *evaluation, double *detail, CzError *error) {
-    const Block wish = {
-        .evaluator = evaluator,
-        .brief = true,
-        .manner = {.step_factor = evaluator->manner.step_factor, .integrator = CZ_INTEGRATOR_ZHAI}};
+    const Block wish = {.evaluator = evaluator,
+                        .manner = {.step_factor = evaluator->manner.step_factor,
+                                   .integrator = CZ_INTEGRATOR_ZHAI,
+                                   .brief = true}};
     return evaluate_all(&wish, n_point, x, evaluation, detail, error);
 }
 

@@ -23,6 +23,9 @@
 #include <string.h>
 
 #define LIMIT 0.01 /* largest change that passes (ours) */
+#define SETTLED_SHARE                                                                              \
+    0.1 /* of the limit: largest change of a check after its run settled (ours)                    \
+         */
 /* A factor on the step that moves it against every event and changes its error by 6 %; with 33
  * steps for 32 the end criterion is examined at the same times (ours). */
 #define NUDGE (32.0 / 33.0)
@@ -52,14 +55,22 @@ static CzTrack track_of(const CzEvaluator *evaluator) {
     return cz_problem_track(evaluator->problem);
 }
 
+/* The problem's own track, also in a run that may end early. */
+static CzTrackUse own_track(const CzEvaluator *evaluator) {
+    return track_of(evaluator) == CZ_TRACK_MODAL ? CZ_TRACK_USE_MODAL
+           : track_of(evaluator) == CZ_TRACK_FE  ? CZ_TRACK_USE_FE
+                                                 : CZ_TRACK_USE_OWN;
+}
+
 static CzTrackUse track_of_solvers(const CzEvaluator *evaluator) {
-    return track_of(evaluator) == CZ_TRACK_FE ? CZ_TRACK_USE_MODAL : CZ_TRACK_USE_OWN;
+    return track_of(evaluator) == CZ_TRACK_FE ? CZ_TRACK_USE_MODAL : own_track(evaluator);
 }
 
 /* How a method makes its runs. All tracks are compared with the modal one, and that with finite
  * elements, on which the solvers do not run. */
 static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyMethod method, double solver_step) {
     CzManner manner = evaluator->manner;
+    manner.track = own_track(evaluator);
     switch (method) {
     case CZ_METHOD_HALF_STEP:
         manner.step_factor *= 0.5;
@@ -96,6 +107,7 @@ typedef struct Number {
     double scale;               /* infinite: no change counts */
     const CzCheckResult *check; /* NULL for the objective and the bulk of a scenario */
     bool beyond_validity;
+    bool is_total; /* adds up over the whole run */
 } Number;
 
 static Number number_of_check(const CzCheck *check, const CzCheckResult *result) {
@@ -107,7 +119,8 @@ static Number number_of_check(const CzCheck *check, const CzCheckResult *result)
                     .counted = result->margin > 1.0 ? 1.0 : result->margin,
                     .scale = check->scale == CZ_FLAG_SCALE ? INFINITY : fmax(1.0, -result->margin),
                     .check = result,
-                    .beyond_validity = result->beyond_validity};
+                    .beyond_validity = result->beyond_validity,
+                    .is_total = check->metric.kind != NULL && check->metric.kind->is_total};
 }
 
 enum { N_BULK = 3 };
@@ -270,8 +283,9 @@ static void write_failure(CzVerification *verification, const char *method,
 static CzStatus run_method(CzVerification *verification, const CzEvaluator *evaluator,
                            CzVerifyMethod method, const double *x, const Number *record,
                            Number *again, CzError *error) {
-    const CzManner manner = manner_of(evaluator, method, verification->solver_step);
+    CzManner manner = manner_of(evaluator, method, verification->solver_step);
     CzEvaluation evaluation = {0};
+    manner.brief = verification->until_settled;
     CZ_TRY(cz_evaluator_again(evaluator, &manner, x, &evaluation, error));
     if (evaluation.status != CZ_OK) {
         write_failure(verification, methods[method].text, &evaluation);
@@ -324,6 +338,54 @@ static CzVerdict judge(const CzVerification *verification) {
                                                            : CZ_VERDICT_NOT_CHECKED;
 }
 
+/* Whether the checks of a settled run are those of the whole one: of what adds up over the run,
+ * such as the energy in brakes, the verdicts. */
+static bool has_same_checks(const CzEvaluator *evaluator, double limit, const CzEvaluation *whole,
+                            const CzEvaluation *settled, Number *number) {
+    Number *other = number + most_numbers(evaluator, whole);
+    const int n = list_numbers(evaluator, whole, number);
+    bool is_same = list_numbers(evaluator, settled, other) == n;
+    for (int i = 0; i < n && is_same; i++) {
+        const double change = fabs(other[i].counted - number[i].counted) / number[i].scale;
+        const bool is_off = !number[i].is_total && change > SETTLED_SHARE * limit;
+        if (number[i].check != NULL)
+            is_same = !is_off && !differs(number[i].check->verdict, other[i].check->verdict);
+    }
+    return is_same;
+}
+
+/* Finds the settled runs of the record, where they are asked for and have its checks. */
+static CzStatus find_settled(CzVerification *verification, const CzEvaluator *evaluator,
+                             const double *x, const CzEvaluation *record, CzEvaluation *settled,
+                             CzError *error) {
+    CzManner manner = evaluator->manner;
+    manner.track = own_track(evaluator);
+    manner.brief = true;
+    CZ_TRY(cz_evaluator_again(evaluator, &manner, x, settled, error));
+    Number *number = calloc(2 * (size_t)most_numbers(evaluator, record), sizeof *number);
+    if (number == NULL)
+        return cz_no_memory(error, "the verification");
+    verification->until_settled =
+        settled->status == CZ_OK &&
+        has_same_checks(evaluator, verification->limit, record, settled, number);
+    free(number);
+    return CZ_OK;
+}
+
+/* Runs all methods, and before them the settled runs that they are compared with. */
+static CzStatus run_all(CzVerification *verification, const CzEvaluator *evaluator, const double *x,
+                        const CzEvaluation *record, bool until_settled, CzError *error) {
+    CzEvaluation settled = {0};
+    CzStatus status = CZ_OK;
+    if (until_settled)
+        status = find_settled(verification, evaluator, x, record, &settled, error);
+    if (status == CZ_OK)
+        status = run_methods(verification, evaluator, x,
+                             verification->until_settled ? &settled : record, error);
+    cz_evaluation_free(&settled);
+    return status;
+}
+
 /* Verifies against a record that has its runs. */
 static CzStatus verify(CzVerification *verification, CzEvaluator *evaluator, const double *x,
                        const CzEvaluation *record, const CzVerifyOptions *options, CzError *error) {
@@ -343,7 +405,8 @@ static CzStatus verify(CzVerification *verification, CzEvaluator *evaluator, con
     }
     const volatile sig_atomic_t *stop = evaluator->stop;
     cz_evaluator_set_stop(evaluator, options->stop);
-    const CzStatus status = run_methods(verification, evaluator, x, record, error);
+    const CzStatus status =
+        run_all(verification, evaluator, x, record, options->until_settled, error);
     cz_evaluator_set_stop(evaluator, stop);
     verification->verdict = judge(verification);
     return status;

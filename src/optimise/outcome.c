@@ -74,6 +74,7 @@ CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *opti
     CzVerifyOptions chosen = cz_verify_options_default();
     chosen.methods = options->verify_methods;
     chosen.solver_step = 2.0;
+    chosen.until_settled = true;
     chosen.stop = options->stop;
     const CzStatus status = cz_verify(evaluator, outcome->best, &outcome->best_evaluation, &chosen,
                                       &outcome->verification, error);

@@ -217,14 +217,34 @@ static double rest_or_speed(const CzBatch *batch, int car, int design) {
     return is_held || is_slowed ? fmin(speed, 0.0) : speed;
 }
 
-/* Largest speed at which cars that are apart can still meet: a car ahead that is slowed may come to
- * rest. */
+/* Speed at which a car can still meet one ahead of it, `room` beyond their closure now: one that is
+ * slowed meanwhile comes to rest at most. */
+static double speed_at_meeting(const CzBatch *batch, int behind, int ahead, double room,
+                               int design) {
+    const size_t lane = cz_lane(batch, ahead, design);
+    const double speed = cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, behind, design));
+    const double closing = speed - cz_velocity(batch, CZ_DOF(body.x), lane);
+    const double at_most = speed - rest_or_speed(batch, ahead, design);
+    const double slowing = cz_car_equipment(batch->lanes, lane).slowing;
+    if (!(at_most > closing))
+        return at_most;
+    return fmin(at_most, sqrt(closing * closing + 2.0 * slowing * room)); /* not 0 times infinity */
+}
+
+/* Largest speed at which cars can still meet. Neighbours meet again at their largest closure so
+ * far at the latest: what is between them has no more room. */
 static double meeting_speed(const CzBatch *batch, int design) {
-    double slowest = INFINITY, largest = 0.0;
-    for (int car = batch->model->n_car - 1; car >= 0; --car) {
-        const double speed = cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, car, design));
-        largest = fmax(largest, speed - slowest);
-        slowest = fmin(slowest, rest_or_speed(batch, car, design));
+    double largest = 0.0;
+    for (int ahead = 1; ahead < batch->model->n_car; ++ahead) {
+        double room = 0.0;
+        for (int behind = ahead - 1; behind >= 0; --behind) {
+            const size_t lane = cz_lane(batch, behind, design);
+            const double closure =
+                cz_position(batch, CZ_DOF(body.x), lane) -
+                cz_position(batch, CZ_DOF(body.x), cz_lane(batch, behind + 1, design));
+            room += fmax(cz_extreme(batch, CZ_EXTREME(interface_shortening), lane) - closure, 0.0);
+            largest = fmax(largest, speed_at_meeting(batch, behind, ahead, room, design));
+        }
     }
     return largest;
 }

@@ -10,13 +10,19 @@ typedef struct Case {
     CzVerification *verification;
 } Case;
 
-static Case begin(const char *more) {
-    Case made = {.problem = small_problem(more)};
+static Case begin_with(const char *more, int n_set, const char *const *set) {
+    Case made = {0};
     CzError error = {0};
+    if (small_problem_read(more, n_set, set, &made.problem, &error) != CZ_OK)
+        fail_msg("%s", error.message);
     const CzEvaluatorOptions options = cz_evaluator_options_default();
     if (cz_evaluator_build(made.problem, &options, &made.evaluator, &error) != CZ_OK)
         fail_msg("%s", error.message);
     return made;
+}
+
+static Case begin(const char *more) {
+    return begin_with(more, 0, NULL);
 }
 
 static void verify(Case *made, const CzVerifyOptions *options) {
@@ -205,6 +211,29 @@ static void methods_can_be_chosen(void **state) {
     end(&made);
 }
 
+/* The trailing car rolls on behind one that is slowed: the closure has its final value when the
+ * collision has settled, the speeds at the end of the run have not. */
+static void runs_are_compared_until_they_settle_where_that_leaves_all_checks(void **state) {
+    (void)state;
+    static const char *const slowed = "trains.B.vehicles.B1.rolling_resistance_N_kN=50";
+    static const char *const metric[] = {"interfaces.shortening_mm, max: 3000",
+                                         "vehicles.final_speed_km_h, max: 100"};
+    for (int later = 0; later < 2; later++) {
+        char more[400];
+        snprintf(more, sizeof more,
+                 "checks:\n  design_rules: false\n  limits:\n    - {name: limit, metric: %s}\n",
+                 metric[later]);
+        Case made = begin_with(more, 1, &slowed);
+        CzVerifyOptions options = cz_verify_options_default();
+        options.methods = 1u << CZ_METHOD_HALF_STEP;
+        options.until_settled = true;
+        verify(&made, &options);
+        assert_int_equal(made.verification->verdict, CZ_VERDICT_PASS);
+        assert_int_equal(made.verification->until_settled, later == 0);
+        end(&made);
+    }
+}
+
 static void a_production_run_that_did_not_end_is_a_failure(void **state) {
     (void)state;
     Case made = begin("simulation: {longest_ms: 20}\n");
@@ -254,6 +283,7 @@ int main(void) {
         cmocka_unit_test(a_yes_or_no_counts_by_its_verdict_alone),
         cmocka_unit_test(a_fit_is_verified_by_what_it_matches),
         cmocka_unit_test(methods_can_be_chosen),
+        cmocka_unit_test(runs_are_compared_until_they_settle_where_that_leaves_all_checks),
         cmocka_unit_test(a_production_run_that_did_not_end_is_a_failure),
         cmocka_unit_test(a_raised_flag_ends_the_verification),
         cmocka_unit_test(an_objective_of_the_callers_own_is_verified_too),

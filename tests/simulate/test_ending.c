@@ -147,10 +147,33 @@ static void cars_meet_again_where_rolling_resistance_slows_the_one_ahead(void **
     }
 }
 
+/* After a plastic collision at 10 m/s both cars go on at 5, the one ahead slowed by 0.05 g: it is
+ * met again over and over until both stand, but never at more than the sub-millimetre between them
+ * allows. A brief run does not wait for that. */
+static void a_brief_run_does_not_wait_for_cars_that_are_close(void **state) {
+    (void)state;
+    const char *const file = "tests/physics/cases/plateau.yaml";
+    double simulated[2], shortening[2];
+    for (int brief = 0; brief < 2; brief++) {
+        CzSimulateOptions options = cz_simulate_options_default();
+        options.brief = brief == 1;
+        Collision collision =
+            collide_so(file, WITH("trains.B.vehicles.B1.rolling_resistance_N_kN=50"), 0, &options);
+        assert_completed(&collision);
+        simulated[brief] = collision.summary->simulated;
+        shortening[brief] = collision.summary->interface[0].shortening;
+        collision_free(&collision);
+    }
+    assert_true(simulated[0] > 10.0);
+    assert_true(simulated[1] < 0.5);
+    assert_near(shortening[0], shortening[1], 1e-3, 0.0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(elastic_cars_exchange_their_speeds_without_a_duration),
         cmocka_unit_test(reference_and_brief_runs_include_the_rebound),
+        cmocka_unit_test(a_brief_run_does_not_wait_for_cars_that_are_close),
         cmocka_unit_test(a_coupled_train_leaves_the_wall),
         cmocka_unit_test(a_train_held_by_its_brakes_is_at_its_end),
         cmocka_unit_test(a_run_waits_until_a_buffer_stop_has_come_to_rest),

@@ -13,44 +13,55 @@
 
 enum { ROUNDS = 15 };
 
-int main(int argc, char **argv) {
-    static Bench bench;
-    int n_round = ROUNDS;
-    const char *only = NULL, *json = NULL;
-    bool is_short = false, is_long = false;
+typedef struct Wish {
+    int n_round;
+    const char *only, *json;
+    bool is_short, is_long;
+} Wish;
+
+static Wish read_wish(int argc, char **argv) {
+    Wish wish = {.n_round = ROUNDS};
     if (argc < 2)
-        bench_stop("usage: bench PROGRAM [--rounds N] [--only PREFIX] [--json FILE] [--short]");
+        bench_stop("the path of crushzone is missing");
     for (int i = 2; i < argc; i++) {
         if (strcmp(argv[i], "--short") == 0)
-            is_short = true;
+            wish.is_short = true;
         else if (strcmp(argv[i], "--long") == 0)
-            is_long = true;
+            wish.is_long = true;
         else if (i + 1 == argc)
-            bench_stop("an option without its value");
+            bench_stop("an option is not known, or lacks its value");
         else if (strcmp(argv[i], "--rounds") == 0)
-            n_round = atoi(argv[++i]);
+            wish.n_round = atoi(argv[++i]);
         else if (strcmp(argv[i], "--only") == 0)
-            only = argv[++i];
+            wish.only = argv[++i];
         else if (strcmp(argv[i], "--json") == 0)
-            json = argv[++i];
+            wish.json = argv[++i];
         else
-            bench_stop("an unknown option");
+            bench_stop("an option is not known, or lacks its value");
     }
-    bench_add_chains(&bench, is_short);
-    bench_add_trains(&bench, is_short);
-    bench_add_batches(&bench, is_short);
+    if (wish.is_short || wish.n_round < 1)
+        wish.n_round = 1;
+    return wish;
+}
+
+int main(int argc, char **argv) {
+    static Bench bench;
+    const Wish wish = read_wish(argc, argv);
+    bench_add_chains(&bench, wish.is_short);
+    bench_add_trains(&bench, wish.is_short);
+    bench_add_batches(&bench, wish.is_short);
     bench_add_gradient(&bench);
-    bench_add_references(&bench, is_short);
+    bench_add_references(&bench, wish.is_short);
     bench_add_example(&bench);
     bench_add_program(&bench, argv[1]);
     bench_add_machine(&bench);
-    if (is_long)
+    if (wish.is_long)
         bench_add_search(&bench, argv[1]);
-    bench_measure(&bench, is_short || n_round < 1 ? 1 : n_round, only);
+    bench_measure(&bench, wish.n_round, wish.only);
     bench_write_table(&bench, stdout);
-    if (json == NULL)
+    if (wish.json == NULL)
         return 0;
-    FILE *stream = fopen(json, "w");
+    FILE *stream = fopen(wish.json, "w");
     if (stream == NULL)
         bench_stop("the JSON file cannot be written");
     bench_write_json(&bench, stream);

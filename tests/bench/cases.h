@@ -18,7 +18,10 @@ typedef struct BenchRun {
     int n_design; /* side by side */
 } BenchRun;
 
-/* Reads a file of the project with settings, NULL at the end, and builds its first scenario. */
+/* Reads a file of the project with settings, NULL at the end or for none. */
+CzProblem *bench_read(const char *file, const char *const *set);
+
+/* The same, with the model of its first scenario. */
 BenchRun *bench_problem(const char *file, const char *const *set);
 
 /* The same problem for trains of n cars each. */

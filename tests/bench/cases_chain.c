@@ -44,16 +44,16 @@ static Chain *new_chain(int n, const ChainPeer *peer) {
 
 static double run_plain(void *data) {
     Chain *chain = data;
-    const double start = bench_processor();
+    const double start = cz_processor_clock();
     chain_run(chain->n, CHAIN_STEP, &chain->result);
-    return bench_processor() - start;
+    return cz_processor_clock() - start;
 }
 
 static double run_peer(void *data) {
     Chain *chain = data;
-    const double start = bench_processor();
+    const double start = cz_processor_clock();
     chain->peer->run(chain->model, &chain->result);
-    return bench_processor() - start;
+    return cz_processor_clock() - start;
 }
 
 /* Results of this program's chain, from a run of its own. */

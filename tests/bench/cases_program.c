@@ -22,11 +22,11 @@ static double run_program(char *const arguments[]) {
     int status = 1;
     posix_spawn_file_actions_init(&quiet);
     posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    const double start = bench_wall();
+    const double start = cz_clock();
     if (posix_spawn(&child, arguments[0], &quiet, NULL, arguments, environment) != 0 ||
         waitpid(child, &status, 0) != child || status != 0)
         bench_stop("the program cannot be run, or fails");
-    const double time = bench_wall() - start;
+    const double time = cz_clock() - start;
     posix_spawn_file_actions_destroy(&quiet);
     return time;
 }
@@ -42,20 +42,10 @@ static double search_metro(void *program) {
 
 /* ---- reading and building ---- */
 
-static CzProblem *read_file(const char *file) {
-    CzProblemOptions options = cz_problem_options_default();
-    CzProblem *problem = NULL;
-    CzError error = {0};
-    options.share_folder = "problems";
-    if (cz_problem_read(file, &options, &problem, &error) != CZ_OK)
-        bench_stop(error.message);
-    return problem;
-}
-
 static double read_problem(void *data) {
-    const double start = bench_processor();
-    CzProblem *problem = read_file(data);
-    const double time = bench_processor() - start;
+    const double start = cz_processor_clock();
+    CzProblem *problem = bench_read(data, NULL);
+    const double time = cz_processor_clock() - start;
     cz_problem_free(problem);
     return time;
 }
@@ -63,10 +53,10 @@ static double read_problem(void *data) {
 static double build_model(void *data) {
     CzModel *model = NULL;
     CzError error = {0};
-    const double start = bench_processor();
+    const double start = cz_processor_clock();
     if (cz_model_build(data, 0, &model, &error) != CZ_OK)
         bench_stop(error.message);
-    const double time = bench_processor() - start;
+    const double time = cz_processor_clock() - start;
     cz_model_free(model);
     return time;
 }
@@ -86,7 +76,7 @@ static Finished *finish(const char *file) {
     CzError error = {0};
     if (finished == NULL)
         bench_stop("no memory");
-    finished->problem = read_file(file);
+    finished->problem = bench_read(file, NULL);
     if (cz_evaluator_build(finished->problem, &options, &finished->evaluator, &error) != CZ_OK ||
         cz_evaluate(finished->evaluator, 1, NULL, true, &finished->evaluation, &error) != CZ_OK)
         bench_stop(error.message);
@@ -104,10 +94,10 @@ static double write_page(void *data) {
     FILE *stream = tmpfile();
     if (stream == NULL)
         bench_stop("no temporary file");
-    const double start = bench_processor();
+    const double start = cz_processor_clock();
     if (cz_report_write_page(&report, stream, &error) != CZ_OK)
         bench_stop(error.message);
-    const double time = bench_processor() - start;
+    const double time = cz_processor_clock() - start;
     fclose(stream);
     return time;
 }
@@ -115,10 +105,10 @@ static double write_page(void *data) {
 static double write_folder(void *data) {
     const CzReport report = report_of(data);
     CzError error = {0};
-    const double start = bench_processor();
+    const double start = cz_processor_clock();
     if (cz_report_write_folder(&report, result_folder, &error) != CZ_OK)
         bench_stop(error.message);
-    return bench_processor() - start;
+    return cz_processor_clock() - start;
 }
 
 void bench_add_program(Bench *bench, const char *program) {
@@ -127,7 +117,7 @@ void bench_add_program(Bench *bench, const char *program) {
     bench_add(bench, "program.read", "reading metro-6-car.yaml", read_problem,
               (void *)problem_file);
     bench_add(bench, "program.build", "set-up of one scenario of the metro", build_model,
-              read_file(problem_file));
+              bench_read(problem_file, NULL));
     BenchRun *plain = bench_problem(recorded_file, NULL);
     BenchRun *recorded = bench_problem(recorded_file, NULL);
     recorded->options.record = true;

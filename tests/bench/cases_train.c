@@ -13,7 +13,7 @@ enum { MOST_DESIGNS = 8, MOST_SET = 4, GRADIENT = 12 };
 
 /* ---- problems and runs ---- */
 
-static CzProblem *read_problem(const char *file, const char *const *set) {
+CzProblem *bench_read(const char *file, const char *const *set) {
     CzProblemOptions options = cz_problem_options_default();
     CzProblem *problem = NULL;
     CzError error = {0};
@@ -31,7 +31,7 @@ BenchRun *bench_problem(const char *file, const char *const *set) {
     CzError error = {0};
     if (run == NULL)
         bench_stop("no memory");
-    run->problem = read_problem(file, set);
+    run->problem = bench_read(file, set);
     if (cz_model_build(run->problem, 0, &run->model, &error) != CZ_OK)
         bench_stop(error.message);
     run->options = cz_simulate_options_default();
@@ -71,9 +71,9 @@ static CzRun *simulate(const BenchRun *run) {
 }
 
 double bench_run(void *run) {
-    const double start = bench_processor();
+    const double start = cz_processor_clock();
     CzRun *made = simulate(run);
-    const double time = bench_processor() - start;
+    const double time = cz_processor_clock() - start;
     cz_run_free(made);
     return time;
 }
@@ -104,7 +104,7 @@ typedef struct Search {
 
 static double search(void *data) {
     const Search *made = data;
-    double (*const clock)(void) = made->is_wall ? bench_wall : bench_processor;
+    double (*const clock)(void) = made->is_wall ? cz_clock : cz_processor_clock;
     CzEvaluation *evaluation = calloc((size_t)made->n_design, sizeof *evaluation);
     CzError error = {0};
     if (evaluation == NULL)
@@ -167,7 +167,7 @@ void bench_add_batches(Bench *bench, bool is_short) {
 
 void bench_add_gradient(Bench *bench) {
     static double x[(GRADIENT + 1) * GRADIENT]; /* the start, and a step along each variable */
-    const CzProblem *problem = read_problem("tests/bench/variables.yaml", NULL);
+    const CzProblem *problem = bench_read("tests/bench/variables.yaml", NULL);
     Search *all = new_search(problem, 1, GRADIENT + 1, x), *one = new_search(problem, 1, 1, x);
     if (cz_evaluator_n_variable(all->evaluator) != GRADIENT)
         bench_stop("variables.yaml has not twelve variables");
@@ -212,9 +212,9 @@ static double run_example(void *data) {
 /* Everything before the first step. */
 static double set_up_example(void *data) {
     (void)data;
-    const double start = bench_wall();
+    const double start = cz_clock();
     BenchRun *run = bench_problem("problems/paper-25kmh.yaml", example);
-    double time = bench_wall() - start;
+    double time = cz_clock() - start;
     CzRun *made = simulate(run);
     time += cz_run_summary(made)->setup_s;
     cz_run_free(made);

@@ -4,7 +4,8 @@
 
 #include <stdbool.h>
 #include <stdio.h>
-#include <time.h>
+
+#include "base/clock.h"
 
 enum { BENCH_MOST_CASES = 96, BENCH_MOST_ROUNDS = 100 };
 
@@ -40,19 +41,6 @@ typedef struct Bench {
     BenchCase cases[BENCH_MOST_CASES];
     BenchFigure figure[BENCH_N_FIGURE];
 } Bench;
-
-/* Clocks [s]. */
-static inline double bench_clock(clockid_t clock) {
-    struct timespec now;
-    clock_gettime(clock, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-static inline double bench_processor(void) {
-    return bench_clock(CLOCK_PROCESS_CPUTIME_ID);
-}
-static inline double bench_wall(void) {
-    return bench_clock(CLOCK_MONOTONIC);
-}
 
 /* Ends the program. */
 _Noreturn void bench_stop(const char *message);

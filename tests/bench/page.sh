@@ -7,6 +7,12 @@ same_page() {
     sed '/^## What was tried and did not help/,$d' docs/performance.md | sed '$d' | diff - "$here/page.md"
 }
 check "docs/performance.md is up to date (scripts/write-performance --page writes it)" same_page
+unmeasured() { # figures whose cases were not timed, as of a misspelt case
+    sed -n 's/^BENCH_FIGURE("\([^"]*\)".*/\1/p' tests/bench/figures.def | while read -r key; do
+        grep -q "\"key\": \"$key\"" tests/bench/measured.json || echo "$key"
+    done
+}
+nothing "every figure of the benchmark was measured" unmeasured
 
 # Eight sums twice, four products from memory once, one sum of a single number three times; a jump and an address are none.
 counted() {

@@ -8,7 +8,18 @@
 
 CZ_BEGIN_DECLARATIONS
 
-/* One design variable, or parameter of a fit. */
+/* A place in the problem file that a variable drives. */
+typedef struct CzVariablePlace {
+    const char *path; /* with its unit, as `set:` takes it, such as
+                         trains.A.vehicles.A1.front.stages[0].force_kN; of a variable that chooses,
+                         it ends in `use` and takes the name of the choice */
+    double factor; /* the place's value, in its unit, per unit of the variable: 1 unless tied places
+                      have other units */
+    double drawn_stroke; /* of the anti-climber whose stroke it is, which a file with this stroke
+                            has to name beside it; NaN for other numbers [m] */
+} CzVariablePlace;
+
+/* One design variable, or parameter of a fit. Texts and arrays are borrowed. */
 typedef struct CzVariableInfo {
     const char *name; /* path or given name */
     const char *unit; /* as in the file, such as "kN" */
@@ -20,6 +31,8 @@ typedef struct CzVariableInfo {
     int n_choice; /* number of parts to choose from; the variable is then the index of a part, from
                      0. 0 for a numerical variable */
     const char *const *choice; /* their names (n_choice) */
+    int n_place;
+    CzVariablePlace *place; /* (n_place) */
 } CzVariableInfo;
 
 typedef enum CzVerdict {
@@ -138,19 +151,6 @@ CZ_API void cz_evaluator_free(CzEvaluator *evaluator);
 
 CZ_API int cz_evaluator_n_variable(const CzEvaluator *evaluator);
 CZ_API const CzVariableInfo *cz_evaluator_variable(const CzEvaluator *evaluator, int variable);
-
-/* Places in the problem file that a variable drives, as paths with their unit that `set:` accepts,
- * such as trains.A.vehicles.A1.front.stages[0].force_kN; borrowed. factor is the place's value, in
- * the place's unit, per unit of the variable (1 unless tied places have other units). Of a variable
- * that chooses, the path ends in `use` and takes the name of the choice. */
-typedef struct CzVariablePlace {
-    const char *path;
-    double factor;
-    double drawn_stroke; /* of the anti-climber whose stroke it is, which a file with this stroke
-                            has to name beside it; NaN for other numbers [m] */
-} CzVariablePlace;
-CZ_API int cz_evaluator_n_place(const CzEvaluator *evaluator, int variable);
-CZ_API CzVariablePlace cz_evaluator_place(const CzEvaluator *evaluator, int variable, int place);
 
 CZ_API int cz_evaluator_n_constraint(const CzEvaluator *evaluator);
 CZ_API const char *cz_evaluator_constraint_name(const CzEvaluator *evaluator, int constraint);

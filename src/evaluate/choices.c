@@ -24,16 +24,16 @@ static bool same_buffers(const CzVehicle *a, const CzVehicle *b, const CzDesignV
 static CzStatus read_choice(const CzProblem *problem, const CzDesignVariable *variable, int choice,
                             CzProblem **chosen, CzError *error) {
     CzArena arena = {0};
-    const size_t n = (size_t)variable->n_shown;
+    const size_t n = (size_t)variable->info.n_place;
     const char **path = cz_arena_allocate(&arena, n, sizeof *path);
     const char **value = cz_arena_allocate(&arena, n, sizeof *value);
     CzStatus status;
-    for (int i = 0; path != NULL && value != NULL && i < variable->n_shown; i++) {
-        path[i] = variable->shown[i].path;
+    for (int i = 0; path != NULL && value != NULL && i < variable->info.n_place; i++) {
+        path[i] = variable->info.place[i].path;
         value[i] = variable->info.choice[choice];
     }
     if (path != NULL && value != NULL)
-        status = cz_problem_read_again(problem, variable->n_shown, path, value, chosen, error);
+        status = cz_problem_read_again(problem, variable->info.n_place, path, value, chosen, error);
     else
         status = cz_no_memory(error, "the choices");
     cz_arena_free(&arena);
@@ -103,7 +103,7 @@ bool cz_design_settings(const CzDesign *design, int combination, const double *x
                         CzVariantSettings *settings) {
     size_t room = 1;
     for (int i = 0; i < design->n_variable; i++)
-        room += (size_t)design->variable[i].n_shown;
+        room += (size_t)design->variable[i].info.n_place;
     const char **path = cz_arena_allocate(arena, room, sizeof *path);
     const char **value = cz_arena_allocate(arena, room, sizeof *value);
     *settings = (CzVariantSettings){.path = path, .value = value};
@@ -111,7 +111,7 @@ bool cz_design_settings(const CzDesign *design, int combination, const double *x
         return false;
     for (int i = 0; i < design->n_variable; i++) {
         const CzDesignVariable *variable = &design->variable[i];
-        for (int k = 0; k < variable->n_shown; k++) {
+        for (int k = 0; k < variable->info.n_place; k++) {
             char number[CZ_NUMBER_TEXT];
             if (variable->info.n_choice == 0 && x == NULL)
                 continue;
@@ -119,12 +119,12 @@ bool cz_design_settings(const CzDesign *design, int combination, const double *x
                 value[settings->n] =
                     variable->info.choice[cz_design_choice(design, combination, i)];
             } else {
-                cz_number_print(number, x[i] * variable->shown[k].factor);
+                cz_number_print(number, x[i] * variable->info.place[k].factor);
                 value[settings->n] = cz_arena_copy_text(arena, number, strlen(number));
             }
             if (value[settings->n] == NULL)
                 return false;
-            path[settings->n++] = variable->shown[k].path;
+            path[settings->n++] = variable->info.place[k].path;
         }
     }
     return true;

@@ -136,19 +136,19 @@ static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable,
                           const CzTarget *target, double factor) {
     const char *path = target->place;
     const double drawn = drawn_stroke(builder, target);
-    for (int i = 0; i < variable->n_shown; i++)
-        if (strcmp(variable->shown[i].path, path) == 0) {
+    for (int i = 0; i < variable->info.n_place; i++)
+        if (strcmp(variable->info.place[i].path, path) == 0) {
             if (!isnan(drawn)) /* a part of rigid and of full cars */
-                variable->shown[i].drawn_stroke = drawn;
+                variable->info.place[i].drawn_stroke = drawn;
             return CZ_OK;
         }
     CzVariablePlace *shown =
-        cz_arena_grow(builder->arena, variable->shown, variable->n_shown, sizeof *shown);
+        cz_arena_grow(builder->arena, variable->info.place, variable->info.n_place, sizeof *shown);
     const char *copy = cz_arena_copy_text(builder->arena, path, strlen(path));
     if (shown == NULL || copy == NULL)
         return cz_no_memory(builder->error, "the design variables");
-    variable->shown = shown;
-    variable->shown[variable->n_shown++] =
+    variable->info.place = shown;
+    variable->info.place[variable->info.n_place++] =
         (CzVariablePlace){.path = copy, .factor = factor, .drawn_stroke = drawn};
     return CZ_OK;
 }
@@ -224,7 +224,7 @@ static CzStatus check_variable(const Builder *builder, const CzVariable *written
             shares |= drives(variable, &other->place[i]);
         if (shares)
             return cz_problem_fail(builder->problem, field_of(written), builder->error,
-                                   "'%s' is driven by two variables", variable->shown[0].path);
+                                   "'%s' is driven by two variables", variable->info.place[0].path);
     }
     return CZ_OK;
 }

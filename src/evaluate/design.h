@@ -24,9 +24,7 @@ typedef struct CzDesignVariable {
     CzVariableInfo info;
     const void *start_field; /* of the input: where its start is written, else its bounds */
     int n_place;
-    CzDesignPlace *place; /* (n_place) */
-    int n_shown;
-    CzVariablePlace *shown; /* paths that a person would write for them (n_shown) */
+    CzDesignPlace *place; /* (n_place); a person would write the places of `info` */
 } CzDesignVariable;
 
 typedef struct CzDesign {

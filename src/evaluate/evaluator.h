@@ -27,13 +27,14 @@ CZ_MUST_CHECK CzStatus cz_evaluator_again(const CzEvaluator *evaluator, const Cz
  * squares, and the last constraints are the matches. */
 bool cz_evaluator_is_fit(const CzEvaluator *evaluator);
 
-/* Whether a constraint is a yes or no, or a match, which the objective contains. */
-bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint);
-
-/* Whether a constraint stands for all rules of files; and whether it is one of these rules by name,
- * which the former covers. */
-bool cz_evaluator_is_rules(const CzEvaluator *evaluator, int constraint);
-bool cz_evaluator_is_named_rule(const CzEvaluator *evaluator, int constraint);
+/* What a search makes of a constraint. */
+typedef enum CzConstraintKind {
+    CZ_CONSTRAINT_GRADED,
+    CZ_CONSTRAINT_FLAG,      /* a yes or no, or a match, which the objective contains */
+    CZ_CONSTRAINT_RULES,     /* a yes or no on all rules of files */
+    CZ_CONSTRAINT_NAMED_RULE /* one of these rules, which the former covers */
+} CzConstraintKind;
+CzConstraintKind cz_evaluator_constraint_kind(const CzEvaluator *evaluator, int constraint);
 
 /* Whether every variable starts within its bounds, and the search at a design that a file may hold.
  * Statuses: CZ_OK, CZ_STATUS_INPUT with the place, CZ_STATUS_NO_MEMORY. */

@@ -188,14 +188,6 @@ const CzVariableInfo *cz_evaluator_variable(const CzEvaluator *evaluator, int va
     return &evaluator->design.variable[variable].info;
 }
 
-int cz_evaluator_n_place(const CzEvaluator *evaluator, int variable) {
-    return evaluator->design.variable[variable].n_shown;
-}
-
-CzVariablePlace cz_evaluator_place(const CzEvaluator *evaluator, int variable, int place) {
-    return evaluator->design.variable[variable].shown[place];
-}
-
 int cz_evaluator_n_constraint(const CzEvaluator *evaluator) {
     return evaluator->list.n_constraint + evaluator->matches.n_item;
 }
@@ -220,23 +212,13 @@ int cz_evaluator_n_detail(const CzEvaluator *evaluator) {
     return evaluator->n_detail;
 }
 
-bool cz_evaluator_is_flag(const CzEvaluator *evaluator, int constraint) {
+CzConstraintKind cz_evaluator_constraint_kind(const CzEvaluator *evaluator, int constraint) {
     if (constraint >= evaluator->list.n_constraint)
-        return true; /* the objective is the sum of the matches */
-    return evaluator->list.check[evaluator->constraint_check[constraint]].scale == CZ_FLAG_SCALE;
-}
-
-static bool is_rule(const CzEvaluator *evaluator, int constraint) {
-    return constraint < evaluator->list.n_constraint &&
-           evaluator->list.check[evaluator->constraint_check[constraint]].is_rule;
-}
-
-bool cz_evaluator_is_rules(const CzEvaluator *evaluator, int constraint) {
-    return is_rule(evaluator, constraint) && cz_evaluator_is_flag(evaluator, constraint);
-}
-
-bool cz_evaluator_is_named_rule(const CzEvaluator *evaluator, int constraint) {
-    return is_rule(evaluator, constraint) && !cz_evaluator_is_flag(evaluator, constraint);
+        return CZ_CONSTRAINT_FLAG; /* the objective is the sum of the matches */
+    const CzCheck *check = &evaluator->list.check[evaluator->constraint_check[constraint]];
+    if (check->is_rule)
+        return check->scale == CZ_FLAG_SCALE ? CZ_CONSTRAINT_RULES : CZ_CONSTRAINT_NAMED_RULE;
+    return check->scale == CZ_FLAG_SCALE ? CZ_CONSTRAINT_FLAG : CZ_CONSTRAINT_GRADED;
 }
 
 void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *stop) {

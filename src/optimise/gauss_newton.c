@@ -74,9 +74,9 @@ static bool evaluate(Newton *newton, int n_point) {
         memcpy(r, newton->many_d + i * newton->n_detail, (size_t)newton->n_detail * sizeof *r);
         for (int j = 0; j < function->n_constraint; j++)
             r[newton->n_detail + j] =
-                function->is_flag[j]
-                    ? 0
-                    : cz_search_residual(newton->many_c[i * function->n_constraint + j]);
+                cz_constraint_kind(function, j) == CZ_CONSTRAINT_GRADED
+                    ? cz_search_residual(newton->many_c[i * function->n_constraint + j])
+                    : 0;
         newton->many_f[i] = isnan(newton->search->record[first + i].objective)
                                 ? INFINITY
                                 : sum_of_squares(r, newton->m);

@@ -274,13 +274,13 @@ static void take_values(CzSearch *search, const char *phase, const double *x, do
     for (int j = 0; j < m; j++) {
         failed |= isnan(constraint[j]);
         record.violation = fmax(record.violation, constraint[j]);
-        if (search->function->is_flag == NULL || !search->function->is_flag[j])
+        if (cz_constraint_kind(search->function, j) == CZ_CONSTRAINT_GRADED)
             record.missed = fmax(record.missed, constraint[j]);
         record.is_barred |=
-            search->function->is_rule != NULL && search->function->is_rule[j] && constraint[j] > 0;
+            cz_constraint_kind(search->function, j) == CZ_CONSTRAINT_RULES && constraint[j] > 0;
         if (!search->function->is_fit)
             record.penalty += cz_search_compressed(fmax(constraint[j], 0));
-        else if (!search->function->is_flag[j])
+        else if (cz_constraint_kind(search->function, j) == CZ_CONSTRAINT_GRADED)
             record.penalty += pow(cz_search_residual(cz_search_compressed(constraint[j])), 2);
     }
     if (search->function->is_fit)
@@ -300,8 +300,8 @@ static void take_values(CzSearch *search, const char *phase, const double *x, do
     }
     search->worst_objective = fmax(search->worst_objective, *objective);
     for (int j = 0; j < m; j++) {
-        const bool is_flag = search->function->is_flag != NULL && search->function->is_flag[j];
-        constraint[j] = is_flag ? -1 : cz_search_compressed(constraint[j]);
+        const bool is_graded = cz_constraint_kind(search->function, j) == CZ_CONSTRAINT_GRADED;
+        constraint[j] = is_graded ? cz_search_compressed(constraint[j]) : -1;
         search->worst_constraint = fmax(search->worst_constraint, constraint[j]);
     }
 }

@@ -11,17 +11,17 @@
 #include <stdbool.h>
 
 #include "crushzone/optimise.h"
+#include "evaluate/evaluator.h"
 
 /* What is searched. Arrays are borrowed. */
 typedef struct CzFunction {
     int n_variable, n_constraint;
     const double *min, *max, *start; /* in the variables' units (n_variable) */
     const double *step;              /* catalogue increments, 0 for none (n_variable) */
-    const bool *is_flag; /* constraints that are a yes or no (n_constraint), NULL for none: a design
-                            is ranked by them, but algorithms do not see the step */
-    const bool *is_rule; /* constraints that a problem file must satisfy (n_constraint), NULL for
-                            none: a design that breaks one is the best only as long as every other
-                            one does, too */
+    const CzConstraintKind *kind; /* of constraints (n_constraint); NULL: all are graded. A design
+                                     is ranked by those that are a yes or no, but algorithms do not
+                                     see the step; one that breaks the rules of files is the best
+                                     only as long as every other one does, too */
     int n_detail;    /* constraints place by place, so without the breakpoints of the worst place; 0
                         when there are none */
     bool is_minimax; /* the objective is the largest constraint, up to a constant */
@@ -35,6 +35,11 @@ typedef struct CzFunction {
                          double *constraint, double *detail, CzError *error);
     void *data;
 } CzFunction;
+
+/* What a constraint is. */
+static inline CzConstraintKind cz_constraint_kind(const CzFunction *function, int constraint) {
+    return function->kind != NULL ? function->kind[constraint] : CZ_CONSTRAINT_GRADED;
+}
 
 /* One evaluated design. */
 typedef struct CzRecord {

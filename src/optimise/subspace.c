@@ -47,7 +47,7 @@ bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *s
     double *min = cz_arena_numbers(arena, room), *max = cz_arena_numbers(arena, room);
     double *first = cz_arena_numbers(arena, room), *step = cz_arena_numbers(arena, room);
     double *made = cz_arena_numbers(arena, room);
-    bool *flags = cz_arena_allocate(arena, 2 * (size_t)n_constraint + 1, sizeof *flags);
+    CzConstraintKind *kind = cz_arena_allocate(arena, (size_t)n_constraint + 1, sizeof *kind);
     int *number = cz_arena_allocate(arena, room, sizeof *number);
     int *shown = cz_arena_allocate(arena, (size_t)n_constraint + 1, sizeof *shown);
     if (arena->out_of_memory)
@@ -68,11 +68,9 @@ bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *s
     }
     int m = 0;
     for (int j = 0; j < n_constraint; j++) {
-        if (cz_evaluator_is_named_rule(evaluator, j))
-            continue;
-        flags[m] = cz_evaluator_is_flag(evaluator, j);
-        flags[n_constraint + m] = cz_evaluator_is_rules(evaluator, j);
-        shown[m++] = j;
+        kind[m] = cz_evaluator_constraint_kind(evaluator, j);
+        if (kind[m] != CZ_CONSTRAINT_NAMED_RULE)
+            shown[m++] = j;
     }
     *subspace = (CzSubspace){.evaluator = evaluator,
                              .n_all = n_all,
@@ -86,8 +84,7 @@ bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *s
                                       .start = first,
                                       .step = step,
                                       .n_detail = cz_evaluator_n_detail(evaluator),
-                                      .is_flag = flags,
-                                      .is_rule = flags + n_constraint,
+                                      .kind = kind,
                                       .is_minimax = cz_evaluator_maximises_margin(evaluator),
                                       .is_fit = cz_evaluator_is_fit(evaluator),
                                       .evaluate = evaluate_designs,

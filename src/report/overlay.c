@@ -99,25 +99,26 @@ static const char **settings_of(const CzReport *report, bool all, CzArena *arena
     const int n_given = all ? options->n_set : 0;
     size_t room = (size_t)n_given + 1;
     for (int variable = 0; variable < outcome->n_variable; variable++)
-        room += 2 * (size_t)cz_evaluator_n_place(evaluator, variable);
+        room += 2 * (size_t)cz_evaluator_variable(evaluator, variable)->n_place;
     const char **setting = cz_arena_allocate(arena, room, sizeof *setting);
     *n_setting = 0;
     for (int i = 0; i < n_given && setting != NULL; i++)
         if (strchr(options->set[i], '=') != NULL)
             add_setting(setting, n_setting, options->set[i]);
-    for (int variable = 0; variable < outcome->n_variable && setting != NULL; variable++)
-        for (int i = 0; i < cz_evaluator_n_place(evaluator, variable); i++) {
-            const CzVariablePlace place = cz_evaluator_place(evaluator, variable, i);
-            const char *own = setting_at(cz_evaluator_variable(evaluator, variable), &place,
-                                         outcome->best[variable], arena);
-            const bool is_drawn = !isnan(place.drawn_stroke);
-            const char *drawn = is_drawn ? drawn_stroke_at(&place, arena) : NULL;
+    for (int variable = 0; variable < outcome->n_variable && setting != NULL; variable++) {
+        const CzVariableInfo *info = cz_evaluator_variable(evaluator, variable);
+        for (int i = 0; i < info->n_place; i++) {
+            const CzVariablePlace *place = &info->place[i];
+            const char *own = setting_at(info, place, outcome->best[variable], arena);
+            const bool is_drawn = !isnan(place->drawn_stroke);
+            const char *drawn = is_drawn ? drawn_stroke_at(place, arena) : NULL;
             if (own == NULL || (is_drawn && drawn == NULL))
                 return NULL;
             add_setting(setting, n_setting, own);
             if (is_drawn)
                 add_setting(setting, n_setting, drawn);
         }
+    }
     return setting;
 }
 

@@ -400,9 +400,8 @@ static void variables_have_names_units_bounds_and_places(void **state) {
     assert_string_equal(force->unit, "kN");
     assert_near(force->start, 800, ROUNDING_OF_A_SUM, 0);
     assert_near(cz_evaluator_variable(made.evaluator, 1)->increment, 50, 0, 0);
-    assert_int_equal(cz_evaluator_n_place(made.evaluator, 0), 1); /* one part, both trains */
-    assert_string_equal(cz_evaluator_place(made.evaluator, 0, 0).path,
-                        "parts.tube.stages[0].force_kN");
+    assert_int_equal(force->n_place, 1); /* one part, both trains */
+    assert_string_equal(force->place[0].path, "parts.tube.stages[0].force_kN");
     end(&made);
 }
 

@@ -66,7 +66,7 @@ static void tied_places_of_other_units_share_the_bounds(void **state) {
                       " \"parts.anti-climber.stages[0].stroke_m\"], min: 100, max: 700}\n",
                       1);
     const CzVariableInfo *stroke = cz_evaluator_variable(made.evaluator, 0);
-    assert_near(cz_evaluator_place(made.evaluator, 0, 1).factor, 1e-3, 1e-18, 0);
+    assert_near(stroke->place[1].factor, 1e-3, 1e-18, 0);
     assert_near(stroke->max, 700, 0, 0);
     end(&made);
 }
@@ -157,9 +157,9 @@ static CzStatus read_back(const CzEvaluator *evaluator, const char *more, const 
     const char *set[64];
     int n = 0;
     for (int i = 0; i < cz_evaluator_n_variable(evaluator); i++)
-        for (int k = 0; k < cz_evaluator_n_place(evaluator, i); k++) {
-            const CzVariablePlace place = cz_evaluator_place(evaluator, i, k);
-            snprintf(text[n], sizeof text[n], "%s=%.17g", place.path, x[i] * place.factor);
+        for (int k = 0; k < cz_evaluator_variable(evaluator, i)->n_place; k++) {
+            const CzVariablePlace *place = &cz_evaluator_variable(evaluator, i)->place[k];
+            snprintf(text[n], sizeof text[n], "%s=%.17g", place->path, x[i] * place->factor);
             set[n] = text[n];
             n++;
         }

@@ -22,12 +22,24 @@ const CzProblem *stand_in_problem = &the_problem;
 const CzEvaluator *stand_in_evaluator = &the_evaluator;
 const char *stand_in_file = "two \"trains\".yaml";
 
-static const CzVariableInfo variables[STAND_IN_VARIABLES] = {
-    {.name = "tube force", .unit = "kN", .min = 500, .max = 900, .start = 700, .increment = 50},
-    {.name = "tube stroke", .unit = "mm", .min = 100, .max = 300, .start = 250}};
-static const CzVariablePlace places[STAND_IN_VARIABLES] = {
+static CzVariablePlace places[STAND_IN_VARIABLES] = {
     {"trains.A.vehicles.A1.front.coupler.tube.stages[0].force_kN", 1, NAN},
     {"trains.A.vehicles.A1.front.coupler.tube.stages[0].stroke_m", 1e-3, NAN}};
+static const CzVariableInfo variables[STAND_IN_VARIABLES] = {{.name = "tube force",
+                                                              .unit = "kN",
+                                                              .min = 500,
+                                                              .max = 900,
+                                                              .start = 700,
+                                                              .increment = 50,
+                                                              .n_place = 1,
+                                                              .place = &places[0]},
+                                                             {.name = "tube stroke",
+                                                              .unit = "mm",
+                                                              .min = 100,
+                                                              .max = 300,
+                                                              .start = 250,
+                                                              .n_place = 1,
+                                                              .place = &places[1]}};
 
 const char *cz_problem_title(const CzProblem *problem) {
     (void)problem;
@@ -154,16 +166,6 @@ int cz_evaluator_n_variable(const CzEvaluator *evaluator) {
 const CzVariableInfo *cz_evaluator_variable(const CzEvaluator *evaluator, int variable) {
     (void)evaluator;
     return &variables[variable];
-}
-int cz_evaluator_n_place(const CzEvaluator *evaluator, int variable) {
-    (void)evaluator;
-    (void)variable;
-    return 1;
-}
-CzVariablePlace cz_evaluator_place(const CzEvaluator *evaluator, int variable, int place) {
-    (void)evaluator;
-    (void)place;
-    return places[variable];
 }
 const char *cz_evaluator_constraint_name(const CzEvaluator *evaluator, int constraint) {
     static const char *const names[STAND_IN_CHECKS] = {"interface force, 36", "deceleration, 36",

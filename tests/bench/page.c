@@ -89,7 +89,9 @@ static void put_head(void) {
            "In each round every case runs once, so that other work on the machine affects all "
            "alike.\n"
            "Times are the smallest of all rounds: processor time of one core, or time on the wall "
-           "where it says so.\n"
+           "where it says so; the latter, and with them the comparison of two threads, mean little "
+           "on a "
+           "machine that does other work.\n"
            "Times of another machine differ; ratios differ less. `crushzone bench FILE` times your "
            "own problem.\n",
            text_of(measured, "processor"),

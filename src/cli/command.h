@@ -7,9 +7,7 @@
 int cz_command_run(const CzArguments *arguments); /* run and check */
 int cz_command_optimise(const CzArguments *arguments);
 int cz_command_sweep(const CzArguments *arguments);
-int cz_command_explain(const CzArguments *arguments);
-int cz_command_verify(const CzArguments *arguments);
-int cz_command_bench(const CzArguments *arguments);
+int cz_command_study(const CzArguments *arguments); /* explain, verify, bench */
 int cz_command_report(const CzArguments *arguments);
 int cz_command_plot(const CzArguments *arguments);
 int cz_command_compare(const CzArguments *arguments);

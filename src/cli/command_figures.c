@@ -1,7 +1,6 @@
 /* `report`, `plot` and `compare`: results looked at again. */
 #include "cli/command.h"
 #include "cli/messages.h"
-#include "cli/recall.h"
 #include "cli/result.h"
 
 #include <stdio.h>
@@ -49,16 +48,14 @@ int cz_command_report(const CzArguments *arguments) {
         cz_recall_problem(folder, problem);
     int code = cz_result_begin(&result, arguments, is_search ? problem : folder, path);
     if (code == 0 && is_search)
-        code = cz_recall_outcome(&result, folder, &outcome);
-    const CzReportOptions options = cz_session_report_options(&result.session, 0);
-    const CzReport report = {.kind = is_search ? CZ_REPORT_SEARCH : CZ_REPORT_RUN,
-                             .options = &options,
-                             .problem = result.session.problem,
-                             .evaluation = &result.evaluation,
-                             .evaluator = result.session.evaluator,
-                             .outcome = outcome};
-    if (code == 0)
+        code = cz_recall_outcome(&result.session, folder, &outcome);
+    if (code == 0) {
+        CzReport report =
+            cz_session_report(&result.session, is_search ? CZ_REPORT_SEARCH : CZ_REPORT_RUN, 0);
+        report.evaluation = &result.evaluation;
+        report.outcome = outcome;
         code = cz_result_write(arguments, path, write_page, &report);
+    }
     cz_outcome_free(outcome);
     cz_result_end(&result);
     return code;

@@ -42,25 +42,18 @@ static int judge(const CzOutcome *outcome) {
 }
 
 /* The folder comes first: whatever happens to the terminal, the best design is kept. */
-static int answer(const CzSession *session, const CzOutcome *outcome, const char *folder) {
+static int answer(CzSession *session, const CzOutcome *outcome, const char *folder) {
     const CzArguments *arguments = session->arguments;
-    const CzReportOptions options = cz_session_report_options(session, outcome->wall_s);
-    const CzReport report = {.kind = CZ_REPORT_SEARCH,
-                             .options = &options,
-                             .problem = session->problem,
-                             .evaluator = session->evaluator,
-                             .outcome = outcome};
-    CzError error = {0};
-    const bool is_kept = cz_report_write_folder(&report, folder, &error) == CZ_OK;
-    if (!is_kept)
-        cz_print_mistake(arguments, "error", NULL, &error);
-    const int printed = cz_print_results(arguments, &report);
-    if (is_kept)
+    CzReport report = cz_session_report(session, CZ_REPORT_SEARCH, outcome->wall_s);
+    report.outcome = outcome;
+    const int unkept = cz_keep_results(arguments, &report, folder);
+    const int unprinted = cz_print_results(arguments, &report);
+    if (unkept == 0)
         cz_tell(arguments,
                 "results in %s, computed in %.3g s; run the best design with: crushzone "
                 "check %s/optimised.yaml",
                 folder, outcome->wall_s, folder);
-    return !is_kept ? cz_status_exit_code(error.status) : printed != 0 ? printed : judge(outcome);
+    return unkept != 0 ? unkept : unprinted != 0 ? unprinted : judge(outcome);
 }
 
 int cz_command_optimise(const CzArguments *arguments) {

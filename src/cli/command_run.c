@@ -71,22 +71,16 @@ static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
     return cz_status_exit_code(CZ_STATUS_VIOLATED);
 }
 
-static int answer(const CzSession *session, const CzEvaluation *evaluation, double wall_s,
+static int answer(CzSession *session, const CzEvaluation *evaluation, double wall_s,
                   const char *folder) {
     const CzArguments *arguments = session->arguments;
-    const CzReportOptions options = cz_session_report_options(session, wall_s);
-    const CzReport report = {.kind = CZ_REPORT_RUN,
-                             .options = &options,
-                             .problem = session->problem,
-                             .evaluation = evaluation};
-    CzError error = {0};
-    const int code = cz_print_results(arguments, &report);
+    CzReport report = cz_session_report(session, CZ_REPORT_RUN, wall_s);
+    report.evaluation = evaluation;
+    int code = cz_print_results(arguments, &report);
+    if (code == 0)
+        code = cz_keep_results(arguments, &report, folder);
     if (code != 0)
         return code;
-    if (folder != NULL && cz_report_write_folder(&report, folder, &error) != CZ_OK) {
-        cz_print_mistake(arguments, "error", NULL, &error);
-        return cz_status_exit_code(error.status);
-    }
     if (folder != NULL)
         cz_tell(arguments, "results in %s, computed in %.2g s", folder, wall_s);
     return judge(arguments, evaluation);

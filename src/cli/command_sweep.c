@@ -41,17 +41,14 @@ static int count_run(const CzSweep *sweep) {
     return n;
 }
 
-static int answer(const CzSession *session, const CzSweep *sweep) {
+static int answer(CzSession *session, const CzSweep *sweep) {
     const CzArguments *arguments = session->arguments;
-    const CzReportOptions options = cz_session_report_options(session, sweep->wall_s);
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
-    const CzReport report = {.kind = CZ_REPORT_SWEEP, .options = &options, .sweep = sweep};
-    CzError error = {0};
-    if (folder != NULL && cz_report_write_folder(&report, folder, &error) != CZ_OK) {
-        cz_print_mistake(arguments, "error", NULL, &error);
-        return cz_status_exit_code(error.status);
-    }
-    const int code = cz_print_results(arguments, &report);
+    CzReport report = cz_session_report(session, CZ_REPORT_SWEEP, sweep->wall_s);
+    report.sweep = sweep;
+    int code = cz_keep_results(arguments, &report, folder);
+    if (code == 0)
+        code = cz_print_results(arguments, &report);
     if (code != 0)
         return code;
     const int n_run = count_run(sweep);
@@ -67,7 +64,7 @@ static int answer(const CzSession *session, const CzSweep *sweep) {
 static const char *const usual_metrics[] = {"elements.stroke_used", "interfaces.peak_force_kN",
                                             "energy.absorbers_kJ", "vehicles.max_wheel_lift_mm"};
 
-static int sweep_file(const CzSession *session, const CzSweepAxis *axis) {
+static int sweep_file(CzSession *session, const CzSweepAxis *axis) {
     const CzArguments *arguments = session->arguments;
     const CzProblemOptions problem_options = cz_session_problem_options(arguments);
     CzSweepOptions options = cz_sweep_options_default();

@@ -1,5 +1,4 @@
-/* A search read back from its result folder: how it ended from run.log, what it looked at from
- * history.csv. */
+/* Result folders read back: how a search ended from run.log, what it looked at from history.csv. */
 #include "cli/recall.h"
 
 #include "base/error.h"
@@ -13,72 +12,93 @@
 
 enum { LONGEST_LINE = 65536, FIRST_VARIABLE = 5 /* columns before those of the variables */ };
 
-/* What was read, growing line by line. */
-typedef struct History {
-    int n_variable;
-    long n, room;
-    CzTrial *trial;
-    double *x;      /* (room x n_variable) */
-    char separator; /* of the file */
-    CzOutcomeStatus status;
-    char why[160];
-} History;
+static FILE *open_in(const char *folder, const char *name) {
+    char path[4096];
+    const int n = snprintf(path, sizeof path, "%s/%s", folder, name);
+    return n > 0 && (size_t)n < sizeof path ? fopen(path, "r") : NULL;
+}
 
-static FILE *open_in(const char *folder, const char *name, const char **path, char room[4096]) {
-    snprintf(room, 4096, "%.4000s/%s", folder, name);
-    *path = room;
-    return fopen(room, "r");
+static void close_file(FILE *stream) {
+    if (stream != NULL)
+        fclose(stream);
+}
+
+/* What follows a beginning of a line; NULL for a line that begins otherwise. */
+static char *after(char *line, const char *beginning) {
+    const size_t n = strlen(beginning);
+    return strncmp(line, beginning, n) == 0 ? line + n : NULL;
+}
+
+bool cz_recall_is_there(const char *folder, const char *name) {
+    char path[4096];
+    struct stat found;
+    const int n = snprintf(path, sizeof path, "%s/%s", folder, name);
+    return n > 0 && (size_t)n < sizeof path && stat(path, &found) == 0;
 }
 
 bool cz_recall_is_search(const char *folder) {
-    char path[4096];
-    struct stat found;
-    snprintf(path, sizeof path, "%.4000s/outcome.json", folder);
-    return stat(path, &found) == 0;
+    return cz_recall_is_there(folder, "outcome.json");
 }
 
 void cz_recall_problem(const char *folder, char path[4096]) {
-    char line[4096], target[8192];
-    static const char before[] = "extends: \"";
-    const char *overlay;
-    struct stat found;
-    FILE *stream = open_in(folder, "optimised.yaml", &overlay, path);
+    char line[4096];
+    FILE *stream = open_in(folder, "optimised.yaml");
     bool is_there = false;
     while (stream != NULL && !is_there && fgets(line, sizeof line, stream) != NULL) {
-        if (strncmp(line, before, strlen(before)) != 0)
+        char *file = after(line, "extends: \"");
+        if (file == NULL)
             continue;
-        char *file = line + strlen(before);
         file[strcspn(file, "\"\r\n")] = '\0';
-        snprintf(target, sizeof target, "%s%s%s", file[0] == '/' ? "" : folder,
-                 file[0] == '/' ? "" : "/", file);
-        is_there = stat(target, &found) == 0;
+        is_there =
+            file[0] == '/' ? cz_recall_is_there("", file + 1) : cz_recall_is_there(folder, file);
     }
-    if (stream != NULL)
-        fclose(stream);
-    if (!is_there)
-        snprintf(path, 4096, "%.4000s/resolved.yaml", folder);
+    close_file(stream);
+    snprintf(path, 4096, "%.4000s/%s", folder, is_there ? "optimised.yaml" : "resolved.yaml");
 }
 
-/* "optimise: feasible after 345 evaluations: no further improvement" */
-static bool read_log(FILE *stream, History *history) {
-    char line[1024];
-    static const char before[] = "optimise: ";
-    while (fgets(line, sizeof line, stream) != NULL) {
-        if (strncmp(line, before, strlen(before)) != 0)
-            continue;
-        const char *word = line + strlen(before), *why = strstr(word, "evaluations: ");
-        for (int i = CZ_OUTCOME_FEASIBLE; i <= CZ_OUTCOME_INTERRUPTED; i++)
-            if (strncmp(word, cz_outcome_text((CzOutcomeStatus)i),
-                        strlen(cz_outcome_text((CzOutcomeStatus)i))) == 0)
-                history->status = (CzOutcomeStatus)i;
-        if (why != NULL)
-            snprintf(history->why, sizeof history->why, "%.*s",
-                     (int)strcspn(why + strlen("evaluations: "), "\r\n"),
-                     why + strlen("evaluations: "));
-        return why != NULL;
-    }
-    return false;
+/* ---- log ---- */
+
+/* "feasible after 345 evaluations: no further improvement" */
+static void read_end_of_search(char *text, CzRunLog *log) {
+    static const char before[] = "evaluations: ";
+    const char *why = strstr(text, before);
+    for (int i = CZ_OUTCOME_FEASIBLE; i <= CZ_OUTCOME_INTERRUPTED; i++)
+        if (after(text, cz_outcome_text((CzOutcomeStatus)i)) != NULL)
+            log->status = (CzOutcomeStatus)i;
+    log->is_of_search = why != NULL;
+    if (why == NULL)
+        return;
+    why += strlen(before);
+    snprintf(log->why_stopped, sizeof log->why_stopped, "%.*s", (int)strcspn(why, "\r\n"), why);
 }
+
+CzRunLog cz_recall_log(const char *folder) {
+    char line[1024], ours[64];
+    CzRunLog log = {0};
+    FILE *stream = open_in(folder, "run.log");
+    snprintf(ours, sizeof ours, "crushzone %s,", cz_version());
+    while (stream != NULL && fgets(line, sizeof line, stream) != NULL) {
+        char *search = after(line, "optimise: "), *scenario = after(line, "scenario ");
+        char *end = strstr(line, ": ");
+        log.is_ours |= after(line, ours) != NULL;
+        if (search != NULL)
+            read_end_of_search(search, &log);
+        else if (scenario != NULL && end != NULL)
+            snprintf(log.scenario, sizeof log.scenario, "%.*s", (int)(end - scenario), scenario);
+    }
+    close_file(stream);
+    return log;
+}
+
+/* ---- history ---- */
+
+/* What a search looked at. */
+typedef struct History {
+    int n_variable;
+    long n;
+    CzTrial *trial; /* (n) */
+    double *x;      /* (n x n_variable) */
+} History;
 
 /* Takes the next field off a line. */
 static char *take_field(char **rest, char separator) {
@@ -91,98 +111,80 @@ static char *take_field(char **rest, char separator) {
 }
 
 /* A number with either decimal sign; NaN for an empty field. */
-static double number_of(char *field) {
-    char *comma = strchr(field, ',');
+static double take_number(char **rest, char separator) {
+    char *field = take_field(rest, separator), *comma = strchr(field, ',');
     double value;
     if (comma != NULL)
         *comma = '.';
     return sscanf(field, "%lf", &value) == 1 ? value : NAN;
 }
 
-static bool grow(History *history) {
-    if (history->n < history->room)
-        return true;
-    const long room = 2 * history->room + 256;
-    CzTrial *trial = realloc(history->trial, (size_t)room * sizeof *trial);
-    if (trial != NULL)
-        history->trial = trial;
-    double *x = realloc(history->x, (size_t)room * (size_t)history->n_variable * sizeof *x);
-    if (x != NULL)
-        history->x = x;
-    history->room = trial != NULL && x != NULL ? room : history->room;
-    return trial != NULL && x != NULL;
+static void read_row(char *line, char separator, History *history) {
+    CzTrial *trial = &history->trial[history->n];
+    double *x = &history->x[history->n++ * history->n_variable];
+    (void)take_field(&line, separator); /* its number */
+    (void)take_field(&line, separator); /* its phase */
+    trial->objective = take_number(&line, separator);
+    trial->violation = take_number(&line, separator);
+    trial->feasible = strcmp(take_field(&line, separator), "yes") == 0;
+    for (int i = 0; i < history->n_variable; i++)
+        x[i] = take_number(&line, separator);
 }
 
-static bool read_row(char *line, History *history) {
-    if (!grow(history))
-        return false;
-    char *rest = line;
-    CzTrial *trial = &history->trial[history->n];
-    take_field(&rest, history->separator); /* its number */
-    take_field(&rest, history->separator); /* its phase */
-    trial->phase = NULL;
-    trial->objective = number_of(take_field(&rest, history->separator));
-    trial->violation = number_of(take_field(&rest, history->separator));
-    trial->feasible = strcmp(take_field(&rest, history->separator), "yes") == 0;
-    for (int i = 0; i < history->n_variable; i++)
-        history->x[history->n * history->n_variable + i] =
-            number_of(take_field(&rest, history->separator));
-    history->n++;
-    return true;
+/* The separator, which the first line shows; 0 where it has another number of columns. */
+static char separator_of(char *line, int n_column) {
+    const char *rest = after(line, "evaluation");
+    const char separator = rest != NULL ? *rest : '\0';
+    bool in_quotes = false; /* a variable's name may hold the separator */
+    for (const char *c = line; *c != '\0'; c++) {
+        in_quotes ^= *c == '"';
+        n_column -= *c == separator && !in_quotes;
+    }
+    return n_column == 1 ? separator : '\0';
 }
 
 static bool read_history(FILE *stream, History *history) {
-    char *line = malloc(LONGEST_LINE);
-    bool fits = line != NULL && fgets(line, LONGEST_LINE, stream) != NULL;
-    static const char first[] = "evaluation";
-    if (fits) { /* the first line reports the separator and how many columns there are */
-        history->separator = strncmp(line, first, strlen(first)) == 0 ? line[strlen(first)] : '\0';
-        int n_column = 1;
-        bool in_quotes = false; /* a variable's name may hold the separator */
-        for (const char *c = line; *c != '\0'; c++) {
-            in_quotes ^= *c == '"';
-            n_column += *c == history->separator && !in_quotes;
-        }
-        fits = history->separator != '\0' && n_column == FIRST_VARIABLE + history->n_variable;
-    }
-    while (fits && fgets(line, LONGEST_LINE, stream) != NULL)
-        fits = read_row(line, history);
+    char *line = malloc(LONGEST_LINE), separator = '\0';
+    size_t n_line = 0;
+    while (line != NULL && fgets(line, LONGEST_LINE, stream) != NULL)
+        n_line++;
+    rewind(stream);
+    history->trial = calloc(n_line + 1, sizeof *history->trial);
+    history->x = calloc((n_line + 1) * (size_t)history->n_variable, sizeof *history->x);
+    if (history->trial != NULL && history->x != NULL && n_line > 1 &&
+        fgets(line, LONGEST_LINE, stream) != NULL)
+        separator = separator_of(line, FIRST_VARIABLE + history->n_variable);
+    while (separator != '\0' && (size_t)history->n + 1 < n_line &&
+           fgets(line, LONGEST_LINE, stream) != NULL)
+        read_row(line, separator, history);
     free(line);
-    return fits && history->n > 0;
+    return history->n > 0;
 }
 
-int cz_recall_outcome(const CzResult *result, const char *folder, CzOutcome **outcome) {
-    char room[4096];
-    const char *path;
+int cz_recall_outcome(const CzSession *session, const char *folder, CzOutcome **outcome) {
     CzError error = {0};
-    History history = {.n_variable = cz_evaluator_n_variable(result->session.evaluator)};
+    History history = {.n_variable = cz_evaluator_n_variable(session->evaluator)};
+    const CzRunLog log = cz_recall_log(folder);
+    FILE *stream = log.is_of_search ? open_in(folder, "history.csv") : NULL;
+    int code = 0;
     *outcome = NULL;
-    FILE *stream = open_in(folder, "run.log", &path, room);
-    bool fits = stream != NULL && read_log(stream, &history);
-    if (stream != NULL)
-        fclose(stream);
-    stream = fits ? open_in(folder, "history.csv", &path, room) : NULL;
-    fits = stream != NULL && read_history(stream, &history);
-    if (stream != NULL)
-        fclose(stream);
-    int code;
-    if (!fits) {
+    if (stream == NULL || !read_history(stream, &history)) {
         cz_fail(&error, CZ_STATUS_INPUT,
-                "%.200s cannot be read as the history of a search" CZ_HELP
+                "%.200s/%s cannot be read as the history of a search" CZ_HELP
                 "for a report of the best design only give a file: -o best.html",
-                path);
-        code = cz_tell_error(&result->arguments, &error);
+                folder, log.is_of_search ? "history.csv" : "run.log");
+        code = cz_tell_error(session->arguments, &error);
     } else {
-        const CzRecall recall = {.status = history.status,
-                                 .why_stopped = history.why,
+        const CzRecall recall = {.status = log.status,
+                                 .why_stopped = log.why_stopped,
                                  .start = history.x,
                                  .n_trial = history.n,
                                  .trial = history.trial,
                                  .trial_x = history.x};
-        code = cz_outcome_recall(result->session.evaluator, &recall, outcome, &error) == CZ_OK
-                   ? 0
-                   : cz_session_fail(&result->session, &error);
+        if (cz_outcome_recall(session->evaluator, &recall, outcome, &error) != CZ_OK)
+            code = cz_session_fail(session, &error);
     }
+    close_file(stream);
     free(history.trial);
     free(history.x);
     return code;

@@ -8,48 +8,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static bool is_there(const char *folder, const char *name) {
-    char path[4096];
-    struct stat found;
-    const int n = snprintf(path, sizeof path, "%s/%s", folder, name);
-    return n > 0 && (size_t)n < sizeof path && stat(path, &found) == 0;
-}
-
-/* The scenario of a folder that holds the files of a single one, from its log. */
-static void read_scenario(const char *folder, char scenario[CZ_NAME_ROOM]) {
-    char path[4096], line[512];
-    static const char before[] = "scenario ";
-    snprintf(path, sizeof path, "%s/run.log", folder);
-    FILE *stream = fopen(path, "r");
-    while (stream != NULL && fgets(line, sizeof line, stream) != NULL) {
-        char *end = strstr(line, ": ");
-        if (strncmp(line, before, strlen(before)) != 0 || end == NULL)
-            continue;
-        *end = '\0';
-        snprintf(scenario, CZ_NAME_ROOM, "%.48s", line + strlen(before));
-    }
-    if (stream != NULL)
-        fclose(stream);
-}
-
-/* Another version may compute something else than what the folder holds. */
-static void tell_version(const CzArguments *arguments, const char *folder) {
-    char path[4096], line[512], ours[64];
-    bool is_ours = false;
-    snprintf(path, sizeof path, "%s/run.log", folder);
-    snprintf(ours, sizeof ours, "crushzone %s,", cz_version());
-    FILE *stream = fopen(path, "r");
-    if (stream != NULL && fgets(line, sizeof line, stream) != NULL)
-        is_ours = strncmp(line, ours, strlen(ours)) == 0;
-    if (stream != NULL)
-        fclose(stream);
-    if (!is_ours)
-        cz_tell(arguments,
-                "warning: the results in %s are from another version of crushzone; this version "
-                "computed them again",
-                folder);
-}
-
 /* What to run for an operand: the file itself, or what its folder holds. */
 static int find_file(CzResult *result, const char *operand) {
     struct stat found;
@@ -58,21 +16,24 @@ static int find_file(CzResult *result, const char *operand) {
         snprintf(result->file, sizeof result->file, "%s", operand);
         return 0;
     }
-    if (!is_there(operand, "resolved.yaml")) {
+    if (!cz_recall_is_there(operand, "resolved.yaml")) {
         cz_fail(&error, CZ_STATUS_INPUT,
                 "%.200s is not a result folder: it has no resolved.yaml" CZ_HELP "%s", operand,
-                is_there(operand, "sweep.json")
+                cz_recall_is_there(operand, "sweep.json")
                     ? "it is the folder of a sweep, whose report was written by the sweep"
                     : "");
         return cz_tell_error(&result->arguments, &error);
     }
     snprintf(result->file, sizeof result->file, "%s/resolved.yaml", operand);
-    tell_version(&result->arguments, operand);
-    if (is_there(operand, "channels.csv") && result->arguments.text[CZ_OPTION_SCENARIO] == NULL) {
-        read_scenario(operand, result->scenario);
-        if (result->scenario[0] != '\0')
-            result->arguments.text[CZ_OPTION_SCENARIO] = result->scenario;
-    }
+    result->log = cz_recall_log(operand);
+    if (!result->log.is_ours) /* which may compute something else than what the folder holds */
+        cz_tell(&result->arguments,
+                "warning: the results in %s are from another version of crushzone; this version "
+                "computed them again",
+                operand);
+    if (cz_recall_is_there(operand, "channels.csv") && result->log.scenario[0] != '\0' &&
+        result->arguments.text[CZ_OPTION_SCENARIO] == NULL)
+        result->arguments.text[CZ_OPTION_SCENARIO] = result->log.scenario;
     return 0;
 }
 

@@ -2,13 +2,13 @@
 #ifndef CZ_CLI_RESULT_H
 #define CZ_CLI_RESULT_H
 
-#include "cli/session.h"
+#include "cli/recall.h"
 
 /* A run to draw from. */
 typedef struct CzResult {
-    CzArguments arguments;       /* of this result: with the scenario that its folder holds */
-    char scenario[CZ_NAME_ROOM]; /* room for that name */
-    char file[4096];             /* what is run: resolved.yaml of a folder */
+    CzArguments arguments; /* of this result: with the scenario that its folder holds */
+    CzRunLog log;          /* of that folder */
+    char file[4096];       /* what is run: resolved.yaml of a folder */
     CzSession session;
     CzEvaluation evaluation;
     CzReportRun run; /* label: the operand */

@@ -100,34 +100,48 @@ static int n_job_of(const CzArguments *arguments) {
     return arguments->n_job > 0 ? arguments->n_job : n_processor > 0 ? (int)n_processor : 0;
 }
 
-CzReportOptions cz_session_report_options(const CzSession *session, double wall_s) {
-    CzReportOptions options = cz_report_options_default();
-    options.csv_separator = session->arguments->csv_separator;
-    options.csv_decimal = session->arguments->csv_decimal;
-    options.n_job = n_job_of(session->arguments);
-    options.setup_s = session->setup_s;
-    options.wall_s = wall_s;
-    options.set = session->arguments->set;
-    options.n_set = session->arguments->n_set;
-    options.command = session->arguments->command == CZ_COMMAND_OPTIMISE ? "optimise" : NULL;
-    options.word = session->word;
-    options.n_word = session->n_word;
-    options.text = session->text;
-    options.n_text = session->n_text;
-    options.replaces_search = session->arguments->text[CZ_OPTION_REPLACE] != NULL;
-    return options;
+CzReport cz_session_report(CzSession *session, CzReportKind kind, double wall_s) {
+    CzReportOptions *options = &session->options;
+    *options = cz_report_options_default();
+    options->csv_separator = session->arguments->csv_separator;
+    options->csv_decimal = session->arguments->csv_decimal;
+    options->n_job = n_job_of(session->arguments);
+    options->setup_s = session->setup_s;
+    options->wall_s = wall_s;
+    options->set = session->arguments->set;
+    options->n_set = session->arguments->n_set;
+    options->command = session->arguments->command == CZ_COMMAND_OPTIMISE ? "optimise" : NULL;
+    options->word = session->word;
+    options->n_word = session->n_word;
+    options->text = session->text;
+    options->n_text = session->n_text;
+    options->replaces_search = session->arguments->text[CZ_OPTION_REPLACE] != NULL;
+    return (CzReport){.kind = kind,
+                      .options = options,
+                      .problem = session->problem,
+                      .evaluator = session->evaluator};
+}
+
+static int end_results(const CzArguments *arguments, CzStatus status, const CzError *error) {
+    if (status != CZ_OK)
+        cz_print_mistake(arguments, "error", NULL, error);
+    return cz_status_exit_code(status);
 }
 
 int cz_print_results(const CzArguments *arguments, const CzReport *report) {
+    const bool colour = cz_wants_colour(arguments, STDOUT_FILENO);
     CzError error = {0};
-    const CzStatus status =
-        arguments->text[CZ_OPTION_JSON] != NULL
-            ? cz_report_write_json(report, stdout, &error)
-            : cz_report_write_table(report, cz_wants_colour(arguments, STDOUT_FILENO), stdout,
-                                    &error);
-    if (status != CZ_OK)
-        cz_print_mistake(arguments, "error", NULL, &error);
-    return cz_status_exit_code(status);
+    const CzStatus status = arguments->text[CZ_OPTION_JSON] != NULL
+                                ? cz_report_write_json(report, stdout, &error)
+                                : cz_report_write_table(report, colour, stdout, &error);
+    return end_results(arguments, status, &error);
+}
+
+int cz_keep_results(const CzArguments *arguments, const CzReport *report, const char *folder) {
+    CzError error = {0};
+    return folder == NULL
+               ? 0
+               : end_results(arguments, cz_report_write_folder(report, folder, &error), &error);
 }
 
 int cz_session_check_folder(const CzSession *session, const char *folder, bool replaces_search) {

@@ -15,6 +15,7 @@ typedef struct CzSession {
     double setup_s;       /* reading and building [s] */
     const char *word[10]; /* options that results depend on, but for settings (n_word) */
     int n_word;
+    CzReportOptions options; /* of its results, set by cz_session_report */
 } CzSession;
 
 /* Folder of shipped data of this program (share_folder.c). */
@@ -33,12 +34,14 @@ CZ_MUST_CHECK int cz_session_begin(CzSession *session, const CzArguments *argume
                                    const char *file);
 void cz_session_end(CzSession *session);
 
-/* How the results of this session are written. */
-CzReportOptions cz_session_report_options(const CzSession *session, double wall_s);
+/* The results of this session, to be written; the caller adds those of the kind. */
+CzReport cz_session_report(CzSession *session, CzReportKind kind, double wall_s);
 
-/* Prints results: a JSON document with --json, else tables. Reports a failure and returns its exit
- * code, 0 when all is well. */
+/* Prints results, a JSON document with --json, else tables; writes their folder (NULL: none). Both
+ * report a failure and return its exit code, 0 when all is well. */
 CZ_MUST_CHECK int cz_print_results(const CzArguments *arguments, const CzReport *report);
+CZ_MUST_CHECK int cz_keep_results(const CzArguments *arguments, const CzReport *report,
+                                  const char *folder);
 
 /* Whether results can be written to a folder (NULL: to none), before anything runs in vain; returns
  * the exit code. */

@@ -5,8 +5,6 @@ set(CZ_SOURCES_cli
     ../base/suggest.c
     ../base/text.c
     arguments.c
-    command_bench.c
-    command_explain.c
     command_fit.c
     command_figures.c
     command_new.c
@@ -14,7 +12,7 @@ set(CZ_SOURCES_cli
     command_problem.c
     command_run.c
     command_sweep.c
-    command_verify.c
+    command_study.c
     help.c
     help_pages.c
     help_topics.c

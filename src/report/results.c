@@ -166,7 +166,7 @@ static void put_results(CzJson *json, CzRecord record, CzResultContext *context,
 
 CzStatus cz_results_write(CzRecord record, CzResultContext *context, const void *data, FILE *stream,
                           CzError *error) {
-    CzJson *json = cz_json_create();
-    put_results(json, record, context, data);
-    return cz_json_finish(json, stream, error);
+    CzJson json = {.stream = stream};
+    put_record(&json, NULL, record, context, data);
+    return cz_json_finish(&json, error);
 }

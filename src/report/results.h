@@ -136,7 +136,7 @@ const char *cz_closed_verdict(CzVerdict verdict);
 /* The record of the document of each kind. */
 extern const CzRecord cz_document_records[CZ_N_REPORT];
 
-/* Writes a record as a JSON document. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
+/* Writes a record as a JSON document. Status: CZ_STATUS_OUTPUT. */
 CZ_MUST_CHECK CzStatus cz_results_write(CzRecord record, CzResultContext *context, const void *data,
                                         FILE *stream, CzError *error);
 

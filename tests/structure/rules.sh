@@ -132,7 +132,7 @@ angles_in_laws() {
 
 # A third-party library is named in one file, so that it can be replaced.
 third_party_headers() {
-    for header in nlopt.h yaml.h jansson.h 'cvode/' 'arkode/' 'kinsol/' 'sundials/' pthread.h getopt.h; do
+    for header in nlopt.h yaml.h 'cvode/' 'arkode/' 'kinsol/' 'sundials/' pthread.h getopt.h; do
         files=$(grep -rlE "#[[:space:]]*include[[:space:]]*[<\"]$header" src include)
         [ "$(echo "$files" | wc -l)" -le 1 ] || echo "$header in" $files
     done
@@ -196,7 +196,7 @@ channels_by_text() {
         c_files src/$folder
     done | xargs grep -HnE "\"($stems)([^\" ]*_($units))?\"" | without_comments | grep -v '^src/report/drawn.def:'
     grep -rlE '(^|[^_a-z])cz_(channel|drawn)_name\(' src --include='*.c' |
-        grep -vxE 'src/(problem/(channel|rules_names)|report/(csv|drawn|page_data|sheet)|cli/help_topics)\.c' |
+        grep -vxE 'src/(problem/(channel|rules_names)|report/(chart_draw|csv|drawn|page_data)|cli/help_topics)\.c' |
         sed 's/$/ makes names of channels/'
     grep -rnE '(str(n)?(cmp|str|chr)|fnmatch)\(.*(channel|drawn)_name' src --include='*.c' | grep -v '^src/problem/channel.c:'
 }

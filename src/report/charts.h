@@ -5,6 +5,7 @@
 #include "crushzone/fit.h"
 #include "report/drawn.h"
 #include "report/page.h"
+#include "report/plot.h"
 
 typedef enum CzChart {
 #define CZ_CHART(constant, ...) CZ_CHART_##constant,
@@ -54,6 +55,9 @@ void cz_chart_write(const CzPage *page, CzChart chart, int index, CzMarkup *mark
 
 /* The same on the page, under its title. */
 void cz_page_write_figure(CzPage *page, CzChart chart, int index);
+
+/* The time of a run beyond model validity, shaded. */
+CzPlotBand cz_band_beyond(const CzRunSummary *run, const double *time, int n_sample);
 
 /* Six frames of the collision from the side (page_scene.c). */
 void cz_chart_write_frames(const CzPage *page, int interface, CzMarkup *markup);

@@ -63,24 +63,19 @@ bool cz_compared_differs(const CzReport *report, const CzCheckResult *check) {
 
 /* ---- numbers of interfaces and cars ---- */
 
+/* Results that are compared, up to NULL. */
 static const CzResult *const of_interfaces[] = {
     CZ_RESULT_AT(INTERFACE, peak_force_kN), CZ_RESULT_AT(INTERFACE, shortening_mm),
-    CZ_RESULT_AT(INTERFACE, stroke_used), CZ_RESULT_AT(INTERFACE, energy_kJ)};
+    CZ_RESULT_AT(INTERFACE, stroke_used), CZ_RESULT_AT(INTERFACE, energy_kJ), NULL};
 static const CzResult *const of_cars[] = {CZ_RESULT_AT(VEHICLE, mean_deceleration_120ms_g),
                                           CZ_RESULT_AT(VEHICLE, peak_deceleration_g),
-                                          CZ_RESULT_AT(VEHICLE, max_wheel_lift_mm)};
+                                          CZ_RESULT_AT(VEHICLE, max_wheel_lift_mm), NULL};
 
-const CzResult *cz_compared_result(bool of_interface, int index) {
-    const int n = of_interface ? (int)(sizeof of_interfaces / sizeof *of_interfaces)
-                               : (int)(sizeof of_cars / sizeof *of_cars);
-    return index >= n ? NULL : of_interface ? of_interfaces[index] : of_cars[index];
-}
-
-int cz_compared_count(const CzRunSummary *run, bool of_interface) {
+static int count_of(const CzRunSummary *run, bool of_interface) {
     return of_interface ? run->n_interface : run->n_vehicle;
 }
 
-const char *cz_compared_name(const CzRunSummary *run, bool of_interface, int index) {
+static const char *name_of(const CzRunSummary *run, bool of_interface, int index) {
     return of_interface ? run->interface[index].name : run->vehicle[index].name;
 }
 
@@ -88,8 +83,8 @@ double cz_compared_value(const CzReport *report, int i, const CzResult *result, 
     const CzRunSummary *summary = cz_compared_run(report, i);
     const bool of_interface = result->record == CZ_RECORD_INTERFACE;
     CzResultContext context = {.run = summary};
-    for (int k = 0; summary != NULL && k < cz_compared_count(summary, of_interface); k++)
-        if (strcmp(cz_compared_name(summary, of_interface, k), name) == 0)
+    for (int k = 0; summary != NULL && k < count_of(summary, of_interface); k++)
+        if (strcmp(name_of(summary, of_interface, k), name) == 0)
             return cz_result_number(result, &context,
                                     of_interface ? (const void *)&summary->interface[k]
                                                  : (const void *)&summary->vehicle[k]);
@@ -172,13 +167,13 @@ static void put_numbers(CzReportTable *table, const CzReport *report, const CzRe
 void cz_compared_begin_numbers(CzReportTable *table, const CzReport *report, bool of_interface,
                                bool known) {
     const CzRunSummary *first = cz_compared_run(report, 0);
-    const CzResult *result;
+    const CzResult *const *result = of_interface ? of_interfaces : of_cars;
     begin(table, report, of_interface ? "interface;" : "car;");
-    for (int k = 0; (result = cz_compared_result(of_interface, k)) != NULL; k++)
-        for (int i = 0; i < cz_compared_count(first, of_interface); i++) {
-            const char *name = cz_compared_name(first, of_interface, i);
-            if (!known || is_known(report, result, name))
-                put_numbers(table, report, result, name);
+    for (; *result != NULL; result++)
+        for (int i = 0; i < count_of(first, of_interface); i++) {
+            const char *name = name_of(first, of_interface, i);
+            if (!known || is_known(report, *result, name))
+                put_numbers(table, report, *result, name);
         }
 }
 

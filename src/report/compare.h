@@ -21,10 +21,6 @@ const CzCheckResult *cz_compared_check(const CzReportRun *run, const CzCheckResu
  * thousandth of the limit or of the violation. */
 bool cz_compared_differs(const CzReport *report, const CzCheckResult *check);
 
-/* The results of interfaces or of cars that are compared; NULL beyond the last. */
-const CzResult *cz_compared_result(bool of_interface, int index);
-int cz_compared_count(const CzRunSummary *run, bool of_interface);
-const char *cz_compared_name(const CzRunSummary *run, bool of_interface, int index);
 /* A number in a compared run, by the name of its interface or car; NaN when that run has none. */
 double cz_compared_value(const CzReport *report, int i, const CzResult *result, const char *name);
 /* Whether the compared scenario went beyond model validity. */

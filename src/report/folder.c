@@ -17,18 +17,6 @@
 
 /* ---- checks of an existing folder ---- */
 
-/* Whether the marker lists a file, or a file inside it when it is a folder. */
-static bool lists(const char *marker, const char *name, bool is_folder) {
-    const size_t n = strlen(name);
-    for (const char *line = marker; line != NULL && *line != '\0';) {
-        if (strncmp(line, name, n) == 0 && line[n] == (is_folder ? '/' : '\n'))
-            return true;
-        line = strchr(line, '\n');
-        line = line != NULL ? line + 1 : NULL;
-    }
-    return false;
-}
-
 /* The last part of a path. */
 static const char *name_of(const char *path) {
     const char *slash = strrchr(path, '/');
@@ -52,7 +40,7 @@ bool cz_folder_lists(const char *file) {
     for (int depth = 0; depth < 2; depth++) {
         char above[PATH_MAX], resolved[PATH_MAX], longer[PATH_MAX];
         char *marker = cz_marker_read(folder);
-        const bool is_listed = marker != NULL && lists(marker, name, false);
+        const bool is_listed = marker != NULL && cz_marker_lists(marker, "", name, '\n');
         free(marker);
         if (is_listed)
             return true;
@@ -83,7 +71,7 @@ static bool find_foreign(const char *folder, const char *marker, const char *pre
         snprintf(name, sizeof name, "%.*s%s", 2048, prefix, own);
         const bool is_folder = cz_path_in(path, folder, own, NULL) == CZ_OK &&
                                lstat(path, &info) == 0 && S_ISDIR(info.st_mode);
-        found = !lists(marker, name, is_folder);
+        found = !cz_marker_lists(marker, "", name, is_folder ? '/' : '\n');
         if (found)
             snprintf(foreign, PATH_MAX, "%s", name);
         else if (is_folder)
@@ -146,7 +134,7 @@ static CzStatus check_content(const char *path, bool replaces_search, CzError *e
                        "another one with -o",
                        path);
     const bool has_foreign = find_foreign(path, marker, "", foreign);
-    const bool is_search = lists(marker, "outcome.json", false);
+    const bool is_search = cz_marker_lists(marker, "", "outcome.json", '\n');
     free(marker);
     if (has_foreign)
         return cz_fail(error, CZ_STATUS_OUTPUT,
@@ -233,6 +221,60 @@ static CzStatus check_parents(const char *path, CzError *error) {
     why = why != 0 ? why : errno;
     return cz_fail(error, CZ_STATUS_OUTPUT, "%.200s cannot be written: the folder %.200s: %s", path,
                    parent, strerror(why));
+}
+
+/* ---- folders of processes that died while replacing one ---- */
+
+/* Folders of a dead process; paths are empty when there is none. */
+typedef struct Left {
+    const char *name;     /* of the folder that it was replacing */
+    char made[PATH_MAX];  /* the new results, whole */
+    char moved[PATH_MAX]; /* the results before them */
+} Left;
+
+static void look_at(const char *path, const struct stat *info, void *data) {
+    Left *left = data;
+    char *marker = NULL;
+    if (S_ISDIR(info->st_mode) && info->st_uid == geteuid())
+        marker = cz_marker_read(path);
+    if (marker != NULL && cz_marker_is_whole(marker)) {
+        if (cz_marker_lists(marker, CZ_MARKER_MOVED, left->name, '\n'))
+            snprintf(left->moved, PATH_MAX, "%s", path);
+        else if (cz_marker_lists(marker, CZ_MARKER_MADE_FOR, left->name, '\n'))
+            snprintf(left->made, PATH_MAX, "%s", path);
+    }
+    free(marker);
+}
+
+/* Renames a folder unless a process is using it. */
+static bool put_back(const char *from, const char *to) {
+    char marker[PATH_MAX];
+    if (from[0] == '\0' || cz_path_in(marker, from, CZ_MARKER_NAME, NULL) != CZ_OK)
+        return false;
+    const int lock = cz_temporary_take(marker);
+    const bool is_back = lock >= 0 && rename(from, to) == 0;
+    if (lock >= 0)
+        close(lock);
+    return is_back;
+}
+
+bool cz_report_restore_folder(const char *path) {
+    char parent[PATH_MAX], clean[PATH_MAX];
+    struct stat info;
+    if (strlen(path) >= PATH_MAX || lstat(path, &info) == 0)
+        return false;
+    snprintf(clean, sizeof clean, "%s", path);
+    for (size_t n = strlen(clean); n > 1 && clean[n - 1] == '/'; n--)
+        clean[n - 1] = '\0';
+    Left left = {name_of(clean), "", ""};
+    cz_parent_of(clean, parent);
+    cz_each_temporary(parent, look_at, &left);
+    if (left.made[0] == '\0')
+        return put_back(left.moved, clean);
+    const bool is_back = put_back(left.made, clean); /* fails while its maker lives */
+    if (is_back && left.moved[0] != '\0')
+        cz_remove_listed(left.moved);
+    return is_back;
 }
 
 CzStatus cz_folder_check(const char *path, bool replaces_search, CzError *error) {

@@ -129,4 +129,17 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
 /* A scenario's name as the name of a folder. */
 void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]);
 
+/* ---- parts of the report of a search ---- */
+
+/* The most critical constraint that is not among the first n; -1 when there is none. */
+int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const int *told);
+
+/* All designs of the search as lines over the variables (page_designs.c); nothing for fewer than
+ * two variables. */
+CZ_MUST_CHECK CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
+                                             const CzOutcome *outcome, CzError *error);
+/* Change of objective and critical margins per increment of each variable (page_designs.c). */
+void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
+                                 const CzOutcome *outcome);
+
 #endif

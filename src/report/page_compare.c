@@ -5,8 +5,6 @@
 #include "report/charts.h"
 #include "report/compare.h"
 #include "report/options.h"
-#include "report/plot.h"
-#include "report/sheet.h"
 
 static void write_checks(CzMarkup *markup, const CzReport *report) {
     CzReportTable table;

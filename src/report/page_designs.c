@@ -1,5 +1,5 @@
 /* Designs of a search as parallel coordinates, and sensitivities of the best design. */
-#include "report/page_outcome.h"
+#include "report/page.h"
 
 #include "base/error.h"
 #include "evaluate/evaluator.h"

@@ -1,5 +1,5 @@
 /* The report of a search: variables, active constraints, verification, course of the search. */
-#include "report/page_outcome.h"
+#include "report/page.h"
 
 #include "base/error.h"
 #include "evaluate/evaluator.h"

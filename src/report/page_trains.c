@@ -4,7 +4,7 @@
 #include "report/elevation.h"
 #include "report/figure.h"
 #include "report/plot.h"
-#include "report/result_table.h"
+#include "report/results.h"
 #include "report/units.h"
 
 #include <math.h>
@@ -104,8 +104,7 @@ static void write_elements(const CzPage *page, CzMarkup *markup) {
     CzResultContext context = {.run = run};
     CzReportTable table;
     cz_table_begin(&table, "interface;element");
-    for (int k = 0; k < n_column; k++)
-        cz_table_head_of(&table, columns[k]);
+    cz_table_head_results(&table, n_column, columns);
     cz_table_head(&table, "");
     for (int i = 0; i < run->n_interface; i++) {
         const char *name = run->interface[i].name;
@@ -115,8 +114,8 @@ static void write_elements(const CzPage *page, CzMarkup *markup) {
                 continue;
             cz_table_put(&table, name);
             cz_table_put(&table, element->name);
-            for (int k = 0; k < n_column; k++)
-                cz_table_put_result(&table, columns[k], &context, element, run->beyond_validity);
+            cz_table_put_results(&table, n_column, columns, &context, element,
+                                 run->beyond_validity);
             cz_table_put_styled(&table,
                                 element->bottomed_out ? "bottomed out"
                                 : element->sheared    ? "sheared off"
@@ -141,13 +140,11 @@ static void write_vehicles(const CzPage *page, CzMarkup *markup) {
     CzResultContext context = {.run = run};
     CzReportTable table;
     cz_table_begin(&table, "car");
-    for (int k = 0; k < n_column; k++)
-        cz_table_head_of(&table, columns[k]);
+    cz_table_head_results(&table, n_column, columns);
     for (int i = 0; i < run->n_vehicle; i++) {
         cz_table_put(&table, run->vehicle[i].name);
-        for (int k = 0; k < n_column; k++)
-            cz_table_put_result(&table, columns[k], &context, &run->vehicle[i],
-                                run->beyond_validity);
+        cz_table_put_results(&table, n_column, columns, &context, &run->vehicle[i],
+                             run->beyond_validity);
     }
     cz_table_write_page(&table, markup);
 }

@@ -68,6 +68,23 @@ const char *cz_result_text(char text[CZ_FIGURE_ROOM], const CzResult *result,
     return cz_figure_plain(text, number);
 }
 
+void cz_table_head_results(CzReportTable *table, int n, const CzResult *const *result) {
+    for (int i = 0; i < n; i++) {
+        char head[64];
+        snprintf(head, sizeof head, ">%s", result[i]->heading);
+        cz_table_head(table, head);
+    }
+}
+
+void cz_table_put_results(CzReportTable *table, int n, const CzResult *const *result,
+                          CzResultContext *context, const void *record, bool is_marked) {
+    for (int i = 0; i < n; i++) {
+        char text[CZ_FIGURE_ROOM];
+        cz_result_text(text, result[i], context, record);
+        cz_table_put(table, cz_figure_mark(text, is_marked));
+    }
+}
+
 /* ---- JSON ---- */
 
 static void put_number(CzJson *json, const CzResult *result, const char *key, double number) {

@@ -9,6 +9,7 @@
 #include "crushzone/report.h"
 #include "evaluate/results.h"
 #include "report/figure.h"
+#include "report/table.h"
 
 typedef enum CzRecord {
 #define CZ_RECORD(record, type, doc) CZ_RECORD_##record,
@@ -125,6 +126,12 @@ double cz_result_number(const CzResult *result, CzResultContext *context, const 
 /* The same as a table prints it, by its format. */
 const char *cz_result_text(char text[CZ_FIGURE_ROOM], const CzResult *result,
                            CzResultContext *context, const void *record);
+
+/* Columns of a table with the headings of n results, and the cells of a record in them, marked when
+ * they may be of the time beyond model validity. */
+void cz_table_head_results(CzReportTable *table, int n, const CzResult *const *result);
+void cz_table_put_results(CzReportTable *table, int n, const CzResult *const *result,
+                          CzResultContext *context, const void *record, bool is_marked);
 
 /* A yes or no, and a text (NULL for none). A verdict is given in full, provisional passes as such.
  */

@@ -3,7 +3,7 @@
 
 #include "problem/problem.h"
 #include "report/checks_table.h"
-#include "report/result_table.h"
+#include "report/results.h"
 #include "report/runs.h"
 #include "report/figure.h"
 #include "report/tables.h"
@@ -129,8 +129,7 @@ static void write_interfaces(const CzRunSummary *run, bool compact, CzTerminal *
             worst = i;
     CzReportTable table;
     cz_table_begin(&table, "interface");
-    for (int k = 0; k < N_INTERFACE_COLUMN; k++)
-        cz_table_head_of(&table, interface_columns[k]);
+    cz_table_head_results(&table, N_INTERFACE_COLUMN, interface_columns);
     cz_table_head(&table, "");
     for (int i = 0; i < run->n_interface; i++)
         if (!compact || i == worst || run->interface[i].bottomed_out)

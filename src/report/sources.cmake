@@ -3,9 +3,8 @@ set(CZ_SOURCES_report
     standalone_figure.c
     benchmark.c
     chart_curves.c
+    chart_draw.c
     charts.c
-    charts_force.c
-    charts_motion.c
     checks_table.c
     compare.c
     csv.c
@@ -14,7 +13,6 @@ set(CZ_SOURCES_report
     elevation.c
     explanation.c
     figure.c
-    fit_figure.c
     folder.c
     inputs_text.c
     json.c
@@ -37,16 +35,13 @@ set(CZ_SOURCES_report
     page_sweep.c
     page_trains.c
     plot.c
-    restore.c
     result_folder.c
     result_list.c
     result_reference.c
-    result_table.c
     results.c
     run_table.c
     scene.c
     energy_distribution.c
-    sheet.c
     single_file.c
     sweep_table.c
     table.c

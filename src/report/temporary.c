@@ -120,11 +120,11 @@ bool cz_marker_is_whole(const char *marker) {
            strstr(marker, given_up) == NULL;
 }
 
-bool cz_marker_says(const char *marker, const char *what, const char *name) {
+bool cz_marker_lists(const char *marker, const char *what, const char *name, char end) {
     const size_t n_what = strlen(what), n_name = strlen(name);
     for (const char *line = marker; line != NULL && *line != '\0';) {
         if (strncmp(line, what, n_what) == 0 && strncmp(line + n_what, name, n_name) == 0 &&
-            line[n_what + n_name] == '\n')
+            line[n_what + n_name] == end)
             return true;
         line = strchr(line, '\n');
         line = line != NULL ? line + 1 : NULL;
@@ -144,23 +144,29 @@ void cz_marker_add(const char *folder, const char *what, const char *name) {
     close(descriptor);
 }
 
-/* Removes temporary files in a folder that is removed. */
-static void remove_temporary(const char *folder) {
+void cz_each_temporary(const char *folder, CzLook *look, void *data) {
     DIR *entries = opendir(folder);
     struct dirent *entry;
     char path[PATH_MAX];
+    struct stat info;
     while (entries != NULL && (entry = readdir(entries)) != NULL)
         if (cz_is_temporary(entry->d_name) &&
-            cz_path_in(path, folder, entry->d_name, NULL) == CZ_OK)
-            (void)unlink(path);
+            cz_path_in(path, folder, entry->d_name, NULL) == CZ_OK && lstat(path, &info) == 0)
+            look(path, &info, data);
     if (entries != NULL)
         closedir(entries);
+}
+
+static void remove_file(const char *path, const struct stat *info, void *data) {
+    (void)info;
+    (void)data;
+    (void)unlink(path);
 }
 
 void cz_remove_listed(const char *folder) {
     char path[PATH_MAX];
     cz_marker_add(folder, given_up, ""); /* if this process dies, another one removes the rest */
-    remove_temporary(folder);
+    cz_each_temporary(folder, remove_file, NULL);
     char *marker = cz_marker_read(folder);
     for (int pass = 0; pass < 2 && marker != NULL; pass++) /* files, then the folders around them */
         for (char *line = marker; *line != '\0';) {
@@ -231,24 +237,15 @@ static void clear_folder(const char *path) {
     close(descriptor);
 }
 
-/* Removes temporary files and folders of dead processes. */
-static void clear_leftovers(const char *folder) {
-    DIR *entries = opendir(folder);
-    struct dirent *entry;
-    while (entries != NULL && (entry = readdir(entries)) != NULL) {
-        char path[PATH_MAX];
-        struct stat info;
-        if (!cz_is_temporary(entry->d_name) ||
-            cz_path_in(path, folder, entry->d_name, NULL) != CZ_OK || lstat(path, &info) != 0 ||
-            info.st_uid != geteuid())
-            continue;
-        if (S_ISREG(info.st_mode))
-            clear_file(path);
-        else if (S_ISDIR(info.st_mode))
-            clear_folder(path);
-    }
-    if (entries != NULL)
-        closedir(entries);
+/* Removes a temporary file or folder of a dead process of this user. */
+static void clear(const char *path, const struct stat *info, void *data) {
+    (void)data;
+    if (info->st_uid != geteuid())
+        return;
+    if (S_ISREG(info->st_mode))
+        clear_file(path);
+    else if (S_ISDIR(info->st_mode))
+        clear_folder(path);
 }
 
 /* ---- creation ---- */
@@ -273,7 +270,7 @@ static int make_locked(const char *path, FILE **stream) {
 
 int cz_temporary_file(const char *folder, char path[PATH_MAX], FILE **stream) {
     int why = EAGAIN;
-    clear_leftovers(folder);
+    cz_each_temporary(folder, clear, NULL);
     for (int attempt = 0; attempt < MOST_TRIES && (why == EAGAIN || why == EEXIST); attempt++) {
         why = cz_temporary_name(folder, path);
         if (why == 0)
@@ -285,7 +282,7 @@ int cz_temporary_file(const char *folder, char path[PATH_MAX], FILE **stream) {
 int cz_temporary_folder(const char *folder, char path[PATH_MAX], FILE **marker) {
     char marker_path[PATH_MAX];
     int why = EAGAIN;
-    clear_leftovers(folder);
+    cz_each_temporary(folder, clear, NULL);
     for (int attempt = 0; attempt < MOST_TRIES; attempt++) {
         why = cz_temporary_name(folder, path);
         if (why != 0 || cz_path_in(marker_path, path, CZ_MARKER_NAME, NULL) != CZ_OK)

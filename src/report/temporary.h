@@ -11,6 +11,7 @@
 #include <limits.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <sys/stat.h>
 
 #include "crushzone/status.h"
 
@@ -51,16 +52,19 @@ int cz_temporary_folder(const char *folder, char path[PATH_MAX], FILE **marker);
  * folders. Links are removed, not followed. */
 void cz_remove_listed(const char *folder);
 
-/* Whether a name is that of a temporary file or folder. */
+/* Whether a name is that of a temporary file or folder; looks at each of these in a folder. */
 bool cz_is_temporary(const char *name);
+typedef void CzLook(const char *path, const struct stat *info, void *data);
+void cz_each_temporary(const char *folder, CzLook *look, void *data);
 
 /* Reads the marker of a folder: the lines after its head, freed by the caller; NULL when it has
  * none, or without memory. */
 char *cz_marker_read(const char *folder);
 
-/* Whether the folder of a marker is complete, and whether a line of it is `what` and a name. */
+/* Whether the folder of a marker is complete, and whether a line of it begins with `what`, a name
+ * and a sign. */
 bool cz_marker_is_whole(const char *marker);
-bool cz_marker_says(const char *marker, const char *what, const char *name);
+bool cz_marker_lists(const char *marker, const char *what, const char *name, char end);
 
 /* Adds a line, such as CZ_MARKER_MOVED and a name, to the marker of a folder. */
 void cz_marker_add(const char *folder, const char *what, const char *name);

@@ -187,6 +187,15 @@ static int copy_curves(CzBlockCurves *to, const CzLanes *lanes, size_t base, CzA
     return 1;
 }
 
+/* No body is turned at t = 0, and rigid ones never are. */
+static void start_turned(CzBlock *block) {
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+        block->turned.body.cosine[i] = 1.0;
+        for (int k = 0; k < 2; ++k)
+            block->turned.end[k].cosine[i] = block->turned.bogie[k].cosine[i] = 1.0;
+    }
+}
+
 /* A block at t = 0; 0 when there is no memory. */
 static int start_block(CzBlock *block, const CzLanes *lanes, size_t base, CzArena *arena) {
     block->parameter = lanes->block[base / CZ_LANE_BLOCK].parameter;
@@ -201,6 +210,7 @@ static int start_block(CzBlock *block, const CzLanes *lanes, size_t base, CzAren
     derive_constants(&block->parameter, &block->constant);
     derive_ahead(lanes, &block->constant, base);
     start_extremes(&block->extreme);
+    start_turned(block);
     block->memory = &block->memories[0];
     block->next_memory = &block->memories[1];
     block->power = &block->powers[0];
@@ -212,7 +222,10 @@ CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena) {
     CzDynamics *dynamics = cz_arena_allocate(arena, 1, sizeof *dynamics);
     if (dynamics == NULL)
         return NULL;
+    const int has_gear = lanes->has_full_cars, has_drag = has_gear || lanes->has_drag;
     dynamics->lanes = lanes;
+    dynamics->n_state = CZ_LANE_BLOCK * (size_t)(has_gear ? CZ_N_DOF : CZ_DOF(bogie[0]));
+    dynamics->n_power = CZ_LANE_BLOCK * (size_t)(has_drag ? CZ_N_LEDGER : CZ_LEDGER(end[0]));
     dynamics->n_block = (int)(lanes->n_lane / CZ_LANE_BLOCK);
     dynamics->block =
         cz_arena_allocate(arena, (size_t)dynamics->n_block + 1, sizeof *dynamics->block);

@@ -147,7 +147,9 @@ typedef struct CzBlock {
 } CzBlock;
 
 typedef struct CzDynamics {
-    const CzLanes *lanes; /* borrowed */
+    const CzLanes *lanes;    /* borrowed */
+    size_t n_state, n_power; /* numbers of a block's state and powers that change: those of running
+                                gear follow the others and are left out where no car has any */
     int n_block;
     CzBlock *block; /* (n_block), and one more of zeros that represents all lanes beyond them */
     /* What lies under each lane; at most one of them is there. */

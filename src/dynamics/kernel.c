@@ -33,9 +33,9 @@
 extern const CzKernel KERNEL_NAME(CZ_ISA);
 
 /* Sets to zero what the passes add to. */
-static void clear(CzBlock *d) {
-    clear_rows(&d->force, sizeof d->force);
-    clear_rows(d->power, sizeof *d->power);
+static void clear(const CzDynamics *dynamics, CzBlock *d) {
+    clear_rows(&d->force, dynamics->n_state * sizeof(double));
+    clear_rows(d->power, dynamics->n_power * sizeof(double));
     clear_rows(&d->pushed, sizeof d->pushed);
     clear_rows(&d->published.interface, sizeof d->published.interface);
     clear_rows(d->published.section, sizeof d->published.section);
@@ -87,11 +87,11 @@ static void divide_up(CzBlock *d) {
     }
 }
 
-static void divide_by_masses(CzBlock *d) {
+/* What only a car with running gear can do. */
+static void divide_full(CzBlock *d) {
     const CzState *force = &d->force;
     CzState *a = &d->acceleration;
     const CzParameters *rows = &d->parameter;
-    divide_along(d);
     divide_up(d);
     divide(force->body.pitch, rows->inverse.body.inertia_pitch, a->body.pitch);
     for (int k = 0; k < 2; ++k) {
@@ -151,11 +151,12 @@ static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
 }
 
 /* Everything of a block before the interfaces. */
-static void begin_block(const CzLanes *lanes, CzBlock *d) {
-    clear(d);
+static void begin_block(const CzDynamics *dynamics, CzBlock *d) {
+    clear(dynamics, d);
     if (d->budget != NULL)
         clear_rows(d->budget, sizeof *d->budget);
-    rotations(d, lanes->has_full_cars);
+    if (dynamics->lanes->has_full_cars)
+        rotations(d);
 }
 
 /* Everything of a block after the interfaces. */
@@ -167,7 +168,9 @@ static void end_block(const CzDynamics *dynamics, int index, double step) {
     push_bodies(&d->force.body, &d->from_behind);
     if (dynamics->lanes->has_drag)
         drag(d);
-    divide_by_masses(d);
+    divide_along(d);
+    if (dynamics->lanes->has_full_cars)
+        divide_full(d);
 }
 
 static void all_interfaces(const CzDynamics *dynamics, double step) {
@@ -179,7 +182,7 @@ static void all_interfaces(const CzDynamics *dynamics, double step) {
 
 static void evaluate(CzDynamics *dynamics, double step) {
     for (int i = 0; i < dynamics->n_block; ++i)
-        begin_block(dynamics->lanes, &dynamics->block[i]);
+        begin_block(dynamics, &dynamics->block[i]);
     all_interfaces(dynamics, step);
     for (int i = 0; i < dynamics->n_block; ++i)
         end_block(dynamics, i, step);
@@ -187,15 +190,15 @@ static void evaluate(CzDynamics *dynamics, double step) {
 
 static void commit(CzDynamics *dynamics, double step, double time) {
     for (int i = 0; i < dynamics->n_block; ++i)
-        commit_block(dynamics->lanes, &dynamics->block[i], step, time);
+        commit_block(dynamics, &dynamics->block[i], step, time);
 }
 
 /* State and impulse are each one piece of rows. */
 static void advance_block(const CzDynamics *dynamics, int index, double step, int first) {
     CzBlock *d = &dynamics->block[index];
     advance_rails(dynamics, index);
-    cz_two_step_advance(sizeof(CzState) / sizeof(double), step, first, d->position.body.x,
-                        d->velocity.body.x, d->acceleration.body.x, d->last_acceleration.body.x);
+    cz_two_step_advance(dynamics->n_state, step, first, d->position.body.x, d->velocity.body.x,
+                        d->acceleration.body.x, d->last_acceleration.body.x);
     cz_two_step_advance(CZ_LANE_BLOCK, step, first, d->impulse.position, d->impulse.velocity,
                         d->impulse.force, d->impulse.last_force);
 }
@@ -209,12 +212,12 @@ static void advance(CzDynamics *dynamics, double step, int first) {
 static void whole_step(CzDynamics *dynamics, double step, int first, double time) {
     for (int i = 0; i < dynamics->n_block; ++i) {
         advance_block(dynamics, i, step, first);
-        begin_block(dynamics->lanes, &dynamics->block[i]);
+        begin_block(dynamics, &dynamics->block[i]);
     }
     all_interfaces(dynamics, step);
     for (int i = 0; i < dynamics->n_block; ++i) {
         end_block(dynamics, i, step);
-        commit_block(dynamics->lanes, &dynamics->block[i], step, time);
+        commit_block(dynamics, &dynamics->block[i], step, time);
     }
 }
 

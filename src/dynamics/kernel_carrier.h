@@ -139,11 +139,11 @@ static inline void rotate(const double *restrict pitch, CzTurned *restrict turne
     }
 }
 
-static void rotations(CzBlock *d, int has_full_cars) {
+static void rotations(CzBlock *d) {
     rotate(d->position.body.pitch, &d->turned.body);
     for (int end = 0; end < 2; ++end)
         rotate(d->position.end[end].pitch, &d->turned.end[end]);
-    for (int bogie = 0; has_full_cars && bogie < 2; ++bogie)
+    for (int bogie = 0; bogie < 2; ++bogie)
         rotate(d->position.bogie[bogie].pitch, &d->turned.bogie[bogie]);
 }
 

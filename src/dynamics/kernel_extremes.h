@@ -158,9 +158,8 @@ static void extremes(const CzLanes *lanes, CzBlock *d, double time) {
     }
 }
 
-/* Work over the step by the mean of the powers at its ends. */
-static void add_work(CzBlock *d, double step) {
-    const size_t n = sizeof(CzPower) / sizeof(double);
+/* Work of the first n powers over the step by the mean of the powers at its ends. */
+static void add_work(CzBlock *d, size_t n, double step) {
     const double *restrict last = d->last_power->coupler, *restrict power = d->power->coupler;
     double *restrict work = d->work.coupler;
     _Pragma("omp simd") for (size_t i = 0; i < n; ++i) {
@@ -168,15 +167,15 @@ static void add_work(CzBlock *d, double step) {
     }
 }
 
-static void commit_block(const CzLanes *lanes, CzBlock *d, double step, double time) {
-    add_work(d, step);
+static void commit_block(const CzDynamics *dynamics, CzBlock *d, double step, double time) {
+    add_work(d, dynamics->n_power, step);
     CzPower *const power = d->power;
     d->power = d->last_power;
     d->last_power = power;
     CzMemory *const memory = d->memory;
     d->memory = d->next_memory;
     d->next_memory = memory;
-    extremes(lanes, d, time);
+    extremes(dynamics->lanes, d, time);
 }
 
 #endif

@@ -163,6 +163,19 @@ CzAccount cz_chains_account(const CzBatch *batch, size_t lane) {
     return sum;
 }
 
+/* Of an end with mass and of the jaws of a buffer stop. */
+static double stored_in_end(const CzStored *of, int end) {
+    return of->end[end].stored + of->guide[end] + of->fold[end] + of->slide;
+}
+
+double cz_interface_stored(const CzBatch *batch, int interface, int design) {
+    const size_t lane = cz_lane(batch, interface, design);
+    const CzStored *of = &batch->stored[lane];
+    const CzStored *ahead = &batch->stored[cz_lane(batch, interface + 1, design)];
+    return cz_chains_account(batch, lane).stored + of->hinge[0] + of->hinge[1] + of->face_sliding +
+           of->side_sliding + of->superstructure + stored_in_end(of, 1) + stored_in_end(ahead, 0);
+}
+
 CzAccount cz_gear_account(const CzBatch *batch, size_t lane) {
     const CzDynamics *dynamics = batch->dynamics;
     const CzStored *stored = &batch->stored[lane];

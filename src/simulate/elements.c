@@ -244,15 +244,6 @@ double cz_interface_energy(const CzBatch *batch, int interface, int design) {
     return energy;
 }
 
-double cz_interface_stored(const CzBatch *batch, int interface, int design) {
-    CzElementResult element[CZ_MAX_ELEMENTS];
-    const int n = cz_interface_elements(batch, interface, design, element);
-    double stored = 0.0;
-    for (int k = 0; k < n; ++k)
-        stored += element[k].stored;
-    return stored;
-}
-
 /* How near an interface came to climbing, and when. */
 static void fill_climbing(const CzBatch *batch, int interface, int design,
                           CzInterfaceResult *result) {

@@ -48,6 +48,19 @@ static void fail(CzBatch *batch, int design, const char *car, const char *elemen
     end(progress, CZ_ENDED_INCOMPLETE);
 }
 
+/* Whether all numbers of the state are finite; many at once. */
+static bool is_finite(const CzDynamics *dynamics) {
+    double sum = 0.0;
+    for (int block = 0; block < dynamics->n_block; ++block) {
+        const double *restrict position = dynamics->block[block].position.body.x,
+                               *restrict velocity = dynamics->block[block].velocity.body.x;
+#pragma omp simd reduction(+ : sum)
+        for (size_t i = 0; i < dynamics->n_state; ++i)
+            sum += (position[i] - position[i]) + (velocity[i] - velocity[i]);
+    }
+    return sum == 0.0;
+}
+
 /* Fails the design when a number is not finite; names the first degree of freedom. */
 static bool fails_to_be_finite(CzBatch *batch, int design) {
     for (int car = 0; car < batch->model->n_car; ++car)
@@ -217,33 +230,42 @@ static double rest_or_speed(const CzBatch *batch, int car, int design) {
     return is_held || is_slowed ? fmin(speed, 0.0) : speed;
 }
 
+/* A car ahead of others: its speed, that which it keeps at least, and its deceleration. */
+typedef struct Ahead {
+    double speed, kept, slowing;
+} Ahead;
+
+static Ahead car_ahead(const CzBatch *batch, int car, int design) {
+    const size_t lane = cz_lane(batch, car, design);
+    return (Ahead){cz_velocity(batch, CZ_DOF(body.x), lane), rest_or_speed(batch, car, design),
+                   cz_car_equipment(batch->lanes, lane).slowing};
+}
+
 /* Speed at which a car can still meet one ahead of it, `room` beyond their closure now: one that is
  * slowed meanwhile comes to rest at most. */
-static double speed_at_meeting(const CzBatch *batch, int behind, int ahead, double room,
-                               int design) {
-    const size_t lane = cz_lane(batch, ahead, design);
-    const double speed = cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, behind, design));
-    const double closing = speed - cz_velocity(batch, CZ_DOF(body.x), lane);
-    const double at_most = speed - rest_or_speed(batch, ahead, design);
-    const double slowing = cz_car_equipment(batch->lanes, lane).slowing;
+static double speed_at_meeting(double speed, const Ahead *ahead, double room) {
+    const double closing = speed - ahead->speed, at_most = speed - ahead->kept;
     if (!(at_most > closing))
         return at_most;
-    return fmin(at_most, sqrt(closing * closing + 2.0 * slowing * room)); /* not 0 times infinity */
+    const double met = sqrt(closing * closing + 2.0 * ahead->slowing * room);
+    return fmin(at_most, met); /* also where that is 0 times infinity */
 }
 
 /* Largest speed at which cars can still meet. Neighbours meet again at their largest closure so
  * far at the latest: what is between them has no more room. */
 static double meeting_speed(const CzBatch *batch, int design) {
     double largest = 0.0;
-    for (int ahead = 1; ahead < batch->model->n_car; ++ahead) {
+    for (int car = 1; car < batch->model->n_car; ++car) {
+        const Ahead ahead = car_ahead(batch, car, design);
         double room = 0.0;
-        for (int behind = ahead - 1; behind >= 0; --behind) {
+        for (int behind = car - 1; behind >= 0; --behind) {
             const size_t lane = cz_lane(batch, behind, design);
             const double closure =
                 cz_position(batch, CZ_DOF(body.x), lane) -
                 cz_position(batch, CZ_DOF(body.x), cz_lane(batch, behind + 1, design));
             room += fmax(cz_extreme(batch, CZ_EXTREME(interface_shortening), lane) - closure, 0.0);
-            largest = fmax(largest, speed_at_meeting(batch, behind, ahead, room, design));
+            largest = fmax(
+                largest, speed_at_meeting(cz_velocity(batch, CZ_DOF(body.x), lane), &ahead, room));
         }
     }
     return largest;
@@ -316,10 +338,10 @@ static void look_for_climbing(CzBatch *batch, int design) {
     }
 }
 
-static void look_at(CzBatch *batch, int design) {
+static void look_at(CzBatch *batch, int design, bool finite) {
     CzProgressOfDesign *progress = &batch->design[design];
     cz_accounts_take(batch, design);
-    if (fails_to_be_finite(batch, design) || fails_to_balance(batch, design) ||
+    if ((!finite && fails_to_be_finite(batch, design)) || fails_to_balance(batch, design) ||
         fails_to_solve(batch, design) || fails_to_fit(batch, design) ||
         fails_to_keep_apart(batch, design))
         return;
@@ -357,9 +379,10 @@ static void look_at(CzBatch *batch, int design) {
 
 bool cz_ending_look(CzBatch *batch) {
     bool all_over = true;
+    const bool finite = is_finite(batch->dynamics);
     for (int design = 0; design < batch->n_design; ++design) {
         if (!batch->design[design].over)
-            look_at(batch, design);
+            look_at(batch, design, finite);
         all_over &= batch->design[design].over;
     }
     return all_over;

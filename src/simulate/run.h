@@ -160,6 +160,8 @@ CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end);
 CzAccount cz_massless_account(const CzBatch *batch, size_t lane, int side);
 /* All series chains of an interface, without regard to whom they belong. */
 CzAccount cz_chains_account(const CzBatch *batch, size_t lane);
+/* Elastic energy in the elements of an interface [J]. */
+double cz_interface_stored(const CzBatch *batch, int interface, int design);
 /* What the track under a car stores now [J]. */
 double cz_track_account(const CzBatch *batch, size_t lane);
 /* Springs of the running gear and the wheels' contact. */
@@ -222,8 +224,6 @@ int cz_interface_elements(const CzBatch *batch, int interface, int design,
 bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResult *result);
 /* What the elements of an interface have dissipated so far [J], as cz_interface_fill reports it. */
 double cz_interface_energy(const CzBatch *batch, int interface, int design);
-/* Elastic energy in the elements of an interface [J]. */
-double cz_interface_stored(const CzBatch *batch, int interface, int design);
 CZ_MUST_CHECK CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design,
                                        CzVehicleResult *result);
 

@@ -18,7 +18,7 @@ typedef enum CzChannel {
     CZ_N_CHANNEL
 } CzChannel;
 
-/* Where a channel is recorded, and so what its place is. Vehicles are counted from 0 along +x,
+/* Where a channel is recorded, which determines its place. Vehicles are counted from 0 along +x,
  * interface i lies between the vehicles i and i + 1. */
 typedef enum CzChannelAt {
     CZ_AT_RUN,      /* 0 */

@@ -47,7 +47,7 @@ enum { CZ_MOST_INDICATORS = 24 };
 /* Open result, owns its memory; texts are borrowed from the evaluator. */
 typedef struct CzExplanation {
     const char *scenario; /* the one with the smallest margin against override */
-    bool climbed;         /* override happened in it */
+    bool climbed;         /* an override occurred in it */
     double climb_time;    /* [s]; NaN when not */
     CzVerdict verdict;   /* FAIL when a margin against override is violated, NOT CHECKED when one is
                             unknown */
@@ -60,8 +60,8 @@ typedef struct CzExplanation {
     CzCandidateChange *candidate; /* those that reverse the verdict by the size of the change, then
                                      the others by the margin that they reach (n_candidate) */
     bool has_cause;               /* some change reverses the verdict */
-    CzCause cause; /* of the smallest change that does, among the causes with an indicator in the
-                      run (without stops, which every lift reaches in the end), else among all */
+    CzCause cause; /* of the smallest reversing change among the causes with an indicator in the run
+                      (stops excepted, because every lift ends at a stop), else among all causes */
     CzRun *run;    /* of the scenario, with its events */
     long n_run;    /* collisions run for the search */
     double wall_s;

@@ -45,7 +45,7 @@ typedef struct CzFitOptions {
     const char *force;  /* column of the force; NULL: the one named force_kN or similar */
     const char *stroke_unit; /* such as "mm"; NULL: from the column's title or a row of units */
     const char *force_unit;  /* such as "kN"; NULL: the same */
-    char separator;          /* between fields, ' ' for blanks; 0: found from the lines */
+    char separator;          /* between fields, ' ' for spaces; 0: found from the lines */
     char decimal;            /* decimal sign, '.' or ','; 0: found from the numbers */
     int flips_stroke, flips_force; /* 1: the sign of the column is changed */
     double scale;                  /* of the forces, such as 0.5 for one of two devices */

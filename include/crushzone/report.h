@@ -64,7 +64,7 @@ typedef enum CzReportKind {
     CZ_N_REPORT
 } CzReportKind;
 
-/* Results to write, all borrowed. Only what its kind needs is set. */
+/* Results to write, all borrowed. Only the members of its kind are set. */
 typedef struct CzReport {
     CzReportKind kind;
     const CzReportOptions *options; /* NULL: the default ones */
@@ -124,7 +124,7 @@ CZ_API void cz_report_write_results_page(FILE *stream);
 
 /* Figures of a run (charts.def), by name; NULL beyond the last. */
 CZ_API const char *cz_report_chart_name(int index);
-/* What is drawn. Texts are borrowed. */
+/* Options of a figure. Texts are borrowed. */
 typedef struct CzChartOptions {
     const char *what;     /* name of the figure */
     const char *at;       /* interface or car of the figure; NULL: the colliding interface, the car

@@ -221,7 +221,7 @@ typedef enum CzTrackUse {
 } CzTrackUse;
 
 typedef struct CzSimulateOptions {
-    double time_step; /* [s]; 0 takes the model's */
+    double time_step; /* [s]; 0: that of the model */
     bool record;      /* keep channels at the output step */
     const char *isa;  /* "auto", or one of cz_isa_name: for tests and benchmarks */
     bool brief; /* for a search: end also when no device crushes any more and no later contact can

@@ -44,12 +44,12 @@ typedef struct CzVerifiedValue {
     double production;    /* value of the production run, or of that up to where it settled */
     bool beyond_validity; /* the production run's value may be of the time after an override */
     double value[CZ_N_VERIFY_METHOD];  /* NaN when not computed */
-    double change[CZ_N_VERIFY_METHOD]; /* of a check or target: by how much its margin changes, a
-                                       margin above 1 counting as 1, over the size of one below
-                                       -1; of the others: |value - production| over production, or
-                                       over the scale of its quantity where the production run is
-                                       next to zero, over 1 for a smallest margin; NaN for a
-                                       yes-or-no check and when not computed */
+    double change[CZ_N_VERIFY_METHOD]; /* for a check or target the change of its margin, where a
+                                          margin above 1 counts as 1, and the change of one below -1
+                                          is relative to its size; otherwise |value - production|
+                                          over production, or over the scale of its quantity where
+                                          production is near zero, or over 1 for a smallest margin;
+                                          NaN for a yes-or-no check and when not computed */
     bool flips[CZ_N_VERIFY_METHOD];    /* another verdict than that of the production run */
 } CzVerifiedValue;
 

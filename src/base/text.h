@@ -34,7 +34,7 @@ bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_ROO
 /* Whether a text is one of n. */
 bool cz_text_is_among(const char *text, int n, const char *const *list);
 
-/* Whether a text is one of several words with blanks between them. */
+/* Whether a text is one of several words separated by spaces. */
 bool cz_text_is_word(const char *text, const char *words);
 
 /* Makes one line of n bytes: tabs and ends of lines become spaces, and those at the end are

@@ -56,7 +56,7 @@ typedef struct CzArguments {
     long evaluations;   /* 0: the file's */
     long seed;          /* -1: the file's */
     long rounds;        /* 0: as many as by default */
-    int n_stage;        /* -1: as many as the curve calls for */
+    int n_stage;        /* -1: as many as the curve requires */
     int basis, flip;    /* words of these options, counted from 0; -1: not given */
     CzIntegrator integrator;
     char csv_separator, csv_decimal;

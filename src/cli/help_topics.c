@@ -297,13 +297,12 @@ static void write_files(void) {
 #include "crushzone/result_files.def"
 #undef CZ_RESULT_FILE
     };
-    puts("A result folder (-o DIR) holds:\n");
+    puts("A result folder (-o DIR) contains:\n");
     write_entries((int)(sizeof files / sizeof *files), files, 22);
     puts("\nWith several scenarios each has a folder of its own in it. A folder that crushzone "
          "wrote "
-         "is replaced\nby the next run; one that holds the result of a search only by another "
-         "search "
-         "or with --force;\nany other folder is not changed.");
+         "is replaced\nby the next run; one with the result of a search only by another search or "
+         "with --force;\nany other folder is not changed.");
 }
 
 void cz_help_write_topic(CzTopic topic) {

@@ -275,7 +275,7 @@ static CzStatus append_missing_scenarios(Builder *builder, const bool has[N_NEED
                               "no scenario closes at 15 km/h"));
     if (!covers_between(builder))
         CZ_TRY(append_missing(builder, "scenario between 15 km/h and the design speed",
-                              "no scenario lies between 15 km/h and the largest speed"));
+                              "no scenario is between 15 km/h and the largest speed"));
     return CZ_OK;
 }
 

@@ -366,7 +366,7 @@ CzStatus cz_design_check_start(const CzProblem *problem, const CzDesign *design,
             continue;
         char start[CZ_NUMBER_TEXT], min[CZ_NUMBER_TEXT], max[CZ_NUMBER_TEXT];
         return cz_problem_fail(problem, design->variable[i].start_field, error,
-                               "the starting value %s of '%s' lies outside its bounds, %s to %s %s",
+                               "the starting value %s of '%s' is outside its bounds, %s to %s %s",
                                cz_number_print(start, info->start), info->name,
                                cz_number_print(min, info->min), cz_number_print(max, info->max),
                                info->unit);

@@ -49,7 +49,7 @@ static void split_selector(const char *text, char *name, size_t n_name, char *se
 CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzError *error) {
     char copy[CZ_PATH_ROOM], name[CZ_PATH_ROOM];
     if (strlen(text) >= sizeof copy)
-        return cz_fail(error, CZ_STATUS_INPUT, "the metric '%.40s...' is longer than %d letters",
+        return cz_fail(error, CZ_STATUS_INPUT, "the metric '%.40s...' is longer than %d bytes",
                        text, CZ_PATH_ROOM - 1);
     snprintf(copy, sizeof copy, "%s", text);
     metric->aggregate = CZ_AGGREGATE_WORST;

@@ -149,8 +149,8 @@ static CzStatus check_stages(const CzFitOptions *options, CzError *error) {
     const int most = options->kind == CZ_FIT_END ? 4 : CZ_MAX_STAGES;
     if (options->n_stage == -1 || (options->n_stage >= least && options->n_stage <= most))
         return CZ_OK;
-    return cz_fail(error, CZ_STATUS_INPUT, "%d stages; a law as %s has %d to %d", options->n_stage,
-                   cz_fit_kind_word(options->kind), least, most);
+    return cz_fail(error, CZ_STATUS_INPUT, "%d stages; a law of kind %s has %d to %d",
+                   options->n_stage, cz_fit_kind_word(options->kind), least, most);
 }
 
 static CzStatus fit_law(CzFit *fit, int n_stage, CzError *error) {

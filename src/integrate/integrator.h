@@ -2,8 +2,7 @@
  * of F(q) = 0.
  *
  * They see flat arrays and no train. A step is taken on trial; once it is accepted the caller may
- * commit what it remembers, so f must be continuous where it does. One solver belongs to one
- * thread.
+ * commit its memory, so f must be continuous there. One solver belongs to one thread.
  */
 #ifndef CZ_INTEGRATE_INTEGRATOR_H
 #define CZ_INTEGRATE_INTEGRATOR_H

@@ -32,8 +32,8 @@ static inline double cz_wheel_normal_force(double hertz, double indentation) {
 
 /* Normal force under an approach A on a rail of flexibility r [m/N]. In t = s / sqrt(A) the
  * equation is t^2 + u t^3 = 1 with u = r H sqrt(A): three steps of Halley's method from 1 / sqrt(1
- * + u) leave less than 1e-15 up to u = 2, which is thirty times a usual axle load, and 1e-6 at u =
- * 100. */
+ * + u) have an error below 1e-15 up to u = 2, which is thirty times a usual axle load, and 1e-6 at
+ * u = 100. */
 static inline double cz_wheel_force_on_spring(double hertz, double flexibility, double approach) {
     const double pressed = cz_positive_part(approach), root = sqrt(pressed);
     const double u = flexibility * hertz * root;

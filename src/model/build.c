@@ -152,7 +152,7 @@ static CzStatus place_cars(CzModel *model, const CzInput *input, CzError *error)
     }
     if (model->car[model->colliding].model == CZ_MODEL_FIXED &&
         model->car[model->colliding + 1].model == CZ_MODEL_FIXED)
-        return cz_fail(error, CZ_STATUS_INPUT, "interface %s lies between two fixed vehicles",
+        return cz_fail(error, CZ_STATUS_INPUT, "interface %s is between two fixed vehicles",
                        model->interface_name[model->colliding]);
     return CZ_OK;
 }

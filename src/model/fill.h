@@ -1,4 +1,4 @@
-/* Filling the lanes of one design: what its files share. */
+/* Filling the lanes of one design: common declarations. */
 #ifndef CZ_MODEL_FILL_H
 #define CZ_MODEL_FILL_H
 

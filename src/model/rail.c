@@ -41,7 +41,7 @@ CzRailWave cz_rail_wave(const CzSeats *seats, double wavenumber) {
     const double c = (seats->bending * square + seats->shear) / seats->rotation;
     const double product =
         seats->shear / seats->mass * (seats->bending / seats->rotation) * square * square;
-    const double cross = a * c - product; /* square of what couples the two */
+    const double cross = a * c - product; /* square of the coupling term */
     const double half = 0.5 * (a + c), away = 0.5 * (c - a);
     const double shear = half + sqrt(away * away + cross);
     const double bending = product / shear;

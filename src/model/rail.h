@@ -49,8 +49,8 @@ double cz_seat_flexibility(const CzSeats *seats, double turns);
 
 /* Static flexibility of rail waves that agree at the seats up to a phase of `turns` from one seat
  * to the next, summed over all of them: deflection per force per seat [m/N], a share `place` of the
- * spacing past the seat. For turns = 0 the wave that is the same everywhere, which no bending
- * carries, is left out. */
+ * spacing past the seat. For turns = 0 the uniform wave, which no bending stiffness supports, is
+ * left out. */
 CzComplex cz_rail_flexibility(const CzSeats *seats, double turns, double place);
 
 /* Static deflection per force under a force on a ring of n_seat seats [m/N]. */

@@ -1,4 +1,4 @@
-/* State of a car in the plane, and what a lane is: rows of one quantity side by side. */
+/* State of a car in the plane, and the lanes: rows of one quantity side by side. */
 #ifndef CZ_MODEL_STATE_H
 #define CZ_MODEL_STATE_H
 

@@ -29,8 +29,8 @@ typedef struct CzChainStrut {
 } CzChainStrut;
 
 /* Writes the force at which each of the n_car - 1 struts folds [N]: that of the lowest shape of the
- * chain, under one force from end to end, that goes through the strut. NaN where there is no strut
- * or no car beside it that moves. Statuses: CZ_OK, CZ_STATUS_NO_MEMORY (says so without an error).
+ * chain, under one force from end to end, that belongs to the strut. NaN where there is no strut or
+ * no moving car beside it. Statuses: CZ_OK, CZ_STATUS_NO_MEMORY (without an error text).
  */
 CzStatus cz_strut_chain_fold(int n_car, const CzChainCar *car, const CzChainStrut *strut,
                              CzArena *scratch, double *force);

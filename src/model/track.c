@@ -1,4 +1,4 @@
-/* The track's modes: window, blocks in groups, and the static rest. */
+/* The modes of the track: window, blocks in groups, and residual static flexibility. */
 #include "model/track.h"
 
 #include "base/error.h"
@@ -7,7 +7,7 @@
 #define RECORD_CUT 1500.0 /* [Hz] */
 #define DECAYS 16.0 /* of the static deflection from the last wheel round to the first (ours) */
 #define LARGEST_RESIDUAL 1e-9 /* of a block's modes against its mass (ours; 1e-15 is usual) */
-#define NEARLY_REAL 1e-9      /* imaginary part of a root that is none */
+#define NEARLY_REAL 1e-9      /* imaginary part below which a root counts as real */
 
 CzTrackOptions cz_track_options_default(double span) {
     return (CzTrackOptions){.n_rail = 2, .n_seat = 0, .span = span, .cut = RECORD_CUT};
@@ -45,16 +45,16 @@ static Mode mode_of(const CzTrackBlock *block, CzComplex root, const CzSecular *
     const CzComplex scale = cz_complex_scaled(is_real ? 1.0 : sqrt(2.0), cz_complex_root(residue));
     Mode mode = {.lambda = root};
     mode.direct = cz_complex_product(scale, cz_track_wave_answer(block, 0, root));
-    /* The waves at an edge have no alias but themselves. */
+    /* The waves at an edge are their own aliases. */
     if (block->n_wave == CZ_BLOCK_WAVES && block->wave[1].bending < cut * cut)
         mode.alias = cz_complex_product(scale, cz_track_wave_answer(block, 1, root));
-    /* f = sum of h load / F: its residue is -1 / n_j of what the deflection has. */
+    /* f = sum of h load / F: its residue is -1 / n_j of that of the deflection. */
     mode.pad = cz_complex_scaled(-1.0 / block->crests, scale);
     return mode;
 }
 
-/* Modes of the cosine copy of a block; the slowest first. Fails when the roots are not all of them:
- * a load on the first wave must accelerate it by its own mass. */
+/* Modes of the cosine copy of a block; the slowest first. Fails when roots are missing: a load on
+ * the first wave must accelerate it by its own mass. */
 static bool find_modes(const CzTrackBlock *block, double cut, BlockModes *modes) {
     CzComplex root[CZ_BLOCK_ROOTS];
     const int n_root = cz_track_roots(block, root);
@@ -80,7 +80,7 @@ static bool find_modes(const CzTrackBlock *block, double cut, BlockModes *modes)
     return fabs(acceleration - expected) < LARGEST_RESIDUAL * expected;
 }
 
-/* The rail wave with its nodes at the seats: free of them, and free of damping. */
+/* The rail wave with its nodes at the seats: uncoupled from them and undamped. */
 static BlockModes free_wave(const CzTrackBlock *block, double cut) {
     BlockModes modes = {0};
     const double w = sqrt(block->wave[0].bending);
@@ -191,7 +191,7 @@ CzStatus cz_track_build(const CzRoadbed *roadbed, const CzTrackOptions *options,
     return status;
 }
 
-/* ---- the static rest ---- */
+/* ---- residual static flexibility ---- */
 
 CzComplex cz_track_kick(CzComplex lambda, double step) {
     const CzComplex half = cz_complex_scaled(0.5 * step, lambda);
@@ -253,7 +253,7 @@ CzTrackFlexibility cz_track_flexibility(const CzTrackModes *modes, double step) 
                           cz_ring_flexibility(seats, modes->n_seat, 0.0)) /
                          cz_turned(0.5 * beside).im;
 
-    /* The rest of the exact statics at Chebyshev's places. */
+    /* The residual of the exact static deflection at Chebyshev's points. */
     double series[n] = {0.0};
     for (int i = 0; i < n; ++i) {
         const double place = (i + 0.5) / (2.0 * n);

@@ -1,19 +1,19 @@
 /* The elastic track under one car: exact damped modes of a ring of rail on seats, and the static
- * flexibility that the modes left out.
+ * flexibility of all waves without a mode.
  *
- * The window that a car takes along is closed to a ring of n_seat seats: a wheel that rolls on
- * comes round again, so nothing is ever moved or cut off, and what the ring adds is the deflection
- * one turn away. Rail waves K = 2 pi k / length couple only where they agree at the seats: k = j
- * with n_seat - j, n_seat + j, ... and with the sleeper and ballast wave j. So each j from 0 to
- * n_seat / 2 is a block of its own, in a cosine copy and a sine copy. In a block the pad force is
- * one unknown f,
+ * The rail under a car is closed to a ring of n_seat seats, so that no window has to be moved or
+ * cut off when wheels roll on; the error of the ring is the deflection one turn away. Rail waves K
+ * = 2 pi k / length couple only where they agree at the seats: k = j with n_seat - j, n_seat + j,
+ * ... and with the sleeper and ballast wave j. So each j from 0 to n_seat / 2 is a block of its
+ * own, in a cosine copy and a sine copy. In a block the pad force is one unknown f,
  *
  *   F(s) f = sum of h_k(s) load_k     F = sum c_k / (s^2 + w_k^2) + R + 1 / (k_p + s c_p) + B(s)
  *
- * with the bending branch of the waves at hand (h_k = p_k / (M_k (s^2 + w_k^2)), c_k = n_j h_k), R
- * the static flexibility of all other waves and branches at the seats, and B what sleeper and
- * ballast deflect. The block's eigenvalues are the roots of F, found at once (Aberth) and tested;
- * the deflection at x under a force at y is the sum over them of g(x) g(y) / (s - lambda) with
+ * with the bending branch of the waves of the block (h_k = p_k / (M_k (s^2 + w_k^2)), c_k = n_j
+ * h_k), R the static flexibility of all other waves and branches at the seats, and B what sleeper
+ * and ballast deflect. The block's eigenvalues are the roots of F, found at once (Aberth) and
+ * tested; the deflection at x under a force at y is the sum over them of g(x) g(y) / (s - lambda)
+ * with
  *
  *   g(x) = sum_k sqrt(-n_j / F'(lambda)) h_k(lambda) (cosine or sine of K_k x)
  *
@@ -54,13 +54,13 @@ typedef struct CzTrackModes {
     double length;   /* of the ring [m] */
     double cut;      /* largest eigenvalue kept [1/s] */
     double span;     /* first to last wheel of the longest car [m] */
-    int nodes;       /* per bay, where finite elements take the place of the modes */
+    int nodes;       /* per bay, where finite elements replace the modes */
     CzTrackGroup *group;
     int n_receptance; /* one for each axle spacing of the cars */
     struct CzReceptance *receptance;
 } CzTrackModes;
 
-/* How the modes are chosen. */
+/* Options of the modes. */
 typedef struct CzTrackOptions {
     int n_rail;  /* 2 */
     int n_seat;  /* of the ring; 0 chooses it from the span */
@@ -75,8 +75,8 @@ CZ_MUST_CHECK CzStatus cz_track_build(const CzRoadbed *roadbed, const CzTrackOpt
                                       CzArena *arena, CzTrackModes **modes, CzError *error);
 
 /* A function of the place between two seats, a share xi of the spacing past the last one:
- * corner |sin(pi xi)| + sum of term[k] times the k-th power of cos(2 pi xi). Over a seat the
- * rail's shear has a jump, so the statics have a breakpoint there. */
+ * corner |sin(pi xi)| + sum of term[k] times the k-th power of cos(2 pi xi). The shear force of the
+ * rail has a jump over a seat, so the static deflection has a breakpoint there. */
 typedef struct CzTrackFlexibility {
     double corner;                    /* [m/N] */
     double term[CZ_TRACK_FLEX_TERMS]; /* [m/N] */
@@ -89,24 +89,24 @@ static inline double cz_track_flexibility_at(const CzTrackFlexibility *flexibili
     return value + flexibility->corner * sqrt(0.5 * fabs(1.0 - cosine));
 }
 
-/* What must lie under each force beside the modes so that a force at rest deflects the ring as
- * exactly as its statics; `step` as below. */
+/* Flexibility under each force in addition to the modes, so that a static force has the exact
+ * static deflection of the ring; `step` as below. */
 CzTrackFlexibility cz_track_flexibility(const CzTrackModes *modes, double step);
 
-/* Mean and swing, over the place between two seats, of the sum of g(x)^2 times an answer of each
- * mode: mean + swing cos(2 pi xi). In the two copies of a block cosine and sine of its waves'
- * squares add up to one; the blocks at the edges are alone. */
+/* Mean and amplitude, over the place between two seats, of the sum of g(x)^2 times a response of
+ * each mode: mean + swing cos(2 pi xi). In the two copies of a block the squared cosine and sine of
+ * its waves add up to one; the blocks at the edges have one copy. */
 typedef CzComplex CzTrackAnswer(CzComplex lambda, double step);
 void cz_track_add_modes(const CzTrackModes *modes, CzTrackAnswer *answer, double step,
                         double sum[2]);
 
-/* Modes in steps: a force holds from step / 2 before to step / 2 after the time it is taken at, and
- * the modes are read without its first half. Per g and force:
+/* Modes in steps: a force is constant from step / 2 before to step / 2 after its time, and the
+ * modes are read without its first half. Per g and force:
  *
- *   (2 / lambda) sinh(lambda step / 2)   what one force adds before the flight of a step
- *   -exp(lambda step / 2) / lambda       what is read of a mode under a constant force
+ *   (2 / lambda) sinh(lambda step / 2)   response to one force before a free step
+ *   -exp(lambda step / 2) / lambda       deflection of a mode under a constant force
  *
- * With step = 0 the second is the answer in continuous time. */
+ * With step = 0 the second is the response in continuous time. */
 CzComplex cz_track_kick(CzComplex lambda, double step);
 CzComplex cz_track_constant_answer(CzComplex lambda, double step);
 

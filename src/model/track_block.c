@@ -5,7 +5,7 @@
  *
  *   s_i <- s_i - 1 / (P'(s_i)/P(s_i) - sum over the others of 1 / (s_i - s_m))
  *
- * and P'/P is a sum over the factors, so no coefficient is ever formed.
+ * and P'/P is a sum over the factors, so no coefficient is formed.
  */
 #include "model/track_block.h"
 
@@ -20,7 +20,7 @@ CzTrackBlock cz_track_block(const CzSeats *seats, int n_seat, int j) {
     block.rest = cz_rail_flexibility(seats, block.turns, 0.0).re;
     for (int i = 0; i < CZ_BLOCK_WAVES; ++i) {
         const int k = candidate[i];
-        if (i > 0 && (k == candidate[i - 1])) /* at an edge waves come twice */
+        if (i > 0 && (k == candidate[i - 1])) /* at an edge each wave counts twice */
             continue;
         const int w = block.n_wave++;
         block.wave[w] = cz_rail_wave(seats, 2.0 * CZ_PI * k / length);
@@ -121,7 +121,7 @@ CzSecular cz_track_secular(const CzTrackBlock *block, CzComplex s) {
     return secular;
 }
 
-/* Where the search starts: each part by itself, a little damped. */
+/* Starting values: each part by itself, with light damping. */
 static int guess(const CzTrackBlock *block, CzComplex root[CZ_BLOCK_ROOTS]) {
     const CzSeats *seats = block->seats;
     double frequency[CZ_BLOCK_WAVES + 2];

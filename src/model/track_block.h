@@ -5,7 +5,7 @@
 #include "model/rail.h"
 
 enum {
-    CZ_BLOCK_WAVES = 4,                     /* rail waves whose bending branch moves */
+    CZ_BLOCK_WAVES = 4,                     /* rail waves with a dynamic bending branch */
     CZ_BLOCK_ROOTS = 2 * CZ_BLOCK_WAVES + 5 /* with pad, sleeper and ballast */
 };
 
@@ -30,8 +30,8 @@ typedef struct CzSecular {
 } CzSecular;
 CzSecular cz_track_secular(const CzTrackBlock *block, CzComplex s);
 
-/* What sleeper and ballast block deflect to a force on the sleeper at rate s [m/N]: B and its
- * fellow. */
+/* Deflections of sleeper and ballast block under a force on the sleeper at rate s [m/N]: B, and
+ * that of the ballast. */
 typedef struct CzTrackBelow {
     CzComplex sleeper, ballast;
 } CzTrackBelow;

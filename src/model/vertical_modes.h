@@ -9,8 +9,8 @@ enum { CZ_N_VERTICAL_MODE = 6 };
 
 typedef struct CzVerticalModes {
     double frequency[CZ_N_VERTICAL_MODE]; /* ascending [Hz] */
-    double bounce; /* of the mode that moves the body most up and down [Hz] */
-    double pitch;  /* of the mode that pitches it most [Hz] */
+    double bounce;                        /* of the mode with the largest bounce of the body [Hz] */
+    double pitch;                         /* of the mode with the largest pitch of the body [Hz] */
 } CzVerticalModes;
 
 CzVerticalModes cz_vertical_modes(const CzVehicle *vehicle, const CzStatics *statics);

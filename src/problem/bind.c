@@ -18,7 +18,7 @@ typedef struct {
     const CzTrail *trail;
     char *memory;
     const CzNode *seen[MOST_KEYS]; /* key as typed, NULL when not there yet (n_key) */
-    bool meant[MOST_KEYS];         /* a mistyped key represents it (n_key) */
+    bool meant[MOST_KEYS];         /* a mistyped key stands for it (n_key) */
 } Record;
 
 static void bind_record(CzBinder binder, const CzRecord *of, const CzNode *node,

@@ -28,8 +28,8 @@ static void check_confidence(const CzRules *rules, const char *const *confidence
         CZ_FIND_TEXT(*confidence, words, sizeof words / sizeof *words, &suggestion) >= 0)
         return;
     cz_rule_warning(rules, confidence,
-                    "confidence '%.40s' is none of S1, S2, X, M1, M2, M3 and user: the limit "
-                    "passes as PROVISIONAL at most",
+                    "confidence '%.40s' is not one of S1, S2, X, M1, M2, M3 and user: a pass is "
+                    "PROVISIONAL at most",
                     *confidence);
     cz_mistake_suggest(rules->warnings, &suggestion);
 }
@@ -41,7 +41,7 @@ static void check_limits(const CzRules *rules, const CzLimit *limits, int n_limi
         const bool has_max = cz_rule_is_written(rules, &limit->max);
         if (limit->given && has_min == has_max)
             cz_rule_broken(rules, has_min ? (const void *)&limit->min : limit,
-                           "a limit has 'max' or 'min', and only one of them");
+                           "a limit needs exactly one of 'max' and 'min'");
         check_confidence(rules, &limit->confidence);
         for (int k = 0; k < limit->scenarios.n_text; k++)
             check_scenario_named(rules, &limit->scenarios.text[k]);
@@ -123,12 +123,12 @@ static void check_bounds(const CzRules *rules, const CzVariable *variable) {
     if (variable->min > variable->max)
         cz_rule_broken(rules, &variable->min, "min %s is above max %s", min, max);
     else if (variable->start < variable->min || variable->start > variable->max)
-        cz_rule_broken(rules, &variable->start, "start %s must lie within %s to %s",
+        cz_rule_broken(rules, &variable->start, "start %s must be within %s to %s",
                        cz_number_print(first, variable->start), min, max);
     else if (variable->min < variable->max && variable->increment > 0 &&
              cz_increment_count(variable->increment, variable->min, variable->max) == 0)
         cz_rule_broken(rules, &variable->increment,
-                       "no multiple of the increment %s lies within %s to %s",
+                       "no multiple of the increment %s is within %s to %s",
                        cz_number_print(first, variable->increment), min, max);
 }
 
@@ -207,7 +207,7 @@ static void check_variable(const CzRules *rules, const CzVariable *variable, CzT
     const bool has_paths = cz_rule_is_written(rules, &variable->paths);
     if (has_path == has_paths)
         cz_rule_broken(rules, has_path ? (const void *)&variable->paths : variable,
-                       "a variable has 'path' or 'paths', and only one of them");
+                       "a variable needs exactly one of 'path' and 'paths'");
     if (cz_rule_is_written(rules, &variable->choices)) {
         check_choices(rules, variable, targets);
         return;

@@ -192,18 +192,16 @@ static void check_gaps(const CzRules *rules, const CzEnd *end) {
     if (device->given)
         cz_rule_note(rules, CZ_VALUE_RULE_BARE_END, device->gap * just_above, end->face_gap);
     if (device->given && device->gap >= end->face_gap)
-        cz_rule_broken(
-            rules, &device->gap,
-            "an anti-climber %s behind the foremost plane lies behind the bare end at %s",
-            CZ_MM(device->gap), CZ_MM(end->face_gap));
+        cz_rule_broken(rules, &device->gap,
+                       "an anti-climber %s behind the foremost plane is behind the bare end at %s",
+                       CZ_MM(device->gap), CZ_MM(end->face_gap));
     if (!device->given || !coupler->given)
         return;
     if (cz_rule_note(rules, CZ_VALUE_RULE_REACHED, device->gap, coupler->gap + coupler->length))
-        cz_rule_broken(
-            rules, &device->gap,
-            "an anti-climber %s behind the foremost plane is never reached: the coupler is only %s "
-            "long",
-            CZ_MM(device->gap), CZ_MM(coupler->length));
+        cz_rule_broken(rules, &device->gap,
+                       "an anti-climber %s behind the foremost plane makes no contact: the coupler "
+                       "is only %s long",
+                       CZ_MM(device->gap), CZ_MM(coupler->length));
     const double travel = coupler_stroke(coupler) + coupler->shear_off.retraction_space;
     if (coupler->shear_off.given &&
         cz_rule_note(rules, CZ_VALUE_RULE_RETRACTION, device->gap, coupler->gap + travel))
@@ -239,6 +237,6 @@ void cz_rules_check_end(const CzRules *rules, const CzVehicle *vehicle, const Cz
                        "a vehicle slides as a whole: one of its ends has the slide, not both");
     if (vehicle->model == CZ_MODEL_FULL && end->distance > vehicle->length / 2)
         cz_rule_broken(rules, &end->distance,
-                       "an end mass %s from the middle lies beyond half the vehicle's length, %s",
+                       "an end mass %s from the middle is beyond half the vehicle's length, %s",
                        CZ_MM(end->distance), CZ_MM(vehicle->length / 2));
 }

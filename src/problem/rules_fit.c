@@ -9,8 +9,7 @@ static void check_kind(const CzRules *rules, const CzMatch *match) {
     const int n_kind = (match->metric != NULL) + (match->event != NULL) + (match->channel != NULL);
     if (n_kind != 1)
         cz_rule_broken(rules, match,
-                       "a match has 'metric', 'event' or 'channel', and only one of "
-                       "them");
+                       "a match needs exactly one of 'metric', 'event' and 'channel'");
     if (match->where != NULL && match->event == NULL)
         cz_rule_broken(rules, &match->where, "'where' belongs to an event");
 }

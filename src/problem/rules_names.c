@@ -19,7 +19,7 @@ static void check_name(const CzRules *rules, const char *const *name, const char
 
 static void check_label(const CzRules *rules, const char *const *label, const char *what) {
     if (*label != NULL && strlen(*label) > CZ_MOST_LABEL)
-        cz_rule_broken(rules, label, "the name of a %s has more than %d letters", what,
+        cz_rule_broken(rules, label, "the name of a %s has more than %d bytes", what,
                        (int)CZ_MOST_LABEL);
 }
 

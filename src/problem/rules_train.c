@@ -35,7 +35,7 @@ static void check_full_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
                        CZ_MM(vehicle->bogie_spacing), CZ_MM(vehicle->bogie.axle_spacing));
     if (vehicle->cg_height <= vehicle->bogie.wheel_radius)
         cz_rule_broken(rules, &vehicle->cg_height,
-                       "a body with its centre of gravity at %s would lie below the axles at %s",
+                       "a body with its centre of gravity at %s would be below the axles at %s",
                        CZ_MM(vehicle->cg_height), CZ_MM(vehicle->bogie.wheel_radius));
     if (vehicle->bogie.axle_spacing <= 2 * vehicle->bogie.wheel_radius)
         cz_rule_broken(rules, &vehicle->bogie.axle_spacing,

@@ -124,7 +124,7 @@ static void write_caution(CzPage *page) {
     else if (run->ended == CZ_ENDED_INCOMPLETE)
         cz_markup_write(markup,
                         "<p class='fail'>This run is incomplete: the end criterion was not met "
-                        "within simulation.longest_s, so it gives no result: %s.</p>",
+                        "within simulation.longest_s, so it has no result: %s.</p>",
                         run->awaited);
     if (run->beyond_validity)
         cz_markup_write(markup,

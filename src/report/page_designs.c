@@ -159,7 +159,7 @@ CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
     find_range(&axes, start, best);
     cz_markup_write(markup,
                     "<section id='designs'>\n<h2>All designs</h2>\n"
-                    "<p>A line is a design: where it crosses an axis is its value between the "
+                    "<p>Each line is a design; its crossing with an axis is the value between the "
                     "bounds. Grey violates a constraint, blue is feasible, orange dashes are the "
                     "start, green is the best. Objectives far below the start lie at the end of "
                     "their axis.</p><div class='wide'>");

@@ -55,8 +55,8 @@ static const char *warning_of_run(const CzRunSummary *run, int n) {
     if (cz_run_is_unbalanced(run) && n-- == 0)
         return "the error of the energy balance is above 0.1 %";
     if (cz_run_misses_laws(run) && n == 0)
-        return "the force error of a series chain is above 0.1 % of the largest force of its "
-               "interface, from the law of a member";
+        return "the force of a series chain differs from the law of a member by more than 0.1 % of "
+               "the largest force of its interface";
     return NULL;
 }
 

@@ -177,8 +177,7 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
             if (shortened < length)
                 continue;
             snprintf(what, sizeof what,
-                     "shortened by %.0f mm, and no more than the %.0f mm from its pivot to its "
-                     "face are there",
+                     "shortened by %.0f mm, more than the %.0f mm from its pivot to its face",
                      1e3 * shortened, 1e3 * length);
             fail(batch, design, batch->model->car[car + side].name, "coupler", what);
             return true;
@@ -292,8 +291,8 @@ static const char *awaited(const CzBatch *batch, int design, bool off, bool flow
                            const CzLoadLeft *left) {
     const bool closes_in = cz_largest_closing_speed(batch, design) > CLOSING_SPEED;
     return off                             ? "a wheel is off its rail"
-           : flows                         ? "something still crushes or slides"
-           : left->force                   ? "cars that can part still push each other"
+           : flows                         ? "a device still crushes or slides"
+           : left->force                   ? "cars that can part still carry a contact force"
            : left->stores                  ? "elastic energy is still stored between cars"
            : closes_in                     ? "neighbouring cars close in"
            : can_meet_again(batch, design) ? "cars that have parted can meet again"

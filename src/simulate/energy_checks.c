@@ -83,7 +83,7 @@ static bool gives(const CzBatch *batch, const CzElementResult *element, double a
     return has_given ? note(fault, vehicle, cz_element_text(element->kind),
                             "returned %.4g kJ more than it received", -1e-3 * element->energy)
                      : note(fault, vehicle, cz_element_text(element->kind),
-                            "stores %.4g kJ, which is less than 0", 1e-3 * element->stored);
+                            "stores a negative energy of %.4g kJ", 1e-3 * element->stored);
 }
 
 /* Adds up the elements of all interfaces and outer ends; whether one gives energy. */
@@ -196,8 +196,8 @@ bool cz_energy_checks_fail(const CzBatch *batch, int design, char *where, char *
         bodies_differ(batch, design, AGREED_SHARE * energy.initial, &fault))
         return true;
     if (!(fabs(sum - energy.absorbers) <= rounding))
-        return note(&fault, "sum of", "elements", "misses the ledger by %.4g J, an internal error",
-                    sum - energy.absorbers);
+        return note(&fault, "sum of", "elements",
+                    "differs from the ledger by %.4g J, an internal error", sum - energy.absorbers);
     const double available = energy.initial - energy.moving_load;
     return !(energy.dissipated <= available + open ||
              energy.dissipated <= available + open + released_by_track(batch, design)) &&

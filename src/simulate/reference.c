@@ -181,8 +181,9 @@ CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance, 
     size_t n_track = 0;
     *made = NULL;
     if (batch->dynamics->elements != NULL)
-        return cz_fail(error, CZ_STATUS_INPUT,
-                       "the second solver knows the track models rigid, receptance and modal only");
+        return cz_fail(
+            error, CZ_STATUS_INPUT,
+            "the second solver supports the track models rigid, receptance and modal only");
     for (size_t lane = 0; lane < n_lane; lane++)
         n_track += cz_dynamics_track_n_state(batch->dynamics, lane);
     CzReference *reference = cz_arena_allocate(arena, 1, sizeof *reference);

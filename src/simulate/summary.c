@@ -161,7 +161,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     summary->ended = progress->ended;
     summary->awaited = progress->awaited != NULL
                            ? progress->awaited
-                           : "the conditions must hold for one body pitch period";
+                           : "the end criterion must be met for one body pitch period";
     summary->simulated = batch->time;
     summary->integrator = batch->integrator;
     summary->time_step = batch->step;

@@ -140,7 +140,7 @@ bool cz_reading_has_whole_quotes(const CzCurveReading *reading, int line) {
     if (n % 2 == 0)
         return true;
     cz_mistake_at(reading->mistakes, &reading->source, line + 1, last,
-                  "a quotation mark opens here and none closes");
+                  "the quotation mark here is not closed");
     return false;
 }
 
@@ -195,7 +195,7 @@ static bool begin_without_titles(CzCurveReading *reading) {
                       "no line of this file has two numbers; a curve is two columns of them");
     else if (!is_by_number(reading))
         cz_mistake_at(reading->mistakes, &reading->source, reading->data + 1, 1,
-                      "no line of titles above says which column is the %s",
+                      "no line of titles above names the column of the %s",
                       column[reading->index[0] < 0 ? 0 : 1].name);
     else
         return true;
@@ -255,10 +255,12 @@ static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *colu
                  "'%.60s' in the row of units is not a unit of the %s, which takes %s",
                  cz_field_text(&units->below, below), column->name, list);
     else if (units->title[0] != '\0')
-        snprintf(sentence, sizeof sentence, "the unit of column '%.60s', the %s, is not known",
-                 units->title, column->name);
+        snprintf(sentence, sizeof sentence,
+                 "the unit of column '%.60s', the %s, is missing or unknown", units->title,
+                 column->name);
     else
-        snprintf(sentence, sizeof sentence, "the unit of the %s is not known", column->name);
+        snprintf(sentence, sizeof sentence, "the unit of the %s is missing or unknown",
+                 column->name);
     const int line = is_in_row                 ? reading->unit_line
                      : reading->titles != NULL ? reading->title_line
                                                : reading->data;

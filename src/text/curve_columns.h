@@ -8,8 +8,8 @@
 /* What is wanted of a file. Texts are borrowed. */
 typedef struct CzCurveRequest {
     CzCurveColumn column[2]; /* x and y */
-    char separator;          /* between fields, ' ' for blanks; 0: what the lines show */
-    char decimal;            /* '.' or ','; 0: what the numbers show */
+    char separator;          /* between fields, ' ' for spaces; 0: found from the lines */
+    char decimal;            /* '.' or ','; 0: found from the numbers */
     /* How a user settles what the file leaves open; NULL: only in the file. */
     const char *column_help, *unit_help, *decimal_help;
 } CzCurveRequest;

@@ -53,8 +53,8 @@ static bool refuse_open(const CzCurveReading *reading, const Evidence *evidence,
     print_reading(field, '.', point);
     print_reading(field, ',', comma);
     cz_mistake_at(reading->mistakes, &reading->source, evidence->line[sign], field->column,
-                  "'%s' may be %s or %s: no number of the file shows which sign parts "
-                  "decimals" CZ_HELP "%s%s'.' reads %s, ',' reads %s",
+                  "'%s' may be %s or %s: no number of the file shows the decimal sign" CZ_HELP
+                  "%s%s'.' reads %s, ',' reads %s",
                   cz_field_text(field, text), point, comma,
                   reading->request->decimal_help != NULL ? reading->request->decimal_help : "",
                   reading->request->decimal_help != NULL ? ": " : "", point, comma);
@@ -227,7 +227,7 @@ static bool take_points(CzCurveReading *reading) {
     if (reading->points->n >= 2)
         return true;
     cz_mistake_at(reading->mistakes, &reading->source, n_line, 1,
-                  "a curve has two points or more, but this file has %d", reading->points->n);
+                  "a curve needs at least two points, but this file has %d", reading->points->n);
     return false;
 }
 

@@ -104,14 +104,14 @@ static const char *why_failed(void) {
     switch (errno) {
     case ENOENT:
     case ENOTDIR:
-        return "there is no such file";
+        return "the file does not exist";
     case EACCES:
     case EPERM:
         return "permission is denied";
     case ENAMETOOLONG:
         return "the name is too long";
     default:
-        return "the system does not let it be read";
+        return "the system refuses to read it";
     }
 }
 
@@ -182,7 +182,7 @@ CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *
         memmove(*text, *text + n_mark, *n_byte);
     }
     if (*text != NULL && ferror(stream))
-        why = "reading it failed";
+        why = "it cannot be read completely";
     else if (*text != NULL && *n_byte > CZ_MOST_BYTES)
         why = "it is larger than 16 MiB";
     else if (*text != NULL && *n_byte == 0)
@@ -228,7 +228,7 @@ bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char 
     cz_mistake_at(mistakes, source, line, column, "the file contains %s" CZ_HELP "%s", what,
                   cz_text_character(text + at, n_byte - at) == 0
                       ? "save it as UTF-8"
-                      : "remove it, or replace it by a blank");
+                      : "remove it, or replace it by a space");
     return false;
 }
 

@@ -105,7 +105,7 @@ const char *cz_value_text(CzValue value) {
         return NULL;
     }
     if (strlen(text) > CZ_MOST_TEXT)
-        cz_mistake(value.mistakes, value.node, value.trail, "'%s' has more than %d letters",
+        cz_mistake(value.mistakes, value.node, value.trail, "'%s' has more than %d bytes",
                    value.key, (int)CZ_MOST_TEXT);
     return text;
 }

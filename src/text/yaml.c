@@ -45,17 +45,15 @@ static void fail_without_memory(Document *document) {
 static const struct {
     const char *problem, *help;
 } hints[] = {
-    {"found a tab character", "tabs cannot indent; write blanks"},
+    {"found a tab character", "indent by spaces instead of tabs"},
     {"cannot start any token",
-     "tabs cannot indent, and texts that begin with @, ` or % need quotes"},
+     "indent by spaces instead of tabs; texts that begin with @, ` or % need quotes"},
     {"mapping values are not allowed",
      "is a line indented too far, a ':' without quotes, or the line before without one?"},
-    {"did not find expected ','",
-     "is a bracket open, or a text between brackets without quotes though it holds a bracket "
-     "itself, as 'stages[0].force_kN' does?"},
+    {"did not find expected ','", "is a bracket open, or does a text between brackets contain a "
+                                  "bracket and need quotes, such as 'stages[0].force_kN'?"},
     {"did not find expected key",
-     "keys of one mapping begin in the same column, and a quotation mark "
-     "that opens a text must close it"},
+     "keys of one mapping begin in the same column, and every quotation mark needs a closing one"},
 };
 
 /* Says why libyaml cannot read the text. */
@@ -71,7 +69,7 @@ static void report_syntax(Document *document) {
     if (parser->context != NULL)
         snprintf(began, sizeof began, ", which began at line %d", line_of(parser->context_mark));
     if (strstr(problem, "could not find expected ':'") != NULL)
-        snprintf(help, sizeof help, "line %d lacks a colon, or the blank behind it",
+        snprintf(help, sizeof help, "line %d has no colon, or no space after it",
                  line_of(parser->context_mark));
     for (size_t i = 0; i < sizeof hints / sizeof *hints && help[0] == '\0'; i++)
         if (strstr(problem, hints[i].problem) != NULL)
@@ -109,9 +107,9 @@ __attribute__((format(printf, 2, 3))) static void refuse(Document *document, con
 static void refuse_decorations(Document *document, const yaml_char_t *anchor,
                                const yaml_char_t *tag) {
     if (anchor != NULL)
-        refuse(document, "anchors ('&') are not read here" USE_A_PART);
+        refuse(document, "anchors ('&') are not supported" USE_A_PART);
     if (tag != NULL)
-        refuse(document, "tags ('!') are not read here");
+        refuse(document, "tags ('!') are not supported");
 }
 
 static CzNode *node_create(Document *document, CzNodeKind kind) {
@@ -161,7 +159,7 @@ static CzNode *read_text(Document *document) {
 
 /* Stands for an alias, which is refused, so that reading can go on. */
 static CzNode *read_alias(Document *document) {
-    refuse(document, "aliases ('*') are not read here" USE_A_PART);
+    refuse(document, "aliases ('*') are not supported" USE_A_PART);
     CzNode *node = node_create(document, CZ_NODE_TEXT);
     if (node != NULL) {
         node->text = "";
@@ -242,9 +240,9 @@ static CzNode *read_key(Document *document, Mapping *mapping, int depth, bool *i
     if (is_behind_comma(document, mapping, key)) {
         /* reported */
     } else if (strcmp(key->text, "<<") == 0) {
-        cz_mistake(document->mistakes, key, NULL, "merge keys ('<<') are not read here" USE_A_PART);
+        cz_mistake(document->mistakes, key, NULL, "merge keys ('<<') are not supported" USE_A_PART);
     } else if (first >= 0) {
-        cz_mistake(document->mistakes, key, NULL, "key '%s' is there twice, first at line %d",
+        cz_mistake(document->mistakes, key, NULL, "key '%s' is given twice, first at line %d",
                    key->text, first);
     } else if (cz_index_add(lines, key->text, n, key->line)) {
         *is_kept = true;

@@ -72,7 +72,7 @@ static bool stands_twice(Family *family, const CzEntry *swept) {
         if (!cz_key_same_stem(key->text, swept->key->text))
             continue;
         cz_mistake(&family->reader->mistakes, swept->key, swept->trail,
-                   "'%s' is swept and has a value of its own too", swept->key->text);
+                   "'%s' is swept and also has a value of its own", swept->key->text);
         return true;
     }
     return false;
@@ -167,7 +167,7 @@ static bool may_add(Scenarios *scenarios, int n, const CzNode *place) {
     scenarios->is_full = scenarios->n + n > MOST_SCENARIOS;
     if (scenarios->is_full)
         cz_mistake(&scenarios->reader->mistakes, place, NULL,
-                   "the problem has more than %d scenarios, members of sweeps counted",
+                   "the problem has more than %d scenarios, including members of sweeps",
                    (int)MOST_SCENARIOS);
     return !scenarios->is_full;
 }

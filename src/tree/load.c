@@ -49,7 +49,7 @@ const char *cz_load_locate(CzReader *reader, const char *name, const CzNode *pla
             return candidates[i];
     const bool is_searched = in_share != NULL && name[0] != '/';
     cz_mistake(&reader->mistakes, place, NULL, "there is no file '%s'" CZ_HELP "%s%s%s", beside,
-               is_searched ? "searched beside the file that names it and in '" : "",
+               is_searched ? "searched for beside the file that names it and in '" : "",
                is_searched ? reader->share_folder : "", is_searched ? "'" : "");
     return NULL;
 }
@@ -69,8 +69,8 @@ static void add_part(Loader *loader, const CzEntry *entry) {
 
 static bool is_part(CzReader *reader, const CzEntry *entry) {
     if (strlen(entry->key->text) > CZ_MOST_LABEL)
-        cz_mistake(&reader->mistakes, entry->key, NULL,
-                   "the name of a part has more than %d letters", (int)CZ_MOST_LABEL);
+        cz_mistake(&reader->mistakes, entry->key, NULL, "the name of a part has more than %d bytes",
+                   (int)CZ_MOST_LABEL);
     if (entry->value->kind == CZ_NODE_MAPPING)
         return true;
     cz_mistake(&reader->mistakes, entry->value, NULL, "part '%s' must be a mapping, but this is %s",

@@ -377,7 +377,7 @@ static const CzNode *walk_on(Walk *walk, const CzNode *node, Step step) {
         return walk_mapping(walk, taken, step);
     if (taken->kind == CZ_NODE_LIST)
         return walk_list(walk, taken, step);
-    refuse(walk, step.level, "%s is a value: nothing can follow it", walk->at);
+    refuse(walk, step.level, "%s is a value: no key can follow", walk->at);
     return taken;
 }
 

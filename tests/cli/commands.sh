@@ -103,7 +103,7 @@ on_rails() { # on_rails INTEGRATOR: the modes of the track as differential equat
 check "--integrator erk runs on the elastic track" on_rails erk
 check "--integrator adams runs on the elastic track" on_rails adams
 not_on() { # not_on TRACK
-    exits 2 "$C" run "$SOURCE/problems/paper-25kmh.yaml" --integrator erk --set "simulation.track=$1" && says err.txt 'the second solver knows the track models rigid, receptance and modal only'
+    exits 2 "$C" run "$SOURCE/problems/paper-25kmh.yaml" --integrator erk --set "simulation.track=$1" && says err.txt 'the second solver supports the track models rigid, receptance and modal only'
 }
 check "--integrator erk on finite elements is refused" not_on fe
 verified_on_rails() { exits 0 "$C" verify "$SOURCE/problems/paper-25kmh.yaml" --json && json out.txt methods.full_track.done true && json out.txt methods.adams.flips 0 && json out.txt verdict pass; }

@@ -160,7 +160,7 @@ wrong_columns() {
         printf 's_mm,F_kN\n0,0\n1,2\n' >no-time.csv && exits 2 "$C" plot first --what panels --measured no-time.csv && says err.txt "no-time.csv:1:1: error: the unit of column 's_mm', mm, is not a unit of the time" &&
         printf 't_ms\n0\n1\n' >times.csv && exits 2 "$C" plot first --what panels --measured times.csv && says err.txt 'no line of titles with two columns of numbers' &&
         printf '# nothing\n' >nothing.csv && exits 2 "$C" plot first --what panels --measured nothing.csv && says err.txt 'no line of titles' &&
-        exits 2 "$C" plot first --what panels --measured nowhere.csv && says err.txt 'there is no such file' &&
+        exits 2 "$C" plot first --what panels --measured nowhere.csv && says err.txt 'the file does not exist' &&
         exits 2 "$C" plot first --what panels --measured first/channels.csv && says err.txt "column 'a_A1_g' belongs to no panel" &&
         awk 'BEGIN { printf "t_ms"; for (i = 0; i < 14; i++) printf ",F_%d_kN", i; for (k = 0; k < 2; k++) { printf "\n%d", k; for (i = 0; i < 14; i++) printf ",1" } print "" }' >many.csv &&
         exits 2 "$C" plot first --what panels --measured many.csv && says err.txt 'too many' && exits 2 "$C" plot first --what panels --measured - <four.csv && says err.txt 'not from standard input'

@@ -124,7 +124,7 @@ matched() { # matched LINES COLUMN: a problem whose match reads a file of these 
     { grep -v '^catalogue' pasted.yaml && printf 'optimise:\n  variables: [{path: "trains.A.vehicles.A1.front.stages[0].force_kN", min: 900, max: 1500}]\n  match: [{name: v, channel: v_A1_m_s, file: matched.csv, column: "%s", tolerance: 0.1}]\n' "$2"; } >matched.yaml
 }
 unknown_unit() {
-    matched 't_ms,v [foo]\n0,5\n100,4\n' 'v [foo]' && exits 2 "$C" validate matched.yaml && says err.txt "matched.csv:1:6: error: the unit of column 'v [foo]', the speed, is not known" &&
+    matched 't_ms,v [foo]\n0,5\n100,4\n' 'v [foo]' && exits 2 "$C" validate matched.yaml && says err.txt "matched.csv:1:6: error: the unit of column 'v [foo]', the speed, is missing or unknown" &&
         matched 'time,v\n(ms),(foo)\n0,5\n100,4\n' v && exits 2 "$C" validate matched.yaml && says err.txt "'(foo)' in the row of units is not a unit of the speed, which takes m/s" &&
         matched 'time,v\nms,mph2\n0,5\n100,4\n' v && exits 2 "$C" validate matched.yaml && says err.txt "'mph2' in the row of units is not a unit of the speed" &&
         matched 'time,v\nms,-\n0,5\n100,4\n' v && exits 0 "$C" validate matched.yaml &&
@@ -156,9 +156,9 @@ check "a sheet with 'sep=;', decimal commas and trailing separators is read" lik
 { printf 'Nr\tDisplacement (in)\tForce (lbf)\n'; points | awk -F, '{ printf "%d\t%.7f\t%.4f\n", NR, $1 / 25.4, 1000 * $2 / 4.4482216152605 }'; } >inches.csv
 check "tabs, inches and pounds are read" like_plain inches.csv
 { printf '  Stroke    Force\n     (m)     (MN)\n'; points | awk -F, '{ printf "%9.6f %9.6f\n", $1 / 1000, $2 / 1000 }'; } >fixed.csv
-check "columns between blanks are read" like_plain fixed.csv
+check "columns separated by spaces are read" like_plain fixed.csv
 { printf 'stroke_cm;force_N\n'; points | awk -F, '{ f = sprintf("%06d", 1000 * $2 + 0.5); if ($2 < 100) printf "%.4f;%d\n", $1 / 10, f; else printf "%.4f;%s\302\240%s\n", $1 / 10, substr(f, 1, 3), substr(f, 4) }'; } >groups.csv
-check "thousands between no-break blanks are read" like_plain groups.csv
+check "thousands separated by no-break spaces are read" like_plain groups.csv
 { printf '"stroke (mm)","force (N)"\n'; points | awk -F, '{ f = sprintf("%06d", 1000 * $2 + 0.5); if ($2 < 100) printf "%.2f,%d\n", $1, f; else printf "%.2f,\"%s,%s\"\n", $1, substr(f, 1, 3), substr(f, 4) }'; } >quoted.csv
 check "quoted thousands are read where a decimal point shows what the comma is" like_plain quoted.csv
 { printf 'Position (mm);Force (kN)\n'; points | awk -F, '{ printf "%.3f;%.3f\n", 700.25 - $1, -$2 }'; } >pressed.csv
@@ -196,7 +196,7 @@ put() { printf '%b' "$1" >bad.csv; }
 check "an empty file is refused" refused empty.csv 'empty.csv: error: cannot read'
 mkdir folder.csv
 check "a folder is refused" refused folder.csv 'it is a folder'
-check "a missing file is refused" refused nowhere.csv 'there is no such file'
+check "a missing file is refused" refused nowhere.csv 'the file does not exist'
 head -c 20000000 /dev/zero | tr '\0' '1' >large.csv
 check "a file of 20 MB is refused" refused large.csv 'it is larger than 16 MiB'
 head -c 5000 /dev/urandom >noise.csv
@@ -253,14 +253,14 @@ check "a curve that begins elsewhere with force is refused with both readings" r
 put 'stroke_mm,force_kN\n0,0\n10,60\nEnd of test\n'
 check "a line of text behind the points is refused" refused bad.csv 'bad.csv:4:1: error: this line has 1 column'
 put 'stroke,force_kN\n0,0\n1,2\n'
-check "a column without unit is refused" refused bad.csv "the unit of column 'stroke', the stroke, is not known"
+check "a column without unit is refused" refused bad.csv "the unit of column 'stroke', the stroke, is missing or unknown"
 check "an unknown unit is refused" refused tube.csv "'furlong' is not a unit of the stroke" --stroke-unit furlong
 check "a missing column is refused" refused tube.csv "no column is '7'; the titles are" --force 7
 put '0,0\n1,2\n'
-check "a file without titles needs its columns" refused bad.csv 'no line of titles above says which column is the stroke'
+check "a file without titles needs its columns" refused bad.csv 'no line of titles above names the column of the stroke'
 put 'stroke_mm,force_kN\n0,0\n1000000,2\n'
 check "a stroke of a kilometre is refused" refused bad.csv 'check the unit'
-check "too many stages are refused" refused tube.csv '9 stages; a law as anti-climber has 1 to 8' --stages 9
+check "too many stages are refused" refused tube.csv '9 stages; a law of kind anti-climber has 1 to 8' --stages 9
 
 no_kind() { exits 2 "$C" fit tube.csv --basis static && says err.txt "needs '--as KIND'" && exits 2 "$C" fit tube.csv --as ends --basis static && says err.txt "did you mean 'end'?"; }
 check "--as must be given and known" no_kind

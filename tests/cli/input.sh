@@ -19,7 +19,7 @@ change() { sed "$1" good.yaml >changed.yaml; }
 check "an empty file is refused" refused empty.yaml 'it is empty'
 mkdir folder
 check "a folder is refused" refused folder 'it is a folder'
-check "a missing file is refused" refused nowhere.yaml 'there is no such file'
+check "a missing file is refused" refused nowhere.yaml 'the file does not exist'
 head -c 20000000 /dev/zero | tr '\0' '#' >large.yaml
 check "a file of 20 MB is refused" refused large.yaml large.yaml
 head -c 5000 /dev/urandom >noise.yaml

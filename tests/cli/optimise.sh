@@ -111,7 +111,7 @@ END
 unbound() {
     stroke='parts.end.coupler.tube.stages[0].stroke_mm' && exits 0 "$C" run bounded.yaml --set "$stroke=150" -o bounded-run && ! grep -q outside err.txt &&
         exits 0 "$C" sweep bounded.yaml --vary "$stroke=100:300:3" && ! says out.txt invalid >nothing.txt &&
-        exits 2 "$C" optimise bounded.yaml --set "$stroke=199.9999999" -o bounded && says err.txt "the starting value 199.9999999 of '$stroke' lies outside its bounds, 200 to 900 mm"
+        exits 2 "$C" optimise bounded.yaml --set "$stroke=199.9999999" -o bounded && says err.txt "the starting value 199.9999999 of '$stroke' is outside its bounds, 200 to 900 mm"
 }
 check "run and sweep ignore the bounds of a search, and a search reports value and bound to the last digit" unbound
 readable() {

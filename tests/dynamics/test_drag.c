@@ -129,7 +129,7 @@ static void a_standing_car_is_held(void **state) {
 }
 
 /* A drag does not bound the default step. */
-static void a_standing_train_sets_no_step(void **state) {
+static void a_standing_train_does_not_bound_the_step(void **state) {
     (void)state;
     Collision free = collision_model(two_cars, AS_WRITTEN, 0);
     Collision held = collision_model(
@@ -241,7 +241,7 @@ int main(void) {
         cmocka_unit_test(a_share_of_braked_axles_is_not_rounded),
         cmocka_unit_test(rolling_resistance_slows_every_kind_of_car),
         cmocka_unit_test(a_standing_car_is_held),
-        cmocka_unit_test(a_standing_train_sets_no_step),
+        cmocka_unit_test(a_standing_train_does_not_bound_the_step),
         cmocka_unit_test(the_damping_of_a_crush_zone_without_end_mass_acts),
         cmocka_unit_test(a_buffer_stop_is_dragged_with_its_frame),
         cmocka_unit_test(a_buffer_stop_at_the_end_of_its_travel_bottoms_out),

@@ -14,7 +14,7 @@ static CzRest rest_in(const Collision *collision, int vehicle) {
     return rest[vehicle];
 }
 
-/* Loads and deflections are those of statics by hand, whatever the solver started from; Newton's
+/* Loads and deflections are those of statics by hand for any start of the solver; Newton's
  * method ends at 1e-11 of the weight, which is 5 uN on 0.5 MN and 1e-11 of each deflection. */
 static void check_closed_form(const char *const *set) {
     Collision collision = collision_model(file, set, 0);

@@ -1,4 +1,4 @@
-/* Faces that have turned with their ends form a ramp: direction and size of their force, by hand.
+/* Faces that have rotated with their ends form a ramp: direction and size of their force, by hand.
  */
 #include "physics/motion.h"
 

@@ -97,7 +97,8 @@ static void a_track_that_cannot_be_fitted_is_refused_with_an_alternative(void **
     }
 }
 
-/* As on the modal track: what four powers of a cosine leave out of the statics (test_track.c). */
+/* As on the modal track: the error of the static deflection with four powers of a cosine
+ * (test_track.c). */
 static void one_wheel_at_rest_deflects_the_track_as_its_statics(void **state) {
     (void)state;
     CzArena arena = {0};

@@ -9,7 +9,7 @@
 
 #include "crushzone/simulate.h"
 
-/* What a test may change. Reset it before use. */
+/* Settings of a test. Reset them before use. */
 typedef struct StandIn {
     double failing_above;    /* tube force from which a run fails [N]; infinite for never */
     double incomplete_above; /* the same for a run that does not end [N] */

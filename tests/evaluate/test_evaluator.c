@@ -51,7 +51,7 @@ static const CzCheckResult *find(const CzEvaluation *evaluation, const char *nam
     return NULL;
 }
 
-/* 40 t at 25 km/h: 482 kJ are lost, 241 kJ on each side; the tube takes 200 kJ of them. */
+/* 40 t at 25 km/h: 482 kJ are dissipated, 241 kJ on each side; the tube absorbs 200 kJ of them. */
 static void margin_is_the_distance_to_the_limit_over_the_limit(void **state) {
     (void)state;
     Case made = begin("checks:\n"

@@ -64,7 +64,7 @@ static void limits_of_unknown_metrics_are_refused(void **state) {
                    "scenarios: [crush]}]}\n",
                    "no scenario 'crush'");
     expect_refusal("checks: {limits: [{name: a, metric: interfaces.peak_force_kN}]}\n",
-                   "'max' or 'min'");
+                   "'max' and 'min'");
     expect_refusal("optimise: {subject_to: [nothing], variables: [{path: "
                    "\"parts.tube.stages[0].force_kN\", min: 400, max: 1400}]}\n",
                    "no check 'nothing'");

@@ -387,7 +387,7 @@ static void an_invalid_curve_is_refused_with_its_point(void **state) {
     CzFitOptions options = cz_fit_options_default();
     options.n_stage = 9;
     assert_int_equal(cz_fit_points(1, one, one, &options, &fit, &error), CZ_STATUS_INPUT);
-    assert_non_null(strstr(error.message, "9 stages; a law as anti-climber has 1 to 8"));
+    assert_non_null(strstr(error.message, "9 stages; a law of kind anti-climber has 1 to 8"));
 }
 
 /* Curves of any size and few points are fitted with equal energy. */

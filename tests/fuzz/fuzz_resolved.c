@@ -12,8 +12,8 @@ static CzStatus read_text(const char *text, size_t n_byte, CzProblem **problem, 
                                 error);
 }
 
-/* Takes comments off, and then blanks at the ends of lines and empty lines. A comment begins with a
- * '#' outside quotes at the start of a line or behind a blank. */
+/* Removes comments, and then spaces at the ends of lines and empty lines. A comment begins with a
+ * '#' outside quotes at the start of a line or after a space. */
 static void strip_comments(char *text) {
     char *to = text, *line = text; /* line: start of the current one */
     bool is_quoted = false;

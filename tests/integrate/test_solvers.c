@@ -38,7 +38,7 @@ static bool bathe(CzOde *ode, double time, const double *y, double *rate) {
     return true;
 }
 
-/* Static answer (1, 3) less the modes of w^2 = 2 with (1, 1) and w^2 = 5 with (1, -2). */
+/* Static solution (1, 3) less the modes of w^2 = 2 with (1, 1) and w^2 = 5 with (1, -2). */
 static void exact(double t, double *u) {
     const double slow = cos(sqrt(2.0) * t), fast = cos(sqrt(5.0) * t);
     u[0] = 1.0 - 5.0 / 3.0 * slow + 2.0 / 3.0 * fast;

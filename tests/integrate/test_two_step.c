@@ -3,7 +3,7 @@
 
 #include "integrate/two_step.h"
 
-static void the_exact_answer_is_the_published_one(void **state) {
+static void the_exact_solution_is_the_published_one(void **state) {
     (void)state;
     assert_rows_of(rows_of_published_answer);
 }
@@ -46,7 +46,7 @@ static void a_wheelset_bounces_off_a_rail_as_in_hertz_theory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_exact_answer_is_the_published_one),
+        cmocka_unit_test(the_exact_solution_is_the_published_one),
         cmocka_unit_test(the_errors_are_the_published_ones),
         cmocka_unit_test(the_order_is_two),
         cmocka_unit_test(an_undamped_oscillator_is_stable_up_to_two),

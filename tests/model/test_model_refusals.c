@@ -158,7 +158,7 @@ static void walls_do_not_move_and_do_not_meet(void **state) {
     make_problem();
     problem.vehicle[1] = problem.vehicle[2] = wall;
     problem.train[0].speed = 0.0;
-    expect_refusal("interface A2-B1 lies between two fixed vehicles", 0);
+    expect_refusal("interface A2-B1 is between two fixed vehicles", 0);
 }
 
 static void parts_must_not_overlap_where_couplers_touch(void **state) {

@@ -97,8 +97,8 @@ static void optimiser_cannot_win_by_absorbing_energy_in_the_running_gear(void **
         .scenario = "crash"});
 }
 
-/* A short anti-climber leaves the remaining energy to the end, first to its crush zone and then to
- * the cab. */
+/* With a short anti-climber the end absorbs the remaining energy, first its crush zone and then the
+ * cab. */
 static void optimiser_cannot_win_by_crushing_the_survival_space(void **state) {
     (void)state;
     check_cheat(&(Cheat){

@@ -240,7 +240,7 @@ static void parameters_that_the_reader_refuses_are_failed_designs(void **state) 
     end(&made);
 }
 
-/* A fit that cannot begin: what is wrong with its only match, on line 12. */
+/* A fit that cannot begin: the error of its only match, on line 12. */
 static void assert_refused(const char *match, const char *message, const char *help) {
     char more[1024];
     CzEvaluator *evaluator = NULL;

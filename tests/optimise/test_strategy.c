@@ -15,8 +15,8 @@ static CzSearch run_auto(const CzFunction *function, long evaluations, unsigned 
     return search;
 }
 
-/* What the method guarantees of the objective: secants of a hundredth of the range and constraints
- * with a reserve of 1e-4 change the optimum by about as much. */
+/* Accuracy of the objective that the method guarantees: secants of a hundredth of the range and
+ * constraints with a reserve of 1e-4 change the optimum by about as much. */
 #define GUARANTEED 2e-3
 
 /* Secants of a hundredth of ranges of 3 to 8 change a variable by about 0.06, and the gradient by

@@ -1,4 +1,4 @@
-/* The two-step scheme on an example with an exact answer. */
+/* The two-step scheme on an example with an exact solution. */
 #include "physics/scheme.h"
 
 #include "integrate/two_step.h"

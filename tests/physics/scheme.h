@@ -5,7 +5,8 @@
 
 #include "physics/rows.h"
 
-/* Exact: static answer (1, 3) less its two modes, w^2 = 2 with (1, 1) and w^2 = 5 with (1, -2). */
+/* Exact: static solution (1, 3) less its two modes, w^2 = 2 with (1, 1) and w^2 = 5 with (1, -2).
+ */
 void exact_answer(double t, double *u);
 void rows_of_published_answer(Rows *rows);
 

@@ -6,7 +6,7 @@
 #include "physics/collision.h"
 #include "physics/rows.h"
 
-/* Runs a scenario with a step of its own [s]; 0 takes the model's. */
+/* Runs a scenario with a step of its own [s]; 0: that of the model. */
 Collision collide_with(const char *file, int scenario, double step);
 
 void rows_of_elastic_order(Rows *rows);

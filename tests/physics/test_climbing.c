@@ -284,7 +284,7 @@ static void a_climb_is_marked_and_the_cars_slide_to_the_end_walls(void **state) 
         if (element->kind == CZ_ELEMENT_ANTI_CLIMBER)
             faces += element->energy;
     }
-    /* Anti-climbers without overlap absorb little energy: climbing does not pay. */
+    /* Anti-climbers without overlap absorb little energy: an override has no advantage. */
     assert_true(walls > 100e3);
     assert_true(faces < 0.1 * walls);
     assert_true(summary->energy.survival > 0.9 * walls);

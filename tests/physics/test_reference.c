@@ -59,7 +59,7 @@ static void every_integrator_follows_four_stages_and_two_back(void **state) {
 }
 
 /* Two masses of 40 t and 20 MN/m: v_A = 5 + 5 cos(w t) until they part, with w^2 = k / mu, and 0
- * m/s ever after. The references locate no event here: the force is continuous. */
+ * m/s ever after. The references need no event location here: the force is continuous. */
 static void every_integrator_exchanges_the_speeds_of_equal_masses(void **state) {
     (void)state;
     for (int i = 0; i < 3; i++) {

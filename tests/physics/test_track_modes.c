@@ -59,8 +59,8 @@ static void the_pinned_pinned_mode_is_among_the_modes(void **state) {
 /* ---- modes ---- */
 
 /* P(s) of a block, straight from the masses, springs and dampers: det of (pad, sleeper, ballast)
- * with the rail waves condensed is what F represents. Here: residual of all equations for the
- * mode's amplitudes, each relative to its own terms. */
+ * with the rail waves condensed equals F. Here: residual of all equations for the mode's
+ * amplitudes, each relative to its own terms. */
 static double residual_of(const CzTrackBlock *block, CzComplex s) {
     const CzSeats *seats = block->seats;
     const CzComplex s2 = cz_complex_product(s, s);

@@ -15,7 +15,7 @@ static void a_number_limits_the_meaning_of_its_signs(void **state) {
     static const struct {
         const char *text;
         CzDecimalSign sign;
-        double point, comma; /* NaN: no number under that sign */
+        double point, comma; /* NaN: not a number with that decimal sign */
     } numbers[] = {{"12", CZ_SIGN_SILENT, 12, 12},
                    {"-7", CZ_SIGN_SILENT, -7, -7},
                    {"\xe2\x88\x92"
@@ -131,10 +131,11 @@ static void an_ambiguous_file_is_refused(void **state) {
         {"stroke_mm;force_Nm\n0;0\n1;1\n", 1, 11, "the unit of column 'force_Nm', the force"},
         {"stroke_mm;\xe4\xe4;force_Nm\n0;0;0\n1;1;1\n", 1, 14, "the unit of column 'force_Nm'"},
         {"stroke_mm;force_kN\n0;0\n1;5 kN\n", 3, 3, "force: '5 kN' is not a number"},
-        {"0;0\n1;1\n", 1, 1, "no line of titles above says which column is the stroke"},
+        {"0;0\n1;1\n", 1, 1, "no line of titles above names the column of the stroke"},
         {"stroke_mm;force_kN\n0;0\nstroke_mm;force_kN\n0;0\n", 3, 1, "is not a number"},
-        {"stroke_mm,force_kN\n0,0\n1,\"500\n2,600\n", 3, 3, "a quotation mark opens here"},
-        {"Stroke (\"),Force (kN)\n0,0\n1,5\n", 1, 9, "a quotation mark opens here"},
+        {"stroke_mm,force_kN\n0,0\n1,\"500\n2,600\n", 3, 3,
+         "the quotation mark here is not closed"},
+        {"Stroke (\"),Force (kN)\n0,0\n1,5\n", 1, 9, "the quotation mark here is not closed"},
         {"# a test\nmm;kN\n1;2\nX;Weg (mm);Kraft (kN)\n0;0;0\n", 4, 1,
          "the titles in line 2 have 2"},
         {"stroke_mm force_kN comment\n0 0\n1 1\n", 2, 1, "this line has 2 columns"},

@@ -73,7 +73,7 @@ typedef enum { UNSEEN, IDLE, ACTS } Found;
 typedef struct {
     const Setting *setting;
     const CzProblem *problem;
-    int n_wrong;               /* warnings that are missing, or not true */
+    int n_wrong;               /* warnings that are missing or wrong */
     bool (*lacked)[MOST_KEYS]; /* keys without the key they act with, of every record */
     Answer as_written;
     Found (*found)[MOST_KEYS][N_MODEL]; /* of every record (CZ_N_RECORD) */

@@ -30,7 +30,7 @@ static void check_text_refused(const char *text, size_t n_byte, int line, int co
 
 static void a_missing_file_is_reported(void **state) {
     (void)state;
-    check_refused("no-such-file.yaml", "cannot read 'no-such-file.yaml': there is no such file");
+    check_refused("no-such-file.yaml", "cannot read 'no-such-file.yaml': the file does not exist");
 }
 
 static void a_folder_is_reported(void **state) {

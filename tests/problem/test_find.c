@@ -70,7 +70,7 @@ static void behind_a_star_items_without_the_record_are_skipped(void **state) {
     check_found("trains.*.vehicles.*.front.coupler.shear_off.force_kN", 4, expected);
 }
 
-static void a_target_knows_its_unit_and_its_concrete_path(void **state) {
+static void a_target_has_its_unit_and_its_concrete_path(void **state) {
     (void)state;
     CzProblem *problem = read_good("full.yaml", 0, NULL);
     CzTargets found = {0};
@@ -276,7 +276,7 @@ int main(void) {
         cmocka_unit_test(a_star_makes_one_match_of_every_item),
         cmocka_unit_test(a_path_through_a_vehicle_names_its_repeats_and_copies_too),
         cmocka_unit_test(behind_a_star_items_without_the_record_are_skipped),
-        cmocka_unit_test(a_target_knows_its_unit_and_its_concrete_path),
+        cmocka_unit_test(a_target_has_its_unit_and_its_concrete_path),
         cmocka_unit_test(finding_and_setting_use_the_same_places),
         cmocka_unit_test(earlier_settings_are_kept_while_finding),
         cmocka_unit_test(a_candidate_must_satisfy_the_rules_of_a_file),

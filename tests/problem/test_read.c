@@ -376,7 +376,7 @@ static void unused_trains_and_unknown_confidences_are_warned_of(void **state) {
     for (int i = 0; i < 2; i++) {
         const char *message = cz_problem_warning(problem, i)->message;
         assert_true(strstr(message, "no effect: train 'C' is in no scenario") != NULL ||
-                    strstr(message, "confidence 'User' is none of S1") != NULL);
+                    strstr(message, "confidence 'User' is not one of S1") != NULL);
     }
     cz_problem_free(problem);
 }

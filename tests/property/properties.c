@@ -260,7 +260,7 @@ static void try_interface(Trial *trial, const CzRunSummary *summary,
     }
     if (summary->beyond_validity) /* cars that have climbed can be anywhere */
         return;
-    /* The closure is that of the bodies; pitch moves what lies above or below by up to 3 m. The
+    /* The closure is that of the bodies; pitch moves points up to 3 m above or below. The
      * stroke of an end is its largest shortening, whose elastic part other elements may absorb
      * later. */
     double turned = 0.0;

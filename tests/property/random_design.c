@@ -2,8 +2,8 @@
  *
  * Ranges are wide on purpose: devices without effect, absorbers whose stroke is exhausted, falling
  * stages, partners without a device to meet, speeds of shunting and far beyond the design. A number
- * is drawn evenly, or evenly in its logarithm where it spans more than a decade. The order in which
- * arguments are evaluated is the compiler's: no list of arguments holds two draws.
+ * is drawn from a uniform distribution, of its logarithm where it spans more than a decade. The
+ * order in which arguments are evaluated is the compiler's: no list of arguments holds two draws.
  */
 #include "property/random_design.h"
 
@@ -54,8 +54,8 @@ static void maybe(Draw *draw, double share, const char *key, double value) {
         put(draw, key, value);
 }
 
-/* Stages about a level of force; `rises`: as the reader asks of buffers. Returns the steepest rise
- * from one stage's end to the next one's [MN/m]. */
+/* Stages about a level of force; `rises`: as the reader requires for buffers. Returns the steepest
+ * rise from one stage's end to the next one's [MN/m]. */
 static double put_stages(Draw *draw, int most, double stroke, double force, bool rises) {
     const int n = 1 + one_of(draw, most);
     double level = force * between(draw, 0.3, 1), last = 0.0, steepest = 0.0;

@@ -39,7 +39,7 @@ named() { # named PROGRAM: the folder from which it takes a catalogue that is no
     (cd elsewhere && "$1" validate cars.yaml)
 }
 finds_what_is_installed() { # and not the source tree's
-    named "$prefix/bin/crushzone" 2>&1 | grep -q "searched beside the file that names it and in '.*/share/crushzone'"
+    named "$prefix/bin/crushzone" 2>&1 | grep -q "searched for beside the file that names it and in '.*/share/crushzone'"
 }
 moved_tree_runs() {
     mv "$prefix" moved && moved/bin/crushzone run moved/share/crushzone/two-cars-25kmh.yaml

@@ -1,9 +1,9 @@
 /* Budgets: the sources that act on a body add up to its momenta, for every car of every run. */
 #include "physics/collision.h"
 
-/* The scheme's velocities and a sum by rectangles differ by half a step of the last force, against
- * a third of a second of forces: some thousandths of the largest source, and a tenth of it with a
- * tenth of the step. */
+/* The impulses are a sum by rectangles, which differs from the velocities of the scheme by half a
+ * step of the last force: some thousandths of the impulse of the largest source over a third of a
+ * second, and a tenth of that with a tenth of the step. */
 static void assert_closes(const CzVehicleBudget *budget, const char *name, double share) {
     double spin = 0.0, rise = 0.0, largest_spin = 0.0, largest_rise = 0.0;
     for (int source = 0; source < CZ_N_BUDGET; source++) {

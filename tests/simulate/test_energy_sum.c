@@ -43,7 +43,7 @@ static CzProblem *shipped(const char *file) {
     return shipped_with(file, NULL, 0);
 }
 
-/* Cars of one mass each: buffers, tubes, shear-off, anti-climbers and ends are all that dissipates.
+/* Cars of one mass each: only buffers, tubes, shear-off, anti-climbers and ends dissipate.
  */
 static CzProblem *rigid(void) {
     static const char text[] =

@@ -323,7 +323,7 @@ CzStatus cz_fit_coupler(CzFit *fit, int n_stage, CzError *error) {
             "the force drops to %.0f %% of its peak and stays there: more than the %.0f %% that "
             "friction after a shear-off can give, so both are stages of the tube",
             100.0 * parts.too_much, 100.0 * LARGEST_RESIDUAL);
-    fit->summary.energy = cz_fit_work(fit, parts.end);
+    fit->summary.energy = cz_work(fit->path_x, fit->path_f, 0, parts.end);
     return is_alone ? fit_buffer_alone(fit, &branch, &parts, error)
                     : fit_members(fit, &branch, n_stage, &parts, error);
 }

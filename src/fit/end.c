@@ -27,7 +27,7 @@ typedef struct Unloading {
 static Unloading unload_with(const CzTrace *trace, double peak, double share) {
     const int top = trace->n_loading - 1;
     const double turn = share * peak, low = trace->f[trace->n - 1];
-    const double energy = -cz_trace_work(trace, top, trace->n - 1);
+    const double energy = -cz_work(trace->x, trace->f, top, trace->n - 1);
     const double upper = fmax(low, turn);
     const double a_1 = 0.5 * (peak * peak - upper * upper);
     const double a_2 = low < turn ? 0.5 * (turn * turn - low * low) : 0.0;
@@ -124,7 +124,7 @@ static void stiffen(CzFit *fit, const CzKey *key) {
 static double mean_unloading(const CzTrace *trace, double peak) {
     const int top = trace->n_loading - 1, last = trace->n - 1;
     const double low = trace->f[last];
-    return (peak * peak - low * low) / (-2.0 * cz_trace_work(trace, top, last));
+    return (peak * peak - low * low) / (-2.0 * cz_work(trace->x, trace->f, top, last));
 }
 
 /* Whether one line of that stiffness describes the measured unloading. A second stage would then

@@ -23,7 +23,7 @@ static CzStatus make_curve(CzFit *fit, CzError *error) {
         !cz_branch_begin(&fit->arena, top + 2, &fit->curve))
         return cz_no_memory(error, "a fit");
     if (trace->x[0] > 0.0) {
-        const double mean = cz_trace_work(trace, 0, top) / trace->x[top];
+        const double mean = cz_work(trace->x, trace->f, 0, top) / trace->x[top];
         cz_branch_add(&path, 0.0, trace->f[0] > 0.2 * mean ? trace->f[0] : 0.0);
     }
     for (int i = 0; i <= top; i++)
@@ -34,7 +34,8 @@ static CzStatus make_curve(CzFit *fit, CzError *error) {
         return cz_no_memory(error, "a fit");
     fit->path_x = path.x;
     fit->path_f = path.f;
-    fit->summary.energy = fit->summary.whole_energy = cz_fit_work(fit, path.n - 1);
+    fit->summary.energy = fit->summary.whole_energy =
+        cz_work(fit->path_x, fit->path_f, 0, path.n - 1);
     fit->summary.mean_force = fit->summary.energy / cz_branch_last(&fit->curve);
     return CZ_OK;
 }
@@ -162,7 +163,7 @@ static CzStatus fit_law(CzFit *fit, int n_stage, CzError *error) {
     summary->stroke = trace->x[top];
     for (int i = 0; i < trace->n; i++)
         summary->peak_force = fmax(summary->peak_force, trace->f[i]);
-    summary->returned = trace->unloads ? -cz_trace_work(trace, top, trace->n - 1) : NAN;
+    summary->returned = trace->unloads ? -cz_work(trace->x, trace->f, top, trace->n - 1) : NAN;
     summary->law_returned = NAN;
     if (summary->kind == CZ_FIT_COUPLER)
         CZ_TRY(cz_fit_coupler(fit, n_stage, error));

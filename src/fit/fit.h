@@ -74,9 +74,6 @@ static inline double cz_fit_compliance(const CzFit *fit) {
     return isfinite(fit->stiffness) ? 1.0 / fit->stiffness : 0.0;
 }
 
-/* Work on the device up to a point of the loading [J]. */
-double cz_fit_work(const CzFit *fit, int point);
-
 /* Rounds strokes, forces, trigger and its length. */
 void cz_fit_round_staged(CzStaged *staged);
 

@@ -9,8 +9,8 @@
  */
 #include "fit/fit.h"
 
-#define ROUNDED                                                                                    \
-    1e-3 /* of the stroke: a law that ends this much earlier ends with the curve (ours) */
+/* A law that ends earlier by this share of the stroke ends with the curve (ours). */
+static const double rounded = 1e-3;
 
 enum { SAMPLES = 4000, STRETCH = SAMPLES / 10 }; /* of the mean square, and of a stretch of it */
 
@@ -84,7 +84,7 @@ void cz_fit_load(const CzFit *fit, CzLoading *loading) {
 void cz_fit_load_whole(const CzFit *fit, CzLoading *loading) {
     cz_fit_load(fit, loading);
     const double last = loading->x[loading->n - 1], end = cz_branch_last(&fit->curve);
-    if (end - last <= ROUNDED * end)
+    if (end - last <= rounded * end)
         return;
     const double soft = cz_fit_compliance(fit) + 1.0 / last_stop(fit);
     const double slope = isnan(fit->shear_force) ? 1.0 / soft : 0.0;
@@ -104,11 +104,8 @@ static double energy_under(const CzLoading *loading, double end) {
 
 double cz_fit_law_energy(const CzFit *fit) {
     CzLoading loading;
-    double energy = 0.0;
     cz_fit_load(fit, &loading);
-    for (int i = 1; i < loading.n; i++)
-        energy += 0.5 * (loading.f[i] + loading.f[i - 1]) * (loading.x[i] - loading.x[i - 1]);
-    return energy;
+    return cz_work(loading.x, loading.f, 0, loading.n - 1);
 }
 
 /* Least and largest force of the law at a shortening: they differ at a jump. */
@@ -174,7 +171,7 @@ void cz_fit_compare(CzFit *fit) {
         if (!is_jump)
             take_larger(fit, &loading, loading.x[i], cz_branch_force(&fit->curve, loading.x[i]));
     }
-    for (int i = 0; i < loading.n && loading.x[i] <= end * (1.0 + ROUNDED); i++)
+    for (int i = 0; i < loading.n && loading.x[i] <= end * (1.0 + rounded); i++)
         summary->law_peak = fmax(summary->law_peak, loading.f[i]);
     compare_samples(fit, &loading, end);
     summary->law_whole_energy = energy_under(&loading, cz_branch_last(&fit->curve));

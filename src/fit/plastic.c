@@ -32,7 +32,7 @@ static double stroke_of(const CzBranch *curve, double force) {
 static double stiffness_of_unloading(const CzTrace *trace) {
     const int top = trace->n_loading - 1, last = trace->n - 1;
     const double high = trace->f[top], low = trace->f[last];
-    const double returned = -cz_trace_work(trace, top, last);
+    const double returned = -cz_work(trace->x, trace->f, top, last);
     return returned > 0.0 ? (high * high - low * low) / (2.0 * returned) : INFINITY;
 }
 

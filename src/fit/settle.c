@@ -47,13 +47,6 @@ void cz_fit_doubt_that(CzFit *fit, const char *format, ...) {
     va_end(arguments);
 }
 
-double cz_fit_work(const CzFit *fit, int point) {
-    double work = 0.0;
-    for (int i = 1; i <= point; i++)
-        work += 0.5 * (fit->path_f[i] + fit->path_f[i - 1]) * (fit->path_x[i] - fit->path_x[i - 1]);
-    return work;
-}
-
 CzStatus cz_fit_branch(CzFit *fit, double stiffness, CzBranch *branch, CzError *error) {
     if (!cz_branch_begin(&fit->arena, fit->curve.n, branch))
         return cz_no_memory(error, "a fit");

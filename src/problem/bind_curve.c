@@ -234,7 +234,7 @@ static bool take_request(const Curve *curve, CzCurveRequest *request) {
 }
 
 static double area_of(const CzTrace *trace) {
-    return cz_trace_work(trace, 0, trace->n - 1);
+    return cz_work(trace->x, trace->f, 0, trace->n - 1);
 }
 
 /* Where the force jumps most at one stroke. */

@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "problem/keys.h"
+#include "problem/trace.h"
 #include "tree/merge.h"
 
 #define APART 1e-6  /* of the stroke: points that are no closer (ours) */
@@ -34,10 +35,8 @@ double cz_free_stroke(const CzEnd *end) {
 }
 
 static double mean_force(const CzTable *curve) {
-    double area = 0;
-    for (int i = 1; i < curve->n_point; i++)
-        area += 0.5 * (curve->y[i] + curve->y[i - 1]) * (curve->x[i] - curve->x[i - 1]);
-    return area / curve->x[curve->n_point - 1];
+    const int last = curve->n_point - 1;
+    return cz_work(curve->x, curve->y, 0, last) / curve->x[last];
 }
 
 /* Adds compliance times force to the strokes; `*behind` is the largest length by which they then go

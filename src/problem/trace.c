@@ -306,21 +306,22 @@ static bool check_order(const Making *making) {
     return true;
 }
 
-double cz_trace_work(const CzTrace *trace, int from, int to) {
+double cz_work(const double *x, const double *f, int from, int to) {
     double work = 0.0;
     for (int i = from + 1; i <= to; i++)
-        work += 0.5 * (trace->f[i] + trace->f[i - 1]) * (trace->x[i] - trace->x[i - 1]);
+        work += 0.5 * (f[i] + f[i - 1]) * (x[i] - x[i - 1]);
     return work;
 }
 
 static bool check_energy(Making *making) {
     CzTrace *trace = making->trace;
     const int top = trace->n_loading - 1, last = trace->n - 1;
-    if (top == 0 || !(cz_trace_work(trace, 0, top) > 0.0))
+    if (top == 0 || !(cz_work(trace->x, trace->f, 0, top) > 0.0))
         return refuse(making, top, "the curve absorbs no energy while its stroke grows");
     trace->unloads = trace->x[top] - trace->x[last] > UNLOADING * trace->x[top] &&
                      trace->f[last] < UNLOADED * trace->f[top];
-    return !trace->unloads || -cz_trace_work(trace, top, last) <= cz_trace_work(trace, 0, top) ||
+    return !trace->unloads ||
+           -cz_work(trace->x, trace->f, top, last) <= cz_work(trace->x, trace->f, 0, top) ||
            refuse(making, top, "the unloading returns more energy than the loading absorbed");
 }
 

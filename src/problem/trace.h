@@ -56,7 +56,7 @@ bool cz_trace_make(CzMistakes *mistakes, const CzSource *source, const CzTraceSh
  * do not; `raised` may be `x`. False without memory. */
 bool cz_trace_raise(CzArena *arena, const double *x, int n, double *raised);
 
-/* Work on the device from one point to another, in the order of the points [J]. */
-double cz_trace_work(const CzTrace *trace, int from, int to);
+/* Work of forces f over strokes x from one point to another, in the order of the points [J]. */
+double cz_work(const double *x, const double *f, int from, int to);
 
 #endif

@@ -300,29 +300,23 @@ static CzStatus run_method(CzVerification *verification, const CzEvaluator *eval
     return CZ_OK;
 }
 
+/* Runs all methods; `number` has room for the numbers of the record and, `most` behind them, for
+ * those of a method. */
 static CzStatus run_methods(CzVerification *verification, const CzEvaluator *evaluator,
-                            const double *x, const CzEvaluation *record, CzError *error) {
-    const size_t most = (size_t)most_numbers(evaluator, record);
-    Number *number = calloc(2 * most, sizeof *number);
-    verification->value = calloc(most, sizeof *verification->value);
-    CzStatus status = CZ_OK;
-    if (number == NULL || verification->value == NULL) {
-        status = cz_no_memory(error, "the verification");
-    } else {
-        verification->n_value = list_numbers(evaluator, record, number);
-        for (int i = 0; i < verification->n_value; i++)
-            begin_value(&verification->value[i], &number[i]);
-    }
-    for (int method = 0; method < CZ_N_VERIFY_METHOD && status == CZ_OK; method++) {
+                            const double *x, const CzEvaluation *record, Number *number, int most,
+                            CzError *error) {
+    verification->n_value = list_numbers(evaluator, record, number);
+    for (int i = 0; i < verification->n_value; i++)
+        begin_value(&verification->value[i], &number[i]);
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
         if ((verification->methods & (1u << method)) == 0)
             continue;
         const double began = cz_clock();
-        status = run_method(verification, evaluator, (CzVerifyMethod)method, x, number,
-                            number + most, error);
+        CZ_TRY(run_method(verification, evaluator, (CzVerifyMethod)method, x, number, number + most,
+                          error));
         verification->wall_s[method] = cz_clock() - began;
     }
-    free(number);
-    return status;
+    return CZ_OK;
 }
 
 static CzVerdict judge(const CzVerification *verification) {
@@ -356,33 +350,35 @@ static bool has_same_checks(const CzEvaluator *evaluator, double limit, const Cz
 
 /* Finds the settled runs of the record, where they are asked for and have its checks. */
 static CzStatus find_settled(CzVerification *verification, const CzEvaluator *evaluator,
-                             const double *x, const CzEvaluation *record, CzEvaluation *settled,
-                             CzError *error) {
+                             const double *x, const CzEvaluation *record, Number *number,
+                             CzEvaluation *settled, CzError *error) {
     CzManner manner = evaluator->manner;
     manner.track = own_track(evaluator);
     manner.brief = true;
     CZ_TRY(cz_evaluator_again(evaluator, &manner, x, settled, error));
-    Number *number = calloc(2 * (size_t)most_numbers(evaluator, record), sizeof *number);
-    if (number == NULL)
-        return cz_no_memory(error, "the verification");
     verification->until_settled =
         settled->status == CZ_OK &&
         has_same_checks(evaluator, verification->limit, record, settled, number);
-    free(number);
     return CZ_OK;
 }
 
 /* Runs all methods, and before them the settled runs that they are compared with. */
 static CzStatus run_all(CzVerification *verification, const CzEvaluator *evaluator, const double *x,
                         const CzEvaluation *record, bool until_settled, CzError *error) {
+    const int most = most_numbers(evaluator, record);
+    Number *number = calloc(2 * (size_t)most, sizeof *number);
     CzEvaluation settled = {0};
+    verification->value = calloc((size_t)most, sizeof *verification->value);
     CzStatus status = CZ_OK;
-    if (until_settled)
-        status = find_settled(verification, evaluator, x, record, &settled, error);
+    if (number == NULL || verification->value == NULL)
+        status = cz_no_memory(error, "the verification");
+    else if (until_settled)
+        status = find_settled(verification, evaluator, x, record, number, &settled, error);
     if (status == CZ_OK)
         status = run_methods(verification, evaluator, x,
-                             verification->until_settled ? &settled : record, error);
+                             verification->until_settled ? &settled : record, number, most, error);
     cz_evaluation_free(&settled);
+    free(number);
     return status;
 }
 

@@ -81,7 +81,6 @@ static bool is_unconfirmed(const char *confidence) {
 static CzStatus append_limit(Builder *builder, const CzLimit *limit, const char *profile,
                              bool is_target) {
     CzCheck check = {.name = limit->name,
-                     .metric_text = limit->metric,
                      .profile = profile,
                      .clause = limit->clause,
                      .source = limit->source,
@@ -205,7 +204,6 @@ static CzStatus append_missing(Builder *builder, const char *name, const char *m
 
 static CzStatus append_rule(Builder *builder, const Rule *rule) {
     CzCheck check = {.name = rule->name,
-                     .metric_text = rule->metric,
                      .limit = rule->limit,
                      .is_minimum = rule->is_minimum,
                      .source = rule->doc};
@@ -288,32 +286,31 @@ static CzStatus append_design_rules(Builder *builder) {
     return append_missing_scenarios(builder, has);
 }
 
+static CzStatus append_rule_of_files(Builder *builder, const char *name, const CzMetric *metric,
+                                     double limit, const char *source) {
+    const CzCheck check = {.name = name,
+                           .scenario = CZ_NO_SCENARIO,
+                           .metric = *metric,
+                           .limit = limit,
+                           .scale = metric->kind->scale,
+                           .source = source,
+                           .is_target = true,
+                           .is_rule = true};
+    return append(builder, &check);
+}
+
 /* Every design must be one that a problem file may hold. The file's own values are, so these checks
  * are not listed. Each rule that a variable can break has a name; the last check is for all rules
  * of the reader. */
 static CzStatus append_rules_of_files(Builder *builder) {
+    CzMetric metric = {.selector = "*"};
     for (int rule = 0; rule < CZ_N_VALUE_RULE; rule++) {
-        const CzMetricKind *kind = cz_metric_of_rule((CzValueRule)rule);
-        const CzCheck named = {.name = kind->name,
-                               .scenario = CZ_NO_SCENARIO,
-                               .metric_text = kind->name,
-                               .metric = {.kind = kind, .selector = "*"},
-                               .limit = 1,
-                               .scale = kind->scale,
-                               .source = kind->doc,
-                               .is_target = true,
-                               .is_rule = true};
-        CZ_TRY(append(builder, &named));
+        metric.kind = cz_metric_of_rule((CzValueRule)rule);
+        CZ_TRY(append_rule_of_files(builder, metric.kind->name, &metric, 1, metric.kind->doc));
     }
-    CzCheck check = {.name = "rules between values",
-                     .metric_text = "design.rules_broken",
-                     .scenario = CZ_NO_SCENARIO,
-                     .source = "a design must be valid when it is read from a file",
-                     .is_target = true,
-                     .is_rule = true};
-    CZ_TRY(cz_metric_parse(check.metric_text, &check.metric, builder->error));
-    check.scale = check.metric.kind->scale;
-    return append(builder, &check);
+    CZ_TRY(cz_metric_parse("design.rules_broken", &metric, builder->error));
+    return append_rule_of_files(builder, "rules between values", &metric, 0,
+                                "a design must be valid when it is read from a file");
 }
 
 /* ---- names ----------------------------------------------------------------------------------- */

@@ -15,8 +15,7 @@ enum { CZ_NO_SCENARIO = -1 };
 
 typedef struct CzCheck {
     const char *name;
-    int scenario; /* or CZ_NO_SCENARIO */
-    const char *metric_text;
+    int scenario;    /* or CZ_NO_SCENARIO */
     CzMetric metric; /* unset when `missing` */
     double limit;    /* in the metric's unit */
     bool is_minimum;

@@ -50,7 +50,6 @@ CzClimbing cz_climbing_of(const CzEvaluator *evaluator, int scenario) {
         const Ground *ground = &grounds[i];
         CzCheck check = {.name = ground->name,
                          .scenario = scenario,
-                         .metric_text = ground->metric,
                          .limit = ground->limit,
                          .is_minimum = ground->is_minimum,
                          .source = "ours"};

@@ -100,35 +100,32 @@ static void set_failed(CzEvaluation *evaluation) {
         evaluation->constraint[j] = NAN;
 }
 
-static void judge_all(const CzEvaluator *evaluator, const CzVehicle *vehicles,
-                      const CzRunSummary *const *run, CzCheckResult *all) {
+static void add_constraint(CzEvaluation *evaluation, const CzCheckResult *check,
+                           double constraint) {
+    const int j = evaluation->n_constraint++;
+    evaluation->constraint_check[j] = *check;
+    evaluation->constraint[j] = constraint;
+    evaluation->violation = fmax(evaluation->violation, constraint);
+}
+
+/* Judges the checks and lists them, and the constraints of the optimiser among them. */
+static void judge_checks(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                         const CzRunSummary *const *run, CzEvaluation *evaluation) {
     for (int i = 0; i < evaluator->list.n_check; i++) {
         const CzCheck *check = &evaluator->list.check[i];
         const bool is_of_run = check->scenario != CZ_NO_SCENARIO;
         const CzSubject subject = subject_at(evaluator, vehicles, check->scenario, run);
-        all[i] = cz_check_judge(check, &subject, is_of_run ? failure_of(subject.run) : NULL);
-        all[i].is_omitted = is_of_run && subject.run == NULL;
-    }
-}
-
-/* Lists the judged checks, and the constraints of the optimiser among them. */
-static void sort_results(const CzEvaluator *evaluator, const CzCheckResult *all,
-                         CzEvaluation *evaluation) {
-    for (int i = 0; i < evaluator->list.n_check; i++) {
-        const CzCheck *check = &evaluator->list.check[i];
-        CzCheckResult listed = all[i];
-        cz_check_blank_total(check, &listed);
-        if (!check->is_target)
-            evaluation->check[evaluation->n_check++] = listed;
-        if (!check->is_constraint)
-            continue;
-        const int j = evaluation->n_constraint++;
-        evaluation->constraint_check[j] = listed;
+        CzCheckResult result =
+            cz_check_judge(check, &subject, is_of_run ? failure_of(subject.run) : NULL);
         /* A search needs the number itself to get away from designs that climb. */
         const double required = check->is_rule ? 0 : evaluator->list.required_margin;
-        const double constraint = cz_check_constraint(&all[i], required);
-        evaluation->constraint[j] = isnan(constraint) ? 0 : constraint;
-        evaluation->violation = fmax(evaluation->violation, evaluation->constraint[j]);
+        const double constraint = cz_check_constraint(&result, required);
+        result.is_omitted = is_of_run && subject.run == NULL;
+        cz_check_blank_total(check, &result);
+        if (!check->is_target)
+            evaluation->check[evaluation->n_check++] = result;
+        if (check->is_constraint)
+            add_constraint(evaluation, &result, isnan(constraint) ? 0 : constraint);
     }
 }
 
@@ -174,12 +171,10 @@ static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *veh
         *match = cz_match_begin(item, subject.scene);
         if (run[s] != NULL && failure_of(run[s]) == NULL)
             CZ_TRY(cz_match_judge(item, &subject, whole[s], match, NULL, error));
-        const int j = evaluation->n_constraint++;
-        evaluation->constraint_check[j] = check_of(match);
-        evaluation->constraint_check[j].is_omitted = run[s] == NULL;
-        evaluation->check[evaluation->n_check++] = evaluation->constraint_check[j];
-        evaluation->constraint[j] = fabs(match->residual) - 1;
-        evaluation->violation = fmax(evaluation->violation, evaluation->constraint[j]);
+        CzCheckResult check = check_of(match);
+        check.is_omitted = run[s] == NULL;
+        evaluation->check[evaluation->n_check++] = check;
+        add_constraint(evaluation, &check, fabs(match->residual) - 1);
     }
     return CZ_OK;
 }
@@ -205,24 +200,6 @@ static bool any_climbed(const CzEvaluator *evaluator, const CzRunSummary *const 
     return false;
 }
 
-/* The checks, listed and as constraints. */
-static CzStatus compose_checks(const CzEvaluator *evaluator, const CzVehicle *vehicles,
-                               const CzRunSummary *const *run, CzEvaluation *evaluation,
-                               CzError *error) {
-    CzCheckResult *all = malloc(((size_t)evaluator->list.n_check + 1) * sizeof *all);
-    if (all == NULL)
-        return cz_no_memory(error, "the checks of a design");
-    judge_all(evaluator, vehicles, run, all);
-    sort_results(evaluator, all, evaluation);
-    evaluation->beyond_validity = any_climbed(evaluator, run);
-    evaluation->n_not_covered = evaluator->list.n_not_covered;
-    evaluation->not_covered = evaluator->list.not_covered;
-    evaluation->n_not_judged = evaluator->obstacles.n;
-    evaluation->not_judged = evaluator->obstacles.train;
-    free(all);
-    return CZ_OK;
-}
-
 /* The first scenario that failed, else the first incomplete one, with the reason. */
 static void note_failure(const CzEvaluator *evaluator, const CzRunSummary *const *run,
                          CzEvaluation *evaluation) {
@@ -242,7 +219,12 @@ CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                     const CzRunSummary *const *run, CzRun *const *whole, bool is_refused,
                     CzEvaluation *evaluation, CzError *error) {
     CZ_TRY(allocate(evaluator, evaluation, error));
-    CZ_TRY(compose_checks(evaluator, vehicles, run, evaluation, error));
+    judge_checks(evaluator, vehicles, run, evaluation);
+    evaluation->beyond_validity = any_climbed(evaluator, run);
+    evaluation->n_not_covered = evaluator->list.n_not_covered;
+    evaluation->not_covered = evaluator->list.not_covered;
+    evaluation->n_not_judged = evaluator->obstacles.n;
+    evaluation->not_judged = evaluator->obstacles.train;
     CZ_TRY(judge_matches(evaluator, vehicles, run, whole, evaluation, error));
     note_failure(evaluator, run, evaluation);
     const bool failed = is_refused || evaluation->failure[0] != '\0';

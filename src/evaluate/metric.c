@@ -20,17 +20,16 @@ static const char *take_last_word(char *text) {
     return dot + 1;
 }
 
-static bool read_aggregate(const char *word, CzAggregate *aggregate) {
+/* The aggregate that a word names; CZ_AGGREGATE_WORST when it is none. */
+static CzAggregate aggregate_of(const char *word) {
     static const char *const words[] = {[CZ_AGGREGATE_MAX] = "max",
                                         [CZ_AGGREGATE_MIN] = "min",
                                         [CZ_AGGREGATE_SUM] = "sum",
                                         [CZ_AGGREGATE_MEAN] = "mean"};
     for (int i = CZ_AGGREGATE_MAX; i <= CZ_AGGREGATE_MEAN; i++)
-        if (strcmp(word, words[i]) == 0) {
-            *aggregate = (CzAggregate)i;
-            return true;
-        }
-    return false;
+        if (strcmp(word, words[i]) == 0)
+            return (CzAggregate)i;
+    return CZ_AGGREGATE_WORST;
 }
 
 /* Splits "LEVEL.SELECTOR.NAME" into "LEVEL.NAME" and the selector. */
@@ -52,11 +51,8 @@ CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzError *error) {
         return cz_fail(error, CZ_STATUS_INPUT, "the metric '%.40s...' is longer than %d bytes",
                        text, CZ_PATH_ROOM - 1);
     snprintf(copy, sizeof copy, "%s", text);
-    metric->aggregate = CZ_AGGREGATE_WORST;
-    CzAggregate aggregate;
-    if (read_aggregate(take_last_word(copy), &aggregate))
-        metric->aggregate = aggregate;
-    else
+    metric->aggregate = aggregate_of(take_last_word(copy));
+    if (metric->aggregate == CZ_AGGREGATE_WORST)
         snprintf(copy, sizeof copy, "%s", text);
     split_selector(copy, name, sizeof name, metric->selector, sizeof metric->selector);
     CzSuggestion nearest = {0};

@@ -56,7 +56,6 @@ typedef struct Walk {
     const char *selector;
     CzPlaceVisitor visit;
     void *data;
-    int n_place;
     CzPlace place;
 } Walk;
 
@@ -65,7 +64,6 @@ static void call(Walk *walk, const char *name) {
     const size_t n = strlen(name) < most ? strlen(name) : most;
     memcpy(walk->place.name, name, n);
     walk->place.name[n] = '\0';
-    walk->n_place++;
     walk->visit(&walk->place, walk->data);
 }
 
@@ -179,8 +177,8 @@ static bool any_vehicle_is_full(const CzSubject *subject) {
     return false;
 }
 
-int cz_places_visit(const CzSubject *subject, CzLevel level, const char *selector,
-                    CzPlaceVisitor visit, void *data) {
+void cz_places_visit(const CzSubject *subject, CzLevel level, const char *selector,
+                     CzPlaceVisitor visit, void *data) {
     Walk walk = {.subject = subject,
                  .level = level,
                  .selector = selector,
@@ -203,7 +201,6 @@ int cz_places_visit(const CzSubject *subject, CzLevel level, const char *selecto
     } else {
         visit_interfaces(&walk);
     }
-    return walk.n_place;
 }
 
 /* How many elements of one end as written a selector picks. */

@@ -55,11 +55,10 @@ typedef struct CzSubject {
 /* Whether a text matches a pattern in which `*` stands for any text and `?` for any letter. */
 bool cz_matches(const char *pattern, const char *text);
 
-/* Walks the places of a level that a selector picks. `visit` gets each in a fixed order. Returns
- * how many there were. */
+/* Walks the places of a level that a selector picks. `visit` gets each in a fixed order. */
 typedef void (*CzPlaceVisitor)(const CzPlace *place, void *data);
-int cz_places_visit(const CzSubject *subject, CzLevel level, const char *selector,
-                    CzPlaceVisitor visit, void *data);
+void cz_places_visit(const CzSubject *subject, CzLevel level, const char *selector,
+                     CzPlaceVisitor visit, void *data);
 
 /* How many places the selector picks in a scene as written, before any run. */
 int cz_places_count(const CzScene *scene, CzLevel level, const char *selector);

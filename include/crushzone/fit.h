@@ -2,7 +2,7 @@
  *
  * The stages are those of the problem file. Their breakpoints and forces are the least squares of
  * the force over the stroke, under the condition that the law absorbs exactly the energy of the
- * curve over its stroke. A trigger peak is no plateau: its height is a key of its own.
+ * curve over its stroke. A trigger peak is not a plateau: its height is a key of its own.
  */
 #ifndef CRUSHZONE_FIT_H
 #define CRUSHZONE_FIT_H

@@ -125,8 +125,8 @@ typedef struct CzVehicleResult {
     double link_force; /* largest traction link force [N] */
     double
         link_travel; /* largest travel of a bogie relative to the body at its traction link [m] */
-    double survival_shortening; /* stroke of survival zones, both ends [m]; NaN when no end declares
-                                   a survival zone */
+    double survival_shortening; /* stroke of survival zones, both ends [m]; NaN when no end has a
+                                   survival zone */
     bool checks_override;       /* bump and lift stops are given, so that override can be judged */
 } CzVehicleResult;
 

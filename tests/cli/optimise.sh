@@ -27,7 +27,7 @@ same() { strip out-optimised/summary.json >a; strip checked/summary.json >b; cmp
 check "the optimum gives the same numbers to the last bit" same
 resolved() { exits 0 "$C" check out-optimised/resolved.yaml -o alone && strip alone/summary.json >c && cmp a c; }
 check "the resolved problem beside it gives the same numbers" resolved
-# A longer anti-climber makes a longer car: the overlay gives the stroke that the car is drawn for.
+# A longer anti-climber makes a longer car: the overlay gives the stroke for which the distances of the car are given.
 cat >longer.yaml <<END
 schema: 1
 extends: $SOURCE/problems/two-cars-25kmh.yaml

@@ -149,7 +149,7 @@ static void a_swinging_mass_stores_its_energy(void **state) {
 
 /* The fitted modes of one motion under random forces: the energy received is never less than the
  * stored energy, which is never negative. */
-static void fitted_modes_give_back_no_more_than_they_took(void **state) {
+static void fitted_modes_return_no_more_energy_than_they_received(void **state) {
     (void)state;
     CzArena arena = {0};
     const CzTrackModes *modes = usual_modes(SPAN, 0, 0.0, &arena);
@@ -219,7 +219,7 @@ int main(void) {
         cmocka_unit_test(a_track_that_cannot_be_fitted_is_refused_with_an_alternative),
         cmocka_unit_test(one_wheel_at_rest_deflects_the_track_as_its_statics),
         cmocka_unit_test(a_swinging_mass_stores_its_energy),
-        cmocka_unit_test(fitted_modes_give_back_no_more_than_they_took),
+        cmocka_unit_test(fitted_modes_return_no_more_energy_than_they_received),
         cmocka_unit_test(cars_with_other_bogies_have_their_own_track),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

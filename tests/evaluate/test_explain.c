@@ -35,7 +35,7 @@ static void end(Case *made) {
     cz_problem_free(made->problem);
 }
 
-/* One explanation serves all tests of a climb. */
+/* One explanation serves all tests of an override. */
 static Case climb;
 
 static int make_climb(void **state) {
@@ -110,7 +110,7 @@ static void candidate_changes_are_in_order(void **state) {
     }
 }
 
-static void indicators_are_of_the_time_before_the_climb(void **state) {
+static void indicators_are_from_before_the_override(void **state) {
     (void)state;
     bool bottoms = false;
     for (int i = 0; i < climb.explanation->n_indicator; i++) {
@@ -143,7 +143,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_change_that_restores_the_margin_does_so_in_the_file),
         cmocka_unit_test(candidate_changes_are_in_order),
-        cmocka_unit_test(indicators_are_of_the_time_before_the_climb),
+        cmocka_unit_test(indicators_are_from_before_the_override),
         cmocka_unit_test(a_satisfied_limit_gets_the_change_that_violates_it),
         cmocka_unit_test(a_vehicle_without_stops_is_not_checked),
     };

@@ -1,5 +1,5 @@
 # A fuzz target under address and undefined-behaviour sanitizers: no crash, no leak, no input that takes 20 s
-# (0.5 s where nothing else runs: that is what sanitizers and a shared machine cost) or 1 GB.
+# (0.5 s without sanitizers on an idle machine) or 1 GB.
 # A minute with a fixed seed; CZ_FUZZ_SECONDS asks for more, with another seed each time, and keeps in build/fuzz/corpus/
 # the corpus for the next time.
 . "$SOURCE/tests/support/cases.sh"

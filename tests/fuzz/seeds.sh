@@ -1,4 +1,4 @@
-# seeds.sh TARGET FOLDER: fills a folder with what a fuzz target begins with: files of the project as they are, and the
+# seeds.sh TARGET FOLDER: fills a folder with the first inputs of a fuzz target: files of the project as they are, and the
 # inputs under found/, each of which was once read wrongly.
 target=$1
 folder=$2

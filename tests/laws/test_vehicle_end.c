@@ -91,7 +91,8 @@ static void unloading_returns_the_closed_form_energy(void **state) {
     }
 }
 
-/* A step over a breakpoint errs by the change of stiffness times the square of the step at most. */
+/* The error of a step over a breakpoint is at most the change of stiffness times the square of the
+ * step. */
 static void stored_energy_is_that_of_the_unloading_from_any_force(void **state) {
     (void)state;
     const double um = 1e-6;

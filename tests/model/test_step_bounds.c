@@ -111,8 +111,9 @@ static void wheel_and_rail_are_taken_at_four_times_the_static_load(void **state)
     free_model(&built);
 }
 
-/* On an elastic rail one bound of contact and rail replaces it; the step must resolve the modes up
- * to 1.5 kHz: 2 / (2 pi 1500 Hz). Contact and rail alone allow a longer step. */
+/* On an elastic rail one bound of contact and rail replaces that of the contact; the step must
+ * resolve the modes up to 1.5 kHz: 2 / (2 pi 1500 Hz). Contact and rail alone allow a longer step.
+ */
 static void a_wheel_on_an_elastic_rail_has_a_bound_of_its_own(void **state) {
     (void)state;
     const CzVehicle car = typed_full();

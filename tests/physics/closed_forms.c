@@ -157,12 +157,13 @@ void rows_of_spring_and_plateau(Rows *rows) {
     const double open =
         time_of_opening(&collision, channel(&collision, CZ_CHANNEL_INTERFACE_FORCE, "A1-wall"));
     const double rebound = -summary->vehicle[0].final_speed;
-    ROW(rows, "s", time_of_rise(&collision, x, 0.075), 0.010907831, 1e-5, 1e-7, "yield");
+    ROW(rows, "s", time_of_rise(&collision, x, 0.075), 0.010907831, 1e-5, 1e-7, "time of yielding");
     ROW(rows, "m", summary->interface[0].shortening, 0.680504115, 1e-5, 0.0, "largest crush");
-    ROW(rows, "s", time_of_fall(&collision, v, NULL), 0.190611, 1e-5, 1e-6, "time of it");
+    ROW(rows, "s", time_of_fall(&collision, v, NULL), 0.190611, 1e-5, 1e-6,
+        "time of the largest crush");
     ROW(rows, "kN", 1e-3 * summary->interface[0].peak_force, 1500.0, 1e-5, 0.0, "largest force");
-    ROW(rows, "s", open, 0.225736, 1e-5, 0.0, "separation");
-    ROW(rows, "m", value_at(&collision, x, open), 0.661754115, 1e-5, 0.0, "crush that is left");
+    ROW(rows, "s", open, 0.225736, 1e-5, 0.0, "time of separation");
+    ROW(rows, "m", value_at(&collision, x, open), 0.661754115, 1e-5, 0.0, "residual crush");
     ROW(rows, "m/s", rebound, 0.838525492, 1e-5, 0.0, "rebound");
     ROW(rows, "", rebound / (25.0 / 3.6), 0.120747671, 1e-5, 0.0, "restitution");
     ROW(rows, "kJ", 1e-3 * summary->interface[0].energy, 950.443673, 1e-5, 0.0, "dissipated");
@@ -185,7 +186,7 @@ void rows_of_four_stages(Rows *rows) {
         0.128219, 1e-5, 1e-6, "time of the largest crush");
     ROW(rows, "m/s", rebound, 2.582225, 1e-5, 0.0, "rebound");
     ROW(rows, "", rebound / (25.0 / 3.6), 0.371840, 1e-5, 5e-7, "restitution");
-    ROW(rows, "m", value_at(&collision, x, open), 0.484693, 1e-5, 0.0, "crush that is left");
+    ROW(rows, "m", value_at(&collision, x, open), 0.484693, 1e-5, 0.0, "residual crush");
     ROW(rows, "kJ", 1e-3 * summary->interface[0].energy, 831.148, 1e-5, 0.0, "dissipated");
     collision_free(&collision);
 }
@@ -238,7 +239,7 @@ static int outcomes_of_rigid_plastic(const char *file, const Step *step, Measure
 }
 
 /* When the leading and when the rear car stop; crush and energy of both interfaces, total energy,
- * energy before. */
+ * initial energy. */
 static int measure_two(const Collision *collision, double *outcome) {
     const CzRunSummary *summary = collision->summary;
     outcome[0] =
@@ -258,10 +259,10 @@ void rows_of_two_into_wall(Rows *rows, const Step *step) {
     static const struct {
         const char *name, *unit;
         double expected;
-    } known[] = {{"leading car stops", "s", 0.266667}, {"rear car stops", "s", 0.400000},
-                 {"crush at the wall", "m", 1.6},      {"energy at the wall", "kJ", 4800.0},
-                 {"crush between the cars", "m", 0.8}, {"energy between the cars", "kJ", 960.0},
-                 {"dissipated in all", "kJ", 5760.0},  {"energy before", "kJ", 5760.0}};
+    } known[] = {{"leading car stops", "s", 0.266667},  {"rear car stops", "s", 0.400000},
+                 {"crush at the wall", "m", 1.6},       {"energy at the wall", "kJ", 4800.0},
+                 {"crush between the cars", "m", 0.8},  {"energy between the cars", "kJ", 960.0},
+                 {"dissipated in total", "kJ", 5760.0}, {"initial energy", "kJ", 5760.0}};
     double outcome[MAX_OUTCOME];
     const int n = outcomes_of_rigid_plastic("tests/physics/cases/two-into-wall.yaml", step,
                                             measure_two, outcome);
@@ -310,7 +311,7 @@ void rows_of_eight_and_eight(Rows *rows, const Step *step) {
         double expected;
     } known[] = {{"front cars have one speed", "s", 0.20625},
                  {"all cars have one speed", "s", 1.34750},
-                 {"dissipated in all", "kJ", 11550.0},
+                 {"dissipated in total", "kJ", 11550.0},
                  {"mean speed after", "m/s", 5.0}};
     double outcome[MAX_OUTCOME], others = 0.0;
     outcomes_of_rigid_plastic("tests/physics/cases/eight-and-eight.yaml", step, measure_sixteen,

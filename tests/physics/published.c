@@ -84,7 +84,7 @@ void rows_of_pitch_by_force(Rows *rows) {
         "pitched by 6.077 mrad: load shifted from bogie to bogie"); /* the pitch has four digits */
     ROW(rows, "kNm", 1e-3 * moment, 1e-3 * force_wanted * height, 2e-4, 0.0,
         "pitched by 6.077 mrad: moment of 1 MN at 0.8 m");
-    ROW(rows, "N", residual, 0.0, 0.0, 1.0, "what the bogies are out of balance by");
+    ROW(rows, "N", residual, 0.0, 0.0, 1.0, "unbalanced force on the bogies");
     motion_close(&motion);
 }
 
@@ -142,7 +142,7 @@ void rows_of_train_to_train(Rows *rows) {
     assert_completed(&collision);
     const CzRunSummary *summary = collision.summary;
     const double after = 0.5 * (summary->vehicle[0].final_speed + summary->vehicle[1].final_speed);
-    ROW(rows, "MJ", 1e-6 * summary->energy.initial, 25.90, 1e-3, 0.0, "energy before");
+    ROW(rows, "MJ", 1e-6 * summary->energy.initial, 25.90, 1e-3, 0.0, "initial energy");
     ROW(rows, "m/s", after, 6.706, 1e-3, 0.0, "common speed");
     ROW(rows, "MJ", 1e-6 * summary->energy.dissipated, 12.95, 1e-3, 0.0, "dissipated");
     ROW(rows, "m", summary->interface[0].shortening, 20.0 * FOOT, 2e-3, 0.0,
@@ -224,7 +224,7 @@ void rows_of_eight_car_trains(Rows *rows) {
     double speed = 0.0;
     for (int car = 0; car < 16; car++)
         speed += 3.6 * summary->vehicle[car].final_speed / 16.0;
-    ROW(rows, "MJ", 1e-6 * summary->energy.initial, 23.10, 1e-3, 0.0, "energy before");
+    ROW(rows, "MJ", 1e-6 * summary->energy.initial, 23.10, 1e-3, 0.0, "initial energy");
     ROW(rows, "MJ", 1e-6 * summary->energy.dissipated, 11.55, 1e-3, 0.0, "dissipated");
     ROW(rows, "km/h", speed, 18.0, 1e-3, 0.0, "mean speed after");
     collision_free(&collision);

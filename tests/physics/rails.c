@@ -19,10 +19,10 @@ void rows_of_winkler(Rows *rows) {
     const double seat = 1.0 / cz_seat_flexibility(&seats, 0.0);
     const double k = seat / seats.spacing, beta = sqrt(sqrt(k / (4.0 * seats.bending)));
     ROW(rows, "MN/m", 1e-6 * seat, 28.1315, 1e-5, 0.0, "stiffness of a seat");
-    ROW(rows, "MN/m2", 1e-6 * k, 46.886, 1e-4, 0.0, "seats smeared out: foundation");
-    ROW(rows, "1/m", beta, 1.15337, 1e-5, 0.0, "seats smeared out: beta");
+    ROW(rows, "MN/m2", 1e-6 * k, 46.886, 1e-4, 0.0, "continuous support: stiffness");
+    ROW(rows, "1/m", beta, 1.15337, 1e-5, 0.0, "continuous support: beta");
     ROW(rows, "mm", 1e3 * LOAD * beta / (2.0 * k), 0.86098, 1e-5, 0.0,
-        "seats smeared out: deflection under 70 kN");
+        "continuous support: deflection under 70 kN");
 }
 
 static void rows_of_beam(Rows *rows, const CzSeats *seats, const char *beam,
@@ -163,10 +163,12 @@ void rows_of_mode_convergence(Rows *rows) {
         /* The error of the flexibility's four powers falls with the fourth power from the 0.9 % of
          * the first: 1e-2 / 5^4. */
         ROW_UP_TO(rows, "", largest, 2e-5,
-                  "modes to %g Hz and what they leave: error of the static deflection", cuts[c]);
-        ROW_UP_TO(rows, "", missing, missing_before,
-                  "modes to %g Hz alone: what they leave (at most as much as fewer modes)",
+                  "modes to %g Hz with residual flexibility: error of the static deflection",
                   cuts[c]);
+        ROW_UP_TO(
+            rows, "", missing, missing_before,
+            "modes to %g Hz only: error of the static deflection (at most that of fewer modes)",
+            cuts[c]);
         missing_before = missing;
     }
 }
@@ -187,10 +189,10 @@ void rows_of_running_tracks(Rows *rows) {
         cz_track_look(track, 0, at, deflection, flexibility);
         const double down = flexibility[0] * load[0] - deflection[0];
         ROW(rows, "mm", 1e3 * down, known[i], 5e-3, 0.0,
-            "track of the record, 70 kN a rail %s: deflection", where);
+            "production track, 70 kN a rail %s: deflection", where);
         if (i == 0) /* at rest a seat presses by its stiffness times the rail's deflection there */
             ROW(rows, "kN", 0.5e-3 * down / cz_seat_flexibility(&modes->seats, 0.0), 25.26, 5e-3,
-                0.0, "track of the record, 70 kN a rail %s: force on its seat", where);
+                0.0, "production track, 70 kN a rail %s: force on its seat", where);
         CzElements *elements = cz_elements_create(&modes->seats, 4, 18.26, 1e-4, 1, &arena);
         assert_non_null(elements);
         assert_true(cz_elements_lay(elements, 0, at, load, &arena));
@@ -208,8 +210,8 @@ void rows_of_running_tracks(Rows *rows) {
     }
 }
 
-/* A Timoshenko beam on the same layers smeared out: the point receptance is the sum over all waves
- * of 1 / (kGA K^2 + k_d - m w^2 - (kGA K)^2 / (EI K^2 + kGA - rI w^2)). */
+/* A Timoshenko beam on the same layers as a continuous foundation: the point receptance is the sum
+ * over all waves of 1 / (kGA K^2 + k_d - m w^2 - (kGA K)^2 / (EI K^2 + kGA - rI w^2)). */
 static CzComplex smeared_receptance(const CzSeats *seats, double w) {
     const CzComplex s = {0.0, w}, pad = {seats->pad_k, w * seats->pad_c};
     CzTrackBlock below_of = {.seats = seats};
@@ -257,7 +259,7 @@ void rows_of_receptance(Rows *rows) {
         const CzComplex smeared = smeared_receptance(&modes->seats, w);
         ROW(rows, "mm/MN", 1e9 * cz_complex_size(receptance_of_a_wheel(modes, w, &arena)),
             1e9 * cz_complex_size(smeared), 0.02, 0.0,
-            "rail under a force of %g Hz, layers smeared out: receptance", frequency_of[i]);
+            "rail under a force of %g Hz, continuous layers: receptance", frequency_of[i]);
     }
     cz_arena_free(&arena);
 }
@@ -311,8 +313,8 @@ void rows_of_element_frequencies(Rows *rows) {
     ROW(rows, "", log2(four / eight), 2.0, 0.0, 0.03, "elements: order, 4 to 8 nodes a bay");
 }
 
-/* Assembled from elements and solved as one band, the statics are those of the closed form, for any
- * number of nodes and any place. */
+/* Assembled from elements and solved as one band, the static deflection is that of the closed form,
+ * for any number of nodes and any place. */
 void rows_of_element_statics(Rows *rows) {
     const CzRoadbed roadbed = usual_roadbed();
     const CzSeats seats = cz_seats(&roadbed, 2);
@@ -410,9 +412,10 @@ void rows_of_impact(Rows *rows) {
     for (size_t c = 0; c < sizeof cuts / sizeof cuts[0]; ++c) {
         impact_on_modes(cuts[c], way);
         const double difference = difference_of_ways(way, finest);
-        ROW_UP_TO(rows, "", difference, most,
-                  "impact, modes to %g Hz and what they leave: difference from 16 nodes a bay",
-                  cuts[c]);
+        ROW_UP_TO(
+            rows, "", difference, most,
+            "impact, modes to %g Hz with residual flexibility: difference from 16 nodes a bay",
+            cuts[c]);
         most = 0.5 * difference; /* twice the cut: half of the residual flexibility, with half of
                                     the delay */
     }

@@ -269,7 +269,7 @@ static void lift_is_the_rise_of_the_seat_less_the_gaps(void **state) {
     collision_free(&run);
 }
 
-static void a_climb_is_marked_and_the_cars_slide_to_the_end_walls(void **state) {
+static void an_override_is_marked_and_the_cars_slide_to_the_end_walls(void **state) {
     (void)state;
     Collision run = collide("problems/override-overlap-climbs.yaml", AS_WRITTEN, 0);
     const CzRunSummary *summary = run.summary;
@@ -302,7 +302,7 @@ int main(void) {
         cmocka_unit_test(an_offset_of_40_mm_lifts_the_far_bogie_of_the_higher_car),
         cmocka_unit_test(margins_follow_a_design_variable_without_jumps),
         cmocka_unit_test(lift_is_the_rise_of_the_seat_less_the_gaps),
-        cmocka_unit_test(a_climb_is_marked_and_the_cars_slide_to_the_end_walls),
+        cmocka_unit_test(an_override_is_marked_and_the_cars_slide_to_the_end_walls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

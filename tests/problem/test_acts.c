@@ -15,7 +15,7 @@ static const CzError *warning_of(const CzProblem *problem, const char *word) {
     return NULL;
 }
 
-static void a_key_that_lacks_its_sibling_is_warned_of_at_its_place(void **state) {
+static void a_key_without_its_companion_is_warned_of_at_its_place(void **state) {
     (void)state;
     CzProblem *problem = read_good_text("schema: 1\n"
                                         "title: lone\n"
@@ -35,7 +35,7 @@ static void a_key_that_lacks_its_sibling_is_warned_of_at_its_place(void **state)
     cz_problem_free(problem);
 }
 
-static void a_key_beside_its_sibling_is_not_warned_of(void **state) {
+static void a_key_beside_its_companion_is_not_warned_of(void **state) {
     (void)state;
     static const char *const set[] = {"parts.bumper.anti_climber.speed_reference_m_s=8",
                                       "parts.bumper.anti_climber.speed_factor=0.1"};
@@ -221,8 +221,8 @@ static void shipped_problems_have_no_key_without_effect(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_key_that_lacks_its_sibling_is_warned_of_at_its_place),
-        cmocka_unit_test(a_key_beside_its_sibling_is_not_warned_of),
+        cmocka_unit_test(a_key_without_its_companion_is_warned_of_at_its_place),
+        cmocka_unit_test(a_key_beside_its_companion_is_not_warned_of),
         cmocka_unit_test(friction_falls_only_to_a_sliding_friction),
         cmocka_unit_test(keys_that_need_another_record_are_warned_of_without_it),
         cmocka_unit_test(a_part_that_acts_in_one_place_is_not_warned_of_in_others),

@@ -309,7 +309,7 @@ static void late_rows_of_a_large_page_are_left_out(void **state) {
     free_ran(&ran);
 }
 
-/* The car ahead is the second of two and the seventh of twelve; A6 is in the longer trains alone.
+/* The car ahead is the second of two and the seventh of twelve; A6 is in the longer trains only.
  */
 static void curves_of_another_run_are_those_of_the_same_names(void **state) {
     (void)state;

@@ -29,7 +29,7 @@ static char *csv_text(const StandIn *s) {
     return text;
 }
 
-static void values_after_a_climb_are_marked_and_totals_blank(void **state) {
+static void values_after_an_override_are_marked_and_totals_blank(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
@@ -70,7 +70,7 @@ static void values_after_a_climb_are_marked_and_totals_blank(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_after_a_climb_are_marked_and_totals_blank),
+        cmocka_unit_test(values_after_an_override_are_marked_and_totals_blank),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -147,9 +147,9 @@ static void cars_meet_again_where_rolling_resistance_slows_the_one_ahead(void **
     }
 }
 
-/* After a plastic collision at 10 m/s both cars go on at 5, the one ahead slowed by 0.05 g: it is
- * met again over and over until both stand, but never at more than the sub-millimetre between them
- * allows. A brief run does not wait for that. */
+/* After a plastic collision at 10 m/s both cars continue at 5 m/s, the one ahead decelerated by
+ * 0.05 g: the cars meet again repeatedly until both stand, at speeds limited by the gap of less
+ * than a millimetre between them. A brief run does not wait for that. */
 static void a_brief_run_does_not_wait_for_cars_that_are_close(void **state) {
     (void)state;
     const char *const file = "tests/physics/cases/plateau.yaml";

@@ -1,7 +1,7 @@
 /* Invalid runs fail, with place and time in words. */
 #include "physics/collision.h"
 
-/* Runs with a step of the caller's, beyond any bound. */
+/* Runs with a step given by the caller, above every bound. */
 static Collision collide_with(const char *file, double step) {
     Collision collision = collision_model(file, WITH("simulation.track=rigid"), 0);
     CzSimulateOptions options = cz_simulate_options_default();

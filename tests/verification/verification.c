@@ -185,7 +185,7 @@ static void put_closed_forms(void) {
           "A rigid car with coupler, anti-climber and end at 10 m/s onto an identical standing "
           "one (expected), and at 5 m/s into a wall (computed), with the speed factor's reference "
           "halved.\n"
-          "Scaled tests of trains, which are no mirror images, gave 0.5248 times the speed and "
+          "Scaled tests of trains, which are not mirror images, gave 0.5248 times the speed and "
           "0.16 m/s (Yao et al. 2018, doi 10.1177/0954409718779940).");
     rows_of_equivalence(&rows);
     put_table();

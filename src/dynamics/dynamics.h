@@ -71,7 +71,8 @@ typedef struct CzImpulse {
 /* The rail under a wheelset; all 0 on a rigid track. */
 typedef struct CzRailRows {
     CzRow z;                 /* deflection of its modes, upwards [m] */
-    CzRow past;              /* the same half a step ago at the same place [m] */
+    CzRow past;              /* the same half a step ago at the same place, where the work of the
+                                wheels follows from it: not on modes [m] */
     CzRow slope;             /* change of the deflection along the track [-] */
     CzRow flexibility;       /* what it deflects at once [m/N] */
     CzRow flexibility_slope; /* change of that along the track [1/N] */

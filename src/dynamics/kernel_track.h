@@ -22,29 +22,17 @@ static void put_rail(CzRailRows *rail, size_t lane, CzRailPoint point) {
     rail->flexibility_slope[lane] = point.flexibility_slope;
 }
 
-/* The rails under one car. Ring and bay are turned in one go: four of each fill a register. */
+/* The rails under one car. */
 static void look_under(const CzTrackMotion *track, const CzTrackUnder *under, CzBlock *d,
                        size_t lane) {
-    double place[4], turns[8], cosine[8], sine[8];
+    double place[4];
+    CzComplex seat[4];
     find_wheels(d, lane, place);
-    for (int axle = 0; axle < 4; ++axle) {
-        turns[axle] = place[axle] * track->per_length;
-        turns[4 + axle] = place[axle] * track->per_spacing;
-    }
-    _Static_assert(CZ_LANE_BLOCK == 8, "two of each axle");
-    CZ_LANES (i) {
-        const CzComplex turned = cz_turned(turns[i]);
-        cosine[i] = turned.re;
-        sine[i] = turned.im;
-    }
-    for (int axle = 0; axle < 4; ++axle) {
-        const CzComplex ring = {cosine[axle], sine[axle]};
-        const CzComplex seat = {cosine[4 + axle], sine[4 + axle]};
-        cz_track_shape(track, ring, seat, under->shape + 4 * axle * track->modes->n_vector);
+    cz_track_shapes(track, place, under->shape, seat);
+    for (int axle = 0; axle < 4; ++axle)
         put_rail(&d->rail[axle], lane,
                  cz_track_on_spring(&track->flexibility, track->per_spacing,
-                                    cz_track_at(track, under, axle), seat));
-    }
+                                    cz_track_at(track, under, axle), seat[axle]));
 }
 
 /* The rails under the wheels of a block, where these are now. */
@@ -125,20 +113,14 @@ static void press_rails(const CzBlock *d, size_t lane, double force[4]) {
         force[axle] = -d->published.wheel[axle].force[lane];
 }
 
-/* One step of the rails under the forces of the last evaluation. These held for a step about its
- * time, and their work is what the rail deflected from half a step before to half a step after. */
+/* One step of the rails under the forces of the last evaluation. */
 static void advance_modes(const CzTrackMotion *track, CzBlock *d, int block) {
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
         CzTrackUnder *under = &track->under[(size_t)block * CZ_LANE_BLOCK + i];
-        double work = 0.0;
         if (under->state == NULL)
             continue;
         press_rails(d, i, under->force);
-        cz_track_step(track, under, under->force);
-        for (int axle = 0; axle < 4; ++axle)
-            work +=
-                under->force[axle] * (cz_track_at(track, under, axle).past - d->rail[axle].past[i]);
-        take_work(d, i, work);
+        take_work(d, i, cz_track_step(track, under, under->force));
     }
 }
 

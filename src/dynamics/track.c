@@ -127,15 +127,6 @@ CzTrackMotion *cz_track_motion_create(const CzTrackModes *modes, double step, si
 
 /* ---- one car ---- */
 
-static void look(const CzTrackMotion *track, const CzTrackUnder *under, const double place[4],
-                 CzComplex seat[4]) {
-    for (int wheel = 0; wheel < 4; ++wheel) {
-        seat[wheel] = cz_turned(place[wheel] * track->per_spacing);
-        cz_track_shape(track, cz_turned(place[wheel] * track->per_length), seat[wheel],
-                       under->shape + 4 * wheel * track->modes->n_vector);
-    }
-}
-
 /* Load of the modes of a group: sum of g(x) P over the wheels, where the shapes were taken. */
 static void load_group(const CzTrackMotion *track, const CzTrackUnder *under, int k,
                        double *restrict re, double *restrict im) {
@@ -187,7 +178,7 @@ bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], con
     if (under->state == NULL || under->wave == NULL || under->shape == NULL)
         return false;
     CzComplex seat[4];
-    look(track, under, place, seat);
+    cz_track_shapes(track, place, under->shape, seat);
     for (int wheel = 0; wheel < 4; ++wheel)
         under->force[wheel] = -load[wheel];
     rest_under(track, under);
@@ -198,7 +189,7 @@ bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], con
 void cz_track_look(const CzTrackMotion *track, size_t index, const double place[4],
                    double deflection[4], double flexibility[4]) {
     CzComplex seat[4];
-    look(track, &track->under[index], place, seat);
+    cz_track_shapes(track, place, track->under[index].shape, seat);
     for (int wheel = 0; wheel < 4; ++wheel) {
         deflection[wheel] = cz_track_at(track, &track->under[index], wheel).z;
         flexibility[wheel] = cz_track_flexibility_at(&track->flexibility, seat[wheel].re);

@@ -79,39 +79,78 @@ static inline double cz_track_sum(const CzTrackRow row) {
     return ((row[0] + row[4]) + (row[2] + row[6])) + ((row[1] + row[5]) + (row[3] + row[7]));
 }
 
-/* Rail waves at a wheel: cosine and sine of K_k x for k = j and for the alias k = j - n_seat.
- * `ring` and `seat` are cosine and sine of 2 pi x over the ring's length and over the spacing. */
-static inline void cz_track_shape(const CzTrackMotion *track, CzComplex ring, CzComplex seat,
+/* Binary digits of 0 ... 7, as numbers: a row of them is chosen by in one register, and what a
+ * narrower one stores is not at hand for the next load of a row. */
+static const _Alignas(64) CzTrackRow cz_digit[3] = {
+    {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
+
+/* Cosine and sine of a wheel's turn about the ring, 2 pi x over its length, and of its double,
+ * four- and eightfold; of its turn in the bay, 2 pi x over the spacing. */
+typedef struct {
+    CzComplex ring[4], seat;
+} CzTrackTurns;
+
+/* Rail waves at a wheel: cosine and sine of K_k x for k = j and for the alias k = j - n_seat. */
+static inline void cz_track_shape(const CzTrackMotion *track, const CzTrackTurns *turns,
                                   CzTrackRow *shape) {
-    const CzComplex square = cz_complex_product(ring, ring);
-    const CzComplex fourth = cz_complex_product(square, square);
-    const CzComplex eighth = cz_complex_product(fourth, fourth);
-    for (int v = 0; v < track->modes->n_vector; ++v) {
+    const CzComplex ring = turns->ring[0], square = turns->ring[1], fourth = turns->ring[2];
+    const CzComplex eighth = turns->ring[3], seat = turns->seat;
+    CZ_WAVES(i) { /* power i of the ring's turn: the product of those of its binary digits */
+        const double c1 = cz_digit[0][i] > 0.0 ? ring.re : 1.0;
+        const double s1 = cz_digit[0][i] > 0.0 ? ring.im : 0.0;
+        const double c2 = cz_digit[1][i] > 0.0 ? square.re : 1.0;
+        const double s2 = cz_digit[1][i] > 0.0 ? square.im : 0.0;
+        const double c4 = cz_digit[2][i] > 0.0 ? fourth.re : 1.0;
+        const double s4 = cz_digit[2][i] > 0.0 ? fourth.im : 0.0;
+        const double c3 = c1 * c2 - s1 * s2, s3 = c1 * s2 + s1 * c2;
+        shape[0][i] = c3 * c4 - s3 * s4;
+        shape[1][i] = c3 * s4 + s3 * c4;
+    }
+    for (int v = 1; v < track->modes->n_vector; ++v) {
+        const double *restrict c = shape[4 * v - 4], *restrict s = shape[4 * v - 3];
         double *restrict cosine = shape[4 * v], *restrict sine = shape[4 * v + 1];
-        if (v == 0) {
-            /* Power i of the ring's turn is the product of those of its binary digits. */
-            CZ_WAVES(i) {
-                const double c1 = i & 1 ? ring.re : 1.0, s1 = i & 1 ? ring.im : 0.0;
-                const double c2 = i & 2 ? square.re : 1.0, s2 = i & 2 ? square.im : 0.0;
-                const double c4 = i & 4 ? fourth.re : 1.0, s4 = i & 4 ? fourth.im : 0.0;
-                const double c3 = c1 * c2 - s1 * s2, s3 = c1 * s2 + s1 * c2;
-                cosine[i] = c3 * c4 - s3 * s4;
-                sine[i] = c3 * s4 + s3 * c4;
-            }
-        } else {
-            const double *restrict c = shape[4 * v - 4], *restrict s = shape[4 * v - 3];
-            CZ_WAVES(i) {
-                cosine[i] = c[i] * eighth.re - s[i] * eighth.im;
-                sine[i] = c[i] * eighth.im + s[i] * eighth.re;
-            }
+        CZ_WAVES(i) {
+            cosine[i] = c[i] * eighth.re - s[i] * eighth.im;
+            sine[i] = c[i] * eighth.im + s[i] * eighth.re;
         }
-        if (v < track->modes->first_alias)
-            continue;
+    }
+    for (int v = track->modes->first_alias; v < track->modes->n_vector; ++v) {
+        const double *restrict cosine = shape[4 * v], *restrict sine = shape[4 * v + 1];
         double *restrict alias_cosine = shape[4 * v + 2], *restrict alias_sine = shape[4 * v + 3];
         CZ_WAVES(i) {
             alias_cosine[i] = cosine[i] * seat.re + sine[i] * seat.im;
             alias_sine[i] = sine[i] * seat.re - cosine[i] * seat.im;
         }
+    }
+}
+
+/* Rail waves at the four wheels of a car, and their turns in the bay. Ring and bay are turned in
+ * one go: four of each fill a row. */
+static inline void cz_track_shapes(const CzTrackMotion *track, const double place[4],
+                                   CzTrackRow *shape, CzComplex seat[4]) {
+    CzTrackRow turns, re[4], im[4];
+    for (int wheel = 0; wheel < 4; ++wheel) {
+        turns[wheel] = place[wheel] * track->per_length;
+        turns[4 + wheel] = place[wheel] * track->per_spacing;
+    }
+    CZ_WAVES(i) {
+        const CzComplex turned = cz_turned(turns[i]);
+        re[0][i] = turned.re;
+        im[0][i] = turned.im;
+    }
+    for (int k = 1; k < 4; ++k)
+        CZ_WAVES(i) {
+            const CzComplex half = {re[k - 1][i], im[k - 1][i]};
+            const CzComplex twice = cz_complex_product(half, half);
+            re[k][i] = twice.re;
+            im[k][i] = twice.im;
+        }
+    for (int wheel = 0; wheel < 4; ++wheel) {
+        CzTrackTurns of = {.seat = {re[0][4 + wheel], im[0][4 + wheel]}};
+        for (int k = 0; k < 4; ++k)
+            of.ring[k] = (CzComplex){re[k][wheel], im[k][wheel]};
+        cz_track_shape(track, &of, shape + 4 * wheel * track->modes->n_vector);
+        seat[wheel] = of.seat;
     }
 }
 
@@ -128,30 +167,25 @@ static inline void cz_track_give(const CzTrackRows *rows, const double *restrict
     CZ_WAVES(i) {
         waves->direct[i] += rows->now_re[i] * re[i] - rows->now_im[i] * im[i];
         waves->direct_past[i] += rows->past_re[i] * re[i] - rows->past_im[i] * im[i];
-    }
-    if (aliased)
-        CZ_WAVES(i) {
+        if (aliased) {
             waves->alias[i] += rows->alias_now_re[i] * re[i] - rows->alias_now_im[i] * im[i];
             waves->alias_past[i] += rows->alias_past_re[i] * re[i] - rows->alias_past_im[i] * im[i];
         }
+    }
 }
 
 /* One step of a group of modes. */
 static inline void cz_track_flight(const CzTrackRows *rows, const CzTrackWaves *waves, bool aliased,
                                    double *restrict re, double *restrict im) {
-    CzTrackRow kicked_re, kicked_im;
     CZ_WAVES(i) {
-        kicked_re[i] = re[i] + rows->kick_re[i] * waves->load[i];
-        kicked_im[i] = im[i] + rows->kick_im[i] * waves->load[i];
-    }
-    if (aliased)
-        CZ_WAVES(i) {
-            kicked_re[i] += rows->alias_kick_re[i] * waves->alias_load[i];
-            kicked_im[i] += rows->alias_kick_im[i] * waves->alias_load[i];
+        double kicked_re = re[i] + rows->kick_re[i] * waves->load[i];
+        double kicked_im = im[i] + rows->kick_im[i] * waves->load[i];
+        if (aliased) {
+            kicked_re += rows->alias_kick_re[i] * waves->alias_load[i];
+            kicked_im += rows->alias_kick_im[i] * waves->alias_load[i];
         }
-    CZ_WAVES(i) {
-        re[i] = rows->flight_re[i] * kicked_re[i] - rows->flight_im[i] * kicked_im[i];
-        im[i] = rows->flight_re[i] * kicked_im[i] + rows->flight_im[i] * kicked_re[i];
+        re[i] = rows->flight_re[i] * kicked_re - rows->flight_im[i] * kicked_im;
+        im[i] = rows->flight_re[i] * kicked_im + rows->flight_im[i] * kicked_re;
     }
 }
 
@@ -168,11 +202,9 @@ static inline void cz_track_load(const CzTrackMotion *track, const CzTrackUnder 
         const double p = force[wheel];
         CZ_WAVES(i) {
             waves->load[i] += p * direct[i];
-        }
-        if (aliased)
-            CZ_WAVES(i) {
+            if (aliased)
                 waves->alias_load[i] += p * alias[i];
-            }
+        }
     }
 }
 
@@ -194,6 +226,22 @@ static inline void cz_track_keep_waves(const CzTrackMotion *track, CzTrackUnder 
     }
 }
 
+/* Adds the work of the load on a row of waves, which held for a step about its time: what the waves
+ * deflected from half a step before, kept there, to half a step after. */
+static inline void cz_track_add_work(const CzTrackMotion *track, const CzTrackUnder *under,
+                                     int copy, int v, bool aliased, const CzTrackWaves *waves,
+                                     double *restrict work) {
+    const CzTrackRow *kept = under->wave + 4 * (copy * track->modes->n_vector + v);
+    const double *restrict direct = kept[1], *restrict alias = kept[3];
+    CZ_WAVES(i) {
+        work[i] += waves->load[i] * (waves->direct_past[i] - direct[i]);
+    }
+    if (aliased)
+        CZ_WAVES(i) {
+            work[i] += waves->alias_load[i] * (waves->alias_past[i] - alias[i]);
+        }
+}
+
 /* The rail waves of the present state. */
 static inline void cz_track_read(const CzTrackMotion *track, CzTrackUnder *under) {
     for (int copy = 0; copy < 2; ++copy)
@@ -208,29 +256,41 @@ static inline void cz_track_read(const CzTrackMotion *track, CzTrackUnder *under
         }
 }
 
-/* One step under the forces of the wheels on the rail, upwards [N], where the shapes were taken. */
-static inline void cz_track_step(const CzTrackMotion *track, CzTrackUnder *under,
-                                 const double force[4]) {
-    for (int copy = 0; copy < 2; ++copy)
-        for (int v = 0; v < track->modes->n_vector; ++v) {
-            const CzTrackSpan span = track->span[copy * track->modes->n_vector + v];
-            const bool aliased = v >= track->modes->first_alias;
-            CzTrackWaves waves;
-            cz_track_no_waves(&waves);
-            cz_track_load(track, under, copy, v, force, aliased, &waves);
-            for (int k = span.first; k < span.end; ++k) {
-                double *restrict re = under->state[2 * k], *restrict im = under->state[2 * k + 1];
-                cz_track_flight(&track->rows[k], &waves, aliased, re, im);
-                cz_track_give(&track->rows[k], re, im, aliased, &waves);
-            }
-            cz_track_keep_waves(track, under, copy, v, &waves);
-        }
+/* One step of one row of waves. */
+__attribute__((always_inline)) static inline void
+cz_track_step_row(const CzTrackMotion *track, CzTrackUnder *under, int copy, int v, bool aliased,
+                  const double force[4], double *restrict work) {
+    const CzTrackSpan span = track->span[copy * track->modes->n_vector + v];
+    CzTrackWaves waves;
+    cz_track_no_waves(&waves);
+    cz_track_load(track, under, copy, v, force, aliased, &waves);
+    for (int k = span.first; k < span.end; ++k) {
+        double *restrict re = under->state[2 * k], *restrict im = under->state[2 * k + 1];
+        cz_track_flight(&track->rows[k], &waves, aliased, re, im);
+        cz_track_give(&track->rows[k], re, im, aliased, &waves);
+    }
+    cz_track_add_work(track, under, copy, v, aliased, &waves, work);
+    cz_track_keep_waves(track, under, copy, v, &waves);
 }
 
-/* The modes at the place of a wheel: displacement upwards now and half a step ago, slope now. */
+/* One step under the forces of the wheels on the rail, upwards [N], where the shapes were taken.
+ * Returns their work [J]. */
+static inline double cz_track_step(const CzTrackMotion *track, CzTrackUnder *under,
+                                   const double force[4]) {
+    CzTrackRow work = {0.0};
+    for (int copy = 0; copy < 2; ++copy) {
+        for (int v = 0; v < track->modes->first_alias; ++v)
+            cz_track_step_row(track, under, copy, v, false, force, work);
+        for (int v = track->modes->first_alias; v < track->modes->n_vector; ++v)
+            cz_track_step_row(track, under, copy, v, true, force, work);
+    }
+    return cz_track_sum(work);
+}
+
+/* The modes at the place of a wheel: displacement upwards and slope now. */
 static inline CzRailPoint cz_track_at(const CzTrackMotion *track, const CzTrackUnder *under,
                                       int wheel) {
-    CzTrackRow z = {0.0}, past = {0.0}, slope = {0.0};
+    CzTrackRow z = {0.0}, slope = {0.0};
     const int n = track->modes->n_vector;
     for (int v = 0; v < n; ++v) {
         const CzTrackRow *shape = under->shape + 4 * (wheel * n + v);
@@ -239,7 +299,6 @@ static inline CzRailPoint cz_track_at(const CzTrackMotion *track, const CzTrackU
         const double *restrict k = track->wavenumber[2 * v];
         CZ_WAVES(i) {
             z[i] += by_cosine[0][i] * c[i] + by_sine[0][i] * s[i];
-            past[i] += by_cosine[1][i] * c[i] + by_sine[1][i] * s[i];
             slope[i] += k[i] * (by_sine[0][i] * c[i] - by_cosine[0][i] * s[i]);
         }
         if (v < track->modes->first_alias)
@@ -248,12 +307,10 @@ static inline CzRailPoint cz_track_at(const CzTrackMotion *track, const CzTrackU
         const double *restrict ak = track->wavenumber[2 * v + 1];
         CZ_WAVES(i) {
             z[i] += by_cosine[2][i] * ac[i] + by_sine[2][i] * as[i];
-            past[i] += by_cosine[3][i] * ac[i] + by_sine[3][i] * as[i];
             slope[i] += ak[i] * (by_sine[2][i] * ac[i] - by_cosine[2][i] * as[i]);
         }
     }
-    return (CzRailPoint){
-        .z = cz_track_sum(z), .past = cz_track_sum(past), .slope = cz_track_sum(slope)};
+    return (CzRailPoint){.z = cz_track_sum(z), .slope = cz_track_sum(slope)};
 }
 
 /* Adds what lies between a wheel and the modes. */

@@ -81,13 +81,8 @@ static double energy_gap(double cut, double step) {
         const double s = (double)n / (double)n_step, bump = 16.0 * s * s * (1.0 - s) * (1.0 - s);
         const double force[4] = {-load[0], -load[1] * (1.0 + 2.0 * bump), -load[2],
                                  -load[3] * (1.0 - bump)};
-        double past[4];
-        for (int wheel = 0; wheel < 4; ++wheel)
-            past[wheel] = cz_track_at(track, under, wheel).past;
         memcpy(under->force, force, sizeof force);
-        cz_track_step(track, under, force);
-        for (int wheel = 0; wheel < 4; ++wheel)
-            work += force[wheel] * (cz_track_at(track, under, wheel).past - past[wheel]);
+        work += cz_track_step(track, under, force);
         const double now = cz_track_loss(track, 0);
         lost += 0.5 * step * (last + now);
         last = now;

@@ -20,7 +20,7 @@ CzProblemOptions cz_problem_options_default(void) {
 
 /* ---- reading ---- */
 
-/* Begins a problem that messages name `file`. */
+/* Begins a problem that messages call `file`; `options` may be NULL. */
 static CzStatus begin(const CzProblemOptions *options, const char *file, CzProblem **problem,
                       CzError *error) {
     CzProblem *begun = cz_problem_create(CZ_SHARE_FOLDER);
@@ -29,7 +29,7 @@ static CzStatus begin(const CzProblemOptions *options, const char *file, CzProbl
         return cz_no_memory(error, file);
     CzArena *arena = &begun->reader.arena;
     begun->file = cz_arena_copy_text(arena, file, strlen(file));
-    if (options->share_folder != NULL)
+    if (options != NULL && options->share_folder != NULL)
         begun->reader.share_folder =
             cz_arena_copy_text(arena, options->share_folder, strlen(options->share_folder));
     return CZ_OK;
@@ -42,8 +42,9 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     problem->tree = cz_load_tree(reader, top);
     if (problem->tree.root == NULL || reader->arena.out_of_memory)
         return;
-    problem->setting = cz_settings_gather(reader, problem->tree.root, options->n_set, options->set,
-                                          &problem->n_setting);
+    problem->setting =
+        cz_settings_gather(reader, problem->tree.root, options != NULL ? options->n_set : 0,
+                           options != NULL ? options->set : NULL, &problem->n_setting);
     if (problem->setting == NULL)
         return;
     cz_problem_bind(problem, &problem->tree);
@@ -75,21 +76,17 @@ static CzStatus finish(CzProblem *problem, CzError *error) {
 
 CzStatus cz_problem_read(const char *path, const CzProblemOptions *options, CzProblem **problem,
                          CzError *error) {
-    const CzProblemOptions none = cz_problem_options_default();
-    const CzProblemOptions *chosen = options != NULL ? options : &none;
-    CZ_TRY(begin(chosen, path, problem, error));
+    CZ_TRY(begin(options, path, problem, error));
     const CzNode *top = cz_load_file(&(*problem)->reader, path, NULL);
     if (top != NULL)
-        read_tree(*problem, top, chosen);
+        read_tree(*problem, top, options);
     return finish(*problem, error);
 }
 
 CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name, const char *folder,
                               const CzProblemOptions *options, CzProblem **problem,
                               CzError *error) {
-    const CzProblemOptions none = cz_problem_options_default();
-    const CzProblemOptions *chosen = options != NULL ? options : &none;
-    CZ_TRY(begin(chosen, name, problem, error));
+    CZ_TRY(begin(options, name, problem, error));
     CzReader *reader = &(*problem)->reader;
     const size_t n_mark = cz_source_mark(text, n_byte);
     text += n_mark;
@@ -104,7 +101,7 @@ CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name,
     else if (source != NULL && cz_source_is_text(&reader->mistakes, source, text, n_byte))
         top = cz_yaml_document(&reader->mistakes, source, text, n_byte);
     if (top != NULL)
-        read_tree(*problem, top, chosen);
+        read_tree(*problem, top, options);
     return finish(*problem, error);
 }
 
@@ -208,11 +205,9 @@ const CzTargets *cz_problem_targets(const CzProblem *problem, int variable) {
 }
 
 CzTrack cz_problem_track(const CzProblem *problem) {
-    int n_vehicle;
-    const CzVehicle *vehicle = cz_problem_vehicles(problem, &n_vehicle);
-    for (int i = 0; i < n_vehicle; ++i)
-        if (vehicle[i].model == CZ_MODEL_FULL)
-            return (CzTrack)cz_problem_input(problem)->simulation.track;
+    for (int i = 0; i < problem->n_vehicle; i++)
+        if (problem->vehicle[i].model == CZ_MODEL_FULL)
+            return (CzTrack)problem->input.simulation.track;
     return CZ_TRACK_RIGID;
 }
 

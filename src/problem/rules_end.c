@@ -11,15 +11,11 @@ static const double just_above = 1 + 1e-9;
 
 /* ---- curves ---- */
 
-static bool is_there(const CzRules *rules, const void *field) {
-    return cz_rule_is_written(rules, field);
-}
-
 /* What has a law needs stages or a curve, and only one of them. */
 static void check_law(const CzRules *rules, const CzDevice *device, const void *record,
                       const char *what) {
-    const bool has_stages = is_there(rules, device->stages);
-    const bool has_curve = is_there(rules, device->curve);
+    const bool has_stages = cz_rule_is_written(rules, device->stages);
+    const bool has_curve = cz_rule_is_written(rules, device->curve);
     if (!has_stages && !has_curve)
         cz_rule_absent(rules, record, "%s needs 'stages' or a 'curve'", what);
     if (has_stages && has_curve)
@@ -145,8 +141,9 @@ static double steepest_rise(const CzEnd *end) {
 
 static void check_unloading(const CzRules *rules, const CzEnd *end) {
     const double steepest = steepest_rise(end);
-    const bool crushes = is_there(rules, end->stages) || is_there(rules, &end->curve);
-    if (crushes && !is_there(rules, &end->unloading_stiffness))
+    const bool crushes =
+        cz_rule_is_written(rules, end->stages) || cz_rule_is_written(rules, &end->curve);
+    if (crushes && !cz_rule_is_written(rules, &end->unloading_stiffness))
         cz_rule_absent(rules, end,
                        "an end that crushes needs its unloading_stiffness: unloading_stiffness_N_m "
                        "or unloading_stiffness_MN_m");
@@ -170,7 +167,8 @@ static void check_available(const CzRules *rules, const CzEnd *end) {
 }
 
 static void check_structure(const CzRules *rules, const CzVehicle *vehicle, const CzEnd *end) {
-    const bool is_rigid = !is_there(rules, end->stages) && !is_there(rules, &end->curve);
+    const bool is_rigid =
+        !cz_rule_is_written(rules, end->stages) && !cz_rule_is_written(rules, &end->curve);
     const CzDevice crushing = {
         .stages = end->stages, .n_stages = end->n_stages, .curve = &end->curve};
     if (!is_rigid || vehicle->model == CZ_MODEL_FULL) /* others may have a rigid end */

@@ -28,8 +28,8 @@ CZ_API CzProblemOptions cz_problem_options_default(void);
 CZ_MUST_CHECK CZ_API CzStatus cz_problem_read(const char *path, const CzProblemOptions *options,
                                               CzProblem **problem, CzError *error);
 
-/* The same from a text of n_byte bytes; `name` represents the file's name in messages, relative
- * paths start at `folder`. */
+/* The same from a text of n_byte bytes; messages call it `name`, relative paths start at
+ * `folder`. */
 CZ_MUST_CHECK CZ_API CzStatus cz_problem_read_text(const char *text, size_t n_byte,
                                                    const char *name, const char *folder,
                                                    const CzProblemOptions *options,

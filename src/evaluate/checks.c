@@ -92,7 +92,7 @@ double cz_check_constraint(const CzCheckResult *result, double required_margin) 
     return required_margin - (fails ? broken_flag : satisfied_flag);
 }
 
-/* Whether each place represents itself. */
+/* Whether a check holds when it holds at each place, as it does when the worst place counts. */
 static bool is_by_place(const CzCheck *check) {
     const CzAggregate aggregate = check->metric.aggregate;
     return check->scenario != CZ_NO_SCENARIO &&

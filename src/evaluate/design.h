@@ -24,7 +24,7 @@ typedef struct CzDesignVariable {
     CzVariableInfo info;
     const void *start_field; /* of the input: where its start is written, else its bounds */
     int n_place;
-    CzDesignPlace *place; /* (n_place); a person would write the places of `info` */
+    CzDesignPlace *place; /* (n_place); those of `info` are as a file names them */
 } CzDesignVariable;
 
 typedef struct CzDesign {

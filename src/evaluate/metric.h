@@ -2,8 +2,8 @@
  *
  *   LEVEL [. SELECTOR] . NAME [. max|min|sum|mean]
  *
- * The selector picks places by name, with `*` and `?`; `colliding` represents the interface between
- * the trains and `inner` for all others. Elements are picked by their name ("coupler A4", "coupler
+ * The selector picks places by name, with `*` and `?`; `colliding` is the interface between
+ * the trains and `inner` are all others. Elements are picked by their name ("coupler A4", "coupler
  * *") or by interface and name ("A4-B1 coupler A4", "colliding coupler *"). Without a word at the
  * end the worst place counts: the largest for an upper limit, the smallest for a lower one.
  */
@@ -55,8 +55,8 @@ typedef struct CzMetricValue {
     CzKnown known;
     double value;              /* in the metric's unit */
     char where[CZ_WHERE_ROOM]; /* place of the worst value */
-    double when[2];            /* begin and end of the time that it was reached in [s]; NaN when no
-                                  place represents the value, or its time is not kept */
+    double when[2];            /* begin and end of the time that it was reached in [s]; NaN when the
+                                  value is a sum or mean, or its time is not kept */
     char unknown_where[CZ_WHERE_ROOM]; /* first place that does not declare enough; empty when none
                                         */
     const char *why;                   /* when not known; static */

@@ -94,7 +94,7 @@ void cz_fit_scale_forces(CzStaged *staged, int stage, double factor) {
 }
 
 /* Newton's method with a slope by differences: the energy is almost linear in a force. Returns the
- * factor on the forces; stage -1 represents all. */
+ * factor on the forces; stage -1 is all stages. */
 static double settle_energy(CzFit *fit, CzStaged *staged, int stage) {
     const CzStaged found = *staged;
     double factor = 1.0;

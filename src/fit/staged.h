@@ -3,7 +3,7 @@
  *   g(x) = fixed(x) + sum over i of c_i phi_i(x)
  *
  * is what the model makes of stages (model/breakpoints.h): phi_i is the curve whose i-th force is 1
- * N and whose others are none. Given the strokes of the stages, the forces c that minimise
+ * N and whose other forces are 0. Given the strokes of the stages, the forces c that minimise
  *
  *   integral of (f(x) - g(x))^2 dx     under     integral of g(x) dx = energy
  *

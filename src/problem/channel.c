@@ -36,7 +36,7 @@ int cz_first_place(CzChannelAt at, int index) {
     return index * n_place[at];
 }
 
-/* What represents a part of a pattern in braces, which begins with that letter. */
+/* What is written in place of a part of a pattern in braces, which begins with that letter. */
 static const char *word_for(char part, const CzChannelInfo *info, int place, const char *name) {
     static const char *const wheelsets[] = {"1", "2", "3", "4"};
     static const char *const ends[] = {"rear", "front"};

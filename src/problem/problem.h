@@ -33,7 +33,7 @@ CzTrack cz_problem_track(const CzProblem *problem);
 /* Its word in a file. */
 const char *cz_track_word(CzTrack track);
 
-/* The files that were read, in order, the problem file first; more by `next` (problem/node.h). NULL
+/* The files that were read, in order, the problem file first; more by `next` (text/node.h). NULL
  * when nothing was. */
 const struct CzSource *cz_problem_first_source(const CzProblem *problem);
 

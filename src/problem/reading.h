@@ -15,7 +15,7 @@ struct CzProblem {
     CzReader reader;
     CzTree tree; /* as in the files, before settings */
     CzPlaces places;
-    const CzReadCurve *curves; /* the last one */
+    const CzReadCurve *curves; /* the curve files that were read, the last one first */
     const char *file;
     char hash[17];
     int n_setting;

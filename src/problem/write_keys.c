@@ -7,7 +7,7 @@
 #include "problem/acts.h"
 #include "problem/usual.h"
 
-/* Writes what may represent a key: "stroke_m or stroke_mm". */
+/* Writes how a key may be spelled: "stroke_m or stroke_mm". */
 static void spell(char *text, size_t size, const CzKey *key) {
     if (key->kind == CZ_KEY_NUMBER)
         cz_key_spellings(text, size, key->stem, key->dimension);

@@ -19,8 +19,8 @@ bool cz_curve_points_read(CzSources *sources, CzMistakes *mistakes, const char *
                           const CzNode *place, const CzCurveRequest *request,
                           CzCurvePoints *points);
 
-/* Reads a file ("-" is standard input), and the same from memory, which `name` represents in
- * messages. Statuses: CZ_OK, CZ_STATUS_INPUT with the first mistake, CZ_STATUS_NO_MEMORY. */
+/* Reads a file ("-" is standard input), and the same from memory, which messages call
+ * `name`. Statuses: CZ_OK, CZ_STATUS_INPUT with the first mistake, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_curve_points_read_file(CzArena *arena, const char *path,
                                                  const CzCurveRequest *request,
                                                  CzCurvePoints *points, CzError *error);

@@ -52,7 +52,8 @@ struct CzNode {
     CzEntry *entry;  /* of a list or mapping (n_entry) */
     bool is_refused; /* a mistake was reported about it already: it is passed over */
     bool is_partial; /* a mapping that lost what it builds on: keys may be missing */
-    int match;       /* > 0: represents any number, as the match-th place of a path (see find.c) */
+    int match;       /* > 0: a stand-in for a number, at the match-th place of a path
+                        (problem/find.c) */
 };
 
 /* Entry of a mapping by its key; NULL when there is none or the node is no mapping. */

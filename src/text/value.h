@@ -17,8 +17,8 @@ typedef struct CzValue {
 /* Whether the node holds a value at all; a mistake when not. */
 bool cz_value_is_there(CzValue value);
 
-/* A number in a unit between two limits [SI]; NaN and false with a mistake when it is none. A node
- * that represents any number leaves `number` alone. */
+/* A number in a unit between two limits [SI]; NaN and false with a mistake when it is none. A
+ * stand-in for a number leaves `number` alone. */
 bool cz_value_number(CzValue value, const CzUnit *unit, double lo, double hi, double *number);
 
 /* A whole number between two limits; false with a mistake when it is none. */

@@ -11,8 +11,8 @@ const CzNode *cz_load_file(CzReader *reader, const char *path, const CzNode *pla
  */
 CzTree cz_load_tree(CzReader *reader, const CzNode *top);
 
-/* The file that `name` represents beside the file of `place`, then in the share folder under
- * `subfolder` (may be NULL); a mistake and NULL when there is none. */
+/* The file `name` beside the file of `place`, else in the share folder under `subfolder` (may be
+ * NULL); a mistake and NULL when there is none. */
 const char *cz_load_locate(CzReader *reader, const char *name, const CzNode *place,
                            const char *subfolder);
 

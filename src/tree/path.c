@@ -136,7 +136,7 @@ static size_t enter(Walk *walk, const char *name, int index) {
     return before;
 }
 
-/* The value to put in: the setting's own, or a node that represents any number. */
+/* The value to put in: the setting's own, or a stand-in for a number. */
 static const CzNode *value_to_put(Walk *walk) {
     CzMatches *matches = walk->matches;
     walk->n_found++;

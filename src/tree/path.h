@@ -17,8 +17,9 @@ typedef struct CzMatches {
     char (*place)[CZ_PATH_ROOM]; /* (n_match) */
 } CzMatches;
 
-/* Puts a value under a path, which may name several places; with `matches` each place gets a node
- * of its own that represents any number. False, with a mistake, when the path names none. */
+/* Puts a value under a path, which may name several places; with `matches` each place gets a
+ * stand-in for a number of its own (problem/find.c). False, with a mistake, when the path names
+ * none. */
 bool cz_path_put(CzReader *reader, CzTree *tree, const char *path, const CzNode *place,
                  const CzNode *value, CzMatches *matches);
 

@@ -13,8 +13,8 @@ typedef struct CzSetting {
     const char *path;
     const CzNode *place; /* of the path */
     const CzNode *value;
-    CzMatches *matches; /* gets the places of nodes that represent any number; NULL: the value is
-                           put in */
+    CzMatches *matches; /* stand-ins for numbers are put in, and this gets their places; NULL: the
+                           value is put in */
 } CzSetting;
 
 /* Settings of the file's `set:`, then those of the command line, "path=value" (n_set). */

@@ -31,7 +31,7 @@ typedef struct CzCandidateChange {
                        unit; NaN when none of them changes the margin in that direction */
     double change;  /* relative change to there, signed; of a value near 0, over its reference */
     double not_yet; /* largest tried change that does not reverse it; NaN without */
-    double margin;  /* smallest climbing margin there */
+    double margin;  /* smallest margin against override at that value */
 } CzCandidateChange;
 
 /* An indicator of a cause at an interface or element. */

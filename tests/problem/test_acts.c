@@ -160,7 +160,7 @@ static void a_zone_acts_in_the_stages_of_an_end_only(void **state) {
     static const char *const set[] = {"parts.bumper.anti_climber.stages[0].zone=temporary",
                                       "parts.bumper.stages[0].zone=crush"};
     CzProblem *problem = read_good("rigid.yaml", 2, set);
-    const CzError *warning = warning_of(problem, "zone: only the stages of an end itself");
+    const CzError *warning = warning_of(problem, "zone: a zone applies only to the stages");
     assert_non_null(warning);
     assert_int_equal(warning->line, 1); /* of the settings */
     assert_int_equal(cz_problem_n_warning(problem), OWN_WARNINGS + 1);

@@ -1,6 +1,6 @@
 # The same problem gives the same bytes outside run_info: from run to run, for any number of threads, from any compiler and
-# at any optimisation. Builds the program three more times: clang's optimised one where the preset `clang` builds it, so that
-# who tries that preset next has it already.
+# at any optimisation. Builds the program three more times: clang's optimised one in the build folder of the preset `clang`, which
+# can use it afterwards.
 . "$SOURCE/tests/support/cases.sh"
 build() { # build FOLDER OPTION...
     folder=$1

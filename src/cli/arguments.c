@@ -12,7 +12,8 @@
 #include <string.h>
 
 const CzCommandInfo cz_commands[CZ_N_COMMAND] = {
-#define CZ_COMMAND(constant, name, operands, fewest, most, doc) {name, operands, doc, fewest, most},
+#define CZ_COMMAND(constant, name, function, operands, fewest, most, doc)                          \
+    {name, operands, doc, fewest, most},
 #include "cli/commands.def"
 #undef CZ_COMMAND
 };
@@ -26,7 +27,7 @@ const CzOptionInfo cz_options[CZ_N_OPTION] = {
 };
 #undef IN
 
-/* Where reading stands. */
+/* State of reading the command line. */
 typedef struct Reader {
     int argc, next; /* next: index of the next word */
     char **argv;
@@ -35,33 +36,28 @@ typedef struct Reader {
     CzError *error;
 } Reader;
 
-CzCommand cz_command_named(const char *name) {
+CzCommand cz_command_named(const char *name, CzSuggestion *nearest) {
     if (strcmp(name, "optimize") == 0)
         return CZ_COMMAND_OPTIMISE;
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
         return CZ_COMMAND_HELP;
     if (strcmp(name, "--version") == 0)
         return CZ_COMMAND_VERSION;
-    CzCommand command = 0;
-    while (command < CZ_N_COMMAND && strcmp(cz_commands[command].name, name) != 0)
-        command++;
-    return command;
+    const int command = CZ_FIND_NAMED(name, CzCommandInfo, cz_commands, CZ_N_COMMAND, nearest);
+    return command >= 0 ? (CzCommand)command : CZ_N_COMMAND;
 }
 
-static CzStatus unknown_command(const char *name, CzError *error) {
-    CzSuggestion suggestion = {0};
-    for (int i = 0; i < CZ_N_COMMAND; i++)
-        cz_suggest(&suggestion, name, cz_commands[i].name);
+static CzStatus unknown_command(const char *name, const CzSuggestion *nearest, CzError *error) {
     cz_fail(error, CZ_STATUS_INPUT,
             "there is no command '%.100s'" CZ_HELP "'crushzone help' lists the commands", name);
-    if (suggestion.best[0] != '\0')
-        cz_error_help(error, "did you mean 'crushzone %s'?", suggestion.best);
+    if (nearest->best[0] != '\0')
+        cz_error_help(error, "did you mean 'crushzone %s'?", nearest->best);
     else if (strstr(name, ".yaml") != NULL)
         cz_error_help(error, "did you mean 'crushzone run %.100s'?", name);
     return CZ_STATUS_INPUT;
 }
 
-static bool takes(CzCommand command, int option) {
+bool cz_command_takes(int command, int option) {
     return (cz_options[option].commands & (1U << command)) != 0;
 }
 
@@ -77,11 +73,11 @@ static CzStatus find_long(CzCommand command, const char *name, size_t n, int *op
         const char *known = cz_options[i].name;
         if (strlen(known) == n && strncmp(known, name, n) == 0) {
             *option = i;
-            if (takes(command, i))
+            if (cz_command_takes(command, i))
                 return CZ_OK;
             of_other = known; /* one name may be several options */
         }
-        if (!takes(command, i))
+        if (!cz_command_takes(command, i))
             continue;
         cz_suggest(&suggestion, typed, known);
         if (n > 0 && strncmp(known, name, n) == 0)
@@ -102,7 +98,7 @@ static CzStatus find_long(CzCommand command, const char *name, size_t n, int *op
 
 static CzStatus find_letter(CzCommand command, char letter, int *option, CzError *error) {
     for (int i = 0; i < CZ_N_OPTION; i++)
-        if (cz_options[i].letter == letter && takes(command, i)) {
+        if (cz_options[i].letter == letter && cz_command_takes(command, i)) {
             *option = i;
             return CZ_OK;
         }
@@ -290,9 +286,10 @@ CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzErro
     arguments->nothing = argc < 2;
     if (arguments->nothing)
         return CZ_OK;
-    arguments->command = cz_command_named(argv[1]);
+    CzSuggestion nearest = {0};
+    arguments->command = cz_command_named(argv[1], &nearest);
     if (arguments->command == CZ_N_COMMAND)
-        return unknown_command(argv[1], error);
+        return unknown_command(argv[1], &nearest, error);
     const size_t most = (size_t)argc + 1; /* of each list */
     const char **room = calloc(5 * most, sizeof *room);
     if (room == NULL)

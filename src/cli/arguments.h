@@ -4,10 +4,11 @@
 
 #include <stdbool.h>
 
+#include "base/suggest.h"
 #include "crushzone/simulate.h"
 
 typedef enum CzCommand {
-#define CZ_COMMAND(constant, name, operands, fewest, most, doc) CZ_COMMAND_##constant,
+#define CZ_COMMAND(constant, name, function, operands, fewest, most, doc) CZ_COMMAND_##constant,
 #include "cli/commands.def"
 #undef CZ_COMMAND
     CZ_N_COMMAND
@@ -70,7 +71,9 @@ CZ_MUST_CHECK CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arg
                                          CzError *error);
 void cz_arguments_free(CzArguments *arguments);
 
-/* The command of a name or of another spelling of it, CZ_N_COMMAND when there is none. */
-CzCommand cz_command_named(const char *name);
+/* The command of a name or of another spelling of it; CZ_N_COMMAND when there is none, and then the
+ * nearest name. */
+CzCommand cz_command_named(const char *name, CzSuggestion *nearest);
+bool cz_command_takes(int command, int option);
 
 #endif

@@ -4,20 +4,10 @@
 
 #include "cli/arguments.h"
 
-int cz_command_run(const CzArguments *arguments); /* run and check */
-int cz_command_optimise(const CzArguments *arguments);
-int cz_command_sweep(const CzArguments *arguments);
-int cz_command_study(const CzArguments *arguments); /* explain, verify, bench */
-int cz_command_report(const CzArguments *arguments);
-int cz_command_plot(const CzArguments *arguments);
-int cz_command_compare(const CzArguments *arguments);
-int cz_command_validate(const CzArguments *arguments);
-int cz_command_show(const CzArguments *arguments);
-int cz_command_fit(const CzArguments *arguments);
-int cz_command_new(const CzArguments *arguments);
-int cz_command_schema(const CzArguments *arguments);
-int cz_command_help(const CzArguments *arguments);
-int cz_command_version(const CzArguments *arguments);
+#define CZ_COMMAND(constant, name, function, ...)                                                  \
+    int cz_command_##function(const CzArguments *arguments);
+#include "cli/commands.def"
+#undef CZ_COMMAND
 
 /* The five lines of a program that was given no command, and the help of one command. */
 void cz_help_write_greeting(void);

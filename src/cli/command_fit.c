@@ -104,7 +104,8 @@ static void tell_doubts(const CzFit *fit) {
                 cz_fit_kind_word(summary->kind));
 }
 
-/* Writes the law; a refused one only with --json, which says so. Returns the exit code. */
+/* Writes the law; a refused one only with --json, where its verdict is given. Returns the exit
+ * code. */
 static int write_fit(const CzArguments *arguments, const CzFit *fit) {
     const char *svg = arguments->text[CZ_OPTION_SVG];
     CzError error = {0};

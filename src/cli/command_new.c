@@ -6,19 +6,18 @@
 #include "cli/templates.h"
 
 #include <errno.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
 static const char *find_template(const char *name, CzError *error) {
-    CzSuggestion suggestion = {0};
-    for (int i = 0; i < CZ_N_TEMPLATE; i++) {
-        if (strcmp(cz_templates[i].name, name) == 0)
-            return cz_templates[i].text;
-        cz_suggest(&suggestion, name, cz_templates[i].name);
-    }
+    CzSuggestion nearest = {0};
+    const int found = CZ_FIND_NAMED(name, CzTemplate, cz_templates, CZ_N_TEMPLATE, &nearest);
+    if (found >= 0)
+        return cz_templates[found].text;
     cz_fail(error, CZ_STATUS_INPUT,
             "there is no template '%.100s'" CZ_HELP "'crushzone help new' lists them", name);
-    cz_suggest_help(&suggestion, error);
+    cz_suggest_help(&nearest, error);
     return NULL;
 }
 

@@ -1,4 +1,4 @@
-/* `validate` and `show`: what can be said of a problem without running it. */
+/* `validate` and `show`: mistakes and properties of a problem, without a run. */
 #include "cli/command.h"
 #include "cli/messages.h"
 #include "cli/result.h"

@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-/* Reads what `--vary` says; returns the exit code. */
+/* Reads the axes of `--vary`; returns the exit code. */
 static int read_axes(const CzArguments *arguments, CzSweepAxis axis[CZ_MOST_AXES]) {
     CzError error = {0};
     for (int k = 0; k < arguments->n_vary; k++)

@@ -2,12 +2,12 @@
 #include "cli/help.h"
 
 #include "base/error.h"
-#include "base/suggest.h"
 #include "cli/command.h"
 #include "cli/messages.h"
 #include "cli/templates.h"
 #include "crushzone/report.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -41,7 +41,7 @@ void cz_help_write_command(CzCommand command) {
     printf("crushzone %s%s%s [OPTION...]\n%s\n\n", info->name, info->operands[0] != '\0' ? " " : "",
            info->operands, info->doc);
     for (int i = 0; i < CZ_N_OPTION; i++)
-        if ((cz_options[i].commands & (1U << command)) != 0)
+        if (cz_command_takes(command, i))
             write_option(&cz_options[i]);
     if (command == CZ_COMMAND_OPTIMISE)
         puts("\n'optimize' is the same command. The first Ctrl-C or SIGTERM ends the search and "
@@ -61,43 +61,43 @@ static void write_overview(void) {
         printf("  %-12s %s\n", cz_topics[i].name, cz_topics[i].doc);
 }
 
-static int unknown_topic(const CzArguments *arguments, const char *topic) {
-    CzSuggestion suggestion = {0};
-    for (int i = 0; i < CZ_N_COMMAND; i++)
-        cz_suggest(&suggestion, topic, cz_commands[i].name);
-    for (int i = 0; i < CZ_N_TOPIC; i++)
-        cz_suggest(&suggestion, topic, cz_topics[i].name);
+static int unknown_topic(const CzArguments *arguments, const char *topic,
+                         const CzSuggestion *nearest) {
     CzError error;
     cz_fail(&error, CZ_STATUS_INPUT,
             "there is no help on '%.100s'" CZ_HELP "'crushzone help' lists commands and topics",
             topic);
-    if (suggestion.best[0] != '\0')
-        cz_error_help(&error, "did you mean 'crushzone help %s'?", suggestion.best);
+    if (nearest->best[0] != '\0')
+        cz_error_help(&error, "did you mean 'crushzone help %s'?", nearest->best);
     return cz_tell_error(arguments, &error);
 }
 
 int cz_command_help(const CzArguments *arguments) {
     const bool is_page = arguments->text[CZ_OPTION_MARKDOWN] != NULL;
-    const char *topic = arguments->n_operand > 0 ? arguments->operand[0] : NULL;
-    if (topic == NULL && arguments->text[CZ_OPTION_MAN] != NULL)
+    const char *name = arguments->n_operand > 0 ? arguments->operand[0] : NULL;
+    CzSuggestion nearest = {0};
+    const CzCommand command = name != NULL ? cz_command_named(name, &nearest) : CZ_N_COMMAND;
+    const int topic =
+        name != NULL ? CZ_FIND_NAMED(name, CzHelpEntry, cz_topics, CZ_N_TOPIC, &nearest) : -1;
+    if (name == NULL && arguments->text[CZ_OPTION_MAN] != NULL)
         cz_help_write_man();
-    else if (topic == NULL && arguments->text[CZ_OPTION_COMPLETION] != NULL)
+    else if (name == NULL && arguments->text[CZ_OPTION_COMPLETION] != NULL)
         cz_help_write_bash();
-    else if (topic == NULL && is_page)
+    else if (name == NULL && is_page)
         cz_help_write_markdown();
-    else if (topic == NULL)
+    else if (name == NULL)
         write_overview();
-    else if (is_page && cz_topic_named(topic) == CZ_TOPIC_KEYS)
+    else if (is_page && topic == CZ_TOPIC_KEYS)
         cz_keys_write_reference(stdout);
-    else if (is_page && cz_topic_named(topic) == CZ_TOPIC_CHANNELS)
+    else if (is_page && topic == CZ_TOPIC_CHANNELS)
         cz_help_write_channels_markdown();
-    else if (is_page && cz_topic_named(topic) == CZ_TOPIC_RESULTS)
+    else if (is_page && topic == CZ_TOPIC_RESULTS)
         cz_report_write_results_page(stdout);
-    else if (cz_topic_named(topic) != CZ_N_TOPIC)
-        cz_help_write_topic(cz_topic_named(topic));
-    else if (cz_command_named(topic) != CZ_N_COMMAND)
-        cz_help_write_command(cz_command_named(topic));
+    else if (topic >= 0)
+        cz_help_write_topic((CzTopic)topic);
+    else if (command != CZ_N_COMMAND)
+        cz_help_write_command(command);
     else
-        return unknown_topic(arguments, topic);
+        return unknown_topic(arguments, name, &nearest);
     return 0;
 }

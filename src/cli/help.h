@@ -16,12 +16,10 @@ typedef struct CzHelpEntry {
 
 extern const CzHelpEntry cz_topics[CZ_N_TOPIC];
 
-/* The topic of a name, CZ_N_TOPIC when there is none. */
-CzTopic cz_topic_named(const char *name);
 void cz_help_write_topic(CzTopic topic);
 
 /* How checks add up to a verdict: the words in the order in which they are tried, up to one without
- * a name, and what is to be said beside. */
+ * a name, and a remark. */
 extern const CzHelpEntry cz_verdict_rules[];
 extern const char cz_verdict_remark[];
 

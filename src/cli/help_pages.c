@@ -8,10 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool takes(int command, int option) {
-    return (cz_options[option].commands & (1U << command)) != 0;
-}
-
 /* ---- Markdown ---- */
 
 void cz_help_write_markdown(void) {
@@ -23,7 +19,7 @@ void cz_help_write_markdown(void) {
         puts("| option | meaning |\n|---|---|");
         for (int i = 0; i < CZ_N_OPTION; i++) {
             const CzOptionInfo *option = &cz_options[i];
-            if (!takes(command, i))
+            if (!cz_command_takes(command, i))
                 continue;
             printf("| `--%s", option->name);
             for (const char *c = option->value != NULL ? option->value : ""; *c != '\0'; c++)
@@ -55,7 +51,7 @@ void cz_help_write_markdown(void) {
 
 /* ---- man ---- */
 
-/* Text of roff: a backslash, a hyphen that is typed, a sign at the start that would be a request.
+/* Text of roff: escapes backslashes, hyphens, and a first character that would begin a request.
  */
 static void write_roff(const char *text) {
     if (text[0] == '.' || text[0] == '\'')
@@ -98,7 +94,7 @@ static void write_man_commands(void) {
         puts(".");
         for (int i = 0; i < CZ_N_OPTION; i++) {
             const CzOptionInfo *option = &cz_options[i];
-            if (!takes(command, i) || i == CZ_OPTION_HELP)
+            if (!cz_command_takes(command, i) || i == CZ_OPTION_HELP)
                 continue;
             char typed[64], letter[] = {'-', option->letter, ',', ' ', '\0'};
             snprintf(typed, sizeof typed, "%s--%s", option->letter != 0 ? letter : "",
@@ -178,7 +174,7 @@ static void write_bash_options(void) {
         printf("    %s%s) options='", cz_commands[command].name,
                command == CZ_COMMAND_OPTIMISE ? " | optimize" : "");
         for (int i = 0, n = 0; i < CZ_N_OPTION; i++)
-            if (takes(command, i))
+            if (cz_command_takes(command, i))
                 printf("%s--%s", n++ > 0 ? " " : "", cz_options[i].name);
         puts("' ;;");
     }

@@ -18,13 +18,6 @@ const CzHelpEntry cz_topics[CZ_N_TOPIC] = {
 #undef CZ_TOPIC
 };
 
-CzTopic cz_topic_named(const char *name) {
-    CzTopic topic = 0;
-    while (topic < CZ_N_TOPIC && strcmp(cz_topics[topic].name, name) != 0)
-        topic++;
-    return topic;
-}
-
 /* ---- exit codes ---- */
 
 const CzHelpEntry cz_exit_codes[] = {

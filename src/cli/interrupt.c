@@ -7,7 +7,7 @@
 /* The signal that asked to stop, 0 when none did. */
 static volatile sig_atomic_t stop_signal;
 
-/* A run at hand takes its time to its end, so that it is said that the signal has come. */
+/* The current run is completed, which takes time, so the user is told that the signal arrived. */
 static void on_signal(int signal_number) {
     static const char text[] =
         "\ncrushzone: stopping after the current run; press Ctrl-C again to stop at once\n";

@@ -35,17 +35,13 @@ int cz_command_version(const CzArguments *arguments) {
 }
 
 static int (*const commands[CZ_N_COMMAND])(const CzArguments *) = {
-    [CZ_COMMAND_RUN] = cz_command_run,           [CZ_COMMAND_CHECK] = cz_command_run,
-    [CZ_COMMAND_OPTIMISE] = cz_command_optimise, [CZ_COMMAND_SWEEP] = cz_command_sweep,
-    [CZ_COMMAND_EXPLAIN] = cz_command_study,     [CZ_COMMAND_VERIFY] = cz_command_study,
-    [CZ_COMMAND_BENCH] = cz_command_study,       [CZ_COMMAND_REPORT] = cz_command_report,
-    [CZ_COMMAND_PLOT] = cz_command_plot,         [CZ_COMMAND_COMPARE] = cz_command_compare,
-    [CZ_COMMAND_VALIDATE] = cz_command_validate, [CZ_COMMAND_SHOW] = cz_command_show,
-    [CZ_COMMAND_FIT] = cz_command_fit,           [CZ_COMMAND_NEW] = cz_command_new,
-    [CZ_COMMAND_SCHEMA] = cz_command_schema,     [CZ_COMMAND_HELP] = cz_command_help,
-    [CZ_COMMAND_VERSION] = cz_command_version};
+#define CZ_COMMAND(constant, name, function, ...) cz_command_##function,
+#include "cli/commands.def"
+#undef CZ_COMMAND
+};
 
-/* Whether --json stands anywhere: a mistake in the command line is a JSON document then too. */
+/* Whether --json is among the options: then a mistake in the command line is a JSON document too.
+ */
 static bool asks_for_json(int argc, char **argv) {
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
         if (strcmp(argv[i], "--json") == 0)

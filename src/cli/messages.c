@@ -114,7 +114,7 @@ void cz_tell_warnings(const CzArguments *arguments, const CzProblem *problem) {
 void cz_tell(const CzArguments *arguments, const char *format, ...) {
     if (is_silent(arguments))
         return;
-    fflush(stdout); /* what was said first is first */
+    fflush(stdout); /* keeps the order of both streams */
     va_list values;
     va_start(values, format);
     vfprintf(stderr, format, values);

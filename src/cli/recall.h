@@ -4,7 +4,7 @@
 
 #include "cli/session.h"
 
-/* What run.log says. */
+/* Contents of run.log. */
 typedef struct CzRunLog {
     bool is_ours;                /* of this version */
     char scenario[CZ_NAME_ROOM]; /* the last one */

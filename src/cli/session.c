@@ -1,4 +1,4 @@
-/* One problem file on its way through a command. */
+/* A session: reading a problem file, building its evaluator, writing its results. */
 #include "cli/session.h"
 
 #include "base/clock.h"

@@ -1,4 +1,4 @@
-/* One problem file on its way through a command. */
+/* A session: the problem file of a command, its evaluator, and its results. */
 #ifndef CZ_CLI_SESSION_H
 #define CZ_CLI_SESSION_H
 

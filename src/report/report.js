@@ -1,12 +1,12 @@
-/* One time for all figures: a cursor in every plot, the values under it, and the animation. */
+/* All figures show the same time: a cursor in every plot, the values at the cursor, and the animation. */
 (function () {
   'use strict';
   var source = document.getElementById('data');
   if (!source) return;
   var raw = JSON.parse(source.textContent), data = {}, decimals = {};
 
-  /* Channels are whole numbers of a decimal unit, each given by how far it leaves the line through the two before it:
-     +3, -12; z5 for five zeros, n5 for five values that are no numbers. */
+  /* Channels are whole numbers of a decimal unit, given by second differences (page_data.c): +3, -12; z5: five zeros;
+     n5: five missing values. */
   function unpack(text, unit) {
     var values = [], last = 0, step = 0;
     text.replace(/([zn])(\d*)|[-+]\d+/g, function (word, run, times) {
@@ -170,7 +170,7 @@
   scrub.addEventListener('input', function () { show(nearest(Number(scrub.value))); });
   focus.addEventListener('change', function () { show(now); });
 
-  /* Play: simulated time runs at the chosen share of real time. */
+  /* Simulated time runs at the chosen share of real time. */
   var running = false, before, clock;
   function step(stamp) {
     if (!running) return;

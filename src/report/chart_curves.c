@@ -27,7 +27,7 @@ static CzStatus find_panel(const Reading *reading, const char *title, CzChart *c
     static const CzChart panels[] = {CZ_CHART_FORCE, CZ_CHART_VELOCITY, CZ_CHART_DISPLACEMENT,
                                      CZ_CHART_SHORTENING};
     for (size_t i = 0; i < sizeof panels / sizeof *panels; i++) {
-        const char *pattern = cz_drawn_info(cz_chart_info(panels[i])->y)->pattern;
+        const char *pattern = cz_drawn_info(cz_charts[panels[i]].y)->pattern;
         *chart = panels[i];
         if (strncmp(title, pattern, strcspn(pattern, "{")) == 0)
             return CZ_OK;
@@ -179,7 +179,7 @@ CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int 
     CzChartAxes axes;
     if (chart != CZ_CHART_PANELS && !cz_chart_axes(chart, &axes))
         return cz_fail(error, CZ_STATUS_INPUT, "no measured curve can be drawn over '%s'",
-                       cz_chart_info(chart)->name);
+                       cz_charts[chart].name);
     Reading reading = {.options = options, .chart = chart, .measured = measured, .error = error};
     const bool has_list = options->column != NULL && strchr(options->column, ',') != NULL;
     const bool reads_twice = chart == CZ_CHART_PANELS || has_list;
@@ -206,7 +206,7 @@ static CzChart chart_of(CzChannel channel) {
                                      CZ_CHART_OVERLAP, CZ_CHART_PITCH};
     const char *quantity = cz_channel_info(channel)->title;
     for (size_t i = 0; i < sizeof charts / sizeof *charts; i++)
-        if (strcmp(cz_drawn_info(cz_chart_info(charts[i])->y)->title, quantity) == 0)
+        if (strcmp(cz_drawn_info(cz_charts[charts[i]].y)->title, quantity) == 0)
             return charts[i];
     return CZ_N_CHART;
 }

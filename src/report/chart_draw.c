@@ -335,7 +335,7 @@ static void collect(Sheet *sheet, CzChart chart, int index) {
     if (kinds[chart].draw != NULL)
         kinds[chart].draw(sheet, index);
     else if (chart != CZ_CHART_ENERGY && chart != CZ_CHART_BALANCE)
-        draw_all(sheet, cz_chart_info(chart)->y);
+        draw_all(sheet, cz_charts[chart].y);
     draw_measured(sheet, chart);
     if (sheet->plot.is_time && sheet->page->summary->beyond_validity && sheet->page->n_sample > 0)
         sheet->band[sheet->plot.n_band++] =
@@ -344,7 +344,7 @@ static void collect(Sheet *sheet, CzChart chart, int index) {
 
 /* Collects the curves of a figure, then draws it. */
 static void write_curves(const CzPage *page, CzChart chart, int index, CzMarkup *markup) {
-    const CzChartInfo *info = cz_chart_info(chart);
+    const CzChartInfo *info = &cz_charts[chart];
     const int room = page->summary->n_vehicle + MOST_LIFTS + page->n_other + page->n_measured;
     char title[CZ_SENTENCE_ROOM], label[2][CZ_DRAWN_LABEL];
     cz_chart_title(page, chart, index, sizeof title, title);
@@ -378,7 +378,7 @@ static void write_panels(const CzPage *page, int interface, CzMarkup *markup) {
     cz_svg_open_tiles(markup, title, 4, slot);
     cz_markup_write(markup, " class='panels'>\n");
     for (int i = 0; i < 4; i++) {
-        const int index = cz_chart_info(panels[i])->count == CZ_CHART_PER_INTERFACE ? interface : 0;
+        const int index = cz_charts[panels[i]].count == CZ_CHART_PER_INTERFACE ? interface : 0;
         cz_chart_title(page, panels[i], index, sizeof title, title);
         snprintf(text, sizeof text, "(%c) %s", "abcd"[i], title);
         cz_svg_open_tile(markup, i, slot, 8, text);
@@ -389,7 +389,7 @@ static void write_panels(const CzPage *page, int interface, CzMarkup *markup) {
 }
 
 void cz_chart_write(const CzPage *page, CzChart chart, int index, CzMarkup *markup) {
-    if (cz_chart_info(chart)->is_of_curves)
+    if (cz_charts[chart].is_of_curves)
         write_curves(page, chart, index, markup);
     else if (chart == CZ_CHART_ENERGY_SHARES)
         cz_chart_write_shares(page, markup);

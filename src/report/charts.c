@@ -5,8 +5,7 @@
 
 #include <string.h>
 
-const CzChartInfo *cz_chart_info(CzChart chart) {
-    static const CzChartInfo charts[CZ_N_CHART] = {
+const CzChartInfo cz_charts[CZ_N_CHART] = {
 #define AXES_DRAWING .is_of_curves = false
 #define AXES_CURVES(x_axis, y_axis)                                                                \
     .is_of_curves = true, .x = CZ_DRAWN_##x_axis, .y = CZ_DRAWN_##y_axis
@@ -14,12 +13,10 @@ const CzChartInfo *cz_chart_info(CzChart chart) {
     {name, title, CZ_CHART_##number, AXES_##axes},
 #include "crushzone/charts.def"
 #undef CZ_CHART
-    };
-    return &charts[chart];
-}
+};
 
 bool cz_chart_axes(CzChart chart, CzChartAxes *axes) {
-    const CzChartInfo *info = cz_chart_info(chart);
+    const CzChartInfo *info = &cz_charts[chart];
     const CzUnit *x = cz_curve_unit_find(CZ_N_DIMENSION, cz_drawn_info(info->x)->unit);
     const CzUnit *y = cz_curve_unit_find(CZ_N_DIMENSION, cz_drawn_info(info->y)->unit);
     if (!info->is_of_curves || x == NULL || y == NULL)
@@ -50,7 +47,7 @@ static bool has_any(const CzPage *page, CzDrawn drawn) {
 }
 
 int cz_chart_count(const CzPage *page, CzChart chart) {
-    const CzChartInfo *info = cz_chart_info(chart);
+    const CzChartInfo *info = &cz_charts[chart];
     if (page->n_sample < 2)
         return 0;
     return info->count == CZ_CHART_PER_INTERFACE ? page->summary->n_interface
@@ -60,7 +57,7 @@ int cz_chart_count(const CzPage *page, CzChart chart) {
 }
 
 void cz_chart_title(const CzPage *page, CzChart chart, int index, size_t room, char *title) {
-    const CzChartInfo *info = cz_chart_info(chart);
+    const CzChartInfo *info = &cz_charts[chart];
     const char *of = info->count == CZ_CHART_PER_INTERFACE ? page->summary->interface[index].name
                      : info->count == CZ_CHART_PER_CAR     ? page->summary->vehicle[index].name
                                                            : NULL;

@@ -24,7 +24,7 @@ typedef struct CzChartInfo {
     bool is_of_curves;
     CzDrawn x, y; /* what the axes of a figure of curves show */
 } CzChartInfo;
-const CzChartInfo *cz_chart_info(CzChart chart);
+extern const CzChartInfo cz_charts[CZ_N_CHART];
 
 /* Quantities of the axes, and their units in SI. */
 typedef struct CzChartAxes {

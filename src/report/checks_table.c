@@ -30,39 +30,35 @@ static const char *spaced_unit(const CzCheckResult *check, char room[32]) {
     return room;
 }
 
-void cz_checks_format_limit(const CzCheckResult *check, size_t room, char *text) {
+const char *cz_checks_limit(char text[CZ_CHECK_ROOM], const CzCheckResult *check) {
     char number[CZ_FIGURE_ROOM], unit[32];
-    if (!isfinite(check->limit)) {
-        snprintf(text, room, "-");
-        return;
-    }
-    double
-        shown; /* a limit that was typed is printed as it was, one that was computed is rounded */
+    double read; /* a limit that was typed is printed as it was, one that was computed is rounded */
+    if (!isfinite(check->limit))
+        return "-";
     cz_figure_digits(number, 6, check->limit);
-    if (cz_number_parse(number, &shown) != NULL || shown != check->limit)
+    if (cz_number_parse(number, &read) != NULL || read != check->limit)
         cz_figure_digits(number, 4, check->limit);
-    snprintf(text, room, "%s%s%s", check->is_minimum ? "min " : "", number,
+    snprintf(text, CZ_CHECK_ROOM, "%s%s%s", check->is_minimum ? "min " : "", number,
              spaced_unit(check, unit));
+    return text;
 }
 
-void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text) {
+const char *cz_checks_value(char text[CZ_CHECK_ROOM], const CzCheckResult *check) {
     char number[CZ_FIGURE_ROOM], unit[32];
     cz_figure_plain(number, check->value);
-    if (!isfinite(check->value)) {
-        snprintf(text, room, "%s", number);
-        return;
-    }
     /* A value that violates its limit must not read as equal to it. */
     const bool breaks =
         check->is_minimum ? check->value < check->limit : check->value > check->limit;
-    double shown;
-    for (int digits = 5; breaks && digits <= 17; digits++) {
-        if (cz_number_parse(number, &shown) == NULL && shown != check->limit)
+    double read;
+    for (int digits = 5; breaks && isfinite(check->value) && digits <= 17; digits++) {
+        if (cz_number_parse(number, &read) == NULL && read != check->limit)
             break;
         cz_figure_digits(number, digits, check->value);
     }
-    snprintf(text, room, "%s%s%s", number, spaced_unit(check, unit),
-             check->beyond_validity ? "*" : "");
+    const bool is_known = isfinite(check->value);
+    snprintf(text, CZ_CHECK_ROOM, "%s%s%s", number, is_known ? spaced_unit(check, unit) : "",
+             is_known && check->beyond_validity ? "*" : "");
+    return text;
 }
 
 /* A check that has no subject in this problem passes. */
@@ -135,22 +131,18 @@ static void put_verdict(CzReportTable *table, const CzCheckResult *check) {
 
 static void put_check(CzReportTable *table, const CzCheckResult *check,
                       const CzCheckResult *before) {
-    char text[96] = "";
+    char text[CZ_CHECK_ROOM] = "";
     cz_table_put(table, check->name);
     put_verdict(table, check);
     cz_table_put(table, check->where);
     cz_table_put(table, check->scenario);
     format_when(check, sizeof text, text);
     cz_table_put(table, text);
-    cz_checks_format_limit(check, sizeof text, text);
-    cz_table_put(table, text);
-    if (before != NULL)
-        cz_checks_format_value(before, sizeof text, text);
-    cz_table_put_styled(table, before != NULL ? text : "",
+    cz_table_put(table, cz_checks_limit(text, check));
+    cz_table_put_styled(table, before != NULL ? cz_checks_value(text, before) : "",
                         before != NULL && before->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD
                                                                              : CZ_STYLE_PLAIN);
-    cz_checks_format_value(check, sizeof text, text);
-    cz_table_put(table, text);
+    cz_table_put(table, cz_checks_value(text, check));
     cz_table_put(table, cz_figure_margin(text, check->margin));
     put_verdict(table, check);
     cz_table_put_bar(table, &margin_bar, check->margin);

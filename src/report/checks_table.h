@@ -17,11 +17,11 @@ void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *b
 void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before, bool rest);
 
-/* A value in its unit, with enough digits to differ from a limit that it violates. */
-void cz_checks_format_value(const CzCheckResult *check, size_t room, char *text);
-
-/* The limit in its unit; a lower limit has "min" in front. */
-void cz_checks_format_limit(const CzCheckResult *check, size_t room, char *text);
+/* A value in its unit, with enough digits to differ from a limit that it violates; the limit in its
+ * unit, a lower limit with "min" in front. Both return text. */
+enum { CZ_CHECK_ROOM = 96 };
+const char *cz_checks_value(char text[CZ_CHECK_ROOM], const CzCheckResult *check);
+const char *cz_checks_limit(char text[CZ_CHECK_ROOM], const CzCheckResult *check);
 
 /* The verdict in a table: "pass", "FAIL", "n/a". */
 const char *cz_checks_word(const CzCheckResult *check);

@@ -120,23 +120,22 @@ void cz_compared_begin_checks(CzReportTable *table, const CzReport *report, int 
     begin(table, report, "check;>limit");
     for (int k = 0; k < first->n_check; k++) {
         const CzCheckResult *check = &first->check[k];
-        char text[CZ_LABEL_ROOM + 1 + CZ_NAME_ROOM], value[96];
+        char text[CZ_CHECK_ROOM + 24], value[CZ_CHECK_ROOM];
         if (!cz_compared_differs(report, check)) {
             ++*n_same;
             continue;
         }
         cz_table_put_format(table, "%s, %s", check->name,
                             check->scenario != NULL ? check->scenario : "");
-        cz_checks_format_limit(check, sizeof value, value);
-        cz_table_put(table, value);
+        cz_table_put(table, cz_checks_limit(value, check));
         for (int i = 0; i < report->n_compared; i++) {
             const CzCheckResult *other = cz_compared_check(&report->compared[i], check);
             if (other == NULL) {
                 cz_table_put(table, "-");
                 continue;
             }
-            cz_checks_format_value(other, sizeof value, value);
-            snprintf(text, sizeof text, "%s %s", value, cz_checks_word(other));
+            snprintf(text, sizeof text, "%s %s", cz_checks_value(value, other),
+                     cz_checks_word(other));
             cz_table_put_styled(table, text,
                                 other->verdict == CZ_VERDICT_FAIL ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
         }

@@ -38,7 +38,7 @@ static bool begins_formula(const char *text) {
     return false;
 }
 
-/* Whether a program with another separator could begin a cell behind this sign. */
+/* Whether a program that reads another separator could begin a new cell after this character. */
 static bool parts_fields(char sign) {
     return sign != '\0' && strchr(",;\t|\"\r\n", sign) != NULL;
 }
@@ -124,6 +124,13 @@ static void put_result(Table *table, const CzResult *result, CzResultContext *co
     }
 }
 
+/* Writes the fields of a record, of which some may have no result. */
+static void put_results(Table *table, int n, const CzResult *const *result,
+                        CzResultContext *context, const void *record) {
+    for (int i = 0; i < n; i++)
+        put_result(table, result[i], context, record);
+}
+
 void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *options,
                          FILE *stream) {
     static const CzResult *const columns[] = {
@@ -141,8 +148,7 @@ void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *
     put_keys(&table, n_column, columns);
     end_row(&table);
     for (int i = 0; i < evaluation->n_check; i++) {
-        for (int k = 0; k < n_column; k++)
-            put_result(&table, columns[k], &context, &evaluation->check[i]);
+        put_results(&table, n_column, columns, &context, &evaluation->check[i]);
         end_row(&table);
     }
     for (int i = 0; i < evaluation->n_not_covered; i++) {
@@ -158,41 +164,45 @@ void cz_csv_write_checks(const CzEvaluation *evaluation, const CzReportOptions *
 /* A row for each interface, with an empty element, then one for each of its elements. */
 void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *options,
                              FILE *stream) {
-    static const struct {
-        const CzResult *of_interface, *of_element; /* NULL where one has none */
-    } columns[] = {
-        {CZ_RESULT_AT(INTERFACE, peak_force_kN), CZ_RESULT_AT(ELEMENT, peak_force_kN)},
-        {CZ_RESULT_AT(INTERFACE, peak_time_ms), NULL},
-        {CZ_RESULT_AT(INTERFACE, shortening_mm), NULL},
-        {NULL, CZ_RESULT_AT(ELEMENT, stroke_mm)},
-        {NULL, CZ_RESULT_AT(ELEMENT, stroke_used)},
-        {CZ_RESULT_AT(INTERFACE, energy_kJ), CZ_RESULT_AT(ELEMENT, energy_kJ)},
-        {CZ_RESULT_AT(INTERFACE, energy_share), NULL},
-        {NULL, CZ_RESULT_AT(ELEMENT, stored_kJ)},
-        {CZ_RESULT_AT(INTERFACE, bottomed_out), CZ_RESULT_AT(ELEMENT, bottomed_out)},
-        {CZ_RESULT_AT(INTERFACE, beyond_validity), CZ_RESULT_AT(ELEMENT, beyond_validity)}};
-    enum { n_column = sizeof columns / sizeof *columns };
+    enum { N_COLUMN = 10 }; /* NULL where an interface or an element has none */
+    static const CzResult *const of_interface[N_COLUMN] = {
+        CZ_RESULT_AT(INTERFACE, peak_force_kN),
+        CZ_RESULT_AT(INTERFACE, peak_time_ms),
+        CZ_RESULT_AT(INTERFACE, shortening_mm),
+        NULL,
+        NULL,
+        CZ_RESULT_AT(INTERFACE, energy_kJ),
+        CZ_RESULT_AT(INTERFACE, energy_share),
+        NULL,
+        CZ_RESULT_AT(INTERFACE, bottomed_out),
+        CZ_RESULT_AT(INTERFACE, beyond_validity)};
+    static const CzResult *const of_element[N_COLUMN] = {CZ_RESULT_AT(ELEMENT, peak_force_kN),
+                                                         NULL,
+                                                         NULL,
+                                                         CZ_RESULT_AT(ELEMENT, stroke_mm),
+                                                         CZ_RESULT_AT(ELEMENT, stroke_used),
+                                                         CZ_RESULT_AT(ELEMENT, energy_kJ),
+                                                         NULL,
+                                                         CZ_RESULT_AT(ELEMENT, stored_kJ),
+                                                         CZ_RESULT_AT(ELEMENT, bottomed_out),
+                                                         CZ_RESULT_AT(ELEMENT, beyond_validity)};
     CzResultContext context = {.run = run};
     Table table = table_of(options, stream);
     put_text(&table, "interface");
     put_text(&table, "element");
-    for (int k = 0; k < n_column; k++)
-        put_text(&table,
-                 (columns[k].of_interface != NULL ? columns[k].of_interface : columns[k].of_element)
-                     ->key);
+    for (int k = 0; k < N_COLUMN; k++)
+        put_text(&table, (of_interface[k] != NULL ? of_interface[k] : of_element[k])->key);
     end_row(&table);
     for (int i = 0; i < run->n_interface; i++) {
         const CzInterfaceResult *interface = &run->interface[i];
         put_text(&table, interface->name);
         put_text(&table, NULL);
-        for (int k = 0; k < n_column; k++)
-            put_result(&table, columns[k].of_interface, &context, interface);
+        put_results(&table, N_COLUMN, of_interface, &context, interface);
         end_row(&table);
         for (int e = 0; e < interface->n_element; e++) {
             put_text(&table, interface->name);
             put_text(&table, interface->element[e].name);
-            for (int k = 0; k < n_column; k++)
-                put_result(&table, columns[k].of_element, &context, &interface->element[e]);
+            put_results(&table, N_COLUMN, of_element, &context, &interface->element[e]);
             end_row(&table);
         }
     }
@@ -237,8 +247,7 @@ void cz_csv_write_history(const CzReport *report, FILE *stream) {
         put_text(&table, cz_evaluator_variable(report->evaluator, k)->name);
     end_row(&table);
     for (long i = 0; i < outcome->n_trial; i++) {
-        for (int k = 0; k < n_column; k++)
-            put_result(&table, columns[k], &context, &outcome->trial[i]);
+        put_results(&table, n_column, columns, &context, &outcome->trial[i]);
         for (int k = 0; k < n_variable; k++)
             put_exact(&table, outcome->trial_x[i * n_variable + k]);
         end_row(&table);

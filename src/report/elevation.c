@@ -260,7 +260,7 @@ static double offset_of(const CzModel *model, int which) {
     return which == 1 && isfinite(of_scenario) ? of_scenario : train->height_offset;
 }
 
-static Side make_side(const CzModel *model, const CzLayout *stand, int which, double origin) {
+static Side make_side(const CzModel *model, const CzLayout *layout, int which, double origin) {
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
     const int car = model->colliding + which;
@@ -268,21 +268,21 @@ static Side make_side(const CzModel *model, const CzLayout *stand, int which, do
     return (Side){.vehicle = vehicle,
                   .end = which == 0 ? &vehicle->front : &vehicle->rear,
                   .name = model->car[car].name,
-                  .centre = WIDTH / 2 + SCALE * (stand[car].x - origin),
+                  .centre = WIDTH / 2 + SCALE * (layout[car].x - origin),
                   .sign = which == 0 ? 1 : -1,
-                  .plane = stand[car].plane[which == 0 ? FRONT : REAR],
+                  .plane = layout[car].plane[which == 0 ? FRONT : REAR],
                   .edge = which == 0 ? COLUMN : WIDTH - COLUMN,
                   .rise = offset_of(model, which)};
 }
 
-void cz_elevation_write(const CzModel *model, const CzLayout *stand, CzMarkup *markup) {
-    const CzLayout *a = &stand[model->colliding], *b = a + 1;
+void cz_elevation_write(const CzModel *model, const CzLayout *layout, CzMarkup *markup) {
+    const CzLayout *a = &layout[model->colliding], *b = a + 1;
     const double origin = (a->x + a->plane[FRONT] + b->x - b->plane[REAR]) / 2;
     cz_svg_open(markup, "The two ends that collide, to scale, with heights and strokes", WIDTH,
                 CHAIN_TOP + 3 * CHAIN_ROW);
     cz_markup_write(markup, " class='elevation'>\n");
     for (int which = 0; which < 2; which++) {
-        const Side side = make_side(model, stand, which, origin);
+        const Side side = make_side(model, layout, which, origin);
         write_parts(markup, &side);
         write_name(markup, &side);
         write_heights(markup, &side);

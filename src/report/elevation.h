@@ -9,6 +9,6 @@
 /* Writes an element `svg`: both ends of the colliding interface to scale at first contact, heights
  * above rail, and below each end the available length in front of the survival space against the
  * strokes of the devices. */
-void cz_elevation_write(const CzModel *model, const CzLayout *stand, CzMarkup *markup);
+void cz_elevation_write(const CzModel *model, const CzLayout *layout, CzMarkup *markup);
 
 #endif

@@ -24,7 +24,7 @@ static const char *unit_of(const char *key) {
 
 static void write_head(const CzExplanation *explanation, CzTerminal *terminal) {
     const CzCheckResult *worst = &explanation->worst;
-    char number[CZ_FIGURE_ROOM], value[64], limit[64];
+    char number[CZ_FIGURE_ROOM], value[CZ_CHECK_ROOM], limit[CZ_CHECK_ROOM];
     cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s: ", explanation->scenario);
     if (explanation->climbed) {
         cz_terminal_say(terminal, CZ_STYLE_BAD, "OVERRIDE");
@@ -40,11 +40,10 @@ static void write_head(const CzExplanation *explanation, CzTerminal *terminal) {
     } else {
         cz_terminal_say(terminal, CZ_STYLE_GOOD, "no override");
     }
-    cz_checks_format_value(worst, sizeof value, value);
-    cz_checks_format_limit(worst, sizeof limit, limit);
     fputs(".\n", terminal->stream);
     cz_terminal_say(terminal, CZ_STYLE_PLAIN, "Smallest margin: %s%s%s, %s against %s, %s\n",
-                    worst->name, worst->where[0] != '\0' ? " at " : "", worst->where, value, limit,
+                    worst->name, worst->where[0] != '\0' ? " at " : "", worst->where,
+                    cz_checks_value(value, worst), cz_checks_limit(limit, worst),
                     cz_figure_margin(number, worst->margin));
 }
 

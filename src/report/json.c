@@ -1,4 +1,4 @@
-/* JSON documents: signs, indents, escaped texts, shortest numbers. */
+/* JSON documents: punctuation, indents, escaped texts, shortest numbers. */
 #include "report/json.h"
 
 #include "base/error.h"

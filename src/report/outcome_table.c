@@ -98,13 +98,13 @@ static double share_of(const CzVariableInfo *variable, double value) {
     return range > 0 ? (value - variable->min) / range : NAN;
 }
 
-void cz_outcome_begin_variables(CzReportTable *table, const CzEvaluator *evaluator,
-                                const CzOutcome *outcome, bool on_page) {
+void cz_outcome_begin_variables(CzReportTable *table, const CzReport *report, bool on_page) {
+    const CzOutcome *outcome = report->outcome;
     cz_table_begin(table, "variable;unit;>min;>max;>before;>after");
     cz_table_head(table, on_page ? "place" : NULL);
     cz_table_head(table, "");
     for (int i = 0; i < outcome->n_variable; i++) {
-        const CzVariableInfo *variable = cz_evaluator_variable(evaluator, i);
+        const CzVariableInfo *variable = cz_evaluator_variable(report->evaluator, i);
         const double numbers[] = {variable->min, variable->max, outcome->start[i],
                                   outcome->best[i]};
         char text[CZ_FIGURE_ROOM];
@@ -120,11 +120,9 @@ void cz_outcome_begin_variables(CzReportTable *table, const CzEvaluator *evaluat
     }
 }
 
-static void write_variables(const CzEvaluator *evaluator, const CzOutcome *outcome,
-                            CzTerminal *terminal) {
-    CzReportTable table;
-    cz_outcome_begin_variables(&table, evaluator, outcome, false);
-    cz_table_write_text(&table, terminal);
+/* Writes a table and an empty line. */
+static void write_table(CzReportTable *table, CzTerminal *terminal) {
+    cz_table_write_text(table, terminal);
     fputc('\n', terminal->stream);
 }
 
@@ -150,8 +148,7 @@ static void write_matches(const CzOutcome *outcome, CzTerminal *terminal) {
         cz_table_put_styled(&table, text,
                             fabs(match->residual) <= 1 ? CZ_STYLE_GOOD : CZ_STYLE_BAD);
     }
-    cz_table_write_text(&table, terminal);
-    fputc('\n', terminal->stream);
+    write_table(&table, terminal);
 }
 
 /* Further parameter sets that fit about as well, a column each. */
@@ -180,24 +177,19 @@ static void write_alternatives(const CzEvaluator *evaluator, const CzOutcome *ou
                                      k < 0 ? outcome->alternative_objective[i]
                                            : outcome->alternative[i * outcome->n_variable + k]));
     }
-    cz_table_write_text(&table, terminal);
-    fputc('\n', terminal->stream);
+    write_table(&table, terminal);
 }
 
 void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluator,
                                const CzEvaluation *best, int i, double margin) {
     const CzCheckResult *check = best->constraint_check != NULL ? &best->constraint_check[i] : NULL;
     const CzStyle style = best->constraint[i] > 0 ? CZ_STYLE_BAD : CZ_STYLE_PLAIN;
-    char text[96] = "";
+    char text[CZ_CHECK_ROOM];
     cz_table_put_styled(table, cz_evaluator_constraint_name(evaluator, i), style);
     cz_table_put(table, check != NULL ? check->where : "");
     cz_table_put(table, check != NULL ? check->scenario : "");
-    if (check != NULL)
-        cz_checks_format_limit(check, sizeof text, text);
-    cz_table_put(table, text);
-    if (check != NULL)
-        cz_checks_format_value(check, sizeof text, text);
-    cz_table_put(table, text);
+    cz_table_put(table, check != NULL ? cz_checks_limit(text, check) : "");
+    cz_table_put(table, check != NULL ? cz_checks_value(text, check) : "");
     cz_table_put(table, check != NULL ? cz_figure_margin(text, margin) : "");
 }
 
@@ -257,9 +249,11 @@ static void write_verification(const CzVerification *verification, CzTerminal *t
 void cz_outcome_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzEvaluator *evaluator = report->evaluator;
     const CzOutcome *outcome = report->outcome;
+    CzReportTable variables;
     cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
     write_head(evaluator, outcome, terminal);
-    write_variables(evaluator, outcome, terminal);
+    cz_outcome_begin_variables(&variables, report, false);
+    write_table(&variables, terminal);
     if (cz_evaluator_is_fit(evaluator)) {
         write_matches(outcome, terminal);
         write_alternatives(evaluator, outcome, terminal);

@@ -6,8 +6,7 @@
 #include "report/table.h"
 
 /* Bounds and values of the variables; on a page with a drawing of where they are. */
-void cz_outcome_begin_variables(CzReportTable *table, const CzEvaluator *evaluator,
-                                const CzOutcome *outcome, bool on_page);
+void cz_outcome_begin_variables(CzReportTable *table, const CzReport *report, bool on_page);
 
 /* A row of a table of constraints, whose heads follow that of their names. */
 #define CZ_CONSTRAINT_HEADS "where;scenario;>limit;>value;>margin"

@@ -41,52 +41,43 @@ static void write_value(const char *text, FILE *stream) {
         write_quoted(text, strlen(text), stream);
 }
 
-/* Whether a setting is for the path of the first n bytes of `path`. */
-static bool is_about(const char *setting, const char *path, size_t n) {
-    return strncmp(setting, path, n) == 0 && setting[n] == '=';
-}
-
-/* The value of a variable as it is typed: a number, or the name of a part. */
-static const char *value_text(const CzVariableInfo *variable, double value,
-                              char number[CZ_NUMBER_TEXT]) {
-    return variable->n_choice > 0 ? variable->choice[(int)value] : cz_number_print(number, value);
-}
-
 /* Adds a setting, in place of an earlier one for the same path. */
 static void add_setting(const char **setting, int *n_setting, const char *added) {
-    const size_t n = strcspn(added, "=");
+    const size_t n = strcspn(added, "=") + 1;
     for (int i = 0; i < *n_setting; i++)
-        if (is_about(setting[i], added, n)) {
+        if (strncmp(setting[i], added, n) == 0) {
             setting[i] = added;
             return;
         }
     setting[(*n_setting)++] = added;
 }
 
-/* The setting of a variable at one of its places in the best design. */
-static const char *setting_at(const CzVariableInfo *variable, const CzVariablePlace *place,
-                              double value, CzArena *arena) {
-    char number[CZ_NUMBER_TEXT];
-    const char *typed = value_text(variable, value * place->factor, number);
-    const size_t n = strlen(place->path) + 1 + strlen(typed) + 1;
-    char *text = cz_arena_allocate(arena, n, 1);
+/* The setting of a number or of the name of a part at a path of n bytes; NULL without memory. */
+static const char *setting_at(const char *path, size_t n, const char *key, const char *value,
+                              CzArena *arena) {
+    const size_t room = n + strlen(key) + strlen(value) + 2;
+    char *text = cz_arena_allocate(arena, room, 1);
     if (text != NULL)
-        snprintf(text, n, "%s=%s", place->path, typed);
+        snprintf(text, room, "%.*s%s=%s", (int)n, path, key, value);
     return text;
+}
+
+/* The setting of a variable at one of its places in the best design. */
+static const char *best_at(const CzVariableInfo *variable, const CzVariablePlace *place,
+                           double value, CzArena *arena) {
+    char number[CZ_NUMBER_TEXT];
+    const double own = value * place->factor;
+    return setting_at(
+        place->path, strlen(place->path), "",
+        variable->n_choice > 0 ? variable->choice[(int)own] : cz_number_print(number, own), arena);
 }
 
 /* The setting that keeps the stroke for which the car is drawn, beside a new stroke. */
 static const char *drawn_stroke_at(const CzVariablePlace *place, CzArena *arena) {
-    static const char key[] = ".drawn_stroke_m=";
     char number[CZ_NUMBER_TEXT];
     const char *stages = strstr(place->path, ".stages[");
-    const int n_record = stages != NULL ? (int)(stages - place->path) : 0;
-    const size_t n = (size_t)n_record + sizeof key + sizeof number;
-    char *text = cz_arena_allocate(arena, n, 1);
-    if (text != NULL)
-        snprintf(text, n, "%.*s%s%s", n_record, place->path, key,
-                 cz_number_print(number, place->drawn_stroke));
-    return text;
+    return setting_at(place->path, stages != NULL ? (size_t)(stages - place->path) : 0,
+                      ".drawn_stroke_m", cz_number_print(number, place->drawn_stroke), arena);
 }
 
 /* Settings "path=value" that turn the problem file into the best design: with `all` those of the
@@ -109,7 +100,7 @@ static const char **settings_of(const CzReport *report, bool all, CzArena *arena
         const CzVariableInfo *info = cz_evaluator_variable(evaluator, variable);
         for (int i = 0; i < info->n_place; i++) {
             const CzVariablePlace *place = &info->place[i];
-            const char *own = setting_at(info, place, outcome->best[variable], arena);
+            const char *own = best_at(info, place, outcome->best[variable], arena);
             const bool is_drawn = !isnan(place->drawn_stroke);
             const char *drawn = is_drawn ? drawn_stroke_at(place, arena) : NULL;
             if (own == NULL || (is_drawn && drawn == NULL))

@@ -46,7 +46,7 @@ typedef struct CzPage {
     const CzRun *run;
     const CzRunSummary *summary;
     CzModel *model;
-    CzLayout *stand;    /* (n_vehicle) */
+    CzLayout *layout;   /* (n_vehicle) */
     const double *time; /* [ms] (n_sample) */
     int n_sample;
     CzMadeCurves made;
@@ -136,10 +136,9 @@ int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const in
 
 /* All designs of the search as lines over the variables (page_designs.c); nothing for fewer than
  * two variables. */
-CZ_MUST_CHECK CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
-                                             const CzOutcome *outcome, CzError *error);
+CZ_MUST_CHECK CzStatus cz_page_write_designs(CzMarkup *markup, const CzReport *report,
+                                             CzError *error);
 /* Change of objective and critical margins per increment of each variable (page_designs.c). */
-void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
-                                 const CzOutcome *outcome);
+void cz_page_write_sensitivities(CzMarkup *markup, const CzReport *report);
 
 #endif

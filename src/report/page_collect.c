@@ -90,8 +90,8 @@ static CzStatus collect_model(CzPage *page, CzError *error) {
     page->vehicles = cz_problem_vehicles(page->problem, &n_vehicle);
     CZ_TRY(cz_model_build(page->problem, scenario_named(page->problem, page->summary->scenario),
                           &page->model, error));
-    page->stand = calloc((size_t)page->model->n_car, sizeof *page->stand);
-    if (page->stand == NULL)
+    page->layout = calloc((size_t)page->model->n_car, sizeof *page->layout);
+    if (page->layout == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
     page->flange_height = INFINITY;
     for (int car = 0; car < page->model->n_car; car++)
@@ -99,7 +99,7 @@ static CzStatus collect_model(CzPage *page, CzError *error) {
             page->flange_height =
                 fmin(page->flange_height,
                      page->vehicles[page->model->car[car].vehicle].bogie.flange_height);
-    return cz_model_layout(page->model, page->stand, error);
+    return cz_model_layout(page->model, page->layout, error);
 }
 
 CzStatus cz_page_begin(CzPage *page, CzError *error) {
@@ -145,7 +145,7 @@ void cz_page_free(CzPage *page) {
     if (page->markup.stream != NULL)
         fclose(page->markup.stream);
     cz_memory_text_free(&page->text);
-    free(page->stand);
+    free(page->layout);
     cz_model_free(page->model);
     *page = (CzPage){0};
 }

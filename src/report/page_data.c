@@ -1,6 +1,6 @@
 /* The numbers behind the cursor and the animation: rows of the recorded channels, as whole numbers
- * of a decimal unit. Each is given by its second difference, how far it leaves the line through the
- * two before it:
+ * of a decimal unit. Each is given by its second difference, the deviation from the line through
+ * the two values before it:
  *
  *   +3, -12   a second difference
  *   z, z5     one that is zero, five of them
@@ -24,31 +24,28 @@ enum {
     FOOT_ROOM = 1000     /* size of what follows the numbers, without the script [byte] */
 };
 
-/* Channels in the data of the page, and their largest number of decimals; fewer for those that only
- * move the animation. */
-static const struct {
-    bool is_there;
-    int decimals;
-} shown[CZ_N_DRAWN] = {[CZ_DRAWN_TIME] = {true, FINEST_TIME},
-                       [CZ_DRAWN_BODY_DISPLACEMENT] = {true, 3},
-                       [CZ_DRAWN_BODY_SPEED] = {true, 3},
-                       [CZ_DRAWN_BODY_ACCELERATION] = {true, 3},
-                       [CZ_DRAWN_FILTERED_ACCELERATION] = {true, 3},
-                       [CZ_DRAWN_BODY_RISE] = {true, 1},
-                       [CZ_DRAWN_BODY_PITCH] = {true, 2},
-                       [CZ_DRAWN_WHEEL_LIFT] = {true, 2},
-                       [CZ_DRAWN_END_STROKE] = {true, 1},
-                       [CZ_DRAWN_ANTI_CLIMBER_STROKE] = {true, 1},
-                       [CZ_DRAWN_ANTI_CLIMBER_OVERLAP] = {true, 2},
-                       [CZ_DRAWN_INTERFACE_FORCE] = {true, 1},
-                       [CZ_DRAWN_INTERFACE_CLOSURE] = {true, 2},
-                       [CZ_DRAWN_KINETIC_ENERGY] = {true, 2},
-                       [CZ_DRAWN_STORED_ENERGY] = {true, 2},
-                       [CZ_DRAWN_WHEEL_RAIL_ENERGY] = {true, 2},
-                       [CZ_DRAWN_RUNNING_GEAR_ENERGY] = {true, 2},
-                       [CZ_DRAWN_TRACK_ENERGY] = {true, 2},
-                       [CZ_DRAWN_INTERFACES_ENERGY] = {true, 2},
-                       [CZ_DRAWN_BALANCE_ERROR] = {true, 6}};
+/* Largest number of decimals of the channels in the data of the page, 0 for other channels; fewer
+ * for those that only move the animation. */
+static const int most_decimals[CZ_N_DRAWN] = {[CZ_DRAWN_TIME] = FINEST_TIME,
+                                              [CZ_DRAWN_BODY_DISPLACEMENT] = 3,
+                                              [CZ_DRAWN_BODY_SPEED] = 3,
+                                              [CZ_DRAWN_BODY_ACCELERATION] = 3,
+                                              [CZ_DRAWN_FILTERED_ACCELERATION] = 3,
+                                              [CZ_DRAWN_BODY_RISE] = 1,
+                                              [CZ_DRAWN_BODY_PITCH] = 2,
+                                              [CZ_DRAWN_WHEEL_LIFT] = 2,
+                                              [CZ_DRAWN_END_STROKE] = 1,
+                                              [CZ_DRAWN_ANTI_CLIMBER_STROKE] = 1,
+                                              [CZ_DRAWN_ANTI_CLIMBER_OVERLAP] = 2,
+                                              [CZ_DRAWN_INTERFACE_FORCE] = 1,
+                                              [CZ_DRAWN_INTERFACE_CLOSURE] = 2,
+                                              [CZ_DRAWN_KINETIC_ENERGY] = 2,
+                                              [CZ_DRAWN_STORED_ENERGY] = 2,
+                                              [CZ_DRAWN_WHEEL_RAIL_ENERGY] = 2,
+                                              [CZ_DRAWN_RUNNING_GEAR_ENERGY] = 2,
+                                              [CZ_DRAWN_TRACK_ENERGY] = 2,
+                                              [CZ_DRAWN_INTERFACES_ENERGY] = 2,
+                                              [CZ_DRAWN_BALANCE_ERROR] = 6};
 
 /* Adds the samples at which a channel is largest and smallest. */
 static void take_extremes(const double *value, int n, bool *taken) {
@@ -104,7 +101,7 @@ static int decimals_for(CzDrawn drawn, const double *value, int n) {
     double room = 1;
     for (int i = 0; i < DIGITS; i++)
         room *= 10;
-    while (most > 0 && decimals < shown[drawn].decimals && most * 10 < room) {
+    while (most > 0 && decimals < most_decimals[drawn] && most * 10 < room) {
         most *= 10;
         decimals++;
     }
@@ -185,7 +182,7 @@ static void write_curve(FILE *stream, const CzPage *page, CzDrawn drawn, int pla
 static void write_curves(FILE *stream, const CzPage *page, const Rows *rows) {
     for (int i = 0; i < cz_run_n_column(page->run); i++) {
         const CzColumn column = cz_run_column(page->run, i);
-        if (shown[column.channel].is_there)
+        if (most_decimals[column.channel] > 0)
             write_curve(stream, page, (CzDrawn)column.channel, column.place, rows);
     }
     for (int i = 0; i < page->made.n; i++)

@@ -140,8 +140,9 @@ static void write_names(CzMarkup *markup, const CzEvaluator *evaluator, int n) {
     cz_markup_write(markup, "</p>\n");
 }
 
-CzStatus cz_page_write_designs(CzMarkup *markup, const CzEvaluator *evaluator,
-                               const CzOutcome *outcome, CzError *error) {
+CzStatus cz_page_write_designs(CzMarkup *markup, const CzReport *report, CzError *error) {
+    const CzEvaluator *evaluator = report->evaluator;
+    const CzOutcome *outcome = report->outcome;
     if (outcome->n_variable < 2 || outcome->n_trial < 2 || outcome->trial_x == NULL)
         return CZ_OK;
     double *objective = malloc((size_t)outcome->n_trial * sizeof *objective);
@@ -195,10 +196,10 @@ static void put_change(CzReportTable *table, double change) {
                                               : cz_figure_margin(text, change));
 }
 
-static void put_sensitivity(CzReportTable *table, const CzEvaluator *evaluator,
-                            const CzOutcome *outcome, int variable, int n_column,
-                            const int *column) {
-    const CzVariableInfo *info = cz_evaluator_variable(evaluator, variable);
+static void put_sensitivity(CzReportTable *table, const CzReport *report, int variable,
+                            int n_column, const int *column) {
+    const CzOutcome *outcome = report->outcome;
+    const CzVariableInfo *info = cz_evaluator_variable(report->evaluator, variable);
     const int n_constraint = outcome->best_evaluation.n_constraint;
     char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 40];
     cz_table_put(table, info->name);
@@ -208,7 +209,7 @@ static void put_sensitivity(CzReportTable *table, const CzEvaluator *evaluator,
              info->unit != NULL ? info->unit : "");
     cz_table_put(table, text);
     const double change = outcome->objective_change[variable];
-    if (cz_evaluator_maximises_margin(evaluator))
+    if (cz_evaluator_maximises_margin(report->evaluator))
         put_change(table, -change);
     else
         cz_table_put(table, isfinite(change) ? cz_figure_digits(text, 3, change) : "-");
@@ -222,8 +223,9 @@ static void add_head(CzReportTable *table, const char *name) {
     cz_table_head(table, head);
 }
 
-void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
-                                 const CzOutcome *outcome) {
+void cz_page_write_sensitivities(CzMarkup *markup, const CzReport *report) {
+    const CzEvaluator *evaluator = report->evaluator;
+    const CzOutcome *outcome = report->outcome;
     if (outcome->sensitivity_increment == NULL)
         return;
     int column[MOST_COLUMNS] = {0}, n_column = 0;
@@ -250,7 +252,7 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzEvaluator *evaluator,
         add_head(&table, cz_evaluator_constraint_name(evaluator, column[i]));
     for (int i = 0; i < outcome->n_variable; i++)
         if (outcome->sensitivity_increment[i] != 0)
-            put_sensitivity(&table, evaluator, outcome, i, n_column, column);
+            put_sensitivity(&table, report, i, n_column, column);
     cz_table_write_page(&table, markup);
     cz_markup_write(markup, "</section>\n");
 }

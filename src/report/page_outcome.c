@@ -20,8 +20,9 @@
 
 enum { MOST_CONSTRAINTS = 8 }; /* most constraints in the table of active ones */
 
-static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const CzProblem *problem,
-                         const CzOutcome *outcome) {
+static void write_banner(CzMarkup *markup, const CzReport *report) {
+    const CzEvaluator *evaluator = report->evaluator;
+    const CzOutcome *outcome = report->outcome;
     char before[CZ_FIGURE_ROOM], after[CZ_FIGURE_ROOM];
     const double start = outcome->start_evaluation.objective;
     const double best = outcome->best_evaluation.objective;
@@ -29,7 +30,7 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
     const CzVerdict verdict = outcome->best_evaluation.verdict;
     const bool is_passed = outcome->status == CZ_OUTCOME_FEASIBLE && verdict == CZ_VERDICT_PASS;
     cz_markup_write(markup, "<header><h1>%s</h1><p class='banner %s'>%s</p>",
-                    cz_problem_title(problem),
+                    cz_problem_title(report->problem),
                     outcome->status == CZ_OUTCOME_INFEASIBLE ? "fail"
                     : is_passed                              ? "pass"
                                                              : "careful",
@@ -57,106 +58,85 @@ static void write_banner(CzMarkup *markup, const CzEvaluator *evaluator, const C
 
 /* ---- variables ---- */
 
-static void write_variables(CzMarkup *markup, const CzEvaluator *evaluator,
-                            const CzOutcome *outcome) {
+static void write_variables(CzMarkup *markup, const CzReport *report) {
     CzReportTable table;
     cz_markup_write(markup, "<section id='variables'>\n<h2>Variables</h2>\n"
                             "<p>Between the bounds: ring: start, dot: best design.</p>");
-    cz_outcome_begin_variables(&table, evaluator, outcome, true);
+    cz_outcome_begin_variables(&table, report, true);
     cz_table_write_page(&table, markup);
     cz_markup_write(markup, "</section>\n");
 }
 
 /* ---- the search ---- */
 
-/* Curves over the evaluations: each, and the best so far (NaN before the first feasible one). */
-typedef struct Course {
-    double *count, *objective, *best, *violation; /* (n) in one block that `count` owns */
-    int n;
-} Course;
-
-static bool course_begin(Course *course, const CzEvaluator *evaluator, const CzOutcome *outcome) {
-    const int n = (int)outcome->n_trial;
-    const double sign = cz_evaluator_maximises_margin(evaluator) ? -100 : 1; /* margins in % */
-    course->n = n;
-    course->count = malloc(4 * ((size_t)n + 1) * sizeof *course->count);
-    if (course->count == NULL)
-        return false;
-    course->objective = course->count + n;
-    course->best = course->objective + n;
-    course->violation = course->best + n;
-    double best = NAN;
-    for (int i = 0; i < n; i++) {
-        const CzTrial *trial = &outcome->trial[i];
-        const bool is_margin = sign < 0;
-        const double plain = trial->objective * sign;
+/* Curves over the evaluations, in one block of four times n_trial: their number, the objective of
+ * each, the best so far (NaN before the first feasible one), the violation. NULL without memory. */
+static double *make_course(const CzReport *report) {
+    const long n = report->outcome->n_trial;
+    const bool is_margin = cz_evaluator_maximises_margin(report->evaluator);
+    const double sign = is_margin ? -100 : 1; /* margins in % */
+    double *course = malloc(4 * (size_t)n * sizeof *course), best = NAN;
+    for (long i = 0; course != NULL && i < n; i++) {
+        const CzTrial *trial = &report->outcome->trial[i];
+        const double plain = trial->objective * sign, percent = 100 * trial->violation;
         const double value = is_margin && plain < -MOST_PERCENT ? -MOST_PERCENT : plain;
-        course->count[i] = i + 1;
-        course->objective[i] = value;
         if (trial->feasible && (isnan(best) || value * sign < best * sign))
             best = value;
-        course->best[i] = best;
-        const double percent = 100 * trial->violation;
-        course->violation[i] = percent > MOST_PERCENT ? MOST_PERCENT : percent; /* NaN: a gap */
+        course[i] = (double)i + 1;
+        course[n + i] = value;
+        course[2 * n + i] = best;
+        course[3 * n + i] = percent > MOST_PERCENT ? MOST_PERCENT : percent; /* NaN: a gap */
     }
-    return true;
+    return course;
 }
 
-static CzStatus write_search(CzMarkup *markup, const CzEvaluator *evaluator,
-                             const CzOutcome *outcome, CzError *error) {
-    Course course;
-    char label[CZ_PATH_ROOM + 24];
-    if (outcome->n_trial < 2)
+static CzStatus write_search(CzMarkup *markup, const CzReport *report, CzError *error) {
+    const int n = (int)report->outcome->n_trial;
+    const bool is_margin = cz_evaluator_maximises_margin(report->evaluator);
+    const char *unit = cz_evaluator_objective_unit(report->evaluator);
+    char label[CZ_PATH_ROOM + 24] = "smallest margin [%]";
+    if (n < 2)
         return CZ_OK;
-    if (!course_begin(&course, evaluator, outcome))
+    double *x = make_course(report);
+    if (x == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
-    const char *unit = cz_evaluator_objective_unit(evaluator);
-    if (cz_evaluator_maximises_margin(evaluator))
-        snprintf(label, sizeof label, "smallest margin [%%]");
-    else
-        snprintf(label, sizeof label, "%s [%.20s]", cz_evaluator_objective_name(evaluator),
+    if (!is_margin)
+        snprintf(label, sizeof label, "%s [%.20s]", cz_evaluator_objective_name(report->evaluator),
                  unit != NULL && unit[0] != '\0' ? unit : "-");
-    const CzSeries objective[] = {{.name = "each evaluation",
-                                   .n = course.n,
-                                   .x = course.count,
-                                   .y = course.objective,
-                                   .colour = CZ_PLOT_QUIET},
-                                  {.name = "best feasible so far",
-                                   .n = course.n,
-                                   .x = course.count,
-                                   .y = course.best,
-                                   .colour = 2}};
-    const CzSeries violation = {.name = "worst violation of each evaluation",
-                                .n = course.n,
-                                .x = course.count,
-                                .y = course.violation,
-                                .colour = 1};
+    const CzSeries series[] = {
+        {.name = "each evaluation", .n = n, .x = x, .y = x + n, .colour = CZ_PLOT_QUIET},
+        {.name = "best feasible so far", .n = n, .x = x, .y = x + 2 * n, .colour = 2},
+        {.name = "worst violation of each evaluation",
+         .n = n,
+         .x = x,
+         .y = x + 3 * n,
+         .colour = 1}};
     const CzPlot plots[] = {
-        {.title = cz_evaluator_maximises_margin(evaluator)
+        {.title = is_margin
                       ? "Objective over the evaluations (margins below -100 % drawn at -100 %)"
                       : "Objective over the evaluations",
          .x_label = "evaluation",
          .y_label = label,
          .n_series = 2,
-         .series = objective},
+         .series = series},
         {.title = "Violation over the evaluations, 0 is feasible (above 100 % drawn at 100 %)",
          .x_label = "evaluation",
          .y_label = "violation [%]",
          .n_series = 1,
-         .series = &violation,
+         .series = &series[2],
          .from_zero = true}};
     cz_markup_write(markup, "<section id='search'>\n<h2>The search</h2>\n<div class='figures'>");
     cz_plot_write_figure(&plots[0], markup);
     cz_plot_write_figure(&plots[1], markup);
     cz_markup_write(markup, "</div></section>\n");
-    free(course.count);
+    free(x);
     return CZ_OK;
 }
 
 /* ---- active constraints ---- */
 
-static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const CzOutcome *outcome) {
-    const CzEvaluation *best = &outcome->best_evaluation;
+static void write_active(CzMarkup *markup, const CzReport *report) {
+    const CzEvaluation *best = &report->outcome->best_evaluation;
     CzReportTable table;
     cz_markup_write(markup,
                     "<section id='active'>\n<h2>Active constraints of the best design</h2>\n"
@@ -169,7 +149,7 @@ static void write_active(CzMarkup *markup, const CzEvaluator *evaluator, const C
             break;
         const bool is_flag =
             best->constraint_check != NULL && best->constraint_check[told[n]].is_flag;
-        cz_outcome_put_constraint(&table, evaluator, best, told[n],
+        cz_outcome_put_constraint(&table, report->evaluator, best, told[n],
                                   is_flag ? NAN : -best->constraint[told[n]]);
     }
     cz_table_write_page(&table, markup);
@@ -218,23 +198,22 @@ static void write_verification(CzMarkup *markup, const CzVerification *verificat
 /* ---- the page ---- */
 
 static CzStatus write_page(CzPage *page, const CzReport *report, CzError *error) {
-    const CzEvaluator *evaluator = report->evaluator;
     const CzOutcome *outcome = report->outcome;
     CzMarkup *markup = &page->markup;
     char title[CZ_SENTENCE_ROOM];
     snprintf(title, sizeof title, "%s, optimised", cz_problem_title(page->problem));
     cz_page_write_head(markup, title);
-    write_banner(markup, evaluator, page->problem, outcome);
+    write_banner(markup, report);
     cz_page_write_contents(page, true);
     cz_markup_write(markup, "<section id='checks'>\n<h2>Checks before and after</h2>\n");
     cz_page_write_checks(markup, &outcome->best_evaluation, &outcome->start_evaluation);
     cz_markup_write(markup, "</section>\n");
-    write_variables(markup, evaluator, outcome);
-    write_active(markup, evaluator, outcome);
-    cz_page_write_sensitivities(markup, evaluator, outcome);
+    write_variables(markup, report);
+    write_active(markup, report);
+    cz_page_write_sensitivities(markup, report);
     write_verification(markup, outcome->verification);
-    CZ_TRY(write_search(markup, evaluator, outcome, error));
-    CZ_TRY(cz_page_write_designs(markup, evaluator, outcome, error));
+    CZ_TRY(write_search(markup, report, error));
+    CZ_TRY(cz_page_write_designs(markup, report, error));
     CZ_TRY(write_values(markup, report, error));
     cz_markup_write(
         markup,

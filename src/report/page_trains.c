@@ -160,7 +160,7 @@ void cz_page_write_trains(CzPage *page) {
     write_diagram(page, markup);
     cz_markup_write(markup, "</div>\n<h3>The two ends that collide, at rest, to scale</h3>"
                             "<div class='wide'>");
-    cz_elevation_write(page->model, page->stand, markup);
+    cz_elevation_write(page->model, page->layout, markup);
     cz_markup_write(markup, "</div>\n<div class='tables'>");
     write_elements(page, markup);
     write_vehicles(page, markup);

@@ -21,10 +21,10 @@ typedef struct Results {
     CzReport run;              /* of a search, the run of its best design */
     const CzProblem *computed; /* what the runs were computed from: of a search, the problem with
                                   the best values; NULL when it cannot be read again */
-    int scenario;              /* at hand */
+    int scenario;              /* of the file that is written */
     bool is_top;               /* its files are at the top of the folder */
     const char *folder;        /* final path */
-    const CzSource *input;     /* file to copy, at hand */
+    const CzSource *input;     /* the file that is copied */
 } Results;
 
 typedef enum Content {

@@ -118,7 +118,7 @@ static const char *lifted_bogie(const CzVehicleResult *vehicle) {
     return vehicle->lifted_bogie == 0 ? "rear" : "front";
 }
 
-/* The source of an impulse that is at hand. */
+/* The source of the impulse that is being written. */
 static CzBudgetSource source_of(const CzResultContext *context) {
     return (CzBudgetSource)(context->order != NULL ? context->order[context->index]
                                                    : context->index);

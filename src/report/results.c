@@ -118,7 +118,7 @@ static void put_record(CzJson *json, const char *key, CzRecord record, CzResultC
     cz_json_close(json);
 }
 
-/* A value, or the item of a list that is at hand. */
+/* A value, or the current item of a list. */
 static void put_value(CzJson *json, const CzResult *result, const char *key,
                       CzResultContext *context, const void *record) {
     switch (result->form) {

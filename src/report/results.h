@@ -37,7 +37,7 @@ typedef struct CzResultContext {
     const CzReportOptions *options;
     const CzEvaluation *evaluation;
     double wall_s;           /* computing, of the whole document [s] */
-    const CzRunSummary *run; /* at hand */
+    const CzRunSummary *run; /* that is being written */
     const char *yaml;        /* of the fit */
     int n_order;             /* sources of a budget that are written, and in which order; */
     const int *order;        /* NULL: all of them, in their own */

@@ -157,6 +157,7 @@ static void write_climbing(const CzRunSummary *run, CzTerminal *terminal) {
 
 /* ---- families of scenarios ---- */
 
+/* The family of a scenario; NULL for none. */
 static const char *family_of(const CzProblem *problem, const char *scenario) {
     const CzInput *input = cz_problem_input(problem);
     for (int i = 0; i < input->n_scenarios; i++)
@@ -165,18 +166,20 @@ static const char *family_of(const CzProblem *problem, const char *scenario) {
     return NULL;
 }
 
-static bool is_of_family(const CzProblem *problem, const char *scenario, const char *family) {
-    const char *own = family_of(problem, scenario);
-    return own != NULL && strcmp(own, family) == 0;
+/* The run of a scenario of a family; NULL when it is of no or another family, or was not kept. */
+static const CzRunSummary *member_of(const CzProblem *problem, const CzEvaluation *evaluation,
+                                     int index, const char *family) {
+    const CzRunSummary *run = cz_kept_run(evaluation, index);
+    const char *own = run != NULL ? family_of(problem, run->scenario) : NULL;
+    return own != NULL && strcmp(own, family) == 0 ? run : NULL;
 }
 
 /* The check of a family that is nearest to failing, or fails; NULL when none was made. */
-static const CzCheckResult *worst_check(const CzProblem *problem, const CzEvaluation *evaluation,
-                                        const char *family) {
+static const CzCheckResult *worst_check(const CzEvaluation *evaluation, const char *family) {
     const CzCheckResult *worst = NULL;
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
-        if (!isnan(check->value) && is_of_family(problem, check->scenario, family) &&
+        if (!isnan(check->value) && check->family != NULL && strcmp(check->family, family) == 0 &&
             (worst == NULL || cz_check_is_worse(check, worst)))
             worst = check;
     }
@@ -187,11 +190,11 @@ static const CzCheckResult *worst_check(const CzProblem *problem, const CzEvalua
  * check. */
 static int worst_member(const CzProblem *problem, const CzEvaluation *evaluation,
                         const char *family) {
-    const CzCheckResult *worst = worst_check(problem, evaluation, family);
+    const CzCheckResult *worst = worst_check(evaluation, family);
     int member = -1;
     for (int i = 0; i < evaluation->n_run; i++) {
-        const CzRunSummary *run = cz_kept_run(evaluation, i);
-        if (run == NULL || !is_of_family(problem, run->scenario, family))
+        const CzRunSummary *run = member_of(problem, evaluation, i, family);
+        if (run == NULL)
             continue;
         if (run->status != CZ_OK || run->ended == CZ_ENDED_INCOMPLETE)
             return i;
@@ -203,13 +206,11 @@ static int worst_member(const CzProblem *problem, const CzEvaluation *evaluation
 
 static void write_family(const CzProblem *problem, const CzEvaluation *evaluation,
                          const char *family, CzTerminal *terminal) {
-    const CzCheckResult *worst = worst_check(problem, evaluation, family);
+    const CzCheckResult *worst = worst_check(evaluation, family);
     char margin[CZ_FIGURE_ROOM];
     int n = 0;
-    for (int i = 0; i < evaluation->n_run; i++) {
-        const CzRunSummary *run = cz_kept_run(evaluation, i);
-        n += run != NULL && is_of_family(problem, run->scenario, family);
-    }
+    for (int i = 0; i < evaluation->n_run; i++)
+        n += member_of(problem, evaluation, i, family) != NULL;
     cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s: the worst of %d scenarios%s%s", family, n,
                     worst != NULL ? " by " : "", worst != NULL ? worst->name : "");
     if (worst != NULL && !worst->is_flag)

@@ -45,7 +45,7 @@ static const CzEnd *end_of(const CzPage *page, int car, int side) {
 
 static Outline outline_of(const CzPage *page, int car, int side) {
     const CzEnd *end = end_of(page, car, side);
-    const double plane = page->stand[car].plane[side];
+    const double plane = page->layout[car].plane[side];
     Outline outline = {plane, plane, NAN, NAN, NAN};
     if (!end->given)
         return outline;
@@ -161,7 +161,7 @@ static double tip_of(const CzPage *page, int car, int side, int sample) {
         return own.tip;
     const double moved = sampled(page, sample, CZ_DRAWN_BODY_DISPLACEMENT, car) -
                          sampled(page, sample, CZ_DRAWN_BODY_DISPLACEMENT, other);
-    const double apart = fabs(page->stand[other].x - page->stand[car].x) - own.pivot -
+    const double apart = fabs(page->layout[other].x - page->layout[car].x) - own.pivot -
                          facing.pivot - (side == FRONT ? moved : -moved);
     const double length = own.tip - own.pivot, sum = length + facing.tip - facing.pivot;
     return own.pivot + fmin(length, fmax(apart, 0) * length / sum);
@@ -171,7 +171,7 @@ static double tip_of(const CzPage *page, int car, int side, int sample) {
 static void write_places(const CzPage *page, int car, const Outline outline[2], double cg,
                          CzMarkup *markup) {
     cz_markup_write(markup, " data-car='%s' data-at='%.4f' data-cg='%.3f'",
-                    page->model->car[car].name, page->stand[car].x, cg);
+                    page->model->car[car].name, page->layout[car].x, cg);
     for (int side = REAR; side <= FRONT; side++) {
         const char *name = side == FRONT ? "front" : "rear";
         cz_markup_write(markup, " data-%s='%.4f'", name, outline[side].bare);
@@ -191,7 +191,7 @@ static void write_car(const CzPage *page, int car, int sample, double origin, bo
         isnan(vehicle_of(page, car)->cg_height) ? 1 : vehicle_of(page, car)->cg_height;
     char x[CZ_FIGURE_ROOM], z[CZ_FIGURE_ROOM], turn[CZ_FIGURE_ROOM], pivot[CZ_FIGURE_ROOM];
     cz_markup_write(markup, "<g class='car' transform='translate(%s 0)'",
-                    cz_figure_fixed(x, 2, S * (page->stand[car].x + pose.x - origin)));
+                    cz_figure_fixed(x, 2, S * (page->layout[car].x + pose.x - origin)));
     if (moves)
         write_places(page, car, outline, cg, markup);
     cz_markup_write(markup, "><g class='body' transform='translate(0 %s) rotate(%s 0 %s)'>",
@@ -213,7 +213,7 @@ static double meeting_place(const CzPage *page, int interface, int sample) {
         const int car = interface + side;
         const double moved = sampled(page, sample, CZ_DRAWN_BODY_DISPLACEMENT, car);
         const Outline outline = outline_of(page, car, side == 0 ? FRONT : REAR);
-        sum += page->stand[car].x + moved + (side == 0 ? outline.bare : -outline.bare);
+        sum += page->layout[car].x + moved + (side == 0 ? outline.bare : -outline.bare);
     }
     return sum / 2;
 }
@@ -232,8 +232,8 @@ void cz_scene_write(const CzPage *page, int interface, int sample, double width,
                     "stroke-dashoffset='%.2f'/>",
                     -half_width, half_width, S * (origin - width / 2 / S));
     for (int car = 0; car < page->model->n_car; car++) {
-        const double x = page->stand[car].x - origin;
-        const double half = fmax(page->stand[car].plane[0], page->stand[car].plane[1]) + BARE;
+        const double x = page->layout[car].x - origin;
+        const double half = fmax(page->layout[car].plane[0], page->layout[car].plane[1]) + BARE;
         if (moves || S * (fabs(x) - half - 20) < width / 2)
             write_car(page, car, sample, origin, moves, markup);
     }

@@ -11,11 +11,12 @@
 #include "report/runs.h"
 #include "report/units.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 const char *cz_report_chart_name(int index) {
-    return index >= 0 && index < CZ_N_CHART ? cz_chart_info((CzChart)index)->name : NULL;
+    return index >= 0 && index < CZ_N_CHART ? cz_charts[index].name : NULL;
 }
 
 /* Finds the scenario to draw; fails when its run was not kept. */
@@ -39,18 +40,15 @@ CzStatus cz_report_write_page(const CzReport *report, FILE *stream, CzError *err
 }
 
 static CzStatus find_chart(const char *what, CzChart *chart, CzError *error) {
-    CzSuggestion suggestion = {0};
-    for (int i = 0; i < CZ_N_CHART; i++) {
-        *chart = (CzChart)i;
-        if (strcmp(cz_chart_info((CzChart)i)->name, what) == 0)
-            return CZ_OK;
-        cz_suggest(&suggestion, what, cz_chart_info((CzChart)i)->name);
-    }
-    const CzStatus status =
-        cz_fail(error, CZ_STATUS_INPUT,
-                "there is no figure '%.100s'" CZ_HELP "'crushzone help figures' lists them", what);
-    cz_suggest_help(&suggestion, error);
-    return status;
+    CzSuggestion nearest = {0};
+    const int found = CZ_FIND_NAMED(what, CzChartInfo, cz_charts, CZ_N_CHART, &nearest);
+    *chart = (CzChart)found;
+    if (found >= 0)
+        return CZ_OK;
+    cz_fail(error, CZ_STATUS_INPUT,
+            "there is no figure '%.100s'" CZ_HELP "'crushzone help figures' lists them", what);
+    cz_suggest_help(&nearest, error);
+    return CZ_STATUS_INPUT;
 }
 
 static const char *place_name(const CzPage *page, bool of_interface, int index) {
@@ -67,7 +65,7 @@ static CzStatus find_place(const CzPage *page, CzChart chart, const char *at, in
         of_several && page->n_sample > 1 ? page->summary->n_interface : cz_chart_count(page, chart);
     if (n == 0)
         return cz_fail(error, CZ_STATUS_INPUT, "this run has no data for the figure '%s'",
-                       cz_chart_info(chart)->name);
+                       cz_charts[chart].name);
     *index = 0;
     if (!of_interface && chart != CZ_CHART_CAR_ACCELERATION)
         return CZ_OK;
@@ -121,18 +119,18 @@ CzStatus cz_report_write_elevation(const CzProblem *problem, int scenario, FILE 
                                    CzError *error) {
     CzMarkup markup = {.stream = stream};
     CzModel *model = NULL;
-    CzLayout *stand = NULL;
+    CzLayout *layout = NULL;
     CzStatus status = cz_model_build(problem, scenario, &model, error);
     if (status == CZ_OK) {
-        stand = calloc((size_t)model->n_car, sizeof *stand);
-        status = stand != NULL ? cz_model_layout(model, stand, error)
-                               : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a figure");
+        layout = calloc((size_t)model->n_car, sizeof *layout);
+        status = layout != NULL ? cz_model_layout(model, layout, error)
+                                : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a figure");
     }
     if (status == CZ_OK) {
         cz_svg_begin_document(&markup);
-        cz_elevation_write(model, stand, &markup);
+        cz_elevation_write(model, layout, &markup);
     }
-    free(stand);
+    free(layout);
     cz_model_free(model);
     return status;
 }

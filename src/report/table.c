@@ -2,7 +2,6 @@
 #include "report/table.h"
 
 #include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { COLUMN_SPACE = 3 };
@@ -43,7 +42,6 @@ void cz_terminal_say(CzTerminal *terminal, CzStyle style, const char *format, ..
 
 static const char *keep(CzReportTable *table, const char *text) {
     const char *copy = cz_arena_copy_text(&table->arena, text, strlen(text));
-    table->failed |= copy == NULL;
     return copy != NULL ? copy : "";
 }
 
@@ -67,16 +65,10 @@ void cz_table_begin(CzReportTable *table, const char *heads) {
 }
 
 static void put(CzReportTable *table, CzReportCell cell) {
-    if (table->n_cell == table->room && !table->failed) {
-        const int room = 2 * table->room + 64;
-        CzReportCell *grown = realloc(table->cell, (size_t)room * sizeof *grown);
-        table->failed = grown == NULL;
-        if (!table->failed) {
-            table->cell = grown;
-            table->room = room;
-        }
-    }
-    if (!table->failed)
+    CzArena *arena = &table->arena;
+    if (!arena->out_of_memory)
+        table->cell = cz_arena_grow(arena, table->cell, table->n_cell, sizeof *table->cell);
+    if (!arena->out_of_memory)
         table->cell[table->n_cell++] = cell;
 }
 
@@ -106,8 +98,6 @@ void cz_table_put_range(CzReportTable *table, double start, double best) {
 }
 
 void cz_table_free(CzReportTable *table) {
-    free(table->cell);
-    table->cell = NULL;
     cz_arena_free(&table->arena);
 }
 
@@ -146,8 +136,8 @@ static void write_row(const CzReportTable *table, const CzReportCell *cell, cons
 void cz_table_write_text(CzReportTable *table, CzTerminal *terminal) {
     CzReportCell head[CZ_MOST_COLUMNS];
     int width[CZ_MOST_COLUMNS] = {0};
-    terminal->failed |= table->failed;
-    if (table->failed)
+    terminal->failed |= table->arena.out_of_memory;
+    if (table->arena.out_of_memory)
         fputs("no memory for this table\n", terminal->stream);
     for (int column = 0; column < table->n_column; column++) {
         const char *text = table->column[column].head;

@@ -46,9 +46,8 @@ typedef struct CzReportTable {
         bool is_number;   /* to the right */
     } column[CZ_MOST_COLUMNS];
     CzReportCell *cell; /* row after row, those of columns that are left out too (n_cell) */
-    int n_cell, room;
-    bool failed;   /* no memory */
-    CzArena arena; /* of the texts */
+    int n_cell;
+    CzArena arena; /* of texts and cells */
 } CzReportTable;
 
 /* Starts a table with the heads of a text, semicolons between them; NULL: none yet. A head that
@@ -75,7 +74,7 @@ void cz_table_free(CzReportTable *table);
 typedef struct CzTerminal {
     FILE *stream;
     bool colour; /* escape codes are allowed */
-    bool failed; /* there was no memory for a table: rows are missing, which the text says too */
+    bool failed; /* no memory for a table: rows are missing, and the text reports it */
 } CzTerminal;
 
 /* Writes a text in a style: control characters become '?', line ends at the end of the format stay.

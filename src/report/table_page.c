@@ -65,7 +65,7 @@ static void write_cell(CzMarkup *markup, const CzReportCell *cell, bool is_numbe
 }
 
 void cz_table_write_page(CzReportTable *table, CzMarkup *markup) {
-    markup->failed |= table->failed;
+    markup->failed |= table->arena.out_of_memory;
     cz_markup_write(markup,
                     table->class_name != NULL ? "<div class='wide'><table class='%s'><tr>"
                                               : "<div class='wide'><table><tr>",

@@ -61,8 +61,8 @@ void cz_each_temporary(const char *folder, CzLook *look, void *data);
  * none, or without memory. */
 char *cz_marker_read(const char *folder);
 
-/* Whether the folder of a marker is complete, and whether a line of it begins with `what`, a name
- * and a sign. */
+/* Whether the folder of a marker is complete; whether one of its lines is `what`, the name, and
+ * then `end`. */
 bool cz_marker_is_whole(const char *marker);
 bool cz_marker_lists(const char *marker, const char *what, const char *name, char end);
 

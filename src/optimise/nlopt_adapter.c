@@ -13,7 +13,6 @@
 #include <math.h>
 #include <nlopt.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- algorithms by name ---------------------------------------------------------------------- */
@@ -284,12 +283,8 @@ static nlopt_result set_functions(Bridge *bridge) {
     nlopt_result result = nlopt_set_min_objective(bridge->opt, objective, bridge);
     if (result < 0 || bridge->penalty || bridge->m == 0)
         return result;
-    double *tolerance = calloc((size_t)bridge->m, sizeof *tolerance);
-    if (tolerance == NULL)
-        return NLOPT_OUT_OF_MEMORY;
     result = nlopt_add_inequality_mconstraint(bridge->opt, (unsigned)bridge->m, constraints, bridge,
-                                              tolerance);
-    free(tolerance);
+                                              NULL); /* tolerances of 0 */
     if (result == NLOPT_INVALID_ARGS && bridge->run->form == CZ_FORM_NATIVE) {
         bridge->penalty = true; /* bounds only */
         return NLOPT_SUCCESS;
@@ -348,10 +343,10 @@ CzStatus cz_nlopt_run(CzSearch *search, const CzNloptRun *run, const double *u, 
         bridge.scale = size > 1e-9 && !function->is_minimax ? size : 1;
     }
     const int n_all = bridge.n + bridge.elastic;
-    double *variables = calloc((size_t)n_all, sizeof *variables);
+    double *variables = cz_arena_numbers(&bridge.arena, (size_t)n_all);
     bridge.opt = nlopt_create(algorithm, (unsigned)n_all);
     CzStatus status = CZ_OK;
-    if (variables == NULL || bridge.opt == NULL || !bridge_allocate(&bridge)) {
+    if (bridge.opt == NULL || !bridge_allocate(&bridge)) {
         status = cz_no_memory(error, run->algorithm);
     } else {
         for (int i = 0; i < bridge.n; i++)
@@ -360,6 +355,5 @@ CzStatus cz_nlopt_run(CzSearch *search, const CzNloptRun *run, const double *u, 
     }
     nlopt_destroy(bridge.opt);
     cz_arena_free(&bridge.arena);
-    free(variables);
     return status;
 }

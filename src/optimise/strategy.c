@@ -19,7 +19,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { MOST_STARTS = 6, SCREEN_BATCH = 16, MOST_BATCH = 8 };
 
@@ -85,12 +84,12 @@ static CzStatus descend(CzSurface *surface, long evaluations, CzError *error) {
         const long left = limit - search->n_record;
         if (record < 0 || left < 3 * (n + (is_fit ? 3 : 1)) || cz_search_left(search) == 0)
             break;
-        cz_search_scale(search, cz_search_x(search, record), u);
-        memcpy(chosen + start * n, u, (size_t)n * sizeof *u);
+        double *from = chosen + start * n;
+        cz_search_scale(search, cz_search_x(search, record), from);
         if (is_fit)
-            status = cz_gauss_newton(search, "descend", u, left, error);
+            status = cz_gauss_newton(search, "descend", from, left, error);
         else
-            cz_surface_descend(surface, "descend", u, left);
+            cz_surface_descend(surface, "descend", from, left);
     }
     free(chosen);
     return status;

@@ -204,6 +204,8 @@ static int start_block(CzBlock *block, const CzLanes *lanes, size_t base, CzAren
         return 0;
     for (int side = 0; side < 2; ++side)
         for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+            block->has_shear_off[side] |=
+                block->parameter.coupler.side[side].shear.force[i] < CZ_NEVER;
             block->has_massless[side] |= block->parameter.face.side[side].has_massless[i] > 0.5;
             block->end_peak[side].at[i] = NAN;
         }

@@ -132,6 +132,7 @@ typedef struct CzBlock {
     CzMemory memories[2];   /* for `memory` and `next_memory` to swap */
     CzPower powers[2];      /* for `power` and `last_power` to swap */
     CzBlockCurves curve;
+    int has_shear_off[2];   /* some lane's coupler of side A, B shears off */
     int has_massless[2];    /* some lane's side A, B has a crush zone without end mass */
     CzPeak end_peak[2];     /* of the rear and front crush zone */
     CzRow coupler_reach;    /* closure up to which resting couplers do nothing [m] */

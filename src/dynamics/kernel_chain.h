@@ -50,6 +50,7 @@ typedef struct {
     const double *rise;          /* of its strength by the closing speed */
     const double *stroke;        /* committed */
     double *next;
+    int is_missing; /* in all lanes: it would neither yield nor add to any sum */
 } Plastic;
 
 /* Rows of a spring, and of the energies of its side. */
@@ -119,8 +120,12 @@ static void begin_chain(Chain *chain, const SpringLaw *law, const double *closur
 /* A tube or an anti-climber whose strength does not depend on the closing speed. */
 static Plastic collapsing(const CzBlockCurve *strength, const double *rate, const double *stroke,
                           double *next) {
-    return (Plastic){
-        .curve = strength, .rate = rate, .rise = zeros, .stroke = stroke, .next = next};
+    return (Plastic){.curve = strength,
+                     .rate = rate,
+                     .rise = zeros,
+                     .stroke = stroke,
+                     .next = next,
+                     .is_missing = !strength->is_there};
 }
 
 static void list_energies(Spring *side, const double *energy, double *next_energy,
@@ -129,11 +134,6 @@ static void list_energies(Spring *side, const double *energy, double *next_energ
     side->next_energy = next_energy;
     side->plastic_energy = plastic_energy;
     side->next_plastic_energy = next_plastic_energy;
-}
-
-/* Whether a plastic member is missing in all lanes: it would neither yield nor add to any sum. */
-static int is_missing(const Plastic *member) {
-    return member->curve != NULL && !member->curve->is_there;
 }
 
 /* Sum of the members' shortenings less the closure, and its derivative, at the chain's present
@@ -154,7 +154,7 @@ static void unbalance(const Chain *chain, CurveAt *restrict sum) {
         }
     }
     for (int member = 0; member < chain->n_plastic; ++member) {
-        if (is_missing(&chain->plastic[member]))
+        if (chain->plastic[member].is_missing)
             continue;
         const double *restrict stroke = chain->plastic[member].stroke;
         const PlasticState *plastic = &now->plastic[member];

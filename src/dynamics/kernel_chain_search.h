@@ -288,8 +288,8 @@ static Search search_of(const Chain *chain, int holds, size_t lane) {
     }
     for (int member = 0; member < chain->n_plastic; ++member) {
         const double stroke = chain->plastic[member].stroke[lane];
-        const int is_there = !is_missing(&chain->plastic[member]) &&
-                             chain->now.plastic[member].strength[lane] < RIGID;
+        const int is_there =
+            !chain->plastic[member].is_missing && chain->now.plastic[member].strength[lane] < RIGID;
         list_member(&s, 2 + member, stroke, is_there);
         sum += stroke;
     }

@@ -29,7 +29,7 @@ static int start_chain(Chain *chain) {
     for (int side = 0; side < 2; ++side)
         chain->law->linearise(chain, side, 0);
     for (int member = 0; member < chain->n_curve; ++member)
-        if (!is_missing(&chain->plastic[member]))
+        if (!chain->plastic[member].is_missing)
             prepare_plastic(chain, member);
     return solve_linear(chain);
 }
@@ -59,7 +59,7 @@ static int settle_chain(Chain *chain, CzPublished *published, Linearise *others,
         memset(chain->now.distance, 0, sizeof(CzRow));
         double n_changed = chain->law->linearise(chain, 0, 1) + chain->law->linearise(chain, 1, 1);
         for (int member = 0; member < chain->n_curve; ++member)
-            if (!is_missing(&chain->plastic[member]))
+            if (!chain->plastic[member].is_missing)
                 n_changed += relinearise_plastic(chain, member);
         if (others != NULL)
             n_changed += others(chain, 0, 1) + others(chain, 1, 1);
@@ -136,7 +136,7 @@ static void move_members(const Chain *chain) {
     move_springs(chain);
     for (int member = 0; member < chain->n_plastic; ++member) {
         const Spring *side = &chain->spring[member % 2];
-        if (!is_missing(&chain->plastic[member]))
+        if (!chain->plastic[member].is_missing)
             move_plastic(chain, member, member < 2);
         else if (member < 2)
             memcpy(side->next_plastic_energy, side->plastic_energy, sizeof(CzRow));
@@ -151,7 +151,7 @@ static void chain_top(Chain *chain) {
     memset(top, 0, sizeof(CzRow));
     for (int number = 0; number < chain->n_curve; ++number) {
         const Plastic *member = &chain->plastic[number];
-        if (is_missing(member))
+        if (member->is_missing)
             continue;
         evaluate_curve(member->curve, member->stroke, &curve);
         CZ_LANES (i) {

@@ -31,9 +31,12 @@ static void list_couplers(CzBlock *d, const CouplerLine *line, double step, Coup
         chain->plastic[2 + side] =
             collapsing(&d->curve.second_tube[side], rows->side[side].second_tube_rate,
                        memory->side[side].second_tube, next->side[side].second_tube);
-        chain->plastic[SHEAR_OFF + side] =
-            collapsing(NULL, zeros, memory->side[side].shear, next->side[side].shear);
-        chain->plastic[SHEAR_OFF + side].shear = &rows->side[side].shear;
+        chain->plastic[SHEAR_OFF + side] = (Plastic){.shear = &rows->side[side].shear,
+                                                     .rate = zeros,
+                                                     .rise = zeros,
+                                                     .stroke = memory->side[side].shear,
+                                                     .next = next->side[side].shear,
+                                                     .is_missing = !d->has_shear_off[side]};
     }
 }
 

@@ -35,6 +35,15 @@ typedef struct {
     int releases; /* a shear-off releases in this step */
 } CouplerChain;
 
+/* A shear-off that no lane has never yields. */
+static double leave_out_shear_off(PlasticState *plastic) {
+    CZ_LANES (i) {
+        plastic->strength[i] = CZ_NEVER;
+        plastic->compliance[i] = 0.0;
+    }
+    return 0.0;
+}
+
 /* Linearises the shear-off of one side; the first time also gives the damage that it has done. */
 static double linearise_shear_off(Chain *chain, int side, int again) {
     const int member = SHEAR_OFF + side;
@@ -43,6 +52,8 @@ static double linearise_shear_off(Chain *chain, int side, int again) {
     const double step = chain->step;
     _Alignas(64) CzRow trial, unused = {0.0};
     CurveAt curve;
+    if (chain->plastic[member].is_missing)
+        return leave_out_shear_off(plastic);
     if (again && trial_of_plastic(chain, member, trial) == 0.0)
         return 0.0;
     const double *restrict travel = again ? trial : chain->plastic[member].stroke;
@@ -155,7 +166,8 @@ static void release_impulse(const double *restrict rate, CouplerChain *of) {
 /* Releases shear-offs where they are to yield; returns how often the force was found anew. */
 static int release(CzBlock *d, const double *restrict rate, CouplerChain *of) {
     Chain *chain = &of->buffers.chain;
-    if (!mark_release(of))
+    if ((chain->plastic[SHEAR_OFF].is_missing && chain->plastic[SHEAR_OFF + 1].is_missing) ||
+        !mark_release(of))
         return 0;
     of->releases = 1;
     int n_anew = 0;

@@ -86,7 +86,6 @@ static void coupler_top(CouplerChain *of, double *restrict top) {
  * closure up to the couplers' reach. */
 static int coupler_chain_force(CzBlock *d, const CouplerLine *line, CouplerChain *of) {
     Chain *chain = &of->buffers.chain;
-    of->releases = 0;
     prepare_couplers(&d->parameter.coupler, of);
     const int found = start_chain(chain);
     int n_anew = settle_chain(chain, &d->published, NULL, found);
@@ -94,10 +93,10 @@ static int coupler_chain_force(CzBlock *d, const CouplerLine *line, CouplerChain
     memcpy(chain->now.active, d->parameter.coupler.exists, sizeof(CzRow));
     finish_chain(chain, &d->published);
     move_members(chain);
-    if (of->releases) {
+    if (of->releases)
         release_work(d, line->rate, of);
+    if (of->yields)
         snap_work(&d->memory->coupler, &d->next_memory->coupler);
-    }
     coupler_top(of, d->published.coupler.top);
     keep_rates(&of->buffers);
     return n_anew == 0 && couplers_are_slack(of, d->coupler_reach);

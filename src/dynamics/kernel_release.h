@@ -32,7 +32,8 @@ typedef struct {
     BufferChain buffers;       /* first: the solution hands it back */
     _Alignas(64) CzRow damage; /* share of the coupler's strength that shear-off has taken */
     Release release;
-    int releases; /* a shear-off releases in this step */
+    int yields;   /* a shear-off moves on in this step */
+    int releases; /* one that was whole releases in it */
 } CouplerChain;
 
 /* A shear-off that no lane has never yields. */
@@ -76,15 +77,16 @@ static double linearise_shear_off(Chain *chain, int side, int again) {
 
 /* Marks the lanes in which a shear-off yields as the active ones, and what begins there: the force
  * at which an undamaged one releases, and the closure left after that, with what the springs took
- * of it while the smallest resistance held on. Returns whether there are any. */
-static int mark_release(CouplerChain *of) {
+ * of it while the smallest resistance held on. Says what there is of both. */
+static void mark_release(CouplerChain *of) {
     Chain *chain = &of->buffers.chain;
     ChainState *now = &chain->now;
     const Plastic *shear_off = &chain->plastic[SHEAR_OFF];
     const PlasticState *state = &now->plastic[SHEAR_OFF];
     const double *restrict compliance = chain->compliance;
-    double n_crushing = 0.0;
-    CZ_LANES_SUM(i, n_crushing) {
+    double n_yielding = 0.0, n_released = 0.0;
+    _Pragma("omp simd reduction(+ : n_yielding, n_released)") for (size_t i = 0; i < CZ_LANE_BLOCK;
+                                                                   ++i) {
         const double force = now->force[i];
         double all_moved = 0.0, new_moved = 0.0, weakest = CZ_NEVER;
         for (int side = 0; side < 2; ++side) {
@@ -102,9 +104,11 @@ static int mark_release(CouplerChain *of) {
         now->active[i] = all_moved > 0.0 ? now->active[i] : 0.0;
         of->release.force[i] = begins * at;
         of->release.left[i] = begins * (new_moved + sprung);
-        n_crushing += now->active[i];
+        n_yielding += now->active[i];
+        n_released += begins;
     }
-    return n_crushing > 0.0;
+    of->yields = n_yielding > 0.0;
+    of->releases = n_released > 0.0;
 }
 
 /* What the shear-offs that release keep, of both sides. */
@@ -166,16 +170,18 @@ static void release_impulse(const double *restrict rate, CouplerChain *of) {
 /* Releases shear-offs where they are to yield; returns how often the force was found anew. */
 static int release(CzBlock *d, const double *restrict rate, CouplerChain *of) {
     Chain *chain = &of->buffers.chain;
-    if ((chain->plastic[SHEAR_OFF].is_missing && chain->plastic[SHEAR_OFF + 1].is_missing) ||
-        !mark_release(of))
+    of->yields = of->releases = 0;
+    if (!chain->plastic[SHEAR_OFF].is_missing || !chain->plastic[SHEAR_OFF + 1].is_missing)
+        mark_release(of);
+    if (!of->yields)
         return 0;
-    of->releases = 1;
     int n_anew = 0;
     if (linearise_shear_off(chain, 0, 1) + linearise_shear_off(chain, 1, 1) > 0.0) {
         const int found = solve_linear(chain);
         n_anew = 1 + settle_chain(chain, &d->published, linearise_shear_off, found);
     }
-    release_impulse(rate, of);
+    if (of->releases)
+        release_impulse(rate, of);
     return n_anew;
 }
 

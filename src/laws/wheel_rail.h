@@ -31,14 +31,14 @@ static inline double cz_wheel_normal_force(double hertz, double indentation) {
 }
 
 /* Normal force under an approach A on a rail of flexibility r [m/N]. In t = s / sqrt(A) the
- * equation is t^2 + u t^3 = 1 with u = r H sqrt(A): three steps of Halley's method from 1 / sqrt(1
- * + u) have an error below 1e-15 up to u = 2, which is thirty times a usual axle load, and 1e-6 at
- * u = 100. */
+ * equation is t^2 + u t^3 = 1 with u = r H sqrt(A). It begins with a fraction that is within 1 % of
+ * the root up to u = 5 and within 25 % up to 100; two steps of Halley's method leave rounding up to
+ * u = 10, fifteen times that of a usual axle load, and 1e-6 at u = 100. */
 static inline double cz_wheel_force_on_spring(double hertz, double flexibility, double approach) {
     const double pressed = cz_positive_part(approach), root = sqrt(pressed);
     const double u = flexibility * hertz * root;
-    double t = 1.0 / sqrt(1.0 + u);
-    for (int k = 0; k < 3; ++k) {
+    double t = (1.0 + 0.355 * u) / (1.0 + u * (0.782 + 0.0144 * u));
+    for (int k = 0; k < 2; ++k) {
         const double ut = u * t;
         const double value = t * t * (1.0 + ut) - 1.0, slope = t * (2.0 + 3.0 * ut);
         const double bend = 2.0 + 6.0 * ut;

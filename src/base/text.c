@@ -196,11 +196,16 @@ bool cz_text_is_among(const char *text, int n, const char *const *list) {
 }
 
 bool cz_text_is_word(const char *text, const char *words) {
-    const size_t n_text = strlen(text);
-    for (size_t n = 0; *words != '\0'; words += n + strspn(words + n, " ")) {
-        n = strcspn(words, " ");
-        if (n == n_text && memcmp(words, text, n) == 0)
+    while (*words != '\0') {
+        size_t n = 0;
+        while (text[n] != '\0' && text[n] != ' ' && text[n] == words[n])
+            n++;
+        if (text[n] == '\0' && (words[n] == ' ' || words[n] == '\0'))
             return true;
+        while (*words != '\0' && *words != ' ')
+            words++;
+        while (*words == ' ')
+            words++;
     }
     return false;
 }

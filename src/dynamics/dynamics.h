@@ -132,20 +132,21 @@ typedef struct CzBlock {
     CzMemory memories[2];   /* for `memory` and `next_memory` to swap */
     CzPower powers[2];      /* for `power` and `last_power` to swap */
     CzBlockCurves curve;
-    int has_shear_off[2];   /* some lane's coupler of side A, B shears off */
-    int has_massless[2];    /* some lane's side A, B has a crush zone without end mass */
-    CzPeak end_peak[2];     /* of the rear and front crush zone */
-    CzRow coupler_reach;    /* closure up to which resting couplers do nothing [m] */
-    CzRow face_reach;       /* the same of the faces */
-    int couplers_rest;      /* the last evaluation of the couplers changed nothing */
-    int faces_rest;         /* so did that of the faces */
-    int leaves_nothing_out; /* evaluates couplers and faces even where that changes nothing: tests
-                               compare with it */
-    CzBudgetRows *budget;   /* records of the sources of forces; NULL when not requested */
-    CzMemory *memory;       /* committed */
-    CzMemory *next_memory;  /* of the last evaluation */
-    CzPower *power;         /* of the last evaluation [W] */
-    CzPower *last_power;    /* committed */
+    int has_shear_off[2];     /* some lane's coupler of side A, B shears off */
+    int has_massless[2];      /* some lane's side A, B has a crush zone without end mass */
+    CzPeak end_peak[2];       /* of the rear and front crush zone */
+    CzRow coupler_reach;      /* closure up to which resting couplers do nothing [m] */
+    CzRow face_reach;         /* the same of the faces */
+    int couplers_rest;        /* the last evaluation of the couplers changed nothing */
+    int faces_rest;           /* so did that of the faces */
+    int leaves_nothing_out;   /* evaluates couplers and faces even where that changes nothing: tests
+                                 compare with it */
+    CzBudgetRows *budget_sum; /* of the records below: sum over all steps, times their length */
+    CzBudgetRows *budget;     /* records of the sources of forces; NULL when not requested */
+    CzMemory *memory;         /* committed */
+    CzMemory *next_memory;    /* of the last evaluation */
+    CzPower *power;           /* of the last evaluation [W] */
+    CzPower *last_power;      /* committed */
 } CzBlock;
 
 typedef struct CzDynamics {

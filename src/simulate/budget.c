@@ -13,7 +13,7 @@
 
 struct CzBudget {
     int n_car;
-    CzBudgetRows *sum;     /* impulses of what the kernel notes (n_block) */
+    const CzBlock *block;  /* with the impulses of what the kernel notes (n_block) */
     CzFacePush (*face)[2]; /* impulses of the faces on the rear and the front of a car (n_car) */
     CzVehicleBudget *kept; /* as it was at the largest lift or pitch (n_car) */
     double *lift, *pitch;  /* largest so far [m], [rad] (n_car) */
@@ -56,27 +56,19 @@ CzBudget *cz_budget_begin(CzBatch *batch, CzArena *arena) {
         return NULL;
     budget->n_car = batch->model->n_car;
     budget->kept = cz_arena_allocate(arena, n, sizeof *budget->kept);
-    budget->sum = cz_arena_allocate(&batch->arena, n_block, sizeof *budget->sum);
+    budget->block = batch->dynamics->block;
     budget->face = cz_arena_allocate(&batch->arena, n, sizeof *budget->face);
     budget->lift = cz_arena_allocate(&batch->arena, n, sizeof *budget->lift);
     budget->pitch = cz_arena_allocate(&batch->arena, n, sizeof *budget->pitch);
-    CzBudgetRows *rows = cz_arena_allocate(&batch->arena, n_block, sizeof *rows);
-    if (budget->kept == NULL || budget->sum == NULL || budget->face == NULL ||
-        budget->lift == NULL || budget->pitch == NULL || rows == NULL)
+    CzBudgetRows *rows = cz_arena_allocate(&batch->arena, 2 * n_block, sizeof *rows);
+    if (budget->kept == NULL || budget->face == NULL || budget->lift == NULL ||
+        budget->pitch == NULL || rows == NULL)
         return NULL;
-    for (size_t i = 0; i < n_block; ++i)
+    for (size_t i = 0; i < n_block; ++i) {
         batch->dynamics->block[i].budget = &rows[i];
-    return budget;
-}
-
-/* Adds what the kernel noted in a step. */
-static void add_rows(CzBudget *budget, const CzBatch *batch) {
-    for (int block = 0; block < batch->dynamics->n_block; ++block) {
-        const double *restrict noted = (const double *)batch->dynamics->block[block].budget;
-        double *restrict sum = (double *)&budget->sum[block];
-        for (size_t i = 0; i < sizeof(CzBudgetRows) / sizeof(double); ++i)
-            sum[i] += batch->step * noted[i];
+        batch->dynamics->block[i].budget_sum = &rows[n_block + i];
     }
+    return budget;
 }
 
 /* Adds what the faces of an interface push, side A on the front of the car behind them. */
@@ -103,7 +95,7 @@ static void add_pushing_faces(CzBudget *budget, const CzBatch *batch) {
 /* The impulses of all sources on the body of a car so far. */
 static void fill_sums(const CzBudget *budget, int car, double lift[CZ_N_BUDGET],
                       double moment[CZ_N_BUDGET]) {
-    const CzBudgetRows *own = &budget->sum[car / CZ_LANE_BLOCK];
+    const CzBudgetRows *own = budget->block[car / CZ_LANE_BLOCK].budget_sum;
     const int i = car % CZ_LANE_BLOCK;
     for (int end = 0; end < 2; ++end) {
         lift[CZ_BUDGET_END_REAR + end] = own->end_lift[end][i];
@@ -122,7 +114,7 @@ static void fill_sums(const CzBudget *budget, int car, double lift[CZ_N_BUDGET],
         const int interface = side == 0 ? car : car - 1, end = 1 - side;
         if (interface < 0 || interface >= budget->n_car - 1)
             continue;
-        const CzBudgetRows *rows = &budget->sum[interface / CZ_LANE_BLOCK];
+        const CzBudgetRows *rows = budget->block[interface / CZ_LANE_BLOCK].budget_sum;
         const int k = interface % CZ_LANE_BLOCK;
         lift[CZ_BUDGET_COUPLER_REAR + end] = rows->coupler_lift[side][k];
         moment[CZ_BUDGET_COUPLER_REAR + end] = rows->coupler_moment[side][k];
@@ -163,7 +155,6 @@ static void keep(CzBudget *budget, const CzBatch *batch, int car) {
 void cz_budget_add(CzBudget *budget, const CzBatch *batch) {
     if (!isnan(batch->design[0].override_time))
         return; /* later motion is beyond the model */
-    add_rows(budget, batch);
     add_pushing_faces(budget, batch);
     for (int car = 0; car < budget->n_car; ++car)
         if (batch->model->car[car].model == CZ_MODEL_FULL)

@@ -7,6 +7,7 @@
 #include "report/units.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A table being written; end_row ends a row. */
@@ -208,6 +209,17 @@ void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *opt
     }
 }
 
+/* Values of a column; `found` keeps where they are, and may be NULL. */
+static const double *column_values(const CzRun *run, int i, const double **found) {
+    if (found != NULL && found[i] != NULL)
+        return found[i];
+    const CzColumn column = cz_run_column(run, i);
+    const double *values = cz_run_channel(run, column.channel, column.place);
+    if (found != NULL)
+        found[i] = values;
+    return values;
+}
+
 void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FILE *stream) {
     const CzRunSummary *summary = cz_run_summary(run);
     Table table = table_of(options, stream);
@@ -223,14 +235,14 @@ void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FIL
     }
     put_text(&table, "beyond_validity");
     end_row(&table);
+    const double **found = calloc((size_t)n_column, sizeof *found); /* looks up when refused */
     for (int sample = 0; sample < cz_run_n_sample(run); sample++) {
-        for (int i = 0; i < n_column; i++) {
-            const CzColumn column = cz_run_column(run, i);
-            put_number(&table, cz_run_channel(run, column.channel, column.place)[sample]);
-        }
+        for (int i = 0; i < n_column; i++)
+            put_number(&table, column_values(run, i, found)[sample]);
         put_number(&table, time[sample] > from ? 1 : 0);
         end_row(&table);
     }
+    free(found);
 }
 
 void cz_csv_write_history(const CzReport *report, FILE *stream) {

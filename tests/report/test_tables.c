@@ -247,6 +247,37 @@ static void numbers_are_short_and_not_rounded_to_a_limit(void **state) {
     assert_string_equal(cz_figure_digits(text, 3, -0.0), "0");
 }
 
+static void assert_as_the_library_writes(int digits, double value) {
+    char text[CZ_FIGURE_ROOM], expected[CZ_FIGURE_ROOM];
+    snprintf(expected, sizeof expected, "%.*g", digits, value);
+    assert_string_equal(cz_figure_digits(text, digits, value), expected);
+}
+
+/* 200,000 numbers of all sizes, and those that lie between two texts, next to them, and next to
+ * powers of ten, have the digits that %.*g gives them. */
+static void digits_are_those_of_the_library(void **state) {
+    (void)state;
+    uint64_t random = 1;
+    for (int i = 0; i < 200000; i++) {
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        const double share = (double)(random >> 11) / 9007199254740992.0;
+        const double size = pow(10.0, 22.0 * share - 7.0);
+        const double tie = (floor(1e6 * share) + 0.5) / pow(10.0, i % 9);
+        const double power = pow(10.0, i % 18 - 6);
+        const int digits = 1 + i % 13;
+        assert_as_the_library_writes(digits, i % 2 ? size : -size);
+        assert_as_the_library_writes(digits, tie);
+        assert_as_the_library_writes(digits, nextafter(tie, 0.0));
+        assert_as_the_library_writes(digits, nextafter(tie, 1e300));
+        assert_as_the_library_writes(digits, nextafter(power, i % 2 ? 0.0 : 1e300));
+        assert_as_the_library_writes(digits, power);
+    }
+    assert_as_the_library_writes(9, 999999999.4);
+    assert_as_the_library_writes(9, 999999999.6);
+    assert_as_the_library_writes(3, 1e-4);
+    assert_as_the_library_writes(3, 9.999e-5);
+}
+
 /* More than six columns. */
 static void a_sweep_shows_the_largest_number_of_metrics(void **state) {
     (void)state;
@@ -282,6 +313,7 @@ int main(void) {
         cmocka_unit_test(without_checks_nothing_is_judged),
         cmocka_unit_test(a_search_shows_before_and_after_and_the_new_values),
         cmocka_unit_test(a_search_without_success_lists_what_is_violated),
+        cmocka_unit_test(digits_are_those_of_the_library),
         cmocka_unit_test(a_sweep_shows_the_largest_number_of_metrics),
         cmocka_unit_test(numbers_are_short_and_not_rounded_to_a_limit),
     };
